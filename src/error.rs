@@ -1,0 +1,117 @@
+//! The one error type: a kind, a message with entities and numbers, and the cause behind it.
+
+use std::error::Error as StdError;
+use std::fmt;
+
+/// Shorthand for results of this crate.
+pub type Result<T> = std::result::Result<T, Error>;
+
+/// What went wrong, coarsely: decides the exit code of the program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ErrorKind {
+    /// The scene, the mesh or the command line is wrong. Exit code 2.
+    Input,
+    /// A file could not be read or written. Exit code 3.
+    Io,
+    /// The input is well-formed but asks for an effect that brinell does not have. Exit code 2.
+    Unsupported,
+    /// The model is not held: a body can move freely. Exit code 4.
+    Unheld,
+    /// The analysis failed: a solve did not converge or a target was not reached. Exit code 5.
+    Analysis,
+    /// The load passed the limit load; what was held before is in the message. Exit code 6.
+    Collapse,
+    /// The caller or the user stopped the run. Exit code 130.
+    Stopped,
+    /// A fault of brinell itself. Exit code 70.
+    Internal,
+}
+
+impl ErrorKind {
+    /// The process exit code that the command-line program returns for this kind.
+    pub fn exit_code(self) -> u8 {
+        match self {
+            ErrorKind::Input | ErrorKind::Unsupported => 2,
+            ErrorKind::Io => 3,
+            ErrorKind::Unheld => 4,
+            ErrorKind::Analysis => 5,
+            ErrorKind::Collapse => 6,
+            ErrorKind::Internal => 70,
+            ErrorKind::Stopped => 130,
+        }
+    }
+}
+
+/// An error with its kind, a message that names what is concerned, and its cause.
+#[derive(Debug)]
+pub struct Error {
+    kind: ErrorKind,
+    message: String,
+    cause: Option<Box<dyn StdError + Send + Sync>>,
+}
+
+impl Error {
+    /// An error of `kind`; `message` names the entity, the value and what to do.
+    pub fn new(kind: ErrorKind, message: impl Into<String>) -> Self {
+        Error {
+            kind,
+            message: message.into(),
+            cause: None,
+        }
+    }
+
+    /// Bad input ([`ErrorKind::Input`]).
+    pub fn input(message: impl Into<String>) -> Self {
+        Self::new(ErrorKind::Input, message)
+    }
+
+    /// A failed analysis ([`ErrorKind::Analysis`]).
+    pub fn analysis(message: impl Into<String>) -> Self {
+        Self::new(ErrorKind::Analysis, message)
+    }
+
+    /// A fault of brinell itself ([`ErrorKind::Internal`]).
+    pub fn internal(message: impl Into<String>) -> Self {
+        Self::new(ErrorKind::Internal, message)
+    }
+
+    /// A failed file operation ([`ErrorKind::Io`]) on `path`, with the system's reason as cause.
+    pub fn io(what: &str, path: &std::path::Path, cause: std::io::Error) -> Self {
+        Self::new(ErrorKind::Io, format!("cannot {what} {}", path.display())).because(cause)
+    }
+
+    /// Adds the cause.
+    pub fn because(mut self, cause: impl StdError + Send + Sync + 'static) -> Self {
+        self.cause = Some(Box::new(cause));
+        self
+    }
+
+    /// Puts `context` (a file, a scene key, a phase) in front of the message.
+    pub fn within(mut self, context: impl fmt::Display) -> Self {
+        self.message = format!("{context}: {}", self.message);
+        self
+    }
+
+    /// The kind.
+    pub fn kind(&self) -> ErrorKind {
+        self.kind
+    }
+
+    /// The message without its causes.
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl StdError for Error {
+    fn source(&self) -> Option<&(dyn StdError + 'static)> {
+        self.cause.as_deref().map(|c| c as _)
+    }
+}

@@ -1,0 +1,164 @@
+//! Nodes, elements, bodies and named sets: geometry only, no mechanics.
+//!
+//! The dimension is data ([`Mesh::dimension`]); element shapes carry their own node order and
+//! facets ([`Shape`]).
+
+pub mod generate;
+pub mod gmsh;
+mod shape;
+mod validate;
+
+pub use shape::Shape;
+pub use validate::validate;
+
+use std::collections::BTreeMap;
+
+/// A facet of an element: an edge in two dimensions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Facet {
+    /// Element index.
+    pub element: usize,
+    /// Local facet number, see [`Shape::facet`].
+    pub local: usize,
+}
+
+/// The exact shape of a surface, where it is known. Normals then are exact at every node.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Curve {
+    /// A straight line with outward unit normal.
+    Line {
+        /// Outward unit normal of the body.
+        normal: [f64; 2],
+    },
+    /// A circular arc.
+    Circle {
+        /// Centre.
+        center: [f64; 2],
+        /// Radius.
+        radius: f64,
+        /// True where the body's outward normal points away from the centre (a disc), false for a hole.
+        outward: bool,
+    },
+}
+
+/// A named surface: facets of one body's boundary.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Surface {
+    /// Facets, in any order.
+    pub facets: Vec<Facet>,
+    /// The exact shape, where known.
+    pub curve: Option<Curve>,
+}
+
+/// A finite element mesh.
+#[derive(Debug, Clone, Default)]
+pub struct Mesh {
+    /// Space dimension (2).
+    pub dimension: usize,
+    /// `n_nodes x dimension` coordinates, node by node. Axisymmetric: (r, z).
+    pub coordinates: Vec<f64>,
+    /// Shape of each element.
+    pub shapes: Vec<Shape>,
+    /// Start of each element's nodes in [`Mesh::connectivity`]; length `n_elements + 1`.
+    pub offsets: Vec<usize>,
+    /// Node indices of all elements, one after the other, counter-clockwise, corners first.
+    pub connectivity: Vec<u32>,
+    /// Body index of each element.
+    pub element_body: Vec<u32>,
+    /// Body names.
+    pub bodies: Vec<String>,
+    /// Named node sets (sorted, without duplicates).
+    pub node_sets: BTreeMap<String, Vec<usize>>,
+    /// Named surfaces. A surface's nodes may be used wherever a node set may.
+    pub surfaces: BTreeMap<String, Surface>,
+    /// Node numbers as the mesh file had them, for messages; empty where generated (then 1-based).
+    pub node_labels: Vec<u64>,
+    /// Element numbers as the mesh file had them; empty where generated (then 1-based).
+    pub element_labels: Vec<u64>,
+}
+
+impl Mesh {
+    /// Number of nodes.
+    pub fn n_nodes(&self) -> usize {
+        self.coordinates
+            .len()
+            .checked_div(self.dimension)
+            .unwrap_or(0)
+    }
+
+    /// Number of elements.
+    pub fn n_elements(&self) -> usize {
+        self.shapes.len()
+    }
+
+    /// Coordinates of a node.
+    pub fn point(&self, node: usize) -> [f64; 2] {
+        [self.coordinates[2 * node], self.coordinates[2 * node + 1]]
+    }
+
+    /// Node indices of an element.
+    pub fn nodes(&self, element: usize) -> &[u32] {
+        &self.connectivity[self.offsets[element]..self.offsets[element + 1]]
+    }
+
+    /// Node indices of a facet: the two ends first, then the mid-side node where there is one.
+    pub fn facet_nodes(&self, facet: Facet) -> impl Iterator<Item = usize> + '_ {
+        let nodes = self.nodes(facet.element);
+        self.shapes[facet.element]
+            .facet(facet.local)
+            .iter()
+            .map(move |&i| nodes[i] as usize)
+    }
+
+    /// Nodes of a node set or of a surface, sorted, without duplicates; `None` if there is no such name.
+    pub fn set_nodes(&self, name: &str) -> Option<Vec<usize>> {
+        if let Some(nodes) = self.node_sets.get(name) {
+            return Some(nodes.clone());
+        }
+        let surface = self.surfaces.get(name)?;
+        let mut nodes: Vec<usize> = surface
+            .facets
+            .iter()
+            .flat_map(|&f| self.facet_nodes(f))
+            .collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        Some(nodes)
+    }
+
+    /// All names of node sets and surfaces, for messages.
+    pub fn set_names(&self) -> Vec<&str> {
+        self.node_sets
+            .keys()
+            .chain(self.surfaces.keys())
+            .map(String::as_str)
+            .collect()
+    }
+
+    /// The number a user knows a node by.
+    pub fn node_label(&self, node: usize) -> u64 {
+        self.node_labels
+            .get(node)
+            .copied()
+            .unwrap_or(node as u64 + 1)
+    }
+
+    /// The number a user knows an element by.
+    pub fn element_label(&self, element: usize) -> u64 {
+        self.element_labels
+            .get(element)
+            .copied()
+            .unwrap_or(element as u64 + 1)
+    }
+
+    /// Appends an element.
+    pub fn push_element(&mut self, shape: Shape, body: usize, nodes: &[u32]) {
+        if self.offsets.is_empty() {
+            self.offsets.push(0);
+        }
+        self.shapes.push(shape);
+        self.connectivity.extend_from_slice(nodes);
+        self.offsets.push(self.connectivity.len());
+        self.element_body.push(body as u32);
+    }
+}

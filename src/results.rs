@@ -1,0 +1,241 @@
+//! What an analysis computed: states, history, quality and cost, free of any solver's types.
+
+use serde::Serialize;
+
+/// Everything a run leaves behind.
+#[derive(Debug, Clone, Default)]
+pub struct Results {
+    /// Number of free freedoms, elements, contact pairs.
+    pub sizes: Sizes,
+    /// Which effects were simulated, and why.
+    pub effects: Vec<Effect>,
+    /// First yield, where a body can yield and does.
+    pub first_yield: Option<YieldPoint>,
+    /// One state per target reached, in the order of the program.
+    pub states: Vec<State>,
+    /// One row per accepted increment.
+    pub history: Vec<HistoryRow>,
+    /// Seconds by phase, in order of execution.
+    pub timings: Vec<(String, f64)>,
+    /// Machine-independent cost.
+    pub counts: Counts,
+    /// Worst figures over all states.
+    pub quality: Quality,
+    /// What the factorisation cost.
+    pub factor: crate::linalg::Prediction,
+    /// Reference values beside computed ones.
+    pub reference: Vec<ReferenceRow>,
+    /// Things the user should know.
+    pub warnings: Vec<String>,
+    /// Set where the run ended before the program did: why.
+    pub incomplete: Option<String>,
+}
+
+/// Sizes of the model.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct Sizes {
+    /// Freedoms after supports.
+    pub freedoms: usize,
+    /// Nodes.
+    pub nodes: usize,
+    /// Elements.
+    pub elements: usize,
+    /// Contact pairs.
+    pub contact_pairs: usize,
+    /// Freedoms of the plastic zone.
+    pub zone_freedoms: usize,
+    /// Elements of the plastic zone.
+    pub zone_elements: usize,
+}
+
+/// A row of the effects ledger.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Effect {
+    /// `contact`, `plasticity`, `interference`, `floating bodies`, ...
+    pub name: String,
+    /// Whether it is simulated.
+    pub on: bool,
+    /// Why.
+    pub why: String,
+    /// Seconds spent on it.
+    pub seconds: f64,
+    /// Bytes held for it.
+    pub memory_bytes: u64,
+}
+
+/// First yield.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct YieldPoint {
+    /// Factor on the scene's proportional loads at which the material first yields.
+    pub alpha: f64,
+    /// Total load: contact force where there is contact, else the applied force (see README).
+    pub load: f64,
+    /// Maximum contact pressure.
+    pub max_pressure: f64,
+    /// Contact half width: half the arc length of the contact, doubled on a symmetry plane.
+    pub half_width: f64,
+    /// Where: coordinates of the point.
+    pub location: [f64; 2],
+    /// Body index.
+    pub body: usize,
+}
+
+/// The state at a target.
+#[derive(Debug, Clone, Default)]
+pub struct State {
+    /// Name, from the scene or made from the target.
+    pub name: String,
+    /// Load factor in the program's unit.
+    pub alpha: f64,
+    /// Total load (as in [`YieldPoint::load`]).
+    pub load: f64,
+    /// Sum of all contact forces.
+    pub contact_force: f64,
+    /// Maximum contact pressure.
+    pub max_pressure: f64,
+    /// Pressure at the first pair of the contact surface that lies on a symmetry plane, or at the middle of the contact.
+    pub pole_pressure: f64,
+    /// Contact half width.
+    pub half_width: f64,
+    /// For contacts on a circle: begin and end of the contact, in degrees from the middle of the
+    /// contact's axis (the pole); `None` elsewhere.
+    pub contact_arc: Option<[f64; 2]>,
+    /// Gap at the first pair minus its initial gap, with rigid motion taken off: the dent left in the surfaces.
+    pub residual_depth: f64,
+    /// Gauss points with plastic strain.
+    pub plastic_points: usize,
+    /// Gauss points per body with plastic strain.
+    pub plastic_points_by_body: Vec<usize>,
+    /// Largest equivalent plastic strain.
+    pub max_equivalent_plastic_strain: f64,
+    /// Relative approach of the bodies: mean displacement of the loaded surface in the load's direction.
+    pub approach: f64,
+    /// Each contact pair.
+    pub pairs: Vec<PairState>,
+    /// Fields on the whole mesh, where asked for.
+    pub fields: Option<Fields>,
+    /// Quality of this state.
+    pub quality: Quality,
+}
+
+/// A contact pair's state.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PairState {
+    /// Pair index.
+    pub pair: usize,
+    /// Contact (scene entry) index.
+    pub contact: usize,
+    /// Position (on the second surface, undeformed).
+    pub position: [f64; 2],
+    /// Gap, >= 0.
+    pub gap: f64,
+    /// Force, compressive positive.
+    pub force: f64,
+    /// Area (length times thickness 1; axisymmetric: area of the annulus) that belongs to the pair.
+    pub area: f64,
+    /// Pressure, compressive positive.
+    pub pressure: f64,
+    /// Open or closed.
+    pub status: Status,
+}
+
+/// Status of a contact pair.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// The surfaces are apart (or touch without force).
+    Open,
+    /// The surfaces touch.
+    Closed,
+}
+
+/// Fields on the whole mesh.
+#[derive(Debug, Clone, Default)]
+pub struct Fields {
+    /// `n_nodes x 2` displacements in global axes.
+    pub displacement: Vec<f64>,
+    /// `n_elements x 4` element means of stress: xx, yy, zz, xy (axisymmetric: rr, zz, tt, rz).
+    pub stress: Vec<f64>,
+    /// `n_elements` von Mises stress: the largest over the element's Gauss points.
+    pub von_mises: Vec<f64>,
+    /// `n_elements` equivalent plastic strain: the largest over the element's Gauss points.
+    pub plastic_strain: Vec<f64>,
+    /// `n_elements`: 1 where a Gauss point has yielded.
+    pub yielded: Vec<u8>,
+}
+
+/// A row of `history.csv`: one accepted increment.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct HistoryRow {
+    /// Number, from 1.
+    pub increment: usize,
+    /// Load factor at its end, in the program's unit.
+    pub alpha: f64,
+    /// Total load.
+    pub load: f64,
+    /// Maximum contact pressure.
+    pub max_pressure: f64,
+    /// Contact half width.
+    pub half_width: f64,
+    /// Sum of the contact forces.
+    pub contact_force: f64,
+    /// Closed pairs.
+    pub closed_pairs: usize,
+    /// Gauss points with plastic strain.
+    pub plastic_points: usize,
+    /// Largest equivalent plastic strain.
+    pub max_equivalent_plastic_strain: f64,
+    /// Plastic iterations of this increment.
+    pub iterations: usize,
+    /// Trailing solves of this increment.
+    pub trailing_solves: usize,
+    /// Relative out-of-balance force at its end.
+    pub residual: f64,
+    /// What ended it: `closes: pair 12`, `opens: pair 3`, `target: NAME`, `step`, `yield`.
+    pub event: String,
+}
+
+/// Machine-independent cost of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub struct Counts {
+    /// Numerical factorisations of the sparse stiffness.
+    pub factorizations: usize,
+    /// Solves with the trailing block.
+    pub trailing_solves: usize,
+    /// Solves with the whole factor.
+    pub full_solves: usize,
+    /// Plastic iterations (evaluations of the material over the zone).
+    pub plastic_iterations: usize,
+    /// Changes of contact status.
+    pub contact_changes: usize,
+}
+
+/// How good a state is: all figures are relative and dimensionless.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Quality {
+    /// Normwise backward error of the full solve.
+    pub backward_error: f64,
+    /// Out-of-balance force of the stresses over the applied and contact forces.
+    pub equilibrium: f64,
+    /// Largest `gap * force` of a pair over (largest gap * largest force).
+    pub complementarity: f64,
+    /// Largest penetration over the largest displacement.
+    pub penetration: f64,
+}
+
+/// A published or exact value beside the computed one.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReferenceRow {
+    /// What: a path in `summary.json`.
+    pub quantity: String,
+    /// The reference value.
+    pub reference: f64,
+    /// The computed value.
+    pub computed: f64,
+    /// computed / reference.
+    pub ratio: f64,
+    /// The paper's own figure for the ratio, where it gives one.
+    pub published_ratio: Option<f64>,
+    /// Book, paper, equation.
+    pub source: String,
+}
