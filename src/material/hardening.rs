@@ -1,0 +1,97 @@
+//! Isotropic hardening: yield stress against equivalent plastic strain.
+
+use crate::scene;
+
+/// A piecewise linear hardening curve, continued with a constant slope.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hardening {
+    /// (equivalent plastic strain, yield stress), the first at strain 0.
+    points: Vec<[f64; 2]>,
+    /// Slope after the last point.
+    slope: f64,
+}
+
+impl Hardening {
+    /// Linear hardening `sigma_y = yield_stress + plastic_modulus * eps_p`; modulus 0 is perfect plasticity.
+    pub fn linear(yield_stress: f64, plastic_modulus: f64) -> Self {
+        Hardening {
+            points: vec![[0.0, yield_stress]],
+            slope: plastic_modulus,
+        }
+    }
+
+    /// A table, flat after its last row.
+    pub fn table(points: &[[f64; 2]]) -> Self {
+        Hardening {
+            points: points.to_vec(),
+            slope: 0.0,
+        }
+    }
+
+    /// The curve of a scene's (validated) material; `None` where it has no yield stress.
+    pub fn from_scene(data: &scene::Material) -> Option<Self> {
+        let yield_stress = data.yield_stress?;
+        if let Some(table) = data.hardening_table.as_ref().filter(|t| !t.is_empty()) {
+            return Some(Self::table(table));
+        }
+        let modulus = match (data.plastic_modulus, data.tangent_modulus) {
+            (Some(h), _) => h,
+            (None, Some(et)) => data.youngs_modulus * et / (data.youngs_modulus - et),
+            (None, None) => 0.0,
+        };
+        Some(Self::linear(yield_stress, modulus))
+    }
+
+    /// Yield stress at an equivalent plastic strain.
+    pub fn yield_stress(&self, strain: f64) -> f64 {
+        let (start, slope) = self.segment(strain);
+        start[1] + slope * (strain - start[0])
+    }
+
+    /// Slope `d sigma_y / d eps_p` to the right of an equivalent plastic strain.
+    pub fn slope(&self, strain: f64) -> f64 {
+        self.segment(strain).1
+    }
+
+    /// Smallest slope anywhere: 0 for a curve with a flat piece.
+    pub fn is_perfect(&self) -> bool {
+        self.slope == 0.0 && self.points.len() == 1
+    }
+
+    /// Solves `q - c d = sigma_y(strain + d)` for `d >= 0`: exact, segment by segment. `c > 0`;
+    /// returns (d, slope of the segment in which the solution lies).
+    pub fn solve(&self, q: f64, c: f64, strain: f64) -> (f64, f64) {
+        for pair in self.points.windows(2) {
+            if pair[1][0] <= strain {
+                continue;
+            }
+            let end = pair[1][0] - strain;
+            if q - c * end <= pair[1][1] {
+                return self.solve_on(pair[0], slope_between(pair), q, c, strain);
+            }
+        }
+        let last = self.points[self.points.len() - 1];
+        self.solve_on(last, self.slope, q, c, strain)
+    }
+
+    fn solve_on(&self, start: [f64; 2], slope: f64, q: f64, c: f64, strain: f64) -> (f64, f64) {
+        let now = start[1] + slope * (strain - start[0]);
+        ((q - now) / (c + slope), slope)
+    }
+
+    fn segment(&self, strain: f64) -> ([f64; 2], f64) {
+        let next = self.points.partition_point(|p| p[0] <= strain);
+        let start = self.points[next.max(1) - 1];
+        match self.points.get(next.max(1)) {
+            Some(_) => (
+                start,
+                slope_between(&self.points[next.max(1) - 1..=next.max(1)]),
+            ),
+            None => (start, self.slope),
+        }
+    }
+}
+
+fn slope_between(pair: &[[f64; 2]]) -> f64 {
+    (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0])
+}

@@ -1,0 +1,131 @@
+//! Return mapping that keeps the stress in the plane.
+//!
+//! With `P = [[2, -1, 0], [-1, 2, 0], [0, 0, 6]]/3`, `q^2 = 3/2 sigma' P sigma` and `eps_p += c P sigma`,
+//! the trial stress decouples in the eigenvectors that `D` and `P` share:
+//!
+//! ```text
+//! q(c)^2 = a^2/(2 (1 + c E/(3 (1 - nu)))^2) + (3/2 b^2 + 3 t^2)/(1 + 2 G c)^2
+//! a = (sxx + syy)/sqrt 2,  b = (syy - sxx)/sqrt 2,  t = sxy          (trial)
+//! q(c) = sigma_y(eps + 2/3 c q(c))                                   one scalar equation for c
+//! ```
+//!
+//! # Source
+//! Simo and Hughes (1998), section 3.4, box 3.3; J. C. Simo, R. L. Taylor (1986), doi:10.1002/nme.1620220310.
+
+use super::{Hardening, Material, Matrix4, PlasticState, Update};
+
+pub(super) fn integrate(
+    material: &Material,
+    hardening: &Hardening,
+    elastic: &Matrix4,
+    trial: &[f64; 4],
+    old: &PlasticState,
+) -> Update {
+    let g = material.shear_modulus();
+    let e = material.youngs_modulus;
+    let nu = material.poissons_ratio;
+    let biaxial = e / (3.0 * (1.0 - nu));
+    let half_sum = 0.5 * (trial[0] + trial[1]);
+    let half_difference = 0.5 * (trial[0] - trial[1]);
+    // q^2 = sum part / (1 + c biaxial)^2 + deviator part / (1 + 2 G c)^2
+    let sum_part = half_sum * half_sum;
+    let deviator_part = 3.0 * (half_difference * half_difference + trial[3] * trial[3]);
+    let equivalent_stress = |c: f64| {
+        let (a, b) = (1.0 + c * biaxial, 1.0 + 2.0 * g * c);
+        (sum_part / (a * a) + deviator_part / (b * b)).sqrt()
+    };
+    let c = solve_multiplier(hardening, old.equivalent, equivalent_stress, 2.0 * g);
+
+    let (a, b) = (1.0 + c * biaxial, 1.0 + 2.0 * g * c);
+    let (sum, difference, shear) = (half_sum / a, half_difference / b, trial[3] / b);
+    let sigma = [sum + difference, sum - difference, shear];
+    let q = equivalent_stress(c);
+    let d = 2.0 / 3.0 * c * q;
+    let p_sigma = [
+        (2.0 * sigma[0] - sigma[1]) / 3.0,
+        (2.0 * sigma[1] - sigma[0]) / 3.0,
+        2.0 * sigma[2],
+    ];
+    let mut state = *old;
+    state.equivalent += d;
+    state.strain[0] += c * p_sigma[0];
+    state.strain[1] += c * p_sigma[1];
+    state.strain[2] -= c * (p_sigma[0] + p_sigma[1]);
+    state.strain[3] += c * p_sigma[2];
+
+    // Xi = (D^-1 + c P)^-1 in the shared eigenvectors: (1,1,0)/sqrt2, (1,-1,0)/sqrt2, (0,0,1).
+    let xi_sum = e / (1.0 - nu) / a;
+    let xi_difference = 2.0 * g / b;
+    let xi_shear = g / b;
+    let xi = |v: [f64; 3]| {
+        let (s, t) = (
+            0.5 * (v[0] + v[1]) * xi_sum,
+            0.5 * (v[0] - v[1]) * xi_difference,
+        );
+        [s + t, s - t, v[2] * xi_shear]
+    };
+    let w = xi(p_sigma);
+    let slope = hardening.slope(state.equivalent);
+    let p_xi_p = p_sigma[0] * w[0] + p_sigma[1] * w[1] + p_sigma[2] * w[2];
+    let sigma_p_sigma = 2.0 / 3.0 * q * q;
+    let resistance = 2.0 / 3.0 * slope * sigma_p_sigma / (1.0 - 2.0 / 3.0 * slope * c);
+    let mut softening = [[0.0; 4]; 4];
+    const AXES: [usize; 3] = [0, 1, 3];
+    for (j, &column) in AXES.iter().enumerate() {
+        let mut unit = [0.0; 3];
+        unit[j] = 1.0;
+        let xi_column = xi(unit);
+        for (i, &row) in AXES.iter().enumerate() {
+            softening[row][column] =
+                elastic[row][column] - (xi_column[i] - w[i] * w[j] / (p_xi_p + resistance));
+        }
+    }
+    Update {
+        state,
+        softening,
+        flows: true,
+    }
+}
+
+/// Solves `q(c) = sigma_y(strain + 2/3 c q(c))`: the left side falls, the right side does not, so a bracket
+/// with regula falsi (Illinois) always converges.
+fn solve_multiplier(
+    hardening: &Hardening,
+    strain: f64,
+    q: impl Fn(f64) -> f64,
+    stiffness: f64,
+) -> f64 {
+    let excess = |c: f64| {
+        let q = q(c);
+        q - hardening.yield_stress(strain + 2.0 / 3.0 * c * q)
+    };
+    let (mut low, mut f_low) = (0.0, excess(0.0));
+    let scale = hardening.yield_stress(strain);
+    let mut high = f_low / (scale * stiffness);
+    let mut f_high = excess(high);
+    while f_high > 0.0 {
+        (low, f_low) = (high, f_high);
+        high *= 2.0;
+        f_high = excess(high);
+    }
+    for _ in 0..100 {
+        let c = (low * f_high - high * f_low) / (f_high - f_low);
+        let c = if c > low && c < high {
+            c
+        } else {
+            0.5 * (low + high)
+        };
+        let f = excess(c);
+        if f.abs() <= 4.0 * f64::EPSILON * scale || high - low <= f64::EPSILON * high {
+            return c;
+        }
+        if f > 0.0 {
+            (low, f_low) = (c, f);
+            f_high *= 0.5;
+        } else {
+            (high, f_high) = (c, f);
+            f_low *= 0.5;
+        }
+    }
+    0.5 * (low + high)
+}

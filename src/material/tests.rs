@@ -1,0 +1,164 @@
+use super::*;
+
+fn material(kind: Kind, nu: f64, hardening: Hardening) -> Material {
+    Material {
+        name: "m".into(),
+        youngs_modulus: 200.0,
+        poissons_ratio: nu,
+        hardening: Some(hardening),
+        kind,
+    }
+}
+
+fn curves() -> [Hardening; 3] {
+    [
+        Hardening::linear(1.0, 0.0),
+        Hardening::linear(1.0, 30.0),
+        Hardening::table(&[[0.0, 1.0], [0.004, 1.3], [0.01, 1.4]]),
+    ]
+}
+
+#[test]
+fn hardening_curves_interpolate() {
+    let table = Hardening::table(&[[0.0, 1.0], [0.004, 1.4], [0.01, 1.7]]);
+    assert_eq!(table.yield_stress(0.002), 1.2);
+    assert!((table.slope(0.0) - 100.0).abs() < 1e-12);
+    assert!((table.slope(0.004) - 50.0).abs() < 1e-12);
+    assert_eq!(table.yield_stress(1.0), 1.7);
+    assert_eq!(table.slope(1.0), 0.0);
+}
+
+#[test]
+fn stress_after_flow_lies_on_the_yield_surface() {
+    for kind in [Kind::PlaneStrain, Kind::PlaneStress, Kind::Axisymmetric] {
+        for curve in curves() {
+            let m = material(kind, 0.3, curve.clone());
+            let d = m.elastic_matrix();
+            let strain = match kind {
+                Kind::Axisymmetric => [0.012, -0.004, 0.003, 0.009],
+                _ => [0.012, -0.004, 0.0, 0.009],
+            };
+            let old = PlasticState {
+                strain: [0.001, -0.0004, -0.0006, 0.0002],
+                equivalent: 0.0011,
+            };
+            let new = m.integrate(&d, &strain, &old);
+            assert!(new.flows);
+            let q = von_mises(&stress(&d, &strain, &new.state.strain));
+            let y = curve.yield_stress(new.state.equivalent);
+            assert!(
+                (q - y).abs() < 1e-13 * (1.0 + 200.0 * 0.02),
+                "{kind:?} {curve:?}: {q} {y}"
+            );
+            let trace: f64 = new.state.strain[..3].iter().sum();
+            assert!(trace.abs() < 1e-16);
+            let step: Vec<f64> = (0..4)
+                .map(|i| new.state.strain[i] - old.strain[i])
+                .collect();
+            let norm = (2.0 / 3.0
+                * (step[0].powi(2) + step[1].powi(2) + step[2].powi(2) + 0.5 * step[3].powi(2)))
+            .sqrt();
+            assert!((norm - (new.state.equivalent - old.equivalent)).abs() < 1e-15);
+        }
+    }
+}
+
+/// The consistent tangent is the derivative: central differences, error O(step^2).
+#[test]
+fn softening_is_the_derivative_of_the_stress() {
+    for kind in [Kind::PlaneStrain, Kind::PlaneStress, Kind::Axisymmetric] {
+        for curve in curves() {
+            let m = material(kind, 0.3, curve);
+            let d = m.elastic_matrix();
+            let strain = [
+                0.009,
+                -0.006,
+                if kind == Kind::Axisymmetric {
+                    0.002
+                } else {
+                    0.0
+                },
+                0.007,
+            ];
+            let old = PlasticState {
+                strain: [0.0007, -0.0003, -0.0004, 0.0003],
+                equivalent: 0.0009,
+            };
+            let tangent = m.integrate(&d, &strain, &old).softening;
+            let h = 1e-7;
+            for j in 0..4 {
+                if kind == Kind::PlaneStress && j == 2 {
+                    continue;
+                }
+                let at = |t: f64| {
+                    let mut e = strain;
+                    e[j] += t;
+                    stress(&d, &e, &m.integrate(&d, &e, &old).state.strain)
+                };
+                let (plus, minus) = (at(h), at(-h));
+                for i in 0..4 {
+                    if kind == Kind::PlaneStress && i == 2 {
+                        continue;
+                    }
+                    let derivative = (plus[i] - minus[i]) / (2.0 * h);
+                    let consistent = d[i][j] - tangent[i][j];
+                    // Truncation ~ |D| h^2/strain^2, round-off ~ eps stress/h.
+                    assert!(
+                        (derivative - consistent).abs() < 200.0 * 1e-6,
+                        "{kind:?} {i}{j}: {derivative} {consistent}"
+                    );
+                    assert!((tangent[i][j] - tangent[j][i]).abs() < 1e-11);
+                }
+            }
+        }
+    }
+}
+
+/// One-element cyclic test, uniaxial stress in plane stress: the yield stress grows with the path length.
+#[test]
+fn cyclic_uniaxial_stress_follows_the_hardening_curve() {
+    let (e, h, y) = (200.0, 20.0, 1.0);
+    let m = material(Kind::PlaneStress, 0.3, Hardening::linear(y, h));
+    let d = m.elastic_matrix();
+    let et = e * h / (e + h);
+    let mut state = PlasticState::default();
+    let mut yield_now = y;
+    let mut axial_plastic = 0.0;
+    for target in [0.02, -0.02, 0.03, -0.01] {
+        // Lateral strain such that the lateral stress vanishes: bisection on a monotone function.
+        let (mut a, mut b) = (-0.1, 0.1);
+        for _ in 0..200 {
+            let lateral = 0.5 * (a + b);
+            let s = stress(
+                &d,
+                &[target, lateral, 0.0, 0.0],
+                &m.integrate(&d, &[target, lateral, 0.0, 0.0], &state)
+                    .state
+                    .strain,
+            );
+            if s[1] > 0.0 { b = lateral } else { a = lateral }
+        }
+        let strain = [target, 0.5 * (a + b), 0.0, 0.0];
+        state = m.integrate(&d, &strain, &state).state;
+        let sigma = stress(&d, &strain, &state.strain)[0];
+        let sign = (target - axial_plastic).signum();
+        let at_yield = axial_plastic + sign * yield_now / e;
+        let expected = sign * yield_now + et * (target - at_yield);
+        assert!((sigma - expected).abs() < 1e-12, "{sigma} {expected}");
+        yield_now = sigma.abs();
+        axial_plastic = target - sigma / e;
+    }
+}
+
+#[test]
+fn elastic_material_never_flows() {
+    let m = Material {
+        hardening: None,
+        ..material(Kind::PlaneStrain, 0.3, Hardening::linear(1.0, 0.0))
+    };
+    let d = m.elastic_matrix();
+    assert!(
+        !m.integrate(&d, &[1.0, -2.0, 0.0, 3.0], &PlasticState::default())
+            .flows
+    );
+}
