@@ -8,7 +8,7 @@
 //!     state_01_NAME.vtu     mesh and fields of one state              (fields, vtu)
 //! ```
 //!
-//! [`write`] first writes a temporary directory beside DIR and then renames it into place
+//! [`write()`] first writes a temporary directory beside DIR and then renames it into place
 //! (`atomic`). Keys of `summary.json` and columns of the tables keep their names once published.
 
 mod atomic;
@@ -88,11 +88,11 @@ pub fn write(dir: &Path, header: &RunHeader, mesh: &Mesh, results: &Results) -> 
     staging.publish(is_result_file)
 }
 
-/// Checks that [`write`] will be able to write `dir`, so that a long run does not end with a refusal. Leaves
+/// Checks that [`write()`] will be able to write `dir`, so that a long run does not end with a refusal. Leaves
 /// nothing behind.
 ///
 /// # Errors
-/// As [`write`], before anything is computed.
+/// As [`write()`], before anything is computed.
 pub fn check_directory(dir: &Path) -> Result<()> {
     Staging::new(dir).map(drop)
 }

@@ -18,7 +18,7 @@ use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 use std::io::{self, Write};
 
 /// Items that are encoded between two writes.
-const CHUNK: usize = 4096;
+const CHUNK: usize = 2048;
 /// Bytes of a block's length.
 const LENGTH_BYTES: u64 = 8;
 
