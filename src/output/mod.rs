@@ -1,1 +1,107 @@
-//! Output.
+//! What a run leaves behind: one directory, written whole or not at all.
+//!
+//! ```text
+//! DIR/summary.json          figures of the run and of each state      (summary; schema: SUMMARY_SCHEMA)
+//!     history.csv           a row per accepted increment              (history)
+//!     contact.csv           a row per state and contact pair          (contact)
+//!     fields.pvd            the states with fields, as a time series  (fields)
+//!     state_01_NAME.vtu     mesh and fields of one state              (fields, vtu)
+//! ```
+//!
+//! [`write()`] first writes a temporary directory beside DIR and then renames it into place
+//! (`atomic`). Keys of `summary.json` and columns of the tables keep their names once published.
+
+mod atomic;
+mod contact;
+mod fields;
+mod history;
+mod summary;
+mod table;
+mod vtu;
+
+pub use summary::summary;
+
+use crate::error::Result;
+use crate::mesh::Mesh;
+use crate::results::Results;
+use atomic::Staging;
+use std::ffi::OsStr;
+use std::io::Write;
+use std::path::Path;
+
+/// The JSON schema (draft 2020-12) that every `summary.json` of this version obeys.
+pub const SUMMARY_SCHEMA: &str = include_str!("../../data/schema/summary.schema.json");
+
+/// The summary: its `brinell` key marks a directory as a result.
+const SUMMARY_FILE: &str = "summary.json";
+const HISTORY_FILE: &str = "history.csv";
+const CONTACT_FILE: &str = "contact.csv";
+const COLLECTION_FILE: &str = "fields.pvd";
+
+/// What the output says about a run beside its results.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RunHeader {
+    /// Title of the scene.
+    pub scene_title: String,
+    /// The file that the scene was read from; `None` where it came from no file.
+    pub scene_file: Option<String>,
+    /// `plane_strain`, `plane_stress` or `axisymmetric`, as in the scene.
+    pub kind: String,
+    /// The backend that factored the stiffness: `cholmod` or `dense`.
+    pub solver: String,
+    /// Wall time of the whole run in seconds.
+    pub wall_seconds: f64,
+    /// Body names, in the order of the mesh.
+    pub bodies: Vec<String>,
+}
+
+impl RunHeader {
+    /// Name of a body by its index.
+    fn body(&self, index: usize) -> String {
+        match self.bodies.get(index) {
+            Some(name) => name.clone(),
+            None => format!("body {}", index + 1),
+        }
+    }
+}
+
+/// Writes the result directory `dir`: all of it or nothing.
+///
+/// An earlier result of brinell in `dir` is replaced; files in it that are not brinell's (a plot, a
+/// ParaView state) are kept. Missing parent directories are made. `fields.pvd` is written where at least one
+/// state has fields.
+///
+/// # Errors
+/// [`crate::ErrorKind::Input`] where `dir` exists and is neither empty nor a result of brinell, or
+/// is not a directory; [`crate::ErrorKind::Io`] naming the path where something cannot be written;
+/// [`crate::ErrorKind::Internal`] where the fields of a state do not fit the mesh. After an error `dir` is as
+/// it was and nothing is left beside it.
+pub fn write(dir: &Path, header: &RunHeader, mesh: &Mesh, results: &Results) -> Result<()> {
+    let staging = Staging::new(dir)?;
+    staging.file(HISTORY_FILE, |out| history::write(out, &results.history))?;
+    staging.file(CONTACT_FILE, |out| contact::write(out, &results.states))?;
+    fields::write(&staging, header, mesh, &results.states)?;
+    staging.file(SUMMARY_FILE, |out| {
+        serde_json::to_writer_pretty(&mut *out, &summary(header, results))?;
+        out.write_all(b"\n")
+    })?;
+    staging.publish(is_result_file)
+}
+
+/// Checks that [`write()`] will be able to write `dir`, so that a long run does not end with a refusal. Leaves
+/// nothing behind.
+///
+/// # Errors
+/// As [`write()`], before anything is computed.
+pub fn check_directory(dir: &Path) -> Result<()> {
+    Staging::new(dir).map(drop)
+}
+
+/// Whether a file of this name in a result directory was written by brinell (and goes when the
+/// result is replaced).
+fn is_result_file(name: &OsStr) -> bool {
+    name.to_str().is_some_and(|name| {
+        [SUMMARY_FILE, HISTORY_FILE, CONTACT_FILE, COLLECTION_FILE].contains(&name)
+            || (name.starts_with(fields::FILE_PREFIX) && name.ends_with(fields::FILE_SUFFIX))
+    })
+}

@@ -1,0 +1,69 @@
+//! `contact.csv`: a row per state and contact pair. Units are the scene's; gap > 0 open, force and
+//! pressure > 0 compressive.
+
+use super::table;
+use crate::results::{PairState, State, Status};
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// A row. The columns are the fields.
+#[derive(Serialize)]
+struct Row<'a> {
+    /// Number of the state, from 1, as in the names of the field files.
+    state: usize,
+    alpha: f64,
+    /// Pair and contact indices, as in the history's events.
+    pair: usize,
+    contact: usize,
+    /// Undeformed position on the second surface; axisymmetric: (r, z).
+    x: f64,
+    y: f64,
+    gap: f64,
+    force: f64,
+    area: f64,
+    pressure: f64,
+    status: Status,
+    /// Name of the state.
+    name: &'a str,
+}
+
+impl<'a> Row<'a> {
+    fn new(state: usize, name: &'a str, alpha: f64, pair: &PairState) -> Self {
+        Row {
+            state,
+            alpha,
+            pair: pair.pair,
+            contact: pair.contact,
+            x: pair.position[0],
+            y: pair.position[1],
+            gap: pair.gap,
+            force: pair.force,
+            area: pair.area,
+            pressure: pair.pressure,
+            status: pair.status,
+            name,
+        }
+    }
+}
+
+/// Writes the contact pairs of all states.
+///
+/// # Errors
+/// Those of `out`.
+pub(super) fn write(out: &mut impl Write, states: &[State]) -> io::Result<()> {
+    let nothing = PairState {
+        pair: 0,
+        contact: 0,
+        position: [0.0; 2],
+        gap: 0.0,
+        force: 0.0,
+        area: 0.0,
+        pressure: 0.0,
+        status: Status::Open,
+    };
+    let rows = states.iter().enumerate().flat_map(|(i, state)| {
+        let pairs = state.pairs.iter();
+        pairs.map(move |pair| Row::new(i + 1, &state.name, state.alpha, pair))
+    });
+    table::write(out, &Row::new(0, "", 0.0, &nothing), rows)
+}

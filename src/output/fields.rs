@@ -1,0 +1,129 @@
+//! Fields on the mesh for ParaView, meshio and pyvista: one `.vtu` per state and `fields.pvd`, which makes a time
+//! series of them (time is the number of the state).
+//!
+//! | array | on | type | components |
+//! |---|---|---|---|
+//! | `displacement` | points | Float64 | x, y, 0 |
+//! | `stress` | cells | Float64 | xx, yy, zz, xy; axisymmetric: rr, zz, tt, rz |
+//! | `von_mises` | cells | Float64 | 1 |
+//! | `equivalent_plastic_strain` | cells | Float64 | 1 |
+//! | `yielded` | cells | UInt8 | 1 |
+//! | `body` | cells | Int32 | 1 |
+
+use super::atomic::Staging;
+use super::vtu::{self, DataArray, Grid, Values};
+use super::{COLLECTION_FILE, RunHeader};
+use crate::error::{Error, Result};
+use crate::mesh::Mesh;
+use crate::results::{Fields, State};
+
+/// How the name of a state's file begins.
+pub(super) const FILE_PREFIX: &str = "state_";
+/// How the name of a state's file ends.
+pub(super) const FILE_SUFFIX: &str = ".vtu";
+/// Most characters of a state's name that go into its file name.
+const NAME_LENGTH: usize = 60;
+
+/// Writes the fields of all states that have them.
+///
+/// # Errors
+/// `Internal` where fields do not fit the mesh, `Io` naming the file.
+pub(super) fn write(
+    staging: &Staging,
+    header: &RunHeader,
+    mesh: &Mesh,
+    states: &[State],
+) -> Result<()> {
+    let mut series = Vec::new();
+    for (i, state) in states.iter().enumerate() {
+        if let Some(fields) = &state.fields {
+            check(mesh, fields).map_err(|e| e.within(format!("state `{}`", state.name)))?;
+            let name = file_name(i, states.len(), &state.name);
+            let grid = grid(header, mesh, fields);
+            staging.file(&name, |out| vtu::write(out, &grid))?;
+            series.push((i + 1, name));
+        }
+    }
+    if series.is_empty() {
+        return Ok(());
+    }
+    staging.file(COLLECTION_FILE, |out| vtu::write_collection(out, &series))
+}
+
+/// Name of the file of state `index` of `n_states`: `state_01_NAME.vtu`. The number keeps names apart and
+/// in order whatever becomes of the state's name, of which only ASCII letters, digits, `.`, `-` and `_` are safe everywhere.
+pub(super) fn file_name(index: usize, n_states: usize, state: &str) -> String {
+    let width = n_states.to_string().len().max(2);
+    let mut name = format!("{FILE_PREFIX}{:0width$}", index + 1);
+    if !state.is_empty() {
+        name.push('_');
+    }
+    name.extend(state.chars().take(NAME_LENGTH).map(|c| match c {
+        'a'..='z' | 'A'..='Z' | '0'..='9' | '.' | '-' | '_' => c,
+        _ => '_',
+    }));
+    name.push_str(FILE_SUFFIX);
+    name
+}
+
+/// Mesh and fields as arrays of a grid.
+fn grid<'a>(header: &RunHeader, mesh: &'a Mesh, fields: &'a Fields) -> Grid<'a> {
+    // In axisymmetric models the second axis is z: calling it y would make `zz` the hoop stress.
+    let stress_names = match header.kind.as_str() {
+        "axisymmetric" => &["rr", "zz", "tt", "rz"],
+        _ => &["xx", "yy", "zz", "xy"],
+    };
+    Grid {
+        mesh,
+        point_data: vec![DataArray::new(
+            "displacement",
+            Values::Planar(&fields.displacement),
+        )],
+        cell_data: vec![
+            DataArray::named("stress", stress_names, Values::Float64(&fields.stress)),
+            DataArray::new("von_mises", Values::Float64(&fields.von_mises)),
+            DataArray::new(
+                "equivalent_plastic_strain",
+                Values::Float64(&fields.plastic_strain),
+            ),
+            DataArray::new("yielded", Values::UInt8(&fields.yielded)),
+            DataArray::new("body", Values::Int32(&mesh.element_body)),
+        ],
+    }
+}
+
+/// Checks that every array has its length: a reader would take a short one for a damaged file.
+fn check(mesh: &Mesh, fields: &Fields) -> Result<()> {
+    let (nodes, elements) = (mesh.n_nodes(), mesh.n_elements());
+    let lengths = [
+        ("coordinates", mesh.coordinates.len(), 2 * nodes),
+        ("element bodies", mesh.element_body.len(), elements),
+        ("displacement", fields.displacement.len(), 2 * nodes),
+        ("stress", fields.stress.len(), 4 * elements),
+        ("von Mises stress", fields.von_mises.len(), elements),
+        ("plastic strain", fields.plastic_strain.len(), elements),
+        ("yield flag", fields.yielded.len(), elements),
+    ];
+    for (what, found, expected) in lengths {
+        if found != expected {
+            return Err(Error::internal(format!(
+                "the {what} array has {found} values where the mesh of {nodes} nodes and {elements} elements needs {expected}"
+            )));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn file_names_are_safe_and_ordered() {
+        assert_eq!(file_name(0, 3, "b = 1.5 b*"), "state_01_b___1.5_b_.vtu");
+        assert_eq!(file_name(1, 3, ""), "state_02.vtu");
+        assert_eq!(file_name(4, 120, "../up"), "state_005_.._up.vtu");
+        assert_eq!(file_name(0, 1, "größe/Ω"), "state_01_gr__e__.vtu");
+        assert_eq!(file_name(0, 1, &"x".repeat(500)).len(), 9 + 60 + 4);
+    }
+}

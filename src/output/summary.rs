@@ -1,0 +1,142 @@
+//! `summary.json`: the figures of a run. Keys and meanings are in [`super::SUMMARY_SCHEMA`].
+
+use super::{RunHeader, fields};
+use crate::linalg::Prediction;
+use crate::results::{Effect, ReferenceRow, Results, State, Status, YieldPoint};
+use serde_json::{Map, Value, json};
+
+/// The content of `summary.json`. Numbers that are not finite become null.
+///
+/// `timings` are the phases of [`Results::timings`] (a phase that ran more than once is summed) and `total`,
+/// the wall time of the run; `peak_memory_bytes` is that of this process, null where the system does not tell.
+pub fn summary(header: &RunHeader, results: &Results) -> Value {
+    let sizes = &results.sizes;
+    let n_states = results.states.len();
+    let states = results.states.iter().enumerate();
+    json!({
+        "brinell": env!("CARGO_PKG_VERSION"),
+        "scene": { "title": header.scene_title, "file": header.scene_file },
+        "kind": header.kind,
+        "solver": header.solver,
+        "nodes": sizes.nodes,
+        "elements": sizes.elements,
+        "freedoms": sizes.freedoms,
+        "contact_pairs": sizes.contact_pairs,
+        "zone_freedoms": sizes.zone_freedoms,
+        "zone_elements": sizes.zone_elements,
+        "effects": effects(&results.effects),
+        "timings": timings(&results.timings, header.wall_seconds),
+        "peak_memory_bytes": peak_memory_bytes(),
+        "counts": results.counts,
+        "factor": factor(&results.factor),
+        "quality": results.quality,
+        "yield": results.first_yield.map(|point| first_yield(header, &point)),
+        "states": states.map(|(i, s)| state(header, i, n_states, s)).collect::<Vec<_>>(),
+        "reference": results.reference.iter().map(reference).collect::<Vec<_>>(),
+        "warnings": results.warnings,
+        "incomplete": results.incomplete,
+    })
+}
+
+fn effects(effects: &[Effect]) -> Value {
+    let by_name = effects.iter().map(|effect| {
+        let entry = json!({
+            "on": effect.on,
+            "why": effect.why,
+            "seconds": effect.seconds,
+            "memory_bytes": effect.memory_bytes,
+        });
+        (effect.name.clone(), entry)
+    });
+    Value::Object(by_name.collect())
+}
+
+fn timings(phases: &[(String, f64)], total: f64) -> Value {
+    let mut seconds: Vec<(&str, f64)> = Vec::new();
+    for (phase, time) in phases.iter().filter(|(phase, _)| phase != "total") {
+        match seconds.iter_mut().find(|(name, _)| name == phase) {
+            Some((_, sum)) => *sum += time,
+            None => seconds.push((phase, *time)),
+        }
+    }
+    seconds.push(("total", total));
+    let by_phase = seconds.into_iter().map(|(k, v)| (k.to_owned(), v.into()));
+    Value::Object(by_phase.collect())
+}
+
+fn factor(factor: &Prediction) -> Value {
+    json!({
+        "ordering": factor.ordering,
+        "factor_nonzeros": whole(factor.factor_nonzeros),
+        "trailing_nonzeros": whole(factor.trailing_nonzeros),
+        "flops": whole(factor.flops),
+        "memory_bytes": whole(factor.memory_bytes),
+    })
+}
+
+/// A count kept as a float, written as an integer where that is exact.
+fn whole(count: f64) -> Value {
+    const LARGEST_EXACT: f64 = (1u64 << f64::MANTISSA_DIGITS) as f64;
+    if (0.0..=LARGEST_EXACT).contains(&count) {
+        (count.round() as u64).into()
+    } else {
+        count.into()
+    }
+}
+
+fn first_yield(header: &RunHeader, point: &YieldPoint) -> Value {
+    let [x, y] = point.location;
+    json!({
+        "alpha": point.alpha,
+        "load": point.load,
+        "max_pressure": point.max_pressure,
+        "half_width": point.half_width,
+        "location": { "x": x, "y": y, "body": header.body(point.body) },
+    })
+}
+
+fn state(header: &RunHeader, index: usize, n_states: usize, state: &State) -> Value {
+    let by_body = state.plastic_points_by_body.iter().enumerate();
+    let by_body: Map<String, Value> = by_body
+        .map(|(body, &points)| (header.body(body), points.into()))
+        .collect();
+    let closed = state.pairs.iter().filter(|p| p.status == Status::Closed);
+    let file = state.fields.as_ref();
+    json!({
+        "name": state.name,
+        "alpha": state.alpha,
+        "load": state.load,
+        "contact_force": state.contact_force,
+        "closed_pairs": closed.count(),
+        "max_pressure": state.max_pressure,
+        "pole_pressure": state.pole_pressure,
+        "half_width": state.half_width,
+        "contact_arc": state.contact_arc.map(|[from, to]| json!({ "from": from, "to": to })),
+        "residual_depth": state.residual_depth,
+        "approach": state.approach,
+        "plastic_points": state.plastic_points,
+        "plastic_points_by_body": by_body,
+        "max_equivalent_plastic_strain": state.max_equivalent_plastic_strain,
+        "quality": state.quality,
+        "fields": file.map(|_| fields::file_name(index, n_states, &state.name)),
+    })
+}
+
+fn reference(row: &ReferenceRow) -> Value {
+    json!({
+        "quantity": row.quantity,
+        "reference": row.reference,
+        "computed": row.computed,
+        "ratio": row.ratio,
+        "published_ratio": row.published_ratio,
+        "source": row.source,
+    })
+}
+
+/// The most memory that this process has held so far (Linux: `VmHWM`).
+fn peak_memory_bytes() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;
+    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    kibibytes.checked_mul(1024)
+}

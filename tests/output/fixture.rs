@@ -1,0 +1,177 @@
+//! A small mesh with every element shape and results in which every optional thing is present.
+
+use brinell::mesh::{Mesh, Shape};
+use brinell::output::RunHeader;
+use brinell::results::{
+    Counts, Effect, Fields, HistoryRow, PairState, Quality, ReferenceRow, Results, Sizes, State,
+    Status, YieldPoint,
+};
+
+pub fn header() -> RunHeader {
+    RunHeader {
+        scene_title: "cylinder \"on\" <plane> & more".into(),
+        scene_file: Some("scenes/cylinder.toml".into()),
+        kind: "plane_strain".into(),
+        solver: "dense".into(),
+        wall_seconds: 1.25,
+        bodies: vec!["cylinder".into(), "half_plane".into()],
+    }
+}
+
+/// A tri3, a quad4, a quad8 and a tri6, on shared edges where they fit. The shape of the elements
+/// is of no concern here, the order of their nodes is.
+pub fn mesh() -> Mesh {
+    let mut mesh = Mesh {
+        dimension: 2,
+        coordinates: (0..15)
+            .flat_map(|i| [f64::from(i) / 3.0, -f64::from(i * i) / 7.0])
+            .collect(),
+        bodies: header().bodies,
+        ..Mesh::default()
+    };
+    mesh.push_element(Shape::Tri3, 0, &[0, 1, 2]);
+    mesh.push_element(Shape::Quad4, 0, &[1, 3, 4, 2]);
+    mesh.push_element(Shape::Quad8, 1, &[3, 5, 6, 4, 7, 8, 9, 10]);
+    mesh.push_element(Shape::Tri6, 1, &[5, 11, 6, 12, 13, 14]);
+    mesh
+}
+
+/// Fields whose every value is different and has a full mantissa; `seed` tells states apart.
+pub fn fields(mesh: &Mesh, seed: f64) -> Fields {
+    let values = |n: usize, phase: f64| -> Vec<f64> {
+        (0..n)
+            .map(|i| (seed + phase + 0.1 * i as f64).sin() * 1e3)
+            .collect()
+    };
+    let elements = mesh.n_elements();
+    Fields {
+        displacement: values(2 * mesh.n_nodes(), 0.0),
+        stress: values(4 * elements, 0.3),
+        von_mises: values(elements, 0.5),
+        plastic_strain: values(elements, 0.7),
+        yielded: (0..elements).map(|i| (i % 2) as u8).collect(),
+    }
+}
+
+pub fn pair(pair: usize, status: Status) -> PairState {
+    PairState {
+        pair,
+        contact: 0,
+        position: [0.1 * pair as f64, -0.0],
+        gap: 1e-17,
+        force: 12.5,
+        area: 0.25,
+        pressure: 50.0,
+        status,
+    }
+}
+
+pub fn results(mesh: &Mesh) -> Results {
+    let quality = Quality {
+        backward_error: 1e-16,
+        equilibrium: 2e-12,
+        complementarity: 0.0,
+        penetration: 3e-17,
+    };
+    let pressed = State {
+        name: "b = 1.5 b*".into(),
+        alpha: 2.0635,
+        load: 123.456,
+        contact_force: 123.4,
+        max_pressure: 300.0,
+        pole_pressure: 299.0,
+        half_width: 1.5,
+        contact_arc: Some([-19.625, 19.625]),
+        residual_depth: 0.01,
+        plastic_points: 7,
+        plastic_points_by_body: vec![3, 4],
+        max_equivalent_plastic_strain: 0.02,
+        approach: 0.3,
+        pairs: vec![pair(0, Status::Closed), pair(1, Status::Open)],
+        fields: Some(fields(mesh, 1.0)),
+        quality,
+    };
+    let without_fields = State {
+        name: "between".into(),
+        fields: None,
+        contact_arc: None,
+        ..pressed.clone()
+    };
+    let released = State {
+        name: "released".into(),
+        fields: Some(fields(mesh, 2.0)),
+        ..pressed.clone()
+    };
+    Results {
+        sizes: Sizes {
+            freedoms: 27,
+            nodes: mesh.n_nodes(),
+            elements: mesh.n_elements(),
+            contact_pairs: 2,
+            zone_freedoms: 9,
+            zone_elements: 2,
+        },
+        effects: vec![Effect {
+            name: "contact".into(),
+            on: true,
+            why: "2 pairs may touch".into(),
+            seconds: 0.5,
+            memory_bytes: 4096,
+        }],
+        first_yield: Some(YieldPoint {
+            alpha: 1.0,
+            load: 60.0,
+            max_pressure: 179.37,
+            half_width: 1.0,
+            location: [0.0, -0.7],
+            body: 1,
+        }),
+        states: vec![pressed, without_fields, released],
+        history: vec![
+            HistoryRow {
+                increment: 1,
+                alpha: 0.1,
+                residual: f64::NAN,
+                event: "target: \"a, b\"".into(),
+                ..HistoryRow::default()
+            },
+            HistoryRow {
+                increment: 2,
+                alpha: 1.0 / 3.0,
+                max_equivalent_plastic_strain: 1e-300,
+                event: "closes: pair 1".into(),
+                ..HistoryRow::default()
+            },
+        ],
+        timings: vec![
+            ("assembly".into(), 0.25),
+            ("factorisation".into(), 0.5),
+            ("assembly".into(), 0.125),
+        ],
+        counts: Counts {
+            factorizations: 1,
+            trailing_solves: 40,
+            full_solves: 3,
+            plastic_iterations: 12,
+            contact_changes: 2,
+        },
+        quality,
+        factor: brinell::linalg::Prediction {
+            ordering: "CAMD",
+            factor_nonzeros: 1234.0,
+            flops: 5e20,
+            trailing_nonzeros: 99.0,
+            memory_bytes: 65536.0,
+        },
+        reference: vec![ReferenceRow {
+            quantity: "yield.load".into(),
+            reference: 61.0,
+            computed: 60.0,
+            ratio: 60.0 / 61.0,
+            published_ratio: None,
+            source: "Johnson, Contact Mechanics, p. 155".into(),
+        }],
+        warnings: vec!["tri3 elements lock where they yield".into()],
+        incomplete: Some("stopped by the user".into()),
+    }
+}

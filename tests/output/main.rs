@@ -1,0 +1,9 @@
+//! The result directory: what is in it, and that it appears whole or not at all.
+
+mod directory;
+mod fields;
+mod fixture;
+mod python;
+mod summary;
+mod tables;
+mod vtu;
