@@ -1,1 +1,239 @@
-//! Substructure.
+//! The structure as contact and plasticity see it: the only door from sparse to dense.
+//!
+//! The stiffness is factored in the order `[ interior | zone | contact ]` and condensed. On the contact freedoms
+//! `(u^1, u^2)` of the pairs' first and second nodes (normal displacements) the displacement condition suggests
+//! `v = u^1` and the relative displacement `s = u^2 - u^1 <= delta`, the paper's u_c^1 and (2.4). In these
+//!
+//! ```text
+//!     [ S_vv  S_vs ] [ v ]   [ f_1 + f_2 ]       S_vv = sum of the bodies' condensed stiffness  (paper 3.8)
+//!     [ S_sv  S_ss ] [ s ] = [ f_2 - r   ]
+//! ```
+//!
+//! and eliminating `v` leaves `r = t - T s = q + T g` with the gap `g = delta - s`, `q = t - T delta`.
+
+use crate::assembly::System;
+use crate::contact::Tableau;
+use crate::error::{Error, Result};
+use crate::linalg::{self, Backend, Condensed, NotDefinite, Partition};
+use crate::model::Model;
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+/// A load (or displacement) on zone and contact freedoms: first nodes of all pairs, then second nodes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Trailing {
+    /// On the zone freedoms.
+    pub zone: Vec<f64>,
+    /// On the contact freedoms: `n_pairs` first nodes, then `n_pairs` second nodes.
+    pub contact: Vec<f64>,
+}
+
+impl Trailing {
+    /// All zeros.
+    pub fn zeros(n_zone: usize, n_contact: usize) -> Self {
+        Trailing { zone: vec![0.0; n_zone], contact: vec![0.0; n_contact] }
+    }
+
+    /// Both parts, one after the other.
+    pub fn iter(&self) -> impl Iterator<Item = &f64> {
+        self.zone.iter().chain(&self.contact)
+    }
+
+    /// Both parts, one after the other.
+    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut f64> {
+        self.zone.iter_mut().chain(&mut self.contact)
+    }
+
+    /// `self += factor * other`.
+    pub fn add(&mut self, factor: f64, other: &Trailing) {
+        if factor != 0.0 {
+            for (a, b) in self.iter_mut().zip(other.iter()) {
+                *a += factor * b;
+            }
+        }
+    }
+
+    /// Inner product.
+    pub fn dot(&self, other: &Trailing) -> f64 {
+        let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        sum(&self.zone, &other.zone) + sum(&self.contact, &other.contact)
+    }
+
+    /// Largest absolute value.
+    pub fn largest(&self) -> f64 {
+        self.iter().fold(0.0f64, |m, v| m.max(v.abs()))
+    }
+
+    /// Takes over the values of another vector of the same size.
+    pub fn copy_from(&mut self, other: &Trailing) {
+        self.zone.copy_from_slice(&other.zone);
+        self.contact.copy_from_slice(&other.contact);
+    }
+
+    /// Sets all values.
+    pub fn fill(&mut self, value: f64) {
+        self.zone.fill(value);
+        self.contact.fill(value);
+    }
+}
+
+/// The condensed structure.
+pub struct Substructure {
+    /// Which freedoms are zone and contact.
+    pub partition: Partition,
+    condensed: Box<dyn Condensed>,
+    n_pairs: usize,
+    tied: Option<Cholesky<f64, Dyn>>,
+    coupling: DMatrix<f64>,
+    contact_matrix: DMatrix<f64>,
+}
+
+impl Substructure {
+    /// Factors and condenses the stiffness with the given zone freedoms (ascending, none of them a contact freedom).
+    ///
+    /// # Errors
+    /// A matrix that is not positive definite, with body, node and direction; backend limits.
+    pub fn new(model: &Model, system: &System, zone: Vec<usize>, backend: Backend) -> Result<Self> {
+        let partition = Partition { n: model.freedoms.n, zone, contact: contact_freedoms(model)? };
+        let shift = shift(model, system, &partition);
+        let condensed = linalg::condense(backend, &system.stiffness, &partition, &shift)
+            .map_err(|e| name_freedom(e, model))?;
+        let n = model.pairs.len();
+        let s = condensed.contact_stiffness();
+        let (s11, s12) = (s.view((0, 0), (n, n)), s.view((0, n), (n, n)));
+        let (s21, s22) = (s.view((n, 0), (n, n)), s.view((n, n), (n, n)));
+        let tied_stiffness = s11 + s12 + s21 + s22;
+        let coupling = s12 + s22;
+        let mut contact_matrix = s22.into_owned();
+        let mut tied = None;
+        if n > 0 {
+            let factor = Cholesky::new(tied_stiffness).ok_or_else(|| {
+                Error::internal(
+                    "the bodies are not held even with all contact pairs closed: the condensed stiffness of the tied \
+                     structure is not positive definite",
+                )
+            })?;
+            let half = factor.l_dirty().solve_lower_triangular(&coupling).ok_or_else(|| {
+                Error::internal("the condensed stiffness of the tied structure has a zero pivot")
+            })?;
+            contact_matrix -= half.tr_mul(&half);
+            contact_matrix = 0.5 * (&contact_matrix + contact_matrix.transpose());
+            tied = Some(factor);
+        }
+        Ok(Substructure { partition, condensed, n_pairs: n, tied, coupling, contact_matrix })
+    }
+
+    /// The matrix T of the contact problem, all pairs closed.
+    pub fn tableau(&self) -> Tableau {
+        Tableau::new(self.contact_matrix.clone())
+    }
+
+    /// A zero vector on zone and contact freedoms.
+    pub fn zeros(&self) -> Trailing {
+        Trailing::zeros(self.partition.zone.len(), self.partition.contact.len())
+    }
+
+    /// What the factorisation cost.
+    pub fn cost(&self) -> linalg::Prediction {
+        self.condensed.cost()
+    }
+
+    /// Static condensation of a load on all freedoms.
+    ///
+    /// # Errors
+    /// Failure of the backend's solve.
+    pub fn condense(&self, load: &[f64]) -> Result<Trailing> {
+        let mut out = self.zeros();
+        self.condensed.condense_load(load, &mut out.zone, &mut out.contact)?;
+        Ok(out)
+    }
+
+    /// Eliminates zone and tied contact freedoms: on entry a load; on return `load` holds what [`Substructure::recover`]
+    /// needs and `forces` (`n_pairs`) the forces `t` that the pairs would carry if tied without gap.
+    pub fn eliminate(&self, load: &mut Trailing, forces: &mut [f64]) {
+        self.condensed.eliminate_zone(&mut load.zone, &mut load.contact);
+        let Some(tied) = &self.tied else { return };
+        let n = self.n_pairs;
+        let mut v = DVector::from_fn(n, |k, _| load.contact[k] + load.contact[n + k]);
+        tied.solve_mut(&mut v);
+        for k in 0..n {
+            forces[k] = load.contact[n + k] - self.coupling.column(k).dot(&v);
+            load.contact[k] = v[k];
+        }
+    }
+
+    /// Recovers the displacements for relative displacements `slip = delta - g` of the pairs (paper's u^2 - u^1).
+    pub fn recover(&self, load: &mut Trailing, slip: &[f64]) {
+        if let Some(tied) = &self.tied {
+            let n = self.n_pairs;
+            let mut change = DVector::zeros(n);
+            for (k, &s) in slip.iter().enumerate().filter(|(_, s)| **s != 0.0) {
+                change.axpy(s, &self.coupling.column(k), 1.0);
+            }
+            tied.solve_mut(&mut change);
+            for k in 0..n {
+                load.contact[k] -= change[k];
+                load.contact[n + k] = load.contact[k] + slip[k];
+            }
+        }
+        self.condensed.recover_zone(&mut load.zone, &load.contact);
+    }
+
+    /// All freedoms, for a load on all of them that includes the contact forces, and the contact displacements.
+    ///
+    /// # Errors
+    /// Failure of the backend's solve.
+    pub fn recover_all(&self, load: &mut [f64], contact: &[f64]) -> Result<()> {
+        self.condensed.recover_all(load, contact)
+    }
+
+    /// Backward error of the last [`Substructure::recover_all`].
+    pub fn backward_error(&self) -> f64 {
+        self.condensed.backward_error()
+    }
+
+    /// Bytes held by the dense contact matrices.
+    pub fn contact_bytes(&self) -> u64 {
+        (8 * 4 * self.n_pairs * self.n_pairs + 8 * 4 * self.n_pairs * self.n_pairs) as u64
+    }
+}
+
+fn contact_freedoms(model: &Model) -> Result<Vec<usize>> {
+    let normal = |node: usize| {
+        model.freedoms.normal_freedom(node).ok_or_else(|| {
+            Error::input(format!(
+                "node {} belongs to a contact pair but its normal displacement is held by a support or load",
+                model.mesh.node_label(node)
+            ))
+        })
+    };
+    let first = model.pairs.iter().map(|p| normal(p.first));
+    let second = model.pairs.iter().map(|p| normal(p.second));
+    first.chain(second).collect()
+}
+
+/// The stiffness's own diagonal on the contact freedoms of bodies that supports do not hold, zero elsewhere.
+fn shift(model: &Model, system: &System, partition: &Partition) -> Vec<f64> {
+    let n = model.pairs.len();
+    (0..2 * n)
+        .map(|i| {
+            let floats = model.floating.of_pair[i % n][i / n];
+            let freedom = partition.contact[i];
+            if floats { system.stiffness.get(freedom, freedom).copied().unwrap_or(0.0) } else { 0.0 }
+        })
+        .collect()
+}
+
+fn name_freedom(error: Error, model: &Model) -> Error {
+    let freedom = std::error::Error::source(&error).and_then(|s| s.downcast_ref::<NotDefinite>()).map(|n| n.freedom);
+    match freedom {
+        Some(freedom) => {
+            let place = model.freedoms.describe(&model.mesh, freedom);
+            Error::new(
+                crate::ErrorKind::Unheld,
+                format!("the stiffness is singular at {place}: a part of the model is not held, or an element there is degenerate"),
+            )
+            .because(error)
+        }
+        None => error,
+    }
+}

@@ -1,1 +1,88 @@
-//! Analysis.
+//! The analysis: yield load, then the load program, increment by increment.
+//!
+//! | file | what | paper |
+//! |---|---|---|
+//! | `engine` | structure under load, response to loads and initial loads | 3.7, 4.1 to 4.6 |
+//! | `yield_load`, `recovery` | load at first yield, stress between the points | 3.11 to 3.14 |
+//! | `elastic` | contact along an elastic path, from event to event | 3.9, 3.10 |
+//! | `increment`, `step_length` | one elastoplastic increment that ends at the next change of contact | 4.7 to 4.23 |
+//! | `zone`, `gather`, `zone_choice` | elements that may yield, initial loads, their choice and growth | 4.1 |
+//! | `tangent`, `acceleration` | acceleration of the plastic iteration | |
+//! | `drive`, `program` | from target to target, loading and unloading | 5.1, 5.2 |
+//! | `measure`, `state` | pressure, half width, dent, quality of a state | 5 |
+
+mod acceleration;
+mod check;
+mod drive;
+mod elastic;
+mod engine;
+mod gather;
+mod increment;
+mod measure;
+mod program;
+mod recovery;
+mod reference;
+mod state;
+mod step_length;
+mod tangent;
+mod yield_load;
+mod zone;
+mod zone_choice;
+
+pub use check::{Check, check};
+
+use crate::assembly::{System, assemble};
+use crate::error::Result;
+use crate::linalg::Backend;
+use crate::model::Model;
+use crate::progress::Observer;
+use crate::results::Results;
+use std::time::Instant;
+
+/// A model with its assembled system, ready to run.
+pub struct Analysis {
+    model: Model,
+    system: System,
+    backend: Backend,
+    timings: Vec<(String, f64)>,
+}
+
+impl Analysis {
+    /// Assembles the model.
+    ///
+    /// # Errors
+    /// Those of [`assemble`].
+    pub fn new(model: Model, backend: Backend) -> Result<Self> {
+        let start = Instant::now();
+        let system = assemble(&model)?;
+        let timings = vec![("assembly".to_string(), start.elapsed().as_secs_f64())];
+        Ok(Analysis { model, system, backend, timings })
+    }
+
+    /// The model.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The assembled system.
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// Runs the whole load program. A run that fails after increments were accepted returns what was computed, with
+    /// [`Results::incomplete`] set.
+    ///
+    /// # Errors
+    /// Failures before the first state: factorisation, yield load, a body that is not held.
+    pub fn run(&mut self, observer: &mut dyn Observer) -> Result<Results> {
+        program::run(&self.model, &self.system, self.backend, &self.timings, observer, false)
+    }
+
+    /// The yield load only.
+    ///
+    /// # Errors
+    /// As [`Analysis::run`].
+    pub fn yield_load(&mut self, observer: &mut dyn Observer) -> Result<Results> {
+        program::run(&self.model, &self.system, self.backend, &self.timings, observer, true)
+    }
+}

@@ -1,1 +1,26 @@
-//! Contact.
+//! Contact without friction as a dense linear complementarity problem.
+//!
+//! In terms of the gaps `g` and the contact forces `r` (compressive positive) of the pairs, the condensed structure is
+//!
+//! ```text
+//!     r = q + T g,     g >= 0,  r >= 0,  g . r = 0
+//! ```
+//!
+//! `T` (`n_pairs x n_pairs`, symmetric, positive semidefinite) is the stiffness of the structure against opening the
+//! pairs; `q` holds the forces the pairs would carry if all were closed. This module knows neither meshes nor
+//! bodies.
+//!
+//! * [`Tableau`]: the matrix with a set of pairs opened, updated by principal pivots in O(n^2);
+//! * [`solve`]: statuses for a given `q` (paper 3.7 to 3.10), finite for every semidefinite `T`;
+//! * [`Path`]: statuses for `q` moving along a line, from one change of contact to the next (paper 4.10 to 4.23).
+
+mod complementarity;
+mod path;
+mod tableau;
+
+pub use complementarity::{Certificate, Unbounded, solve};
+pub use path::{Change, Path, PathEnd};
+pub use tableau::Tableau;
+
+#[cfg(test)]
+mod tests;

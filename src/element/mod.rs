@@ -50,6 +50,19 @@ pub struct Points {
     pub n_freedoms: usize,
 }
 
+impl Points {
+    /// Lets the columns of B of a node act on displacements along the unit vectors `a` and `b`.
+    pub fn turn(&mut self, node: usize, a: [f64; 2], b: [f64; 2]) {
+        for point in &mut self.points[..self.n_points] {
+            for row in &mut point.b {
+                let (x, y) = (row[2 * node], row[2 * node + 1]);
+                row[2 * node] = x * a[0] + y * a[1];
+                row[2 * node + 1] = x * b[0] + y * b[1];
+            }
+        }
+    }
+}
+
 impl std::ops::Deref for Points {
     type Target = [GaussPoint];
     fn deref(&self) -> &[GaussPoint] {

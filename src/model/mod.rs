@@ -1,1 +1,200 @@
-//! model
+//! The validated model: freedoms, contact pairs, materials and loads, resolved from scene and mesh.
+//!
+//! Here names become indices and every inconsistency between scene and mesh is found. What comes
+//! after works with numbers only.
+
+mod freedoms;
+mod held;
+mod loads;
+mod pairs;
+
+pub use freedoms::{Freedoms, Prescribed, Slot};
+pub use held::{FloatingBodies, Pin};
+pub use loads::{LoadCase, Magnitude};
+pub use pairs::{ContactSurface, Pair};
+
+use crate::analytical;
+use crate::error::{Error, Result};
+use crate::material::Material;
+use crate::mesh::{self, Mesh, Shape};
+use crate::scene::{Kind, Plastic, Scene};
+
+/// A model ready to be assembled.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// The scene it was made from.
+    pub scene: Scene,
+    /// Plane strain, plane stress or axisymmetric.
+    pub kind: Kind,
+    /// The mesh.
+    pub mesh: Mesh,
+    /// Material of each body.
+    pub materials: Vec<Material>,
+    /// Whether each body may yield.
+    pub may_yield: Vec<bool>,
+    /// Freedom numbering, local axes and supports.
+    pub freedoms: Freedoms,
+    /// Contact pairs, contact by contact, along each surface.
+    pub pairs: Vec<Pair>,
+    /// The contacts of the scene.
+    pub contacts: Vec<ContactSurface>,
+    /// Loads.
+    pub loads: Vec<LoadCase>,
+    /// Which bodies are held by contact alone.
+    pub floating: FloatingBodies,
+    /// How many copies of the model make the whole (loads and results named `load` are the whole's).
+    pub symmetry: f64,
+    /// Things the user should know.
+    pub warnings: Vec<String>,
+}
+
+impl Model {
+    /// Builds the model of a scene: makes or reads its mesh, resolves names, pairs surfaces.
+    ///
+    /// # Errors
+    /// Input errors naming the scene entry and the node, body or set; [`crate::ErrorKind::Unheld`] where a body can move
+    /// freely and the loads do work on that motion.
+    pub fn new(scene: &Scene) -> Result<Self> {
+        let mesh = build_mesh(scene)?;
+        Self::from_mesh(scene, mesh)
+    }
+
+    /// The model of a scene on a given mesh (its `mesh` entry is ignored).
+    ///
+    /// # Errors
+    /// As [`Model::new`].
+    pub fn from_mesh(scene: &Scene, mesh: Mesh) -> Result<Self> {
+        mesh::validate(&mesh)?;
+        let kind = scene.kind;
+        let mut warnings = Vec::new();
+        let (materials, may_yield) = resolve_bodies(scene, &mesh)?;
+        warn_of_locking(&mesh, &may_yield, &mut warnings);
+        if kind == Kind::Axisymmetric {
+            check_radii(&mesh)?;
+        }
+        let (mut pairs, contacts) = pairs::resolve(scene, &mesh)?;
+        let mut freedoms = Freedoms::new(scene, &mesh, &mut pairs)?;
+        let loads = loads::resolve(scene, &mesh, &freedoms)?;
+        let floating = held::resolve(kind, &mesh, &mut freedoms, &pairs, &loads, &mut warnings)?;
+        let loads = loads::renumber(loads, &freedoms);
+        Ok(Model {
+            scene: scene.clone(),
+            kind,
+            mesh,
+            materials,
+            may_yield,
+            freedoms,
+            pairs,
+            contacts,
+            loads,
+            floating,
+            symmetry: scene.symmetry as f64,
+            warnings,
+        })
+    }
+
+    /// Coordinates of an element's nodes, at the front of an array.
+    pub fn element_coordinates(&self, element: usize) -> [[f64; 2]; crate::element::MAX_NODES] {
+        let mut out = [[0.0; 2]; crate::element::MAX_NODES];
+        for (x, &node) in out.iter_mut().zip(self.mesh.nodes(element)) {
+            *x = self.mesh.point(node as usize);
+        }
+        out
+    }
+
+    /// Material of an element.
+    pub fn material(&self, element: usize) -> &Material {
+        &self.materials[self.mesh.element_body[element] as usize]
+    }
+}
+
+fn build_mesh(scene: &Scene) -> Result<Mesh> {
+    let source = &scene.mesh;
+    if let Some(p) = &source.cylinder_on_half_plane {
+        let half_width = match p.half_width {
+            Some(b) => b,
+            None => yield_half_width(scene, p.radius)?,
+        };
+        mesh::generate::cylinder_on_half_plane(p, half_width)
+    } else if let Some(p) = &source.disc_in_plate {
+        mesh::generate::disc_in_plate(p)
+    } else if let Some(parts) = &source.parts {
+        mesh::generate::parts(parts)
+    } else if let Some(path) = &source.file {
+        mesh::gmsh::read(&scene.resolve_path(path))
+    } else {
+        Err(Error::input("the scene names no mesh: give one of [mesh.cylinder_on_half_plane], [mesh.disc_in_plate], [[mesh.parts]] or mesh.file"))
+    }
+}
+
+/// Contact half width (radius) at first yield by Hertz, for the weaker of the two bodies: sizes the generated mesh.
+fn yield_half_width(scene: &Scene, radius: f64) -> Result<f64> {
+    let of = |body: &str| {
+        scene.bodies.get(body).and_then(|b| scene.materials.get(&b.material)).ok_or_else(|| {
+            Error::input(format!("the generator cylinder_on_half_plane needs a body `{body}` with a material"))
+        })
+    };
+    let (a, b) = (of("cylinder")?, of("half_plane")?);
+    let modulus = analytical::contact_modulus(a.youngs_modulus, a.poissons_ratio, b.youngs_modulus, b.poissons_ratio);
+    let widths = [a, b].into_iter().filter_map(|m| {
+        let (nu, y) = (m.poissons_ratio, m.yield_stress?);
+        Some(match scene.kind {
+            Kind::Axisymmetric => analytical::HertzPoint { radius, contact_modulus: modulus }.yield_radius(nu, y),
+            _ => analytical::HertzLine { radius, contact_modulus: modulus }.yield_half_width(nu, y),
+        })
+    });
+    widths.reduce(f64::min).ok_or_else(|| {
+        Error::input(
+            "mesh.cylinder_on_half_plane: no body has a yield stress, so the contact half width at yield is unknown; \
+             give `half_width`",
+        )
+    })
+}
+
+fn resolve_bodies(scene: &Scene, mesh: &Mesh) -> Result<(Vec<Material>, Vec<bool>)> {
+    for name in scene.bodies.keys() {
+        if !mesh.bodies.contains(name) {
+            return Err(Error::input(format!(
+                "bodies.{name}: the mesh has no body of this name; it has {}",
+                mesh.bodies.join(", ")
+            )));
+        }
+    }
+    let mut materials = Vec::new();
+    let mut may_yield = Vec::new();
+    for name in &mesh.bodies {
+        let body = scene.bodies.get(name).ok_or_else(|| {
+            Error::input(format!("body `{name}` of the mesh has no [bodies.{name}] entry with its material"))
+        })?;
+        let data = scene.materials.get(&body.material).ok_or_else(|| {
+            Error::input(format!("bodies.{name}: there is no material `{}`", body.material))
+        })?;
+        let material = Material::new(&body.material, data, scene.kind);
+        may_yield.push(body.plastic != Plastic::No && material.hardening.is_some());
+        materials.push(material);
+    }
+    Ok((materials, may_yield))
+}
+
+fn warn_of_locking(mesh: &Mesh, may_yield: &[bool], warnings: &mut Vec<String>) {
+    let locks = (0..mesh.n_elements())
+        .filter(|&e| mesh.shapes[e] == Shape::Tri3 && may_yield[mesh.element_body[e] as usize])
+        .count();
+    if locks > 0 {
+        warnings.push(format!(
+            "{locks} tri3 elements belong to bodies that may yield: tri3 locks in isochoric plastic flow, limit loads come \
+             out too high; use quad4, quad8 or tri6"
+        ));
+    }
+}
+
+fn check_radii(mesh: &Mesh) -> Result<()> {
+    match (0..mesh.n_nodes()).find(|&node| mesh.point(node)[0] < 0.0) {
+        Some(node) => Err(Error::input(format!(
+            "node {} lies at negative radius {}: an axisymmetric model needs x = r >= 0",
+            mesh.node_label(node),
+            mesh.point(node)[0]
+        ))),
+        None => Ok(()),
+    }
+}

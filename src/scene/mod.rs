@@ -17,6 +17,10 @@ pub struct Scene {
     pub title: String,
     /// Plane strain, plane stress or axisymmetric.
     pub kind: Kind,
+    /// How many copies of the model make the whole: 2 for a half model, 4 for a quarter. Total forces in the
+    /// scene and in results are those of the whole.
+    #[serde(default = "defaults::single")]
+    pub symmetry: usize,
     /// Where the mesh comes from.
     pub mesh: MeshSource,
     /// Materials by name.
@@ -518,7 +522,20 @@ impl Default for Settings {
     }
 }
 
+impl Scene {
+    /// A path of the scene, relative to the scene's file.
+    pub fn resolve_path(&self, path: &std::path::Path) -> PathBuf {
+        match self.file.as_deref().and_then(std::path::Path::parent) {
+            Some(folder) => folder.join(path),
+            None => path.to_path_buf(),
+        }
+    }
+}
+
 mod defaults {
+    pub fn single() -> usize {
+        1
+    }
     use crate::mesh::Shape;
     pub fn fine_width() -> f64 {
         2.0

@@ -1,0 +1,107 @@
+//! Which effects a scene calls for, and what the run will cost: before anything is solved.
+
+use super::zone_choice;
+use crate::assembly::assemble;
+use crate::error::Result;
+use crate::linalg::{self, Backend, Partition, Prediction};
+use crate::model::Model;
+use crate::results::{Effect, Sizes};
+use serde::Serialize;
+
+/// What a run of the scene will do and cost.
+#[derive(Debug, Clone, Serialize)]
+pub struct Check {
+    /// Effects that the scene calls for.
+    pub effects: Vec<Effect>,
+    /// Sizes of the model.
+    pub sizes: Sizes,
+    /// Cost of the factorisation, from the symbolic analysis.
+    pub prediction: Prediction,
+    /// Rough time of one factorisation, at the speed that is typical of one core.
+    pub predicted_seconds: f64,
+    /// The BLAS in use.
+    pub blas: String,
+    /// Things the user should know.
+    pub notes: Vec<String>,
+}
+
+/// Floating point operations per second of a supernodal factorisation that the rough time assumes.
+const TYPICAL_FLOPS: f64 = 5e9;
+/// Nonzeros of the factor that ordering and analysis handle per second.
+const TYPICAL_ANALYSIS: f64 = 2e7;
+
+/// Predicts effects and cost of a model; solves nothing.
+///
+/// # Errors
+/// Limits of the backend.
+pub fn check(model: &Model, backend: Backend) -> Result<Check> {
+    let system = assemble(model)?;
+    let choice = zone_choice::first_guess(model);
+    let zone = zone_choice::zone_freedoms(model, &choice.elements);
+    let contact = model
+        .pairs
+        .iter()
+        .map(|p| p.first)
+        .chain(model.pairs.iter().map(|p| p.second))
+        .filter_map(|node| model.freedoms.normal_freedom(node))
+        .collect();
+    let partition = Partition { n: model.freedoms.n, zone, contact };
+    let prediction = linalg::predict(backend, &system.stiffness, &partition)?;
+    let sizes = Sizes {
+        freedoms: model.freedoms.n,
+        nodes: model.mesh.n_nodes(),
+        elements: model.mesh.n_elements(),
+        contact_pairs: model.pairs.len(),
+        zone_freedoms: partition.zone.len(),
+        zone_elements: choice.elements.len(),
+    };
+    let plastic = !choice.elements.is_empty();
+    Ok(Check {
+        effects: effects(model, plastic),
+        sizes,
+        prediction,
+        predicted_seconds: prediction.flops / TYPICAL_FLOPS + prediction.factor_nonzeros / TYPICAL_ANALYSIS,
+        blas: linalg::blas_name(),
+        notes: model.warnings.clone(),
+    })
+}
+
+/// The ledger: each effect on or off, and why. `yields` says whether the loads reach (or may reach) yield.
+pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
+    let effect = |name: &str, on: bool, why: String| Effect { name: name.into(), on, why, seconds: 0.0, memory_bytes: 0 };
+    let bodies = &model.mesh.bodies;
+    let able: Vec<&str> =
+        bodies.iter().zip(&model.may_yield).filter(|(_, may)| **may).map(|(name, _)| name.as_str()).collect();
+    let contact = match model.pairs.len() {
+        0 => effect("contact", false, "the scene names no contact".into()),
+        n => effect("contact", true, format!("{n} pairs on {} contact surface(s)", model.contacts.len())),
+    };
+    let plasticity = if able.is_empty() {
+        effect("plasticity", false, "no body may yield (no yield stress, or plastic = false)".into())
+    } else if yields {
+        effect("plasticity", true, format!("{} may yield and the loads reach yield", able.join(", ")))
+    } else {
+        effect("plasticity", false, format!("{} could yield but stays elastic under these loads", able.join(", ")))
+    };
+    let interference = model.pairs.iter().any(|p| p.interference != 0.0);
+    let floating = &model.floating.bodies;
+    let preload = model.loads.iter().any(|l| l.factor(0.0, 1.0) != 0.0);
+    let on_off = |on: bool, yes: String, no: &str| if on { yes } else { no.to_string() };
+    vec![
+        contact,
+        plasticity,
+        effect(
+            "interference",
+            interference,
+            on_off(interference, "a contact states an interference, applied before the load".into(), "no contact states one"),
+        ),
+        effect("preload", preload, on_off(preload, "a load acts at load factor 0".into(), "no load acts at load factor 0")),
+        effect(
+            "floating bodies",
+            !floating.is_empty(),
+            on_off(!floating.is_empty(), format!("{} held by contact alone", floating.join(", ")), "supports hold every body"),
+        ),
+        effect("friction", false, "not modelled: contact forces are normal".into()),
+        effect("large displacements", false, "not modelled: small strains, contact pairs fixed".into()),
+    ]
+}

@@ -1,0 +1,415 @@
+//! Moving along the load path: increments, elastic or elastoplastic, until a point, a measured value or first yield.
+
+use super::elastic::{ElasticPiece, describe};
+use super::engine::{Engine, Equilibrium, LoadPoint};
+use super::increment::{EndsAt, Increment, NoIncrement};
+use super::recovery::{Peak, Recovery};
+use super::yield_load::{bracketed_root, yield_share};
+use crate::contact::{Change, PathEnd};
+use crate::error::{Error, ErrorKind, Result};
+use crate::material::PlasticState;
+use crate::scene::{Settings, Stepping};
+
+/// What the drive reports after each increment; false stops it.
+pub type OnIncrement<'a> = dyn FnMut(&mut Engine, &IncrementReport) -> Result<bool> + 'a;
+
+/// An accepted increment.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct IncrementReport {
+    /// What ended it.
+    pub event: String,
+    /// Material evaluations.
+    pub iterations: usize,
+    /// Trailing solves.
+    pub trailing_solves: usize,
+    /// Relative out-of-balance force.
+    pub residual: f64,
+}
+
+/// A measured quantity that ends a drive when it changes sign.
+pub type Monitor<'a> = dyn Fn(&mut Engine) -> f64 + 'a;
+
+/// How a drive ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Arrival {
+    /// At the end of the piece.
+    End,
+    /// Where the monitored quantity is zero.
+    Monitor,
+    /// At first yield.
+    Yield(Peak),
+    /// The caller stopped it.
+    Stopped,
+    /// A guard element flows: the zone must grow, the last increment was not taken.
+    ZoneTooSmall,
+}
+
+/// How increments are taken.
+#[derive(Debug, Clone, Copy)]
+pub struct Stepper<'a> {
+    /// Solver settings.
+    pub settings: &'a Settings,
+    /// From event to event, or fixed.
+    pub stepping: Stepping,
+    /// Increments per piece where fixed.
+    pub steps: usize,
+    /// Tolerance of events.
+    pub gamma: f64,
+}
+
+/// Accuracy with which a monitored quantity is hit, as a share of the increment.
+const MONITOR_ACCURACY: f64 = 1e-10;
+/// Cut factor after an increment that did not converge.
+const CUT: f64 = 0.25;
+/// Cuts after which the load is taken to have passed the limit load.
+const MOST_CUTS: usize = 12;
+/// Status corrections at one point of the path before they are taken to cycle.
+const MOST_CORRECTIONS: usize = 60;
+
+impl Engine<'_> {
+    /// Elastic drive: contact changes alone. With `recovery` it stops at first yield.
+    ///
+    /// # Errors
+    /// A load that drives a body away from every contact.
+    pub fn drive_elastic(
+        &mut self,
+        end: &LoadPoint,
+        mut recovery: Option<&mut Recovery>,
+        monitor: Option<&Monitor>,
+        report: &mut OnIncrement,
+    ) -> Result<Arrival> {
+        let mut samples = match &mut recovery {
+            Some(recovery) => {
+                self.refresh();
+                let samples = recovery.sample(&self.now.u, &self.at.factors);
+                if let Some(peak) = recovery.peak(self.model, &samples).filter(|p| p.ratio > 1.0) {
+                    return Ok(Arrival::Yield(peak));
+                }
+                Some(samples)
+            }
+            None => None,
+        };
+        let mut watched = monitor.map(|m| m(self));
+        let mut piece = ElasticPiece::new(self, end)?;
+        loop {
+            let solves = self.counts.trailing_solves;
+            let before = piece.t();
+            let outcome = piece.advance(self, 1.0);
+            if let (Some(recovery), Some(from)) = (&mut recovery, &mut samples) {
+                self.refresh();
+                let to = recovery.sample(&self.now.u, &self.at.factors);
+                if recovery.peak(self.model, &to).is_some_and(|p| p.ratio >= 1.0) {
+                    let (share, peak) = yield_share(self, recovery, from, &to);
+                    piece.go_back(self, before + share * (piece.t() - before));
+                    self.refresh();
+                    if let Some(peak) = peak {
+                        self.note(report, "yield", solves)?;
+                        return Ok(Arrival::Yield(peak));
+                    }
+                }
+                *from = to;
+            }
+            if let (Some(monitor), Some(was)) = (monitor, watched) {
+                let is = monitor(self);
+                if is == 0.0 || (is > 0.0) != (was > 0.0) {
+                    let (from, to) = (before, piece.t());
+                    let sign = if is > was { 1.0 } else { -1.0 };
+                    let t = bracketed_root(from, to, MONITOR_ACCURACY * (to - from).abs().max(f64::MIN_POSITIVE), |t| {
+                        piece.go_back(self, t);
+                        sign * monitor(self)
+                    });
+                    piece.go_back(self, t);
+                    self.refresh();
+                    self.note(report, "target", solves)?;
+                    return Ok(Arrival::Monitor);
+                }
+                watched = Some(is);
+            }
+            match outcome {
+                PathEnd::Target => {
+                    self.at = end.clone();
+                    return Ok(if self.note(report, "target", solves)? { Arrival::End } else { Arrival::Stopped });
+                }
+                PathEnd::Event(changes) => {
+                    if !self.note(report, &describe(&changes), solves)? {
+                        return Ok(Arrival::Stopped);
+                    }
+                    piece.turn(self)?;
+                }
+            }
+        }
+    }
+
+    fn note(&mut self, report: &mut OnIncrement, event: &str, solves_before: usize) -> Result<bool> {
+        let trailing_solves = self.counts.trailing_solves - solves_before;
+        report(self, &IncrementReport { event: event.to_string(), trailing_solves, ..IncrementReport::default() })
+    }
+
+    /// Elastoplastic drive to `end`.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Collapse`] with the load factor that was held; statuses that cycle.
+    pub fn drive_plastic(
+        &mut self,
+        end: &LoadPoint,
+        stepper: Stepper,
+        monitor: Option<&Monitor>,
+        report: &mut OnIncrement,
+    ) -> Result<Arrival> {
+        self.refresh();
+        let origin = self.at.clone();
+        let mut done = 0usize;
+        let mut watched = monitor.map(|m| m(self));
+        loop {
+            let left = match stepper.stepping {
+                Stepping::Events => 1.0,
+                Stepping::Steps => 1.0 / (stepper.steps - done.min(stepper.steps - 1)) as f64,
+            };
+            let saved = Saved::of(self);
+            let solves = self.counts.trailing_solves;
+            let increment = self.find_increment(end, left, stepper)?;
+            if increment.guard_flows > 0 {
+                saved.put_back(self);
+                return Ok(Arrival::ZoneTooSmall);
+            }
+            let mut reported = IncrementReport {
+                event: String::new(),
+                iterations: increment.iterations,
+                trailing_solves: 0,
+                residual: increment.residual,
+            };
+            let full = increment.t >= left;
+            let at_end = increment.t >= 1.0;
+            self.accept(end, increment, &mut reported);
+            if let (Some(monitor), Some(was)) = (monitor, watched) {
+                let is = monitor(self);
+                if is == 0.0 || (is > 0.0) != (was > 0.0) {
+                    self.hit(end, &saved, stepper, monitor, was, &mut reported)?;
+                    reported.trailing_solves = self.counts.trailing_solves - solves;
+                    reported.event = "target".to_string();
+                    report(self, &reported)?;
+                    return Ok(Arrival::Monitor);
+                }
+                watched = Some(is);
+            }
+            reported.trailing_solves = self.counts.trailing_solves - solves;
+            if at_end {
+                self.at = end.clone();
+                if reported.event.is_empty() {
+                    reported.event = "target".to_string();
+                }
+            } else if reported.event.is_empty() {
+                reported.event = "step".to_string();
+            }
+            done += usize::from(full);
+            if !report(self, &reported)? {
+                return Ok(Arrival::Stopped);
+            }
+            if at_end {
+                return Ok(Arrival::End);
+            }
+            let _ = &origin;
+        }
+    }
+
+    /// Takes a found increment: history, state, and the statuses beyond it.
+    fn accept(&mut self, end: &LoadPoint, increment: Increment, reported: &mut IncrementReport) {
+        let start = self.at.clone();
+        let changes: Vec<Change> = increment
+            .changes
+            .iter()
+            .map(|&k| if self.tableau.open()[k] { Change::Closes(k) } else { Change::Opens(k) })
+            .collect();
+        self.at = start.towards(end, increment.t);
+        self.now = increment.state;
+        self.fresh = true;
+        self.zone.commit();
+        self.border = increment.changes;
+        for k in self.border.clone() {
+            self.now.gap[k] = self.now.gap[k].max(0.0);
+            self.now.force[k] = self.now.force[k].max(0.0);
+            if self.tableau.flip(k) {
+                self.counts.contact_changes += 1;
+            }
+        }
+        self.update_force_scale();
+        reported.event = describe(&changes);
+    }
+
+    /// An increment with statuses that are right at its begin (events) or at its end (steps).
+    fn find_increment(&mut self, end: &LoadPoint, left: f64, stepper: Stepper) -> Result<Increment> {
+        let mut most = left;
+        let mut cuts = 0;
+        let mut corrections = 0;
+        let mut seen: Vec<Vec<bool>> = Vec::new();
+        loop {
+            let outcome = match stepper.stepping {
+                Stepping::Events if corrections < MOST_CORRECTIONS => {
+                    self.increment(end, most, EndsAt::NextChange { gamma: stepper.gamma }, stepper.settings)
+                }
+                Stepping::Events => self.solve_step(end, 1e-3 * most, stepper)?,
+                Stepping::Steps => self.solve_step(end, most, stepper)?,
+            };
+            match outcome {
+                Ok(increment) => return Ok(increment),
+                Err(NoIncrement::WrongStatus(pairs)) => {
+                    corrections += 1;
+                    seen.push(self.tableau.open().to_vec());
+                    // All at once; one alone (the least index) once a set of statuses has come back.
+                    let repeated = seen[..seen.len() - 1].contains(&seen[seen.len() - 1]);
+                    for &k in pairs.iter().take(if repeated { 1 } else { pairs.len() }) {
+                        if self.tableau.flip(k) {
+                            self.counts.contact_changes += 1;
+                        }
+                        if !self.border.contains(&k) {
+                            self.border.push(k);
+                        }
+                    }
+                }
+                Err(NoIncrement::NotConverged(residual)) => {
+                    cuts += 1;
+                    if cuts > MOST_CUTS {
+                        return Err(Error::new(
+                            ErrorKind::Collapse,
+                            format!(
+                                "the load cannot be raised beyond load factor {:.6}: at {:.6} no equilibrium was found (out-of-balance \
+                                 force {residual:.1e} of the largest force); the last load factor that was held is {:.6}",
+                                self.at.alpha,
+                                self.at.towards(end, most).alpha,
+                                self.at.alpha
+                            ),
+                        ));
+                    }
+                    most *= CUT;
+                }
+            }
+        }
+    }
+
+    /// A fixed increment, contact solved at its end: statuses that come out wrong are flipped, all at once while that
+    /// makes them fewer, else the least index alone (finite: Habetler and Kostreva 1978, doi:10.1137/0316011).
+    fn solve_step(&mut self, end: &LoadPoint, most: f64, stepper: Stepper) -> Result<std::result::Result<Increment, NoIncrement>> {
+        let mut fewest = usize::MAX;
+        let mut patience = 6;
+        for _ in 0..10 * (self.now.gap.len() + 10) {
+            let increment = match self.increment(end, most, EndsAt::EndOfPiece, stepper.settings) {
+                Ok(increment) => increment,
+                Err(error) => return Ok(Err(error)),
+            };
+            let (gap, force) = (&increment.state.gap, &increment.state.force);
+            let r_tol = 1e-9 * force.iter().fold(self.force_scale, |m, r| m.max(*r));
+            let g_tol = 1e-9 * gap.iter().fold(0.0f64, |m, g| m.max(*g));
+            let wrong: Vec<usize> = (0..gap.len())
+                .filter(|&k| if self.tableau.open()[k] { gap[k] < -g_tol } else { force[k] < -r_tol })
+                .collect();
+            if wrong.is_empty() {
+                self.border.clear();
+                return Ok(Ok(Increment { changes: Vec::new(), ..increment }));
+            }
+            if wrong.len() < fewest {
+                (fewest, patience) = (wrong.len(), 6);
+            } else {
+                patience -= i32::from(patience > 0);
+            }
+            let take = if patience > 0 { wrong.len() } else { 1 };
+            for &k in wrong.iter().take(take) {
+                if self.tableau.flip(k) {
+                    self.counts.contact_changes += 1;
+                }
+            }
+        }
+        Err(Error::analysis(format!(
+            "contact did not settle in the increment from load factor {:.6} to {:.6}: the statuses repeat",
+            self.at.alpha,
+            self.at.towards(end, most).alpha
+        )))
+    }
+
+    /// Repeats the last increment so that it ends where the monitored quantity is zero.
+    fn hit(
+        &mut self,
+        end: &LoadPoint,
+        saved: &Saved,
+        stepper: Stepper,
+        monitor: &Monitor,
+        was: f64,
+        reported: &mut IncrementReport,
+    ) -> Result<()> {
+        let reached = saved.at.share_of(&self.at, end);
+        let sign = if was < 0.0 { 1.0 } else { -1.0 };
+        let mut failure = None;
+        let mut last = -1.0;
+        let mut values = |engine: &mut Self, t: f64| {
+            if t <= 0.0 {
+                return sign * was;
+            }
+            saved.put_back(engine);
+            match engine.find_increment(end, t, Stepper { stepping: stepper.stepping, ..stepper }) {
+                Ok(increment) => {
+                    reported.residual = increment.residual;
+                    reported.iterations += increment.iterations;
+                    engine.accept(end, increment, reported);
+                    last = t;
+                    sign * monitor(engine)
+                }
+                Err(error) => {
+                    failure = Some(error);
+                    0.0
+                }
+            }
+        };
+        let t = bracketed_root(0.0, reached, MONITOR_ACCURACY, |t| values(self, t));
+        if t != last && failure.is_none() {
+            values(self, t);
+        }
+        match failure {
+            Some(error) => Err(error),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A committed state to go back to.
+struct Saved {
+    at: LoadPoint,
+    now: Equilibrium,
+    open: Vec<bool>,
+    border: Vec<usize>,
+    history: Vec<PlasticState>,
+}
+
+impl Saved {
+    fn of(engine: &Engine) -> Self {
+        Saved {
+            at: engine.at.clone(),
+            now: engine.now.clone(),
+            open: engine.tableau.open().to_vec(),
+            border: engine.border.clone(),
+            history: engine.zone.history().to_vec(),
+        }
+    }
+
+    fn put_back(&self, engine: &mut Engine) {
+        engine.at = self.at.clone();
+        engine.now = self.now.clone();
+        engine.fresh = true;
+        engine.border = self.border.clone();
+        engine.zone.restore(&self.history);
+        for k in 0..self.open.len() {
+            if engine.tableau.open()[k] != self.open[k] {
+                engine.tableau.flip(k);
+            }
+        }
+    }
+}
+
+impl LoadPoint {
+    /// Share of the way from here to `end` at which `between` lies.
+    fn share_of(&self, between: &LoadPoint, end: &LoadPoint) -> f64 {
+        if end.alpha != self.alpha {
+            (between.alpha - self.alpha) / (end.alpha - self.alpha)
+        } else {
+            (between.interference - self.interference) / (end.interference - self.interference)
+        }
+    }
+}

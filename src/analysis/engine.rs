@@ -1,0 +1,262 @@
+//! The structure under load: everything an increment works with.
+
+use super::gather::Places;
+use super::zone::Zone;
+use crate::assembly::System;
+use crate::contact::Tableau;
+use crate::error::{Error, Result};
+use crate::linalg::Backend;
+use crate::model::Model;
+use crate::results::Counts;
+use crate::substructure::{Substructure, Trailing};
+
+/// A point of the load path: the factor of each load and the share of the interference that is applied.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LoadPoint {
+    /// Load factor in the program's unit.
+    pub alpha: f64,
+    /// Factor of each load.
+    pub factors: Vec<f64>,
+    /// Share of the interference, 0 to 1.
+    pub interference: f64,
+}
+
+impl LoadPoint {
+    /// The point at share `t` of the way to `end`.
+    pub fn towards(&self, end: &LoadPoint, t: f64) -> LoadPoint {
+        let mix = |a: f64, b: f64| if t == 1.0 { b } else { a + t * (b - a) };
+        LoadPoint {
+            alpha: mix(self.alpha, end.alpha),
+            factors: self.factors.iter().zip(&end.factors).map(|(a, b)| mix(*a, *b)).collect(),
+            interference: mix(self.interference, end.interference),
+        }
+    }
+}
+
+/// Displacements, gaps and contact forces in equilibrium with a load point and initial loads, for the
+/// contact statuses in the tableau.
+#[derive(Debug, Clone)]
+pub struct Equilibrium {
+    /// Initial loads J of the plastic strains.
+    pub initial: Trailing,
+    /// Displacements.
+    pub u: Trailing,
+    /// Gap of each pair.
+    pub gap: Vec<f64>,
+    /// Contact force of each pair, compressive positive.
+    pub force: Vec<f64>,
+}
+
+/// The factored structure with its contact statuses, plastic zone and current state.
+pub struct Engine<'m> {
+    /// The model.
+    pub model: &'m Model,
+    /// Stiffness and loads.
+    pub system: &'m System,
+    /// The condensed structure.
+    pub sub: Substructure,
+    /// Contact statuses.
+    pub tableau: Tableau,
+    /// Elements that may yield, with their history.
+    pub zone: Zone,
+    /// Where zone and contact freedoms are.
+    pub places: Places,
+    /// Elements of the zone.
+    pub elements: Vec<usize>,
+    /// Condensed loads at factor 1.
+    loads: Vec<Trailing>,
+    /// Forces `t` of the tied pairs for each load at factor 1.
+    load_forces: Vec<Vec<f64>>,
+    gap: Vec<f64>,
+    interference: Vec<f64>,
+    /// `T gap` and `T interference`.
+    gap_forces: [Vec<f64>; 2],
+    /// Factor on proportional loads that `alpha = 1` stands for.
+    pub unit: f64,
+    /// Cost so far.
+    pub counts: Counts,
+    /// Largest nodal force seen (applied or contact): what residuals are measured against.
+    pub force_scale: f64,
+    /// Current load point.
+    pub at: LoadPoint,
+    /// Current equilibrium; its displacements are valid where `fresh`.
+    pub now: Equilibrium,
+    /// Whether the displacements belong to the current gaps and forces.
+    pub fresh: bool,
+    /// Pairs that arrived at the border of their condition with the last event.
+    pub border: Vec<usize>,
+}
+
+impl<'m> Engine<'m> {
+    /// Factors the structure with a zone of the given elements (`guard` marks those that only watch).
+    ///
+    /// # Errors
+    /// Those of [`Substructure::new`].
+    pub fn new(
+        model: &'m Model,
+        system: &'m System,
+        backend: Backend,
+        elements: Vec<usize>,
+        guard: &[bool],
+    ) -> Result<Self> {
+        let freedoms = super::zone_choice::zone_freedoms(model, &elements);
+        let sub = Substructure::new(model, system, freedoms, backend)?;
+        let places = Places::new(model.freedoms.n, &sub.partition.zone, &sub.partition.contact);
+        let zone = Zone::new(model, &elements, guard, &places);
+        let tableau = sub.tableau();
+        let n = model.pairs.len();
+        let gap: Vec<f64> = model.pairs.iter().map(|p| p.gap).collect();
+        let interference: Vec<f64> = model.pairs.iter().map(|p| p.interference).collect();
+        let times = |v: &[f64]| -> Vec<f64> {
+            let product = tableau.matrix() * nalgebra::DVector::from_column_slice(v);
+            product.as_slice().to_vec()
+        };
+        let gap_forces = [times(&gap), times(&interference)];
+        let mut engine = Engine {
+            model,
+            system,
+            loads: Vec::new(),
+            load_forces: Vec::new(),
+            gap_forces,
+            unit: 1.0,
+            counts: Counts { factorizations: 1, ..Counts::default() },
+            force_scale: 0.0,
+            at: LoadPoint { alpha: 0.0, factors: vec![0.0; model.loads.len()], interference: 0.0 },
+            now: Equilibrium { initial: sub.zeros(), u: sub.zeros(), gap: gap.clone(), force: vec![0.0; n] },
+            fresh: true,
+            border: Vec::new(),
+            gap,
+            interference,
+            sub,
+            tableau,
+            zone,
+            places,
+            elements,
+        };
+        for load in &system.loads {
+            let condensed = engine.sub.condense(load)?;
+            let mut forces = vec![0.0; n];
+            engine.sub.eliminate(&mut condensed.clone(), &mut forces);
+            engine.counts.full_solves += 1;
+            engine.counts.trailing_solves += 1;
+            engine.loads.push(condensed);
+            engine.load_forces.push(forces);
+        }
+        let open: Vec<bool> = engine.gap.iter().map(|g| *g > 0.0).collect();
+        engine.tableau.reset(&open);
+        Ok(engine)
+    }
+
+    /// The load point at a load factor, preloads and interference fully applied.
+    pub fn point(&self, alpha: f64) -> LoadPoint {
+        LoadPoint {
+            alpha,
+            factors: self.model.loads.iter().map(|l| l.factor(alpha, self.unit)).collect(),
+            interference: 1.0,
+        }
+    }
+
+    /// Condensed external load at a load point.
+    pub fn external(&self, point: &LoadPoint) -> Trailing {
+        let mut out = self.sub.zeros();
+        for (load, &factor) in self.loads.iter().zip(&point.factors) {
+            out.add(factor, load);
+        }
+        out
+    }
+
+    /// Initial gaps less the applied interference.
+    pub fn delta(&self, point: &LoadPoint) -> Vec<f64> {
+        self.gap.iter().zip(&self.interference).map(|(g, i)| g - point.interference * i).collect()
+    }
+
+    /// `q` of the contact problem for a load point without initial loads: `t - T delta`.
+    pub fn closed_forces(&self, point: &LoadPoint) -> Vec<f64> {
+        (0..self.gap.len())
+            .map(|k| {
+                let loads: f64 = self.load_forces.iter().zip(&point.factors).map(|(t, f)| f * t[k]).sum();
+                loads - self.gap_forces[0][k] + point.interference * self.gap_forces[1][k]
+            })
+            .collect()
+    }
+
+    /// Forces `t` of the tied pairs under initial loads alone.
+    pub fn initial_forces(&mut self, initial: &Trailing) -> Vec<f64> {
+        let mut forces = vec![0.0; self.gap.len()];
+        if initial.largest() > 0.0 {
+            self.sub.eliminate(&mut initial.clone(), &mut forces);
+            self.counts.trailing_solves += 1;
+        }
+        forces
+    }
+
+    /// Equilibrium for a load point and initial loads with the current statuses (paper 4.2): one trailing solve.
+    pub fn respond(&mut self, point: &LoadPoint, initial: &Trailing) -> Equilibrium {
+        let n = self.gap.len();
+        let mut u = self.external(point);
+        u.add(1.0, initial);
+        let mut q = vec![0.0; n];
+        self.sub.eliminate(&mut u, &mut q);
+        for k in 0..n {
+            q[k] += point.interference * self.gap_forces[1][k] - self.gap_forces[0][k];
+        }
+        let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
+        self.tableau.solve(&q, &mut gap, &mut force);
+        let slip: Vec<f64> = self.delta(point).iter().zip(&gap).map(|(d, g)| d - g).collect();
+        self.sub.recover(&mut u, &slip);
+        self.counts.trailing_solves += 1;
+        Equilibrium { initial: initial.clone(), u, gap, force }
+    }
+
+    /// Response to a load alone, closed pairs staying closed: on entry a load, on return displacements; the changes of
+    /// gap and force go to `gap` and `force`. One trailing solve.
+    pub fn respond_homogeneous(&mut self, v: &mut Trailing, gap: &mut [f64], force: &mut [f64]) {
+        let n = gap.len();
+        let mut q = vec![0.0; n];
+        self.sub.eliminate(v, &mut q);
+        self.tableau.solve(&q, gap, force);
+        for (q, g) in q.iter_mut().zip(gap.iter()) {
+            *q = -g;
+        }
+        self.sub.recover(v, &q);
+        self.counts.trailing_solves += 1;
+    }
+
+    /// Makes the displacements belong to the current gaps and forces.
+    pub fn refresh(&mut self) {
+        if !self.fresh {
+            let point = self.at.clone();
+            let initial = self.now.initial.clone();
+            self.now = self.respond(&point, &initial);
+            self.fresh = true;
+        }
+    }
+
+    /// Takes note of the forces at hand.
+    pub fn update_force_scale(&mut self) {
+        let applied = self.external(&self.at).largest();
+        self.force_scale = self.now.force.iter().fold(self.force_scale.max(applied), |m, r| m.max(*r));
+    }
+
+    /// Number of closed pairs.
+    pub fn closed_pairs(&self) -> usize {
+        self.tableau.open().iter().filter(|o| !**o).count()
+    }
+
+    /// An error for pairs that nothing holds together.
+    pub fn unbounded(&self, pair: usize, alpha: f64) -> Error {
+        let names = self.model.pairs.get(pair).and_then(|p| self.model.contacts.get(p.contact)).map_or(
+            String::new(),
+            |c| format!(" (`{}` on `{}`)", c.names[0], c.names[1]),
+        );
+        let floating = self.model.floating.bodies.join("`, `");
+        Error::new(
+            crate::ErrorKind::Unheld,
+            format!(
+                "near load factor {alpha}: nothing stops pair {}{names} from opening; the load closes no contact that \
+                 could hold body `{floating}`: check its direction, or add a support",
+                pair + 1
+            ),
+        )
+    }
+}

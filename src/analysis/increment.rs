@@ -1,0 +1,261 @@
+//! One elastoplastic increment: equilibrium iteration and step length together (paper, chapter 4).
+//!
+//! The unknowns are the initial loads `J`. For given `J` displacements, gaps and contact forces follow from one
+//! trailing solve (4.6); the flow rule gives `J(u)` back, and `J(u) - J` is the true out-of-balance force of
+//! the stresses. While it is brought to zero the increment is scaled so that it ends at the next change of
+//! contact (4.17, 4.22).
+
+use super::acceleration::Anderson;
+use super::engine::{Engine, Equilibrium, LoadPoint};
+use super::step_length::{StepLimit, step_limit};
+use super::tangent::Direction;
+use crate::scene::{PlasticIteration, Settings};
+use crate::substructure::Trailing;
+
+/// How an increment may end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum EndsAt {
+    /// At the next change of contact, within `gamma` (4.18, 4.23), or at the end of the piece.
+    NextChange {
+        /// Relative tolerance.
+        gamma: f64,
+    },
+    /// At the end of the piece, statuses frozen.
+    EndOfPiece,
+}
+
+/// An increment that was found.
+#[derive(Debug, Clone)]
+pub struct Increment {
+    /// Share of the piece at its end.
+    pub t: f64,
+    /// Equilibrium at its end.
+    pub state: Equilibrium,
+    /// Pairs that change there.
+    pub changes: Vec<usize>,
+    /// Material evaluations.
+    pub iterations: usize,
+    /// Out-of-balance force over the force scale.
+    pub residual: f64,
+    /// Guard elements that flow: the zone is too small.
+    pub guard_flows: usize,
+}
+
+/// Why no increment was found.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoIncrement {
+    /// These pairs violate their condition at once: their statuses are wrong.
+    WrongStatus(Vec<usize>),
+    /// The iteration did not converge; the last relative residual.
+    NotConverged(f64),
+}
+
+/// Halvings of a line search.
+const BACKTRACKS: usize = 12;
+/// Iterations of the unaccelerated or Anderson iteration count for this many of Newton's limit.
+const CHEAP_ITERATIONS: usize = 100;
+/// A share of the increment below this means that a pair changes at once.
+const AT_ONCE: f64 = 1e-12;
+
+impl Engine<'_> {
+    /// Goes from the current state towards `end`, at most to share `most` of the way.
+    pub fn increment(
+        &mut self,
+        end: &LoadPoint,
+        most: f64,
+        ends_at: EndsAt,
+        settings: &Settings,
+    ) -> Result<Increment, NoIncrement> {
+        let start = self.at.clone();
+        let before = self.now.clone();
+        let rates = self.rates(&start, end, settings.plastic_iteration == PlasticIteration::Newton);
+        let follows = matches!(ends_at, EndsAt::NextChange { .. });
+        let values = |engine: &Self, state: &Equilibrium| engine.values(&state.gap, &state.force);
+        let base = values(self, &before);
+
+        let mut t = most;
+        if follows {
+            let wrong = self.wrong_at_border(&rates);
+            if !wrong.is_empty() {
+                return Err(NoIncrement::WrongStatus(wrong));
+            }
+            let after: Vec<f64> = base.iter().zip(self.values(&rates.gap, &rates.force)).map(|(b, r)| b + most * r).collect();
+            let limit = step_limit(&base, &after, &self.border);
+            if limit.share <= AT_ONCE {
+                return Err(NoIncrement::WrongStatus(limit.pairs));
+            }
+            t = most * limit.share.min(1.0);
+        }
+        let mut state = before.clone();
+        advance(&mut state, t, &rates);
+
+        let mut anderson = Anderson::default();
+        let mut balance = self.sub.zeros();
+        let mut iterations = 0;
+        let mut last = f64::INFINITY;
+        let most_iterations = match settings.plastic_iteration {
+            PlasticIteration::Newton => settings.max_iterations,
+            _ => settings.max_iterations * CHEAP_ITERATIONS,
+        };
+        loop {
+            self.zone.set_factors(&start.towards(end, t).factors);
+            let evaluation = self.zone.evaluate(&state.u, &mut balance);
+            balance.add(-1.0, &state.initial);
+            iterations += 1;
+            self.counts.plastic_iterations += 1;
+            let scale = state.force.iter().fold(self.force_scale, |m, r| m.max(*r));
+            let residual = if scale > 0.0 { balance.largest() / scale } else { 0.0 };
+            let limit = if follows {
+                step_limit(&base, &values(self, &state), &self.border)
+            } else {
+                StepLimit { share: f64::INFINITY, pairs: Vec::new() }
+            };
+            let reach = limit.share.min(most / t);
+            let gamma = if let EndsAt::NextChange { gamma } = ends_at { gamma } else { 0.0 };
+            let arrived = if limit.share < most / t { (reach - 1.0).abs() <= gamma } else { t == most };
+            if residual <= settings.tolerance && arrived {
+                let changes = if limit.share <= 1.0 + gamma { limit.pairs } else { Vec::new() };
+                let at_end = start.towards(end, t);
+                let polished = self.respond(&at_end, &state.initial);
+                state = polished;
+                return Ok(Increment { t, state, changes, iterations, residual, guard_flows: evaluation.guard_flows });
+            }
+            if iterations >= most_iterations || !residual.is_finite() {
+                return Err(NoIncrement::NotConverged(residual));
+            }
+            if residual > settings.tolerance {
+                let direction = match settings.plastic_iteration {
+                    PlasticIteration::Newton => {
+                        let forcing = (residual / last).powi(2).clamp(1e-5, 0.03);
+                        let mut change = self.solve_tangent(&balance, forcing);
+                        change.add(1.0, &balance);
+                        self.direction(change)
+                    }
+                    PlasticIteration::Anderson => {
+                        let change = anderson.change(&state.initial, &balance);
+                        self.direction(change)
+                    }
+                    PlasticIteration::Plain => self.direction(balance.clone()),
+                };
+                let length = if settings.plastic_iteration == PlasticIteration::Newton {
+                    self.line_search(&state, &direction, &balance)
+                } else {
+                    1.0
+                };
+                advance(&mut state, length, &direction);
+                last = residual;
+            }
+            if follows {
+                let limit = step_limit(&base, &values(self, &state), &self.border);
+                let reach = limit.share.min(most / t);
+                if reach <= AT_ONCE {
+                    return Err(NoIncrement::WrongStatus(limit.pairs));
+                }
+                if reach.is_finite() && reach != 1.0 {
+                    // Far-off predictions are followed carefully: the response is not linear.
+                    let reach = reach.clamp(0.1, 4.0);
+                    t = if reach * t >= most * (1.0 - 4.0 * f64::EPSILON) { most } else { reach * t };
+                    rescale(&mut state, &before, reach);
+                    anderson.restart();
+                }
+            }
+        }
+    }
+
+    /// Rates of everything with the share of the piece: elastic, plus plastic where points flow (tangent).
+    fn rates(&mut self, start: &LoadPoint, end: &LoadPoint, tangent: bool) -> Direction {
+        let n = self.now.gap.len();
+        let ahead = self.respond_rate(start, end);
+        let mut rates = Direction { initial: self.sub.zeros(), ..ahead };
+        if tangent && !self.zone.is_idle() {
+            let mut driven = self.sub.zeros();
+            self.zone.softening_times(&rates.u, &mut driven);
+            let mut change = self.solve_tangent(&driven, 1e-3);
+            change.add(1.0, &driven);
+            let plastic = self.direction(change);
+            rates.u.add(1.0, &plastic.u);
+            rates.initial.add(1.0, &plastic.initial);
+            for k in 0..n {
+                rates.gap[k] += plastic.gap[k];
+                rates.force[k] += plastic.force[k];
+            }
+        }
+        rates
+    }
+
+    /// Elastic change over the whole piece with the current statuses.
+    fn respond_rate(&mut self, start: &LoadPoint, end: &LoadPoint) -> Direction {
+        let initial = self.now.initial.clone();
+        let from = self.now.clone();
+        let to = self.respond(end, &initial);
+        // `now` may have been in equilibrium with other statuses, or off by gamma: its own statuses decide.
+        let mut u = to.u;
+        u.add(-1.0, &from.u);
+        let gap = to.gap.iter().zip(&from.gap).map(|(a, b)| a - b).collect();
+        let force = to.force.iter().zip(&from.force).map(|(a, b)| a - b).collect();
+        let _ = start;
+        Direction { u, initial: self.sub.zeros(), gap, force }
+    }
+
+    /// What must stay positive: gaps of open pairs, forces of closed ones.
+    fn values(&self, gap: &[f64], force: &[f64]) -> Vec<f64> {
+        self.tableau.open().iter().enumerate().map(|(k, open)| if *open { gap[k] } else { force[k] }).collect()
+    }
+
+    fn wrong_at_border(&self, rates: &Direction) -> Vec<usize> {
+        let values = self.values(&rates.gap, &rates.force);
+        let largest_gap = rates.gap.iter().fold(0.0f64, |m, g| m.max(g.abs()));
+        let largest_force = rates.force.iter().fold(0.0f64, |m, r| m.max(r.abs()));
+        self.border
+            .iter()
+            .copied()
+            .filter(|&k| {
+                let largest = if self.tableau.open()[k] { largest_gap } else { largest_force };
+                values[k] < -1e-9 * largest
+            })
+            .collect()
+    }
+
+    /// Length along a Newton direction: the energy of the increment is convex, its slope along the direction is the
+    /// out-of-balance force times the direction. Lengths are halved until the slope has fallen.
+    fn line_search(&mut self, state: &Equilibrium, direction: &Direction, balance: &Trailing) -> f64 {
+        let slope = balance.dot(&direction.u);
+        let size = balance.largest();
+        let mut length = 1.0;
+        let mut trial = state.clone();
+        let mut out = self.sub.zeros();
+        for _ in 0..BACKTRACKS {
+            trial.clone_from(state);
+            advance(&mut trial, length, direction);
+            self.zone.evaluate(&trial.u, &mut out);
+            self.counts.plastic_iterations += 1;
+            out.add(-1.0, &trial.initial);
+            let there = out.dot(&direction.u);
+            if out.largest() < size || there.abs() <= 0.9 * slope.abs() {
+                return length;
+            }
+            length *= if there < 0.0 && slope > 0.0 { (slope / (slope - there)).clamp(0.1, 0.5) } else { 0.5 };
+        }
+        length
+    }
+}
+
+fn advance(state: &mut Equilibrium, length: f64, direction: &Direction) {
+    state.u.add(length, &direction.u);
+    state.initial.add(length, &direction.initial);
+    for (g, d) in state.gap.iter_mut().zip(&direction.gap) {
+        *g += length * d;
+    }
+    for (r, d) in state.force.iter_mut().zip(&direction.force) {
+        *r += length * d;
+    }
+}
+
+/// Scales the increment since `before` by `share`.
+fn rescale(state: &mut Equilibrium, before: &Equilibrium, share: f64) {
+    let mix = |a: &mut f64, b: f64| *a = b + share * (*a - b);
+    state.u.iter_mut().zip(before.u.iter()).for_each(|(a, b)| mix(a, *b));
+    state.initial.iter_mut().zip(before.initial.iter()).for_each(|(a, b)| mix(a, *b));
+    state.gap.iter_mut().zip(&before.gap).for_each(|(a, b)| mix(a, *b));
+    state.force.iter_mut().zip(&before.force).for_each(|(a, b)| mix(a, *b));
+}

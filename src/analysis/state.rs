@@ -1,0 +1,199 @@
+//! The state at a target: fields on the whole mesh, figures and their quality.
+
+use super::engine::Engine;
+use super::measure::pair_states;
+use crate::assembly::local_element;
+use crate::element::MAX_FREEDOMS;
+use crate::error::Result;
+use crate::material::{PlasticState, stress, von_mises};
+use crate::model::{Model, Slot};
+use crate::results::{Fields, Quality, State};
+use rayon::prelude::*;
+
+/// Stress figures and nodal forces of an element.
+struct ElementState {
+    force: [f64; MAX_FREEDOMS],
+    stress: [f64; 4],
+    von_mises: f64,
+    plastic_strain: f64,
+    plastic_points: usize,
+}
+
+impl Engine<'_> {
+    /// The current state with its quality; fields where asked for. Costs one full solve.
+    ///
+    /// # Errors
+    /// Failure of the backend's solve.
+    pub fn state(&mut self, name: &str, with_fields: bool) -> Result<State> {
+        let u = self.all_displacements()?;
+        let backward_error = self.sub.backward_error();
+        let elements = self.element_states(&u);
+        let figures = self.contact_figures();
+        let residual_depth = self.residual_depth();
+        let mut by_body = vec![0; self.model.mesh.bodies.len()];
+        let mut largest = 0.0f64;
+        for (e, element) in elements.iter().enumerate() {
+            by_body[self.model.mesh.element_body[e] as usize] += element.plastic_points;
+            largest = largest.max(element.plastic_strain);
+        }
+        let largest_displacement = u.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+        let quality = Quality {
+            backward_error,
+            equilibrium: self.out_of_balance(&elements),
+            complementarity: self.complementarity(),
+            penetration: self.penetration(&u, largest_displacement),
+        };
+        let arc = figures.patch.and_then(|patch| contact_arc(self.model, figures.contact, patch));
+        Ok(State {
+            name: name.to_string(),
+            alpha: self.at.alpha,
+            load: self.total_load_size(),
+            contact_force: figures.force * self.model.symmetry,
+            max_pressure: figures.max_pressure,
+            pole_pressure: figures.pole_pressure,
+            half_width: figures.half_width,
+            contact_arc: arc,
+            residual_depth,
+            plastic_points: by_body.iter().sum(),
+            plastic_points_by_body: by_body,
+            max_equivalent_plastic_strain: largest,
+            approach: self.approach(&u),
+            pairs: pair_states(self.model, &self.now.gap, &self.now.force, self.tableau.open()),
+            fields: with_fields.then(|| self.fields(&u, &elements)),
+            quality,
+        })
+    }
+
+    /// Stresses of all elements for displacements of the whole model and the committed history.
+    fn element_states(&self, u: &[f64]) -> Vec<ElementState> {
+        let model = self.model;
+        let elastic: Vec<_> = model.materials.iter().map(|m| m.elastic_matrix()).collect();
+        let mut history: Vec<&[PlasticState]> = vec![&[]; model.mesh.n_elements()];
+        for (element, states) in self.zone.history_by_element() {
+            history[element] = states;
+        }
+        (0..model.mesh.n_elements())
+            .into_par_iter()
+            .with_min_len(256)
+            .map(|e| {
+                let local = local_element(model, e);
+                let mut displacement = [0.0; MAX_FREEDOMS];
+                for (d, slot) in displacement.iter_mut().zip(&local.slots) {
+                    *d = model.freedoms.value(*slot, u, &self.at.factors);
+                }
+                let mut out = ElementState {
+                    force: [0.0; MAX_FREEDOMS],
+                    stress: [0.0; 4],
+                    von_mises: 0.0,
+                    plastic_strain: 0.0,
+                    plastic_points: 0,
+                };
+                let volume: f64 = local.points.iter().map(|p| p.weight).sum();
+                for (g, point) in local.points.iter().enumerate() {
+                    let past = history[e].get(g).copied().unwrap_or_default();
+                    let strain = point.strain(&displacement[..local.points.n_freedoms]);
+                    let sigma = stress(&elastic[model.mesh.element_body[e] as usize], &strain, &past.strain);
+                    point.add_force(&sigma, &mut out.force);
+                    for (mean, s) in out.stress.iter_mut().zip(sigma) {
+                        *mean += point.weight / volume * s;
+                    }
+                    out.von_mises = out.von_mises.max(von_mises(&sigma));
+                    out.plastic_strain = out.plastic_strain.max(past.equivalent);
+                    out.plastic_points += usize::from(past.equivalent > 0.0);
+                }
+                out
+            })
+            .collect()
+    }
+
+    /// Largest nodal force that the stresses leave unbalanced, over the largest nodal force of the run.
+    fn out_of_balance(&mut self, elements: &[ElementState]) -> f64 {
+        let model = self.model;
+        let mut balance = vec![0.0; model.freedoms.n];
+        let mut applied = 0.0f64;
+        for (load, &factor) in model.loads.iter().zip(&self.at.factors) {
+            for &(f, force) in &load.forces {
+                balance[f] -= factor * force;
+            }
+        }
+        for b in &balance {
+            applied = applied.max(b.abs());
+        }
+        let n = self.now.force.len();
+        for (i, &f) in self.sub.partition.contact.iter().enumerate() {
+            let sign = if i < n { -1.0 } else { 1.0 };
+            balance[f] += sign * self.now.force[i % n];
+        }
+        let mut inner = 0.0f64;
+        for (e, element) in elements.iter().enumerate() {
+            for (i, &node) in model.mesh.nodes(e).iter().enumerate() {
+                for (d, slot) in model.freedoms.slots[node as usize].iter().enumerate() {
+                    let force = element.force[2 * i + d];
+                    match slot {
+                        Slot::Free(f) => balance[*f as usize] += force,
+                        // Reactions measure the load where displacements are prescribed.
+                        Slot::Prescribed(_) => inner = inner.max(force.abs()),
+                        Slot::Fixed => {}
+                    }
+                }
+            }
+        }
+        self.update_force_scale();
+        self.force_scale = self.force_scale.max(applied).max(inner);
+        let worst = balance.iter().fold(0.0f64, |m, b| m.max(b.abs()));
+        if self.force_scale > 0.0 { worst / self.force_scale } else { worst }
+    }
+
+    fn complementarity(&self) -> f64 {
+        let largest = |v: &[f64]| v.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+        let product = self.now.gap.iter().zip(&self.now.force).map(|(g, r)| (g * r).abs()).fold(0.0, f64::max);
+        let tension = self.now.force.iter().fold(0.0f64, |m, r| m.max(-r)) / self.force_scale.max(f64::MIN_POSITIVE);
+        let scale = largest(&self.now.gap) * largest(&self.now.force);
+        tension.max(if scale > 0.0 { product / scale } else { 0.0 })
+    }
+
+    /// Largest overlap of a pair, from the displacements of the full solve.
+    fn penetration(&self, u: &[f64], scale: f64) -> f64 {
+        let delta = self.delta(&self.at);
+        let n = delta.len();
+        let contact = &self.sub.partition.contact;
+        let worst =
+            (0..n).map(|k| (u[contact[n + k]] - u[contact[k]]) - delta[k]).fold(0.0f64, f64::max);
+        if scale > 0.0 { worst / scale } else { worst }
+    }
+
+    fn fields(&self, u: &[f64], elements: &[ElementState]) -> Fields {
+        let model = self.model;
+        Fields {
+            displacement: (0..model.mesh.n_nodes())
+                .flat_map(|node| model.freedoms.displacement(node, u, &self.at.factors))
+                .collect(),
+            stress: elements.iter().flat_map(|e| e.stress).collect(),
+            von_mises: elements.iter().map(|e| e.von_mises).collect(),
+            plastic_strain: elements.iter().map(|e| e.plastic_strain).collect(),
+            yielded: elements.iter().map(|e| u8::from(e.plastic_points > 0)).collect(),
+        }
+    }
+}
+
+/// Begin and end of a patch in degrees about the centre of a circular surface: from its symmetry plane, or from
+/// its middle.
+fn contact_arc(model: &Model, contact: usize, [from, to]: [f64; 2]) -> Option<[f64; 2]> {
+    let surface = &model.contacts[contact];
+    let (center, _) = surface.circle?;
+    let pairs = &model.pairs[surface.range.clone()];
+    let angle_of = |k: usize| {
+        let x = model.mesh.point(pairs[k].second);
+        (x[1] - center[1]).atan2(x[0] - center[0]).to_degrees()
+    };
+    let angle_at = |arc: f64| {
+        let next = pairs.partition_point(|p| p.arc <= arc).clamp(1, pairs.len().max(2) - 1);
+        let (a, b) = (angle_of(next - 1), angle_of(next.min(pairs.len() - 1)));
+        let length = pairs[next.min(pairs.len() - 1)].arc - pairs[next - 1].arc;
+        let turn = (b - a + 540.0).rem_euclid(360.0) - 180.0;
+        if length > 0.0 { a + turn * (arc - pairs[next - 1].arc) / length } else { a }
+    };
+    let extent = ((angle_at(to) - angle_at(from) + 540.0).rem_euclid(360.0) - 180.0).abs();
+    let ends_surface = from <= pairs[0].arc || to >= pairs[pairs.len() - 1].arc;
+    Some(if ends_surface { [0.0, extent] } else { [-0.5 * extent, 0.5 * extent] })
+}

@@ -1,0 +1,158 @@
+//! The load at first yield (paper, chapter 3).
+//!
+//! Exact: along the piecewise linear path of contact events the stress at any point is linear between two events, von
+//! Mises' stress convex; the first event with a ratio above 1 brackets the yield load, found there to round-off.
+//! Secant: the paper's (3.14), each iterate a contact problem solved from scratch, with a bracket.
+
+use super::engine::{Engine, LoadPoint};
+use super::recovery::{Peak, Recovery, Samples};
+use crate::contact;
+use crate::error::{Error, Result};
+
+/// Relative accuracy of the yield load.
+const ACCURACY: f64 = 1e-14;
+/// Most iterations of a bracketed root search.
+const MOST: usize = 200;
+
+/// Finds `s` in `[0, 1]` with a recovered stress ratio of 1 between two sampled stress fields, linear in between.
+/// The ratio is at most 1 at `s = 0`, at least 1 at `s = 1`.
+pub fn yield_share(engine: &Engine, recovery: &mut Recovery, from: &Samples, to: &Samples) -> (f64, Option<Peak>) {
+    let mut mixed: Samples = from.clone();
+    let mut at = |s: f64| {
+        for (m, (a, b)) in mixed.iter_mut().zip(from.iter().zip(to)) {
+            for c in 0..4 {
+                m[c] = a[c] + s * (b[c] - a[c]);
+            }
+        }
+        recovery.peak(engine.model, &mixed)
+    };
+    let mut found = None;
+    let share = bracketed_root(0.0, 1.0, ACCURACY, |s| {
+        let peak = at(s);
+        found = peak;
+        peak.map_or(-1.0, |p| p.ratio - 1.0)
+    });
+    (share, found)
+}
+
+/// Illinois regula falsi for an increasing sign change in `[low, high]`.
+pub fn bracketed_root(low: f64, high: f64, accuracy: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
+    let (mut a, mut fa) = (low, f(low));
+    let (mut b, mut fb) = (high, f(high));
+    if fa >= 0.0 {
+        return a;
+    }
+    if fb <= 0.0 {
+        return b;
+    }
+    let mut side = 0;
+    for _ in 0..MOST {
+        let mut x = b - fb * (b - a) / (fb - fa);
+        if !(x > a && x < b) {
+            x = 0.5 * (a + b);
+        }
+        let y = f(x);
+        if y.abs() <= accuracy || b - a <= accuracy * b.abs().max(a.abs()) {
+            return x;
+        }
+        if y < 0.0 {
+            (a, fa) = (x, y);
+            if side == -1 {
+                fb *= 0.5;
+            }
+            side = -1;
+        } else {
+            (b, fb) = (x, y);
+            if side == 1 {
+                fa *= 0.5;
+            }
+            side = 1;
+        }
+    }
+    0.5 * (a + b)
+}
+
+impl Engine<'_> {
+    /// Solves contact for the load point from scratch, elastic, and makes it the current state (paper 3.7 to 3.10).
+    ///
+    /// # Errors
+    /// A load that drives a body away from every contact.
+    pub fn solve_contact_at(&mut self, point: &LoadPoint) -> Result<()> {
+        let mut q = self.closed_forces(point);
+        let initial = self.now.initial.clone();
+        for (q, t) in q.iter_mut().zip(self.initial_forces(&initial)) {
+            *q += t;
+        }
+        let n = q.len();
+        let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
+        let outcome = contact::solve(&mut self.tableau, &q, &mut gap, &mut force);
+        let certificate = outcome.map_err(|u| self.unbounded(u.pair, point.alpha))?;
+        self.counts.contact_changes += certificate.changes;
+        self.at = point.clone();
+        self.now.gap = gap;
+        self.now.force = force;
+        self.border.clear();
+        self.fresh = false;
+        self.refresh();
+        Ok(())
+    }
+
+    /// The recovered stress peak of the current (elastic) state.
+    pub fn peak(&mut self, recovery: &mut Recovery) -> Option<Peak> {
+        self.refresh();
+        let samples = recovery.sample(&self.now.u, &self.at.factors);
+        recovery.peak(self.model, &samples)
+    }
+
+    /// The yield load by the paper's secant (3.14), bracketed. The state at yield becomes the current one.
+    ///
+    /// # Errors
+    /// Where the stress does not grow with the load.
+    pub fn secant_yield_load(&mut self, recovery: &mut Recovery) -> Result<(f64, Peak)> {
+        let mut evaluate = |engine: &mut Self, alpha: f64| -> Result<(f64, Option<Peak>)> {
+            let point = engine.point(alpha);
+            engine.solve_contact_at(&point)?;
+            let peak = engine.peak(recovery);
+            Ok((peak.map_or(-1.0, |p| p.ratio - 1.0), peak))
+        };
+        let mut previous = 1.0;
+        let (mut phi_previous, _) = evaluate(self, previous)?;
+        let mut alpha = if phi_previous > -1.0 { previous / (1.0 + phi_previous) } else { 2.0 };
+        let (mut low, mut high) = (0.0, f64::INFINITY);
+        if phi_previous < 0.0 { low = previous } else { high = previous }
+        for _ in 0..MOST {
+            let (phi, peak) = evaluate(self, alpha)?;
+            if phi < 0.0 { low = f64::max(low, alpha) } else { high = f64::min(high, alpha) }
+            if let Some(peak) = peak.filter(|_| phi.abs() <= 1e-13 || high - low <= ACCURACY * high) {
+                return Ok((alpha, peak));
+            }
+            // Equal phi would divide by zero: the step is then taken from the bracket.
+            let secant = alpha - phi / (phi - phi_previous) * (alpha - previous);
+            (previous, phi_previous) = (alpha, phi);
+            alpha = if secant.is_finite() && secant > low && secant < high {
+                secant
+            } else if high.is_finite() {
+                0.5 * (low + high)
+            } else {
+                2.0 * low
+            };
+            if alpha > 1e100 {
+                break;
+            }
+        }
+        Err(Error::analysis("the yield load was not found: the stress does not grow with the load"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::bracketed_root;
+
+    #[test]
+    fn root_of_a_kinked_function() {
+        let f = |x: f64| if x < 0.3 { x - 0.5 } else { 20.0 * (x - 0.31) };
+        assert!((bracketed_root(0.0, 1.0, 1e-15, f) - 0.31).abs() < 1e-14);
+        assert_eq!(bracketed_root(0.0, 1.0, 1e-15, |x| x), 0.0);
+        assert_eq!(bracketed_root(0.0, 1.0, 1e-15, |x| x - 2.0), 1.0);
+    }
+}

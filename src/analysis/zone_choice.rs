@@ -1,0 +1,215 @@
+//! Which elements may yield: the plastic zone is chosen by the program.
+//!
+//! A first guess from geometry (near the contact surfaces) lets the yield load be found. The elastic stress at the
+//! program's extreme loads then predicts how far yielding spreads; a guard layer round the prediction
+//! watches, and when it flows the zone grows.
+
+use super::engine::Engine;
+use crate::assembly::LocalElement;
+use crate::element::MAX_FREEDOMS;
+use crate::error::Result;
+use crate::material::{stress, von_mises};
+use crate::model::{Model, Slot};
+use rayon::prelude::*;
+
+/// Elements of all bodies that may yield are the zone if their number is below this.
+const SMALL: usize = 1500;
+/// The first guess reaches this share of the contact surface's extent into the bodies.
+const REACH: f64 = 1.2;
+/// Elastic von Mises stress over yield stress above which an element is predicted to yield: stress redistributes.
+const PREDICTED: f64 = 0.85;
+/// Layers of elements put round the prediction.
+const MARGIN: usize = 2;
+/// Layers of guard elements round those.
+const GUARD: usize = 1;
+
+/// A choice of zone elements.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Choice {
+    /// Elements, ascending.
+    pub elements: Vec<usize>,
+    /// Which of them only watch.
+    pub guard: Vec<bool>,
+}
+
+impl Choice {
+    fn from_marks(model: &Model, core: Vec<bool>, layers: usize) -> Self {
+        let all = widen(model, core.clone(), layers);
+        let elements: Vec<usize> = (0..all.len()).filter(|&e| all[e]).collect();
+        let guard = elements.iter().map(|&e| !core[e]).collect();
+        Choice { elements, guard }
+    }
+
+    /// Whether every element of another choice that is not guard lies in this one, guard or not.
+    pub fn covers(&self, other: &Choice) -> bool {
+        other
+            .elements
+            .iter()
+            .zip(&other.guard)
+            .filter(|(_, guard)| !**guard)
+            .all(|(e, _)| self.elements.binary_search(e).is_ok_and(|i| !self.guard[i]))
+    }
+}
+
+/// Free freedoms of the elements that are not contact freedoms, ascending.
+pub fn zone_freedoms(model: &Model, elements: &[usize]) -> Vec<usize> {
+    let mut marked = vec![false; model.freedoms.n];
+    for &e in elements {
+        for &node in model.mesh.nodes(e) {
+            for slot in model.freedoms.slots[node as usize] {
+                if let Slot::Free(f) = slot {
+                    marked[f as usize] = true;
+                }
+            }
+        }
+    }
+    for pair in &model.pairs {
+        for node in [pair.first, pair.second] {
+            if let Some(f) = model.freedoms.normal_freedom(node) {
+                marked[f] = false;
+            }
+        }
+    }
+    (0..marked.len()).filter(|&f| marked[f]).collect()
+}
+
+fn may_yield(model: &Model, element: usize) -> bool {
+    model.may_yield[model.mesh.element_body[element] as usize]
+}
+
+/// First guess: elements near the contact surfaces, or all where there are few or no contact.
+pub fn first_guess(model: &Model) -> Choice {
+    let n = model.mesh.n_elements();
+    let candidates: Vec<bool> = (0..n).map(|e| may_yield(model, e)).collect();
+    let count = candidates.iter().filter(|c| **c).count();
+    if count <= SMALL || model.pairs.is_empty() {
+        let core = if count <= 40 * SMALL { candidates } else { vec![false; n] };
+        return Choice::from_marks(model, core, 0);
+    }
+    let boxes: Vec<([f64; 2], [f64; 2], f64)> = model
+        .contacts
+        .iter()
+        .map(|c| {
+            let mut low = [f64::INFINITY; 2];
+            let mut high = [f64::NEG_INFINITY; 2];
+            for pair in &model.pairs[c.range.clone()] {
+                for node in [pair.first, pair.second] {
+                    let x = model.mesh.point(node);
+                    for d in 0..2 {
+                        low[d] = low[d].min(x[d]);
+                        high[d] = high[d].max(x[d]);
+                    }
+                }
+            }
+            (low, high, REACH * (high[0] - low[0]).hypot(high[1] - low[1]))
+        })
+        .collect();
+    let core = (0..n)
+        .map(|e| {
+            let x = model.element_coordinates(e)[0];
+            candidates[e]
+                && boxes.iter().any(|(low, high, reach)| {
+                    let off = |d: usize| (low[d] - x[d]).max(x[d] - high[d]).max(0.0);
+                    off(0).hypot(off(1)) <= *reach
+                })
+        })
+        .collect();
+    Choice::from_marks(model, core, GUARD)
+}
+
+/// Prediction from elastic stress ratios of all elements (largest over the program's extreme loads).
+pub fn predict(model: &Model, ratios: &[f64]) -> Choice {
+    let hot: Vec<bool> = ratios.iter().enumerate().map(|(e, r)| may_yield(model, e) && *r >= PREDICTED).collect();
+    Choice::from_marks(model, widen(model, hot, MARGIN), GUARD)
+}
+
+/// A larger zone round the old one.
+pub fn grown(model: &Model, old: &Choice) -> Choice {
+    let mut core = vec![false; model.mesh.n_elements()];
+    for &e in &old.elements {
+        core[e] = true;
+    }
+    Choice::from_marks(model, widen(model, core, 2 * MARGIN), GUARD)
+}
+
+/// Adds layers of neighbours that may yield (sharing a node, in any body).
+fn widen(model: &Model, mut marked: Vec<bool>, layers: usize) -> Vec<bool> {
+    for _ in 0..layers {
+        let mut touched = vec![false; model.mesh.n_nodes()];
+        for e in (0..marked.len()).filter(|&e| marked[e]) {
+            for &node in model.mesh.nodes(e) {
+                touched[node as usize] = true;
+            }
+        }
+        for (e, mark) in marked.iter_mut().enumerate() {
+            *mark = *mark
+                || (may_yield(model, e) && model.mesh.nodes(e).iter().any(|&node| touched[node as usize]));
+        }
+    }
+    marked
+}
+
+/// Elastic von Mises stress over yield stress at the sampling points of every element that may yield (0 elsewhere),
+/// for displacements of the whole model.
+pub fn stress_ratios(model: &Model, u: &[f64], factors: &[f64]) -> Vec<f64> {
+    let elastic: Vec<_> = model.materials.iter().map(|m| m.elastic_matrix()).collect();
+    (0..model.mesh.n_elements())
+        .into_par_iter()
+        .with_min_len(256)
+        .map(|e| {
+            if !may_yield(model, e) {
+                return 0.0;
+            }
+            let body = model.mesh.element_body[e] as usize;
+            let local = LocalElement::sampled(model, e);
+            let mut displacement = [0.0; MAX_FREEDOMS];
+            for (d, slot) in displacement.iter_mut().zip(&local.slots) {
+                *d = model.freedoms.value(*slot, u, factors);
+            }
+            let y = model.materials[body].yield_stress();
+            local
+                .points
+                .iter()
+                .map(|p| {
+                    von_mises(&stress(&elastic[body], &p.strain(&displacement[..local.points.n_freedoms]), &[0.0; 4])) / y
+                })
+                .fold(0.0, f64::max)
+        })
+        .collect()
+}
+
+impl Engine<'_> {
+    /// Displacements of the whole model for the current state: one full solve.
+    ///
+    /// # Errors
+    /// Failure of the backend's solve.
+    pub fn all_displacements(&mut self) -> Result<Vec<f64>> {
+        self.refresh();
+        let mut load = self.total_load();
+        self.sub.recover_all(&mut load, &self.now.u.contact)?;
+        self.counts.full_solves += 1;
+        Ok(load)
+    }
+
+    /// Applied loads, contact forces and initial loads on all freedoms.
+    pub fn total_load(&self) -> Vec<f64> {
+        let mut load = vec![0.0; self.model.freedoms.n];
+        for (vector, &factor) in self.system.loads.iter().zip(&self.at.factors) {
+            if factor != 0.0 {
+                for (l, v) in load.iter_mut().zip(vector) {
+                    *l += factor * v;
+                }
+            }
+        }
+        let partition = &self.sub.partition;
+        for (&f, j) in partition.zone.iter().zip(&self.now.initial.zone) {
+            load[f] += j;
+        }
+        let n = self.now.force.len();
+        for (i, &f) in partition.contact.iter().enumerate() {
+            let sign = if i < n { 1.0 } else { -1.0 };
+            load[f] += self.now.initial.contact[i] + sign * self.now.force[i % n];
+        }
+        load
+    }
+}

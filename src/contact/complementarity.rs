@@ -1,0 +1,179 @@
+//! Statuses for a given load: the total form of contact.
+//!
+//! Block pivoting flips every pair that violates its condition; that is fast but may cycle, so it is given up when the
+//! number of violations has not fallen for a while. Then the symmetric principal pivoting method of Dantzig and Cottle
+//! takes over: the energy `1/2 g'Tg + q'g` falls strictly from one set of open pairs to the next, no set can return,
+//! and there are finitely many.
+//!
+//! # Source
+//! Cottle, Pang, Stone (1992), section 4.2; J. J. Júdice, F. M. Pires (1994), doi:10.1016/0305-0548(94)90106-6.
+
+use super::Tableau;
+
+/// How a solution was found: evidence that the solve terminated by construction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Certificate {
+    /// Rounds of block pivoting.
+    pub rounds: usize,
+    /// Single pivots of the fallback; 0 where block pivoting settled.
+    pub fallback_pivots: usize,
+    /// Status changes against the start.
+    pub changes: usize,
+}
+
+/// The problem has no solution: the forces push some pairs apart for ever.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unbounded {
+    /// The pair whose opening nothing stops.
+    pub pair: usize,
+}
+
+/// Rounds without progress after which block pivoting is given up.
+const PATIENCE: usize = 8;
+
+/// Finds statuses with `r = q + T g`, `g >= 0`, `r >= 0`, `g . r = 0`; starts from the statuses in the tableau and
+/// leaves the solution's there.
+///
+/// # Errors
+/// [`Unbounded`] where no solution exists (`T` singular and `q` works on its null space).
+pub fn solve(
+    tableau: &mut Tableau,
+    q: &[f64],
+    gap: &mut [f64],
+    force: &mut [f64],
+) -> Result<Certificate, Unbounded> {
+    let before = tableau.open().to_vec();
+    let mut certificate = Certificate::default();
+    if !block_pivoting(tableau, q, gap, force, &mut certificate) {
+        principal_pivoting(tableau, q, gap, force, &mut certificate)?;
+    }
+    certificate.changes = before
+        .iter()
+        .zip(tableau.open())
+        .filter(|(a, b)| a != b)
+        .count();
+    Ok(certificate)
+}
+
+fn block_pivoting(
+    tableau: &mut Tableau,
+    q: &[f64],
+    gap: &mut [f64],
+    force: &mut [f64],
+    out: &mut Certificate,
+) -> bool {
+    let mut fewest = usize::MAX;
+    let mut patience = PATIENCE;
+    loop {
+        out.rounds += 1;
+        tableau.solve(q, gap, force);
+        let r_tol = tableau.force_tolerance(q, gap);
+        let g_tol = tableau.gap_tolerance(r_tol);
+        let violated: Vec<usize> = (0..tableau.len())
+            .filter(|&k| {
+                if tableau.open()[k] {
+                    gap[k] < -g_tol
+                } else {
+                    force[k] < -r_tol
+                }
+            })
+            .collect();
+        if violated.is_empty() {
+            clip(gap, force);
+            return true;
+        }
+        if violated.len() < fewest {
+            fewest = violated.len();
+            patience = PATIENCE;
+        } else if patience == 0 {
+            return false;
+        } else {
+            patience -= 1;
+        }
+        // Closing first keeps the opened set as small, hence as definite, as it can be.
+        let (closing, opening): (Vec<usize>, Vec<usize>) =
+            violated.into_iter().partition(|&k| tableau.open()[k]);
+        for k in closing {
+            tableau.flip(k);
+        }
+        for k in opening {
+            if !tableau.flip(k) {
+                return false;
+            }
+        }
+    }
+}
+
+fn principal_pivoting(
+    tableau: &mut Tableau,
+    q: &[f64],
+    gap: &mut [f64],
+    force: &mut [f64],
+    out: &mut Certificate,
+) -> Result<(), Unbounded> {
+    let n = tableau.len();
+    tableau.reset(&vec![false; n]);
+    gap.fill(0.0);
+    // Pairs whose tension is round-off: opening them could repeat a set without lowering the energy.
+    let mut settled = vec![false; n];
+    loop {
+        tableau.solve(q, gap, force);
+        for g in gap.iter_mut() {
+            *g = g.max(0.0);
+        }
+        let r_tol = tableau.force_tolerance(q, gap);
+        let entering = (0..n)
+            .filter(|&k| !tableau.open()[k] && !settled[k] && force[k] < -r_tol)
+            .min_by(|&a, &b| force[a].total_cmp(&force[b]));
+        let Some(k) = entering else {
+            clip(gap, force);
+            return Ok(());
+        };
+        let mut blocked_at_once = 0;
+        loop {
+            out.fallback_pivots += 1;
+            let curvature = tableau.swept()[(k, k)];
+            let free = tableau.would_free(k);
+            let full = if free {
+                f64::INFINITY
+            } else {
+                -force[k] / curvature
+            };
+            let column = tableau.swept().column(k);
+            let blocking = (0..n)
+                .filter(|&j| tableau.open()[j] && column[j] > 0.0)
+                .map(|j| (gap[j] / column[j], j))
+                .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            match blocking {
+                Some((step, j)) if step < full => {
+                    for i in 0..n {
+                        if tableau.open()[i] {
+                            gap[i] = (gap[i] - step * column[i]).max(0.0);
+                        }
+                    }
+                    gap[k] += step;
+                    gap[j] = 0.0;
+                    force[k] += step * curvature.max(0.0);
+                    tableau.flip(j);
+                    blocked_at_once = if step == 0.0 { blocked_at_once + 1 } else { 0 };
+                    if blocked_at_once > n {
+                        settled[k] = true;
+                        break;
+                    }
+                }
+                _ if free => return Err(Unbounded { pair: k }),
+                _ => {
+                    tableau.flip(k);
+                    break;
+                }
+            }
+        }
+    }
+}
+
+/// Takes off what round-off left on the wrong side of zero.
+fn clip(gap: &mut [f64], force: &mut [f64]) {
+    for v in gap.iter_mut().chain(force) {
+        *v = v.max(0.0);
+    }
+}

@@ -1,0 +1,199 @@
+//! Contact along a load path: from one change of status to the next.
+//!
+//! For `q(t) = q_0 + t q_1` and fixed statuses gaps and forces are linear in `t`, so the next change is computed, not
+//! searched. Pairs at the border of both conditions (gap and force zero) are settled together by the
+//! complementarity problem of their rates, so ties open or close together and nothing chatters.
+//!
+//! # Source
+//! Paper, section 4.1, with (4.17) read as `Delta alpha / psi`; parametric principal pivoting: Cottle, Pang, Stone (1992), section 4.5.
+
+use super::Tableau;
+use super::complementarity::{Unbounded, solve};
+use nalgebra::DMatrix;
+
+/// A change of contact.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Change {
+    /// A pair closes.
+    Closes(usize),
+    /// A pair opens.
+    Opens(usize),
+}
+
+/// Why [`Path::advance`] stopped.
+#[derive(Debug, Clone, PartialEq)]
+pub enum PathEnd {
+    /// The end of the piece was reached without a change.
+    Target,
+    /// These pairs are at the border of their condition; they are settled when the path goes on.
+    Event(Vec<Change>),
+}
+
+/// Gaps below this share of the largest, forces below this share of the largest, count as zero when ties are collected.
+const TIE: f64 = 1e-10;
+
+/// Gaps and forces on a piece of the load path.
+#[derive(Debug, Clone)]
+pub struct Path {
+    start: Vec<f64>,
+    rate: Vec<f64>,
+    /// Position on the piece.
+    pub t: f64,
+    /// Gap of each pair.
+    pub gap: Vec<f64>,
+    /// Force of each pair.
+    pub force: Vec<f64>,
+    gap_rate: Vec<f64>,
+    force_rate: Vec<f64>,
+    gap_scale: f64,
+    force_scale: f64,
+    /// Pairs that changed status when the rates were last settled.
+    pub changes: usize,
+}
+
+impl Path {
+    /// Starts at `t = 0` with `q(t) = start + t rate` and the gaps and forces that hold there (statuses are
+    /// those in the tableau). `gap_scale` is the size of gaps that matter (such as the largest initial gap).
+    ///
+    /// # Errors
+    /// [`Unbounded`] where the load pushes pairs apart for ever.
+    pub fn new(
+        tableau: &mut Tableau,
+        start: Vec<f64>,
+        rate: Vec<f64>,
+        gap: Vec<f64>,
+        force: Vec<f64>,
+        gap_scale: f64,
+    ) -> Result<Self, Unbounded> {
+        let n = tableau.len();
+        let mut path = Path {
+            start,
+            rate,
+            t: 0.0,
+            gap,
+            force,
+            gap_rate: vec![0.0; n],
+            force_rate: vec![0.0; n],
+            gap_scale,
+            force_scale: 0.0,
+            changes: 0,
+        };
+        path.settle(tableau)?;
+        Ok(path)
+    }
+
+    fn zero_gap(&self) -> f64 {
+        TIE * self.gap.iter().fold(self.gap_scale, |m, g| m.max(*g)) * 1e-2
+    }
+
+    fn zero_force(&self) -> f64 {
+        TIE * self.force.iter().fold(self.force_scale, |m, r| m.max(*r))
+    }
+
+    /// Settles the statuses of pairs at the border by the complementarity problem of the rates, then computes all rates.
+    fn settle(&mut self, tableau: &mut Tableau) -> Result<(), Unbounded> {
+        let n = tableau.len();
+        let (zero_gap, zero_force) = (self.zero_gap(), self.zero_force());
+        self.force_scale = self.force.iter().fold(self.force_scale, |m, r| m.max(*r));
+        let border: Vec<usize> = (0..n)
+            .filter(|&k| self.gap[k] <= zero_gap && self.force[k] <= zero_force)
+            .collect();
+        let before = tableau.open().to_vec();
+        if !border.is_empty() {
+            for &k in &border {
+                if tableau.open()[k] {
+                    tableau.flip(k);
+                }
+                self.gap[k] = 0.0;
+                self.force[k] = 0.0;
+            }
+            tableau.solve(&self.rate, &mut self.gap_rate, &mut self.force_rate);
+            let m = border.len();
+            let reduced = DMatrix::from_fn(m, m, |i, j| tableau.swept()[(border[i], border[j])]);
+            let rates: Vec<f64> = border.iter().map(|&k| self.force_rate[k]).collect();
+            let mut small = Tableau::new(reduced);
+            let (mut dg, mut dr) = (vec![0.0; m], vec![0.0; m]);
+            solve(&mut small, &rates, &mut dg, &mut dr).map_err(|u| Unbounded {
+                pair: border[u.pair],
+            })?;
+            for (i, &k) in border.iter().enumerate() {
+                if small.open()[i] && !tableau.flip(k) {
+                    return Err(Unbounded { pair: k });
+                }
+            }
+        }
+        tableau.solve(&self.rate, &mut self.gap_rate, &mut self.force_rate);
+        self.changes = before
+            .iter()
+            .zip(tableau.open())
+            .filter(|(a, b)| a != b)
+            .count();
+        Ok(())
+    }
+
+    /// Goes on to `end` or to the next change of contact, whichever comes first. A change exactly at the end counts
+    /// as the end.
+    pub fn advance(&mut self, tableau: &Tableau, end: f64) -> PathEnd {
+        let room = end - self.t;
+        let mut step = room;
+        let mut first = false;
+        for k in 0..tableau.len() {
+            let (value, rate) = self.value_and_rate(tableau, k);
+            if rate < 0.0 && value + step * rate < 0.0 {
+                step = value / -rate;
+                first = true;
+            }
+        }
+        self.t = if first { self.t + step } else { end };
+        self.state_at(tableau, self.t);
+        if !first || step >= room * (1.0 - 1e-14) {
+            self.t = end;
+            return PathEnd::Target;
+        }
+        let (zero_gap, zero_force) = (self.zero_gap(), self.zero_force());
+        let changes = (0..tableau.len())
+            .filter_map(|k| {
+                let (_, rate) = self.value_and_rate(tableau, k);
+                if rate >= 0.0 {
+                    None
+                } else if tableau.open()[k] {
+                    (self.gap[k] <= zero_gap).then_some(Change::Closes(k))
+                } else {
+                    (self.force[k] <= zero_force).then_some(Change::Opens(k))
+                }
+            })
+            .collect();
+        PathEnd::Event(changes)
+    }
+
+    /// Goes on after an event with the statuses that hold beyond it.
+    ///
+    /// # Errors
+    /// [`Unbounded`] where the load pushes pairs apart for ever.
+    pub fn turn(&mut self, tableau: &mut Tableau) -> Result<(), Unbounded> {
+        self.settle(tableau)
+    }
+
+    fn value_and_rate(&self, tableau: &Tableau, k: usize) -> (f64, f64) {
+        if tableau.open()[k] {
+            (self.gap[k], self.gap_rate[k])
+        } else {
+            (self.force[k], self.force_rate[k])
+        }
+    }
+
+    /// Goes to `t` with the current statuses, which must hold there.
+    pub fn state_at(&mut self, tableau: &Tableau, t: f64) {
+        self.t = t;
+        let q: Vec<f64> = self
+            .start
+            .iter()
+            .zip(&self.rate)
+            .map(|(a, b)| a + t * b)
+            .collect();
+        tableau.solve(&q, &mut self.gap, &mut self.force);
+        for v in self.gap.iter_mut().chain(&mut self.force) {
+            *v = v.max(0.0);
+        }
+    }
+}

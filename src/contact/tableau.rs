@@ -1,0 +1,174 @@
+//! The contact matrix with a set of pairs opened: a principal pivotal transform.
+
+use nalgebra::DMatrix;
+
+/// Share of the original diagonal below which a pivot counts as zero: opening the pair would free a rigid motion.
+const SINGULAR: f64 = 1e-11;
+/// Pivots after which the transform is rebuilt from the original matrix.
+const REBUILD: usize = 2000;
+
+/// `T` swept on the open pairs: blocks `-T_oo^-1`, `T_oo^-1 T_oc`, `T_cc - T_co T_oo^-1 T_oc`.
+///
+/// # Source
+/// R. W. Cottle, J.-S. Pang, R. E. Stone, *The Linear Complementarity Problem* (1992), section 2.3.
+#[derive(Debug, Clone)]
+pub struct Tableau {
+    matrix: DMatrix<f64>,
+    swept: DMatrix<f64>,
+    open: Vec<bool>,
+    pivots: usize,
+    column: Vec<f64>,
+}
+
+impl Tableau {
+    /// The symmetric positive semidefinite matrix `T` with every pair closed.
+    pub fn new(matrix: DMatrix<f64>) -> Self {
+        let n = matrix.nrows();
+        Tableau {
+            swept: matrix.clone(),
+            matrix,
+            open: vec![false; n],
+            pivots: 0,
+            column: vec![0.0; n],
+        }
+    }
+
+    /// Number of pairs.
+    pub fn len(&self) -> usize {
+        self.open.len()
+    }
+
+    /// True where there is no pair.
+    pub fn is_empty(&self) -> bool {
+        self.open.is_empty()
+    }
+
+    /// Which pairs are open.
+    pub fn open(&self) -> &[bool] {
+        &self.open
+    }
+
+    /// The original matrix T.
+    pub fn matrix(&self) -> &DMatrix<f64> {
+        &self.matrix
+    }
+
+    /// The swept matrix.
+    pub(super) fn swept(&self) -> &DMatrix<f64> {
+        &self.swept
+    }
+
+    /// Whether opening pair `k` now would free a rigid motion.
+    pub fn would_free(&self, k: usize) -> bool {
+        !self.open[k] && self.swept[(k, k)] <= SINGULAR * self.matrix[(k, k)]
+    }
+
+    /// Opens or closes pair `k`; false (and nothing changed) if opening it would free a rigid motion.
+    pub fn flip(&mut self, k: usize) -> bool {
+        if self.would_free(k) {
+            return false;
+        }
+        self.sweep(k);
+        self.open[k] = !self.open[k];
+        self.pivots += 1;
+        if self.pivots >= REBUILD {
+            let open = self.open.clone();
+            self.reset(&open);
+        }
+        true
+    }
+
+    /// Sets all statuses, starting from the original matrix; pairs whose opening would free a rigid motion stay closed.
+    pub fn reset(&mut self, open: &[bool]) {
+        self.swept.copy_from(&self.matrix);
+        self.open.fill(false);
+        self.pivots = 0;
+        for k in 0..self.len() {
+            if open[k] && !self.would_free(k) {
+                self.sweep(k);
+                self.open[k] = true;
+            }
+        }
+    }
+
+    fn sweep(&mut self, k: usize) {
+        let n = self.len();
+        let pivot = self.swept[(k, k)];
+        let sign = if self.open[k] { -1.0 } else { 1.0 };
+        self.column.copy_from_slice(self.swept.column(k).as_slice());
+        for j in (0..n).filter(|&j| j != k) {
+            let factor = self.column[j] / pivot;
+            if factor != 0.0 {
+                for (s, c) in self
+                    .swept
+                    .column_mut(j)
+                    .as_mut_slice()
+                    .iter_mut()
+                    .zip(&self.column)
+                {
+                    *s -= factor * c;
+                }
+            }
+            self.swept[(k, j)] = sign * factor;
+        }
+        for j in 0..n {
+            self.swept[(j, k)] = sign * self.column[j] / pivot;
+        }
+        self.swept[(k, k)] = -1.0 / pivot;
+    }
+
+    /// Gaps of the open pairs and forces of the closed ones for the given statuses: `r_o = 0`, `g_c = 0`,
+    /// `r = q + T g`. The gaps are refined once against `T`, so that errors of many pivots do not stay.
+    pub fn solve(&self, q: &[f64], gap: &mut [f64], force: &mut [f64]) {
+        gap.fill(0.0);
+        force.copy_from_slice(q);
+        for _ in 0..2 {
+            self.correct(force, gap);
+            force.copy_from_slice(q);
+            for (j, &g) in gap.iter().enumerate().filter(|(_, g)| **g != 0.0) {
+                for (f, t) in force.iter_mut().zip(self.matrix.column(j).as_slice()) {
+                    *f += t * g;
+                }
+            }
+        }
+        for (f, _) in force.iter_mut().zip(&self.open).filter(|(_, open)| **open) {
+            *f = 0.0;
+        }
+    }
+
+    /// `g_o -= T_oo^-1 residual_o`.
+    fn correct(&self, residual: &[f64], gap: &mut [f64]) {
+        for (j, &r) in residual.iter().enumerate() {
+            if self.open[j] && r != 0.0 {
+                for (g, (w, open)) in gap
+                    .iter_mut()
+                    .zip(self.swept.column(j).as_slice().iter().zip(&self.open))
+                {
+                    if *open {
+                        *g += w * r;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Round-off to be expected in the forces of a solution with these right-hand side and gaps.
+    pub fn force_tolerance(&self, q: &[f64], gap: &[f64]) -> f64 {
+        let largest_q = q.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+        let largest_t = (0..self.len()).fold(0.0f64, |m, k| m.max(self.matrix[(k, k)]));
+        let largest_g = gap.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+        8.0 * f64::EPSILON
+            * (self.len() as f64).sqrt().max(1.0)
+            * (largest_q + largest_t * largest_g)
+    }
+
+    /// The gap that a force tolerance corresponds to.
+    pub fn gap_tolerance(&self, force_tolerance: f64) -> f64 {
+        let largest_t = (0..self.len()).fold(0.0f64, |m, k| m.max(self.matrix[(k, k)]));
+        if largest_t > 0.0 {
+            force_tolerance / largest_t
+        } else {
+            0.0
+        }
+    }
+}

@@ -1,0 +1,119 @@
+use super::*;
+use nalgebra::{DMatrix, DVector};
+use proptest::prelude::*;
+
+/// `A A'` with fewer columns than rows is semidefinite.
+fn semidefinite(n: usize, rank: usize, entries: &[f64]) -> DMatrix<f64> {
+    let a = DMatrix::from_fn(n, rank.max(1), |i, j| {
+        entries[(i * rank.max(1) + j) % entries.len()]
+    });
+    &a * a.transpose()
+}
+
+fn check(t: &DMatrix<f64>, q: &[f64], g: &[f64], r: &[f64]) {
+    let n = q.len();
+    let full = t * DVector::from_column_slice(g) + DVector::from_column_slice(q);
+    let scale = q.iter().fold(1e-300f64, |m, v| m.max(v.abs()))
+        + t.amax() * g.iter().fold(0.0f64, |m, v| m.max(*v));
+    for k in 0..n {
+        assert!(g[k] >= 0.0 && r[k] >= 0.0);
+        assert!(
+            g[k] == 0.0 || r[k] == 0.0,
+            "pair {k}: gap {} force {}",
+            g[k],
+            r[k]
+        );
+        assert!(
+            (full[k] - r[k]).abs() <= 1e-11 * n as f64 * scale,
+            "pair {k}: {} {}",
+            full[k],
+            r[k]
+        );
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    /// Every semidefinite problem is solved, or shown to have no solution by a direction that costs no energy.
+    #[test]
+    fn complementarity_terminates(n in 1usize..14, rank in 1usize..16,
+            entries in proptest::collection::vec(-1.0f64..1.0, 224), q in proptest::collection::vec(-1.0f64..1.0, 14)) {
+        let t = semidefinite(n, rank, &entries);
+        let q = &q[..n];
+        let mut tableau = Tableau::new(t.clone());
+        let (mut g, mut r) = (vec![0.0; n], vec![0.0; n]);
+        match solve(&mut tableau, q, &mut g, &mut r) {
+            Ok(_) => check(&t, q, &g, &r),
+            Err(_) => prop_assert!(rank < n, "a definite problem always has a solution"),
+        }
+    }
+
+    /// The path's end is the direct solution there, whatever happened on the way.
+    #[test]
+    fn path_ends_where_the_direct_solve_does(n in 1usize..12, entries in proptest::collection::vec(-1.0f64..1.0, 168),
+            q0 in proptest::collection::vec(0.0f64..1.0, 12), q1 in proptest::collection::vec(-3.0f64..1.0, 12)) {
+        let t = semidefinite(n, n + 2, &entries) + DMatrix::identity(n, n) * 0.05;
+        let mut tableau = Tableau::new(t.clone());
+        let (mut g, mut r) = (vec![0.0; n], vec![0.0; n]);
+        prop_assert!(solve(&mut tableau, &q0[..n], &mut g, &mut r).is_ok());
+        let mut path = Path::new(&mut tableau, q0[..n].to_vec(), q1[..n].to_vec(), g, r, 1.0).unwrap();
+        let mut events = 0;
+        while let PathEnd::Event(changes) = path.advance(&tableau, 1.0) {
+            prop_assert!(!changes.is_empty());
+            path.turn(&mut tableau).unwrap();
+            events += 1;
+            prop_assert!(events < 1 << n);
+        }
+        let end: Vec<f64> = (0..n).map(|k| q0[k] + q1[k]).collect();
+        let (mut g, mut r) = (vec![0.0; n], vec![0.0; n]);
+        let mut direct = Tableau::new(t);
+        prop_assert!(solve(&mut direct, &end, &mut g, &mut r).is_ok());
+        for k in 0..n {
+            prop_assert!((g[k] - path.gap[k]).abs() < 1e-9 && (r[k] - path.force[k]).abs() < 1e-9);
+        }
+    }
+}
+
+#[test]
+fn sweeping_there_and_back_is_the_identity() {
+    let t = semidefinite(
+        5,
+        7,
+        &[0.3, -0.8, 0.5, 0.9, -0.2, 0.7, 0.1, -0.6, 0.4, 0.8, -0.9],
+    );
+    let mut tableau = Tableau::new(t.clone());
+    for k in [0, 3, 4, 3, 0, 4] {
+        assert!(tableau.flip(k));
+    }
+    assert!((tableau.swept() - t).amax() < 1e-13);
+}
+
+#[test]
+fn a_body_held_by_contact_alone_does_not_open_its_last_pair() {
+    // Two springs in a row without ground: T is singular, only one pair may open.
+    let t = DMatrix::from_row_slice(2, 2, &[1.0, -1.0, -1.0, 1.0]);
+    let mut tableau = Tableau::new(t.clone());
+    let (mut g, mut r) = (vec![0.0; 2], vec![0.0; 2]);
+    assert!(solve(&mut tableau, &[-1.0, 3.0], &mut g, &mut r).is_ok());
+    check(&t, &[-1.0, 3.0], &g, &r);
+    assert!(solve(&mut tableau, &[-1.0, 0.5], &mut g, &mut r).is_err());
+}
+
+#[test]
+fn ties_open_together() {
+    let n = 40;
+    let t = DMatrix::from_fn(n, n, |i, j| if i == j { 2.0 } else { 0.01 });
+    let mut tableau = Tableau::new(t);
+    let q0 = vec![1.0; n];
+    let q1 = vec![-2.0; n];
+    let mut path = Path::new(&mut tableau, q0.clone(), q1, vec![0.0; n], q0, 1.0).unwrap();
+    match path.advance(&tableau, 1.0) {
+        PathEnd::Event(changes) => assert_eq!(changes.len(), n),
+        PathEnd::Target => panic!("all pairs open halfway"),
+    }
+    path.turn(&mut tableau).unwrap();
+    assert!(tableau.open().iter().all(|o| *o));
+    assert_eq!(path.advance(&tableau, 1.0), PathEnd::Target);
+    assert!(path.gap.windows(2).all(|w| (w[0] - w[1]).abs() < 1e-15));
+}

@@ -1,0 +1,211 @@
+//! Load vectors on the free freedoms.
+
+use super::freedoms::{dot, named_nodes};
+use super::{Freedoms, Slot};
+use crate::analytical::KirschField;
+use crate::element::facet_points;
+use crate::error::{Error, Result};
+use crate::mesh::Mesh;
+use crate::scene::{self, Direction, History, Kind, Scene};
+
+/// What a load's reported magnitude measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Magnitude {
+    /// A total force of the whole (all copies of a symmetric model).
+    Force,
+    /// A pressure, traction or remote stress.
+    Stress,
+    /// A displacement.
+    Displacement,
+}
+
+/// A load: nodal forces per unit of its factor, and how the factor depends on the load factor.
+#[derive(Debug, Clone)]
+pub struct LoadCase {
+    /// Name for messages.
+    pub name: String,
+    /// Nodal forces at factor 1, node by node in global axes (sparse).
+    nodal: Vec<(usize, [f64; 2])>,
+    /// Forces on the free freedoms at factor 1 (sparse, ascending).
+    pub forces: Vec<(usize, f64)>,
+    /// How it depends on the load factor.
+    pub history: History,
+    /// Size at factor 1: force, stress or displacement.
+    pub magnitude: f64,
+    /// What the size measures.
+    pub measures: Magnitude,
+    /// Nodes of the loaded set, for the approach.
+    pub nodes: Vec<usize>,
+    /// Unit direction of the load, for the approach.
+    pub direction: [f64; 2],
+}
+
+impl LoadCase {
+    /// Factor of this load at load factor `alpha`; `unit` is what `alpha = 1` stands for.
+    pub fn factor(&self, alpha: f64, unit: f64) -> f64 {
+        match &self.history {
+            History::Proportional => alpha * unit,
+            History::Constant => 1.0,
+            History::Table(rows) => interpolate(rows, alpha),
+        }
+    }
+
+    /// Load factors at which the history has a kink.
+    pub fn kinks(&self) -> impl Iterator<Item = f64> + '_ {
+        let rows: &[[f64; 2]] = if let History::Table(rows) = &self.history { rows } else { &[] };
+        rows.iter().map(|r| r[0])
+    }
+
+    /// Forces as nodal vectors in global axes.
+    pub(super) fn nodal(&self) -> &[(usize, [f64; 2])] {
+        &self.nodal
+    }
+}
+
+fn interpolate(rows: &[[f64; 2]], alpha: f64) -> f64 {
+    let next = rows.partition_point(|r| r[0] <= alpha);
+    match (next.checked_sub(1).map(|i| rows[i]), rows.get(next)) {
+        (Some(a), Some(b)) => a[1] + (b[1] - a[1]) * (alpha - a[0]) / (b[0] - a[0]),
+        (Some(a), None) => a[1],
+        (None, Some(b)) => b[1],
+        (None, None) => 0.0,
+    }
+}
+
+pub(super) fn resolve(scene: &Scene, mesh: &Mesh, freedoms: &Freedoms) -> Result<Vec<LoadCase>> {
+    scene
+        .load
+        .iter()
+        .enumerate()
+        .map(|(index, load)| {
+            let mut case = resolve_load(index, load, scene, mesh)?;
+            case.forces = on_freedoms(&case.nodal, freedoms);
+            Ok(case)
+        })
+        .collect()
+}
+
+/// Takes over a new numbering of the freedoms.
+pub(super) fn renumber(mut loads: Vec<LoadCase>, freedoms: &Freedoms) -> Vec<LoadCase> {
+    for load in &mut loads {
+        load.forces = on_freedoms(&load.nodal, freedoms);
+    }
+    loads
+}
+
+fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) -> Result<LoadCase> {
+    let what = format!("load {} on", index + 1);
+    let nodes = named_nodes(mesh, &load.on, &what)?;
+    let symmetry = scene.symmetry as f64;
+    let mut case = LoadCase {
+        name: if load.name.is_empty() { format!("load {}", index + 1) } else { load.name.clone() },
+        nodal: Vec::new(),
+        forces: Vec::new(),
+        history: load.history.clone(),
+        magnitude: 0.0,
+        measures: Magnitude::Force,
+        nodes,
+        direction: [0.0, 0.0],
+    };
+    let surface = |key: &str| {
+        mesh.surfaces.get(&load.on).ok_or_else(|| {
+            Error::input(format!("{what} `{}`: `{key}` needs a surface, this is a node set", load.on))
+        })
+    };
+    if let Some(force) = load.force {
+        case.set_size(force, Magnitude::Force);
+        let share = [force[0] / symmetry, force[1] / symmetry];
+        match mesh.surfaces.get(&load.on) {
+            Some(surface) => {
+                let area = area(scene.kind, mesh, surface);
+                case.nodal = integrate(scene.kind, mesh, surface, |_, _| [share[0] / area, share[1] / area]);
+            }
+            None => {
+                let n = case.nodes.len() as f64;
+                case.nodal = case.nodes.iter().map(|&i| (i, [share[0] / n, share[1] / n])).collect();
+            }
+        }
+    } else if let Some(p) = load.pressure {
+        case.nodal = integrate(scene.kind, mesh, surface("pressure")?, |_, n| [-p * n[0], -p * n[1]]);
+        case.set_size(total(&case.nodal), Magnitude::Stress);
+        case.magnitude = p.abs();
+    } else if let Some(t) = load.traction {
+        case.nodal = integrate(scene.kind, mesh, surface("traction")?, |_, _| t);
+        case.set_size(t, Magnitude::Stress);
+    } else if let Some(k) = load.kirsch {
+        let field = KirschField { stress_x: k.stress_x, stress_y: k.stress_y, radius: k.radius };
+        case.nodal = integrate(scene.kind, mesh, surface("kirsch")?, |x, n| {
+            let [sxx, syy, sxy] = field.stress(x[0], x[1]);
+            [sxx * n[0] + sxy * n[1], sxy * n[0] + syy * n[1]]
+        });
+        case.set_size([k.stress_x, k.stress_y], Magnitude::Stress);
+        if k.stress_y == 0.0 || k.stress_x == 0.0 {
+            case.magnitude = (k.stress_x + k.stress_y).abs();
+        }
+    } else if let Some(d) = load.displacement {
+        case.set_size([d.x.unwrap_or(0.0), d.y.unwrap_or(0.0)], Magnitude::Displacement);
+    } else if let Some(plane) = load.plane_force {
+        let mut force = [0.0; 2];
+        force[usize::from(plane.direction == Direction::Y)] = plane.total;
+        case.set_size(force, Magnitude::Force);
+        // The nodes share one freedom: the whole force may act on any of them.
+        case.nodal = vec![(case.nodes[0], [force[0] / symmetry, force[1] / symmetry])];
+    } else {
+        return Err(Error::input(format!("{what} `{}`: no kind of load is given", load.on)));
+    }
+    Ok(case)
+}
+
+impl LoadCase {
+    fn set_size(&mut self, vector: [f64; 2], measures: Magnitude) {
+        let size = vector[0].hypot(vector[1]);
+        self.magnitude = size;
+        self.measures = measures;
+        if size > 0.0 {
+            self.direction = [vector[0] / size, vector[1] / size];
+        }
+    }
+}
+
+fn area(kind: Kind, mesh: &Mesh, surface: &crate::mesh::Surface) -> f64 {
+    integrate(kind, mesh, surface, |_, _| [1.0, 0.0]).iter().map(|(_, f)| f[0]).sum()
+}
+
+fn total(nodal: &[(usize, [f64; 2])]) -> [f64; 2] {
+    nodal.iter().fold([0.0; 2], |s, (_, f)| [s[0] + f[0], s[1] + f[1]])
+}
+
+/// Consistent nodal forces of a traction `t(x, n)` on a surface.
+fn integrate(
+    kind: Kind,
+    mesh: &Mesh,
+    surface: &crate::mesh::Surface,
+    traction: impl Fn([f64; 2], [f64; 2]) -> [f64; 2],
+) -> Vec<(usize, [f64; 2])> {
+    let mut forces = std::collections::BTreeMap::new();
+    for &facet in &surface.facets {
+        let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
+        let x: Vec<[f64; 2]> = nodes.iter().map(|&n| mesh.point(n)).collect();
+        for point in facet_points(kind, &x) {
+            let t = traction(point.position, point.normal);
+            for (i, &node) in nodes.iter().enumerate() {
+                let f: &mut [f64; 2] = forces.entry(node).or_insert([0.0; 2]);
+                f[0] += point.weight * point.values[i] * t[0];
+                f[1] += point.weight * point.values[i] * t[1];
+            }
+        }
+    }
+    forces.into_iter().collect()
+}
+
+fn on_freedoms(nodal: &[(usize, [f64; 2])], freedoms: &Freedoms) -> Vec<(usize, f64)> {
+    let mut out = std::collections::BTreeMap::new();
+    for &(node, force) in nodal {
+        for (slot, axis) in freedoms.slots[node].iter().zip(freedoms.local(node)) {
+            if let Slot::Free(f) = slot {
+                *out.entry(*f as usize).or_insert(0.0) += dot(force, axis);
+            }
+        }
+    }
+    out.into_iter().collect()
+}

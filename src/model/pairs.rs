@@ -1,0 +1,223 @@
+//! Contact pairs: nodes of two surfaces that face each other (paper 2.1).
+//!
+//! The gap of a pair is `g = delta - (u_second - u_first) . n >= 0` with
+//! `delta = (x_first - x_second) . n` and `n` the unit vector from the second body to the first.
+
+use super::freedoms::{dot, unknown_name};
+use crate::element::facet_points;
+use crate::error::{Error, Result};
+use crate::mesh::surface::{normals, ordered_nodes};
+use crate::mesh::{Curve, Mesh, Surface};
+use crate::scene::{Contact, Scene};
+use std::collections::BTreeMap;
+
+/// A pair of nodes that may touch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair {
+    /// Index of the scene's contact entry.
+    pub contact: usize,
+    /// Node of the first surface.
+    pub first: usize,
+    /// Node of the second surface.
+    pub second: usize,
+    /// Unit vector from the second body to the first (the paper's i_1).
+    pub normal: [f64; 2],
+    /// Initial gap delta, interference not yet taken off.
+    pub gap: f64,
+    /// Interference.
+    pub interference: f64,
+    /// Area that belongs to the pair: integral of the node's shape function over the second surface.
+    pub area: f64,
+    /// Distance along the second surface from its begin.
+    pub arc: f64,
+}
+
+/// A contact of the scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ContactSurface {
+    /// Names of the first and second surface.
+    pub names: [String; 2],
+    /// Its pairs: `pairs[range]`.
+    pub range: std::ops::Range<usize>,
+    /// Centre and radius of the surface, where it is known to be a circle.
+    pub circle: Option<([f64; 2], f64)>,
+    /// Length of the longest facet, the resolution of positions.
+    pub facet_length: f64,
+}
+
+/// Two nodes pair if their distance across the normal is below this share of a facet's length.
+const PAIRING: f64 = 1e-5;
+
+pub(super) fn resolve(scene: &Scene, mesh: &Mesh) -> Result<(Vec<Pair>, Vec<ContactSurface>)> {
+    let mut pairs: Vec<Pair> = Vec::new();
+    let mut contacts = Vec::new();
+    let mut used: BTreeMap<usize, usize> = BTreeMap::new();
+    for (index, contact) in scene.contact.iter().enumerate() {
+        let start = pairs.len();
+        let surface = resolve_contact(index, contact, mesh, scene, &mut pairs)?;
+        for pair in &pairs[start..] {
+            for node in [pair.first, pair.second] {
+                if let Some(other) = used.insert(node, index) {
+                    return Err(Error::input(format!(
+                        "node {} is in two contact pairs: of contact {} and contact {} (`{}` on `{}`); a node may belong to one",
+                        mesh.node_label(node),
+                        other + 1,
+                        index + 1,
+                        contact.first,
+                        contact.second
+                    )));
+                }
+            }
+        }
+        contacts.push(surface);
+    }
+    Ok((pairs, contacts))
+}
+
+fn resolve_contact(
+    index: usize,
+    contact: &Contact,
+    mesh: &Mesh,
+    scene: &Scene,
+    pairs: &mut Vec<Pair>,
+) -> Result<ContactSurface> {
+    let what = format!("contact {} (`{}` on `{}`)", index + 1, contact.first, contact.second);
+    let find = |name: &str| -> Result<&Surface> {
+        let names: Vec<&str> = mesh.surfaces.keys().map(String::as_str).collect();
+        mesh.surfaces.get(name).ok_or_else(|| unknown_name(name, &format!("contact {} surface", index + 1), &names))
+    };
+    let (first, second) = (find(&contact.first)?, find(&contact.second)?);
+    let context = |e: Error| e.within(&what);
+    let first_nodes = ordered_nodes(mesh, first).map_err(context)?;
+    let second_nodes = ordered_nodes(mesh, second).map_err(context)?;
+    let normal = match contact.normal {
+        Some(n) => {
+            let length = n[0].hypot(n[1]);
+            vec![[n[0] / length, n[1] / length]; second_nodes.len()]
+        }
+        None => normals(mesh, second, &second_nodes),
+    };
+    let facet_length = longest_facet(mesh, first).max(longest_facet(mesh, second));
+    let tolerance = PAIRING * facet_length;
+    let areas = nodal_areas(scene, mesh, second);
+
+    let mut taken = vec![false; first_nodes.len()];
+    let mut unpaired = Vec::new();
+    let mut arc = 0.0;
+    let start = pairs.len();
+    for (j, &node) in second_nodes.iter().enumerate() {
+        let x = mesh.point(node);
+        if j > 0 {
+            let before = mesh.point(second_nodes[j - 1]);
+            arc += (x[0] - before[0]).hypot(x[1] - before[1]);
+        }
+        match facing(mesh, x, normal[j], &first_nodes, tolerance) {
+            Some(i) if !taken[i] => {
+                taken[i] = true;
+                let y = mesh.point(first_nodes[i]);
+                let geometric = dot([y[0] - x[0], y[1] - x[1]], normal[j]);
+                pairs.push(Pair {
+                    contact: index,
+                    first: first_nodes[i],
+                    second: node,
+                    normal: normal[j],
+                    gap: contact.gap.unwrap_or(geometric),
+                    interference: contact.interference,
+                    area: areas.get(&node).copied().unwrap_or(0.0),
+                    arc,
+                });
+            }
+            _ => unpaired.push(node),
+        }
+    }
+    let unpaired_first: Vec<usize> =
+        first_nodes.iter().zip(&taken).filter(|(_, taken)| !**taken).map(|(&n, _)| n).collect();
+    // One surface may reach beyond the other, but the shorter one must pair completely.
+    if pairs.len() == start || (!unpaired.is_empty() && !unpaired_first.is_empty()) {
+        return Err(Error::input(format!(
+            "{what}: the surfaces' nodes do not pair: node{} of `{}` face{} no node of `{}` along the normal (within {:.1e}); \
+             mesh the two surfaces with facing nodes, or give `normal`",
+            list(mesh, &unpaired),
+            contact.second,
+            if unpaired.len() == 1 { "s" } else { "" },
+            contact.first,
+            tolerance,
+        )));
+    }
+    for pair in &pairs[start..] {
+        if pair.first == pair.second {
+            return Err(Error::input(format!(
+                "{what}: node {} is on both surfaces; the bodies must not share nodes where they touch",
+                mesh.node_label(pair.first)
+            )));
+        }
+        if pair.gap < -1e-9 * facet_length && contact.gap.is_none() {
+            return Err(Error::input(format!(
+                "{what}: nodes {} and {} overlap by {:.3e} in the mesh; move the bodies apart, or state the overlap as `interference` \
+                 with `gap = 0`",
+                mesh.node_label(pair.first),
+                mesh.node_label(pair.second),
+                -pair.gap
+            )));
+        }
+    }
+    let circle = [second.curve, first.curve].into_iter().flatten().find_map(|c| match c {
+        Curve::Circle { center, radius, .. } if second.curve == Some(c) => Some((center, radius)),
+        _ => None,
+    });
+    Ok(ContactSurface {
+        names: [contact.first.clone(), contact.second.clone()],
+        range: start..pairs.len(),
+        circle,
+        facet_length,
+    })
+}
+
+/// The node of `candidates` on the line through `x` along `normal`, the nearest if there are several.
+fn facing(mesh: &Mesh, x: [f64; 2], normal: [f64; 2], candidates: &[usize], tolerance: f64) -> Option<usize> {
+    let mut best: Option<(f64, usize)> = None;
+    for (i, &node) in candidates.iter().enumerate() {
+        let y = mesh.point(node);
+        let d = [y[0] - x[0], y[1] - x[1]];
+        let across = (d[0] * normal[1] - d[1] * normal[0]).abs();
+        let along = dot(d, normal).abs();
+        if across <= tolerance && best.is_none_or(|(b, _)| along < b) {
+            best = Some((along, i));
+        }
+    }
+    best.map(|(_, i)| i)
+}
+
+fn longest_facet(mesh: &Mesh, surface: &Surface) -> f64 {
+    surface
+        .facets
+        .iter()
+        .map(|&f| {
+            let ends: Vec<[f64; 2]> = mesh.facet_nodes(f).take(2).map(|n| mesh.point(n)).collect();
+            (ends[1][0] - ends[0][0]).hypot(ends[1][1] - ends[0][1])
+        })
+        .fold(0.0, f64::max)
+}
+
+/// Integral of each node's shape function over a surface.
+fn nodal_areas(scene: &Scene, mesh: &Mesh, surface: &Surface) -> BTreeMap<usize, f64> {
+    let mut areas = BTreeMap::new();
+    for &facet in &surface.facets {
+        let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
+        let x: Vec<[f64; 2]> = nodes.iter().map(|&n| mesh.point(n)).collect();
+        for point in facet_points(scene.kind, &x) {
+            for (i, &node) in nodes.iter().enumerate() {
+                *areas.entry(node).or_insert(0.0) += point.weight * point.values[i];
+            }
+        }
+    }
+    areas
+}
+
+fn list(mesh: &Mesh, nodes: &[usize]) -> String {
+    let mut out: Vec<String> = nodes.iter().take(6).map(|&n| mesh.node_label(n).to_string()).collect();
+    if nodes.len() > 6 {
+        out.push(format!("and {} more", nodes.len() - 6));
+    }
+    format!("{} {}", if nodes.len() == 1 { "" } else { "s" }, out.join(", "))
+}
