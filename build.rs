@@ -1,1 +1,96 @@
-fn main() {}
+//! Finds what CHOLMOD needs and writes the bindings that `suitesparse_sys` does not have: the
+//! configuration functions of OpenBLAS (`ffi/openblas.h`).
+//!
+//! `OPENBLAS_LIBRARY_DIR` and `SUITESPARSE_INCLUDE_DIR` name other places than the usual ones.
+
+fn main() {
+    println!("cargo:rerun-if-changed=build.rs");
+    println!("cargo:rerun-if-changed=ffi/openblas.h");
+    println!("cargo:rustc-check-cfg=cfg(openblas)");
+    #[cfg(feature = "cholmod")]
+    if let Err(message) = native::configure() {
+        eprintln!("error: {message}");
+        std::process::exit(1);
+    }
+}
+
+#[cfg(feature = "cholmod")]
+mod native {
+    use std::env;
+    use std::path::{Path, PathBuf};
+
+    /// What to install, in the words of the reader's package manager.
+    const REMEDY: &str = "install SuiteSparse, OpenBLAS and libclang (Debian, Ubuntu: `apt-get install \
+        libsuitesparse-dev libopenblas-dev libclang-dev`), or build without CHOLMOD: `cargo build \
+        --no-default-features`";
+
+    pub fn configure() -> Result<(), String> {
+        println!("cargo:rerun-if-env-changed=OPENBLAS_LIBRARY_DIR");
+        println!("cargo:rerun-if-env-changed=SUITESPARSE_INCLUDE_DIR");
+        // suitesparse_sys says where it found the headers; where it found none the compiler may
+        // still know a place, which it has proven by getting this far.
+        if let Some(include) = env::var_os("DEP_SUITESPARSE_SUITESPARSE_INCLUDE") {
+            let header = Path::new(&include).join("cholmod.h");
+            if !header.exists() {
+                return Err(format!("{} is missing: {REMEDY}", header.display()));
+            }
+        }
+        write_openblas_bindings()?;
+        match openblas_directory() {
+            Some(directory) => {
+                // Linked directly it comes before the libblas that CHOLMOD asks for, so its
+                // kernels are used whatever BLAS the system's alternatives point to.
+                println!("cargo:rustc-link-search=native={}", directory.display());
+                println!("cargo:rustc-link-lib=dylib=openblas");
+                println!("cargo:rustc-cfg=openblas");
+            }
+            None => println!(
+                "cargo:warning=no OpenBLAS found: CHOLMOD uses the system's BLAS, which may be \
+                 several times slower (Debian: libopenblas-dev; elsewhere set OPENBLAS_LIBRARY_DIR)"
+            ),
+        }
+        Ok(())
+    }
+
+    /// bindgen panics where it finds no libclang: the panic becomes the message.
+    fn write_openblas_bindings() -> Result<(), String> {
+        let out = env::var_os("OUT_DIR").ok_or("OUT_DIR is not set: build with cargo")?;
+        let path = PathBuf::from(out).join("openblas.rs");
+        let generated = std::panic::catch_unwind(|| {
+            bindgen::Builder::default()
+                .header("ffi/openblas.h")
+                .allowlist_function("openblas_.*")
+                .rust_edition(bindgen::RustEdition::Edition2024)
+                .generate()
+        })
+        .map_err(|_| format!("bindgen found no libclang: {REMEDY}"))?
+        .map_err(|e| format!("bindgen failed on ffi/openblas.h ({e}): {REMEDY}"))?;
+        generated
+            .write_to_file(&path)
+            .map_err(|e| format!("cannot write {}: {e}", path.display()))
+    }
+
+    fn openblas_directory() -> Option<PathBuf> {
+        if let Some(directory) = env::var_os("OPENBLAS_LIBRARY_DIR") {
+            return Some(directory.into());
+        }
+        let architecture = env::var("CARGO_CFG_TARGET_ARCH").unwrap_or_default();
+        let multiarch = format!("/usr/lib/{architecture}-linux-gnu");
+        let name = match env::var("CARGO_CFG_TARGET_OS").as_deref() {
+            Ok("macos") => "libopenblas.dylib",
+            Ok("windows") => "libopenblas.dll.a",
+            _ => "libopenblas.so",
+        };
+        [
+            multiarch.as_str(),
+            "/usr/lib",
+            "/usr/lib64",
+            "/usr/local/lib",
+            "/opt/homebrew/opt/openblas/lib",
+            "/usr/local/opt/openblas/lib",
+        ]
+        .into_iter()
+        .map(PathBuf::from)
+        .find(|directory| directory.join(name).exists())
+    }
+}

@@ -11,12 +11,20 @@
 //! and everything the analysis needs is: the fully condensed contact stiffness
 //! `C = S_cc - S_cz S_zz^-1 S_zc`, static condensation of a load onto (z, c), the elimination of the
 //! zone for given (f_z, f_c), its recovery for given u_c, and the recovery of all freedoms.
+//!
+//! | backend | how | for |
+//! |---|---|---|
+//! | [`cholmod`] | one sparse Cholesky factor whose trailing block *is* the factor of `S` | everything |
+//! | [`dense`] | the formulas above, term by term | reference, small models, builds without CHOLMOD |
 
+mod check;
 #[cfg(feature = "cholmod")]
 pub mod cholmod;
 pub mod dense;
+#[cfg(test)]
+mod tests;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use nalgebra::DMatrix;
 
 /// Upper triangle (row <= column) of a symmetric matrix, compressed by column, rows sorted.
@@ -48,8 +56,8 @@ pub struct Prediction {
     pub memory_bytes: f64,
 }
 
-/// A matrix `K + diag(shift)` factored and condensed. `shift` acts on contact freedoms only and is
-/// taken off again: every result is that of `K` itself, so `K` may be singular as long as fixing its contact
+/// A matrix `K + diag(shift)` factored and condensed. `shift` acts on contact freedoms only (one value for each,
+/// in the order of [`Partition::contact`], or none at all) and is taken off again: every result is that of `K` itself, so `K` may be singular as long as fixing its contact
 /// freedoms makes it definite.
 pub trait Condensed: Send + Sync {
     /// `C = S_cc - S_cz S_zz^-1 S_zc` of `K` (the shift taken off), `n_contact x n_contact`, symmetric.
@@ -57,6 +65,9 @@ pub trait Condensed: Send + Sync {
 
     /// Static condensation of a load on all freedoms (`n`) onto the trailing ones:
     /// `f_t = load_t - K_ti K_ii^-1 load_i`. Costs about one full solve.
+    ///
+    /// # Errors
+    /// As [`Condensed::recover_all`].
     fn condense_load(&self, load: &[f64], zone: &mut [f64], contact: &mut [f64]) -> Result<()>;
 
     /// Eliminates the zone: on entry (f_z, f_c); on return `contact` is `f_c - S_cz S_zz^-1 f_z` and
@@ -69,7 +80,11 @@ pub trait Condensed: Send + Sync {
 
     /// All freedoms for a load that includes the contact forces, given the contact displacements:
     /// on entry `x` is the load (`n`), on return the solution `u` of `K u = load`. One full solve; a
-    /// step of iterative refinement is taken where it lowers the residual.
+    /// step of iterative refinement is taken where it lowers the residual. Where `u_contact` does not belong to
+    /// the load, [`Condensed::backward_error`] says by how much.
+    ///
+    /// # Errors
+    /// `Analysis` where the memory does not suffice, `Internal` where a vector has the wrong length.
     fn recover_all(&self, x: &mut [f64], u_contact: &[f64]) -> Result<()>;
 
     /// Normwise backward error of the last [`Condensed::recover_all`]:
@@ -78,6 +93,34 @@ pub trait Condensed: Send + Sync {
 
     /// What the factorisation cost (the same figures that were predicted).
     fn cost(&self) -> Prediction;
+
+    /// The pivot that lost most to cancellation. Near [`smallest_pivot_ratio`] the model is
+    /// barely held at that freedom.
+    fn weakest_pivot(&self) -> Pivot;
+}
+
+/// A pivot of the factorisation of `A = K + diag(shift)`, relative to its diagonal entry: in (0, 1], small
+/// where the freedom is held only weakly by those eliminated before it and its supports.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pivot {
+    /// Freedom (row of the matrix as given).
+    pub freedom: usize,
+    /// `l_jj^2 / a_jj`.
+    pub ratio: f64,
+}
+
+/// The pivot ratio that round-off alone produces on a singular matrix of `n` freedoms, `n eps`: a factorisation with
+/// a smaller one is refused as not definite, since its sign means nothing.
+///
+/// The computed factor is that of `A + E` with `|E_ij| <= (m + 1) eps sqrt(a_ii a_jj)`, m the nonzeros in a row of
+/// `L`. For a singular `A` with null vector `v` the last pivot is `v' E v / v_j^2`; the terms of the sum have either
+/// sign and stay below `n eps a_jj`.
+///
+/// # Source
+/// N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., SIAM 2002, theorem 10.3,
+/// doi:10.1137/1.9780898718027.
+pub fn smallest_pivot_ratio(n: usize) -> f64 {
+    n as f64 * f64::EPSILON
 }
 
 /// The backend that factors and condenses.
@@ -102,15 +145,17 @@ impl Default for Backend {
 /// Factors `K + diag(shift on contact freedoms)` and condenses it.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Internal`] naming the freedom as `freedom I` where the matrix is not positive definite
-/// (callers map it back to body, node and direction through [`NotDefinite`] as cause); `Input` where the backend
-/// is not built in or the model is too large for it.
+/// [`crate::ErrorKind::Internal`] naming the freedom as `freedom I` where the matrix is not positive definite,
+/// to working precision ([`smallest_pivot_ratio`]; callers map it back to body, node and direction through
+/// [`NotDefinite`] as cause), or where the arguments do not fit together; `Input` where the backend is not
+/// built in or the model is too large for it; `Analysis` where the memory does not suffice.
 pub fn condense(
     backend: Backend,
     matrix: &SymmetricCsc,
     partition: &Partition,
     shift: &[f64],
 ) -> Result<Box<dyn Condensed>> {
+    check::arguments(matrix, partition, shift)?;
     match backend {
         Backend::Dense => Ok(Box::new(dense::DenseCondensed::new(
             matrix, partition, shift,
@@ -135,6 +180,7 @@ pub fn predict(
     matrix: &SymmetricCsc,
     partition: &Partition,
 ) -> Result<Prediction> {
+    check::arguments(matrix, partition, &[])?;
     match backend {
         Backend::Dense => dense::predict(partition),
         #[cfg(feature = "cholmod")]
@@ -165,6 +211,31 @@ impl std::fmt::Display for NotDefinite {
 }
 
 impl std::error::Error for NotDefinite {}
+
+impl From<NotDefinite> for Error {
+    fn from(cause: NotDefinite) -> Self {
+        Error::internal(cause.to_string()).because(cause)
+    }
+}
+
+/// `|r| / (norm_k |u| + |f|)` in infinity norms; zero where all are zero, NaN where one is.
+fn backward_error(norm_k: f64, f: &[f64], u: &[f64], r: &[f64]) -> f64 {
+    let largest = |v: &[f64]| {
+        v.iter().fold(0.0, |largest: f64, x| {
+            if x.abs() > largest || x.is_nan() {
+                x.abs()
+            } else {
+                largest
+            }
+        })
+    };
+    let (residual, scale) = (largest(r), norm_k * largest(u) + largest(f));
+    if residual == 0.0 {
+        0.0
+    } else {
+        residual / scale
+    }
+}
 
 /// `y = K x` for the stored upper triangle.
 pub fn multiply(matrix: &SymmetricCsc, x: &[f64], y: &mut [f64]) {

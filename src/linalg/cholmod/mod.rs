@@ -1,37 +1,356 @@
-//! Cholmod backend.
-use super::*;
-/// Cholmod factor.
-pub struct CholmodCondensed {}
+//! CHOLMOD backend: one sparse factor `P (K + D) P' = L L'` in the order `[ interior | zone | contact ]`.
+//!
+//! ```text
+//!     L = [ L_ii           ]      L_tt = [ L_zz      ]    is the factor of the condensed matrix:
+//!         [ L_zi L_zz      ]             [ L_cz L_cc ]    L_tt L_tt' = K_tt + D - K_ti K_ii^-1 K_it = S + D
+//!         [ L_ci L_cz L_cc ]
+//! ```
+//!
+//! `D = diag(shift)` acts on contact freedoms only, so it enters `L_cc` alone: `L_cc L_cc' = C + D`.
+//! Of the whole module only `common`, `sparse`, `ordering`, `factor` and `blas` call C.
+//!
+//! # Source
+//! T. A. Davis, *Direct Methods for Sparse Linear Systems*, SIAM 2006, chapter 4, doi:10.1137/1.9780898718881;
+//! Y. Chen, T. A. Davis, W. W. Hager, S. Rajamanickam, *Algorithm 887: CHOLMOD*, ACM TOMS 35 (3), 2008,
+//! doi:10.1145/1391989.1391995.
+
+mod blas;
+mod common;
+mod factor;
+mod ordering;
+mod panel;
+mod residual;
+mod sparse;
+#[cfg(test)]
+mod tests;
+mod trailing;
+
+pub use blas::{blas_name, blas_threads, set_blas_threads};
+pub use common::cholmod_version;
+pub use ordering::Method;
+
+use super::{
+    Condensed, NotDefinite, Partition, Pivot, Prediction, SymmetricCsc, check, smallest_pivot_ratio,
+};
+use crate::error::{Error, Result};
+use common::Common;
+use factor::{Factor, System};
+use nalgebra::DMatrix;
+use ordering::{Groups, Ordering};
+use residual::Matrix;
+use sparse::SymmetricView;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use trailing::Trailing;
+
+/// A refinement step is tried where the backward error is above this: a few rounding errors per freedom
+/// are the best that a solve in double precision does.
+const REFINE_ABOVE: f64 = 4.0 * f64::EPSILON;
+
+/// A matrix factored by CHOLMOD and condensed.
+pub struct CholmodCondensed {
+    partition: Partition,
+    shift: Vec<f64>,
+    matrix: Matrix,
+    trailing: Trailing,
+    contact_stiffness: DMatrix<f64>,
+    solver: Mutex<Solver>,
+    cost: Prediction,
+    weakest: Pivot,
+}
+
+/// The factor and the vectors of a full solve.
+struct Solver {
+    factor: Factor,
+    load: Vec<f64>,
+    solution: Vec<f64>,
+    residual: Vec<f64>,
+    backward_error: f64,
+}
+
 impl CholmodCondensed {
-    /// Factors.
-    pub fn new(_matrix: &SymmetricCsc, _partition: &Partition, _shift: &[f64]) -> Result<Self> {
-        unimplemented!()
+    /// Orders, factors and condenses `matrix + diag(shift)`.
+    ///
+    /// # Errors
+    /// As [`super::condense`].
+    pub fn new(matrix: &SymmetricCsc, partition: &Partition, shift: &[f64]) -> Result<Self> {
+        Self::with_method(matrix, partition, shift, Method::Automatic)
+    }
+
+    /// As [`CholmodCondensed::new`], in an order found by `method`.
+    ///
+    /// # Errors
+    /// As [`super::condense`].
+    pub fn with_method(
+        matrix: &SymmetricCsc,
+        partition: &Partition,
+        shift: &[f64],
+        method: Method,
+    ) -> Result<Self> {
+        Self::with_common(Common::start()?, matrix, partition, shift, method)
+    }
+
+    fn with_common(
+        common: Common,
+        matrix: &SymmetricCsc,
+        partition: &Partition,
+        shift: &[f64],
+        method: Method,
+    ) -> Result<Self> {
+        check::arguments(matrix, partition, shift)?;
+        let groups = Groups::new(partition);
+        let (mut factor, name) = analyze(common, matrix, &groups, method)?;
+        let cost = prediction(&factor, name, matrix, &groups);
+
+        // One copy of the values, shifted for the factorisation and then kept for residuals.
+        let mut values = matrix.data().to_vec();
+        let columns = matrix.proper_indptr();
+        let diagonal = |freedom: usize| columns[freedom + 1] as usize - 1;
+        for (&freedom, &d) in partition.contact.iter().zip(shift) {
+            values[diagonal(freedom)] += d;
+        }
+        factor.factorize(&SymmetricView::with_values(matrix, &values))?;
+        let weakest = weakest_pivot(&factor, |freedom| values[diagonal(freedom)]);
+        if weakest.ratio <= smallest_pivot_ratio(partition.n) {
+            return Err(NotDefinite {
+                freedom: weakest.freedom,
+            }
+            .into());
+        }
+        for &freedom in &partition.contact {
+            values[diagonal(freedom)] = matrix.data()[diagonal(freedom)];
+        }
+
+        let trailing = Trailing::extract(&factor, &groups, partition)?;
+        Ok(CholmodCondensed {
+            contact_stiffness: trailing.contact_stiffness(shift),
+            trailing,
+            matrix: Matrix::new(matrix, values),
+            partition: partition.clone(),
+            shift: shift.to_vec(),
+            solver: Mutex::new(Solver {
+                factor,
+                load: vec![0.0; partition.n],
+                solution: vec![0.0; partition.n],
+                residual: vec![0.0; partition.n],
+                backward_error: 0.0,
+            }),
+            cost,
+            weakest,
+        })
+    }
+
+    /// Forms `L_cc L_cc' - diag(shift)` again; [`Condensed::contact_stiffness`] has it from the factorisation.
+    pub fn extract_contact_stiffness(&self) -> DMatrix<f64> {
+        self.trailing.contact_stiffness(&self.shift)
+    }
+
+    fn solver(&self) -> MutexGuard<'_, Solver> {
+        self.solver.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
-/// Predicts.
-pub fn predict(_matrix: &SymmetricCsc, _partition: &Partition) -> Result<Prediction> {
-    unimplemented!()
-}
+
 impl Condensed for CholmodCondensed {
     fn contact_stiffness(&self) -> &DMatrix<f64> {
-        unimplemented!()
+        &self.contact_stiffness
     }
-    fn condense_load(&self, _l: &[f64], _z: &mut [f64], _c: &mut [f64]) -> Result<()> {
-        unimplemented!()
+
+    // y = L^-1 P load has y_i = L_ii^-1 load_i and y_t = L_tt^-1 (load_t - L_ti y_i). Since L_ti L_ii' = K_ti and
+    // L_ii L_ii' = K_ii,
+    //     L_tt y_t = load_t - L_ti L_ii^-1 load_i = load_t - K_ti K_ii^-1 load_i = f_t:
+    // the shift is in L_tt alone, which is divided by and multiplied back.
+    fn condense_load(&self, load: &[f64], zone: &mut [f64], contact: &mut [f64]) -> Result<()> {
+        check::length("load", load.len(), self.partition.n)?;
+        check::length("zone load", zone.len(), self.partition.zone.len())?;
+        check::length("contact load", contact.len(), self.partition.contact.len())?;
+        let mut solver = self.solver();
+        let solver = &mut *solver;
+        for (value, &freedom) in solver.load.iter_mut().zip(solver.factor.permutation()) {
+            *value = load[freedom as usize];
+        }
+        let y = solver.factor.solve(System::Lower, &solver.load)?;
+        let interior = self.partition.n - self.trailing.len();
+        self.trailing.condensed_load(&y[interior..], zone, contact);
+        Ok(())
     }
-    fn eliminate_zone(&self, _z: &mut [f64], _c: &mut [f64]) {
-        unimplemented!()
+
+    fn eliminate_zone(&self, zone: &mut [f64], contact: &mut [f64]) {
+        self.trailing.eliminate_zone(zone, contact);
     }
-    fn recover_zone(&self, _z: &mut [f64], _u: &[f64]) {
-        unimplemented!()
+
+    fn recover_zone(&self, zone: &mut [f64], u_contact: &[f64]) {
+        self.trailing.recover_zone(zone, u_contact);
     }
-    fn recover_all(&self, _x: &mut [f64], _u: &[f64]) -> Result<()> {
-        unimplemented!()
+
+    fn recover_all(&self, x: &mut [f64], u_contact: &[f64]) -> Result<()> {
+        check::length("load", x.len(), self.partition.n)?;
+        check::length(
+            "contact displacement",
+            u_contact.len(),
+            self.partition.contact.len(),
+        )?;
+        let mut solver = self.solver();
+        let Solver {
+            factor,
+            load,
+            solution,
+            residual,
+            backward_error,
+        } = &mut *solver;
+        // K u = load and u_c = u_contact give (K + D) u = load + D u_contact, which is regular.
+        load.copy_from_slice(x);
+        let shifts = || {
+            self.partition
+                .contact
+                .iter()
+                .zip(&self.shift)
+                .zip(u_contact)
+        };
+        for ((&freedom, d), u) in shifts() {
+            load[freedom] += d * u;
+        }
+        solution.copy_from_slice(factor.solve(System::Whole, load)?);
+        self.matrix.residual(x, solution, residual);
+        *backward_error = self.matrix.backward_error(x, solution, residual);
+        if *backward_error > REFINE_ABOVE {
+            // The residual of the shifted system: (K + D) du = load + D u_contact - (K + D) u.
+            for ((&freedom, d), u) in shifts() {
+                residual[freedom] += d * (u - solution[freedom]);
+            }
+            let step = factor.solve(System::Whole, residual)?;
+            for ((refined, u), du) in load.iter_mut().zip(&*solution).zip(step) {
+                *refined = u + du;
+            }
+            self.matrix.residual(x, load, residual);
+            let refined = self.matrix.backward_error(x, load, residual);
+            if refined < *backward_error {
+                *backward_error = refined;
+                solution.copy_from_slice(load);
+            }
+        }
+        x.copy_from_slice(solution);
+        Ok(())
     }
+
     fn backward_error(&self) -> f64 {
-        unimplemented!()
+        self.solver().backward_error
     }
+
     fn cost(&self) -> Prediction {
-        unimplemented!()
+        self.cost
     }
+
+    fn weakest_pivot(&self) -> Pivot {
+        self.weakest
+    }
+}
+
+/// Predicts the cost of [`CholmodCondensed::new`] by its ordering and symbolic analysis.
+///
+/// # Errors
+/// As [`super::predict`].
+pub fn predict(matrix: &SymmetricCsc, partition: &Partition) -> Result<Prediction> {
+    predict_with_method(matrix, partition, Method::Automatic)
+}
+
+/// As [`predict`], for an order found by `method`.
+///
+/// # Errors
+/// As [`super::predict`].
+pub fn predict_with_method(
+    matrix: &SymmetricCsc,
+    partition: &Partition,
+    method: Method,
+) -> Result<Prediction> {
+    check::arguments(matrix, partition, &[])?;
+    let groups = Groups::new(partition);
+    let (factor, name) = analyze(Common::start()?, matrix, &groups, method)?;
+    Ok(prediction(&factor, name, matrix, &groups))
+}
+
+/// Analyses and factors `matrix` as CHOLMOD does by itself, without groups, and drops the factor: what the
+/// condensation is measured against.
+///
+/// # Errors
+/// As [`super::condense`].
+pub fn factor_unconstrained(matrix: &SymmetricCsc) -> Result<Prediction> {
+    let partition = Partition {
+        n: matrix.rows(),
+        ..Partition::default()
+    };
+    check::arguments(matrix, &partition, &[])?;
+    let mut common = Common::start()?;
+    common.choose_ordering();
+    let mut factor = Factor::analyze(common, &SymmetricView::pattern(matrix), None)?;
+    factor.factorize(&SymmetricView::with_values(matrix, matrix.data()))?;
+    Ok(prediction(
+        &factor,
+        "CHOLMOD's own",
+        matrix,
+        &Groups::new(&partition),
+    ))
+}
+
+/// Ordering and symbolic analysis; the groups of the factor's columns are contiguous.
+fn analyze(
+    mut common: Common,
+    matrix: &SymmetricCsc,
+    groups: &Groups,
+    method: Method,
+) -> Result<(Factor, &'static str)> {
+    let pattern = SymmetricView::pattern(matrix);
+    let Ordering {
+        name,
+        mut permutation,
+        ..
+    } = ordering::choose(&mut common, &pattern, groups, method)?;
+    let factor = Factor::analyze(common, &pattern, Some(&mut permutation))?;
+    if !groups.are_contiguous(factor.permutation()) {
+        return Err(Error::internal(format!(
+            "the order found by {name} mixes interior, zone and contact freedoms"
+        )));
+    }
+    Ok((factor, name))
+}
+
+fn prediction(
+    factor: &Factor,
+    name: &'static str,
+    matrix: &SymmetricCsc,
+    groups: &Groups,
+) -> Prediction {
+    let [_, first_trailing, first_contact, n] = groups.starts();
+    let trailing: i64 = factor.column_counts()[first_trailing..].iter().sum();
+    let entries = matrix.nnz();
+    let contact = (n - first_contact) as f64;
+    Prediction {
+        ordering: name,
+        factor_nonzeros: factor.nonzeros(),
+        flops: factor.flops(),
+        trailing_nonzeros: trailing as f64,
+        // The matrix as given (16 bytes an entry), the copy of its values, the factor with its own needs; after it
+        // the trailing copy, condensed stiffness and vectors, smaller than what is gone by then or added here.
+        memory_bytes: 24.0 * entries as f64
+            + factor.bytes(entries)
+            + 8.0 * trailing as f64
+            + 8.0 * 3.0 * contact * contact
+            + 8.0 * 8.0 * n as f64,
+    }
+}
+
+/// The smallest `l_jj^2 / a_jj`, the first of equals in the order of elimination.
+fn weakest_pivot(factor: &Factor, diagonal: impl Fn(usize) -> f64) -> Pivot {
+    let columns = factor.columns();
+    let mut weakest = Pivot {
+        freedom: 0,
+        ratio: f64::INFINITY,
+    };
+    for (j, &freedom) in factor.permutation().iter().enumerate() {
+        let freedom = freedom as usize;
+        let pivot = columns.get(j).values[0];
+        let ratio = pivot * pivot / diagonal(freedom);
+        if ratio < weakest.ratio || ratio.is_nan() {
+            weakest = Pivot { freedom, ratio };
+        }
+    }
+    weakest
 }

@@ -1,0 +1,310 @@
+//! `cholmod_factor`: analyse, factorise, read columns, solve.
+
+use super::common::Common;
+use super::sparse::SymmetricView;
+use crate::error::{Error, ErrorKind, Result};
+use crate::linalg::NotDefinite;
+use std::ffi::c_void;
+use std::ptr::{NonNull, null_mut};
+use suitesparse_sys as sys;
+
+/// The system that [`Factor::solve`] solves.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum System {
+    /// `K x = b`.
+    Whole,
+    /// `L x = b`, b and x in the order of the factor.
+    Lower,
+}
+
+/// A column of `L`: its rows, the diagonal first, ascending, and their values.
+pub(super) struct Column<'a> {
+    pub(super) rows: &'a [i64],
+    pub(super) values: &'a [f64],
+}
+
+/// `P K P' = L L'` with the workspace of its solves.
+pub(super) struct Factor {
+    common: Common,
+    raw: NonNull<sys::cholmod_factor>,
+    solution: *mut sys::cholmod_dense,
+    workspace: [*mut sys::cholmod_dense; 2],
+    nonzeros: f64,
+    flops: f64,
+}
+
+// SAFETY: the factor and its workspace belong to this object alone; see `Common` for threads.
+unsafe impl Send for Factor {}
+
+/// A slice of CHOLMOD's memory.
+///
+/// # Safety
+/// `pointer` is null or points to `length` initialised values that outlive `'a`.
+unsafe fn slice<'a, T>(pointer: *const c_void, length: usize) -> &'a [T] {
+    if pointer.is_null() || length == 0 {
+        return &[];
+    }
+    // SAFETY: by the caller's promise.
+    unsafe { std::slice::from_raw_parts(pointer.cast(), length) }
+}
+
+impl Factor {
+    /// Symbolic analysis for the given order, which is kept exactly, or for one that CHOLMOD finds.
+    pub(super) fn analyze(
+        mut common: Common,
+        matrix: &SymmetricView,
+        permutation: Option<&mut [i64]>,
+    ) -> Result<Self> {
+        let n = matrix.n();
+        debug_assert!(permutation.as_ref().is_none_or(|p| p.len() == n));
+        // SAFETY: `permutation` is absent or has length n and is only read.
+        let raw = unsafe {
+            sys::cholmod_l_analyze_p(
+                matrix.as_ptr(),
+                permutation.map_or(null_mut(), |p| p.as_mut_ptr()),
+                null_mut(),
+                0,
+                common.as_mut(),
+            )
+        };
+        let Some(raw) = NonNull::new(raw) else {
+            common.check("symbolic analysis", n)?;
+            return Err(Error::internal(format!(
+                "CHOLMOD returned no analysis of {n} freedoms"
+            )));
+        };
+        let (nonzeros, flops) = (common.get().lnz, common.get().fl);
+        let factor = Factor {
+            common,
+            raw,
+            solution: null_mut(),
+            workspace: [null_mut(); 2],
+            nonzeros,
+            flops,
+        };
+        factor.common.check("symbolic analysis", n)?;
+        Ok(factor)
+    }
+
+    /// Numerical factorisation of a matrix with the analysed pattern.
+    pub(super) fn factorize(&mut self, matrix: &SymmetricView) -> Result<()> {
+        let n = self.n();
+        // SAFETY: both objects are valid, and the matrix has values.
+        unsafe {
+            sys::cholmod_l_factorize(matrix.as_ptr(), self.raw.as_ptr(), self.common.as_mut());
+        }
+        self.common.check("factorisation", n)?;
+        // CHOLMOD reports success on an indefinite matrix and stops at the column `minor`.
+        let minor = self.raw().minor;
+        if self.common.get().status == sys::CHOLMOD_NOT_POSDEF as i32 || minor < n {
+            let freedom = self.permutation().get(minor).copied().unwrap_or(0) as usize;
+            return Err(NotDefinite { freedom }.into());
+        }
+        let raw = self.raw();
+        if raw.xtype != sys::CHOLMOD_REAL as i32 || raw.is_ll == 0 {
+            return Err(Error::new(
+                ErrorKind::Internal,
+                format!(
+                    "CHOLMOD left a factor of kind {} (LL' {})",
+                    raw.xtype, raw.is_ll
+                ),
+            ));
+        }
+        self.common.free_workspace();
+        Ok(())
+    }
+
+    /// Number of freedoms.
+    pub(super) fn n(&self) -> usize {
+        self.raw().n
+    }
+
+    /// Nonzeros of `L`, from the analysis.
+    pub(super) fn nonzeros(&self) -> f64 {
+        self.nonzeros
+    }
+
+    /// Floating point operations of the factorisation, from the analysis.
+    pub(super) fn flops(&self) -> f64 {
+        self.flops
+    }
+
+    /// True where `L` is kept as dense blocks of columns.
+    pub(super) fn is_supernodal(&self) -> bool {
+        self.raw().is_super != 0
+    }
+
+    /// Bytes of the numerical factor with what its computation needs beside it: the largest update block, and the
+    /// permuted copy of a matrix with `entries` stored entries.
+    pub(super) fn bytes(&self, entries: usize) -> f64 {
+        let raw = self.raw();
+        let factor = if self.is_supernodal() {
+            8.0 * (raw.xsize as f64 + raw.ssize as f64 + raw.maxcsize as f64)
+        } else {
+            16.0 * self.nonzeros
+        };
+        // Order, inverse order, counts, pointers, and CHOLMOD's own work of about 6 n.
+        factor + 16.0 * entries as f64 + 80.0 * raw.n as f64
+    }
+
+    /// Freedom of each column.
+    pub(super) fn permutation(&self) -> &[i64] {
+        let raw = self.raw();
+        // SAFETY: `Perm` has length n from the analysis on.
+        unsafe { slice(raw.Perm, raw.n) }
+    }
+
+    /// Nonzeros of each column, from the analysis.
+    pub(super) fn column_counts(&self) -> &[i64] {
+        let raw = self.raw();
+        // SAFETY: `ColCount` has length n from the analysis on.
+        unsafe { slice(raw.ColCount, raw.n) }
+    }
+
+    /// The columns of the numerical factor, to be read one by one.
+    pub(super) fn columns(&self) -> Columns<'_> {
+        let raw = self.raw();
+        // SAFETY: after the numerical factorisation (the callers' order of calls, and empty slices
+        // otherwise) the arrays have the lengths that CHOLMOD documents for the kind at hand.
+        unsafe {
+            if self.is_supernodal() {
+                Columns::Supernodal {
+                    starts: slice(raw.super_, raw.nsuper + 1),
+                    row_starts: slice(raw.pi, raw.nsuper + 1),
+                    value_starts: slice(raw.px, raw.nsuper + 1),
+                    rows: slice(raw.s, raw.ssize),
+                    values: slice(raw.x, raw.xsize),
+                }
+            } else {
+                Columns::Simplicial {
+                    starts: slice(raw.p, raw.n),
+                    counts: slice(raw.nz, raw.n),
+                    rows: slice(raw.i, raw.nzmax),
+                    values: slice(raw.x, raw.nzmax),
+                }
+            }
+        }
+    }
+
+    /// Solves for one right-hand side. The solution stays in the factor's workspace, which is allocated
+    /// by the first call and used by all later ones.
+    pub(super) fn solve(&mut self, system: System, load: &[f64]) -> Result<&[f64]> {
+        let n = self.n();
+        debug_assert_eq!(load.len(), n);
+        let mut right = sys::cholmod_dense {
+            nrow: n,
+            ncol: 1,
+            nzmax: n,
+            d: n,
+            x: load.as_ptr() as *mut c_void,
+            z: null_mut(),
+            xtype: sys::CHOLMOD_REAL as i32,
+            dtype: sys::CHOLMOD_DOUBLE as i32,
+        };
+        let kind = match system {
+            System::Whole => sys::CHOLMOD_A,
+            System::Lower => sys::CHOLMOD_L,
+        };
+        let [y, e] = &mut self.workspace;
+        // SAFETY: `right` and `load` are only read; the handles are null or came from this very
+        // function, which keeps or reallocates them.
+        let solved = unsafe {
+            sys::cholmod_l_solve2(
+                kind as i32,
+                self.raw.as_ptr(),
+                &mut right,
+                null_mut(),
+                &mut self.solution,
+                null_mut(),
+                y,
+                e,
+                self.common.as_mut(),
+            )
+        };
+        self.common.check("solve", n)?;
+        if solved == 0 || self.solution.is_null() {
+            return Err(Error::internal(format!(
+                "CHOLMOD did not solve for {n} freedoms"
+            )));
+        }
+        // SAFETY: on success `solution` is an n x 1 real matrix that lives until the next call.
+        Ok(unsafe { slice((*self.solution).x, n) })
+    }
+
+    fn raw(&self) -> &sys::cholmod_factor {
+        // SAFETY: not null, valid until dropped, and changed only through `&mut self`.
+        unsafe { self.raw.as_ref() }
+    }
+}
+
+impl Drop for Factor {
+    fn drop(&mut self) {
+        let common: *mut sys::cholmod_common = self.common.as_mut();
+        let mut raw = self.raw.as_ptr();
+        // SAFETY: each object was allocated with this `common` and is freed once; null is allowed.
+        unsafe {
+            sys::cholmod_l_free_dense(&mut self.solution, common);
+            for dense in &mut self.workspace {
+                sys::cholmod_l_free_dense(dense, common);
+            }
+            sys::cholmod_l_free_factor(&mut raw, common);
+        }
+    }
+}
+
+/// The columns of `L` in either of CHOLMOD's two storages.
+pub(super) enum Columns<'a> {
+    /// Dense trapezoids: the columns of a supernode share its rows.
+    Supernodal {
+        starts: &'a [i64],
+        row_starts: &'a [i64],
+        value_starts: &'a [i64],
+        rows: &'a [i64],
+        values: &'a [f64],
+    },
+    /// Compressed columns.
+    Simplicial {
+        starts: &'a [i64],
+        counts: &'a [i64],
+        rows: &'a [i64],
+        values: &'a [f64],
+    },
+}
+
+impl<'a> Columns<'a> {
+    /// Column `j`, wherever it lies in its supernode.
+    pub(super) fn get(&self, j: usize) -> Column<'a> {
+        match *self {
+            Columns::Supernodal {
+                starts,
+                row_starts,
+                value_starts,
+                rows,
+                values,
+            } => {
+                let supernode = starts.partition_point(|&start| start as usize <= j) - 1;
+                let within = j - starts[supernode] as usize;
+                let row_start = row_starts[supernode] as usize;
+                let row_end = row_starts[supernode + 1] as usize;
+                let height = row_end - row_start;
+                let value_start = value_starts[supernode] as usize + within * height;
+                Column {
+                    rows: &rows[row_start + within..row_end],
+                    values: &values[value_start + within..value_start + height],
+                }
+            }
+            Columns::Simplicial {
+                starts,
+                counts,
+                rows,
+                values,
+            } => {
+                let range = starts[j] as usize..(starts[j] + counts[j]) as usize;
+                Column {
+                    rows: &rows[range.clone()],
+                    values: &values[range],
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,316 @@
+//! The trailing columns of `L`, those of zone and contact freedoms, in storage of their own.
+//!
+//! ```text
+//!     L_tt = [ L_zz      ]     L_tt L_tt' = S + diag(shift)
+//!            [ L_cz L_cc ]
+//! ```
+//!
+//! These solves are the hot loop of a plastic analysis: thousands of calls, each bound by how fast the
+//! memory delivers `L_tt`. Columns of the same structure are kept as dense panels of at most
+//! [`PANEL_WIDTH`] columns: a packed lower triangle, then a rectangle whose rows are listed once.
+
+use super::factor::Factor;
+use super::ordering::Groups;
+use super::panel;
+use crate::error::{Error, Result};
+use crate::linalg::Partition;
+use nalgebra::DMatrix;
+use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
+
+/// Columns of a panel: wide enough that rows are gathered rarely, narrow enough that the triangle,
+/// whose columns get short, is a small part.
+const PANEL_WIDTH: usize = 64;
+
+/// Neighbouring columns of one group with the same structure.
+#[derive(Debug)]
+struct Panel {
+    /// First column (trailing numbering: zone, then contact, in the order of the factor).
+    first: usize,
+    width: usize,
+    /// Rows below the panel's own columns, in `Trailing::rows`.
+    rows: Range<usize>,
+    /// First value in `Trailing::values`: the triangle, column by column, then the rectangle.
+    values: usize,
+}
+
+impl Panel {
+    fn triangle(&self) -> Range<usize> {
+        self.values..self.values + self.width * (self.width + 1) / 2
+    }
+
+    fn rectangle(&self) -> Range<usize> {
+        let start = self.triangle().end;
+        start..start + self.width * self.rows.len()
+    }
+}
+
+/// Workspace of one solve.
+#[derive(Debug)]
+struct Work {
+    /// All trailing freedoms in the order of the factor.
+    vector: Vec<f64>,
+    /// The rows of one panel.
+    rows: Vec<f64>,
+}
+
+/// `L_tt` and its solves.
+#[derive(Debug)]
+pub(super) struct Trailing {
+    n_zone: usize,
+    /// Place in the partition's zone of each zone column.
+    zone: Vec<u32>,
+    /// Place in the partition's contact list of each contact column.
+    contact: Vec<u32>,
+    panels: Vec<Panel>,
+    n_zone_panels: usize,
+    rows: Vec<u32>,
+    values: Vec<f64>,
+    work: Mutex<Work>,
+}
+
+impl Trailing {
+    /// Copies the trailing columns out of `factor`, whose groups are contiguous.
+    pub(super) fn extract(factor: &Factor, groups: &Groups, partition: &Partition) -> Result<Self> {
+        let [_, first_zone, first_contact, n] = groups.starts();
+        let permutation = factor.permutation();
+        let mut place = vec![0u32; n];
+        for list in [&partition.zone, &partition.contact] {
+            for (k, &freedom) in list.iter().enumerate() {
+                place[freedom] = k as u32;
+            }
+        }
+        let places = |range: Range<usize>| -> Vec<u32> {
+            permutation[range]
+                .iter()
+                .map(|&freedom| place[freedom as usize])
+                .collect()
+        };
+        let mut trailing = Trailing {
+            n_zone: first_contact - first_zone,
+            zone: places(first_zone..first_contact),
+            contact: places(first_contact..n),
+            panels: Vec::new(),
+            n_zone_panels: 0,
+            rows: Vec::new(),
+            values: Vec::new(),
+            work: Mutex::new(Work {
+                vector: vec![0.0; n - first_zone],
+                rows: Vec::new(),
+            }),
+        };
+        let columns = factor.columns();
+        let nonzeros = (first_zone..n).map(|j| columns.get(j).rows.len()).sum();
+        trailing
+            .values
+            .try_reserve_exact(nonzeros)
+            .map_err(|cause| {
+                Error::analysis(format!(
+                    "out of memory for the {nonzeros} nonzeros of the zone's factor: choose a smaller zone"
+                ))
+                .because(cause)
+            })?;
+        trailing.copy_panels(&columns, first_zone, first_zone..first_contact);
+        trailing.n_zone_panels = trailing.panels.len();
+        trailing.copy_panels(&columns, first_zone, first_contact..n);
+        let tallest = trailing.panels.iter().map(|p| p.rows.len()).max();
+        trailing
+            .work
+            .get_mut()
+            .unwrap_or_else(PoisonError::into_inner)
+            .rows = vec![0.0; tallest.unwrap_or(0)];
+        Ok(trailing)
+    }
+
+    /// Appends the panels of the columns `range` of the factor; `origin` is its first trailing column.
+    fn copy_panels(
+        &mut self,
+        columns: &super::factor::Columns,
+        origin: usize,
+        range: Range<usize>,
+    ) {
+        let mut j = range.start;
+        // Rows (factor numbering, from a column's diagonal down) that end with `self.rows[listed]`.
+        let mut previous: &[i64] = &[];
+        let mut listed = 0..0;
+        while j < range.end {
+            let head = columns.get(j);
+            let mut width = 1;
+            while width < PANEL_WIDTH
+                && j + width < range.end
+                && same_rows(
+                    columns.get(j + width).rows,
+                    &head.rows[width.min(head.rows.len())..],
+                )
+            {
+                width += 1;
+            }
+            let below = &head.rows[width..];
+            // The next panel of a wide supernode uses the tail of the list of the one before.
+            let rows = if below.len() <= previous.len()
+                && same_rows(&previous[previous.len() - below.len()..], below)
+            {
+                listed.end - below.len()..listed.end
+            } else {
+                let start = self.rows.len();
+                self.rows
+                    .extend(below.iter().map(|&row| (row as usize - origin) as u32));
+                start..self.rows.len()
+            };
+            previous = below;
+            listed = rows.clone();
+            let values = self.values.len();
+            for k in 0..width {
+                let column = columns.get(j + k);
+                self.values.extend_from_slice(&column.values[..width - k]);
+            }
+            for k in 0..width {
+                let column = columns.get(j + k);
+                self.values.extend_from_slice(&column.values[width - k..]);
+            }
+            self.panels.push(Panel {
+                first: j - origin,
+                width,
+                rows,
+                values,
+            });
+            j += width;
+        }
+    }
+
+    /// Number of trailing freedoms.
+    pub(super) fn len(&self) -> usize {
+        self.zone.len() + self.contact.len()
+    }
+
+    /// `f_t = L_tt y_t`, given in the order of the factor, returned in the partition's.
+    pub(super) fn condensed_load(&self, y: &[f64], zone: &mut [f64], contact: &mut [f64]) {
+        let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
+        let Work { vector, rows } = &mut *work;
+        vector.copy_from_slice(y);
+        // From the last panel to the first: what a panel reads has not been overwritten yet.
+        for p in self.panels.iter().rev() {
+            let list = &self.rows[p.rows.clone()];
+            let sums = &mut rows[..list.len()];
+            let (own, below) = vector[p.first..].split_at_mut(p.width);
+            panel::multiply(&self.values[p.rectangle()], own, sums);
+            panel::multiply_lower(&self.values[p.triangle()], own);
+            let offset = p.first + p.width;
+            for (&row, &sum) in list.iter().zip(&*sums) {
+                below[row as usize - offset] += sum;
+            }
+        }
+        let (y_zone, y_contact) = vector.split_at(self.n_zone);
+        scatter(&self.zone, y_zone, zone);
+        scatter(&self.contact, y_contact, contact);
+    }
+
+    /// `y_z = L_zz^-1 f_z` left in `zone` in the order of the factor, and `contact -= L_cz y_z`.
+    pub(super) fn eliminate_zone(&self, zone: &mut [f64], contact: &mut [f64]) {
+        let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
+        let Work { vector, rows } = &mut *work;
+        let (v_zone, v_contact) = vector.split_at_mut(self.n_zone);
+        gather(&self.zone, zone, v_zone);
+        gather(&self.contact, contact, v_contact);
+        for p in &self.panels[..self.n_zone_panels] {
+            let list = &self.rows[p.rows.clone()];
+            let sums = &mut rows[..list.len()];
+            let (own, below) = vector[p.first..].split_at_mut(p.width);
+            panel::solve_lower(&self.values[p.triangle()], own);
+            panel::multiply(&self.values[p.rectangle()], own, sums);
+            let offset = p.first + p.width;
+            for (&row, &sum) in list.iter().zip(&*sums) {
+                below[row as usize - offset] -= sum;
+            }
+        }
+        let (v_zone, v_contact) = vector.split_at(self.n_zone);
+        zone.copy_from_slice(v_zone);
+        scatter(&self.contact, v_contact, contact);
+    }
+
+    /// `u_z = L_zz^-T (y_z - L_cz' u_c)`, with `zone` as [`Trailing::eliminate_zone`] left it.
+    pub(super) fn recover_zone(&self, zone: &mut [f64], u_contact: &[f64]) {
+        let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
+        let Work { vector, rows } = &mut *work;
+        let (v_zone, v_contact) = vector.split_at_mut(self.n_zone);
+        v_zone.copy_from_slice(zone);
+        gather(&self.contact, u_contact, v_contact);
+        for p in self.panels[..self.n_zone_panels].iter().rev() {
+            let list = &self.rows[p.rows.clone()];
+            let (own, below) = vector[p.first..].split_at_mut(p.width);
+            let offset = p.first + p.width;
+            let known = &mut rows[..list.len()];
+            for (value, &row) in known.iter_mut().zip(list) {
+                *value = below[row as usize - offset];
+            }
+            panel::subtract_transposed(&self.values[p.rectangle()], known, own);
+            panel::solve_upper(&self.values[p.triangle()], own);
+        }
+        scatter(&self.zone, &vector[..self.n_zone], zone);
+    }
+
+    /// `L_cc L_cc' - diag(shift)`, symmetric to the last bit.
+    pub(super) fn contact_stiffness(&self, shift: &[f64]) -> DMatrix<f64> {
+        let n = self.contact.len();
+        // U = L_cc': the columns of U are the rows of L, so products of rows run through memory.
+        let mut upper = DMatrix::zeros(n, n);
+        for p in &self.panels[self.n_zone_panels..] {
+            let triangle = &self.values[p.triangle()];
+            let rectangle = &self.values[p.rectangle()];
+            let list = &self.rows[p.rows.clone()];
+            let first = p.first - self.n_zone;
+            let mut next = 0;
+            for k in 0..p.width {
+                for i in k..p.width {
+                    upper[(first + k, first + i)] = triangle[next];
+                    next += 1;
+                }
+                let column = &rectangle[k * list.len()..(k + 1) * list.len()];
+                for (&row, &value) in list.iter().zip(column) {
+                    upper[(first + k, row as usize - self.n_zone)] = value;
+                }
+            }
+        }
+        // (L L')_IJ for blocks J <= I: only the first rows of U, up to the end of J, contribute.
+        const BLOCK: usize = 96;
+        let mut product = DMatrix::zeros(n, n);
+        for j in (0..n).step_by(BLOCK) {
+            let width = BLOCK.min(n - j);
+            let depth = j + width;
+            let left = upper.view((0, j), (depth, n - j)).transpose();
+            let right = upper.view((0, j), (depth, width));
+            product
+                .view_mut((j, j), (n - j, width))
+                .gemm(1.0, &left, &right, 0.0);
+        }
+        let mut stiffness = DMatrix::zeros(n, n);
+        for j in 0..n {
+            for i in j..n {
+                let (a, b) = (self.contact[i] as usize, self.contact[j] as usize);
+                stiffness[(a, b)] = product[(i, j)];
+                stiffness[(b, a)] = product[(i, j)];
+            }
+        }
+        for (k, &d) in shift.iter().enumerate() {
+            stiffness[(k, k)] -= d;
+        }
+        stiffness
+    }
+}
+
+/// True where two row lists are equal; those of one supernode are the same memory.
+fn same_rows(a: &[i64], b: &[i64]) -> bool {
+    a.len() == b.len() && (std::ptr::eq(a, b) || a == b)
+}
+
+fn gather(places: &[u32], from: &[f64], to: &mut [f64]) {
+    for (value, &place) in to.iter_mut().zip(places) {
+        *value = from[place as usize];
+    }
+}
+
+fn scatter(places: &[u32], from: &[f64], to: &mut [f64]) {
+    for (&value, &place) in from.iter().zip(places) {
+        to[place as usize] = value;
+    }
+}
