@@ -1,7 +1,7 @@
 //! A smooth disc that fills a hole in an infinite plate under tension: the paper's second example.
 
 use super::bracketing::root;
-use super::domain::{finite, poisson as check_poisson, positive};
+use super::domain::{poisson as check_poisson, positive};
 use super::quadrature::integrate;
 use super::{KirschField, Plane, von_mises};
 use crate::error::Result;
@@ -191,33 +191,6 @@ impl DiscInPlate {
             + ((h + n) * 2.0 - g * (h_slope - 2.0)) / ((h + n) * (h + n)) * (b * s2);
         (f, slope)
     }
-
-    /// Largest von Mises stress in the disc per unit tension, over a polar grid of `n x n` points of the
-    /// quarter disc.
-    ///
-    /// # Errors
-    /// Where Poisson's ratio lies outside (-1, 0.5] or the tension is not finite.
-    pub fn disc_peak_von_mises(
-        &self,
-        plane: Plane,
-        poisson: f64,
-        tension: f64,
-        n: usize,
-    ) -> Result<f64> {
-        check_poisson("disc in a plate", poisson)?;
-        finite("disc in a plate", "tension", tension)?;
-        let mut peak = 0.0_f64;
-        for i in 0..=n {
-            let r = self.radius * i as f64 / n.max(1) as f64;
-            for j in 0..=n {
-                let (sin, cos) = (FRAC_PI_2 * j as f64 / n.max(1) as f64).sin_cos();
-                let [sxx, syy, sxy] = self.disc_stress(r * sin, r * cos, tension);
-                let szz = plane.out_of_plane(sxx + syy, poisson);
-                peak = peak.max(von_mises([sxx, syy, szz], sxy));
-            }
-        }
-        Ok(peak)
-    }
 }
 
 /// Round-off of `|z|^2` at the rim must not meet the singular slope at the edges of the contact.
@@ -280,7 +253,7 @@ fn pole_gap(e: f64) -> f64 {
 
 /// `E* g/(2 a S)` at the angle `t` in `[0, pi/2]`, by the integral of the pressure over the contact.
 fn unit_gap(t: f64, e: f64, q0: f64) -> f64 {
-    // sum_{n even} n/(n^2-1) cos n x = cos x ln|cot(x/2)|/1 - 1/2; the logarithm at x = 0 is put at an end.
+    // sum_{n even} n/(n^2-1) cos n x = cos x ln|cot(x/2)| - 1/2; the logarithm at x = 0 is put at an end.
     let kernel = |x: f64| x.cos() * (0.5 * x).tan().abs().ln();
     let right = |s: f64| unit_pressure(t + s, e, q0) * kernel(s);
     let left = |s: f64| unit_pressure(t - s, e, q0) * kernel(s);

@@ -73,14 +73,7 @@ impl KirschField {
 
     /// Displacement `[u_x, u_y]` at `(x, y)` outside the hole, without rigid motion (0 along the axes of
     /// symmetry across them).
-    pub fn displacement(
-        &self,
-        x: f64,
-        y: f64,
-        young: f64,
-        poisson: f64,
-        plane: Plane,
-    ) -> [f64; 2] {
+    pub fn displacement(&self, x: f64, y: f64, young: f64, poisson: f64, plane: Plane) -> [f64; 2] {
         let kolosov = plane.kolosov(poisson);
         let shear = young / (2.0 * (1.0 + poisson));
         let along = self.uniaxial_displacement(x, y, kolosov);
