@@ -138,7 +138,7 @@ impl ElastoplasticSphere {
     /// A hemispherical core of radius `a` under hydrostatic pressure drives the plastic front of an
     /// infinite incompressible [`ThickSphere`](super::ThickSphere), `(c/a)^3 = E* a/(3 Y R)`. A model, not a
     /// solution: for the range between first yield (about 1.1 Y) and full plasticity (about 3 Y); below
-    /// `E* a/(Y R)` of about 6 it falls under the pressure of first yield.
+    /// `E* a/(Y R)` of about 5.5 it falls under the pressure of first yield.
     ///
     /// # Source
     /// K. L. Johnson, *Contact Mechanics*, Cambridge 1985, par. 6.3, pp. 171-175; J. Mech. Phys. Solids 18

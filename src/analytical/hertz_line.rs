@@ -98,8 +98,8 @@ impl HertzLine {
     /// Pressure `p0` at which a body with Poisson's ratio `poisson` and tensile yield stress
     /// `yield_stress` first yields after von Mises: 1.7937 Y for `nu = 0.3`.
     ///
-    /// Found by maximising the von Mises stress over the depth, not from a table. For `nu` below about
-    /// 0.19 first yield is at the surface, where the von Mises stress is `(1 - 2 nu) p0`.
+    /// Found by maximising the von Mises stress over the depth, not from a table. For `nu` below
+    /// 0.1938 first yield is at the surface, where the von Mises stress is `(1 - 2 nu) p0`.
     ///
     /// # Source
     /// K. L. Johnson, *Contact Mechanics*, pp. 154-155 (Tresca 1.67 Y and, for von Mises and
@@ -196,6 +196,8 @@ mod tests {
         assert!((peak / 3.0_f64.sqrt() - 0.300).abs() < 5e-4);
         assert!((depth - 0.786).abs() < 5e-4);
         assert_eq!(peak_von_mises(0.0), (0.0, 1.0));
+        assert_eq!(peak_von_mises(0.1937).0, 0.0);
+        assert!(peak_von_mises(0.1939).0 > 0.5);
     }
 
     #[test]

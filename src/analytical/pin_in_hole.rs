@@ -2,7 +2,6 @@
 
 use super::bracketing::root;
 use super::domain::{finite, positive};
-use super::quadrature::integrate;
 use crate::error::{Error, Result};
 use std::f64::consts::PI;
 
@@ -112,19 +111,6 @@ impl PinInHole {
     pub fn max_pressure(&self, load: f64) -> Result<f64> {
         self.pressure(0.0, load)
     }
-
-    /// Resultant of the pressure along the load, by quadrature: the load again, as a check.
-    ///
-    /// # Errors
-    /// As [`half_angle`](Self::half_angle).
-    pub fn resultant(&self, load: f64) -> Result<f64> {
-        let half_angle = self.half_angle(load)?;
-        if half_angle >= PI {
-            return Ok(load);
-        }
-        let half = integrate(|f| unit_pressure(f, half_angle) * f.cos(), 0.0, half_angle);
-        Ok(2.0 * load * half)
-    }
 }
 
 /// `p R/Q` at the angle `f` for the half angle `e` of the contact.
@@ -142,6 +128,7 @@ fn unit_pressure(f: f64, e: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::quadrature::integrate;
     use super::*;
 
     #[test]
@@ -158,9 +145,11 @@ mod tests {
     fn pressure_carries_the_load_and_angles_invert() {
         for (clearance, load) in [(0.1, 3e4), (1e-3, 10.0), (0.0, 50.0), (-0.01, 1e4)] {
             let pin = PinInHole::new(20.0, clearance, 1e5).unwrap();
-            assert!((pin.resultant(load).unwrap() / load - 1.0).abs() < 1e-8);
+            let e = pin.half_angle(load).unwrap();
+            let along = |f: f64| 2.0 * 20.0 * f.cos() * pin.pressure(f, load).unwrap();
+            let carried = integrate(along, 0.0, e) / load;
+            assert!((carried - 1.0).abs() < 1e-8, "{carried}");
             if clearance != 0.0 {
-                let e = pin.half_angle(load).unwrap();
                 assert!((pin.load_for_half_angle(e).unwrap() / load - 1.0).abs() < 1e-11);
             }
         }
