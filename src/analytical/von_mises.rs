@@ -1,0 +1,21 @@
+//! The von Mises equivalent stress of closed-form stress states.
+
+/// Von Mises stress of three normal stresses and the one shear stress of a plane or axisymmetric state:
+/// `sqrt(((s1-s2)^2 + (s2-s3)^2 + (s3-s1)^2)/2 + 3 t^2)`. Units of stress.
+pub fn von_mises(normal: [f64; 3], shear: f64) -> f64 {
+    let [s1, s2, s3] = normal;
+    let (d1, d2, d3) = (s1 - s2, s2 - s3, s3 - s1);
+    (0.5 * (d1 * d1 + d2 * d2 + d3 * d3) + 3.0 * shear * shear).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tension_pressure_and_shear() {
+        assert_eq!(von_mises([5.0, 0.0, 0.0], 0.0), 5.0);
+        assert_eq!(von_mises([7.0, 7.0, 7.0], 0.0), 0.0);
+        assert!((von_mises([0.0; 3], 1.0) - 3.0_f64.sqrt()).abs() < f64::EPSILON);
+    }
+}
