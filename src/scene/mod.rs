@@ -11,6 +11,7 @@
 //! ```
 
 mod boundary;
+mod complete;
 mod defaults;
 mod document;
 mod geometry;

@@ -1,7 +1,7 @@
 //! Reading: text to [`Scene`], with errors that name file, line, column, key and what was meant.
 
 use super::document::{Places, Source};
-use super::{Scene, overrides, unsupported, validate};
+use super::{Scene, complete, overrides, unsupported, validate};
 use crate::error::{Error, ErrorKind, Result};
 use serde::Deserialize;
 use std::path::Path;
@@ -61,8 +61,9 @@ fn parse(source: &Source<'_>) -> Result<Scene> {
         .into_inner();
     overrides::apply(source, &mut root)?;
     let (places, root) = Places::number(source, root)?;
-    let mut scene = Scene::deserialize(toml::de::Deserializer::from(root))
+    let mut scene = Scene::deserialize(toml::de::Deserializer::from(root.clone()))
         .map_err(|error| explain(&error, &places))?;
+    complete::check(&scene, root.get_ref(), &places)?;
     let problems = validate::problems(&scene);
     if !problems.is_empty() {
         let lines: Vec<String> = problems

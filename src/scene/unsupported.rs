@@ -89,6 +89,6 @@ pub(super) fn effect(word: &str) -> Option<&'static str> {
     };
     EFFECTS
         .iter()
-        .find(|(_, keys)| keys.iter().any(|key| asked(&key)))
+        .find(|(_, keys)| keys.iter().any(asked))
         .map(|(effect, _)| *effect)
 }

@@ -124,6 +124,16 @@ fn a_bad_scene_is_refused_with_place_key_and_advice() {
             ],
         ),
         (
+            "x = [0.0, 1.0]",
+            "x = [0.0, 1.0, 2.0]",
+            &["bad.toml:6:11: mesh.parts.0.block.x: wrong number of values: 3, expected 2"],
+        ),
+        (
+            "pressure = 1.0",
+            "displacement = [0.0, 1.0]",
+            &["load.0.displacement: wrong type: array, expected a table with keys such as x, y"],
+        ),
+        (
             "[bodies.block]\nmaterial = \"steel\"",
             "[bodies]\nblock = \"steel\"",
             &["bad.toml:14:9: bodies.block: wrong type: string \"steel\", expected a table"],
@@ -153,7 +163,7 @@ fn a_bad_scene_is_refused_with_place_key_and_advice() {
         (
             "pressure = 1.0",
             "pressure = 1.0\nhistory = [[0, 1, 2]]",
-            &["load.0.history.0: wrong number of values: 3, expected an array of length 2"],
+            &["bad.toml:24:12: load.0.history.0: wrong number of values: 3, expected 2"],
         ),
         (
             "material = \"steel\"",

@@ -225,7 +225,7 @@ impl Checks {
             format!("[{start}, {end}] must be 90, 180 or 360 degrees apart"),
         );
         self.require(
-            disc.elements >= 2 && disc.elements % 2 == 0,
+            disc.elements >= 2 && disc.elements.is_multiple_of(2),
             format!("{key}.elements"),
             format!("{} must be an even number, 2 or more", disc.elements),
         );
