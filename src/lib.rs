@@ -16,21 +16,37 @@
 //! A module imports only from modules declared above it; a test holds that.
 #![warn(missing_docs)]
 
-pub mod analysis;
-pub mod analytical;
-pub mod assembly;
-pub mod cli;
-pub mod contact;
-pub mod element;
+// Blank lines keep the order of the data: rustfmt sorts neighbouring lines.
 pub mod error;
-pub mod linalg;
-pub mod material;
-pub mod mesh;
-pub mod model;
-pub mod output;
-pub mod progress;
-pub mod results;
+
+pub mod analytical;
+
 pub mod scene;
+
+pub mod mesh;
+
+pub mod material;
+
+pub mod element;
+
+pub mod model;
+
+pub mod assembly;
+
+pub mod linalg;
+
+pub mod contact;
+
 pub mod substructure;
+
+pub mod results;
+
+pub mod progress;
+
+pub mod analysis;
+
+pub mod output;
+
+pub mod cli;
 
 pub use error::{Error, ErrorKind, Result};

@@ -1,1 +1,7 @@
-fn main() {}
+//! The program `brinell`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    brinell::cli::main()
+}

@@ -29,6 +29,8 @@ pub struct Results {
     pub warnings: Vec<String>,
     /// Set where the run ended before the program did: why.
     pub incomplete: Option<String>,
+    /// Set with [`Results::incomplete`]: the kind that decides the exit code (stopped, collapse, analysis).
+    pub incomplete_kind: Option<crate::ErrorKind>,
 }
 
 /// Sizes of the model.

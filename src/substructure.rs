@@ -30,7 +30,10 @@ pub struct Trailing {
 impl Trailing {
     /// All zeros.
     pub fn zeros(n_zone: usize, n_contact: usize) -> Self {
-        Trailing { zone: vec![0.0; n_zone], contact: vec![0.0; n_contact] }
+        Trailing {
+            zone: vec![0.0; n_zone],
+            contact: vec![0.0; n_contact],
+        }
     }
 
     /// Both parts, one after the other.
@@ -93,7 +96,11 @@ impl Substructure {
     /// # Errors
     /// A matrix that is not positive definite, with body, node and direction; backend limits.
     pub fn new(model: &Model, system: &System, zone: Vec<usize>, backend: Backend) -> Result<Self> {
-        let partition = Partition { n: model.freedoms.n, zone, contact: contact_freedoms(model)? };
+        let partition = Partition {
+            n: model.freedoms.n,
+            zone,
+            contact: contact_freedoms(model)?,
+        };
         let shift = shift(model, system, &partition);
         let condensed = linalg::condense(backend, &system.stiffness, &partition, &shift)
             .map_err(|e| name_freedom(e, model))?;
@@ -112,14 +119,26 @@ impl Substructure {
                      structure is not positive definite",
                 )
             })?;
-            let half = factor.l_dirty().solve_lower_triangular(&coupling).ok_or_else(|| {
-                Error::internal("the condensed stiffness of the tied structure has a zero pivot")
-            })?;
+            let half = factor
+                .l_dirty()
+                .solve_lower_triangular(&coupling)
+                .ok_or_else(|| {
+                    Error::internal(
+                        "the condensed stiffness of the tied structure has a zero pivot",
+                    )
+                })?;
             contact_matrix -= half.tr_mul(&half);
             contact_matrix = 0.5 * (&contact_matrix + contact_matrix.transpose());
             tied = Some(factor);
         }
-        Ok(Substructure { partition, condensed, n_pairs: n, tied, coupling, contact_matrix })
+        Ok(Substructure {
+            partition,
+            condensed,
+            n_pairs: n,
+            tied,
+            coupling,
+            contact_matrix,
+        })
     }
 
     /// The matrix T of the contact problem, all pairs closed.
@@ -143,14 +162,16 @@ impl Substructure {
     /// Failure of the backend's solve.
     pub fn condense(&self, load: &[f64]) -> Result<Trailing> {
         let mut out = self.zeros();
-        self.condensed.condense_load(load, &mut out.zone, &mut out.contact)?;
+        self.condensed
+            .condense_load(load, &mut out.zone, &mut out.contact)?;
         Ok(out)
     }
 
     /// Eliminates zone and tied contact freedoms: on entry a load; on return `load` holds what [`Substructure::recover`]
     /// needs and `forces` (`n_pairs`) the forces `t` that the pairs would carry if tied without gap.
     pub fn eliminate(&self, load: &mut Trailing, forces: &mut [f64]) {
-        self.condensed.eliminate_zone(&mut load.zone, &mut load.contact);
+        self.condensed
+            .eliminate_zone(&mut load.zone, &mut load.contact);
         let Some(tied) = &self.tied else { return };
         let n = self.n_pairs;
         let mut v = DVector::from_fn(n, |k, _| load.contact[k] + load.contact[n + k]);
@@ -218,13 +239,23 @@ fn shift(model: &Model, system: &System, partition: &Partition) -> Vec<f64> {
         .map(|i| {
             let floats = model.floating.of_pair[i % n][i / n];
             let freedom = partition.contact[i];
-            if floats { system.stiffness.get(freedom, freedom).copied().unwrap_or(0.0) } else { 0.0 }
+            if floats {
+                system
+                    .stiffness
+                    .get(freedom, freedom)
+                    .copied()
+                    .unwrap_or(0.0)
+            } else {
+                0.0
+            }
         })
         .collect()
 }
 
 fn name_freedom(error: Error, model: &Model) -> Error {
-    let freedom = std::error::Error::source(&error).and_then(|s| s.downcast_ref::<NotDefinite>()).map(|n| n.freedom);
+    let freedom = std::error::Error::source(&error)
+        .and_then(|s| s.downcast_ref::<NotDefinite>())
+        .map(|n| n.freedom);
     match freedom {
         Some(freedom) => {
             let place = model.freedoms.describe(&model.mesh, freedom);

@@ -45,7 +45,11 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
         .chain(model.pairs.iter().map(|p| p.second))
         .filter_map(|node| model.freedoms.normal_freedom(node))
         .collect();
-    let partition = Partition { n: model.freedoms.n, zone, contact };
+    let partition = Partition {
+        n: model.freedoms.n,
+        zone,
+        contact,
+    };
     let prediction = linalg::predict(backend, &system.stiffness, &partition)?;
     let sizes = Sizes {
         freedoms: model.freedoms.n,
@@ -60,7 +64,8 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
         effects: effects(model, plastic),
         sizes,
         prediction,
-        predicted_seconds: prediction.flops / TYPICAL_FLOPS + prediction.factor_nonzeros / TYPICAL_ANALYSIS,
+        predicted_seconds: prediction.flops / TYPICAL_FLOPS
+            + prediction.factor_nonzeros / TYPICAL_ANALYSIS,
         blas: linalg::blas_name(),
         notes: model.warnings.clone(),
     })
@@ -68,20 +73,49 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
 
 /// The ledger: each effect on or off, and why. `yields` says whether the loads reach (or may reach) yield.
 pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
-    let effect = |name: &str, on: bool, why: String| Effect { name: name.into(), on, why, seconds: 0.0, memory_bytes: 0 };
+    let effect = |name: &str, on: bool, why: String| Effect {
+        name: name.into(),
+        on,
+        why,
+        seconds: 0.0,
+        memory_bytes: 0,
+    };
     let bodies = &model.mesh.bodies;
-    let able: Vec<&str> =
-        bodies.iter().zip(&model.may_yield).filter(|(_, may)| **may).map(|(name, _)| name.as_str()).collect();
+    let able: Vec<&str> = bodies
+        .iter()
+        .zip(&model.may_yield)
+        .filter(|(_, may)| **may)
+        .map(|(name, _)| name.as_str())
+        .collect();
     let contact = match model.pairs.len() {
         0 => effect("contact", false, "the scene names no contact".into()),
-        n => effect("contact", true, format!("{n} pairs on {} contact surface(s)", model.contacts.len())),
+        n => effect(
+            "contact",
+            true,
+            format!("{n} pairs on {} contact surface(s)", model.contacts.len()),
+        ),
     };
     let plasticity = if able.is_empty() {
-        effect("plasticity", false, "no body may yield (no yield stress, or plastic = false)".into())
+        effect(
+            "plasticity",
+            false,
+            "no body may yield (no yield stress, or plastic = false)".into(),
+        )
     } else if yields {
-        effect("plasticity", true, format!("{} may yield and the loads reach yield", able.join(", ")))
+        effect(
+            "plasticity",
+            true,
+            format!("{} may yield and the loads reach yield", able.join(", ")),
+        )
     } else {
-        effect("plasticity", false, format!("{} could yield but stays elastic under these loads", able.join(", ")))
+        effect(
+            "plasticity",
+            false,
+            format!(
+                "{} could yield but stays elastic under these loads",
+                able.join(", ")
+            ),
+        )
     };
     let interference = model.pairs.iter().any(|p| p.interference != 0.0);
     let floating = &model.floating.bodies;
@@ -93,15 +127,39 @@ pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
         effect(
             "interference",
             interference,
-            on_off(interference, "a contact states an interference, applied before the load".into(), "no contact states one"),
+            on_off(
+                interference,
+                "a contact states an interference, applied before the load".into(),
+                "no contact states one",
+            ),
         ),
-        effect("preload", preload, on_off(preload, "a load acts at load factor 0".into(), "no load acts at load factor 0")),
+        effect(
+            "preload",
+            preload,
+            on_off(
+                preload,
+                "a load acts at load factor 0".into(),
+                "no load acts at load factor 0",
+            ),
+        ),
         effect(
             "floating bodies",
             !floating.is_empty(),
-            on_off(!floating.is_empty(), format!("{} held by contact alone", floating.join(", ")), "supports hold every body"),
+            on_off(
+                !floating.is_empty(),
+                format!("{} held by contact alone", floating.join(", ")),
+                "supports hold every body",
+            ),
         ),
-        effect("friction", false, "not modelled: contact forces are normal".into()),
-        effect("large displacements", false, "not modelled: small strains, contact pairs fixed".into()),
+        effect(
+            "friction",
+            false,
+            "not modelled: contact forces are normal".into(),
+        ),
+        effect(
+            "large displacements",
+            false,
+            "not modelled: small strains, contact pairs fixed".into(),
+        ),
     ]
 }

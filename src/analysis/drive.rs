@@ -82,7 +82,10 @@ impl Engine<'_> {
             Some(recovery) => {
                 self.refresh();
                 let samples = recovery.sample(&self.now.u, &self.at.factors);
-                if let Some(peak) = recovery.peak(self.model, &samples).filter(|p| p.ratio > 1.0) {
+                if let Some(peak) = recovery
+                    .peak(self.model, &samples)
+                    .filter(|p| p.ratio > 1.0)
+                {
                     return Ok(Arrival::Yield(peak));
                 }
                 Some(samples)
@@ -98,7 +101,10 @@ impl Engine<'_> {
             if let (Some(recovery), Some(from)) = (&mut recovery, &mut samples) {
                 self.refresh();
                 let to = recovery.sample(&self.now.u, &self.at.factors);
-                if recovery.peak(self.model, &to).is_some_and(|p| p.ratio >= 1.0) {
+                if recovery
+                    .peak(self.model, &to)
+                    .is_some_and(|p| p.ratio >= 1.0)
+                {
                     let (share, peak) = yield_share(self, recovery, from, &to);
                     piece.go_back(self, before + share * (piece.t() - before));
                     self.refresh();
@@ -114,10 +120,15 @@ impl Engine<'_> {
                 if is == 0.0 || (is > 0.0) != (was > 0.0) {
                     let (from, to) = (before, piece.t());
                     let sign = if is > was { 1.0 } else { -1.0 };
-                    let t = bracketed_root(from, to, MONITOR_ACCURACY * (to - from).abs().max(f64::MIN_POSITIVE), |t| {
-                        piece.go_back(self, t);
-                        sign * monitor(self)
-                    });
+                    let t = bracketed_root(
+                        from,
+                        to,
+                        MONITOR_ACCURACY * (to - from).abs().max(f64::MIN_POSITIVE),
+                        |t| {
+                            piece.go_back(self, t);
+                            sign * monitor(self)
+                        },
+                    );
                     piece.go_back(self, t);
                     self.refresh();
                     self.note(report, "target", solves)?;
@@ -128,7 +139,11 @@ impl Engine<'_> {
             match outcome {
                 PathEnd::Target => {
                     self.at = end.clone();
-                    return Ok(if self.note(report, "target", solves)? { Arrival::End } else { Arrival::Stopped });
+                    return Ok(if self.note(report, "target", solves)? {
+                        Arrival::End
+                    } else {
+                        Arrival::Stopped
+                    });
                 }
                 PathEnd::Event(changes) => {
                     if !self.note(report, &describe(&changes), solves)? {
@@ -140,9 +155,21 @@ impl Engine<'_> {
         }
     }
 
-    fn note(&mut self, report: &mut OnIncrement, event: &str, solves_before: usize) -> Result<bool> {
+    fn note(
+        &mut self,
+        report: &mut OnIncrement,
+        event: &str,
+        solves_before: usize,
+    ) -> Result<bool> {
         let trailing_solves = self.counts.trailing_solves - solves_before;
-        report(self, &IncrementReport { event: event.to_string(), trailing_solves, ..IncrementReport::default() })
+        report(
+            self,
+            &IncrementReport {
+                event: event.to_string(),
+                trailing_solves,
+                ..IncrementReport::default()
+            },
+        )
     }
 
     /// Elastoplastic drive to `end`.
@@ -218,7 +245,13 @@ impl Engine<'_> {
         let changes: Vec<Change> = increment
             .changes
             .iter()
-            .map(|&k| if self.tableau.open()[k] { Change::Closes(k) } else { Change::Opens(k) })
+            .map(|&k| {
+                if self.tableau.open()[k] {
+                    Change::Closes(k)
+                } else {
+                    Change::Opens(k)
+                }
+            })
             .collect();
         self.at = start.towards(end, increment.t);
         self.now = increment.state;
@@ -237,16 +270,26 @@ impl Engine<'_> {
     }
 
     /// An increment with statuses that are right at its begin (events) or at its end (steps).
-    fn find_increment(&mut self, end: &LoadPoint, left: f64, stepper: Stepper) -> Result<Increment> {
+    fn find_increment(
+        &mut self,
+        end: &LoadPoint,
+        left: f64,
+        stepper: Stepper,
+    ) -> Result<Increment> {
         let mut most = left;
         let mut cuts = 0;
         let mut corrections = 0;
         let mut seen: Vec<Vec<bool>> = Vec::new();
         loop {
             let outcome = match stepper.stepping {
-                Stepping::Events if corrections < MOST_CORRECTIONS => {
-                    self.increment(end, most, EndsAt::NextChange { gamma: stepper.gamma }, stepper.settings)
-                }
+                Stepping::Events if corrections < MOST_CORRECTIONS => self.increment(
+                    end,
+                    most,
+                    EndsAt::NextChange {
+                        gamma: stepper.gamma,
+                    },
+                    stepper.settings,
+                ),
                 Stepping::Events => self.solve_step(end, 1e-3 * most, stepper)?,
                 Stepping::Steps => self.solve_step(end, most, stepper)?,
             };
@@ -288,7 +331,12 @@ impl Engine<'_> {
 
     /// A fixed increment, contact solved at its end: statuses that come out wrong are flipped, all at once while that
     /// makes them fewer, else the least index alone (finite: Habetler and Kostreva 1978, doi:10.1137/0316011).
-    fn solve_step(&mut self, end: &LoadPoint, most: f64, stepper: Stepper) -> Result<std::result::Result<Increment, NoIncrement>> {
+    fn solve_step(
+        &mut self,
+        end: &LoadPoint,
+        most: f64,
+        stepper: Stepper,
+    ) -> Result<std::result::Result<Increment, NoIncrement>> {
         let mut fewest = usize::MAX;
         let mut patience = 6;
         for _ in 0..10 * (self.now.gap.len() + 10) {
@@ -300,11 +348,20 @@ impl Engine<'_> {
             let r_tol = 1e-9 * force.iter().fold(self.force_scale, |m, r| m.max(*r));
             let g_tol = 1e-9 * gap.iter().fold(0.0f64, |m, g| m.max(*g));
             let wrong: Vec<usize> = (0..gap.len())
-                .filter(|&k| if self.tableau.open()[k] { gap[k] < -g_tol } else { force[k] < -r_tol })
+                .filter(|&k| {
+                    if self.tableau.open()[k] {
+                        gap[k] < -g_tol
+                    } else {
+                        force[k] < -r_tol
+                    }
+                })
                 .collect();
             if wrong.is_empty() {
                 self.border.clear();
-                return Ok(Ok(Increment { changes: Vec::new(), ..increment }));
+                return Ok(Ok(Increment {
+                    changes: Vec::new(),
+                    ..increment
+                }));
             }
             if wrong.len() < fewest {
                 (fewest, patience) = (wrong.len(), 6);
@@ -344,7 +401,14 @@ impl Engine<'_> {
                 return sign * was;
             }
             saved.put_back(engine);
-            match engine.find_increment(end, t, Stepper { stepping: stepper.stepping, ..stepper }) {
+            match engine.find_increment(
+                end,
+                t,
+                Stepper {
+                    stepping: stepper.stepping,
+                    ..stepper
+                },
+            ) {
                 Ok(increment) => {
                     reported.residual = increment.residual;
                     reported.iterations += increment.iterations;

@@ -28,12 +28,19 @@ impl ElasticPiece {
         if engine.now.force.iter().all(|r| *r == 0.0) {
             close_gap_of_floating_bodies(engine, &q0, &rate)?;
         }
-        let gap_scale = engine.delta(&start).iter().fold(0.0f64, |m, d| m.max(d.abs()));
+        let gap_scale = engine
+            .delta(&start)
+            .iter()
+            .fold(0.0f64, |m, d| m.max(d.abs()));
         let (gap, force) = (engine.now.gap.clone(), engine.now.force.clone());
         let path = Path::new(&mut engine.tableau, q0, rate, gap, force, gap_scale)
             .map_err(|u| engine.unbounded(u.pair, start.alpha))?;
         engine.counts.contact_changes += path.changes;
-        Ok(ElasticPiece { start, end: end.clone(), path })
+        Ok(ElasticPiece {
+            start,
+            end: end.clone(),
+            path,
+        })
     }
 
     /// Goes to the next event, at most to share `t` of the piece; the engine's gaps and forces follow.
@@ -54,7 +61,9 @@ impl ElasticPiece {
     /// # Errors
     /// A load that drives a body away from every contact.
     pub fn turn(&mut self, engine: &mut Engine) -> Result<()> {
-        self.path.turn(&mut engine.tableau).map_err(|u| engine.unbounded(u.pair, engine.at.alpha))?;
+        self.path
+            .turn(&mut engine.tableau)
+            .map_err(|u| engine.unbounded(u.pair, engine.at.alpha))?;
         engine.counts.contact_changes += self.path.changes;
         Ok(())
     }
@@ -82,10 +91,13 @@ fn close_gap_of_floating_bodies(engine: &mut Engine, q0: &[f64], rate: &[f64]) -
     }
     let largest = |v: &[f64]| v.iter().fold(0.0f64, |m, x| m.max(x.abs()));
     // Small against the piece, large against the round-off of q0 (which carries the rigid motion).
-    let share = 1e-9f64.max(1e-12 * largest(q0) / largest(rate).max(f64::MIN_POSITIVE)).min(1.0);
+    let share = 1e-9f64
+        .max(1e-12 * largest(q0) / largest(rate).max(f64::MIN_POSITIVE))
+        .min(1.0);
     let q: Vec<f64> = q0.iter().zip(rate).map(|(a, b)| a + share * b).collect();
     let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
-    contact::solve(&mut engine.tableau, &q, &mut gap, &mut force).map_err(|u| engine.unbounded(u.pair, engine.at.alpha))?;
+    contact::solve(&mut engine.tableau, &q, &mut gap, &mut force)
+        .map_err(|u| engine.unbounded(u.pair, engine.at.alpha))?;
     engine.now.gap = gap;
     engine.now.force.fill(0.0);
     Ok(())
@@ -101,6 +113,10 @@ pub fn describe(changes: &[Change]) -> String {
             Change::Opens(k) => format!("opens: pair {}", k + 1),
         })
         .collect();
-    let more = if changes.len() > 4 { format!(" and {} more", changes.len() - 4) } else { String::new() };
+    let more = if changes.len() > 4 {
+        format!(" and {} more", changes.len() - 4)
+    } else {
+        String::new()
+    };
     words.join(", ") + &more
 }

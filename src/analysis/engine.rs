@@ -27,7 +27,12 @@ impl LoadPoint {
         let mix = |a: f64, b: f64| if t == 1.0 { b } else { a + t * (b - a) };
         LoadPoint {
             alpha: mix(self.alpha, end.alpha),
-            factors: self.factors.iter().zip(&end.factors).map(|(a, b)| mix(*a, *b)).collect(),
+            factors: self
+                .factors
+                .iter()
+                .zip(&end.factors)
+                .map(|(a, b)| mix(*a, *b))
+                .collect(),
             interference: mix(self.interference, end.interference),
         }
     }
@@ -101,7 +106,11 @@ impl<'m> Engine<'m> {
     ) -> Result<Self> {
         let freedoms = super::zone_choice::zone_freedoms(model, &elements);
         let sub = Substructure::new(model, system, freedoms, backend)?;
-        let places = Places::new(model.freedoms.n, &sub.partition.zone, &sub.partition.contact);
+        let places = Places::new(
+            model.freedoms.n,
+            &sub.partition.zone,
+            &sub.partition.contact,
+        );
         let zone = Zone::new(model, &elements, guard, &places);
         let tableau = sub.tableau();
         let n = model.pairs.len();
@@ -119,10 +128,22 @@ impl<'m> Engine<'m> {
             load_forces: Vec::new(),
             gap_forces,
             unit: 1.0,
-            counts: Counts { factorizations: 1, ..Counts::default() },
+            counts: Counts {
+                factorizations: 1,
+                ..Counts::default()
+            },
             force_scale: 0.0,
-            at: LoadPoint { alpha: 0.0, factors: vec![0.0; model.loads.len()], interference: 0.0 },
-            now: Equilibrium { initial: sub.zeros(), u: sub.zeros(), gap: gap.clone(), force: vec![0.0; n] },
+            at: LoadPoint {
+                alpha: 0.0,
+                factors: vec![0.0; model.loads.len()],
+                interference: 0.0,
+            },
+            now: Equilibrium {
+                initial: sub.zeros(),
+                u: sub.zeros(),
+                gap: gap.clone(),
+                force: vec![0.0; n],
+            },
             fresh: true,
             border: Vec::new(),
             gap,
@@ -151,7 +172,12 @@ impl<'m> Engine<'m> {
     pub fn point(&self, alpha: f64) -> LoadPoint {
         LoadPoint {
             alpha,
-            factors: self.model.loads.iter().map(|l| l.factor(alpha, self.unit)).collect(),
+            factors: self
+                .model
+                .loads
+                .iter()
+                .map(|l| l.factor(alpha, self.unit))
+                .collect(),
             interference: 1.0,
         }
     }
@@ -167,14 +193,23 @@ impl<'m> Engine<'m> {
 
     /// Initial gaps less the applied interference.
     pub fn delta(&self, point: &LoadPoint) -> Vec<f64> {
-        self.gap.iter().zip(&self.interference).map(|(g, i)| g - point.interference * i).collect()
+        self.gap
+            .iter()
+            .zip(&self.interference)
+            .map(|(g, i)| g - point.interference * i)
+            .collect()
     }
 
     /// `q` of the contact problem for a load point without initial loads: `t - T delta`.
     pub fn closed_forces(&self, point: &LoadPoint) -> Vec<f64> {
         (0..self.gap.len())
             .map(|k| {
-                let loads: f64 = self.load_forces.iter().zip(&point.factors).map(|(t, f)| f * t[k]).sum();
+                let loads: f64 = self
+                    .load_forces
+                    .iter()
+                    .zip(&point.factors)
+                    .map(|(t, f)| f * t[k])
+                    .sum();
                 loads - self.gap_forces[0][k] + point.interference * self.gap_forces[1][k]
             })
             .collect()
@@ -202,10 +237,20 @@ impl<'m> Engine<'m> {
         }
         let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
         self.tableau.solve(&q, &mut gap, &mut force);
-        let slip: Vec<f64> = self.delta(point).iter().zip(&gap).map(|(d, g)| d - g).collect();
+        let slip: Vec<f64> = self
+            .delta(point)
+            .iter()
+            .zip(&gap)
+            .map(|(d, g)| d - g)
+            .collect();
         self.sub.recover(&mut u, &slip);
         self.counts.trailing_solves += 1;
-        Equilibrium { initial: initial.clone(), u, gap, force }
+        Equilibrium {
+            initial: initial.clone(),
+            u,
+            gap,
+            force,
+        }
     }
 
     /// Response to a load alone, closed pairs staying closed: on entry a load, on return displacements; the changes of
@@ -235,7 +280,11 @@ impl<'m> Engine<'m> {
     /// Takes note of the forces at hand.
     pub fn update_force_scale(&mut self) {
         let applied = self.external(&self.at).largest();
-        self.force_scale = self.now.force.iter().fold(self.force_scale.max(applied), |m, r| m.max(*r));
+        self.force_scale = self
+            .now
+            .force
+            .iter()
+            .fold(self.force_scale.max(applied), |m, r| m.max(*r));
     }
 
     /// Number of closed pairs.
@@ -245,10 +294,14 @@ impl<'m> Engine<'m> {
 
     /// An error for pairs that nothing holds together.
     pub fn unbounded(&self, pair: usize, alpha: f64) -> Error {
-        let names = self.model.pairs.get(pair).and_then(|p| self.model.contacts.get(p.contact)).map_or(
-            String::new(),
-            |c| format!(" (`{}` on `{}`)", c.names[0], c.names[1]),
-        );
+        let names = self
+            .model
+            .pairs
+            .get(pair)
+            .and_then(|p| self.model.contacts.get(p.contact))
+            .map_or(String::new(), |c| {
+                format!(" (`{}` on `{}`)", c.names[0], c.names[1])
+            });
         let floating = self.model.floating.bodies.join("`, `");
         Error::new(
             crate::ErrorKind::Unheld,

@@ -78,8 +78,16 @@ pub struct Prescribed {
 impl Prescribed {
     /// Those of a model, at factors zero.
     pub fn new(model: &Model) -> Self {
-        let at_one: Vec<(usize, f64)> = model.freedoms.prescribed.iter().map(|p| (p.load, p.value)).collect();
-        Prescribed { now: vec![0.0; at_one.len()], at_one }
+        let at_one: Vec<(usize, f64)> = model
+            .freedoms
+            .prescribed
+            .iter()
+            .map(|p| (p.load, p.value))
+            .collect();
+        Prescribed {
+            now: vec![0.0; at_one.len()],
+            at_one,
+        }
     }
 
     /// Sets the factors of the loads.
@@ -99,12 +107,18 @@ pub struct Lookup<'a> {
 impl<'a> Lookup<'a> {
     /// Displacements with the prescribed ones.
     pub fn new(u: &'a Trailing, prescribed: &'a Prescribed) -> Self {
-        Lookup { u, prescribed: Some(prescribed) }
+        Lookup {
+            u,
+            prescribed: Some(prescribed),
+        }
     }
 
     /// A variation: zero where displacements are prescribed.
     pub fn homogeneous(u: &'a Trailing) -> Self {
-        Lookup { u, prescribed: None }
+        Lookup {
+            u,
+            prescribed: None,
+        }
     }
 
     /// Displacements of an element's freedoms.

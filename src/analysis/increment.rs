@@ -68,7 +68,11 @@ impl Engine<'_> {
     ) -> Result<Increment, NoIncrement> {
         let start = self.at.clone();
         let before = self.now.clone();
-        let rates = self.rates(&start, end, settings.plastic_iteration == PlasticIteration::Newton);
+        let rates = self.rates(
+            &start,
+            end,
+            settings.plastic_iteration == PlasticIteration::Newton,
+        );
         let follows = matches!(ends_at, EndsAt::NextChange { .. });
         let values = |engine: &Self, state: &Equilibrium| engine.values(&state.gap, &state.force);
         let base = values(self, &before);
@@ -79,7 +83,11 @@ impl Engine<'_> {
             if !wrong.is_empty() {
                 return Err(NoIncrement::WrongStatus(wrong));
             }
-            let after: Vec<f64> = base.iter().zip(self.values(&rates.gap, &rates.force)).map(|(b, r)| b + most * r).collect();
+            let after: Vec<f64> = base
+                .iter()
+                .zip(self.values(&rates.gap, &rates.force))
+                .map(|(b, r)| b + most * r)
+                .collect();
             let limit = step_limit(&base, &after, &self.border);
             if limit.share <= AT_ONCE {
                 return Err(NoIncrement::WrongStatus(limit.pairs));
@@ -104,21 +112,47 @@ impl Engine<'_> {
             iterations += 1;
             self.counts.plastic_iterations += 1;
             let scale = state.force.iter().fold(self.force_scale, |m, r| m.max(*r));
-            let residual = if scale > 0.0 { balance.largest() / scale } else { 0.0 };
+            let residual = if scale > 0.0 {
+                balance.largest() / scale
+            } else {
+                0.0
+            };
             let limit = if follows {
                 step_limit(&base, &values(self, &state), &self.border)
             } else {
-                StepLimit { share: f64::INFINITY, pairs: Vec::new() }
+                StepLimit {
+                    share: f64::INFINITY,
+                    pairs: Vec::new(),
+                }
             };
             let reach = limit.share.min(most / t);
-            let gamma = if let EndsAt::NextChange { gamma } = ends_at { gamma } else { 0.0 };
-            let arrived = if limit.share < most / t { (reach - 1.0).abs() <= gamma } else { t == most };
+            let gamma = if let EndsAt::NextChange { gamma } = ends_at {
+                gamma
+            } else {
+                0.0
+            };
+            let arrived = if limit.share < most / t {
+                (reach - 1.0).abs() <= gamma
+            } else {
+                t == most
+            };
             if residual <= settings.tolerance && arrived {
-                let changes = if limit.share <= 1.0 + gamma { limit.pairs } else { Vec::new() };
+                let changes = if limit.share <= 1.0 + gamma {
+                    limit.pairs
+                } else {
+                    Vec::new()
+                };
                 let at_end = start.towards(end, t);
                 let polished = self.respond(&at_end, &state.initial);
                 state = polished;
-                return Ok(Increment { t, state, changes, iterations, residual, guard_flows: evaluation.guard_flows });
+                return Ok(Increment {
+                    t,
+                    state,
+                    changes,
+                    iterations,
+                    residual,
+                    guard_flows: evaluation.guard_flows,
+                });
             }
             if iterations >= most_iterations || !residual.is_finite() {
                 return Err(NoIncrement::NotConverged(residual));
@@ -154,7 +188,11 @@ impl Engine<'_> {
                 if reach.is_finite() && reach != 1.0 {
                     // Far-off predictions are followed carefully: the response is not linear.
                     let reach = reach.clamp(0.1, 4.0);
-                    t = if reach * t >= most * (1.0 - 4.0 * f64::EPSILON) { most } else { reach * t };
+                    t = if reach * t >= most * (1.0 - 4.0 * f64::EPSILON) {
+                        most
+                    } else {
+                        reach * t
+                    };
                     rescale(&mut state, &before, reach);
                     anderson.restart();
                 }
@@ -166,7 +204,10 @@ impl Engine<'_> {
     fn rates(&mut self, start: &LoadPoint, end: &LoadPoint, tangent: bool) -> Direction {
         let n = self.now.gap.len();
         let ahead = self.respond_rate(start, end);
-        let mut rates = Direction { initial: self.sub.zeros(), ..ahead };
+        let mut rates = Direction {
+            initial: self.sub.zeros(),
+            ..ahead
+        };
         if tangent && !self.zone.is_idle() {
             let mut driven = self.sub.zeros();
             self.zone.softening_times(&rates.u, &mut driven);
@@ -192,14 +233,29 @@ impl Engine<'_> {
         let mut u = to.u;
         u.add(-1.0, &from.u);
         let gap = to.gap.iter().zip(&from.gap).map(|(a, b)| a - b).collect();
-        let force = to.force.iter().zip(&from.force).map(|(a, b)| a - b).collect();
+        let force = to
+            .force
+            .iter()
+            .zip(&from.force)
+            .map(|(a, b)| a - b)
+            .collect();
         let _ = start;
-        Direction { u, initial: self.sub.zeros(), gap, force }
+        Direction {
+            u,
+            initial: self.sub.zeros(),
+            gap,
+            force,
+        }
     }
 
     /// What must stay positive: gaps of open pairs, forces of closed ones.
     fn values(&self, gap: &[f64], force: &[f64]) -> Vec<f64> {
-        self.tableau.open().iter().enumerate().map(|(k, open)| if *open { gap[k] } else { force[k] }).collect()
+        self.tableau
+            .open()
+            .iter()
+            .enumerate()
+            .map(|(k, open)| if *open { gap[k] } else { force[k] })
+            .collect()
     }
 
     fn wrong_at_border(&self, rates: &Direction) -> Vec<usize> {
@@ -210,7 +266,11 @@ impl Engine<'_> {
             .iter()
             .copied()
             .filter(|&k| {
-                let largest = if self.tableau.open()[k] { largest_gap } else { largest_force };
+                let largest = if self.tableau.open()[k] {
+                    largest_gap
+                } else {
+                    largest_force
+                };
                 values[k] < -1e-9 * largest
             })
             .collect()
@@ -218,7 +278,12 @@ impl Engine<'_> {
 
     /// Length along a Newton direction: the energy of the increment is convex, its slope along the direction is the
     /// out-of-balance force times the direction. Lengths are halved until the slope has fallen.
-    fn line_search(&mut self, state: &Equilibrium, direction: &Direction, balance: &Trailing) -> f64 {
+    fn line_search(
+        &mut self,
+        state: &Equilibrium,
+        direction: &Direction,
+        balance: &Trailing,
+    ) -> f64 {
         let slope = balance.dot(&direction.u);
         let size = balance.largest();
         let mut length = 1.0;
@@ -234,7 +299,11 @@ impl Engine<'_> {
             if out.largest() < size || there.abs() <= 0.9 * slope.abs() {
                 return length;
             }
-            length *= if there < 0.0 && slope > 0.0 { (slope / (slope - there)).clamp(0.1, 0.5) } else { 0.5 };
+            length *= if there < 0.0 && slope > 0.0 {
+                (slope / (slope - there)).clamp(0.1, 0.5)
+            } else {
+                0.5
+            };
         }
         length
     }
@@ -254,8 +323,24 @@ fn advance(state: &mut Equilibrium, length: f64, direction: &Direction) {
 /// Scales the increment since `before` by `share`.
 fn rescale(state: &mut Equilibrium, before: &Equilibrium, share: f64) {
     let mix = |a: &mut f64, b: f64| *a = b + share * (*a - b);
-    state.u.iter_mut().zip(before.u.iter()).for_each(|(a, b)| mix(a, *b));
-    state.initial.iter_mut().zip(before.initial.iter()).for_each(|(a, b)| mix(a, *b));
-    state.gap.iter_mut().zip(&before.gap).for_each(|(a, b)| mix(a, *b));
-    state.force.iter_mut().zip(&before.force).for_each(|(a, b)| mix(a, *b));
+    state
+        .u
+        .iter_mut()
+        .zip(before.u.iter())
+        .for_each(|(a, b)| mix(a, *b));
+    state
+        .initial
+        .iter_mut()
+        .zip(before.initial.iter())
+        .for_each(|(a, b)| mix(a, *b));
+    state
+        .gap
+        .iter_mut()
+        .zip(&before.gap)
+        .for_each(|(a, b)| mix(a, *b));
+    state
+        .force
+        .iter_mut()
+        .zip(&before.force)
+        .for_each(|(a, b)| mix(a, *b));
 }

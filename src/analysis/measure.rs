@@ -27,13 +27,19 @@ pub fn pressures(model: &Model, force: &[f64]) -> Vec<f64> {
     let mut out: Vec<f64> = vec![0.0; force.len()];
     for contact in &model.contacts {
         let range = contact.range.clone();
-        let largest = model.pairs[range.clone()].iter().fold(0.0f64, |m, p| m.max(p.area));
+        let largest = model.pairs[range.clone()]
+            .iter()
+            .fold(0.0f64, |m, p| m.max(p.area));
         let has_area = |k: usize| model.pairs[k].area > 1e-9 * largest;
         for k in range.clone().filter(|&k| has_area(k)) {
             out[k] = force[k] / model.pairs[k].area;
         }
         for k in range.clone().filter(|&k| !has_area(k)) {
-            let inward: [usize; 2] = if k == range.start { [k + 1, k + 2] } else { [k.wrapping_sub(1), k.wrapping_sub(2)] };
+            let inward: [usize; 2] = if k == range.start {
+                [k + 1, k + 2]
+            } else {
+                [k.wrapping_sub(1), k.wrapping_sub(2)]
+            };
             if inward.iter().all(|i| range.contains(i)) {
                 let at = |i: usize| (model.pairs[i].arc - model.pairs[k].arc).powi(2);
                 let (a, b) = (at(inward[0]), at(inward[1]));
@@ -56,7 +62,11 @@ pub fn pair_states(model: &Model, gap: &[f64], force: &[f64], open: &[bool]) -> 
             force: force[k],
             area: model.pairs[k].area,
             pressure: pressure[k],
-            status: if open[k] || force[k] <= 0.0 { Status::Open } else { Status::Closed },
+            status: if open[k] || force[k] <= 0.0 {
+                Status::Open
+            } else {
+                Status::Closed
+            },
         })
         .collect()
 }
@@ -85,12 +95,22 @@ pub fn contact_figures(model: &Model, force: &[f64]) -> ContactFigures {
             let sum: f64 = force[begin..k].iter().sum();
             if sum > largest {
                 largest = sum;
-                let patch = Patch { model, pressure: &pressure, range: range.clone(), begin, end: k };
+                let patch = Patch {
+                    model,
+                    pressure: &pressure,
+                    range: range.clone(),
+                    begin,
+                    end: k,
+                };
                 let (from, to) = (patch.edge(begin, -1), patch.edge(k - 1, 1));
                 out.patch = Some([from, to]);
                 out.contact = index;
                 let (at_begin, at_end) = (patch.is_symmetric(begin), patch.is_symmetric(k - 1));
-                out.half_width = if at_begin || at_end { to - from } else { 0.5 * (to - from) };
+                out.half_width = if at_begin || at_end {
+                    to - from
+                } else {
+                    0.5 * (to - from)
+                };
                 out.pole_pressure = match (at_begin, at_end) {
                     (true, _) => pressure[begin],
                     (_, true) => pressure[k - 1],
@@ -127,12 +147,20 @@ impl Patch<'_> {
     fn edge(&self, last: usize, way: isize) -> f64 {
         let arc = |k: usize| self.model.pairs[k].arc;
         let neighbour = |k: usize, step: isize| {
-            k.checked_add_signed(step).filter(|i| self.range.contains(i))
+            k.checked_add_signed(step)
+                .filter(|i| self.range.contains(i))
         };
-        let Some(beyond) = neighbour(last, way) else { return arc(last) };
-        let inner: Vec<usize> =
-            (1..=3).filter_map(|i| neighbour(last, -i * way)).filter(|k| (self.begin..self.end).contains(k)).collect();
-        let points: Vec<(f64, f64)> = inner.iter().map(|&k| (arc(k), self.pressure[k].powi(2))).collect();
+        let Some(beyond) = neighbour(last, way) else {
+            return arc(last);
+        };
+        let inner: Vec<usize> = (1..=3)
+            .filter_map(|i| neighbour(last, -i * way))
+            .filter(|k| (self.begin..self.end).contains(k))
+            .collect();
+        let points: Vec<(f64, f64)> = inner
+            .iter()
+            .map(|&k| (arc(k), self.pressure[k].powi(2)))
+            .collect();
         let (low, high) = (arc(last).min(arc(beyond)), arc(last).max(arc(beyond)));
         match falling_line_zero(&points, way as f64) {
             // One pair of slack inwards: the last closed pair may carry the rest of a partly covered facet.
@@ -144,11 +172,14 @@ impl Patch<'_> {
     /// Pressure between pairs, linear.
     fn pressure_at(&self, arc: f64) -> f64 {
         let pairs = &self.model.pairs[self.begin..self.end];
-        let next = pairs.partition_point(|p| p.arc <= arc).clamp(1, pairs.len().max(2) - 1);
+        let next = pairs
+            .partition_point(|p| p.arc <= arc)
+            .clamp(1, pairs.len().max(2) - 1);
         match (pairs.get(next - 1), pairs.get(next)) {
             (Some(a), Some(b)) => {
                 let t = ((arc - a.arc) / (b.arc - a.arc)).clamp(0.0, 1.0);
-                self.pressure[self.begin + next - 1] * (1.0 - t) + self.pressure[self.begin + next] * t
+                self.pressure[self.begin + next - 1] * (1.0 - t)
+                    + self.pressure[self.begin + next] * t
             }
             _ => self.pressure[self.begin],
         }
@@ -161,7 +192,10 @@ fn falling_line_zero(points: &[(f64, f64)], way: f64) -> Option<f64> {
         return None;
     }
     let n = points.len() as f64;
-    let (mx, my) = (points.iter().map(|p| p.0).sum::<f64>() / n, points.iter().map(|p| p.1).sum::<f64>() / n);
+    let (mx, my) = (
+        points.iter().map(|p| p.0).sum::<f64>() / n,
+        points.iter().map(|p| p.1).sum::<f64>() / n,
+    );
     let sxx: f64 = points.iter().map(|p| (p.0 - mx).powi(2)).sum();
     let sxy: f64 = points.iter().map(|p| (p.0 - mx) * (p.1 - my)).sum();
     let slope = sxy / sxx;
@@ -178,9 +212,10 @@ impl Engine<'_> {
     /// whole's.
     pub fn total_load_size(&self) -> f64 {
         let loads = &self.model.loads;
-        let leading = loads
-            .iter()
-            .position(|l| !matches!(l.history, crate::scene::History::Constant) && l.measures != Magnitude::Displacement);
+        let leading = loads.iter().position(|l| {
+            !matches!(l.history, crate::scene::History::Constant)
+                && l.measures != Magnitude::Displacement
+        });
         match leading {
             Some(i) => self.at.factors[i].abs() * loads[i].magnitude,
             None => self.now.force.iter().sum::<f64>() * self.model.symmetry,

@@ -56,7 +56,12 @@ impl Analysis {
         let start = Instant::now();
         let system = assemble(&model)?;
         let timings = vec![("assembly".to_string(), start.elapsed().as_secs_f64())];
-        Ok(Analysis { model, system, backend, timings })
+        Ok(Analysis {
+            model,
+            system,
+            backend,
+            timings,
+        })
     }
 
     /// The model.
@@ -75,7 +80,14 @@ impl Analysis {
     /// # Errors
     /// Failures before the first state: factorisation, yield load, a body that is not held.
     pub fn run(&mut self, observer: &mut dyn Observer) -> Result<Results> {
-        program::run(&self.model, &self.system, self.backend, &self.timings, observer, false)
+        program::run(
+            &self.model,
+            &self.system,
+            self.backend,
+            &self.timings,
+            observer,
+            false,
+        )
     }
 
     /// The yield load only.
@@ -83,6 +95,13 @@ impl Analysis {
     /// # Errors
     /// As [`Analysis::run`].
     pub fn yield_load(&mut self, observer: &mut dyn Observer) -> Result<Results> {
-        program::run(&self.model, &self.system, self.backend, &self.timings, observer, true)
+        program::run(
+            &self.model,
+            &self.system,
+            self.backend,
+            &self.timings,
+            observer,
+            true,
+        )
     }
 }

@@ -76,10 +76,19 @@ impl<'m, 'o> Run<'m, 'o> {
         observer.phase("factorisation");
         let start = Instant::now();
         let choice = zone_choice::first_guess(model);
-        let engine = Engine::new(model, system, backend, choice.elements.clone(), &choice.guard)?;
-        let recovery =
-            (!choice.elements.is_empty()).then(|| Recovery::new(model, &choice.elements, &engine.places));
-        let mut results = Results { timings: timings.to_vec(), ..Results::default() };
+        let engine = Engine::new(
+            model,
+            system,
+            backend,
+            choice.elements.clone(),
+            &choice.guard,
+        )?;
+        let recovery = (!choice.elements.is_empty())
+            .then(|| Recovery::new(model, &choice.elements, &engine.places));
+        let mut results = Results {
+            timings: timings.to_vec(),
+            ..Results::default()
+        };
         results.warnings.extend(model.warnings.iter().cloned());
         for warning in &model.warnings {
             observer.warning(warning);
@@ -94,7 +103,10 @@ impl<'m, 'o> Run<'m, 'o> {
             plastic: false,
             yield_alpha: None,
             done: 0,
-            seconds: Seconds { condensation: start.elapsed().as_secs_f64(), ..Seconds::default() },
+            seconds: Seconds {
+                condensation: start.elapsed().as_secs_f64(),
+                ..Seconds::default()
+            },
         })
     }
 
@@ -105,7 +117,9 @@ impl<'m, 'o> Run<'m, 'o> {
     fn execute(&mut self, yield_only: bool) -> Result<()> {
         let program = &self.model().scene.program;
         self.preload()?;
-        if self.recovery.is_some() && (yield_only || program.unit == Unit::Yield || self.largest_factor().is_some()) {
+        if self.recovery.is_some()
+            && (yield_only || program.unit == Unit::Yield || self.largest_factor().is_some())
+        {
             self.observer.phase("yield load");
             let start = Instant::now();
             self.find_yield(yield_only)?;
@@ -173,11 +187,18 @@ impl<'m, 'o> Run<'m, 'o> {
         }
         let unit_is_yield = self.model().scene.program.unit == Unit::Yield;
         let required = required || unit_is_yield;
-        let origin = (self.engine.at.clone(), self.engine.now.clone(), self.engine.tableau.open().to_vec());
+        let origin = (
+            self.engine.at.clone(),
+            self.engine.now.clone(),
+            self.engine.tableau.open().to_vec(),
+        );
         let found = match self.model().scene.analysis.yield_load {
             YieldMethod::Exact => self.exact_yield(required)?,
             YieldMethod::Secant if required => {
-                let recovery = self.recovery.as_mut().ok_or_else(|| Error::internal("no recovery"))?;
+                let recovery = self
+                    .recovery
+                    .as_mut()
+                    .ok_or_else(|| Error::internal("no recovery"))?;
                 let (alpha, peak) = self.engine.secant_yield_load(recovery)?;
                 Some((alpha, peak))
             }
@@ -204,7 +225,11 @@ impl<'m, 'o> Run<'m, 'o> {
 
     /// First yield along the path of growing load factor, up to the largest the program asks for unless yield is required.
     fn exact_yield(&mut self, required: bool) -> Result<Option<(f64, Peak)>> {
-        let limit = if required { None } else { self.largest_factor() };
+        let limit = if required {
+            None
+        } else {
+            self.largest_factor()
+        };
         let mut end = match limit {
             Some(largest) => largest,
             None => self.first_load_estimate()?,
@@ -212,7 +237,10 @@ impl<'m, 'o> Run<'m, 'o> {
         for _ in 0..DOUBLINGS {
             let point = self.engine.point(end);
             let mut quiet = |_: &mut Engine, _: &IncrementReport| Ok(true);
-            match self.engine.drive_elastic(&point, self.recovery.as_mut(), None, &mut quiet)? {
+            match self
+                .engine
+                .drive_elastic(&point, self.recovery.as_mut(), None, &mut quiet)?
+            {
                 Arrival::Yield(peak) => return Ok(Some((self.engine.at.alpha, peak))),
                 _ if limit.is_some() => return Ok(None),
                 _ => end *= 2.0,
@@ -228,7 +256,11 @@ impl<'m, 'o> Run<'m, 'o> {
 
     /// A load factor of the size of the yield load: one contact solve at factor 1.
     fn first_load_estimate(&mut self) -> Result<f64> {
-        let saved = (self.engine.at.clone(), self.engine.now.clone(), self.engine.tableau.open().to_vec());
+        let saved = (
+            self.engine.at.clone(),
+            self.engine.now.clone(),
+            self.engine.tableau.open().to_vec(),
+        );
         let point = self.engine.point(1.0);
         let estimate = match (self.engine.solve_contact_at(&point), self.recovery.as_mut()) {
             (Ok(()), Some(recovery)) => self.engine.peak(recovery).map(|p| p.ratio),
@@ -237,7 +269,9 @@ impl<'m, 'o> Run<'m, 'o> {
         self.engine.tableau.reset(&saved.2);
         (self.engine.at, self.engine.now, self.engine.fresh) = (saved.0, saved.1, true);
         // Stress grows at least like the cube root of the load (point contact): aim beyond, doubling goes on from there.
-        Ok(estimate.filter(|r| r.is_finite() && *r > 0.0).map_or(1.0, |r| 1.2 / r.min(r * r)))
+        Ok(estimate
+            .filter(|r| r.is_finite() && *r > 0.0)
+            .map_or(1.0, |r| 1.2 / r.min(r * r)))
     }
 
     fn record_yield(&mut self, peak: Peak) -> Result<()> {
@@ -285,14 +319,20 @@ impl<'m, 'o> Run<'m, 'o> {
 
     /// Chooses the zone for the program's extreme loads from the elastic stress there.
     fn fit_zone(&mut self) -> Result<()> {
-        if self.recovery.is_none() || self.choice.guard.iter().all(|g| !g) && !self.choice.elements.is_empty() {
+        if self.recovery.is_none()
+            || self.choice.guard.iter().all(|g| !g) && !self.choice.elements.is_empty()
+        {
             return Ok(());
         }
         let Some(_) = self.yield_alpha else {
             // Nothing yields: the elastic path needs no zone at all.
             return Ok(());
         };
-        let saved = (self.engine.at.clone(), self.engine.now.clone(), self.engine.tableau.open().to_vec());
+        let saved = (
+            self.engine.at.clone(),
+            self.engine.now.clone(),
+            self.engine.tableau.open().to_vec(),
+        );
         let mut ratios = vec![0.0f64; self.model().mesh.n_elements()];
         for alpha in self.extreme_factors() {
             let point = self.engine.point(alpha);
@@ -300,7 +340,11 @@ impl<'m, 'o> Run<'m, 'o> {
                 continue;
             }
             let u = self.engine.all_displacements()?;
-            for (r, new) in ratios.iter_mut().zip(zone_choice::stress_ratios(self.model(), &u, &self.engine.at.factors)) {
+            for (r, new) in ratios.iter_mut().zip(zone_choice::stress_ratios(
+                self.model(),
+                &u,
+                &self.engine.at.factors,
+            )) {
                 *r = r.max(new);
             }
         }
@@ -308,7 +352,9 @@ impl<'m, 'o> Run<'m, 'o> {
         (self.engine.at, self.engine.now, self.engine.fresh) = (saved.0, saved.1, true);
         let wanted = zone_choice::predict(self.model(), &ratios);
         // A smaller zone pays for its factorisation within a few increments; a missing part costs more.
-        if !self.choice.covers(&wanted) || 5 * wanted.elements.len() < 3 * self.choice.elements.len() {
+        if !self.choice.covers(&wanted)
+            || 5 * wanted.elements.len() < 3 * self.choice.elements.len()
+        {
             self.rebuild(wanted)?;
         }
         Ok(())
@@ -324,7 +370,11 @@ impl<'m, 'o> Run<'m, 'o> {
         }
         let high = all.iter().copied().fold(at_yield, f64::max);
         let low = all.iter().copied().fold(0.0, f64::min);
-        if low < 0.0 { vec![high, low] } else { vec![high] }
+        if low < 0.0 {
+            vec![high, low]
+        } else {
+            vec![high]
+        }
     }
 
     /// Factors the structure again with another zone; state and history are kept.
@@ -332,7 +382,13 @@ impl<'m, 'o> Run<'m, 'o> {
         self.observer.phase("factorisation");
         let start = Instant::now();
         let old = &self.engine;
-        let mut engine = Engine::new(self.model(), old.system, self.backend, choice.elements.clone(), &choice.guard)?;
+        let mut engine = Engine::new(
+            self.model(),
+            old.system,
+            self.backend,
+            choice.elements.clone(),
+            &choice.guard,
+        )?;
         engine.unit = old.unit;
         engine.force_scale = old.force_scale;
         let counts = engine.counts;
@@ -348,7 +404,11 @@ impl<'m, 'o> Run<'m, 'o> {
         let at = engine.at.clone();
         engine.zone.set_factors(&at.factors);
         engine.now = engine.respond(&at, &initial.unwrap_or_else(|| engine.sub.zeros()));
-        self.recovery = Some(Recovery::new(self.model(), &choice.elements, &engine.places));
+        self.recovery = Some(Recovery::new(
+            self.model(),
+            &choice.elements,
+            &engine.places,
+        ));
         self.engine = engine;
         self.choice = choice;
         self.seconds.condensation += start.elapsed().as_secs_f64();
@@ -356,7 +416,12 @@ impl<'m, 'o> Run<'m, 'o> {
     }
 
     /// Drives to a load point, elastic before first yield, elastoplastic after, growing the zone where it must.
-    fn drive(&mut self, end: &LoadPoint, monitor: Option<&Monitor>, watch_yield: bool) -> Result<Arrival> {
+    fn drive(
+        &mut self,
+        end: &LoadPoint,
+        monitor: Option<&Monitor>,
+        watch_yield: bool,
+    ) -> Result<Arrival> {
         let model = self.model();
         let stepper = Stepper {
             settings: &model.scene.analysis,
@@ -376,10 +441,16 @@ impl<'m, 'o> Run<'m, 'o> {
             };
             let plastic = self.plastic && !self.choice.elements.is_empty();
             let arrival = if plastic {
-                self.engine.drive_plastic(end, stepper, monitor, &mut report)
+                self.engine
+                    .drive_plastic(end, stepper, monitor, &mut report)
             } else {
-                let recovery = if watch_yield { self.recovery.as_mut() } else { None };
-                self.engine.drive_elastic(end, recovery, monitor, &mut report)
+                let recovery = if watch_yield {
+                    self.recovery.as_mut()
+                } else {
+                    None
+                };
+                self.engine
+                    .drive_elastic(end, recovery, monitor, &mut report)
             };
             let spent = start.elapsed().as_secs_f64();
             if plastic {
@@ -442,27 +513,40 @@ impl<'m, 'o> Run<'m, 'o> {
             return Ok(());
         }
         if let Some(multiple) = target.half_width {
-            let at_yield = self.results.first_yield.map(|y| y.half_width).filter(|b| *b > 0.0).ok_or_else(|| {
-                Error::analysis(format!("target `{label}`: the contact half width at yield is not known"))
-            })?;
+            let at_yield = self
+                .results
+                .first_yield
+                .map(|y| y.half_width)
+                .filter(|b| *b > 0.0)
+                .ok_or_else(|| {
+                    Error::analysis(format!(
+                        "target `{label}`: the contact half width at yield is not known"
+                    ))
+                })?;
             let goal = multiple * at_yield;
             let monitor = move |engine: &mut Engine| engine.contact_figures().half_width - goal;
             let upward = self.engine.contact_figures().half_width < goal;
             return self.search(&monitor, upward, label);
         }
         if let Some(goal) = &target.displacement {
-            let nodes = self
-                .model()
-                .mesh
-                .set_nodes(&goal.on)
-                .ok_or_else(|| Error::input(format!("target `{label}`: the mesh has no set `{}`", goal.on)))?;
+            let nodes = self.model().mesh.set_nodes(&goal.on).ok_or_else(|| {
+                Error::input(format!(
+                    "target `{label}`: the mesh has no set `{}`",
+                    goal.on
+                ))
+            })?;
             let direction = usize::from(goal.direction == Direction::Y);
             let value = goal.value;
             let monitor = move |engine: &mut Engine| match engine.all_displacements() {
                 Ok(u) => {
                     let sum: f64 = nodes
                         .iter()
-                        .map(|&n| engine.model.freedoms.displacement(n, &u, &engine.at.factors)[direction])
+                        .map(|&n| {
+                            engine
+                                .model
+                                .freedoms
+                                .displacement(n, &u, &engine.at.factors)[direction]
+                        })
                         .sum();
                     sum / nodes.len() as f64 - value
                 }
@@ -521,12 +605,15 @@ impl<'m, 'o> Run<'m, 'o> {
         };
         results.counts = self.engine.counts;
         results.factor = self.engine.sub.cost();
-        results.quality = results.states.iter().fold(Quality::default(), |w, s| Quality {
-            backward_error: w.backward_error.max(s.quality.backward_error),
-            equilibrium: w.equilibrium.max(s.quality.equilibrium),
-            complementarity: w.complementarity.max(s.quality.complementarity),
-            penetration: w.penetration.max(s.quality.penetration),
-        });
+        results.quality = results
+            .states
+            .iter()
+            .fold(Quality::default(), |w, s| Quality {
+                backward_error: w.backward_error.max(s.quality.backward_error),
+                equilibrium: w.equilibrium.max(s.quality.equilibrium),
+                complementarity: w.complementarity.max(s.quality.complementarity),
+                penetration: w.penetration.max(s.quality.penetration),
+            });
         for (name, seconds) in [
             ("factorisation and condensation", self.seconds.condensation),
             ("yield load", self.seconds.yield_load),

@@ -76,7 +76,11 @@ impl Recovery {
         Recovery {
             elements: list,
             first,
-            materials: model.materials.iter().map(|m| (m.clone(), m.elastic_matrix())).collect(),
+            materials: model
+                .materials
+                .iter()
+                .map(|m| (m.clone(), m.elastic_matrix()))
+                .collect(),
             prescribed: Prescribed::new(model),
             neighbours,
             patches: BTreeMap::new(),
@@ -97,7 +101,13 @@ impl Recovery {
                 element
                     .points
                     .iter()
-                    .map(|p| stress(elastic, &p.strain(&displacement[..element.points.n_freedoms]), &[0.0; 4]))
+                    .map(|p| {
+                        stress(
+                            elastic,
+                            &p.strain(&displacement[..element.points.n_freedoms]),
+                            &[0.0; 4],
+                        )
+                    })
                     .collect()
             })
             .collect();
@@ -108,15 +118,22 @@ impl Recovery {
     pub fn peak(&mut self, model: &Model, samples: &Samples) -> Option<Peak> {
         let raw: Vec<f64> = (0..self.elements.len())
             .map(|i| {
-                let y = self.materials[self.elements[i].body as usize].0.yield_stress();
-                samples[self.first[i]..self.first[i + 1]].iter().map(|s| von_mises(s) / y).fold(0.0, f64::max)
+                let y = self.materials[self.elements[i].body as usize]
+                    .0
+                    .yield_stress();
+                samples[self.first[i]..self.first[i + 1]]
+                    .iter()
+                    .map(|s| von_mises(s) / y)
+                    .fold(0.0, f64::max)
             })
             .collect();
         let largest = raw.iter().copied().fold(0.0, f64::max);
         if largest == 0.0 {
             return None;
         }
-        let candidates: Vec<usize> = (0..raw.len()).filter(|&i| raw[i] >= CANDIDATE * largest).collect();
+        let candidates: Vec<usize> = (0..raw.len())
+            .filter(|&i| raw[i] >= CANDIDATE * largest)
+            .collect();
         let mut best: Option<Peak> = None;
         for i in candidates {
             let peak = self.search(model, i, samples);
@@ -149,17 +166,27 @@ impl Recovery {
                 point[0] += n * x[0];
                 point[1] += n * x[1];
             }
-            (von_mises(&patch.value(&coefficients, point)) / yield_stress, point)
+            (
+                von_mises(&patch.value(&coefficients, point)) / yield_stress,
+                point,
+            )
         };
         // Nested grids: the maximum of a smooth function over the element, to about 1e-7 of its size, hence
         // to 1e-14 in value.
-        let (mut center, mut half) = if triangle { ([0.5, 0.5], 0.5) } else { ([0.0, 0.0], 1.0) };
+        let (mut center, mut half) = if triangle {
+            ([0.5, 0.5], 0.5)
+        } else {
+            ([0.0, 0.0], 1.0)
+        };
         let (mut best, mut place) = at(center);
         let mut best_reference = center;
         while half > 1e-7 {
             for a in -2..=2 {
                 for b in -2..=2 {
-                    let mut reference = [center[0] + 0.5 * half * f64::from(a), center[1] + 0.5 * half * f64::from(b)];
+                    let mut reference = [
+                        center[0] + 0.5 * half * f64::from(a),
+                        center[1] + 0.5 * half * f64::from(b),
+                    ];
                     if triangle {
                         reference = reference.map(|v| v.max(0.0));
                         let sum = reference[0] + reference[1];
@@ -178,7 +205,11 @@ impl Recovery {
             center = best_reference;
             half *= 0.5;
         }
-        Peak { ratio: best, location: place, body }
+        Peak {
+            ratio: best,
+            location: place,
+            body,
+        }
     }
 
     /// Element `i` and its neighbours in the same body, widened until a quadratic fit is possible.
@@ -194,20 +225,35 @@ impl Recovery {
                 .filter(|&m| self.elements[m as usize].body == body)
                 .collect();
             members.extend(around);
-            let n_samples: usize = members.iter().map(|&m| self.elements[m as usize].points.len()).sum();
+            let n_samples: usize = members
+                .iter()
+                .map(|&m| self.elements[m as usize].points.len())
+                .sum();
             if n_samples >= SAMPLES {
                 if let Some(patch) = self.fit(i, &members, TERMS) {
                     return patch;
                 }
             }
         }
-        self.fit(i, &members, 3).or_else(|| self.fit(i, &std::collections::BTreeSet::from([i as u32]), 1)).unwrap_or_else(|| {
-            let at = self.elements[i].points[0].position;
-            Patch { center: at, scale: [1.0; 2], samples: vec![self.first[i] as u32], fit: DMatrix::from_element(1, 1, 1.0) }
-        })
+        self.fit(i, &members, 3)
+            .or_else(|| self.fit(i, &std::collections::BTreeSet::from([i as u32]), 1))
+            .unwrap_or_else(|| {
+                let at = self.elements[i].points[0].position;
+                Patch {
+                    center: at,
+                    scale: [1.0; 2],
+                    samples: vec![self.first[i] as u32],
+                    fit: DMatrix::from_element(1, 1, 1.0),
+                }
+            })
     }
 
-    fn fit(&self, i: usize, members: &std::collections::BTreeSet<u32>, terms: usize) -> Option<Patch> {
+    fn fit(
+        &self,
+        i: usize,
+        members: &std::collections::BTreeSet<u32>,
+        terms: usize,
+    ) -> Option<Patch> {
         let mut samples = Vec::new();
         let mut positions = Vec::new();
         for &m in members {
@@ -218,7 +264,10 @@ impl Recovery {
         }
         let own = &self.elements[i].points;
         let center = own.iter().fold([0.0; 2], |c, p| {
-            [c[0] + p.position[0] / own.len() as f64, c[1] + p.position[1] / own.len() as f64]
+            [
+                c[0] + p.position[0] / own.len() as f64,
+                c[1] + p.position[1] / own.len() as f64,
+            ]
         });
         let mut scale = [0.0f64; 2];
         for p in &positions {
@@ -230,13 +279,20 @@ impl Recovery {
             return None;
         }
         let scale = scale.map(|s| if s == 0.0 { 1.0 } else { s });
-        let patch = Patch { center, scale, samples, fit: DMatrix::zeros(0, 0) };
+        let patch = Patch {
+            center,
+            scale,
+            samples,
+            fit: DMatrix::zeros(0, 0),
+        };
         let matrix = DMatrix::from_fn(positions.len(), terms, |r, c| patch.terms(positions[r])[c]);
         let svd = SVD::new(matrix, true, true);
         if svd.singular_values.min() < 1e-3 * svd.singular_values.max() {
             return None;
         }
-        svd.pseudo_inverse(0.0).ok().map(|fit| Patch { fit, ..patch })
+        svd.pseudo_inverse(0.0)
+            .ok()
+            .map(|fit| Patch { fit, ..patch })
     }
 }
 

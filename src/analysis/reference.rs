@@ -20,14 +20,26 @@ pub(super) fn rows(model: &Model, results: &Results) -> Vec<ReferenceRow> {
         }
         if let (Some(quantity), Some(value)) = (&entry.quantity, entry.value) {
             if let Some(computed) = lookup(results, quantity) {
-                rows.push(row(quantity, value, computed, None, entry.source.as_deref().unwrap_or("scene")));
+                rows.push(row(
+                    quantity,
+                    value,
+                    computed,
+                    None,
+                    entry.source.as_deref().unwrap_or("scene"),
+                ));
             }
         }
     }
     rows
 }
 
-fn row(quantity: &str, reference: f64, computed: f64, published: Option<f64>, source: &str) -> ReferenceRow {
+fn row(
+    quantity: &str,
+    reference: f64,
+    computed: f64,
+    published: Option<f64>,
+    source: &str,
+) -> ReferenceRow {
     ReferenceRow {
         quantity: quantity.to_string(),
         reference,
@@ -41,9 +53,15 @@ fn row(quantity: &str, reference: f64, computed: f64, published: Option<f64>, so
 /// Contact modulus of the first two bodies, and nu and yield stress of the one that yields first.
 fn moduli(model: &Model) -> Option<(f64, f64, f64)> {
     let (a, b) = (model.materials.first()?, model.materials.get(1)?);
-    let modulus =
-        analytical::contact_modulus(a.youngs_modulus, a.poissons_ratio, b.youngs_modulus, b.poissons_ratio);
-    let weaker = [a, b].into_iter().min_by(|x, y| x.yield_stress().total_cmp(&y.yield_stress()))?;
+    let modulus = analytical::contact_modulus(
+        a.youngs_modulus,
+        a.poissons_ratio,
+        b.youngs_modulus,
+        b.poissons_ratio,
+    );
+    let weaker = [a, b]
+        .into_iter()
+        .min_by(|x, y| x.yield_stress().total_cmp(&y.yield_stress()))?;
     Some((modulus, weaker.poissons_ratio, weaker.yield_stress()))
 }
 
@@ -53,10 +71,34 @@ fn hertz_line(model: &Model, results: &Results, radius: f64) -> Option<Vec<Refer
     let hertz = HertzLine::new(radius, modulus).ok()?;
     let table = "Table I; Johnson, Contact Mechanics, sections 4.2 and 6.1";
     Some(vec![
-        row("yield.load", hertz.yield_load(nu, y), first.load, Some(0.87), table),
-        row("yield.max_pressure", HertzLine::yield_pressure(nu, y), first.max_pressure, Some(0.94), table),
-        row("yield.half_width", hertz.yield_half_width(nu, y), first.half_width, Some(0.98), table),
-        row("yield.location.y", hertz.yield_depth(nu, y), first.location[1].abs(), Some(0.94), table),
+        row(
+            "yield.load",
+            hertz.yield_load(nu, y),
+            first.load,
+            Some(0.87),
+            table,
+        ),
+        row(
+            "yield.max_pressure",
+            HertzLine::yield_pressure(nu, y),
+            first.max_pressure,
+            Some(0.94),
+            table,
+        ),
+        row(
+            "yield.half_width",
+            hertz.yield_half_width(nu, y),
+            first.half_width,
+            Some(0.98),
+            table,
+        ),
+        row(
+            "yield.location.y",
+            hertz.yield_depth(nu, y),
+            first.location[1].abs(),
+            Some(0.94),
+            table,
+        ),
     ])
 }
 
@@ -66,10 +108,34 @@ fn hertz_point(model: &Model, results: &Results, radius: f64) -> Option<Vec<Refe
     let hertz = HertzPoint::new(radius, modulus).ok()?;
     let source = "Johnson, Contact Mechanics, sections 3.4 and 6.1";
     Some(vec![
-        row("yield.load", hertz.yield_load(nu, y), first.load, None, source),
-        row("yield.max_pressure", HertzPoint::yield_pressure(nu, y), first.max_pressure, None, source),
-        row("yield.half_width", hertz.yield_contact_radius(nu, y), first.half_width, None, source),
-        row("yield.location.y", hertz.yield_depth(nu, y), first.location[1].abs(), None, source),
+        row(
+            "yield.load",
+            hertz.yield_load(nu, y),
+            first.load,
+            None,
+            source,
+        ),
+        row(
+            "yield.max_pressure",
+            HertzPoint::yield_pressure(nu, y),
+            first.max_pressure,
+            None,
+            source,
+        ),
+        row(
+            "yield.half_width",
+            hertz.yield_contact_radius(nu, y),
+            first.half_width,
+            None,
+            source,
+        ),
+        row(
+            "yield.location.y",
+            hertz.yield_depth(nu, y),
+            first.location[1].abs(),
+            None,
+            source,
+        ),
     ])
 }
 
@@ -79,15 +145,37 @@ fn disc_in_plate(model: &Model, results: &Results) -> Option<Vec<ReferenceRow>> 
     let radius = model.contacts.first()?.circle?.1;
     let exact = DiscInPlate::new(radius).ok()?;
     let (nu, y) = moduli(model).map(|(_, nu, y)| (nu, y))?;
-    let plane = if model.kind == Kind::PlaneStress { Plane::Stress } else { Plane::Strain };
+    let plane = if model.kind == Kind::PlaneStress {
+        Plane::Stress
+    } else {
+        Plane::Strain
+    };
     let tension = first.load;
     let table = "Table II; integral equation of the receding contact (analytical::DiscInPlate)";
     let mut rows = vec![
-        row("yield.load", exact.yield_tension(plane, nu, y).ok()?, tension, Some(1.002), table),
-        row("states.0.pole_pressure", exact.pressure(0.0, tension), state.pole_pressure, None, table),
+        row(
+            "yield.load",
+            exact.yield_tension(plane, nu, y).ok()?,
+            tension,
+            Some(1.002),
+            table,
+        ),
+        row(
+            "states.0.pole_pressure",
+            exact.pressure(0.0, tension),
+            state.pole_pressure,
+            None,
+            table,
+        ),
     ];
     if let Some([_, to]) = state.contact_arc {
-        rows.push(row("states.0.contact_arc.to", exact.half_angle().to_degrees(), to, Some(1.0), table));
+        rows.push(row(
+            "states.0.contact_arc.to",
+            exact.half_angle().to_degrees(),
+            to,
+            Some(1.0),
+            table,
+        ));
     }
     Some(rows)
 }
@@ -106,11 +194,11 @@ fn lookup(results: &Results, path: &str) -> Option<f64> {
         };
     }
     let (name, key) = rest.rsplit_once('.')?;
-    let state = results
-        .states
-        .iter()
-        .find(|s| s.name == name)
-        .or_else(|| name.parse::<usize>().ok().and_then(|i| results.states.get(i)))?;
+    let state = results.states.iter().find(|s| s.name == name).or_else(|| {
+        name.parse::<usize>()
+            .ok()
+            .and_then(|i| results.states.get(i))
+    })?;
     state_value(state, key)
 }
 

@@ -43,7 +43,9 @@ impl Engine<'_> {
             complementarity: self.complementarity(),
             penetration: self.penetration(&u, largest_displacement),
         };
-        let arc = figures.patch.and_then(|patch| contact_arc(self.model, figures.contact, patch));
+        let arc = figures
+            .patch
+            .and_then(|patch| contact_arc(self.model, figures.contact, patch));
         Ok(State {
             name: name.to_string(),
             alpha: self.at.alpha,
@@ -58,7 +60,12 @@ impl Engine<'_> {
             plastic_points_by_body: by_body,
             max_equivalent_plastic_strain: largest,
             approach: self.approach(&u),
-            pairs: pair_states(self.model, &self.now.gap, &self.now.force, self.tableau.open()),
+            pairs: pair_states(
+                self.model,
+                &self.now.gap,
+                &self.now.force,
+                self.tableau.open(),
+            ),
             fields: with_fields.then(|| self.fields(&u, &elements)),
             quality,
         })
@@ -92,7 +99,11 @@ impl Engine<'_> {
                 for (g, point) in local.points.iter().enumerate() {
                     let past = history[e].get(g).copied().unwrap_or_default();
                     let strain = point.strain(&displacement[..local.points.n_freedoms]);
-                    let sigma = stress(&elastic[model.mesh.element_body[e] as usize], &strain, &past.strain);
+                    let sigma = stress(
+                        &elastic[model.mesh.element_body[e] as usize],
+                        &strain,
+                        &past.strain,
+                    );
                     point.add_force(&sigma, &mut out.force);
                     for (mean, s) in out.stress.iter_mut().zip(sigma) {
                         *mean += point.weight / volume * s;
@@ -141,13 +152,24 @@ impl Engine<'_> {
         self.update_force_scale();
         self.force_scale = self.force_scale.max(applied).max(inner);
         let worst = balance.iter().fold(0.0f64, |m, b| m.max(b.abs()));
-        if self.force_scale > 0.0 { worst / self.force_scale } else { worst }
+        if self.force_scale > 0.0 {
+            worst / self.force_scale
+        } else {
+            worst
+        }
     }
 
     fn complementarity(&self) -> f64 {
         let largest = |v: &[f64]| v.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-        let product = self.now.gap.iter().zip(&self.now.force).map(|(g, r)| (g * r).abs()).fold(0.0, f64::max);
-        let tension = self.now.force.iter().fold(0.0f64, |m, r| m.max(-r)) / self.force_scale.max(f64::MIN_POSITIVE);
+        let product = self
+            .now
+            .gap
+            .iter()
+            .zip(&self.now.force)
+            .map(|(g, r)| (g * r).abs())
+            .fold(0.0, f64::max);
+        let tension = self.now.force.iter().fold(0.0f64, |m, r| m.max(-r))
+            / self.force_scale.max(f64::MIN_POSITIVE);
         let scale = largest(&self.now.gap) * largest(&self.now.force);
         tension.max(if scale > 0.0 { product / scale } else { 0.0 })
     }
@@ -157,8 +179,9 @@ impl Engine<'_> {
         let delta = self.delta(&self.at);
         let n = delta.len();
         let contact = &self.sub.partition.contact;
-        let worst =
-            (0..n).map(|k| (u[contact[n + k]] - u[contact[k]]) - delta[k]).fold(0.0f64, f64::max);
+        let worst = (0..n)
+            .map(|k| (u[contact[n + k]] - u[contact[k]]) - delta[k])
+            .fold(0.0f64, f64::max);
         if scale > 0.0 { worst / scale } else { worst }
     }
 
@@ -171,7 +194,10 @@ impl Engine<'_> {
             stress: elements.iter().flat_map(|e| e.stress).collect(),
             von_mises: elements.iter().map(|e| e.von_mises).collect(),
             plastic_strain: elements.iter().map(|e| e.plastic_strain).collect(),
-            yielded: elements.iter().map(|e| u8::from(e.plastic_points > 0)).collect(),
+            yielded: elements
+                .iter()
+                .map(|e| u8::from(e.plastic_points > 0))
+                .collect(),
         }
     }
 }
@@ -187,13 +213,23 @@ fn contact_arc(model: &Model, contact: usize, [from, to]: [f64; 2]) -> Option<[f
         (x[1] - center[1]).atan2(x[0] - center[0]).to_degrees()
     };
     let angle_at = |arc: f64| {
-        let next = pairs.partition_point(|p| p.arc <= arc).clamp(1, pairs.len().max(2) - 1);
+        let next = pairs
+            .partition_point(|p| p.arc <= arc)
+            .clamp(1, pairs.len().max(2) - 1);
         let (a, b) = (angle_of(next - 1), angle_of(next.min(pairs.len() - 1)));
         let length = pairs[next.min(pairs.len() - 1)].arc - pairs[next - 1].arc;
         let turn = (b - a + 540.0).rem_euclid(360.0) - 180.0;
-        if length > 0.0 { a + turn * (arc - pairs[next - 1].arc) / length } else { a }
+        if length > 0.0 {
+            a + turn * (arc - pairs[next - 1].arc) / length
+        } else {
+            a
+        }
     };
     let extent = ((angle_at(to) - angle_at(from) + 540.0).rem_euclid(360.0) - 180.0).abs();
     let ends_surface = from <= pairs[0].arc || to >= pairs[pairs.len() - 1].arc;
-    Some(if ends_surface { [0.0, extent] } else { [-0.5 * extent, 0.5 * extent] })
+    Some(if ends_surface {
+        [0.0, extent]
+    } else {
+        [-0.5 * extent, 0.5 * extent]
+    })
 }

@@ -20,15 +20,24 @@ const TIE: f64 = 1e-7;
 /// `border` are at zero already and are left out.
 pub fn step_limit(before: &[f64], after: &[f64], border: &[usize]) -> StepLimit {
     let share = |k: usize| {
-        if after[k] < before[k] && !border.contains(&k) { before[k] / (before[k] - after[k]) } else { f64::INFINITY }
+        if after[k] < before[k] && !border.contains(&k) {
+            before[k] / (before[k] - after[k])
+        } else {
+            f64::INFINITY
+        }
     };
     let smallest = (0..before.len()).map(share).fold(f64::INFINITY, f64::min);
     let pairs = if smallest.is_finite() {
-        (0..before.len()).filter(|&k| share(k) <= smallest * (1.0 + TIE)).collect()
+        (0..before.len())
+            .filter(|&k| share(k) <= smallest * (1.0 + TIE))
+            .collect()
     } else {
         Vec::new()
     };
-    StepLimit { share: smallest, pairs }
+    StepLimit {
+        share: smallest,
+        pairs,
+    }
 }
 
 #[cfg(test)]

@@ -30,7 +30,12 @@ impl Engine<'_> {
         let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
         let mut u = initial.clone();
         self.respond_homogeneous(&mut u, &mut gap, &mut force);
-        Direction { u, initial, gap, force }
+        Direction {
+            u,
+            initial,
+            gap,
+            force,
+        }
     }
 
     /// Solves `(S - K_p) du = residual` to `tolerance` (energy norm, relative) and returns `K_p du`, the change of

@@ -16,7 +16,12 @@ const MOST: usize = 200;
 
 /// Finds `s` in `[0, 1]` with a recovered stress ratio of 1 between two sampled stress fields, linear in between.
 /// The ratio is at most 1 at `s = 0`, at least 1 at `s = 1`.
-pub fn yield_share(engine: &Engine, recovery: &mut Recovery, from: &Samples, to: &Samples) -> (f64, Option<Peak>) {
+pub fn yield_share(
+    engine: &Engine,
+    recovery: &mut Recovery,
+    from: &Samples,
+    to: &Samples,
+) -> (f64, Option<Peak>) {
     let mut mixed: Samples = from.clone();
     let mut at = |s: f64| {
         for (m, (a, b)) in mixed.iter_mut().zip(from.iter().zip(to)) {
@@ -117,13 +122,26 @@ impl Engine<'_> {
         };
         let mut previous = 1.0;
         let (mut phi_previous, _) = evaluate(self, previous)?;
-        let mut alpha = if phi_previous > -1.0 { previous / (1.0 + phi_previous) } else { 2.0 };
+        let mut alpha = if phi_previous > -1.0 {
+            previous / (1.0 + phi_previous)
+        } else {
+            2.0
+        };
         let (mut low, mut high) = (0.0, f64::INFINITY);
-        if phi_previous < 0.0 { low = previous } else { high = previous }
+        if phi_previous < 0.0 {
+            low = previous
+        } else {
+            high = previous
+        }
         for _ in 0..MOST {
             let (phi, peak) = evaluate(self, alpha)?;
-            if phi < 0.0 { low = f64::max(low, alpha) } else { high = f64::min(high, alpha) }
-            if let Some(peak) = peak.filter(|_| phi.abs() <= 1e-13 || high - low <= ACCURACY * high) {
+            if phi < 0.0 {
+                low = f64::max(low, alpha)
+            } else {
+                high = f64::min(high, alpha)
+            }
+            if let Some(peak) = peak.filter(|_| phi.abs() <= 1e-13 || high - low <= ACCURACY * high)
+            {
                 return Ok((alpha, peak));
             }
             // Equal phi would divide by zero: the step is then taken from the bracket.
@@ -140,7 +158,9 @@ impl Engine<'_> {
                 break;
             }
         }
-        Err(Error::analysis("the yield load was not found: the stress does not grow with the load"))
+        Err(Error::analysis(
+            "the yield load was not found: the stress does not grow with the load",
+        ))
     }
 }
 

@@ -44,8 +44,10 @@ impl Zone {
     /// Sets up the zone of the given elements (ascending); `guard` says which of them only watch. The free freedoms of
     /// the elements must be zone or contact freedoms.
     pub fn new(model: &Model, elements: &[usize], guard: &[bool], places: &Places) -> Self {
-        let list: Vec<GatheredElement> =
-            elements.par_iter().map(|&e| GatheredElement::new(model, e, local_element(model, e), places)).collect();
+        let list: Vec<GatheredElement> = elements
+            .par_iter()
+            .map(|&e| GatheredElement::new(model, e, local_element(model, e), places))
+            .collect();
         let mut first_point = Vec::with_capacity(list.len() + 1);
         first_point.push(0);
         for element in &list {
@@ -57,7 +59,11 @@ impl Zone {
             elements: list,
             guard: guard.to_vec(),
             first_point,
-            materials: model.materials.iter().map(|m| (m.clone(), m.elastic_matrix())).collect(),
+            materials: model
+                .materials
+                .iter()
+                .map(|m| (m.clone(), m.elastic_matrix()))
+                .collect(),
             committed: vec![PlasticState::default(); n_points],
             trial: vec![PlasticState::default(); n_points],
             softening: vec![[[0.0; 4]; 4]; n_points],
@@ -92,7 +98,8 @@ impl Zone {
     /// Integrates the flow rule for displacements `u` and adds up the initial loads.
     pub fn evaluate(&mut self, u: &Trailing, initial_load: &mut Trailing) -> Evaluation {
         let lookup = Lookup::new(u, &self.prescribed);
-        let (materials, committed, first_point) = (&self.materials, &self.committed, &self.first_point);
+        let (materials, committed, first_point) =
+            (&self.materials, &self.committed, &self.first_point);
         let trial = split(&mut self.trial, first_point);
         let softening = split(&mut self.softening, first_point);
         let status: Vec<(usize, bool)> = self
@@ -141,16 +148,25 @@ impl Zone {
     /// prescribed.
     pub fn softening_times(&mut self, v: &Trailing, out: &mut Trailing) {
         let lookup = Lookup::homogeneous(v);
-        let (elements, softening, first_point) = (&self.elements, &self.softening, &self.first_point);
-        self.active.par_iter().zip(&mut self.forces[..self.active.len()]).with_min_len(64).for_each(|(&i, force)| {
-            let element = &elements[i as usize];
-            let displacement = lookup.gather(element);
-            force.fill(0.0);
-            for (point, matrix) in element.points.iter().zip(&softening[first_point[i as usize]..]) {
-                let strain = point.strain(&displacement[..element.points.n_freedoms]);
-                point.add_force(&multiply(matrix, &strain), force);
-            }
-        });
+        let (elements, softening, first_point) =
+            (&self.elements, &self.softening, &self.first_point);
+        self.active
+            .par_iter()
+            .zip(&mut self.forces[..self.active.len()])
+            .with_min_len(64)
+            .for_each(|(&i, force)| {
+                let element = &elements[i as usize];
+                let displacement = lookup.gather(element);
+                force.fill(0.0);
+                for (point, matrix) in element
+                    .points
+                    .iter()
+                    .zip(&softening[first_point[i as usize]..])
+                {
+                    let strain = point.strain(&displacement[..element.points.n_freedoms]);
+                    point.add_force(&multiply(matrix, &strain), force);
+                }
+            });
         out.fill(0.0);
         for (&i, force) in self.active.iter().zip(&self.forces) {
             self.elements[i as usize].scatter(force, out);
@@ -184,7 +200,10 @@ impl Zone {
 
     /// History by element of the mesh.
     pub fn history_by_element(&self) -> impl Iterator<Item = (usize, &[PlasticState])> {
-        self.elements.iter().enumerate().map(|(i, e)| (e.element, &self.committed[self.points_of(i)]))
+        self.elements
+            .iter()
+            .enumerate()
+            .map(|(i, e)| (e.element, &self.committed[self.points_of(i)]))
     }
 
     fn points_of(&self, i: usize) -> std::ops::Range<usize> {
@@ -208,7 +227,10 @@ impl Zone {
     /// Gauss points with plastic strain and the largest equivalent plastic strain.
     pub fn extent(&self) -> (usize, f64) {
         self.committed.iter().fold((0, 0.0), |(n, largest), state| {
-            (n + usize::from(state.equivalent > 0.0), f64::max(largest, state.equivalent))
+            (
+                n + usize::from(state.equivalent > 0.0),
+                f64::max(largest, state.equivalent),
+            )
         })
     }
 }

@@ -83,7 +83,11 @@ pub fn first_guess(model: &Model) -> Choice {
     let candidates: Vec<bool> = (0..n).map(|e| may_yield(model, e)).collect();
     let count = candidates.iter().filter(|c| **c).count();
     if count <= SMALL || model.pairs.is_empty() {
-        let core = if count <= 40 * SMALL { candidates } else { vec![false; n] };
+        let core = if count <= 40 * SMALL {
+            candidates
+        } else {
+            vec![false; n]
+        };
         return Choice::from_marks(model, core, 0);
     }
     let boxes: Vec<([f64; 2], [f64; 2], f64)> = model
@@ -101,7 +105,11 @@ pub fn first_guess(model: &Model) -> Choice {
                     }
                 }
             }
-            (low, high, REACH * (high[0] - low[0]).hypot(high[1] - low[1]))
+            (
+                low,
+                high,
+                REACH * (high[0] - low[0]).hypot(high[1] - low[1]),
+            )
         })
         .collect();
     let core = (0..n)
@@ -119,7 +127,11 @@ pub fn first_guess(model: &Model) -> Choice {
 
 /// Prediction from elastic stress ratios of all elements (largest over the program's extreme loads).
 pub fn predict(model: &Model, ratios: &[f64]) -> Choice {
-    let hot: Vec<bool> = ratios.iter().enumerate().map(|(e, r)| may_yield(model, e) && *r >= PREDICTED).collect();
+    let hot: Vec<bool> = ratios
+        .iter()
+        .enumerate()
+        .map(|(e, r)| may_yield(model, e) && *r >= PREDICTED)
+        .collect();
     Choice::from_marks(model, widen(model, hot, MARGIN), GUARD)
 }
 
@@ -143,7 +155,12 @@ fn widen(model: &Model, mut marked: Vec<bool>, layers: usize) -> Vec<bool> {
         }
         for (e, mark) in marked.iter_mut().enumerate() {
             *mark = *mark
-                || (may_yield(model, e) && model.mesh.nodes(e).iter().any(|&node| touched[node as usize]));
+                || (may_yield(model, e)
+                    && model
+                        .mesh
+                        .nodes(e)
+                        .iter()
+                        .any(|&node| touched[node as usize]));
         }
     }
     marked
@@ -171,7 +188,11 @@ pub fn stress_ratios(model: &Model, u: &[f64], factors: &[f64]) -> Vec<f64> {
                 .points
                 .iter()
                 .map(|p| {
-                    von_mises(&stress(&elastic[body], &p.strain(&displacement[..local.points.n_freedoms]), &[0.0; 4])) / y
+                    von_mises(&stress(
+                        &elastic[body],
+                        &p.strain(&displacement[..local.points.n_freedoms]),
+                        &[0.0; 4],
+                    )) / y
                 })
                 .fold(0.0, f64::max)
         })

@@ -23,7 +23,11 @@ impl LocalElement {
     /// The element at the points where stress is most accurate.
     pub fn sampled(model: &Model, element: usize) -> Self {
         let x = model.element_coordinates(element);
-        turned(model, element, sampling(model.kind, model.mesh.shapes[element], &x))
+        turned(
+            model,
+            element,
+            sampling(model.kind, model.mesh.shapes[element], &x),
+        )
     }
 }
 

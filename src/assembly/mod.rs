@@ -55,20 +55,24 @@ pub fn assemble(model: &Model) -> Result<System> {
         columns.push(column);
         rest = tail;
     }
-    columns.into_par_iter().enumerate().with_min_len(1024).for_each(|(j, column)| {
-        let rows = &rows[pointers[j] as usize..pointers[j + 1] as usize];
-        for &(element, local) in incidence.elements(j) {
-            let freedoms = incidence.freedoms(element as usize);
-            let matrix = elements.matrix(element as usize);
-            for (i, &freedom) in freedoms.iter().enumerate() {
-                if freedom >= 0 && freedom <= j as i64 {
-                    if let Ok(at) = rows.binary_search(&freedom) {
-                        column[at] += matrix[packed(i, local as usize)];
+    columns
+        .into_par_iter()
+        .enumerate()
+        .with_min_len(1024)
+        .for_each(|(j, column)| {
+            let rows = &rows[pointers[j] as usize..pointers[j + 1] as usize];
+            for &(element, local) in incidence.elements(j) {
+                let freedoms = incidence.freedoms(element as usize);
+                let matrix = elements.matrix(element as usize);
+                for (i, &freedom) in freedoms.iter().enumerate() {
+                    if freedom >= 0 && freedom <= j as i64 {
+                        if let Ok(at) = rows.binary_search(&freedom) {
+                            column[at] += matrix[packed(i, local as usize)];
+                        }
                     }
                 }
             }
-        }
-    });
+        });
     let n = model.freedoms.n;
     let stiffness = SymmetricCsc::new_csc((n, n), pointers, rows, values);
     Ok(System { stiffness, loads })
@@ -104,17 +108,25 @@ impl ElementMatrices {
             blocks.push(block);
             rest = tail;
         }
-        blocks.into_par_iter().enumerate().with_min_len(256).for_each(|(e, block)| {
-            let element = local_element(model, e);
-            let n = element.points.n_freedoms;
-            let mut full = [0.0; MAX_FREEDOMS * MAX_FREEDOMS];
-            stiffness_into(&element.points, &elastic[model.mesh.element_body[e] as usize], &mut full);
-            for i in 0..n {
-                for j in 0..=i {
-                    block[packed(i, j)] = full[i * n + j];
+        blocks
+            .into_par_iter()
+            .enumerate()
+            .with_min_len(256)
+            .for_each(|(e, block)| {
+                let element = local_element(model, e);
+                let n = element.points.n_freedoms;
+                let mut full = [0.0; MAX_FREEDOMS * MAX_FREEDOMS];
+                stiffness_into(
+                    &element.points,
+                    &elastic[model.mesh.element_body[e] as usize],
+                    &mut full,
+                );
+                for i in 0..n {
+                    for j in 0..=i {
+                        block[packed(i, j)] = full[i * n + j];
+                    }
                 }
-            }
-        });
+            });
         ElementMatrices { offsets, values }
     }
 
@@ -125,14 +137,19 @@ impl ElementMatrices {
     /// Adds `-K_fp u_p` of each load's prescribed displacements.
     fn add_prescribed(&self, model: &Model, loads: &mut [Vec<f64>]) {
         for e in 0..model.mesh.n_elements() {
-            let slots: Vec<Slot> =
-                model.mesh.nodes(e).iter().flat_map(|&node| model.freedoms.slots[node as usize]).collect();
+            let slots: Vec<Slot> = model
+                .mesh
+                .nodes(e)
+                .iter()
+                .flat_map(|&node| model.freedoms.slots[node as usize])
+                .collect();
             for (j, slot) in slots.iter().enumerate() {
                 let Slot::Prescribed(p) = *slot else { continue };
                 let prescribed = model.freedoms.prescribed[p as usize];
                 for (i, row) in slots.iter().enumerate() {
                     if let Slot::Free(f) = *row {
-                        loads[prescribed.load][f as usize] -= self.matrix(e)[packed(i, j)] * prescribed.value;
+                        loads[prescribed.load][f as usize] -=
+                            self.matrix(e)[packed(i, j)] * prescribed.value;
                     }
                 }
             }

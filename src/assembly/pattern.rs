@@ -21,7 +21,11 @@ impl Incidence {
         for e in 0..model.mesh.n_elements() {
             for &node in model.mesh.nodes(e) {
                 for slot in model.freedoms.slots[node as usize] {
-                    freedoms.push(if let Slot::Free(f) = slot { i64::from(f) } else { -1 });
+                    freedoms.push(if let Slot::Free(f) = slot {
+                        i64::from(f)
+                    } else {
+                        -1
+                    });
                 }
             }
             offsets.push(freedoms.len());
@@ -43,7 +47,12 @@ impl Incidence {
                 }
             }
         }
-        Incidence { offsets, freedoms, starts, entries }
+        Incidence {
+            offsets,
+            freedoms,
+            starts,
+            entries,
+        }
     }
 
     /// Freedoms of an element, -1 where held.

@@ -1,1 +1,79 @@
-//! Command line.
+//! The command line: `brinell run`, `brinell yield`, `brinell check`.
+//!
+//! Only this module prints. What was computed goes to standard output, progress and errors to standard error, and
+//! the exit code says what kind of end it was ([`crate::ErrorKind::exit_code`]).
+
+mod arguments;
+mod commands;
+mod interrupt;
+mod number;
+mod progress;
+mod report;
+mod table;
+
+use crate::error::{Error, ErrorKind, Result};
+use arguments::Arguments;
+use clap::Parser;
+use std::error::Error as StdError;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+/// Runs the program with the arguments of the process and returns its exit code.
+pub fn main() -> ExitCode {
+    std::panic::set_hook(Box::new(|panic| {
+        let _ = writeln!(
+            io::stderr(),
+            "error: internal error, please report it with the scene that caused it: {panic}"
+        );
+        std::process::exit(i32::from(ErrorKind::Internal.exit_code()));
+    }));
+    // clap prints help, version and usage errors (exit code 2) itself.
+    let arguments = Arguments::parse();
+    match commands::execute(&arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            let _ = io::stderr().write_all(explain(&error).as_bytes());
+            ExitCode::from(error.kind().exit_code())
+        }
+    }
+}
+
+/// An error with its causes, as lines for a reader.
+fn explain(error: &Error) -> String {
+    let mut text = format!("error: {}\n", error.to_string().replace('\n', "\n       "));
+    let mut cause = error.source();
+    while let Some(reason) = cause {
+        text.push_str(&format!("  caused by: {reason}\n"));
+        cause = reason.source();
+    }
+    text
+}
+
+/// Writes to standard output. A reader that has seen enough (`| head`) is no error.
+fn print(text: &str) -> Result<()> {
+    let mut stdout = io::stdout().lock();
+    let written = stdout
+        .write_all(text.as_bytes())
+        .and_then(|()| stdout.flush());
+    match written {
+        Err(cause) if cause.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Error::new(ErrorKind::Io, "cannot write to standard output").because(cause))
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_is_printed_with_its_causes_and_aligned_lines() {
+        let cause = io::Error::other("disk full");
+        let error = Error::new(ErrorKind::Io, "first\nsecond").because(cause);
+        assert_eq!(
+            explain(&error),
+            "error: first\n       second\n  caused by: disk full\n"
+        );
+    }
+}

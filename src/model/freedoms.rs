@@ -96,18 +96,33 @@ impl Freedoms {
             }
             slots[node][usize::from(along < 0.5)] = Slot::Fixed;
         }
-        let mut freedoms = Freedoms { n: 0, slots, axes, prescribed: Vec::new(), owners: Vec::new() };
+        let mut freedoms = Freedoms {
+            n: 0,
+            slots,
+            axes,
+            prescribed: Vec::new(),
+            owners: Vec::new(),
+        };
         let ties = freedoms.apply_loads(scene, mesh, &contact_of)?;
         freedoms.number(&ties);
         Ok(freedoms)
     }
 
     /// Prescribed displacements become slots; surfaces held plane become ties (group of each node and direction).
-    fn apply_loads(&mut self, scene: &Scene, mesh: &Mesh, contact_of: &[Option<usize>]) -> Result<Ties> {
+    fn apply_loads(
+        &mut self,
+        scene: &Scene,
+        mesh: &Mesh,
+        contact_of: &[Option<usize>],
+    ) -> Result<Ties> {
         let mut ties = Ties::new();
         for (index, load) in scene.load.iter().enumerate() {
             let directions: Vec<(usize, Option<f64>)> = if let Some(d) = load.displacement {
-                [d.x, d.y].into_iter().enumerate().filter_map(|(i, v)| v.map(|v| (i, Some(v)))).collect()
+                [d.x, d.y]
+                    .into_iter()
+                    .enumerate()
+                    .filter_map(|(i, v)| v.map(|v| (i, Some(v))))
+                    .collect()
             } else if let Some(plane) = load.plane_force {
                 vec![(axis(plane.direction), None)]
             } else {
@@ -121,12 +136,17 @@ impl Freedoms {
                             index + 1,
                             load.on,
                             mesh.node_label(node),
-                            if contact_of[node].is_some() { "a contact normal" } else { "a turned support" },
+                            if contact_of[node].is_some() {
+                                "a contact normal"
+                            } else {
+                                "a turned support"
+                            },
                             ["x", "y"][direction]
                         ))
                     })?;
                     let sign = dot(self.local(node)[local], unit(direction)).signum();
-                    if self.slots[node][local] != Slot::Free(0) || ties.contains_key(&(node, local)) {
+                    if self.slots[node][local] != Slot::Free(0) || ties.contains_key(&(node, local))
+                    {
                         return Err(Error::input(format!(
                             "load {} on `{}`: node {} is already held or prescribed along {}",
                             index + 1,
@@ -137,8 +157,12 @@ impl Freedoms {
                     }
                     match value {
                         Some(value) => {
-                            self.slots[node][local] = Slot::Prescribed(self.prescribed.len() as u32);
-                            self.prescribed.push(Prescribed { load: index, value: sign * value });
+                            self.slots[node][local] =
+                                Slot::Prescribed(self.prescribed.len() as u32);
+                            self.prescribed.push(Prescribed {
+                                load: index,
+                                value: sign * value,
+                            });
                         }
                         None if sign < 0.0 || contact_of[node].is_some() => {
                             return Err(Error::input(format!(
@@ -242,12 +266,19 @@ impl Freedoms {
 
     /// Names a freedom for messages: body, node and direction.
     pub fn describe(&self, mesh: &Mesh, freedom: usize) -> String {
-        let Some(&(node, local)) = self.owners.get(freedom) else { return format!("freedom {freedom}") };
+        let Some(&(node, local)) = self.owners.get(freedom) else {
+            return format!("freedom {freedom}");
+        };
         let axis = self.local(node as usize)[local as usize];
         let body = (0..mesh.n_elements())
             .find(|&e| mesh.nodes(e).contains(&node))
             .map_or("?", |e| mesh.bodies[mesh.element_body[e] as usize].as_str());
-        format!("body `{body}`, node {}, direction ({:.3}, {:.3})", mesh.node_label(node as usize), axis[0], axis[1])
+        format!(
+            "body `{body}`, node {}, direction ({:.3}, {:.3})",
+            mesh.node_label(node as usize),
+            axis[0],
+            axis[1]
+        )
     }
 }
 
@@ -276,18 +307,28 @@ impl Supports {
                         (Some(_), Direction::X) => [cos, sin],
                         (Some(_), Direction::Y) => [-sin, cos],
                     };
-                    held.push(Held { node, direction, support });
+                    held.push(Held {
+                        node,
+                        direction,
+                        support,
+                    });
                 }
             }
         }
         if scene.kind == Kind::Axisymmetric {
             // On the axis of revolution the radial displacement vanishes whether or not the scene says so.
-            let radius = (0..mesh.n_nodes()).map(|i| mesh.point(i)[0]).fold(0.0, f64::max);
-            held.extend((0..mesh.n_nodes()).filter(|&i| mesh.point(i)[0] <= 1e-12 * radius).map(|node| Held {
-                node,
-                direction: [1.0, 0.0],
-                support: usize::MAX,
-            }));
+            let radius = (0..mesh.n_nodes())
+                .map(|i| mesh.point(i)[0])
+                .fold(0.0, f64::max);
+            held.extend(
+                (0..mesh.n_nodes())
+                    .filter(|&i| mesh.point(i)[0] <= 1e-12 * radius)
+                    .map(|node| Held {
+                        node,
+                        direction: [1.0, 0.0],
+                        support: usize::MAX,
+                    }),
+            );
         }
         Ok(Supports { held })
     }
@@ -296,7 +337,10 @@ impl Supports {
 fn turn_normals_into_supports(pairs: &mut [Pair], supports: &Supports) {
     let mut directions = std::collections::BTreeMap::new();
     for held in &supports.held {
-        directions.entry(held.node).or_insert_with(Vec::new).push(held.direction);
+        directions
+            .entry(held.node)
+            .or_insert_with(Vec::new)
+            .push(held.direction);
     }
     for pair in pairs {
         for node in [pair.first, pair.second] {
@@ -329,7 +373,10 @@ pub(super) fn unknown_name(name: &str, what: &str, known: &[&str]) -> Error {
         .min()
         .filter(|(distance, _)| *distance <= 4)
         .map_or(String::new(), |(_, k)| format!(", did you mean `{k}`?"));
-    Error::input(format!("{what} `{name}`: the mesh has no such set{closest} It has: {}", known.join(", ")))
+    Error::input(format!(
+        "{what} `{name}`: the mesh has no such set{closest} It has: {}",
+        known.join(", ")
+    ))
 }
 
 fn is_aligned(axis: [f64; 2], direction: [f64; 2]) -> bool {
@@ -345,7 +392,11 @@ fn axis(direction: Direction) -> usize {
 }
 
 fn unit(direction: usize) -> [f64; 2] {
-    if direction == 0 { [1.0, 0.0] } else { [0.0, 1.0] }
+    if direction == 0 {
+        [1.0, 0.0]
+    } else {
+        [0.0, 1.0]
+    }
 }
 
 pub(super) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {

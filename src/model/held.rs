@@ -80,7 +80,10 @@ pub(super) fn resolve(
             }
         }
         let freedom = motions.largest(mode, freedoms, pairs).ok_or_else(|| {
-            Error::new(ErrorKind::Unheld, format!("{motion}: nothing holds this motion"))
+            Error::new(
+                ErrorKind::Unheld,
+                format!("{motion}: nothing holds this motion"),
+            )
         })?;
         let node = freedoms.owners[freedom].0 as usize;
         warnings.push(format!(
@@ -131,8 +134,10 @@ impl<'a> Motions<'a> {
             }
             names[index[roots[body]]].push(mesh.bodies[body].clone());
         }
-        let group_of_node: Vec<usize> =
-            body_of_node.iter().map(|&b| if b == usize::MAX { 0 } else { index[roots[b]] }).collect();
+        let group_of_node: Vec<usize> = body_of_node
+            .iter()
+            .map(|&b| if b == usize::MAX { 0 } else { index[roots[b]] })
+            .collect();
         let mut low = vec![[f64::INFINITY; 2]; names.len()];
         let mut high = vec![[f64::NEG_INFINITY; 2]; names.len()];
         for (node, &group) in group_of_node.iter().enumerate() {
@@ -141,13 +146,32 @@ impl<'a> Motions<'a> {
                 high[group][d] = high[group][d].max(mesh.point(node)[d]);
             }
         }
-        let center = low.iter().zip(&high).map(|(l, h)| [0.5 * (l[0] + h[0]), 0.5 * (l[1] + h[1])]).collect();
-        let size = low.iter().zip(&high).map(|(l, h)| (h[0] - l[0]).hypot(h[1] - l[1])).collect();
-        Motions { kind, mesh, group_of_node, center, size, names }
+        let center = low
+            .iter()
+            .zip(&high)
+            .map(|(l, h)| [0.5 * (l[0] + h[0]), 0.5 * (l[1] + h[1])])
+            .collect();
+        let size = low
+            .iter()
+            .zip(&high)
+            .map(|(l, h)| (h[0] - l[0]).hypot(h[1] - l[1]))
+            .collect();
+        Motions {
+            kind,
+            mesh,
+            group_of_node,
+            center,
+            size,
+            names,
+        }
     }
 
     fn per_group(&self) -> usize {
-        if self.kind == Kind::Axisymmetric { 1 } else { 3 }
+        if self.kind == Kind::Axisymmetric {
+            1
+        } else {
+            3
+        }
     }
 
     /// Displacement along `axis` at a point of `group`, for each rigid motion of the group: along x, along y,
@@ -157,7 +181,11 @@ impl<'a> Motions<'a> {
             return vec![axis[1]];
         }
         let (c, s) = (self.center[group], 2.0 / self.size[group]);
-        vec![axis[0], axis[1], s * ((x[0] - c[0]) * axis[1] - (x[1] - c[1]) * axis[0])]
+        vec![
+            axis[0],
+            axis[1],
+            s * ((x[0] - c[0]) * axis[1] - (x[1] - c[1]) * axis[0]),
+        ]
     }
 
     /// Motions that supports and (bilateral) pairs leave free: unit vectors, one entry per group and rigid motion.
@@ -172,7 +200,8 @@ impl<'a> Motions<'a> {
                 }
             }
         };
-        let mut tied: std::collections::BTreeMap<u32, Vec<(usize, f64)>> = std::collections::BTreeMap::new();
+        let mut tied: std::collections::BTreeMap<u32, Vec<(usize, f64)>> =
+            std::collections::BTreeMap::new();
         let mut owners = vec![0u8; freedoms.n];
         for slot in freedoms.slots.iter().flatten() {
             if let Slot::Free(f) = slot {
@@ -182,16 +211,23 @@ impl<'a> Motions<'a> {
         for (node, slots) in freedoms.slots.iter().enumerate() {
             let group = self.group_of_node[node];
             for (slot, axis) in slots.iter().zip(freedoms.local(node)) {
-                let row: Vec<(usize, f64)> =
-                    self.row(group, self.mesh.point(node), axis).into_iter().enumerate().map(|(m, v)| (per * group + m, v)).collect();
+                let row: Vec<(usize, f64)> = self
+                    .row(group, self.mesh.point(node), axis)
+                    .into_iter()
+                    .enumerate()
+                    .map(|(m, v)| (per * group + m, v))
+                    .collect();
                 match slot {
                     Slot::Free(f) if owners[*f as usize] > 1 => match tied.get(f) {
                         None => {
                             tied.insert(*f, row);
                         }
                         Some(first) => {
-                            let difference: Vec<(usize, f64)> =
-                                row.iter().copied().chain(first.iter().map(|&(i, v)| (i, -v))).collect();
+                            let difference: Vec<(usize, f64)> = row
+                                .iter()
+                                .copied()
+                                .chain(first.iter().map(|&(i, v)| (i, -v)))
+                                .collect();
                             add(&difference);
                         }
                     },
@@ -205,7 +241,12 @@ impl<'a> Motions<'a> {
             for (node, sign) in [(pair.first, 1.0), (pair.second, -1.0)] {
                 let group = self.group_of_node[node];
                 let values = self.row(group, self.mesh.point(node), pair.normal);
-                row.extend(values.into_iter().enumerate().map(|(m, v)| (per * group + m, sign * v)));
+                row.extend(
+                    values
+                        .into_iter()
+                        .enumerate()
+                        .map(|(m, v)| (per * group + m, sign * v)),
+                );
             }
             add(&row);
         }
@@ -220,7 +261,9 @@ impl<'a> Motions<'a> {
     fn moved(&self, mode: &DVector<f64>) -> Vec<usize> {
         let per = self.per_group();
         let largest = mode.amax();
-        (0..self.names.len()).filter(|&g| (0..per).any(|m| mode[per * g + m].abs() > 1e-6 * largest)).collect()
+        (0..self.names.len())
+            .filter(|&g| (0..per).any(|m| mode[per * g + m].abs() > 1e-6 * largest))
+            .collect()
     }
 
     fn work(&self, mode: &DVector<f64>, load: &LoadCase) -> (f64, f64) {
@@ -230,7 +273,11 @@ impl<'a> Motions<'a> {
             let group = self.group_of_node[node];
             for (d, axis) in [[1.0, 0.0], [0.0, 1.0]].into_iter().enumerate() {
                 let row = self.row(group, self.mesh.point(node), axis);
-                let motion: f64 = row.iter().enumerate().map(|(m, v)| v * mode[per * group + m]).sum();
+                let motion: f64 = row
+                    .iter()
+                    .enumerate()
+                    .map(|(m, v)| v * mode[per * group + m])
+                    .sum();
                 work += force[d] * motion;
                 parts += force[d].abs();
             }
@@ -241,7 +288,8 @@ impl<'a> Motions<'a> {
     /// The free freedom, not of a contact normal, that moves most in a motion.
     fn largest(&self, mode: &DVector<f64>, freedoms: &Freedoms, pairs: &[Pair]) -> Option<usize> {
         let per = self.per_group();
-        let contact: std::collections::BTreeSet<usize> = pairs.iter().flat_map(|p| [p.first, p.second]).collect();
+        let contact: std::collections::BTreeSet<usize> =
+            pairs.iter().flat_map(|p| [p.first, p.second]).collect();
         let mut best = None;
         for (node, slots) in freedoms.slots.iter().enumerate() {
             let group = self.group_of_node[node];
@@ -251,7 +299,11 @@ impl<'a> Motions<'a> {
                     continue;
                 }
                 let row = self.row(group, self.mesh.point(node), freedoms.local(node)[local]);
-                let motion: f64 = row.iter().enumerate().map(|(m, v)| v * mode[per * group + m]).sum();
+                let motion: f64 = row
+                    .iter()
+                    .enumerate()
+                    .map(|(m, v)| v * mode[per * group + m])
+                    .sum();
                 if best.is_none_or(|(b, _)| motion.abs() > b) {
                     best = Some((motion.abs(), *f as usize));
                 }
@@ -263,8 +315,11 @@ impl<'a> Motions<'a> {
     fn describe(&self, mode: &DVector<f64>) -> String {
         let per = self.per_group();
         let groups = self.moved(mode);
-        let bodies: Vec<String> =
-            groups.iter().flat_map(|&g| self.names[g].iter()).map(|n| format!("`{n}`")).collect();
+        let bodies: Vec<String> = groups
+            .iter()
+            .flat_map(|&g| self.names[g].iter())
+            .map(|n| format!("`{n}`"))
+            .collect();
         let first = groups.first().copied().unwrap_or(0);
         let motion = if self.kind == Kind::Axisymmetric {
             "move along the axis".to_string()
@@ -273,7 +328,11 @@ impl<'a> Motions<'a> {
             let (x, y, turn) = (part(0), part(1), part(2));
             if turn.abs() > 1e-6 * mode.amax() {
                 let (c, s) = (self.center[first], 2.0 / self.size[first]);
-                format!("rotate about ({:.4}, {:.4})", c[0] - y / (s * turn), c[1] + x / (s * turn))
+                format!(
+                    "rotate about ({:.4}, {:.4})",
+                    c[0] - y / (s * turn),
+                    c[1] + x / (s * turn)
+                )
             } else if y.abs() <= 1e-6 * x.abs() {
                 "move along x".to_string()
             } else if x.abs() <= 1e-6 * y.abs() {
@@ -283,7 +342,11 @@ impl<'a> Motions<'a> {
             }
         };
         let together = if groups.len() > 1 { " together" } else { "" };
-        format!("bod{} {} can {motion}{together}", if groups.len() > 1 { "ies" } else { "y" }, bodies.join(" and "))
+        format!(
+            "bod{} {} can {motion}{together}",
+            if groups.len() > 1 { "ies" } else { "y" },
+            bodies.join(" and ")
+        )
     }
 }
 

@@ -52,7 +52,11 @@ impl LoadCase {
 
     /// Load factors at which the history has a kink.
     pub fn kinks(&self) -> impl Iterator<Item = f64> + '_ {
-        let rows: &[[f64; 2]] = if let History::Table(rows) = &self.history { rows } else { &[] };
+        let rows: &[[f64; 2]] = if let History::Table(rows) = &self.history {
+            rows
+        } else {
+            &[]
+        };
         rows.iter().map(|r| r[0])
     }
 
@@ -98,7 +102,11 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
     let nodes = named_nodes(mesh, &load.on, &what)?;
     let symmetry = scene.symmetry as f64;
     let mut case = LoadCase {
-        name: if load.name.is_empty() { format!("load {}", index + 1) } else { load.name.clone() },
+        name: if load.name.is_empty() {
+            format!("load {}", index + 1)
+        } else {
+            load.name.clone()
+        },
         nodal: Vec::new(),
         forces: Vec::new(),
         history: load.history.clone(),
@@ -109,7 +117,10 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
     };
     let surface = |key: &str| {
         mesh.surfaces.get(&load.on).ok_or_else(|| {
-            Error::input(format!("{what} `{}`: `{key}` needs a surface, this is a node set", load.on))
+            Error::input(format!(
+                "{what} `{}`: `{key}` needs a surface, this is a node set",
+                load.on
+            ))
         })
     };
     if let Some(force) = load.force {
@@ -118,22 +129,34 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
         match mesh.surfaces.get(&load.on) {
             Some(surface) => {
                 let area = area(scene.kind, mesh, surface);
-                case.nodal = integrate(scene.kind, mesh, surface, |_, _| [share[0] / area, share[1] / area]);
+                case.nodal = integrate(scene.kind, mesh, surface, |_, _| {
+                    [share[0] / area, share[1] / area]
+                });
             }
             None => {
                 let n = case.nodes.len() as f64;
-                case.nodal = case.nodes.iter().map(|&i| (i, [share[0] / n, share[1] / n])).collect();
+                case.nodal = case
+                    .nodes
+                    .iter()
+                    .map(|&i| (i, [share[0] / n, share[1] / n]))
+                    .collect();
             }
         }
     } else if let Some(p) = load.pressure {
-        case.nodal = integrate(scene.kind, mesh, surface("pressure")?, |_, n| [-p * n[0], -p * n[1]]);
+        case.nodal = integrate(scene.kind, mesh, surface("pressure")?, |_, n| {
+            [-p * n[0], -p * n[1]]
+        });
         case.set_size(total(&case.nodal), Magnitude::Stress);
         case.magnitude = p.abs();
     } else if let Some(t) = load.traction {
         case.nodal = integrate(scene.kind, mesh, surface("traction")?, |_, _| t);
         case.set_size(t, Magnitude::Stress);
     } else if let Some(k) = load.kirsch {
-        let field = KirschField { stress_x: k.stress_x, stress_y: k.stress_y, radius: k.radius };
+        let field = KirschField {
+            stress_x: k.stress_x,
+            stress_y: k.stress_y,
+            radius: k.radius,
+        };
         case.nodal = integrate(scene.kind, mesh, surface("kirsch")?, |x, n| {
             let [sxx, syy, sxy] = field.stress(x[0], x[1]);
             [sxx * n[0] + sxy * n[1], sxy * n[0] + syy * n[1]]
@@ -143,7 +166,10 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
             case.magnitude = (k.stress_x + k.stress_y).abs();
         }
     } else if let Some(d) = load.displacement {
-        case.set_size([d.x.unwrap_or(0.0), d.y.unwrap_or(0.0)], Magnitude::Displacement);
+        case.set_size(
+            [d.x.unwrap_or(0.0), d.y.unwrap_or(0.0)],
+            Magnitude::Displacement,
+        );
     } else if let Some(plane) = load.plane_force {
         let mut force = [0.0; 2];
         force[usize::from(plane.direction == Direction::Y)] = plane.total;
@@ -151,7 +177,10 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
         // The nodes share one freedom: the whole force may act on any of them.
         case.nodal = vec![(case.nodes[0], [force[0] / symmetry, force[1] / symmetry])];
     } else {
-        return Err(Error::input(format!("{what} `{}`: no kind of load is given", load.on)));
+        return Err(Error::input(format!(
+            "{what} `{}`: no kind of load is given",
+            load.on
+        )));
     }
     Ok(case)
 }
@@ -168,11 +197,16 @@ impl LoadCase {
 }
 
 fn area(kind: Kind, mesh: &Mesh, surface: &crate::mesh::Surface) -> f64 {
-    integrate(kind, mesh, surface, |_, _| [1.0, 0.0]).iter().map(|(_, f)| f[0]).sum()
+    integrate(kind, mesh, surface, |_, _| [1.0, 0.0])
+        .iter()
+        .map(|(_, f)| f[0])
+        .sum()
 }
 
 fn total(nodal: &[(usize, [f64; 2])]) -> [f64; 2] {
-    nodal.iter().fold([0.0; 2], |s, (_, f)| [s[0] + f[0], s[1] + f[1]])
+    nodal
+        .iter()
+        .fold([0.0; 2], |s, (_, f)| [s[0] + f[0], s[1] + f[1]])
 }
 
 /// Consistent nodal forces of a traction `t(x, n)` on a surface.

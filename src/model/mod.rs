@@ -123,24 +123,45 @@ fn build_mesh(scene: &Scene) -> Result<Mesh> {
     } else if let Some(path) = &source.file {
         mesh::gmsh::read(&scene.resolve_path(path))
     } else {
-        Err(Error::input("the scene names no mesh: give one of [mesh.cylinder_on_half_plane], [mesh.disc_in_plate], [[mesh.parts]] or mesh.file"))
+        Err(Error::input(
+            "the scene names no mesh: give one of [mesh.cylinder_on_half_plane], [mesh.disc_in_plate], [[mesh.parts]] or mesh.file",
+        ))
     }
 }
 
 /// Contact half width (radius) at first yield by Hertz, for the weaker of the two bodies: sizes the generated mesh.
 fn yield_half_width(scene: &Scene, radius: f64) -> Result<f64> {
     let of = |body: &str| {
-        scene.bodies.get(body).and_then(|b| scene.materials.get(&b.material)).ok_or_else(|| {
-            Error::input(format!("the generator cylinder_on_half_plane needs a body `{body}` with a material"))
-        })
+        scene
+            .bodies
+            .get(body)
+            .and_then(|b| scene.materials.get(&b.material))
+            .ok_or_else(|| {
+                Error::input(format!(
+                    "the generator cylinder_on_half_plane needs a body `{body}` with a material"
+                ))
+            })
     };
     let (a, b) = (of("cylinder")?, of("half_plane")?);
-    let modulus = analytical::contact_modulus(a.youngs_modulus, a.poissons_ratio, b.youngs_modulus, b.poissons_ratio);
+    let modulus = analytical::contact_modulus(
+        a.youngs_modulus,
+        a.poissons_ratio,
+        b.youngs_modulus,
+        b.poissons_ratio,
+    );
     let widths = [a, b].into_iter().filter_map(|m| {
         let (nu, y) = (m.poissons_ratio, m.yield_stress?);
         Some(match scene.kind {
-            Kind::Axisymmetric => analytical::HertzPoint { radius, contact_modulus: modulus }.yield_radius(nu, y),
-            _ => analytical::HertzLine { radius, contact_modulus: modulus }.yield_half_width(nu, y),
+            Kind::Axisymmetric => analytical::HertzPoint {
+                radius,
+                contact_modulus: modulus,
+            }
+            .yield_radius(nu, y),
+            _ => analytical::HertzLine {
+                radius,
+                contact_modulus: modulus,
+            }
+            .yield_half_width(nu, y),
         })
     });
     widths.reduce(f64::min).ok_or_else(|| {
@@ -164,10 +185,15 @@ fn resolve_bodies(scene: &Scene, mesh: &Mesh) -> Result<(Vec<Material>, Vec<bool
     let mut may_yield = Vec::new();
     for name in &mesh.bodies {
         let body = scene.bodies.get(name).ok_or_else(|| {
-            Error::input(format!("body `{name}` of the mesh has no [bodies.{name}] entry with its material"))
+            Error::input(format!(
+                "body `{name}` of the mesh has no [bodies.{name}] entry with its material"
+            ))
         })?;
         let data = scene.materials.get(&body.material).ok_or_else(|| {
-            Error::input(format!("bodies.{name}: there is no material `{}`", body.material))
+            Error::input(format!(
+                "bodies.{name}: there is no material `{}`",
+                body.material
+            ))
         })?;
         let material = Material::new(&body.material, data, scene.kind);
         may_yield.push(body.plastic != Plastic::No && material.hardening.is_some());

@@ -81,10 +81,17 @@ fn resolve_contact(
     scene: &Scene,
     pairs: &mut Vec<Pair>,
 ) -> Result<ContactSurface> {
-    let what = format!("contact {} (`{}` on `{}`)", index + 1, contact.first, contact.second);
+    let what = format!(
+        "contact {} (`{}` on `{}`)",
+        index + 1,
+        contact.first,
+        contact.second
+    );
     let find = |name: &str| -> Result<&Surface> {
         let names: Vec<&str> = mesh.surfaces.keys().map(String::as_str).collect();
-        mesh.surfaces.get(name).ok_or_else(|| unknown_name(name, &format!("contact {} surface", index + 1), &names))
+        mesh.surfaces
+            .get(name)
+            .ok_or_else(|| unknown_name(name, &format!("contact {} surface", index + 1), &names))
     };
     let (first, second) = (find(&contact.first)?, find(&contact.second)?);
     let context = |e: Error| e.within(&what);
@@ -130,8 +137,12 @@ fn resolve_contact(
             _ => unpaired.push(node),
         }
     }
-    let unpaired_first: Vec<usize> =
-        first_nodes.iter().zip(&taken).filter(|(_, taken)| !**taken).map(|(&n, _)| n).collect();
+    let unpaired_first: Vec<usize> = first_nodes
+        .iter()
+        .zip(&taken)
+        .filter(|(_, taken)| !**taken)
+        .map(|(&n, _)| n)
+        .collect();
     // One surface may reach beyond the other, but the shorter one must pair completely.
     if pairs.len() == start || (!unpaired.is_empty() && !unpaired_first.is_empty()) {
         return Err(Error::input(format!(
@@ -161,10 +172,15 @@ fn resolve_contact(
             )));
         }
     }
-    let circle = [second.curve, first.curve].into_iter().flatten().find_map(|c| match c {
-        Curve::Circle { center, radius, .. } if second.curve == Some(c) => Some((center, radius)),
-        _ => None,
-    });
+    let circle = [second.curve, first.curve]
+        .into_iter()
+        .flatten()
+        .find_map(|c| match c {
+            Curve::Circle { center, radius, .. } if second.curve == Some(c) => {
+                Some((center, radius))
+            }
+            _ => None,
+        });
     Ok(ContactSurface {
         names: [contact.first.clone(), contact.second.clone()],
         range: start..pairs.len(),
@@ -174,7 +190,13 @@ fn resolve_contact(
 }
 
 /// The node of `candidates` on the line through `x` along `normal`, the nearest if there are several.
-fn facing(mesh: &Mesh, x: [f64; 2], normal: [f64; 2], candidates: &[usize], tolerance: f64) -> Option<usize> {
+fn facing(
+    mesh: &Mesh,
+    x: [f64; 2],
+    normal: [f64; 2],
+    candidates: &[usize],
+    tolerance: f64,
+) -> Option<usize> {
     let mut best: Option<(f64, usize)> = None;
     for (i, &node) in candidates.iter().enumerate() {
         let y = mesh.point(node);
@@ -215,9 +237,17 @@ fn nodal_areas(scene: &Scene, mesh: &Mesh, surface: &Surface) -> BTreeMap<usize,
 }
 
 fn list(mesh: &Mesh, nodes: &[usize]) -> String {
-    let mut out: Vec<String> = nodes.iter().take(6).map(|&n| mesh.node_label(n).to_string()).collect();
+    let mut out: Vec<String> = nodes
+        .iter()
+        .take(6)
+        .map(|&n| mesh.node_label(n).to_string())
+        .collect();
     if nodes.len() > 6 {
         out.push(format!("and {} more", nodes.len() - 6));
     }
-    format!("{} {}", if nodes.len() == 1 { "" } else { "s" }, out.join(", "))
+    format!(
+        "{} {}",
+        if nodes.len() == 1 { "" } else { "s" },
+        out.join(", ")
+    )
 }

@@ -1,1 +1,192 @@
-//! Reading.
+//! Reading: text to [`Scene`], with errors that name file, line, column, key and what was meant.
+
+use super::document::{Places, Source};
+use super::{Scene, complete, overrides, unsupported, validate};
+use crate::error::{Error, ErrorKind, Result};
+use serde::Deserialize;
+use std::path::Path;
+use toml::de::DeTable;
+
+impl Scene {
+    /// Reads and validates a scene file.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Io`] where the file cannot be read; [`ErrorKind::Input`] as `FILE:LINE:COLUMN: ...`
+    /// for text that is not TOML, unknown or missing keys, wrong types, numbers that are not finite and
+    /// values out of range; [`ErrorKind::Unsupported`] for an effect that brinell does not have.
+    pub fn load(path: impl AsRef<Path>) -> Result<Scene> {
+        Self::load_with(path, &[])
+    }
+
+    /// Reads a scene file with `overrides` put over it, each `key.path=value`. A segment of the path is a key, the
+    /// index of an array entry or its name (`load.press.history=constant`); the
+    /// value is TOML, or else taken as a string.
+    ///
+    /// # Errors
+    /// As [`Scene::load`]; what is wrong with an override is reported as `--set KEY=VALUE: ...`.
+    pub fn load_with(path: impl AsRef<Path>, overrides: &[String]) -> Result<Scene> {
+        let path = path.as_ref();
+        let text = std::fs::read_to_string(path).map_err(|cause| match cause.kind() {
+            std::io::ErrorKind::InvalidData => {
+                Error::input(format!("{}: the file is not UTF-8 text", path.display()))
+            }
+            _ => Error::io("read the scene", path, cause),
+        })?;
+        let mut scene = parse(&Source {
+            name: &path.display().to_string(),
+            text: &text,
+            overrides,
+        })?;
+        scene.file = Some(path.to_path_buf());
+        Ok(scene)
+    }
+
+    /// Reads and validates a scene from a string; `name` stands for the file in messages. Relative paths in
+    /// the scene are relative to the working directory.
+    ///
+    /// # Errors
+    /// As [`Scene::load`].
+    pub fn parse(text: &str, name: &str) -> Result<Scene> {
+        parse(&Source {
+            name,
+            text,
+            overrides: &[],
+        })
+    }
+}
+
+fn parse(source: &Source<'_>) -> Result<Scene> {
+    let mut root = DeTable::parse(source.text)
+        .map_err(|error| source.syntax_error(&error))?
+        .into_inner();
+    overrides::apply(source, &mut root)?;
+    let (places, root) = Places::number(source, root)?;
+    let mut scene = Scene::deserialize(toml::de::Deserializer::from(root.clone()))
+        .map_err(|error| explain(&error, &places))?;
+    complete::check(&scene, root.get_ref(), &places)?;
+    let problems = validate::problems(&scene);
+    if !problems.is_empty() {
+        let lines: Vec<String> = problems
+            .iter()
+            .map(|p| format!("{}: {p}", places.of_path(&p.key)))
+            .collect();
+        return Err(Error::input(lines.join("\n")));
+    }
+    let labels = scene.program.labels();
+    for (target, label) in scene.program.targets.iter_mut().zip(labels) {
+        target.name = Some(label);
+    }
+    Ok(scene)
+}
+
+/// serde's error in the words of a user.
+fn explain(error: &toml::de::Error, places: &Places) -> Error {
+    let (place, path) = places.of_error(error);
+    let message = error.message();
+    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    let (kind, text) = match (message, quoted.split_first()) {
+        (m, Some((word, known))) if m.starts_with("unknown field") => {
+            unknown_key(word, known, path)
+        }
+        (m, Some((word, known))) if m.starts_with("unknown variant") => {
+            unknown_word(word, known, path)
+        }
+        (m, Some((word, _))) if m.starts_with("missing field") => (
+            ErrorKind::Input,
+            if path.is_empty() {
+                format!("the key `{word}` is missing")
+            } else {
+                format!("{path}: the key `{word}` is missing")
+            },
+        ),
+        (m, _) => (ErrorKind::Input, format!("{path}: {}", in_words(m))),
+    };
+    Error::new(kind, format!("{place}: {text}"))
+}
+
+fn unknown_key(word: &str, known: &[&str], path: &str) -> (ErrorKind, String) {
+    if let Some(effect) = unsupported::effect(word) {
+        return (
+            ErrorKind::Unsupported,
+            format!("{path}: brinell has no {effect}; take the key `{word}` out"),
+        );
+    }
+    let table = path.rfind('.').map_or("", |dot| &path[..dot]);
+    let here = if table.is_empty() {
+        String::new()
+    } else {
+        format!(" ({table})")
+    };
+    let text = format!(
+        "unknown key `{word}`{} Known keys here{here}: {}",
+        closest(word, known).map_or(".".to_string(), |k| format!(", did you mean `{k}`?")),
+        if known.is_empty() {
+            "none".to_string()
+        } else {
+            known.join(", ")
+        }
+    );
+    (ErrorKind::Input, text)
+}
+
+fn unknown_word(word: &str, known: &[&str], path: &str) -> (ErrorKind, String) {
+    if let Some(effect) = unsupported::effect(word) {
+        return (
+            ErrorKind::Unsupported,
+            format!("{path}: \"{word}\": brinell has no {effect}"),
+        );
+    }
+    let text = format!(
+        "{path}: unknown value \"{word}\"{} Possible values: {}",
+        closest(word, known).map_or(".".to_string(), |k| format!(", did you mean \"{k}\"?")),
+        known.join(", ")
+    );
+    (ErrorKind::Input, text)
+}
+
+/// The known word closest to `word`, if it is close: at most a third of its letters differ.
+fn closest<'k>(word: &str, known: &[&'k str]) -> Option<&'k str> {
+    let word = word.to_lowercase();
+    known
+        .iter()
+        .map(|k| (strsim::damerau_levenshtein(&word, k), *k))
+        .filter(|(distance, k)| 3 * distance <= k.chars().count().max(3))
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, k)| k)
+}
+
+/// serde's names of types in plain words.
+fn in_words(message: &str) -> String {
+    if message == "wanted string or table" {
+        return "wrong type, expected a word in quotes".to_string();
+    }
+    let Some((found, expected)) = message.rsplit_once(", expected ") else {
+        return message.to_string();
+    };
+    let mut found = found.to_string();
+    for (serde, words) in [
+        ("invalid type: floating point", "wrong type: number"),
+        ("invalid type: sequence", "wrong type: array"),
+        ("invalid type: map", "wrong type: table"),
+        ("invalid type:", "wrong type:"),
+        ("invalid value:", "wrong value:"),
+        ("invalid length", "wrong number of values:"),
+    ] {
+        if let Some(rest) = found.strip_prefix(serde) {
+            found = format!("{words}{rest}");
+        }
+    }
+    let expected = match expected {
+        "f64" => "a number",
+        "usize" => "a whole number, 0 or more",
+        "path string" => "a path in quotes",
+        "a sequence" => "an array",
+        "a map" => "a table",
+        _ if expected.starts_with("struct ") => "a table",
+        _ => expected,
+    };
+    format!("{found}, expected {expected}")
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,177 @@
+//! What the user may type.
+
+use crate::linalg::Backend;
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+const AFTER_HELP: &str = "\
+Examples:
+  brinell check data/scenes/cylinder_on_half_plane.toml
+  brinell run data/scenes/cylinder_on_half_plane.toml
+  brinell run press.toml --out results --set materials.steel.yield_stress=400 --set program.steps=40
+  brinell yield press.toml --json
+
+Exit codes:
+    0  done
+    2  the command line, the scene or the mesh is wrong, or asks for an effect that brinell does not have
+    3  a file could not be read or written
+    4  a body is not held: it can move freely
+    5  the analysis failed: a solve did not converge or a target was not reached
+    6  the load passed the limit load of the bodies
+   70  internal error, please report
+  130  stopped (Ctrl-C); what was computed so far is written";
+
+const SET_HELP: &str = "\
+Put a value over the scene's; may be repeated, later ones win.
+KEY is the path of keys; entries of [[...]] lists go by number from 0 or by their name:
+  --set kind=plane_stress
+  --set mesh.cylinder_on_half_plane.resolution=32
+  --set contact.0.interference=0.01
+  --set load.press.history=constant
+  --set 'program.targets=[{ yield = true }, { load_factor = 2.0 }]'
+VALUE is TOML, or else taken as a string.";
+
+/// Presses elastic-plastic bodies together without friction and lets them go again: where they touch, how hard, where the
+/// material yields, and what dent stays.
+///
+/// A scene file (TOML) says what is pressed on what; see data/scenes for commented examples. Units are the scene's own.
+#[derive(Debug, Parser)]
+#[command(name = "brinell", version, after_help = AFTER_HELP, max_term_width = 110)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Run the load program: yield load, states at the targets, fields
+    ///
+    /// Writes summary.json, history.csv (a row per increment), contact.csv (a row per state and contact pair) and fields.pvd
+    /// with .vtu files (for ParaView) to the output directory, and prints a summary.
+    /// Ctrl-C ends the run after the current increment and writes what there is; a second one ends it at once.
+    #[command(after_help = "Example: brinell run data/scenes/disc_in_plate.toml --out disc")]
+    Run(RunArguments),
+    /// Compute the yield load only: the load at which the material first yields
+    ///
+    /// Elastic, hence fast: no plastic increment is computed. Writes files only with --out.
+    #[command(
+        after_help = "Example: brinell yield data/scenes/cylinder_on_half_plane.toml \
+                            --set mesh.cylinder_on_half_plane.resolution=32"
+    )]
+    Yield(RunArguments),
+    /// Check the scene and predict what a run will cost, without running it
+    ///
+    /// Reads the scene, builds the mesh and the model, and says which effects the run will simulate and why, its size, and
+    /// the time and memory of the factorisation, predicted from the pattern of the matrix.
+    #[command(after_help = "Example: brinell check data/scenes/disc_in_plate.toml")]
+    Check(CheckArguments),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct RunArguments {
+    #[command(flatten)]
+    pub common: CommonArguments,
+    /// Directory for the results; `run` takes SCENE with the ending .out if it is not given
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// No progress and no warnings, only results and errors
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CheckArguments {
+    #[command(flatten)]
+    pub common: CommonArguments,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CommonArguments {
+    /// The scene file
+    #[arg(value_name = "SCENE")]
+    pub scene: PathBuf,
+    /// What factors the stiffness matrix
+    #[arg(long, value_enum, value_name = "SOLVER", default_value_t)]
+    pub solver: Solver,
+    /// Number of threads; by default as many as there are processors
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+    /// Print one JSON object (the content of summary.json) instead of tables
+    #[arg(long)]
+    pub json: bool,
+    #[arg(long = "set", value_name = "KEY=VALUE", help = "Put a value over the scene's (see --help)", long_help = SET_HELP)]
+    pub overrides: Vec<String>,
+}
+
+/// A backend by the name a user knows it by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Solver {
+    /// Sparse Cholesky of SuiteSparse
+    Cholmod,
+    /// Dense, by the textbook: a reference for small models
+    Dense,
+}
+
+impl Default for Solver {
+    fn default() -> Self {
+        match Backend::default() {
+            Backend::Cholmod => Solver::Cholmod,
+            Backend::Dense => Solver::Dense,
+        }
+    }
+}
+
+impl From<Solver> for Backend {
+    fn from(solver: Solver) -> Self {
+        match solver {
+            Solver::Cholmod => Backend::Cholmod,
+            Solver::Dense => Backend::Dense,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_definition_is_consistent() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn the_exit_codes_of_the_help_are_those_of_the_error_kinds() {
+        use crate::ErrorKind::*;
+        let listed: Vec<u8> = AFTER_HELP
+            .lines()
+            .filter_map(|line| line.split_whitespace().next()?.parse().ok())
+            .collect();
+        for kind in [
+            Input,
+            Io,
+            Unsupported,
+            Unheld,
+            Analysis,
+            Collapse,
+            Stopped,
+            Internal,
+        ] {
+            assert!(listed.contains(&kind.exit_code()), "{kind:?}");
+        }
+    }
+
+    #[test]
+    fn options_are_understood() {
+        let line = "brinell run a.toml --solver dense --threads 2 --set a=1 --set b=2 -q --json";
+        let arguments = Arguments::try_parse_from(line.split(' ')).unwrap();
+        let Command::Run(run) = arguments.command else {
+            panic!("not a run: {arguments:?}");
+        };
+        assert_eq!(Backend::from(run.common.solver), Backend::Dense);
+        assert_eq!(run.common.threads, Some(2));
+        assert_eq!(run.common.overrides, ["a=1", "b=2"]);
+        assert!(run.quiet && run.common.json && run.out.is_none());
+        assert!(Arguments::try_parse_from(["brinell", "run", "a", "--threads", "0"]).is_err());
+    }
+}

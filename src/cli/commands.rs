@@ -1,0 +1,105 @@
+//! The three commands: the one place where the command line calls the library.
+
+use super::arguments::{Arguments, Command, CommonArguments, RunArguments};
+use super::progress::Progress;
+use super::{interrupt, print, report};
+use crate::analysis::{self, Analysis, Check};
+use crate::error::{Error, ErrorKind, Result};
+use crate::model::Model;
+use crate::output;
+use crate::results::Results;
+use crate::scene::Scene;
+use std::path::{Path, PathBuf};
+
+/// Does what the user asked for.
+pub(super) fn execute(arguments: &Arguments) -> Result<()> {
+    match &arguments.command {
+        Command::Run(run) => {
+            let out = (run.out.clone()).unwrap_or_else(|| run.common.scene.with_extension("out"));
+            analyse(run, Some(out), Analysis::run)
+        }
+        Command::Yield(run) => analyse(run, run.out.clone(), Analysis::yield_load),
+        Command::Check(check) => predict(&check.common),
+    }
+}
+
+type Act = fn(&mut Analysis, &mut dyn crate::progress::Observer) -> Result<Results>;
+
+/// Scene, model, analysis, files, summary.
+fn analyse(arguments: &RunArguments, out: Option<PathBuf>, act: Act) -> Result<()> {
+    let common = &arguments.common;
+    let scene = prepare(common)?;
+    if let Some(out) = &out {
+        require_directory(out)?;
+    }
+    interrupt::listen()?;
+    let mut progress = Progress::new(arguments.quiet);
+    progress.start("mesh and model");
+    let model = Model::new(&scene)?;
+    let mut analysis = Analysis::new(model, common.solver.into())?;
+    let results = act(&mut analysis, &mut progress)?;
+    let model = analysis.model();
+    if let Some(out) = &out {
+        progress.start("output");
+        output::write(out, &scene, model, &results)?;
+    }
+    progress.finish();
+    let text = if common.json {
+        json(&output::summary(&scene, model, &results))?
+    } else {
+        report::results(&scene, &results, out.as_deref())
+    };
+    print(&text)?;
+    match &results.incomplete {
+        None => Ok(()),
+        Some(why) => Err(Error::new(
+            results.incomplete_kind.unwrap_or(ErrorKind::Analysis),
+            format!("the run ended before its program did: {why}"),
+        )),
+    }
+}
+
+/// What a run would do and cost.
+fn predict(common: &CommonArguments) -> Result<()> {
+    let scene = prepare(common)?;
+    let model = Model::new(&scene)?;
+    let check: Check = analysis::check(&model, common.solver.into())?;
+    print(&if common.json {
+        json(&check)?
+    } else {
+        report::check(&scene, &check)
+    })
+}
+
+fn prepare(common: &CommonArguments) -> Result<Scene> {
+    let scene = Scene::load_with(&common.scene, &common.overrides)?;
+    if let Some(threads) = common.threads {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(usize::from(threads))
+            .build_global()
+            .map_err(|cause| {
+                Error::internal(format!("cannot start {threads} threads")).because(cause)
+            })?;
+    }
+    Ok(scene)
+}
+
+/// A result directory that cannot be one is better found before an hour's run than after it.
+fn require_directory(out: &Path) -> Result<()> {
+    if out.exists() && !out.is_dir() {
+        return Err(Error::new(
+            ErrorKind::Io,
+            format!(
+                "{} exists and is not a directory; give another one with --out",
+                out.display()
+            ),
+        ));
+    }
+    Ok(())
+}
+
+fn json(value: &impl serde::Serialize) -> Result<String> {
+    serde_json::to_string_pretty(value)
+        .map(|text| text + "\n")
+        .map_err(|cause| Error::internal("the summary is not plain data").because(cause))
+}

@@ -1,0 +1,187 @@
+//! The printed summaries: what must be in them, and that they fit the page.
+
+use super::*;
+use crate::results::{Counts, HistoryRow};
+use std::path::PathBuf;
+
+fn scene() -> Scene {
+    let text = include_str!("../../../data/scenes/cylinder_on_half_plane.toml");
+    Scene::parse(text, "scene.toml").unwrap()
+}
+
+fn full() -> Results {
+    let name = "a state with a name that is much longer than anybody would want to read in a table";
+    Results {
+        sizes: Sizes {
+            freedoms: 12345678,
+            nodes: 6180001,
+            elements: 6100000,
+            contact_pairs: 4321,
+            zone_freedoms: 98765,
+            zone_elements: 54321,
+        },
+        effects: vec![
+            Effect {
+                name: "contact".into(),
+                on: true,
+                why: "the scene pairs cylinder.contact with half_plane.contact; ".repeat(4),
+                seconds: 0.1234,
+                memory_bytes: 1_500_000,
+            },
+            Effect {
+                name: "interference".into(),
+                on: false,
+                why: "no contact has one".into(),
+                seconds: 0.0,
+                memory_bytes: 0,
+            },
+        ],
+        first_yield: Some(YieldPoint {
+            alpha: 0.217,
+            load: 217.0,
+            max_pressure: 896.85,
+            half_width: 0.15543,
+            location: [0.0, -0.10947],
+            body: 1,
+        }),
+        states: vec![State {
+            name: name.into(),
+            alpha: 1.0515,
+            load: -1234567.8,
+            max_pressure: 1234.5678,
+            half_width: 1.6e-7,
+            residual_depth: -1.234567e-12,
+            plastic_points: 1234567,
+            max_equivalent_plastic_strain: 1.2345678e-5,
+            ..State::default()
+        }],
+        history: vec![HistoryRow::default(); 3],
+        timings: vec![("assembly".into(), 1.0), ("factorisation".into(), 3.0)],
+        counts: Counts {
+            factorizations: 1,
+            trailing_solves: 1234,
+            full_solves: 12,
+            plastic_iterations: 345,
+            contact_changes: 67,
+        },
+        quality: Quality {
+            backward_error: 1.234e-16,
+            equilibrium: 3.2e-11,
+            complementarity: 0.0,
+            penetration: 0.0,
+        },
+        factor: Prediction {
+            ordering: "camd",
+            factor_nonzeros: 1.5e6,
+            flops: 3.25e9,
+            trailing_nonzeros: 4.5e4,
+            memory_bytes: 24.3e6,
+        },
+        reference: vec![ReferenceRow {
+            quantity: "yield.max_pressure".into(),
+            reference: 896.85,
+            computed: 893.9,
+            ratio: 0.99671,
+            published_ratio: Some(0.94),
+            source: "Hertz line contact at first yield, von Mises with nu = 0.3; paper Table I"
+                .into(),
+        }],
+        warnings: vec!["something that the user should know and read to its end; ".repeat(4)],
+        ..Results::default()
+    }
+}
+
+#[test]
+fn a_report_fits_the_page_and_holds_every_section() {
+    let text = results(&scene(), &full(), Some(&PathBuf::from("cylinder.out")));
+    for line in text.lines() {
+        assert!(line.chars().count() <= WIDTH, "too wide: {line}");
+        assert_eq!(line, line.trim_end(), "blanks at the end: {line:?}");
+    }
+    for fragment in [
+        "Cylinder on a half plane, linear hardening (Endahl 5.1) (plane strain)\n",
+        "6100000 elements, 6180001 nodes, 12345678 freedoms, 4321 contact pairs",
+        "order camd, 1500000 nonzeros (3.0 % trailing), 3.25e9 flops, 24 MB",
+        "\nEffects\n",
+        "0.123 s",
+        "1.5 MB",
+        "\nFirst yield\n",
+        "0.217000  217.000",
+        "-0.109470",
+        "\nStates\n",
+        "1.05150",
+        "-1234568",
+        "-1.23457e-12",
+        "\nReference values\n",
+        "0.996710",
+        "0.94",
+        "backward error 1.2e-16, equilibrium 3.2e-11, complementarity 0",
+        "3 increments, 1 factorizations, 1234 trailing solves",
+        "factorisation  3.000 s   75 %",
+        "total          4.000 s",
+        "\nWarnings\n  - something",
+        "Results in cylinder.out: summary.json",
+    ] {
+        assert!(text.contains(fragment), "no {fragment:?} in\n{text}");
+    }
+    assert!(!text.contains("INCOMPLETE"));
+}
+
+#[test]
+fn an_effect_that_is_off_has_no_cost() {
+    let text = results(&scene(), &full(), None);
+    let line = text.lines().find(|l| l.contains("interference")).unwrap();
+    let cells: Vec<&str> = line.split_whitespace().collect();
+    assert_eq!(cells[1], "off");
+    assert_eq!(cells[cells.len() - 2..], ["-", "-"]);
+    assert!(!text.contains("Results in"));
+}
+
+#[test]
+fn what_there_is_nothing_of_is_left_out() {
+    let text = results(&scene(), &Results::default(), None);
+    for heading in [
+        "Effects",
+        "First yield",
+        "States",
+        "Reference",
+        "Time",
+        "Warnings",
+        "Factor",
+    ] {
+        assert!(!text.contains(heading), "{heading} in\n{text}");
+    }
+}
+
+#[test]
+fn an_incomplete_run_says_so() {
+    let mut partial = full();
+    partial.incomplete = Some("stopped at load factor 1.2".into());
+    let text = results(&scene(), &partial, None);
+    assert!(
+        text.contains("\nINCOMPLETE: stopped at load factor 1.2\n"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_check_tells_effects_cost_and_notes() {
+    let full = full();
+    let prediction = Check {
+        effects: full.effects,
+        sizes: full.sizes,
+        prediction: full.factor,
+        predicted_seconds: 12.34,
+        blas: "OpenBLAS 0.3.21".into(),
+        notes: vec!["use a finer mesh".into()],
+    };
+    let text = check(&scene(), &prediction);
+    for fragment in [
+        "Predicted  12.3 s for the factorisation; BLAS: OpenBLAS 0.3.21",
+        "\nEffects\n",
+        "\nNotes\n  - use a finer mesh\n",
+    ] {
+        assert!(text.contains(fragment), "no {fragment:?} in\n{text}");
+    }
+    assert!(text.lines().all(|line| line.chars().count() <= WIDTH));
+}

@@ -1,0 +1,167 @@
+//! Contact, supports and loads.
+
+use serde::de::{self, Deserializer, SeqAccess, Visitor};
+use serde::{Deserialize, Serialize, Serializer};
+use std::fmt;
+
+/// Two surfaces that may touch, without friction. Their nodes must pair.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Contact {
+    /// Surface of the first body.
+    pub first: String,
+    /// Surface of the second body; its outward normal, reversed, is the paper's i_1.
+    pub second: String,
+    /// Direction from the second body to the first; by default the second surface's outward normal.
+    pub normal: Option<[f64; 2]>,
+    /// Initial gap for all pairs instead of the geometric one.
+    pub gap: Option<f64>,
+    /// Interference: taken off every initial gap, applied gradually before the load program.
+    #[serde(default)]
+    pub interference: f64,
+}
+
+/// A support.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Support {
+    /// Node set or surface.
+    pub on: String,
+    /// Directions held: `x`, `y`; in the turned axes where `angle` is given.
+    pub fix: Vec<Direction>,
+    /// Angle in degrees by which the support's axes are turned counter-clockwise.
+    pub angle: Option<f64>,
+}
+
+/// A coordinate direction; axisymmetric: x is r, y is z.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Direction {
+    /// x (r).
+    X,
+    /// y (z).
+    Y,
+}
+
+impl Direction {
+    /// `x` or `y`, as in the scene file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Direction::X => "x",
+            Direction::Y => "y",
+        }
+    }
+}
+
+/// A load: exactly one of the kinds, with its own history.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Load {
+    /// Name, for messages.
+    #[serde(default)]
+    pub name: String,
+    /// Surface or node set that is loaded.
+    pub on: String,
+    /// Total force (x, y), shared by the nodes like a uniform traction (surface) or equally (node set).
+    pub force: Option<[f64; 2]>,
+    /// Pressure on a surface, positive into the body.
+    pub pressure: Option<f64>,
+    /// Uniform traction (x, y) on a surface.
+    pub traction: Option<[f64; 2]>,
+    /// Traction of the Kirsch field: plate with a hole of `radius` at the origin under remote tensions.
+    pub kirsch: Option<Kirsch>,
+    /// Prescribed displacement: the given components, at load factor 1 of this load.
+    pub displacement: Option<Displacement>,
+    /// A total force on a surface that is held plane: all its nodes share the displacement in `direction`.
+    pub plane_force: Option<PlaneForce>,
+    /// How it depends on the load factor.
+    #[serde(default)]
+    pub history: History,
+}
+
+/// Remote tensions of a plate with a hole at the origin.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Kirsch {
+    /// Remote stress along x.
+    pub stress_x: f64,
+    /// Remote stress along y.
+    #[serde(default)]
+    pub stress_y: f64,
+    /// Radius of the hole; 0 for a plain plate.
+    pub radius: f64,
+}
+
+/// Prescribed displacement components.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Displacement {
+    /// Along x (r).
+    pub x: Option<f64>,
+    /// Along y (z).
+    pub y: Option<f64>,
+}
+
+/// A total force on a surface held plane.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlaneForce {
+    /// Direction.
+    pub direction: Direction,
+    /// Total force along it.
+    pub total: f64,
+}
+
+/// How a load depends on the load factor alpha.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum History {
+    /// `"proportional"`: alpha times the load (default).
+    #[default]
+    Proportional,
+    /// `"constant"`: a preload, applied gradually before the load program starts.
+    Constant,
+    /// `[[alpha, factor], ...]`: piecewise linear in alpha, flat outside; the value at 0 is a preload.
+    Table(Vec<[f64; 2]>),
+}
+
+impl Serialize for History {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            History::Proportional => serializer.serialize_str("proportional"),
+            History::Constant => serializer.serialize_str("constant"),
+            History::Table(rows) => rows.serialize(serializer),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for History {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct HistoryVisitor;
+        impl<'de> Visitor<'de> for HistoryVisitor {
+            type Value = History;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(
+                    "\"proportional\", \"constant\" or a table [[load factor, multiple], ...]",
+                )
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<History, E> {
+                match text {
+                    "proportional" => Ok(History::Proportional),
+                    "constant" => Ok(History::Constant),
+                    _ => Err(E::invalid_value(de::Unexpected::Str(text), &self)),
+                }
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut rows: A) -> Result<History, A::Error> {
+                let mut table = Vec::new();
+                while let Some(row) = rows.next_element()? {
+                    table.push(row);
+                }
+                Ok(History::Table(table))
+            }
+        }
+        deserializer.deserialize_any(HistoryVisitor)
+    }
+}

@@ -1,0 +1,63 @@
+//! Nothing that the user wrote may be lost in reading.
+//!
+//! serde's derived code takes an array for a table (by position) and drops what is too much at the
+//! end of an array of fixed length, without a word. So the scene is written out again and held against the document:
+//! every array must come back as an array of the same length, every table as a table.
+
+use super::Scene;
+use super::document::{Places, join};
+use crate::error::{Error, Result};
+use toml::Value;
+use toml::de::{DeTable, DeValue};
+
+/// Compares the scene with the document it was read from.
+///
+/// # Errors
+/// The key and place of an array that is too long, or stands where a table belongs.
+pub(super) fn check(scene: &Scene, document: &DeTable<'_>, places: &Places) -> Result<()> {
+    let written = Value::try_from(scene)
+        .map_err(|cause| Error::internal("a scene cannot be written as TOML").because(cause))?;
+    table(document, &written, "", places)
+}
+
+fn table(document: &DeTable<'_>, written: &Value, path: &str, places: &Places) -> Result<()> {
+    for (key, value) in document {
+        let key = key.get_ref();
+        if let Some(written) = written.get(key.as_ref()) {
+            compare(value.get_ref(), written, &join(path, key), places)?;
+        }
+    }
+    Ok(())
+}
+
+fn compare(document: &DeValue<'_>, written: &Value, path: &str, places: &Places) -> Result<()> {
+    match (document, written) {
+        (DeValue::Table(inner), _) => table(inner, written, path, places),
+        (DeValue::Array(_), Value::Table(keys)) => {
+            let known: Vec<&str> = keys.keys().map(String::as_str).collect();
+            Err(Error::input(format!(
+                "{}: {path}: wrong type: array, expected a table with keys such as {}",
+                places.of_path(path),
+                known.join(", ")
+            )))
+        }
+        (DeValue::Array(items), Value::Array(kept)) if items.len() == kept.len() => {
+            for (index, (item, kept)) in items.iter().zip(kept).enumerate() {
+                compare(
+                    item.get_ref(),
+                    kept,
+                    &join(path, &index.to_string()),
+                    places,
+                )?;
+            }
+            Ok(())
+        }
+        (DeValue::Array(items), Value::Array(kept)) => Err(Error::input(format!(
+            "{}: {path}: wrong number of values: {}, expected {}",
+            places.of_path(path),
+            items.len(),
+            kept.len()
+        ))),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,59 @@
+//! Values of keys that a scene may leave out.
+
+use crate::mesh::Shape;
+
+pub(super) fn fine_width() -> f64 {
+    2.0
+}
+
+pub(super) fn fine_depth() -> f64 {
+    1.5
+}
+
+pub(super) fn far_size() -> f64 {
+    50.0
+}
+
+pub(super) fn growth() -> f64 {
+    1.15
+}
+
+pub(super) fn shape() -> Shape {
+    Shape::Quad4
+}
+
+pub(super) fn far_radius() -> f64 {
+    20.0
+}
+
+pub(super) fn disc_growth() -> f64 {
+    1.05
+}
+
+pub(super) fn no_bias() -> [f64; 2] {
+    [1.0, 1.0]
+}
+
+pub(super) fn one() -> f64 {
+    1.0
+}
+
+pub(super) fn quarter() -> [f64; 2] {
+    [0.0, 90.0]
+}
+
+pub(super) fn steps() -> usize {
+    20
+}
+
+pub(super) fn gamma() -> f64 {
+    1e-8
+}
+
+pub(super) fn yes() -> bool {
+    true
+}
+
+pub(super) fn single() -> usize {
+    1
+}

@@ -1,0 +1,188 @@
+//! A TOML document in which every key and value has a number, so that an error found anywhere later
+//! (by serde, by validation) is traced back to its key path and its place in the file or override.
+//!
+//! serde knows places as byte spans. Before the document is handed to it, each span is replaced by the
+//! number of its node: the span of an error then names the node exactly, also for values that
+//! came from an override and stand in no file.
+
+use crate::error::{Error, Result};
+use std::collections::BTreeMap;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// The text of a scene and the overrides on top of it: what places refer to.
+pub(super) struct Source<'t> {
+    /// File name for messages.
+    pub name: &'t str,
+    /// The file's text.
+    pub text: &'t str,
+    /// Overrides as given, `key=value`.
+    pub overrides: &'t [String],
+}
+
+impl Source<'_> {
+    /// `FILE:LINE:COLUMN` or `--set KEY=VALUE` of a place.
+    fn describe(&self, place: usize) -> String {
+        if let Some(number) = place.checked_sub(self.override_place(0))
+            && let Some(text) = self.overrides.get(number)
+        {
+            return format!("--set {text}");
+        }
+        let mut end = place.min(self.text.len());
+        while !self.text.is_char_boundary(end) {
+            end -= 1;
+        }
+        let before = &self.text[..end];
+        let line = before.matches('\n').count() + 1;
+        let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
+        format!("{}:{line}:{column}", self.name)
+    }
+
+    /// The place that stands for override `number`: beyond the end of the text.
+    pub fn override_place(&self, number: usize) -> usize {
+        self.text.len() + 1 + number
+    }
+
+    /// The error of a text that is not TOML.
+    pub fn syntax_error(&self, error: &toml::de::Error) -> Error {
+        let place = error.span().map_or(self.text.len(), |span| span.start);
+        Error::input(format!(
+            "{}: not valid TOML: {}",
+            self.describe(place),
+            error.message()
+        ))
+    }
+}
+
+/// A key or a value of the document.
+struct Node {
+    /// Key path, as overrides take it: `contact.0.gap`.
+    path: String,
+    /// Byte offset, or an override's place.
+    place: usize,
+}
+
+/// Where every key path of a scene stands.
+pub(super) struct Places {
+    nodes: Vec<Node>,
+    /// First node of each path: its key, where it has one.
+    by_path: BTreeMap<String, usize>,
+    /// Places in words: resolved on demand would need the source, which does not live as long.
+    described: Vec<String>,
+}
+
+impl Places {
+    /// Numbers all nodes of `root`, which afterwards carries numbers in place of spans.
+    ///
+    /// # Errors
+    /// A number that is not finite, by key and place.
+    pub fn number<'i>(
+        source: &Source<'_>,
+        root: DeTable<'i>,
+    ) -> Result<(Places, Spanned<DeTable<'i>>)> {
+        let mut places = Places {
+            nodes: Vec::new(),
+            by_path: BTreeMap::new(),
+            described: Vec::new(),
+        };
+        let id = places.add("", 0);
+        let root = places.table(root, "", source)?;
+        places.described = places
+            .nodes
+            .iter()
+            .map(|node| source.describe(node.place))
+            .collect();
+        Ok((places, Spanned::new(id..id, root)))
+    }
+
+    /// Place and key path of the node that an error of serde points at.
+    pub fn of_error(&self, error: &toml::de::Error) -> (&str, &str) {
+        let id = error.span().map_or(0, |span| span.start);
+        let id = id.min(self.nodes.len() - 1);
+        (&self.described[id], &self.nodes[id].path)
+    }
+
+    /// Place of a key path, or of the closest part of it that the document has.
+    pub fn of_path(&self, path: &str) -> &str {
+        let mut path = path;
+        loop {
+            if let Some(&id) = self.by_path.get(path) {
+                return &self.described[id];
+            }
+            // The root has the path "", so that this ends.
+            path = path.rfind('.').map_or("", |dot| &path[..dot]);
+        }
+    }
+
+    fn add(&mut self, path: &str, place: usize) -> usize {
+        let id = self.nodes.len();
+        self.nodes.push(Node {
+            path: path.to_string(),
+            place,
+        });
+        self.by_path.entry(path.to_string()).or_insert(id);
+        id
+    }
+
+    fn table<'i>(
+        &mut self,
+        table: DeTable<'i>,
+        path: &str,
+        source: &Source<'_>,
+    ) -> Result<DeTable<'i>> {
+        let mut numbered = DeTable::new();
+        for (key, value) in table {
+            let path = join(path, key.get_ref());
+            let id = self.add(&path, key.span().start);
+            let value = self.value(value, &path, source)?;
+            numbered.insert(Spanned::new(id..id, key.into_inner()), value);
+        }
+        Ok(numbered)
+    }
+
+    fn value<'i>(
+        &mut self,
+        value: Spanned<DeValue<'i>>,
+        path: &str,
+        source: &Source<'_>,
+    ) -> Result<Spanned<DeValue<'i>>> {
+        let place = value.span().start;
+        let id = self.add(path, place);
+        let numbered = match value.into_inner() {
+            DeValue::Table(table) => DeValue::Table(self.table(table, path, source)?),
+            DeValue::Array(array) => {
+                let mut items = toml::de::DeArray::new();
+                for (index, item) in array.into_iter().enumerate() {
+                    items.push(self.value(item, &join(path, &index.to_string()), source)?);
+                }
+                DeValue::Array(items)
+            }
+            DeValue::Float(number) => {
+                if !number.as_str().parse().is_ok_and(f64::is_finite) {
+                    return Err(Error::input(format!(
+                        "{}: {path}: {} is not a finite number; give a finite one",
+                        source.describe(place),
+                        number.as_str()
+                    )));
+                }
+                DeValue::Float(number)
+            }
+            other => other,
+        };
+        Ok(Spanned::new(id..id, numbered))
+    }
+}
+
+/// `path.key`, quoting a key that holds a dot.
+pub(super) fn join(path: &str, key: &str) -> String {
+    let key = if key.contains('.') {
+        format!("\"{key}\"")
+    } else {
+        key.to_string()
+    };
+    if path.is_empty() {
+        key
+    } else {
+        format!("{path}.{key}")
+    }
+}

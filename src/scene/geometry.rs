@@ -1,0 +1,159 @@
+//! Where the mesh comes from: a generator with its parameters, or a file.
+
+use crate::mesh::Shape;
+use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
+
+/// Where the mesh comes from: exactly one key.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeshSource {
+    /// Curved indenter on a block (paper 5.1); axisymmetric: ball on half space.
+    pub cylinder_on_half_plane: Option<CylinderOnHalfPlane>,
+    /// Quarter of a disc in the hole of a plate (paper 5.2).
+    pub disc_in_plate: Option<DiscInPlate>,
+    /// Blocks and rings, put together.
+    pub parts: Option<Vec<Part>>,
+    /// A Gmsh file (.msh 2.2 or 4.1, ASCII), relative to the scene file. Physical surfaces are
+    /// bodies, physical curves surfaces, physical points node sets.
+    pub file: Option<PathBuf>,
+}
+
+/// The half model (x >= 0) of a cylinder (ball) pressed on a half plane (half space). Bodies
+/// `cylinder` and `half_plane`; surfaces `cylinder.contact`, `cylinder.top`, `cylinder.symmetry`,
+/// `half_plane.contact`, `half_plane.bottom`, `half_plane.symmetry`, `half_plane.side`, `cylinder.side`.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CylinderOnHalfPlane {
+    /// Radius of the cylinder or ball.
+    pub radius: f64,
+    /// Elements over the contact half width (radius) at first yield.
+    pub resolution: usize,
+    /// Contact half width at first yield; by default computed from the materials (Hertz).
+    pub half_width: Option<f64>,
+    /// Width of the evenly meshed region, in half widths.
+    #[serde(default = "super::defaults::fine_width")]
+    pub fine_width: f64,
+    /// Depth of the evenly meshed region, in half widths.
+    #[serde(default = "super::defaults::fine_depth")]
+    pub fine_depth: f64,
+    /// Size of each body, in half widths.
+    #[serde(default = "super::defaults::far_size")]
+    pub far_size: f64,
+    /// Ratio of neighbouring element sizes outside the even region.
+    #[serde(default = "super::defaults::growth")]
+    pub growth: f64,
+    /// Element shape.
+    #[serde(default = "super::defaults::shape")]
+    pub element: Shape,
+}
+
+/// Quarter model (x, y >= 0) of a disc that fills the hole of a plate, tension along x. Bodies
+/// `disc` and `plate`; surfaces `disc.contact`, `plate.contact` (the hole), `plate.far`,
+/// `disc.symmetry_x`, `plate.symmetry_x` (on x = 0), `disc.symmetry_y`, `plate.symmetry_y` (on y = 0).
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DiscInPlate {
+    /// Radius of the hole and the disc.
+    pub radius: f64,
+    /// Disc radius minus hole radius: positive is interference, negative clearance.
+    #[serde(default)]
+    pub interference: f64,
+    /// Elements over the quarter circle.
+    pub resolution: usize,
+    /// Outer radius of the plate, in hole radii.
+    #[serde(default = "super::defaults::far_radius")]
+    pub far_radius: f64,
+    /// Ratio of neighbouring radial element sizes in the plate.
+    #[serde(default = "super::defaults::disc_growth")]
+    pub growth: f64,
+    /// Element shape.
+    #[serde(default = "super::defaults::shape")]
+    pub element: Shape,
+}
+
+/// A block, ring sector or disc sector: one body. Surfaces are `BODY.left`, `.right`, `.bottom`,
+/// `.top` for a block; `.inner`, `.outer`, `.start`, `.end` for a ring sector; `.outer`, `.start`, `.end` for a disc sector.
+/// The corners of a block are node sets `BODY.bottom_left`, `BODY.bottom_right`, `BODY.top_left`, `BODY.top_right`.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Part {
+    /// Name of the body.
+    pub body: String,
+    /// A rectangle.
+    pub block: Option<Block>,
+    /// A sector of a ring.
+    pub ring: Option<Ring>,
+    /// A quarter, half or full disc.
+    pub disc: Option<Disc>,
+    /// Element shape.
+    #[serde(default = "super::defaults::shape")]
+    pub element: Shape,
+}
+
+/// A rectangle `[x0, x1] x [y0, y1]`.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Block {
+    /// From, to.
+    pub x: [f64; 2],
+    /// From, to.
+    pub y: [f64; 2],
+    /// Number of elements along x and y.
+    pub elements: [usize; 2],
+    /// Size of the last element over that of the first, along x and y.
+    #[serde(default = "super::defaults::no_bias")]
+    pub bias: [f64; 2],
+    /// Named pieces of the sides: surface `BODY.NAME` = facets of `side` whose both ends lie in `from..to`.
+    #[serde(default)]
+    pub pieces: Vec<Piece>,
+}
+
+/// A named piece of a block's side.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Piece {
+    /// Name; the surface is `BODY.NAME`.
+    pub name: String,
+    /// `left`, `right`, `bottom` or `top`.
+    pub side: String,
+    /// Coordinate along the side where the piece begins.
+    pub from: f64,
+    /// Coordinate along the side where the piece ends.
+    pub to: f64,
+}
+
+/// A ring sector.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ring {
+    /// Centre.
+    #[serde(default)]
+    pub center: [f64; 2],
+    /// Inner and outer radius.
+    pub radius: [f64; 2],
+    /// Start and end angle in degrees, counter-clockwise from x. A full circle is closed.
+    #[serde(default = "super::defaults::quarter")]
+    pub angle: [f64; 2],
+    /// Number of elements along the radius and along the angle.
+    pub elements: [usize; 2],
+    /// Size of the outermost element over that of the innermost.
+    #[serde(default = "super::defaults::one")]
+    pub bias: f64,
+}
+
+/// A disc or a sector of 90 or 180 degrees of one.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Disc {
+    /// Centre.
+    #[serde(default)]
+    pub center: [f64; 2],
+    /// Radius.
+    pub radius: f64,
+    /// Start and end angle in degrees: 90, 180 or 360 apart.
+    #[serde(default = "super::defaults::quarter")]
+    pub angle: [f64; 2],
+    /// Elements over a quarter circle (even).
+    pub elements: usize,
+}

@@ -1,0 +1,96 @@
+//! What the bodies are made of.
+
+use serde::de::{self, Deserializer, Visitor};
+use serde::{Deserialize, Serialize, Serializer};
+use std::fmt;
+
+/// A material: linear elastic, and von Mises plastic where a yield stress is given.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// E > 0.
+    pub youngs_modulus: f64,
+    /// -1 < nu < 0.5.
+    pub poissons_ratio: f64,
+    /// Tensile yield stress; without it the material is elastic.
+    pub yield_stress: Option<f64>,
+    /// d(yield stress)/d(equivalent plastic strain) of linear hardening.
+    pub plastic_modulus: Option<f64>,
+    /// d(stress)/d(total strain) of a bar beyond yield; `H = E Et/(E - Et)`.
+    pub tangent_modulus: Option<f64>,
+    /// Table of (equivalent plastic strain, yield stress), first strain 0, flat after the last row.
+    pub hardening_table: Option<Vec<[f64; 2]>>,
+}
+
+impl Material {
+    /// Slope `H = d(yield stress)/d(equivalent plastic strain)` of linear hardening: the plastic
+    /// modulus as given, `E Et/(E - Et)` from a tangent modulus, 0 for a yield stress alone
+    /// (perfectly plastic). `None` where the material is elastic or hardens by a table.
+    pub fn plastic_modulus_resolved(&self) -> Option<f64> {
+        if self.yield_stress.is_none() || self.hardening_table.is_some() {
+            return None;
+        }
+        let from_tangent = self
+            .tangent_modulus
+            .map(|tangent| self.youngs_modulus * tangent / (self.youngs_modulus - tangent));
+        Some(self.plastic_modulus.or(from_tangent).unwrap_or(0.0))
+    }
+}
+
+/// What a body is made of and whether it may yield.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Body {
+    /// Name of the material.
+    pub material: String,
+    /// May this body yield?
+    #[serde(default)]
+    pub plastic: Plastic,
+}
+
+/// May a body yield?
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Plastic {
+    /// If its material can and the loads make it (default).
+    #[default]
+    Auto,
+    /// Yes: an error if its material has no yield stress.
+    Yes,
+    /// No: treated as elastic whatever its stress.
+    No,
+}
+
+impl Serialize for Plastic {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Plastic::Auto => serializer.serialize_str("auto"),
+            Plastic::Yes => serializer.serialize_bool(true),
+            Plastic::No => serializer.serialize_bool(false),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Plastic {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct PlasticVisitor;
+        impl Visitor<'_> for PlasticVisitor {
+            type Value = Plastic;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("true, false or \"auto\"")
+            }
+
+            fn visit_bool<E: de::Error>(self, may_yield: bool) -> Result<Plastic, E> {
+                Ok(if may_yield { Plastic::Yes } else { Plastic::No })
+            }
+
+            fn visit_str<E: de::Error>(self, text: &str) -> Result<Plastic, E> {
+                match text {
+                    "auto" => Ok(Plastic::Auto),
+                    _ => Err(E::invalid_value(de::Unexpected::Str(text), &self)),
+                }
+            }
+        }
+        deserializer.deserialize_any(PlasticVisitor)
+    }
+}

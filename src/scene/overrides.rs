@@ -1,0 +1,192 @@
+//! Overrides: `key.path=value` put over the document before it is read, so that a mistyped key meets the
+//! same checks as one in the file.
+
+use super::document::{Source, join};
+use crate::error::{Error, Result};
+use std::borrow::Cow;
+use toml::Spanned;
+use toml::de::{DeArray, DeString, DeTable, DeValue};
+
+/// Applies all overrides in order; later ones win.
+///
+/// # Errors
+/// The override, by its text: no `=`, a key that is not a TOML key path, a value that looks like a TOML
+/// array, table or string but is none, a step into something that is not a table, an array
+/// element that does not exist.
+pub(super) fn apply<'i>(source: &Source<'i>, root: &mut DeTable<'i>) -> Result<()> {
+    for (number, text) in source.overrides.iter().enumerate() {
+        apply_one(text, source.override_place(number), root)
+            .map_err(|error| error.within(format!("--set {text}")))?;
+    }
+    Ok(())
+}
+
+fn apply_one<'i>(text: &'i str, place: usize, root: &mut DeTable<'i>) -> Result<()> {
+    let Some((key, value)) = text.split_once('=') else {
+        return Err(Error::input(
+            "an override is KEY=VALUE, for instance program.steps=40; this one has no `=`",
+        ));
+    };
+    let segments = segments(key)?;
+    let value = placed(parse_value(value.trim())?, place);
+    let Some((last, parents)) = segments.split_last() else {
+        return Err(Error::input("the key before `=` is empty"));
+    };
+    let Some((first, rest)) = parents.split_first() else {
+        root.insert(
+            Spanned::new(place..place, Cow::Owned(last.clone())),
+            Spanned::new(place..place, value),
+        );
+        return Ok(());
+    };
+    let mut path = first.clone();
+    let mut at = entry(root, first, place);
+    for segment in rest {
+        at = step(at, segment, &path, place)?;
+        path = join(&path, segment);
+    }
+    match at {
+        DeValue::Table(table) => {
+            // An old key would keep its place in the file.
+            table.remove(last.as_str());
+            table.insert(
+                Spanned::new(place..place, Cow::Owned(last.clone())),
+                Spanned::new(place..place, value),
+            );
+        }
+        DeValue::Array(array) => {
+            *element(array, last, &path)? = Spanned::new(place..place, value);
+        }
+        other => return Err(no_table(&path, other)),
+    }
+    Ok(())
+}
+
+/// The key path's parts: TOML's own rules, so that quoted keys work.
+fn segments(key: &str) -> Result<Vec<String>> {
+    let key = key.trim();
+    let wrong = |reason: &str| {
+        Error::input(format!(
+            "`{key}` is not a key path such as materials.steel.yield_stress or contact.0.gap: {reason}"
+        ))
+    };
+    if key.contains('\n') {
+        return Err(wrong("it has a line break"));
+    }
+    let line = format!("{key} = 0");
+    let mut table = DeTable::parse(&line)
+        .map_err(|error| wrong(error.message()))?
+        .into_inner();
+    let mut segments = Vec::new();
+    // One line with one number at its end: a chain of tables with one key each.
+    while let Some((key, value)) = table.into_iter().next() {
+        segments.push(key.into_inner().into_owned());
+        match value.into_inner() {
+            DeValue::Table(inner) => table = inner,
+            _ => break,
+        }
+    }
+    Ok(segments)
+}
+
+/// A TOML value; a bare word is a string.
+fn parse_value(text: &str) -> Result<DeValue<'_>> {
+    match DeValue::parse(text) {
+        Ok(value) => Ok(value.into_inner()),
+        Err(error) if text.starts_with(['[', '{', '"', '\'']) => Err(Error::input(format!(
+            "the value `{text}` is not valid TOML: {}",
+            error.message()
+        ))),
+        Err(_) => Ok(DeValue::String(DeString::Borrowed(text))),
+    }
+}
+
+/// The value with the place of the override on all its parts.
+fn placed(value: DeValue<'_>, place: usize) -> DeValue<'_> {
+    match value {
+        DeValue::Table(table) => DeValue::Table(
+            table
+                .into_iter()
+                .map(|(key, value)| {
+                    (
+                        Spanned::new(place..place, key.into_inner()),
+                        Spanned::new(place..place, placed(value.into_inner(), place)),
+                    )
+                })
+                .collect(),
+        ),
+        DeValue::Array(array) => {
+            let mut items = DeArray::new();
+            for item in array {
+                items.push(Spanned::new(place..place, placed(item.into_inner(), place)));
+            }
+            DeValue::Array(items)
+        }
+        other => other,
+    }
+}
+
+/// The value of `key`, created as an empty table where it is absent: if the key is unknown, reading says so.
+fn entry<'t, 'i>(table: &'t mut DeTable<'i>, key: &str, place: usize) -> &'t mut DeValue<'i> {
+    table
+        .entry(Spanned::new(place..place, Cow::Owned(key.to_string())))
+        .or_insert_with(|| Spanned::new(place..place, DeValue::Table(DeTable::new())))
+        .get_mut()
+}
+
+fn step<'t, 'i>(
+    at: &'t mut DeValue<'i>,
+    segment: &str,
+    path: &str,
+    place: usize,
+) -> Result<&'t mut DeValue<'i>> {
+    match at {
+        DeValue::Table(table) => Ok(entry(table, segment, place)),
+        DeValue::Array(array) => Ok(element(array, segment, path)?.get_mut()),
+        other => Err(no_table(path, other)),
+    }
+}
+
+/// The array element that a segment means: its index from 0, or the `name` (of a part, its `body`).
+fn element<'t, 'i>(
+    array: &'t mut DeArray<'i>,
+    segment: &str,
+    path: &str,
+) -> Result<&'t mut Spanned<DeValue<'i>>> {
+    let names: Vec<Option<&str>> = array.iter().map(|item| name(item.get_ref())).collect();
+    let index = match segment.parse::<usize>() {
+        Ok(index) => Some(index),
+        Err(_) => names.iter().position(|name| *name == Some(segment)),
+    };
+    let missing = format!(
+        "`{path}` has no entry `{segment}`; {}",
+        match (array.len(), names.iter().flatten().count()) {
+            (0, _) => "it is empty".to_string(),
+            (n, 0) => format!("use an index from 0 to {}", n - 1),
+            (n, _) => {
+                let names: Vec<&str> = names.iter().flatten().copied().collect();
+                format!(
+                    "use an index from 0 to {} or a name: {}",
+                    n - 1,
+                    names.join(", ")
+                )
+            }
+        }
+    );
+    index
+        .and_then(|index| array.get_mut(index))
+        .ok_or_else(|| Error::input(missing))
+}
+
+/// What an entry of an array of tables goes by.
+fn name<'v>(item: &'v DeValue<'_>) -> Option<&'v str> {
+    let named = item.get("name").or_else(|| item.get("body"))?;
+    named.get_ref().as_str()
+}
+
+fn no_table(path: &str, found: &DeValue<'_>) -> Error {
+    Error::input(format!(
+        "`{path}` is a value of type {}, it has no keys of its own",
+        found.type_str()
+    ))
+}

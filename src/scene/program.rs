@@ -1,0 +1,181 @@
+//! The load program and how it is computed.
+
+use super::Direction;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
+
+/// The load program.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Program {
+    /// What a load factor of 1 means.
+    #[serde(default)]
+    pub unit: Unit,
+    /// How increments are chosen.
+    #[serde(default)]
+    pub stepping: Stepping,
+    /// Increments from one target to the next with `stepping = "steps"`.
+    #[serde(default = "super::defaults::steps")]
+    pub steps: usize,
+    /// Relative tolerance with which a change of contact is hit (paper 4.18, 4.23).
+    #[serde(default = "super::defaults::gamma")]
+    pub gamma: f64,
+    /// The targets, reached one after the other; each leaves a state.
+    pub targets: Vec<Target>,
+}
+
+/// What a load factor of 1 means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Unit {
+    /// The loads as given in the scene.
+    #[default]
+    Load,
+    /// The yield load: alpha = P/P* (paper 5.1, 5.3).
+    Yield,
+}
+
+/// How increments are chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Stepping {
+    /// Each increment ends at the next change of contact (paper 4.10 to 4.23).
+    #[default]
+    Events,
+    /// A fixed number of increments per target, contact solved at the end of each.
+    Steps,
+}
+
+/// A target: exactly one of the conditions.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Target {
+    /// Name of the state.
+    pub name: Option<String>,
+    /// `yield = true`: first yield.
+    #[serde(default, rename = "yield")]
+    pub first_yield: bool,
+    /// A load factor.
+    pub load_factor: Option<f64>,
+    /// A contact half width, as a multiple of that at first yield.
+    pub half_width: Option<f64>,
+    /// A displacement.
+    pub displacement: Option<DisplacementTarget>,
+    /// Write fields (VTU) for this state?
+    #[serde(default = "super::defaults::yes")]
+    pub fields: bool,
+}
+
+impl Target {
+    /// Name of the state that this target leaves: as given, else made from the condition (`yield`,
+    /// `alpha 1.0515`, `half width 1.5`, `displacement of top y = -0.1`). `index` counts from 0
+    /// and names a target that has neither. [`Program::labels`] keeps repeated names apart.
+    pub fn label(&self, index: usize) -> String {
+        if let Some(name) = &self.name {
+            name.clone()
+        } else if self.first_yield {
+            "yield".to_string()
+        } else if let Some(alpha) = self.load_factor {
+            format!("alpha {alpha}")
+        } else if let Some(width) = self.half_width {
+            format!("half width {width}")
+        } else if let Some(target) = &self.displacement {
+            format!(
+                "displacement of {} {} = {}",
+                target.on,
+                target.direction.name(),
+                target.value
+            )
+        } else {
+            format!("target {}", index + 1)
+        }
+    }
+}
+
+impl Program {
+    /// Names of the states of all targets, made unlike each other: a made-up name that was used
+    /// before gets a number, as in `alpha 1.25 (2)`. A scene that was read holds these names already.
+    pub fn labels(&self) -> Vec<String> {
+        let mut taken: BTreeSet<String> =
+            self.targets.iter().filter_map(|t| t.name.clone()).collect();
+        self.targets
+            .iter()
+            .enumerate()
+            .map(|(index, target)| {
+                let label = target.label(index);
+                if target.name.is_some() || taken.insert(label.clone()) {
+                    return label;
+                }
+                let mut number = 2;
+                loop {
+                    let numbered = format!("{label} ({number})");
+                    if taken.insert(numbered.clone()) {
+                        return numbered;
+                    }
+                    number += 1;
+                }
+            })
+            .collect()
+    }
+}
+
+/// A target displacement: the mean over a set reaches a value.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DisplacementTarget {
+    /// Node set or surface.
+    pub on: String,
+    /// Direction.
+    pub direction: Direction,
+    /// Value of the mean displacement.
+    pub value: f64,
+}
+
+/// How to compute.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Settings {
+    /// Yield load: the exact path or the paper's secant (3.14).
+    pub yield_load: YieldMethod,
+    /// How the plastic iteration is accelerated.
+    pub plastic_iteration: PlasticIteration,
+    /// Out-of-balance force of the plastic iteration over the contact and applied forces.
+    pub tolerance: f64,
+    /// Most plastic iterations per increment.
+    pub max_iterations: usize,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Settings {
+            yield_load: YieldMethod::Exact,
+            plastic_iteration: PlasticIteration::Newton,
+            tolerance: 1e-10,
+            max_iterations: 200,
+        }
+    }
+}
+
+/// How the yield load is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum YieldMethod {
+    /// Along the piecewise linear path.
+    #[default]
+    Exact,
+    /// The paper's secant, equation 3.14, bracketed.
+    Secant,
+}
+
+/// How the plastic iteration runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PlasticIteration {
+    /// Newton with the consistent tangent, solved by conjugate gradients on the factored elastic stiffness.
+    #[default]
+    Newton,
+    /// Anderson acceleration of the plain iteration.
+    Anderson,
+    /// The paper's initial-load iteration.
+    Plain,
+}

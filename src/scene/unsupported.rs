@@ -1,0 +1,94 @@
+//! Effects that other programs have and brinell has not: a scene that asks for one is told so.
+
+/// Words of keys, and the effect that they ask for.
+const EFFECTS: &[(&str, &[&str])] = &[
+    (
+        "friction: its contact is frictionless",
+        &["friction", "frictional", "coulomb", "mu", "stick", "slip"],
+    ),
+    (
+        "finite strain or large deformation: strains and displacements are small",
+        &[
+            "finite_strain",
+            "finite_strains",
+            "large_strain",
+            "large_strains",
+            "large_deformation",
+            "large_deformations",
+            "large_displacement",
+            "large_displacements",
+            "large_rotation",
+            "large_sliding",
+            "finite_sliding",
+            "nlgeom",
+            "geometric_nonlinearity",
+        ],
+    ),
+    (
+        "dynamics: the loads are applied slowly, without inertia, damping or time",
+        &[
+            "dynamics",
+            "dynamic",
+            "density",
+            "mass",
+            "inertia",
+            "time",
+            "time_step",
+            "damping",
+            "velocity",
+            "acceleration",
+            "frequency",
+            "impact",
+        ],
+    ),
+    (
+        "body forces: loads act on surfaces and nodes",
+        &["gravity", "body_force", "body_forces", "centrifugal"],
+    ),
+    (
+        "thermal effects: nothing depends on temperature",
+        &[
+            "thermal",
+            "temperature",
+            "thermal_expansion",
+            "conductivity",
+            "heat",
+        ],
+    ),
+    (
+        "rate dependence: plastic flow does not depend on time",
+        &["creep", "viscosity", "viscoplasticity", "strain_rate"],
+    ),
+    (
+        "kinematic hardening: hardening is isotropic",
+        &["kinematic_hardening", "kinematic", "backstress"],
+    ),
+    (
+        "adhesion, wear or damage",
+        &[
+            "adhesion", "cohesion", "cohesive", "wear", "damage", "fracture",
+        ],
+    ),
+    (
+        "three dimensions: models are plane strain, plane stress or axisymmetric",
+        &["3d", "three_dimensional", "solid", "thickness"],
+    ),
+];
+
+/// The effect that an unknown key or word asks for, where it is one that brinell does not have.
+pub(super) fn effect(word: &str) -> Option<&'static str> {
+    let word = word.to_lowercase().replace('-', "_");
+    let asked = |key: &&str| {
+        word == **key
+            || word
+                .strip_prefix(*key)
+                .is_some_and(|rest| rest.starts_with('_'))
+            || word
+                .strip_suffix(*key)
+                .is_some_and(|rest| rest.ends_with('_'))
+    };
+    EFFECTS
+        .iter()
+        .find(|(_, keys)| keys.iter().any(asked))
+        .map(|(effect, _)| *effect)
+}

@@ -1,0 +1,273 @@
+//! The mesh source: one of them, with parameters that make sense.
+
+use super::Checks;
+use crate::scene::{
+    Block, CylinderOnHalfPlane, Disc, DiscInPlate, Kind, MeshSource, Part, Ring, Scene,
+};
+use std::collections::BTreeSet;
+
+impl Checks {
+    pub(super) fn geometry(&mut self, scene: &Scene) {
+        let mesh = &scene.mesh;
+        self.exactly_one(
+            "mesh",
+            "mesh source",
+            &[
+                (
+                    "cylinder_on_half_plane",
+                    mesh.cylinder_on_half_plane.is_some(),
+                ),
+                ("disc_in_plate", mesh.disc_in_plate.is_some()),
+                ("parts", mesh.parts.is_some()),
+                ("file", mesh.file.is_some()),
+            ],
+        );
+        if let Some(parameters) = &mesh.cylinder_on_half_plane {
+            self.cylinder_on_half_plane(parameters, scene);
+        }
+        if let Some(parameters) = &mesh.disc_in_plate {
+            self.disc_in_plate(parameters, scene.kind);
+        }
+        if let Some(parts) = &mesh.parts {
+            self.require(
+                !parts.is_empty(),
+                "mesh.parts",
+                "is empty; give at least one part",
+            );
+            for (index, part) in parts.iter().enumerate() {
+                self.part(&format!("mesh.parts.{index}"), part, scene.kind);
+            }
+        }
+        if let Some(file) = &mesh.file {
+            self.require(
+                !file.as_os_str().is_empty(),
+                "mesh.file",
+                "is empty; give the path of a Gmsh file, relative to the scene file",
+            );
+        }
+        self.bodies_of_mesh(scene);
+    }
+
+    fn cylinder_on_half_plane(&mut self, parameters: &CylinderOnHalfPlane, scene: &Scene) {
+        let key = |name: &str| format!("mesh.cylinder_on_half_plane.{name}");
+        self.positive(key("radius"), parameters.radius);
+        self.count(key("resolution"), parameters.resolution, 1);
+        self.at_least(key("fine_width"), parameters.fine_width, 1.0);
+        self.positive(key("fine_depth"), parameters.fine_depth);
+        self.at_least(key("growth"), parameters.growth, 1.0);
+        let fine = parameters.fine_width.max(parameters.fine_depth);
+        self.require(
+            parameters.far_size > fine,
+            key("far_size"),
+            format!(
+                "{} must be greater than fine_width and fine_depth ({fine})",
+                parameters.far_size
+            ),
+        );
+        match parameters.half_width {
+            Some(half_width) => {
+                self.positive(key("half_width"), half_width);
+                self.require(
+                    half_width < parameters.radius,
+                    key("half_width"),
+                    format!(
+                        "{half_width} must be less than the radius ({}): small deformation",
+                        parameters.radius
+                    ),
+                );
+            }
+            None => self.require(
+                scene.any_can_yield(),
+                key("half_width"),
+                "is missing, and cannot be computed because no body can yield: give it, \
+                 or a yield_stress to a material",
+            ),
+        }
+    }
+
+    fn disc_in_plate(&mut self, parameters: &DiscInPlate, kind: Kind) {
+        let key = |name: &str| format!("mesh.disc_in_plate.{name}");
+        self.positive(key("radius"), parameters.radius);
+        self.count(key("resolution"), parameters.resolution, 2);
+        self.require(
+            parameters.far_radius > 1.0,
+            key("far_radius"),
+            format!(
+                "{} must be greater than 1: it is counted in hole radii",
+                parameters.far_radius
+            ),
+        );
+        self.at_least(key("growth"), parameters.growth, 1.0);
+        self.require(
+            parameters.interference.abs() < parameters.radius,
+            key("interference"),
+            format!(
+                "{} must be small against the radius ({})",
+                parameters.interference, parameters.radius
+            ),
+        );
+        self.require(
+            kind != Kind::Axisymmetric,
+            "kind",
+            "disc_in_plate is a plane model; use plane_stress or plane_strain",
+        );
+    }
+
+    fn part(&mut self, key: &str, part: &Part, kind: Kind) {
+        self.exactly_one(
+            key,
+            "shape",
+            &[
+                ("block", part.block.is_some()),
+                ("ring", part.ring.is_some()),
+                ("disc", part.disc.is_some()),
+            ],
+        );
+        self.require(
+            !part.body.is_empty(),
+            format!("{key}.body"),
+            "is empty; give the body a name",
+        );
+        if let Some(block) = &part.block {
+            self.block(&format!("{key}.block"), block, kind);
+        }
+        if let Some(ring) = &part.ring {
+            self.ring(&format!("{key}.ring"), ring);
+        }
+        if let Some(disc) = &part.disc {
+            self.disc(&format!("{key}.disc"), disc);
+        }
+    }
+
+    fn block(&mut self, key: &str, block: &Block, kind: Kind) {
+        for (name, [from, to], index) in [("x", block.x, 0), ("y", block.y, 1)] {
+            self.require(
+                from < to,
+                format!("{key}.{name}"),
+                format!("[{from}, {to}] must run from the smaller to the larger coordinate"),
+            );
+            self.count(format!("{key}.elements.{index}"), block.elements[index], 1);
+            self.positive(format!("{key}.bias.{index}"), block.bias[index]);
+        }
+        self.require(
+            kind != Kind::Axisymmetric || block.x[0] >= 0.0,
+            format!("{key}.x"),
+            format!(
+                "{} is left of the axis: in an axisymmetric model x is the radius",
+                block.x[0]
+            ),
+        );
+        let sides = ["left", "right", "bottom", "top"];
+        let corners = ["bottom_left", "bottom_right", "top_left", "top_right"];
+        let mut names = BTreeSet::new();
+        for (index, piece) in block.pieces.iter().enumerate() {
+            let key = format!("{key}.pieces.{index}");
+            self.require(
+                names.insert(&piece.name) && !piece.name.is_empty(),
+                format!("{key}.name"),
+                format!("\"{}\" is empty or used twice", piece.name),
+            );
+            self.require(
+                !sides.contains(&piece.name.as_str()) && !corners.contains(&piece.name.as_str()),
+                format!("{key}.name"),
+                format!(
+                    "\"{}\" is the name of a side or corner; choose another",
+                    piece.name
+                ),
+            );
+            self.require(
+                sides.contains(&piece.side.as_str()),
+                format!("{key}.side"),
+                format!("\"{}\" is none of {}", piece.side, sides.join(", ")),
+            );
+            let [from, to] = match piece.side.as_str() {
+                "left" | "right" => block.y,
+                _ => block.x,
+            };
+            self.require(
+                piece.from < piece.to && piece.from >= from && piece.to <= to,
+                key,
+                format!(
+                    "{} to {} must be an ascending range within the side, {from} to {to}",
+                    piece.from, piece.to
+                ),
+            );
+        }
+    }
+
+    fn ring(&mut self, key: &str, ring: &Ring) {
+        let [inner, outer] = ring.radius;
+        self.require(
+            inner > 0.0 && inner < outer,
+            format!("{key}.radius"),
+            format!(
+                "[{inner}, {outer}] must be positive and ascending (a disc has no inner radius)"
+            ),
+        );
+        let [start, end] = ring.angle;
+        self.require(
+            start < end && end - start <= 360.0,
+            format!("{key}.angle"),
+            format!("[{start}, {end}] must be ascending and at most 360 degrees apart"),
+        );
+        for index in 0..2 {
+            self.count(format!("{key}.elements.{index}"), ring.elements[index], 1);
+        }
+        self.positive(format!("{key}.bias"), ring.bias);
+    }
+
+    fn disc(&mut self, key: &str, disc: &Disc) {
+        self.positive(format!("{key}.radius"), disc.radius);
+        let [start, end] = disc.angle;
+        self.require(
+            [90.0, 180.0, 360.0].contains(&(end - start)),
+            format!("{key}.angle"),
+            format!("[{start}, {end}] must be 90, 180 or 360 degrees apart"),
+        );
+        self.require(
+            disc.elements >= 2 && disc.elements.is_multiple_of(2),
+            format!("{key}.elements"),
+            format!("{} must be an even number, 2 or more", disc.elements),
+        );
+    }
+
+    /// Generated meshes have known bodies: each needs a material, and there are no others.
+    fn bodies_of_mesh(&mut self, scene: &Scene) {
+        let Some(names) = generated_bodies(&scene.mesh) else {
+            return;
+        };
+        let mut seen = BTreeSet::new();
+        for (index, name) in names.iter().enumerate() {
+            if !seen.insert(*name) {
+                self.problem(
+                    format!("mesh.parts.{index}.body"),
+                    format!("\"{name}\" is used twice; every part is a body of its own"),
+                );
+            } else if !scene.bodies.contains_key(*name) {
+                self.problem(
+                    "bodies",
+                    format!("the mesh has a body `{name}`; give it a material in [bodies.{name}]"),
+                );
+            }
+        }
+        for name in scene.bodies.keys() {
+            self.require(
+                seen.contains(name.as_str()),
+                format!("bodies.{name}"),
+                format!("the mesh has no such body, only {}", names.join(", ")),
+            );
+        }
+    }
+}
+
+/// Names of the bodies of a generated mesh; `None` where a file decides.
+fn generated_bodies(mesh: &MeshSource) -> Option<Vec<&str>> {
+    if mesh.cylinder_on_half_plane.is_some() {
+        Some(vec!["cylinder", "half_plane"])
+    } else if mesh.disc_in_plate.is_some() {
+        Some(vec!["disc", "plate"])
+    } else {
+        let parts = mesh.parts.as_ref()?;
+        Some(parts.iter().map(|part| part.body.as_str()).collect())
+    }
+}

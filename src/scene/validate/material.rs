@@ -1,0 +1,119 @@
+//! Materials and bodies.
+
+use super::Checks;
+use crate::scene::{Material, Plastic, Scene};
+
+impl Checks {
+    pub(super) fn materials(&mut self, scene: &Scene) {
+        for (name, material) in &scene.materials {
+            self.material(&format!("materials.{name}"), material);
+        }
+        self.require(
+            !scene.bodies.is_empty(),
+            "bodies",
+            "is empty; name each body of the mesh with its material",
+        );
+        for (name, body) in &scene.bodies {
+            match scene.materials.get(&body.material) {
+                None => {
+                    let known: Vec<&str> = scene.materials.keys().map(String::as_str).collect();
+                    self.problem(
+                        format!("bodies.{name}.material"),
+                        format!(
+                            "there is no material \"{}\"; known materials: {}",
+                            body.material,
+                            known.join(", ")
+                        ),
+                    );
+                }
+                Some(material) => self.require(
+                    body.plastic != Plastic::Yes || material.yield_stress.is_some(),
+                    format!("bodies.{name}.plastic"),
+                    format!(
+                        "true, but the material \"{0}\" has no yield stress; \
+                         give materials.{0}.yield_stress",
+                        body.material
+                    ),
+                ),
+            }
+        }
+    }
+
+    fn material(&mut self, key: &str, material: &Material) {
+        self.positive(format!("{key}.youngs_modulus"), material.youngs_modulus);
+        let nu = material.poissons_ratio;
+        self.require(
+            nu > -1.0 && nu < 0.5,
+            format!("{key}.poissons_ratio"),
+            format!("{nu} must lie between -1 and 0.5, ends excluded"),
+        );
+        let hardening = [
+            ("plastic_modulus", material.plastic_modulus.is_some()),
+            ("tangent_modulus", material.tangent_modulus.is_some()),
+            ("hardening_table", material.hardening_table.is_some()),
+        ];
+        let given: Vec<&str> = hardening.iter().filter(|h| h.1).map(|h| h.0).collect();
+        if given.len() > 1 {
+            self.exactly_one(key, "hardening laws", &hardening);
+        }
+        let Some(yield_stress) = material.yield_stress else {
+            if let Some(law) = given.first() {
+                self.problem(
+                    format!("{key}.{law}"),
+                    "needs a yield_stress beside it; without one the material is elastic",
+                );
+            }
+            return;
+        };
+        self.positive(format!("{key}.yield_stress"), yield_stress);
+        if let Some(modulus) = material.plastic_modulus {
+            self.at_least(format!("{key}.plastic_modulus"), modulus, 0.0);
+        }
+        if let Some(tangent) = material.tangent_modulus {
+            self.require(
+                tangent >= 0.0 && tangent < material.youngs_modulus,
+                format!("{key}.tangent_modulus"),
+                format!(
+                    "{tangent} must be at least 0 and less than Young's modulus ({})",
+                    material.youngs_modulus
+                ),
+            );
+        }
+        if let Some(table) = &material.hardening_table {
+            self.hardening_table(&format!("{key}.hardening_table"), table, yield_stress);
+        }
+    }
+
+    fn hardening_table(&mut self, key: &str, table: &[[f64; 2]], yield_stress: f64) {
+        let Some(&[strain, stress]) = table.first() else {
+            self.problem(key, "is empty; give rows of [plastic strain, yield stress]");
+            return;
+        };
+        self.require(
+            strain == 0.0 && stress == yield_stress,
+            format!("{key}.0"),
+            format!(
+                "[{strain}, {stress}] must be [0, {yield_stress}]: plastic strain 0, yield_stress"
+            ),
+        );
+        for (index, pair) in table.windows(2).enumerate() {
+            let ([strain0, stress0], [strain1, stress1]) = (pair[0], pair[1]);
+            let key = format!("{key}.{}", index + 1);
+            self.require(
+                strain1 > strain0,
+                key.as_str(),
+                format!(
+                    "plastic strain {strain1} must be greater than {strain0} of the row before"
+                ),
+            );
+            self.require(
+                stress1 >= stress0,
+                key,
+                format!(
+                    "yield stress {stress1} is less than {stress0} of the row before: \
+                     softening has no unique solution"
+                ),
+            );
+        }
+    }
+}

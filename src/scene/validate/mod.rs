@@ -1,0 +1,189 @@
+//! What a scene must satisfy that its types cannot say, as far as it can be known without the mesh.
+
+mod boundary;
+mod geometry;
+mod material;
+mod program;
+
+use super::{History, Scene};
+use crate::error::{Error, Result};
+use std::fmt;
+
+impl Scene {
+    /// Checks values and references. [`Scene::load`] and [`Scene::parse`] do so by themselves, with
+    /// line and column; a scene built in code is checked when the model is made from it.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Input`], one line per problem: key path, value, what to do.
+    pub fn validate(&self) -> Result<()> {
+        let problems = problems(self);
+        if problems.is_empty() {
+            return Ok(());
+        }
+        let lines: Vec<String> = problems.iter().map(Problem::to_string).collect();
+        let error = Error::input(lines.join("\n"));
+        Err(match &self.file {
+            Some(file) => error.within(file.display()),
+            None => error,
+        })
+    }
+
+    /// Can this body yield: has its material a yield stress, and is it not said to be elastic?
+    /// False for a body that the scene does not have.
+    pub fn can_yield(&self, body: &str) -> bool {
+        self.bodies.get(body).is_some_and(|body| {
+            body.plastic != super::Plastic::No
+                && self
+                    .materials
+                    .get(&body.material)
+                    .is_some_and(|material| material.yield_stress.is_some())
+        })
+    }
+
+    /// Can any body yield?
+    pub fn any_can_yield(&self) -> bool {
+        self.bodies.keys().any(|body| self.can_yield(body))
+    }
+
+    /// Does any load change with the load factor?
+    pub fn any_load_varies(&self) -> bool {
+        self.load.iter().any(|load| match &load.history {
+            History::Proportional => true,
+            History::Constant => false,
+            History::Table(rows) => rows.windows(2).any(|pair| pair[0][1] != pair[1][1]),
+        })
+    }
+}
+
+/// Something wrong with the value at a key path.
+pub(super) struct Problem {
+    /// Key path, `contact.0.gap`.
+    pub key: String,
+    message: String,
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.key.is_empty() {
+            f.write_str(&self.message)
+        } else {
+            write!(f, "{}: {}", self.key, self.message)
+        }
+    }
+}
+
+/// All problems of a scene.
+pub(super) fn problems(scene: &Scene) -> Vec<Problem> {
+    let mut checks = Checks::default();
+    checks.finite(scene);
+    // A comparison with NaN would only repeat the problem in other words.
+    if checks.problems.is_empty() {
+        checks.geometry(scene);
+        checks.materials(scene);
+        checks.boundary(scene);
+        checks.program(scene);
+        checks.references(scene);
+    }
+    checks.problems
+}
+
+/// Collects problems.
+#[derive(Default)]
+struct Checks {
+    problems: Vec<Problem>,
+}
+
+impl Checks {
+    fn problem(&mut self, key: impl Into<String>, message: impl Into<String>) {
+        self.problems.push(Problem {
+            key: key.into(),
+            message: message.into(),
+        });
+    }
+
+    /// Reports `message` unless `holds`.
+    fn require(&mut self, holds: bool, key: impl Into<String>, message: impl Into<String>) {
+        if !holds {
+            self.problem(key, message);
+        }
+    }
+
+    fn positive(&mut self, key: impl Into<String>, value: f64) {
+        self.require(
+            value > 0.0,
+            key,
+            format!("{value} must be greater than zero"),
+        );
+    }
+
+    fn at_least(&mut self, key: impl Into<String>, value: f64, least: f64) {
+        self.require(
+            value >= least,
+            key,
+            format!("{value} must be at least {least}"),
+        );
+    }
+
+    fn count(&mut self, key: impl Into<String>, value: usize, least: usize) {
+        self.require(
+            value >= least,
+            key,
+            format!("{value} must be at least {least}"),
+        );
+    }
+
+    /// Reports unless exactly one of `choices` (name, given) is given.
+    fn exactly_one(&mut self, key: impl Into<String>, what: &str, choices: &[(&str, bool)]) {
+        let names = |given_only: bool| -> String {
+            let names: Vec<&str> = choices
+                .iter()
+                .filter(|(_, given)| *given || !given_only)
+                .map(|(name, _)| *name)
+                .collect();
+            names.join(", ")
+        };
+        match choices.iter().filter(|(_, given)| *given).count() {
+            1 => {}
+            0 => self.problem(
+                key,
+                format!("no {what}; give exactly one of {}", names(false)),
+            ),
+            n => self.problem(
+                key,
+                format!("{n} of {what} given ({}); keep exactly one", names(true)),
+            ),
+        }
+    }
+
+    /// No number of the scene may be NaN or infinite. A file cannot bring one here, a caller can.
+    fn finite(&mut self, scene: &Scene) {
+        match toml::Value::try_from(scene) {
+            Ok(value) => self.finite_value("", &value),
+            Err(error) => self.problem("", format!("the scene is not plain data: {error}")),
+        }
+    }
+
+    fn finite_value(&mut self, key: &str, value: &toml::Value) {
+        match value {
+            toml::Value::Float(number) => self.require(
+                number.is_finite(),
+                key,
+                format!("{number} is not a finite number; give a finite one"),
+            ),
+            toml::Value::Array(items) => {
+                for (index, item) in items.iter().enumerate() {
+                    self.finite_value(&super::document::join(key, &index.to_string()), item);
+                }
+            }
+            toml::Value::Table(table) => {
+                for (name, item) in table {
+                    self.finite_value(&super::document::join(key, name), item);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,170 @@
+//! The load program, the settings and the reference values.
+
+use super::Checks;
+use crate::scene::{Kind, Scene, Target, Unit};
+use std::collections::BTreeSet;
+
+impl Checks {
+    pub(super) fn program(&mut self, scene: &Scene) {
+        let program = &scene.program;
+        self.require(
+            program.gamma > 0.0 && program.gamma <= 0.5,
+            "program.gamma",
+            format!("{} must be greater than 0 and at most 0.5", program.gamma),
+        );
+        self.count("program.steps", program.steps, 1);
+        self.require(
+            !program.targets.is_empty(),
+            "program.targets",
+            "is empty; give at least one, for instance { load_factor = 1 }",
+        );
+        if program.unit == Unit::Yield {
+            self.needs_yield("program.unit", "\"yield\"", scene);
+        }
+        let mut names = BTreeSet::new();
+        for (index, target) in program.targets.iter().enumerate() {
+            let key = format!("program.targets.{index}");
+            if let Some(name) = &target.name {
+                self.require(!name.is_empty(), format!("{key}.name"), "is empty");
+                self.require(
+                    names.insert(name.as_str()),
+                    format!("{key}.name"),
+                    format!("\"{name}\" is the name of an earlier target too"),
+                );
+            }
+            self.target(&key, target, scene);
+        }
+        self.loaded(scene);
+        let settings = &scene.analysis;
+        self.require(
+            settings.tolerance > 1e-15 && settings.tolerance < 1e-2,
+            "analysis.tolerance",
+            format!("{:e} must lie between 1e-15 and 1e-2", settings.tolerance),
+        );
+        self.count("analysis.max_iterations", settings.max_iterations, 1);
+    }
+
+    fn target(&mut self, key: &str, target: &Target, scene: &Scene) {
+        self.exactly_one(
+            key,
+            "target condition",
+            &[
+                ("yield", target.first_yield),
+                ("load_factor", target.load_factor.is_some()),
+                ("half_width", target.half_width.is_some()),
+                ("displacement", target.displacement.is_some()),
+            ],
+        );
+        if target.first_yield {
+            self.needs_yield(&format!("{key}.yield"), "true", scene);
+        }
+        if let Some(half_width) = target.half_width {
+            let key = format!("{key}.half_width");
+            self.positive(key.as_str(), half_width);
+            self.require(
+                !scene.contact.is_empty(),
+                key.as_str(),
+                "the scene has no contact; add a [[contact]] or choose another target",
+            );
+            self.needs_yield(&key, "a multiple of the half width at first yield", scene);
+        }
+        if let Some(displacement) = &target.displacement {
+            self.require(
+                !displacement.on.is_empty(),
+                format!("{key}.displacement.on"),
+                "is empty; name a surface or node set of the mesh",
+            );
+            self.require(
+                scene.any_load_varies(),
+                format!("{key}.displacement"),
+                "no load changes with the load factor, so nothing moves",
+            );
+        }
+    }
+
+    /// What refers to first yield needs a body that can yield and a load that brings it there.
+    fn needs_yield(&mut self, key: &str, what: &str, scene: &Scene) {
+        self.require(
+            scene.any_can_yield(),
+            key,
+            format!(
+                "{what}, but no body can yield: give a material a yield_stress, \
+                 and take plastic = false off its body"
+            ),
+        );
+        self.require(
+            scene.any_load_varies(),
+            key,
+            format!("{what}, but no load changes with the load factor: add a proportional load"),
+        );
+    }
+
+    fn loaded(&mut self, scene: &Scene) {
+        let shrunk = scene
+            .contact
+            .iter()
+            .any(|contact| contact.interference != 0.0)
+            || (scene.mesh.disc_in_plate.as_ref()).is_some_and(|disc| disc.interference != 0.0);
+        self.require(
+            !scene.load.is_empty() || shrunk,
+            "load",
+            "there is no load and no interference: nothing happens; add a [[load]]",
+        );
+    }
+
+    pub(super) fn references(&mut self, scene: &Scene) {
+        for (index, reference) in scene.reference.iter().enumerate() {
+            let key = format!("reference.{index}");
+            self.exactly_one(
+                key.as_str(),
+                "reference",
+                &[
+                    ("hertz_line", reference.hertz_line.is_some()),
+                    ("hertz_point", reference.hertz_point.is_some()),
+                    ("disc_in_plate", reference.disc_in_plate.is_some()),
+                    (
+                        "quantity (with value and source)",
+                        reference.quantity.is_some(),
+                    ),
+                ],
+            );
+            let single = reference.quantity.is_some();
+            for (name, given) in [
+                ("value", reference.value.is_some()),
+                ("source", reference.source.is_some()),
+            ] {
+                self.require(
+                    given == single,
+                    format!("{key}.{name}"),
+                    if single {
+                        format!("is missing: a single value needs quantity, value and source, and `{name}` is not given")
+                    } else {
+                        "belongs to a `quantity`, which is not given".to_string()
+                    },
+                );
+            }
+            for (name, circle, axisymmetric) in [
+                ("hertz_line", reference.hertz_line, false),
+                ("hertz_point", reference.hertz_point, true),
+            ] {
+                let Some(circle) = circle else { continue };
+                self.positive(format!("{key}.{name}.radius"), circle.radius);
+                self.require(
+                    (scene.kind == Kind::Axisymmetric) == axisymmetric,
+                    format!("{key}.{name}"),
+                    if axisymmetric {
+                        "point contact needs kind = \"axisymmetric\""
+                    } else {
+                        "line contact needs a plane model, this one is axisymmetric"
+                    },
+                );
+                self.needs_yield(&format!("{key}.{name}"), "values at first yield", scene);
+            }
+            self.require(
+                reference.disc_in_plate.is_none() || scene.kind != Kind::Axisymmetric,
+                format!("{key}.disc_in_plate"),
+                "is the solution of a plane model, this one is axisymmetric",
+            );
+        }
+    }
+}

@@ -1,0 +1,453 @@
+//! One rule of validation per row: what is done to a good scene, and what the message must hold.
+
+use crate::mesh::Shape;
+use crate::scene::{
+    Direction, Displacement, DisplacementTarget, History, Kind, PlaneForce, Plastic, Reference,
+    Ring, Scene, Target, Unit,
+};
+
+/// The paper's first example: has every kind of entry that the rules are about.
+fn good() -> Scene {
+    let text = include_str!("../../../data/scenes/cylinder_on_half_plane.toml");
+    Scene::parse(text, "good.toml").unwrap()
+}
+
+/// A scene of one block, one ring and one disc.
+fn parts() -> Scene {
+    let text = r#"
+        kind = "plane_strain"
+        mesh.parts = [
+            { body = "a", block = { x = [0, 1], y = [0, 1], elements = [1, 1], pieces = [
+                { name = "p", side = "top", from = 0, to = 0.5 } ] } },
+            { body = "b", ring = { radius = [1, 2], elements = [1, 1] } },
+            { body = "c", disc = { radius = 1, elements = 2 } },
+        ]
+        materials.m = { youngs_modulus = 1, poissons_ratio = 0 }
+        bodies = { a.material = "m", b.material = "m", c.material = "m" }
+        load = [{ on = "a.p", force = [0, 0] }]
+        program.targets = [{ load_factor = 1 }]
+    "#;
+    Scene::parse(text, "parts.toml").unwrap()
+}
+
+type Spoil = fn(&mut Scene);
+
+fn refused(make: fn() -> Scene, cases: &[(Spoil, &str)]) {
+    for (spoil, fragment) in cases {
+        let mut scene = make();
+        scene.validate().unwrap();
+        spoil(&mut scene);
+        match scene.validate() {
+            Ok(()) => panic!("accepted, but expected {fragment:?}"),
+            Err(error) => assert!(
+                error.message().contains(fragment),
+                "no {fragment:?} in {error}"
+            ),
+        }
+    }
+}
+
+fn target(scene: &mut Scene, target: Target) {
+    scene.program.targets = vec![target];
+}
+
+#[test]
+fn materials_and_bodies() {
+    macro_rules! steel {
+        ($scene:ident) => {
+            $scene.materials.get_mut("steel").unwrap()
+        };
+    }
+    refused(
+        good,
+        &[
+            (
+                |s| steel!(s).youngs_modulus = 0.0,
+                "materials.steel.youngs_modulus: 0 must be",
+            ),
+            (
+                |s| steel!(s).youngs_modulus = f64::NAN,
+                "materials.steel.youngs_modulus: NaN is not",
+            ),
+            (
+                |s| steel!(s).poissons_ratio = 0.5,
+                "poissons_ratio: 0.5 must lie",
+            ),
+            (
+                |s| steel!(s).poissons_ratio = -1.0,
+                "poissons_ratio: -1 must lie",
+            ),
+            (
+                |s| steel!(s).yield_stress = Some(-5.0),
+                "yield_stress: -5 must be",
+            ),
+            (
+                |s| steel!(s).yield_stress = None,
+                "plastic_modulus: needs a yield_stress",
+            ),
+            (
+                |s| steel!(s).plastic_modulus = Some(-1.0),
+                "plastic_modulus: -1 must be at least 0",
+            ),
+            (
+                |s| steel!(s).tangent_modulus = Some(1.0),
+                "keep exactly one",
+            ),
+            (
+                |s| {
+                    steel!(s).plastic_modulus = None;
+                    steel!(s).tangent_modulus = Some(210000.0);
+                },
+                "tangent_modulus: 210000 must be at least 0 and less than Young's modulus",
+            ),
+            (
+                |s| {
+                    steel!(s).plastic_modulus = None;
+                    steel!(s).hardening_table = Some(vec![]);
+                },
+                "hardening_table: is empty",
+            ),
+            (
+                |s| {
+                    steel!(s).plastic_modulus = None;
+                    steel!(s).hardening_table = Some(vec![[0.0, 499.0]]);
+                },
+                "hardening_table.0: [0, 499] must be [0, 500]",
+            ),
+            (
+                |s| {
+                    steel!(s).plastic_modulus = None;
+                    steel!(s).hardening_table =
+                        Some(vec![[0.0, 500.0], [0.1, 600.0], [0.1, 700.0]]);
+                },
+                "hardening_table.2: plastic strain 0.1 must be greater",
+            ),
+            (
+                |s| {
+                    steel!(s).plastic_modulus = None;
+                    steel!(s).hardening_table = Some(vec![[0.0, 500.0], [0.1, 400.0]]);
+                },
+                "hardening_table.1: yield stress 400 is less than 500",
+            ),
+            (
+                |s| s.bodies.get_mut("cylinder").unwrap().material = "wood".into(),
+                "bodies.cylinder.material: there is no material \"wood\"; known materials: steel",
+            ),
+            (
+                |s| {
+                    steel!(s).yield_stress = None;
+                    s.bodies.get_mut("cylinder").unwrap().plastic = Plastic::Yes;
+                },
+                "bodies.cylinder.plastic: true, but the material \"steel\" has no yield stress",
+            ),
+            (|s| s.bodies.clear(), "the mesh has a body `cylinder`"),
+            (
+                |s| {
+                    let body = s.bodies["cylinder"].clone();
+                    s.bodies.insert("ball".into(), body);
+                },
+                "bodies.ball: the mesh has no such body, only cylinder, half_plane",
+            ),
+        ],
+    );
+}
+
+#[test]
+fn mesh_sources() {
+    macro_rules! cylinder {
+        ($scene:ident) => {
+            $scene.mesh.cylinder_on_half_plane.as_mut().unwrap()
+        };
+    }
+    refused(
+        good,
+        &[
+            (
+                |s| s.mesh.cylinder_on_half_plane = None,
+                "mesh: no mesh source; give exactly one of",
+            ),
+            (
+                |s| s.mesh.file = Some("a.msh".into()),
+                "2 of mesh source given",
+            ),
+            (|s| cylinder!(s).radius = -1.0, "radius: -1 must be greater"),
+            (
+                |s| cylinder!(s).resolution = 0,
+                "resolution: 0 must be at least 1",
+            ),
+            (
+                |s| cylinder!(s).growth = 0.9,
+                "growth: 0.9 must be at least 1",
+            ),
+            (
+                |s| cylinder!(s).far_size = 2.0,
+                "far_size: 2 must be greater than fine_width",
+            ),
+            (
+                |s| cylinder!(s).half_width = Some(10.0),
+                "half_width: 10 must be less than",
+            ),
+            (
+                |s| s.materials.get_mut("steel").unwrap().yield_stress = None,
+                "half_width: is missing, and cannot be computed",
+            ),
+        ],
+    );
+    macro_rules! part {
+        ($scene:ident, $index:literal) => {
+            $scene.mesh.parts.as_mut().unwrap()[$index]
+        };
+    }
+    macro_rules! block {
+        ($scene:ident) => {
+            part!($scene, 0).block.as_mut().unwrap()
+        };
+    }
+    refused(
+        parts,
+        &[
+            (|s| part!(s, 0).block = None, "mesh.parts.0: no shape"),
+            (
+                |s| {
+                    part!(s, 0).ring = Some(Ring {
+                        center: [0.0; 2],
+                        radius: [1.0, 2.0],
+                        angle: [0.0, 90.0],
+                        elements: [1, 1],
+                        bias: 1.0,
+                    })
+                },
+                "mesh.parts.0: 2 of shape given (block, ring)",
+            ),
+            (|s| block!(s).x = [1.0, 1.0], "block.x: [1, 1] must run"),
+            (
+                |s| block!(s).elements = [1, 0],
+                "block.elements.1: 0 must be",
+            ),
+            (|s| block!(s).bias = [0.0, 1.0], "block.bias.0: 0 must be"),
+            (
+                |s| block!(s).pieces[0].side = "front".into(),
+                "\"front\" is none of left",
+            ),
+            (
+                |s| block!(s).pieces[0].name = "top".into(),
+                "name of a side or corner",
+            ),
+            (
+                |s| block!(s).pieces[0].to = 1.5,
+                "0 to 1.5 must be an ascending range",
+            ),
+            (
+                |s| {
+                    s.kind = Kind::Axisymmetric;
+                    block!(s).x = [-1.0, 1.0];
+                },
+                "block.x: -1 is left of the axis",
+            ),
+            (
+                |s| part!(s, 1).ring.as_mut().unwrap().radius = [0.0, 1.0],
+                "ring.radius: [0, 1]",
+            ),
+            (
+                |s| part!(s, 1).ring.as_mut().unwrap().angle = [0.0, 400.0],
+                "ring.angle: [0, 400]",
+            ),
+            (
+                |s| part!(s, 2).disc.as_mut().unwrap().angle = [0.0, 45.0],
+                "disc.angle: [0, 45]",
+            ),
+            (
+                |s| part!(s, 2).disc.as_mut().unwrap().elements = 3,
+                "disc.elements: 3 must be an even",
+            ),
+            (
+                |s| part!(s, 1).body = "a".into(),
+                "mesh.parts.1.body: \"a\" is used twice",
+            ),
+            (|s| s.mesh.parts = Some(vec![]), "mesh.parts: is empty"),
+        ],
+    );
+    let mut scene = parts();
+    scene.mesh.parts.as_mut().unwrap()[0].element = Shape::Tri3;
+    scene.validate().unwrap();
+}
+
+#[test]
+fn contact_supports_and_loads() {
+    refused(
+        good,
+        &[
+            (
+                |s| s.contact[0].first = String::new(),
+                "contact.0.first: is empty",
+            ),
+            (
+                |s| s.contact[0].second = "cylinder.contact".into(),
+                "contact.0.second: \"cylinder.contact\" cannot touch itself",
+            ),
+            (
+                |s| s.contact[0].normal = Some([0.0, 0.0]),
+                "contact.0.normal: [0, 0]",
+            ),
+            (
+                |s| s.contact[0].gap = Some(-0.1),
+                "contact.0.gap: -0.1 is negative",
+            ),
+            (
+                |s| s.contact[0].interference = f64::INFINITY,
+                "contact.0.interference: inf",
+            ),
+            (|s| s.support[1].fix.clear(), "support.1.fix: is empty"),
+            (
+                |s| s.support[1].fix = vec![Direction::X, Direction::X],
+                "support.1.fix: names a direction twice",
+            ),
+            (
+                |s| s.load[0].plane_force = None,
+                "load.0: no load kind; give exactly one of force",
+            ),
+            (
+                |s| s.load[0].pressure = Some(1.0),
+                "2 of load kind given (pressure, plane_force)",
+            ),
+            (
+                |s| {
+                    s.load[0].plane_force = None;
+                    s.load[0].displacement = Some(Displacement::default());
+                },
+                "load.0.displacement: has no component",
+            ),
+            (
+                |s| s.load[0].history = History::Table(vec![]),
+                "load.0.history: is empty",
+            ),
+            (
+                |s| s.load[0].history = History::Table(vec![[0.0, 1.0], [0.0, 2.0]]),
+                "load.0.history.1: load factor 0 must be greater than 0",
+            ),
+            (
+                |s| s.load.clear(),
+                "load: there is no load and no interference",
+            ),
+            (
+                |s| {
+                    let again = s.load[0].clone();
+                    s.load.push(again);
+                },
+                "load.1.name: \"press\" is the name of an earlier load",
+            ),
+        ],
+    );
+    let mut scene = good();
+    scene.load[0].plane_force = Some(PlaneForce {
+        direction: Direction::Y,
+        total: 0.0,
+    });
+    scene.validate().unwrap();
+}
+
+#[test]
+fn programs_settings_and_references() {
+    refused(
+        good,
+        &[
+            (|s| s.program.targets.clear(), "program.targets: is empty"),
+            (|s| s.program.gamma = 0.0, "program.gamma: 0 must be"),
+            (|s| s.program.gamma = 0.6, "program.gamma: 0.6 must be"),
+            (|s| s.program.steps = 0, "program.steps: 0 must be"),
+            (
+                |s| s.analysis.tolerance = 1e-2,
+                "analysis.tolerance: 1e-2 must lie",
+            ),
+            (
+                |s| s.analysis.tolerance = 1e-15,
+                "analysis.tolerance: 1e-15 must lie",
+            ),
+            (
+                |s| s.analysis.max_iterations = 0,
+                "analysis.max_iterations: 0",
+            ),
+            (
+                |s| target(s, Target::default()),
+                "program.targets.0: no target condition",
+            ),
+            (
+                |s| {
+                    let both = Target {
+                        first_yield: true,
+                        load_factor: Some(1.0),
+                        ..Target::default()
+                    };
+                    target(s, both);
+                },
+                "2 of target condition given (yield, load_factor)",
+            ),
+            (
+                |s| s.program.targets[1].name = Some("yield".into()),
+                "program.targets.1.name: \"yield\" is the name of an earlier target",
+            ),
+            (
+                |s| s.program.targets[4].half_width = Some(0.0),
+                "program.targets.4.half_width: 0 must be greater",
+            ),
+            (
+                |s| s.contact.clear(),
+                "half_width: the scene has no contact",
+            ),
+            (
+                |s| s.bodies.values_mut().for_each(|b| b.plastic = Plastic::No),
+                "program.unit: \"yield\", but no body can yield",
+            ),
+            (
+                |s| s.load[0].history = History::Constant,
+                "program.unit: \"yield\", but no load changes with the load factor",
+            ),
+            (
+                |s| {
+                    s.program.unit = Unit::Load;
+                    s.load[0].history = History::Constant;
+                    let moved = Target {
+                        displacement: Some(DisplacementTarget {
+                            on: "cylinder.top".into(),
+                            direction: Direction::Y,
+                            value: -0.1,
+                        }),
+                        ..Target::default()
+                    };
+                    target(s, moved);
+                },
+                "program.targets.0.displacement: no load changes",
+            ),
+            (
+                |s| s.kind = Kind::Axisymmetric,
+                "reference.0.hertz_line: line contact needs",
+            ),
+            (
+                |s| s.reference[0].value = Some(1.0),
+                "reference.0.value: belongs to a `quantity`",
+            ),
+            (
+                |s| s.reference[0].hertz_line = None,
+                "reference.0: no reference",
+            ),
+            (
+                |s| {
+                    s.reference[0].hertz_line = None;
+                    s.reference[0].quantity = Some("yield.load".into());
+                    s.reference[0].value = Some(1.0);
+                },
+                "reference.0.source: is missing",
+            ),
+        ],
+    );
+    let mut scene = good();
+    scene.reference.push(Reference {
+        hertz_line: None,
+        hertz_point: None,
+        disc_in_plate: None,
+        quantity: Some("yield.load".into()),
+        value: Some(1.0),
+        source: Some("hand".into()),
+    });
+    scene.validate().unwrap();
+}

@@ -1,0 +1,193 @@
+//! The program from the outside: what it prints where, and its exit codes.
+
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+fn brinell(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_brinell"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn scene(name: &str) -> String {
+    format!("{}/data/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+/// A scene in a folder of its own: what a failed command leaves behind shows there.
+struct Folder {
+    folder: tempfile::TempDir,
+}
+
+impl Folder {
+    fn with_scene(text: &str) -> Folder {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("scene.toml"), text).unwrap();
+        Folder { folder }
+    }
+
+    fn scene(&self) -> PathBuf {
+        self.folder.path().join("scene.toml")
+    }
+
+    fn entries(&self) -> usize {
+        std::fs::read_dir(self.folder.path()).unwrap().count()
+    }
+}
+
+/// The command fails with `code`, says why on standard error and nothing on standard output.
+fn fails(arguments: &[&str], code: i32, fragments: &[&str]) {
+    let output = brinell(arguments);
+    let stderr = String::from_utf8(output.stderr.clone()).unwrap();
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {stderr}");
+    for fragment in fragments {
+        assert!(stderr.contains(fragment), "no {fragment:?} in {stderr}");
+    }
+    assert_eq!(stdout(&output), "");
+}
+
+#[test]
+fn help_tells_commands_options_examples_and_exit_codes() {
+    let output = brinell(&["--help"]);
+    assert_eq!(output.status.code(), Some(0));
+    let text = stdout(&output);
+    for fragment in ["run", "yield", "check", "Examples:", "Exit codes:", "130"] {
+        assert!(text.contains(fragment), "no {fragment:?} in {text}");
+    }
+    for command in ["run", "yield", "check"] {
+        let output = brinell(&[command, "--help"]);
+        assert_eq!(output.status.code(), Some(0));
+        let text = stdout(&output);
+        for fragment in [
+            "--set",
+            "--solver",
+            "cholmod",
+            "dense",
+            "--threads",
+            "--json",
+            "SCENE",
+            "Example:",
+        ] {
+            assert!(
+                text.contains(fragment),
+                "{command}: no {fragment:?} in {text}"
+            );
+        }
+        assert_eq!(text.contains("--out"), command != "check");
+    }
+}
+
+#[test]
+fn version_is_that_of_the_package() {
+    let output = brinell(&["--version"]);
+    assert_eq!(
+        stdout(&output),
+        concat!("brinell ", env!("CARGO_PKG_VERSION"), "\n")
+    );
+}
+
+#[test]
+fn a_wrong_command_line_is_exit_code_2() {
+    fails(&[], 2, &["Usage: brinell"]);
+    fails(&["press"], 2, &["unrecognized subcommand 'press'"]);
+    fails(&["run"], 2, &["SCENE"]);
+    fails(
+        &["run", "a.toml", "--solver", "magic"],
+        2,
+        &["magic", "cholmod", "dense"],
+    );
+    fails(&["run", "a.toml", "--threads", "0"], 2, &["--threads"]);
+    fails(
+        &["run", "a.toml", "--thread", "2"],
+        2,
+        &["--thread", "--threads"],
+    );
+}
+
+#[test]
+fn a_missing_scene_is_exit_code_3_with_the_reason() {
+    for command in ["run", "yield", "check"] {
+        fails(
+            &[command, "no/such/scene.toml"],
+            3,
+            &[
+                "error: cannot read the scene no/such/scene.toml",
+                "caused by: No such file",
+            ],
+        );
+    }
+}
+
+#[test]
+fn an_unknown_key_is_exit_code_2_with_line_and_suggestion_and_leaves_nothing_behind() {
+    let good = std::fs::read_to_string(scene("contact_patch")).unwrap();
+    let line = 1 + good
+        .lines()
+        .position(|l| l.starts_with("poissons_ratio"))
+        .unwrap();
+    let folder = Folder::with_scene(&good.replace("poissons_ratio", "poisson_ratio"));
+    let path = folder.scene();
+    let path = path.to_str().unwrap();
+    for command in ["run", "yield", "check"] {
+        fails(
+            &[command, path],
+            2,
+            &[&format!(
+                "error: {path}:{line}:1: unknown key `poisson_ratio`, did you mean `poissons_ratio`?"
+            )],
+        );
+    }
+    assert_eq!(folder.entries(), 1);
+}
+
+#[test]
+fn an_effect_that_brinell_has_not_is_exit_code_2() {
+    let good = std::fs::read_to_string(scene("contact_patch")).unwrap();
+    let folder = Folder::with_scene(&good.replace("[[contact]]", "[[contact]]\nfriction = 0.3"));
+    fails(
+        &["run", folder.scene().to_str().unwrap()],
+        2,
+        &["contact.0.friction: brinell has no friction"],
+    );
+    assert_eq!(folder.entries(), 1);
+}
+
+#[test]
+fn a_wrong_override_is_exit_code_2_and_names_itself() {
+    let scene = scene("contact_patch");
+    for (text, fragment) in [
+        ("kind", "error: --set kind: an override is KEY=VALUE"),
+        (
+            "materials.steel.youngs_modulos=3",
+            "error: --set materials.steel.youngs_modulos=3: unknown key `youngs_modulos`, did you mean `youngs_modulus`?",
+        ),
+        ("contact.7.gap=1", "`contact` has no entry `7`"),
+        (
+            "materials.steel.youngs_modulus=nan",
+            "materials.steel.youngs_modulus: nan is not a finite number",
+        ),
+        (
+            "materials.steel.poissons_ratio=0.5",
+            "error: --set materials.steel.poissons_ratio=0.5: materials.steel.poissons_ratio: 0.5 must lie",
+        ),
+    ] {
+        fails(&["check", &scene, "--set", text], 2, &[fragment]);
+    }
+}
+
+#[test]
+fn a_result_directory_that_is_a_file_is_found_before_the_run() {
+    let good = std::fs::read_to_string(scene("contact_patch")).unwrap();
+    let folder = Folder::with_scene(&good);
+    let path = folder.scene();
+    let path = path.to_str().unwrap();
+    fails(
+        &["run", path, "--out", path],
+        3,
+        &["exists and is not a directory", "--out"],
+    );
+}
