@@ -3,9 +3,12 @@
 //! The dimension is data ([`Mesh::dimension`]); element shapes carry their own node order and
 //! facets ([`Shape`]).
 
+mod conformity;
 pub mod generate;
 pub mod gmsh;
+mod jacobian;
 mod shape;
+pub mod surface;
 mod validate;
 
 pub use shape::Shape;

@@ -1,8 +1,263 @@
 //! Checks that a mesh can be computed with.
-use super::Mesh;
-use crate::Result;
 
-/// x
-pub fn validate(_mesh: &Mesh) -> Result<()> {
+use super::{Facet, Mesh, Shape, conformity, jacobian};
+use crate::{Error, Result};
+use rayon::prelude::*;
+use std::collections::BTreeSet;
+
+/// Smallest Jacobian determinant over (longest side)^2, about the inverse of the aspect ratio. The condition
+/// of an element grows with the square of the aspect ratio and reaches 1/epsilon at 1/sqrt(epsilon).
+const FLATTEST: f64 = 1.490_116_119_384_765_6e-8;
+
+/// Checks a mesh: consistent arrays, finite coordinates, elements with distinct nodes and a positive
+/// Jacobian at corners and integration points, no unconnected nodes, unique labels and body names, no
+/// empty body, set or surface, no duplicate or overlapping elements, no hanging nodes.
+///
+/// # Errors
+/// Input errors name the node, element, body or set by the number or name the user knows, and the value.
+pub fn validate(mesh: &Mesh) -> Result<()> {
+    check_arrays(mesh)?;
+    check_labels(mesh)?;
+    check_coordinates(mesh)?;
+    check_sets(mesh)?;
+    check_elements(mesh)?;
+    check_unconnected(mesh)?;
+    conformity::check(mesh)
+}
+
+/// Sizes and ranges of the arrays: after this, indexing cannot fail.
+fn check_arrays(mesh: &Mesh) -> Result<()> {
+    let inconsistent = |what: String| Err(Error::input(format!("inconsistent mesh: {what}")));
+    let n_elements = mesh.n_elements();
+    if mesh.dimension != 2 {
+        return Err(Error::new(
+            crate::ErrorKind::Unsupported,
+            format!(
+                "the mesh has dimension {}; only 2 is supported",
+                mesh.dimension
+            ),
+        ));
+    }
+    if n_elements == 0 {
+        return Err(Error::input("the mesh has no elements"));
+    }
+    if !mesh.coordinates.len().is_multiple_of(2) {
+        return inconsistent(format!("{} coordinates in 2D", mesh.coordinates.len()));
+    }
+    if mesh.offsets.len() != n_elements + 1 || mesh.element_body.len() != n_elements {
+        return inconsistent(format!(
+            "{n_elements} shapes, {} offsets, {} element bodies",
+            mesh.offsets.len(),
+            mesh.element_body.len()
+        ));
+    }
+    let fits = mesh.offsets[0] == 0
+        && mesh.offsets[n_elements] == mesh.connectivity.len()
+        && mesh
+            .offsets
+            .windows(2)
+            .zip(&mesh.shapes)
+            .all(|(pair, shape)| pair[0].checked_add(shape.n_nodes()) == Some(pair[1]));
+    if !fits {
+        return inconsistent("offsets do not fit the shapes".to_string());
+    }
+    let n_nodes = mesh.n_nodes();
+    if let Some(node) = mesh.connectivity.iter().find(|&&n| n as usize >= n_nodes) {
+        return inconsistent(format!("node index {node} with {n_nodes} nodes"));
+    }
+    if let Some(body) = mesh
+        .element_body
+        .iter()
+        .find(|&&b| b as usize >= mesh.bodies.len())
+    {
+        return inconsistent(format!("body index {body} of {}", mesh.bodies.len()));
+    }
+    for (name, nodes) in &mesh.node_sets {
+        if let Some(node) = nodes.iter().find(|&&n| n >= n_nodes) {
+            return inconsistent(format!("node index {node} in set `{name}`"));
+        }
+    }
+    for (name, surface) in &mesh.surfaces {
+        let outside =
+            |f: &&Facet| f.element >= n_elements || f.local >= mesh.shapes[f.element].n_corners();
+        if let Some(facet) = surface.facets.iter().find(outside) {
+            return inconsistent(format!("{facet:?} in surface `{name}`"));
+        }
+    }
     Ok(())
 }
+
+fn check_labels(mesh: &Mesh) -> Result<()> {
+    for (what, labels, count) in [
+        ("node", &mesh.node_labels, mesh.n_nodes()),
+        ("element", &mesh.element_labels, mesh.n_elements()),
+    ] {
+        if !labels.is_empty() && labels.len() != count {
+            return Err(Error::input(format!(
+                "inconsistent mesh: {} {what} labels for {count} {what}s",
+                labels.len()
+            )));
+        }
+        let mut sorted = labels.clone();
+        sorted.sort_unstable();
+        if let Some(pair) = sorted.windows(2).find(|pair| pair[0] == pair[1]) {
+            return Err(Error::input(format!(
+                "{what} number {} is given twice: number the {what}s uniquely",
+                pair[0]
+            )));
+        }
+    }
+    Ok(())
+}
+
+fn check_coordinates(mesh: &Mesh) -> Result<()> {
+    match mesh.coordinates.iter().position(|c| !c.is_finite()) {
+        Some(at) => Err(Error::input(format!(
+            "node {}: coordinate {} is {}",
+            mesh.node_label(at / 2),
+            ["x", "y"][at % 2],
+            mesh.coordinates[at]
+        ))),
+        None => Ok(()),
+    }
+}
+
+fn check_sets(mesh: &Mesh) -> Result<()> {
+    let mut names = BTreeSet::new();
+    let mut used = vec![false; mesh.bodies.len()];
+    for &body in &mesh.element_body {
+        used[body as usize] = true;
+    }
+    for (body, used) in mesh.bodies.iter().zip(used) {
+        if !names.insert(body) {
+            return Err(Error::input(format!("two bodies are named `{body}`")));
+        }
+        if !used {
+            return Err(Error::input(format!("body `{body}` has no elements")));
+        }
+    }
+    for (name, nodes) in &mesh.node_sets {
+        if nodes.is_empty() {
+            return Err(Error::input(format!("node set `{name}` is empty")));
+        }
+        if mesh.surfaces.contains_key(name) {
+            return Err(Error::input(format!(
+                "`{name}` is both a node set and a surface: rename one of them"
+            )));
+        }
+        if nodes.windows(2).any(|pair| pair[0] >= pair[1]) {
+            return Err(Error::input(format!(
+                "inconsistent mesh: node set `{name}` is not sorted or names a node twice"
+            )));
+        }
+    }
+    for (name, surface) in &mesh.surfaces {
+        if surface.facets.is_empty() {
+            return Err(Error::input(format!("surface `{name}` is empty")));
+        }
+        let mut facets = surface.facets.clone();
+        facets.sort_unstable();
+        if let Some(pair) = facets.windows(2).find(|pair| pair[0] == pair[1]) {
+            return Err(Error::input(format!(
+                "surface `{name}` has the same edge of element {} twice",
+                mesh.element_label(pair[0].element)
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Distinct nodes and a positive Jacobian, element by element.
+fn check_elements(mesh: &Mesh) -> Result<()> {
+    const SHAPES: [Shape; 4] = [Shape::Tri3, Shape::Tri6, Shape::Quad4, Shape::Quad8];
+    let checks = SHAPES.map(jacobian::check_points);
+    let fault = |element: usize| -> Option<String> {
+        let nodes = mesh.nodes(element);
+        for (k, node) in nodes.iter().enumerate() {
+            if nodes[..k].contains(node) {
+                return Some(format!(
+                    "has node {} twice: its corners and mid-side nodes must differ",
+                    mesh.node_label(*node as usize)
+                ));
+            }
+        }
+        let shape = mesh.shapes[element];
+        let mut points = [[0.0; 2]; 8];
+        for (point, &node) in points.iter_mut().zip(nodes) {
+            *point = mesh.point(node as usize);
+        }
+        // Relative to the first node: the determinant of a small element far from the origin
+        // would drown in the round-off of its coordinates.
+        let [x, y] = points[0];
+        for point in &mut points[..nodes.len()] {
+            *point = [point[0] - x, point[1] - y];
+        }
+        let n = shape.n_corners();
+        let longest = (0..n)
+            .map(|k| {
+                let (p, q) = (points[k], points[(k + 1) % n]);
+                (q[0] - p[0]).hypot(q[1] - p[1])
+            })
+            .fold(0.0, f64::max);
+        // The reference square has sides of 2: one quarter of the determinant of a unit square.
+        let scale = if n == 4 { 0.25 } else { 1.0 } * longest * longest;
+        let worst = checks[shape as usize]
+            .iter()
+            .map(|g| g.determinant(&points[..nodes.len()]) / scale)
+            .fold(f64::INFINITY, |worst, j| {
+                if j < worst || j.is_nan() { j } else { worst }
+            });
+        if worst > FLATTEST {
+            return None;
+        }
+        let reason = if worst > 0.0 {
+            "is flat"
+        } else {
+            "is degenerate, inverted or too strongly distorted"
+        };
+        Some(format!(
+            "{reason}: its smallest Jacobian is {worst:.3e} of (longest side)^2, allowed is {FLATTEST:.1e} \
+             and more; near node {} at ({}, {})",
+            mesh.node_label(nodes[0] as usize),
+            x,
+            y
+        ))
+    };
+    let found = (0..mesh.n_elements())
+        .into_par_iter()
+        .find_map_first(|element| fault(element).map(|fault| (element, fault)));
+    match found {
+        Some((element, fault)) => Err(Error::input(format!(
+            "element {} ({}, body `{}`) {fault}",
+            mesh.element_label(element),
+            mesh.shapes[element].name(),
+            mesh.bodies[mesh.element_body[element] as usize]
+        ))),
+        None => Ok(()),
+    }
+}
+
+fn check_unconnected(mesh: &Mesh) -> Result<()> {
+    let mut used = vec![false; mesh.n_nodes()];
+    for &node in &mesh.connectivity {
+        used[node as usize] = true;
+    }
+    let loose: Vec<usize> = (0..used.len()).filter(|&n| !used[n]).collect();
+    if loose.is_empty() {
+        return Ok(());
+    }
+    let shown: Vec<String> = loose
+        .iter()
+        .take(5)
+        .map(|&n| mesh.node_label(n).to_string())
+        .collect();
+    let more = if loose.len() > 5 { ", ..." } else { "" };
+    Err(Error::input(format!(
+        "{} nodes belong to no element: {}{more}",
+        loose.len(),
+        shown.join(", ")
+    )))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,176 @@
+//! A cylinder or ball on a half plane or half space (paper 5.1).
+
+use super::grid::{BodyBuilder, Side, empty_mesh};
+use super::{grading, limits};
+use crate::mesh::{Curve, Mesh};
+use crate::scene::CylinderOnHalfPlane;
+use crate::{Error, Result};
+
+const KEY: &str = "mesh.cylinder_on_half_plane";
+/// The cylinder's block may reach this share of the radius: further out its bottom is nearly vertical.
+const WIDEST: f64 = 0.9;
+
+/// Half model (x >= 0) of a cylinder or ball on a half plane or half space.
+///
+/// With `b` = `half_width` (contact half width at first yield, same unit as the radius `R`) and
+/// `W = far_size b`, the half plane is the block `[0, W] x [-W, 0]` and the cylinder the block `[0, W]`
+/// between its surface `y = R - sqrt(R^2 - x^2)` and the flat top `y = W`. Elements are even with
+/// size `b/resolution` out to `fine_width b` and down to `fine_depth b` (to the nearest whole
+/// element), then grow by `growth`. Both surfaces have nodes at the same `x`; corner and mid-side
+/// nodes of the cylinder lie on the circle to round-off, so that nodal gaps are the exact gaps.
+///
+/// Only the even part of the surfaces is a contact candidate (`cylinder.contact`,
+/// `half_plane.contact`): the condensed matrix stays small. The rest is `cylinder.outside` and
+/// `half_plane.outside`. Node sets `cylinder.pole` and `half_plane.pole` are the two nodes at the origin.
+///
+/// # Errors
+/// Input errors name the key, its value and what to give instead; among them a block wider than 0.9 radii.
+pub fn cylinder_on_half_plane(p: &CylinderOnHalfPlane, half_width: f64) -> Result<Mesh> {
+    let layout = Layout::new(p, half_width)?;
+    let Layout {
+        n_fine,
+        size,
+        x,
+        depth,
+        ..
+    } = &layout;
+    let cells = [x.len() / 2, depth.len() / 2];
+    let last = depth.len() - 1;
+    let mut mesh = empty_mesh();
+    let line = |normal: [f64; 2]| Some(Curve::Line { normal });
+
+    let mut cylinder = BodyBuilder::new(&mut mesh, "cylinder", p.element);
+    let grid = cylinder.patch(
+        cells,
+        false,
+        |i, j| {
+            let height = depth[j];
+            if j == last {
+                return [x[i], height];
+            }
+            // The bottom's shape fades out linearly towards the flat top.
+            [
+                x[i],
+                height + bottom(p.radius, x[i]) * (1.0 - height / size),
+            ]
+        },
+        |_, _| None,
+    );
+    let circle = Some(Curve::Circle {
+        center: [0.0, p.radius],
+        radius: p.radius,
+        outward: true,
+    });
+    let (inside, outside) = (0..*n_fine, *n_fine..cells[0]);
+    cylinder.surface(
+        "contact",
+        grid.side_range(Side::Bottom, inside.clone()),
+        circle,
+    )?;
+    cylinder.surface(
+        "outside",
+        grid.side_range(Side::Bottom, outside.clone()),
+        circle,
+    )?;
+    cylinder.surface("top", grid.side(Side::Top), line([0.0, 1.0]))?;
+    cylinder.surface("symmetry", grid.side(Side::Left), line([-1.0, 0.0]))?;
+    cylinder.surface("side", grid.side(Side::Right), line([1.0, 0.0]))?;
+    cylinder.node_set("pole", grid.node(0, 0))?;
+
+    let mut half_plane = BodyBuilder::new(&mut mesh, "half_plane", p.element);
+    let grid = half_plane.patch(
+        cells,
+        false,
+        |i, j| [x[i], 0.0 - depth[last - j]],
+        |_, _| None,
+    );
+    let up = line([0.0, 1.0]);
+    half_plane.surface("contact", grid.side_range(Side::Top, inside), up)?;
+    half_plane.surface("outside", grid.side_range(Side::Top, outside), up)?;
+    half_plane.surface("bottom", grid.side(Side::Bottom), line([0.0, -1.0]))?;
+    half_plane.surface("symmetry", grid.side(Side::Left), line([-1.0, 0.0]))?;
+    half_plane.surface("side", grid.side(Side::Right), line([1.0, 0.0]))?;
+    half_plane.node_set("pole", grid.node(0, last))?;
+    Ok(mesh)
+}
+
+/// Height of the circle's bottom, `R - sqrt(R^2 - x^2)` without its cancellation.
+fn bottom(radius: f64, x: f64) -> f64 {
+    x * x / (radius + ((radius - x) * (radius + x)).sqrt())
+}
+
+/// Grid lines of both bodies.
+struct Layout {
+    /// Even elements along x.
+    n_fine: usize,
+    /// Size `W` of each body.
+    size: f64,
+    /// By half steps from 0 to `W`.
+    x: Vec<f64>,
+    /// Distance from the contact surface by half steps from 0 to `W`.
+    depth: Vec<f64>,
+}
+
+impl Layout {
+    fn new(p: &CylinderOnHalfPlane, half_width: f64) -> Result<Layout> {
+        let key = |name: &str| format!("{KEY}.{name}");
+        limits::positive(&key("radius"), p.radius)?;
+        limits::positive(&key("half_width"), half_width)?;
+        limits::positive(&key("fine_width"), p.fine_width)?;
+        limits::positive(&key("fine_depth"), p.fine_depth)?;
+        limits::positive(&key("far_size"), p.far_size)?;
+        limits::growth(&key("growth"), p.growth)?;
+        limits::at_least(&key("resolution"), p.resolution, 1)?;
+
+        let size = p.far_size * half_width;
+        if size > WIDEST * p.radius {
+            return Err(Error::input(format!(
+                "{}: far_size = {} times half_width = {half_width} is {size}, more than {WIDEST} of the \
+                 radius {}; give a far_size of at most {:.4}, or check radius and materials (the half \
+                 width at first yield is about radius times yield stress over modulus)",
+                key("far_size"),
+                p.far_size,
+                p.radius,
+                WIDEST * p.radius / half_width
+            )));
+        }
+        let resolution = p.resolution as f64;
+        let fine = |name: &str, extent: f64| {
+            let n = (extent * resolution).round();
+            if n < 1.0 {
+                return Err(Error::input(format!(
+                    "{} = {extent}: with resolution = {} this is less than one element; \
+                     give at least {}",
+                    key(name),
+                    p.resolution,
+                    1.0 / resolution
+                )));
+            }
+            if n + 1.0 > p.far_size * resolution {
+                return Err(Error::input(format!(
+                    "{} = {}: give at least {}, one element more than {name} = {extent}",
+                    key("far_size"),
+                    p.far_size,
+                    (n + 1.0) / resolution
+                )));
+            }
+            Ok(n)
+        };
+        let n_fine = fine("fine_width", p.fine_width)?;
+        let n_deep = fine("fine_depth", p.fine_depth)?;
+
+        let h = half_width / resolution;
+        let count = |n: f64| n + grading::grown_count(h * p.growth, size - n * h, p.growth);
+        let cells = 2.0 * count(n_fine) * count(n_deep);
+        limits::total(&key("resolution"), limits::elements(cells, p.element))?;
+        let lines = |name: &str, n: f64| {
+            grading::even_then_grown(&key(name), h, n as usize, size, p.growth)
+        };
+        Ok(Layout {
+            n_fine: n_fine as usize,
+            size,
+            x: lines("fine_width", n_fine)?,
+            depth: lines("fine_depth", n_deep)?,
+        })
+    }
+}

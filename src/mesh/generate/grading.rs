@@ -1,0 +1,178 @@
+//! Element sizes along a line: even, biased, or even and then growing.
+//!
+//! Positions come as `2 n + 1` values for `n` elements: even entries are corners, odd entries the
+//! mid-side positions half way between them.
+
+use crate::{Error, Result};
+
+/// Even spacing from `from` to `to`. Symmetric ranges give exactly symmetric positions.
+pub(super) fn even(key: &str, from: f64, to: f64, n: usize) -> Result<Vec<f64>> {
+    let count = n as f64;
+    let corners = (0..=n)
+        .map(|i| match i {
+            0 => from,
+            i if i == n => to,
+            i => (from * (n - i) as f64 + to * i as f64) / count,
+        })
+        .collect();
+    with_midpoints(key, corners)
+}
+
+/// Geometric spacing in which the last element is `bias` times as long as the first.
+pub(super) fn biased(key: &str, from: f64, to: f64, n: usize, bias: f64) -> Result<Vec<f64>> {
+    if bias == 1.0 || n < 2 {
+        return even(key, from, to, n);
+    }
+    let ratio = bias.powf(1.0 / (n - 1) as f64);
+    let sizes: Vec<f64> = (0..n).map(|i| ratio.powi(i as i32)).collect();
+    let sum: f64 = sizes.iter().sum();
+    let mut at = 0.0;
+    let mut corners = Vec::with_capacity(n + 1);
+    corners.push(from);
+    for size in &sizes[..n - 1] {
+        at += size;
+        corners.push(from + (to - from) * (at / sum));
+    }
+    corners.push(to);
+    with_midpoints(key, corners)
+}
+
+/// From 0 to `length`: `n_even` elements of `size`, then elements that grow by about `growth`, a
+/// little adjusted so that the last one ends exactly at `length`.
+pub(super) fn even_then_grown(
+    key: &str,
+    size: f64,
+    n_even: usize,
+    length: f64,
+    growth: f64,
+) -> Result<Vec<f64>> {
+    let mut corners: Vec<f64> = (0..=n_even).map(|i| size * i as f64).collect();
+    let start = size * n_even as f64;
+    let first = if n_even > 0 { size * growth } else { size };
+    let n = grown_count(first, length - start, growth) as usize;
+    if n > 0 {
+        let ratio = ratio_that_fills((length - start) / first, n, growth);
+        let mut step = first;
+        let mut at = start;
+        for _ in 1..n {
+            at += step;
+            step *= ratio;
+            corners.push(at);
+        }
+        corners.push(length);
+    }
+    with_midpoints(key, corners)
+}
+
+/// How many elements [`even_then_grown`] adds over `length` beginning with one of size `first`.
+/// A float, because a wrong input can ask for more than any integer holds.
+pub(super) fn grown_count(first: f64, length: f64, growth: f64) -> f64 {
+    if length <= 0.0 {
+        return 0.0;
+    }
+    let sizes = length / first;
+    let count = if growth - 1.0 > 1e-9 {
+        (sizes * (growth - 1.0)).ln_1p() / growth.ln()
+    } else {
+        sizes
+    };
+    count.round().max(1.0)
+}
+
+/// The ratio `q` with `1 + q + ... + q^(n-1) = sum`, by bisection down to round-off.
+fn ratio_that_fills(sum: f64, n: usize, guess: f64) -> f64 {
+    if n < 2 {
+        return 1.0;
+    }
+    let series = |q: f64| (1..n).fold(1.0, |s, _| 1.0 + q * s);
+    let mut low = 0.0;
+    let mut high = guess.max(1.0);
+    while series(high) < sum {
+        high *= 2.0;
+    }
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            return middle;
+        }
+        if series(middle) < sum {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+}
+
+/// Puts the mid-side positions between the corners; neighbours must differ in floating point.
+fn with_midpoints(key: &str, corners: Vec<f64>) -> Result<Vec<f64>> {
+    let mut positions = Vec::with_capacity(2 * corners.len());
+    for pair in corners.windows(2) {
+        positions.push(pair[0]);
+        positions.push(0.5 * (pair[0] + pair[1]));
+    }
+    positions.extend(corners.last());
+    if let Some(pair) = positions.windows(2).find(|pair| pair[0] >= pair[1]) {
+        return Err(Error::input(format!(
+            "{key}: neighbouring nodes coincide at {}: the elements are too small to be told apart; \
+             ask for fewer elements or a weaker bias",
+            pair[0]
+        )));
+    }
+    Ok(positions)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn even_spacing_is_exactly_symmetric_and_ends_exactly() {
+        let x = even("x", -0.3, 0.3, 7).unwrap();
+        assert_eq!(x.len(), 15);
+        for i in 0..15 {
+            assert_eq!(x[i], -x[14 - i]);
+        }
+        let x = even("x", 0.1, 0.7, 3).unwrap();
+        assert_eq!((x[0], x[6]), (0.1, 0.7));
+    }
+
+    #[test]
+    fn bias_is_the_ratio_of_the_last_size_to_the_first() {
+        for bias in [0.2, 1.0, 7.0] {
+            let x = biased("x", 1.0, 3.0, 9, bias).unwrap();
+            let ratio = (x[18] - x[16]) / (x[2] - x[0]);
+            // Sizes are differences of numbers near 3: a few ulps of 3 over the smallest size.
+            assert!((ratio / bias - 1.0).abs() < 1e-12, "{ratio}");
+        }
+        assert_eq!(biased("x", 0.0, 1.0, 1, 5.0).unwrap(), [0.0, 0.5, 1.0]);
+    }
+
+    #[test]
+    fn a_bias_too_strong_for_floating_point_is_an_input_error() {
+        let error = biased("block.x", 1.0, 2.0, 40, 1e-40).unwrap_err();
+        assert!(error.message().contains("block.x"), "{error}");
+        assert!(error.message().contains("coincide"), "{error}");
+    }
+
+    proptest! {
+        #[test]
+        fn growth_ends_exactly_and_stays_near_the_ratio_asked_for(
+            n_even in 0usize..30, length in 40.0..4000.0f64, growth in 1.0..1.5f64
+        ) {
+            let x = even_then_grown("x", 1.0, n_even, length, growth).unwrap();
+            prop_assert_eq!(x[0], 0.0);
+            prop_assert_eq!(x[x.len() - 1], length);
+            for i in 0..n_even {
+                prop_assert_eq!(x[2 * i + 2] - x[2 * i], 1.0);
+            }
+            let sizes: Vec<f64> = (n_even.max(1)..x.len() / 2).map(|i| x[2 * i + 2] - x[2 * i]).collect();
+            // Rounding the count to an integer moves the length filled by at most half the last
+            // element, and with it the ratio by a fraction of itself that falls with the count.
+            let n = sizes.len() as f64;
+            for pair in sizes.windows(2) {
+                prop_assert!((pair[1] / pair[0] / growth - 1.0).abs() < 1.5 / n, "{:?}", sizes);
+            }
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! What a generator accepts: finite sizes of the right sign, and a mesh that fits in memory.
+
+use crate::mesh::Shape;
+use crate::{Error, Result};
+
+/// Most elements a generator makes.
+pub(super) const MOST_ELEMENTS: f64 = 50e6;
+
+/// Sizes and coordinates beyond this overflow when multiplied by one another.
+const LARGEST: f64 = 1e100;
+
+/// A size: finite, positive and neither so large nor so small that products of sizes overflow.
+pub(super) fn positive(key: &str, value: f64) -> Result<()> {
+    if value > 0.0 && (1.0 / LARGEST..=LARGEST).contains(&value) {
+        return Ok(());
+    }
+    Err(Error::input(format!(
+        "{key} = {value}: give a positive number between {:e} and {LARGEST:e}",
+        1.0 / LARGEST
+    )))
+}
+
+/// A coordinate or angle.
+pub(super) fn finite(key: &str, value: f64) -> Result<()> {
+    if value.abs() <= LARGEST {
+        return Ok(());
+    }
+    Err(Error::input(format!(
+        "{key} = {value}: give a number of at most {LARGEST:e}"
+    )))
+}
+
+/// A range `[from, to]` with `from < to`.
+pub(super) fn range(key: &str, [from, to]: [f64; 2]) -> Result<()> {
+    finite(key, from)?;
+    finite(key, to)?;
+    if from < to {
+        return Ok(());
+    }
+    Err(Error::input(format!(
+        "{key} = [{from}, {to}]: the second number must be greater than the first"
+    )))
+}
+
+/// A number of elements.
+pub(super) fn at_least(key: &str, value: usize, least: usize) -> Result<()> {
+    if value >= least {
+        return Ok(());
+    }
+    Err(Error::input(format!(
+        "{key} = {value}: give at least {least}"
+    )))
+}
+
+/// A growth ratio.
+pub(super) fn growth(key: &str, value: f64) -> Result<()> {
+    if (1.0..=100.0).contains(&value) {
+        return Ok(());
+    }
+    Err(Error::input(format!(
+        "{key} = {value}: give a ratio from 1 (even) to 100; 1.05 to 1.3 is usual"
+    )))
+}
+
+/// Elements made of `cells` quadrilateral cells.
+pub(super) fn elements(cells: f64, shape: Shape) -> f64 {
+    if shape.n_corners() == 3 {
+        2.0 * cells
+    } else {
+        cells
+    }
+}
+
+/// Refuses a mesh that would be too large, before anything is allocated.
+pub(super) fn total(key: &str, elements: f64) -> Result<()> {
+    if elements <= MOST_ELEMENTS {
+        return Ok(());
+    }
+    Err(Error::input(format!(
+        "{key}: the mesh would have {elements:.3e} elements, more than {MOST_ELEMENTS:.0e}; \
+         ask for fewer or larger elements"
+    )))
+}

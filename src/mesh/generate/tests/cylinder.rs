@@ -1,0 +1,204 @@
+use super::*;
+use crate::mesh::generate::cylinder_on_half_plane;
+use crate::scene::CylinderOnHalfPlane;
+
+const RADIUS: f64 = 100.0;
+const HALF_WIDTH: f64 = 1.1;
+
+pub(super) fn example(element: Shape) -> CylinderOnHalfPlane {
+    CylinderOnHalfPlane {
+        radius: RADIUS,
+        resolution: 6,
+        half_width: None,
+        fine_width: 2.0,
+        fine_depth: 1.5,
+        far_size: 50.0,
+        growth: 1.15,
+        element,
+    }
+}
+
+#[test]
+fn both_bodies_are_valid_and_match_in_x() {
+    for shape in SHAPES {
+        let mesh = cylinder_on_half_plane(&example(shape), HALF_WIDTH).unwrap();
+        check_common(&mesh);
+        for piece in ["contact", "outside"] {
+            let on = |body: &str| {
+                let surface = &mesh.surfaces[&format!("{body}.{piece}")];
+                let mut nodes = surface::ordered_nodes(&mesh, surface).unwrap();
+                if body == "half_plane" {
+                    nodes.reverse();
+                }
+                nodes
+            };
+            let (upper, lower) = (on("cylinder"), on("half_plane"));
+            assert_eq!(upper.len(), lower.len());
+            for (u, l) in upper.iter().zip(&lower) {
+                let ([xu, yu], [xl, yl]) = (mesh.point(*u), mesh.point(*l));
+                assert_eq!(xu, xl);
+                assert_eq!(yl, 0.0);
+                // The gap against the circle, by the form that does not cancel.
+                let exact = RADIUS * (1.0 - (xu / RADIUS).asin().cos());
+                assert!(
+                    (yu - exact).abs() <= 4.0 * f64::EPSILON * RADIUS,
+                    "{yu} {exact}"
+                );
+                let small = xu * xu / (2.0 * RADIUS);
+                assert!(yu >= small && yu <= small * (1.0 + 2.0 * (xu / RADIUS).powi(2)));
+            }
+        }
+    }
+}
+
+#[test]
+fn candidates_end_at_the_fine_width_and_are_even() {
+    for shape in SHAPES {
+        let p = example(shape);
+        let mesh = cylinder_on_half_plane(&p, HALF_WIDTH).unwrap();
+        let contact = &mesh.surfaces["cylinder.contact"];
+        assert_eq!(contact.facets.len(), 12);
+        let nodes = surface::ordered_nodes(&mesh, contact).unwrap();
+        assert_eq!(nodes.len(), nodes_on(12, shape));
+        let h = 2.0 * HALF_WIDTH / (nodes.len() - 1) as f64;
+        for (k, &node) in nodes.iter().enumerate() {
+            let error = (mesh.point(node)[0] - k as f64 * h).abs();
+            assert!(error <= 4.0 * f64::EPSILON * HALF_WIDTH);
+        }
+        for body in ["cylinder", "half_plane"] {
+            let pole = mesh.node_sets[&format!("{body}.pole")][0];
+            assert_eq!(mesh.point(pole), [0.0, 0.0]);
+            assert!(
+                mesh.set_nodes(&format!("{body}.contact"))
+                    .unwrap()
+                    .contains(&pole)
+            );
+            assert!(
+                mesh.set_nodes(&format!("{body}.symmetry"))
+                    .unwrap()
+                    .contains(&pole)
+            );
+            for node in mesh.set_nodes(&format!("{body}.symmetry")).unwrap() {
+                assert_eq!(mesh.point(node)[0], 0.0);
+            }
+            for node in mesh.set_nodes(&format!("{body}.side")).unwrap() {
+                assert_eq!(mesh.point(node)[0], 50.0 * HALF_WIDTH);
+            }
+        }
+        for node in mesh.set_nodes("cylinder.top").unwrap() {
+            assert_eq!(mesh.point(node)[1], 50.0 * HALF_WIDTH);
+        }
+        for node in mesh.set_nodes("half_plane.bottom").unwrap() {
+            assert_eq!(mesh.point(node)[1], -50.0 * HALF_WIDTH);
+        }
+    }
+}
+
+/// Linear sides are the trapezoidal rule for the area under the circle, parabolic sides are Simpson's.
+#[test]
+fn areas_are_those_of_the_quadrature_of_the_circle() {
+    let size = 50.0 * HALF_WIDTH;
+    let under = RADIUS * size
+        - 0.5
+            * (size * (RADIUS * RADIUS - size * size).sqrt()
+                + RADIUS * RADIUS * (size / RADIUS).asin());
+    for shape in SHAPES {
+        let mesh = cylinder_on_half_plane(&example(shape), HALF_WIDTH).unwrap();
+        let plane = area(&mesh, "half_plane");
+        assert!((plane / (size * size) - 1.0).abs() < 1e-13, "{plane}");
+        let mut bound = 1e-13 * size * size;
+        for piece in ["cylinder.contact", "cylinder.outside"] {
+            for &facet in &mesh.surfaces[piece].facets {
+                let ends: Vec<f64> = mesh.facet_nodes(facet).map(|n| mesh.point(n)[0]).collect();
+                let dx = (ends[1] - ends[0]).abs();
+                let x = ends[1].max(ends[0]);
+                let u = RADIUS * RADIUS - x * x;
+                bound += if shape.is_quadratic() {
+                    let fourth =
+                        3.0 * RADIUS.powi(2) * (RADIUS.powi(2) + 4.0 * x * x) * u.powf(-3.5);
+                    dx.powi(5) / 2880.0 * fourth
+                } else {
+                    dx.powi(3) / 12.0 * RADIUS.powi(2) * u.powf(-1.5)
+                };
+            }
+        }
+        let error = area(&mesh, "cylinder") - (size * size - under);
+        assert!(error.abs() <= bound, "{shape:?} {error} {bound}");
+        // Not far below the bound either: the check can fail.
+        assert!(error.abs() >= 0.05 * bound, "{shape:?} {error} {bound}");
+    }
+}
+
+#[test]
+fn the_widest_block_is_valid() {
+    for shape in SHAPES {
+        let mut p = example(shape);
+        p.far_size = 89.99;
+        p.growth = 1.3;
+        check_common(&cylinder_on_half_plane(&p, 1.0).unwrap());
+    }
+}
+
+#[test]
+fn scaling_all_lengths_scales_the_mesh() {
+    let p = example(Shape::Quad8);
+    let mesh = cylinder_on_half_plane(&p, HALF_WIDTH).unwrap();
+    for power in [-40, 40] {
+        let scale = 2f64.powi(power);
+        let mut q = p.clone();
+        q.radius *= scale;
+        let scaled = cylinder_on_half_plane(&q, HALF_WIDTH * scale).unwrap();
+        validate(&scaled).unwrap();
+        assert_eq!(mesh.connectivity, scaled.connectivity);
+        for (a, b) in mesh.coordinates.iter().zip(&scaled.coordinates) {
+            assert_eq!(a * scale, *b);
+        }
+    }
+}
+
+#[test]
+fn refusals_name_key_and_value() {
+    type Change = fn(&mut CylinderOnHalfPlane);
+    let cases: [(Change, &[&str]); 14] = [
+        (|p| p.radius = 0.0, &["radius = 0"]),
+        (|p| p.radius = f64::NAN, &["radius = NaN"]),
+        (|p| p.radius = f64::INFINITY, &["radius = inf"]),
+        (|p| p.radius = 1e300, &["radius"]),
+        (|p| p.resolution = 0, &["resolution = 0"]),
+        (|p| p.resolution = usize::MAX, &["resolution", "elements"]),
+        (|p| p.fine_width = -1.0, &["fine_width = -1"]),
+        (
+            |p| p.fine_width = 0.01,
+            &["fine_width = 0.01", "at least 0.1666"],
+        ),
+        (|p| p.fine_depth = f64::NAN, &["fine_depth = NaN"]),
+        (
+            |p| p.fine_depth = 60.0,
+            &["far_size = 50", "fine_depth = 60"],
+        ),
+        (|p| p.growth = 0.9, &["growth = 0.9"]),
+        (|p| p.growth = f64::NAN, &["growth = NaN"]),
+        (|p| p.far_size = 0.0, &["far_size = 0"]),
+        (
+            |p| p.far_size = 90.0,
+            &["far_size", "0.9 of the radius", "at most 81.8"],
+        ),
+    ];
+    for (change, parts) in cases {
+        let mut p = example(Shape::Quad4);
+        change(&mut p);
+        let error = cylinder_on_half_plane(&p, HALF_WIDTH).unwrap_err();
+        assert_eq!(error.kind(), crate::ErrorKind::Input);
+        assert!(
+            error.message().contains("mesh.cylinder_on_half_plane."),
+            "{error}"
+        );
+        for part in parts {
+            assert!(error.message().contains(part), "{error} lacks {part}");
+        }
+    }
+    for half_width in [0.0, -1.0, f64::NAN] {
+        let error = cylinder_on_half_plane(&example(Shape::Quad4), half_width).unwrap_err();
+        assert!(error.message().contains("half_width ="), "{error}");
+    }
+}

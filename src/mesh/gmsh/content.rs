@@ -1,0 +1,224 @@
+//! What both versions of the format hold, before it becomes a mesh.
+
+use super::cursor::Cursor;
+use super::kind::Kind;
+use crate::mesh::Shape;
+use crate::{Error, ErrorKind, Result};
+use std::collections::{BTreeMap, HashMap};
+
+/// A physical group: dimension and tag.
+pub(super) type Group = (u64, u64);
+
+/// Nodes, elements and physical groups of a file. Elements refer to nodes by index; byte offsets lead
+/// messages back to the line.
+#[derive(Default)]
+pub(super) struct Content {
+    /// Names of physical groups.
+    pub names: BTreeMap<Group, String>,
+    /// Node numbers as in the file.
+    pub node_labels: Vec<u64>,
+    /// Coordinates, three per node.
+    pub coordinates: Vec<f64>,
+    /// Node index by number.
+    pub node_index: NodeIndex,
+    /// Elements of bodies.
+    pub elements: Vec<RawElement>,
+    /// Nodes of all elements, one element after the other.
+    pub connectivity: Vec<u32>,
+    /// Boundary lines in physical groups.
+    pub lines: Vec<RawLine>,
+    /// Points in physical groups.
+    pub points: Vec<RawPoint>,
+}
+
+/// An element of a body; its nodes follow those of the elements before it.
+pub(super) struct RawElement {
+    pub shape: Shape,
+    pub label: u64,
+    /// Tag of the physical surface.
+    pub group: u64,
+}
+
+/// A boundary line.
+pub(super) struct RawLine {
+    pub ends: [u32; 2],
+    pub middle: Option<u32>,
+    /// Tag of the physical curve.
+    pub group: u64,
+    /// Byte offset of its line in the file.
+    pub at: usize,
+}
+
+/// A point.
+pub(super) struct RawPoint {
+    pub node: u32,
+    /// Tag of the physical point.
+    pub group: u64,
+    /// Byte offset of its line in the file.
+    pub at: usize,
+}
+
+/// Node index by node number: a table where numbers are dense, a map where they are not.
+pub(super) enum NodeIndex {
+    /// Index by number; `u32::MAX` where there is none.
+    Table(Vec<u32>),
+    /// For widely spread numbers.
+    Map(HashMap<u64, u32>),
+}
+
+impl Default for NodeIndex {
+    fn default() -> Self {
+        NodeIndex::Table(Vec::new())
+    }
+}
+
+impl NodeIndex {
+    /// The index, or the number that is there twice.
+    fn new(labels: &[u64]) -> std::result::Result<NodeIndex, u64> {
+        let largest = labels.iter().copied().max().unwrap_or(0);
+        if largest <= 8 * labels.len() as u64 + 1024 {
+            let mut table = vec![u32::MAX; largest as usize + 1];
+            for (index, &label) in labels.iter().enumerate() {
+                let entry = &mut table[label as usize];
+                if *entry != u32::MAX {
+                    return Err(label);
+                }
+                *entry = index as u32;
+            }
+            return Ok(NodeIndex::Table(table));
+        }
+        let mut map = HashMap::with_capacity(labels.len());
+        for (index, &label) in labels.iter().enumerate() {
+            if map.insert(label, index as u32).is_some() {
+                return Err(label);
+            }
+        }
+        Ok(NodeIndex::Map(map))
+    }
+
+    fn get(&self, label: u64) -> Option<u32> {
+        match self {
+            NodeIndex::Table(table) => {
+                let index = *table.get(usize::try_from(label).ok()?)?;
+                (index != u32::MAX).then_some(index)
+            }
+            NodeIndex::Map(map) => map.get(&label).copied(),
+        }
+    }
+}
+
+impl Content {
+    /// Reads `$PhysicalNames`, the same in both versions.
+    pub(super) fn read_names(&mut self, cursor: &mut Cursor) -> Result<()> {
+        let n = cursor.count("the number of physical names")?;
+        cursor.end_line()?;
+        for _ in 0..n {
+            let dimension = cursor.unsigned("the dimension of a physical group")?;
+            let tag = cursor.signed("the tag of a physical group")?.unsigned_abs();
+            let name = cursor.quoted("the name of a physical group")?;
+            self.names.insert((dimension, tag), name);
+        }
+        Ok(())
+    }
+
+    /// The name of a group; its number where it has none.
+    pub(super) fn group_name(&self, group: Group) -> String {
+        match self.names.get(&group) {
+            Some(name) => name.clone(),
+            None => group.1.to_string(),
+        }
+    }
+
+    /// Called when all nodes are read.
+    pub(super) fn index_nodes(&mut self, cursor: &Cursor) -> Result<()> {
+        if self.node_labels.len() >= u32::MAX as usize {
+            return Err(cursor.error(format!(
+                "{} nodes are more than brinell can number",
+                self.node_labels.len()
+            )));
+        }
+        self.node_index = NodeIndex::new(&self.node_labels)
+            .map_err(|label| cursor.error(format!("node {label} is given twice in $Nodes")))?;
+        Ok(())
+    }
+
+    /// The kind of an element type, or an error that names the type.
+    pub(super) fn kind(cursor: &Cursor, at: usize, element_type: u64) -> Result<Kind> {
+        Kind::from_type(element_type).map_err(|name| {
+            let place = cursor.error_at(at, format!("unsupported {name}"));
+            Error::new(
+                ErrorKind::Unsupported,
+                format!(
+                    "{}; brinell reads 3- and 6-node triangles, 4- and 8-node quadrilaterals, \
+                     2- and 3-node lines and points",
+                    place.message()
+                ),
+            )
+        })
+    }
+
+    /// Reads the nodes of an element to the end of the line and keeps it in each of `groups`.
+    pub(super) fn read_element(
+        &mut self,
+        cursor: &mut Cursor,
+        kind: Kind,
+        label: u64,
+        groups: &[u64],
+        at: usize,
+    ) -> Result<()> {
+        let mut nodes = [0u32; 8];
+        let n = kind.n_nodes();
+        for node in &mut nodes[..n] {
+            let place = cursor.at();
+            let number = cursor.unsigned("a node number")?;
+            *node = self.node_index.get(number).ok_or_else(|| {
+                cursor.error_at(
+                    place,
+                    format!("element {label} refers to node {number}, which is not in $Nodes"),
+                )
+            })?;
+        }
+        cursor.end_line()?;
+        match kind {
+            Kind::Point => self.points.extend(groups.iter().map(|&group| RawPoint {
+                node: nodes[0],
+                group,
+                at,
+            })),
+            Kind::Line { n_nodes } => self.lines.extend(groups.iter().map(|&group| RawLine {
+                ends: [nodes[0], nodes[1]],
+                middle: (n_nodes == 3).then_some(nodes[2]),
+                group,
+                at,
+            })),
+            Kind::Element(shape) => {
+                let &[group] = groups else {
+                    return Err(cursor.error_at(at, self.wrong_groups(label, groups)));
+                };
+                self.elements.push(RawElement {
+                    shape,
+                    label,
+                    group,
+                });
+                self.connectivity.extend_from_slice(&nodes[..n]);
+            }
+        }
+        Ok(())
+    }
+
+    /// Why an element cannot be given to a body.
+    fn wrong_groups(&self, label: u64, groups: &[u64]) -> String {
+        if groups.is_empty() {
+            return format!(
+                "element {label} is in no physical surface: in Gmsh, put every surface into a \
+                 Physical Surface; its name is the body's"
+            );
+        }
+        let names: Vec<String> = groups.iter().map(|&g| self.group_name((2, g))).collect();
+        format!(
+            "element {label} is in several physical surfaces ({}): put each surface into exactly one, \
+             which is its body",
+            names.join(", ")
+        )
+    }
+}

@@ -1,0 +1,271 @@
+//! Reading numbers and words straight from the bytes of a file.
+
+use crate::{Error, Result};
+
+/// A position in the text of a file.
+pub(super) struct Cursor<'a> {
+    text: &'a [u8],
+    at: usize,
+    /// The file's name, for messages.
+    name: &'a str,
+    /// The section being read, for messages.
+    pub section: &'static str,
+}
+
+impl<'a> Cursor<'a> {
+    pub(super) fn new(text: &'a [u8], name: &'a str) -> Self {
+        Cursor {
+            text,
+            at: 0,
+            name,
+            section: "the file",
+        }
+    }
+
+    /// The byte offset, for [`Cursor::error_at`].
+    pub(super) fn at(&self) -> usize {
+        self.at
+    }
+
+    /// Bytes not yet read: an upper bound for everything that the rest of the file can hold.
+    pub(super) fn remaining(&self) -> usize {
+        self.text.len() - self.at
+    }
+
+    /// An error here.
+    pub(super) fn error(&self, message: impl std::fmt::Display) -> Error {
+        self.error_at(self.at, message)
+    }
+
+    /// An error at a byte offset: file and line number, in front of the message. The line is counted only
+    /// here, so that reading does not pay for it.
+    pub(super) fn error_at(&self, at: usize, message: impl std::fmt::Display) -> Error {
+        let before = &self.text[..at.min(self.text.len())];
+        let line = 1 + before.iter().filter(|&&b| b == b'\n').count();
+        Error::input(format!("{}, line {line}: {message}", self.name))
+    }
+
+    fn peek(&self) -> Option<u8> {
+        self.text.get(self.at).copied()
+    }
+
+    /// Skips blanks within the line.
+    pub(super) fn skip_blanks(&mut self) {
+        while let Some(b' ' | b'\t' | b'\r') = self.peek() {
+            self.at += 1;
+        }
+    }
+
+    /// Skips blanks and line ends.
+    pub(super) fn skip_lines(&mut self) {
+        while let Some(b' ' | b'\t' | b'\r' | b'\n') = self.peek() {
+            self.at += 1;
+        }
+    }
+
+    /// True at the end of the text.
+    pub(super) fn is_at_end(&self) -> bool {
+        self.at >= self.text.len()
+    }
+
+    /// True where the line has nothing more.
+    pub(super) fn is_at_line_end(&mut self) -> bool {
+        self.skip_blanks();
+        matches!(self.peek(), None | Some(b'\n'))
+    }
+
+    /// The rest of the line, without blanks at its end; moves to the next line.
+    pub(super) fn rest_of_line(&mut self) -> &'a [u8] {
+        let rest = &self.text[self.at..];
+        let length = rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len());
+        self.at += (length + 1).min(rest.len());
+        rest[..length].trim_ascii_end()
+    }
+
+    /// Requires the line to end here and moves to the next.
+    pub(super) fn end_line(&mut self) -> Result<()> {
+        if !self.is_at_line_end() {
+            let word = self.word_ahead();
+            return Err(self.error(format!("expected the end of the line, found `{word}`")));
+        }
+        self.at = (self.at + 1).min(self.text.len());
+        Ok(())
+    }
+
+    /// The next word of the line, shortened, for messages.
+    fn word_ahead(&self) -> String {
+        const LONGEST: usize = 40;
+        let rest = &self.text[self.at.min(self.text.len())..];
+        let length = rest
+            .iter()
+            .take(LONGEST)
+            .position(|b| b.is_ascii_whitespace())
+            .unwrap_or(rest.len().min(LONGEST));
+        String::from_utf8_lossy(&rest[..length]).into_owned()
+    }
+
+    fn expected(&self, what: &str) -> Error {
+        match self.peek() {
+            None => self.error(format!(
+                "the file ends inside {} where {what} should be: is it truncated?",
+                self.section
+            )),
+            Some(b'\n') => self.error(format!("the line ends where {what} should be")),
+            Some(_) => self.error(format!("expected {what}, found `{}`", self.word_ahead())),
+        }
+    }
+
+    /// The next word of the line.
+    fn word(&mut self, what: &str) -> Result<&'a [u8]> {
+        self.skip_blanks();
+        let rest = &self.text[self.at..];
+        let length = rest
+            .iter()
+            .position(|b| b.is_ascii_whitespace())
+            .unwrap_or(rest.len());
+        if length == 0 {
+            return Err(self.expected(what));
+        }
+        self.at += length;
+        Ok(&rest[..length])
+    }
+
+    /// The next number of the line, without a sign.
+    pub(super) fn unsigned(&mut self, what: &str) -> Result<u64> {
+        self.skip_blanks();
+        let start = self.at;
+        let mut value: u64 = 0;
+        while let Some(digit @ b'0'..=b'9') = self.peek() {
+            let next = value
+                .checked_mul(10)
+                .and_then(|v| v.checked_add(u64::from(digit - b'0')));
+            let Some(next) = next else {
+                self.at = start;
+                return Err(self.error(format!(
+                    "{what}: `{}` is too large a number",
+                    self.word_ahead()
+                )));
+            };
+            value = next;
+            self.at += 1;
+        }
+        let ended = matches!(self.peek(), None | Some(b' ' | b'\t' | b'\r' | b'\n'));
+        if self.at == start || !ended {
+            self.at = start;
+            return Err(self.expected(what));
+        }
+        Ok(value)
+    }
+
+    /// The next number of the line, with or without a sign.
+    pub(super) fn signed(&mut self, what: &str) -> Result<i64> {
+        self.skip_blanks();
+        let start = self.at;
+        let negative = self.peek() == Some(b'-');
+        if negative {
+            self.at += 1;
+        }
+        let value = if matches!(self.peek(), Some(b'0'..=b'9')) {
+            i64::try_from(self.unsigned(what)?).ok()
+        } else {
+            None
+        };
+        match value {
+            Some(value) => Ok(if negative { -value } else { value }),
+            None => {
+                self.at = start;
+                Err(self.expected(what))
+            }
+        }
+    }
+
+    /// A count; `None` of what it counts can be there if it exceeds the bytes that are left.
+    pub(super) fn count(&mut self, what: &str) -> Result<usize> {
+        let start = self.at;
+        let value = self.unsigned(what)?;
+        if value > self.remaining() as u64 {
+            return Err(self.error_at(
+                start,
+                format!(
+                    "{what} is {value}, more than the {} bytes left in the file can hold: is it truncated?",
+                    self.remaining()
+                ),
+            ));
+        }
+        Ok(value as usize)
+    }
+
+    /// The next floating point number of the line.
+    pub(super) fn float(&mut self, what: &str) -> Result<f64> {
+        self.skip_blanks();
+        let start = self.at;
+        let word = self.word(what)?;
+        let value = std::str::from_utf8(word).ok().and_then(|w| w.parse().ok());
+        match value {
+            Some(value) => Ok(value),
+            None => {
+                self.at = start;
+                Err(self.expected(what))
+            }
+        }
+    }
+
+    /// A name in double quotes.
+    pub(super) fn quoted(&mut self, what: &str) -> Result<String> {
+        self.skip_blanks();
+        let start = self.at;
+        let line = self.rest_of_line();
+        match line {
+            [b'"', name @ .., b'"'] if !name.contains(&b'"') => {
+                let Ok(name) = std::str::from_utf8(name) else {
+                    return Err(self.error_at(start, format!("{what} is not UTF-8")));
+                };
+                Ok(name.to_string())
+            }
+            _ => {
+                self.at = start;
+                Err(self.expected(&format!("{what} in double quotes")))
+            }
+        }
+    }
+
+    /// The name of the section that begins here, as `$Name`, or `None` at the end of the file.
+    pub(super) fn section_start(&mut self) -> Result<Option<&'a [u8]>> {
+        self.skip_lines();
+        if self.is_at_end() {
+            return Ok(None);
+        }
+        if self.peek() != Some(b'$') {
+            return Err(self.expected("the beginning of a section, such as $Nodes"));
+        }
+        let name = self.rest_of_line();
+        Ok(Some(name))
+    }
+
+    /// Requires the end of a section.
+    pub(super) fn section_end(&mut self, end: &str) -> Result<()> {
+        self.skip_lines();
+        let start = self.at;
+        if self.rest_of_line() == end.as_bytes() {
+            return Ok(());
+        }
+        self.at = start;
+        Err(self.expected(end))
+    }
+
+    /// Skips a section that is of no use here.
+    pub(super) fn skip_section(&mut self, start: &[u8]) -> Result<()> {
+        let name = start.strip_prefix(b"$").unwrap_or(start);
+        while !self.is_at_end() {
+            self.skip_blanks();
+            let line = self.rest_of_line();
+            if line.strip_prefix(b"$End") == Some(name) {
+                return Ok(());
+            }
+        }
+        Err(self.error(format!(
+            "the file ends inside {}: is it truncated?",
+            String::from_utf8_lossy(start)
+        )))
+    }
+}

@@ -1,0 +1,92 @@
+//! Element types of the format.
+
+use crate::mesh::Shape;
+
+/// What an element of the file is to brinell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// A point: a node of a node set.
+    Point,
+    /// A line: an edge of a surface. With three nodes the last is the mid-side node.
+    Line {
+        /// Number of nodes.
+        n_nodes: usize,
+    },
+    /// An element of a body.
+    Element(Shape),
+}
+
+impl Kind {
+    /// The kind of a type number; the name of the type where brinell has no such element.
+    pub(super) fn from_type(number: u64) -> Result<Kind, String> {
+        let name = match number {
+            1 => return Ok(Kind::Line { n_nodes: 2 }),
+            8 => return Ok(Kind::Line { n_nodes: 3 }),
+            15 => return Ok(Kind::Point),
+            2 => return Ok(Kind::Element(Shape::Tri3)),
+            9 => return Ok(Kind::Element(Shape::Tri6)),
+            3 => return Ok(Kind::Element(Shape::Quad4)),
+            16 => return Ok(Kind::Element(Shape::Quad8)),
+            10 => {
+                return Err(
+                    "9-node quadrilateral (type 10): set Mesh.SecondOrderIncomplete = 1 in Gmsh \
+                     for 8-node quadrilaterals"
+                        .to_string(),
+                );
+            }
+            4 => "4-node tetrahedron",
+            5 => "8-node hexahedron",
+            6 => "6-node prism",
+            7 => "5-node pyramid",
+            11 => "10-node tetrahedron",
+            12 => "27-node hexahedron",
+            13 => "18-node prism",
+            14 => "14-node pyramid",
+            17 => "20-node hexahedron",
+            18 => "15-node prism",
+            19 => "13-node pyramid",
+            20 => "9-node triangle",
+            21 => "10-node triangle",
+            22 => "12-node triangle",
+            23 => "15-node triangle",
+            24 => "15-node triangle",
+            25 => "21-node triangle",
+            26 => "4-node line",
+            27 => "5-node line",
+            28 => "6-node line",
+            _ => "element",
+        };
+        Err(format!("{name} (type {number})"))
+    }
+
+    /// Number of nodes.
+    pub(super) fn n_nodes(self) -> usize {
+        match self {
+            Kind::Point => 1,
+            Kind::Line { n_nodes } => n_nodes,
+            Kind::Element(shape) => shape.n_nodes(),
+        }
+    }
+
+    /// Dimension of the physical groups that hold such elements.
+    pub(super) fn dimension(self) -> u64 {
+        match self {
+            Kind::Point => 0,
+            Kind::Line { .. } => 1,
+            Kind::Element(_) => 2,
+        }
+    }
+
+    /// The type number.
+    pub(super) fn type_number(self) -> u64 {
+        match self {
+            Kind::Line { n_nodes: 2 } => 1,
+            Kind::Line { .. } => 8,
+            Kind::Point => 15,
+            Kind::Element(Shape::Tri3) => 2,
+            Kind::Element(Shape::Tri6) => 9,
+            Kind::Element(Shape::Quad4) => 3,
+            Kind::Element(Shape::Quad8) => 16,
+        }
+    }
+}

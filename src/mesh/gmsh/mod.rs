@@ -1,0 +1,165 @@
+//! Gmsh meshes: `.msh` 2.2 and 4.1, ASCII.
+//!
+//! Physical surfaces are bodies, physical curves surfaces, physical points node sets; an unnamed group
+//! goes by its number. A physical curve on the edge between two bodies belongs to the body whose name
+//! begins its own (`shaft.contact` to `shaft`), otherwise to the element on its left.
+//! Nodes of no element of a body (centres of circles, for instance) are dropped, elements that are
+//! given clockwise are turned round.
+//!
+//! # Source
+//! Gmsh reference manual, chapter "Gmsh file formats", "MSH file format" (version 4.1) and
+//! "Legacy formats" (version 2.2), <https://gmsh.info/doc/texinfo/gmsh.html>.
+
+mod assemble;
+mod content;
+mod cursor;
+mod kind;
+#[cfg(test)]
+mod tests;
+mod version2;
+mod version4;
+mod write;
+
+pub use write::write;
+
+use super::Mesh;
+use crate::{Error, ErrorKind, Result};
+use content::Content;
+use cursor::Cursor;
+use std::path::Path;
+use version4::Entities;
+
+/// Reads a mesh file.
+///
+/// # Errors
+/// An I/O error if the file cannot be read, and those of [`parse`].
+pub fn read(path: &Path) -> Result<Mesh> {
+    let text = std::fs::read(path).map_err(|cause| Error::io("read the mesh file", path, cause))?;
+    parse(&text, &path.display().to_string())
+}
+
+/// Reads a mesh from the bytes of a file; `name` is the file's name for messages.
+///
+/// # Errors
+/// Input errors with file name and line number for anything that is not a complete, consistent file of
+/// version 2.2 or 4.1 in ASCII; unsupported errors for element types that brinell does not have.
+pub fn parse(text: &[u8], name: &str) -> Result<Mesh> {
+    let mut cursor = Cursor::new(text, name);
+    let mut content = Content::default();
+    let mut entities = Entities::new();
+    let mut version = None;
+    let (mut has_nodes, mut has_elements) = (false, false);
+    loop {
+        cursor.section = "the file";
+        cursor.skip_lines();
+        let at = cursor.at();
+        if version.is_none() && !is_beginning(&text[at..]) {
+            return Err(cursor.error(
+                "this is not a Gmsh mesh: it should begin with $MeshFormat \
+                 (a .geo file must be meshed and exported as .msh first)",
+            ));
+        }
+        let Some(section) = cursor.section_start()? else {
+            break;
+        };
+        match (section, version) {
+            (b"$MeshFormat", None) => {
+                cursor.section = "$MeshFormat";
+                version = Some(read_version(&mut cursor)?);
+                cursor.section_end("$EndMeshFormat")?;
+            }
+            (b"$PhysicalNames", Some(_)) => {
+                cursor.section = "$PhysicalNames";
+                content.read_names(&mut cursor)?;
+                cursor.section_end("$EndPhysicalNames")?;
+            }
+            (b"$Entities", Some(Version::V4)) => {
+                cursor.section = "$Entities";
+                entities = version4::read_entities(&mut cursor)?;
+                cursor.section_end("$EndEntities")?;
+            }
+            (b"$PartitionedEntities", Some(_)) => {
+                let place =
+                    cursor.error_at(at, "the mesh is partitioned; save it without partitions");
+                return Err(Error::new(ErrorKind::Unsupported, place.message()));
+            }
+            (b"$Nodes", Some(_)) if has_nodes => {
+                return Err(cursor.error_at(at, "a second section $Nodes"));
+            }
+            (b"$Nodes", Some(version)) => {
+                cursor.section = "$Nodes";
+                has_nodes = true;
+                match version {
+                    Version::V2 => version2::read_nodes(&mut content, &mut cursor)?,
+                    Version::V4 => version4::read_nodes(&mut content, &mut cursor)?,
+                }
+                cursor.section_end("$EndNodes")?;
+            }
+            (b"$Elements", Some(_)) if !has_nodes => {
+                return Err(cursor.error_at(at, "$Elements comes before $Nodes"));
+            }
+            (b"$Elements", Some(_)) if has_elements => {
+                return Err(cursor.error_at(at, "a second section $Elements"));
+            }
+            (b"$Elements", Some(version)) => {
+                cursor.section = "$Elements";
+                has_elements = true;
+                match version {
+                    Version::V2 => version2::read_elements(&mut content, &mut cursor)?,
+                    Version::V4 => {
+                        version4::read_elements(&mut content, &mut cursor, &entities)?;
+                    }
+                }
+                cursor.section_end("$EndElements")?;
+            }
+            (other, _) => cursor.skip_section(other)?,
+        }
+    }
+    for (there, section) in [(has_nodes, "$Nodes"), (has_elements, "$Elements")] {
+        if !there {
+            return Err(cursor.error(format!(
+                "the file ends without a section {section}: is it truncated?"
+            )));
+        }
+    }
+    assemble::assemble(content, &cursor)
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Version {
+    V2,
+    V4,
+}
+
+/// Only a comment may come before the format.
+fn is_beginning(text: &[u8]) -> bool {
+    text.starts_with(b"$MeshFormat") || text.starts_with(b"$Comments")
+}
+
+/// Reads `$MeshFormat`: version, 0 for ASCII, size of a float.
+fn read_version(cursor: &mut Cursor) -> Result<Version> {
+    let at = cursor.at();
+    let number = cursor.float("the version")?;
+    let version = if (2.0..3.0).contains(&number) {
+        Version::V2
+    } else if number == 4.1 {
+        Version::V4
+    } else {
+        let place = cursor.error_at(
+            at,
+            format!("version {number} of the format; export the mesh as version 4.1 or 2.2"),
+        );
+        return Err(Error::new(ErrorKind::Unsupported, place.message()));
+    };
+    let at = cursor.at();
+    if cursor.unsigned("the file type")? != 0 {
+        let place = cursor.error_at(
+            at,
+            "the file is binary; export the mesh as ASCII (Mesh.Binary = 0)",
+        );
+        return Err(Error::new(ErrorKind::Unsupported, place.message()));
+    }
+    cursor.unsigned("the size of a float")?;
+    cursor.end_line()?;
+    Ok(version)
+}

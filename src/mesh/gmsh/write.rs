@@ -1,0 +1,95 @@
+//! Writing version 2.2: one line per node and element, read by every tool.
+
+use super::kind::Kind;
+use crate::mesh::Mesh;
+use std::io::{Error, ErrorKind, Result, Write};
+
+/// Writes a mesh as Gmsh `.msh` 2.2 ASCII. Bodies, surfaces and node sets become physical groups;
+/// numbers are those the user knows, coordinates read back bit for bit. The exact [`Curve`](crate::mesh::Curve)
+/// of a surface has no place in the format and is lost.
+///
+/// # Errors
+/// Those of `out`, and `InvalidInput` for a name with a double quote or a line end, which the format cannot hold.
+pub fn write(mesh: &Mesh, out: &mut dyn Write) -> Result<()> {
+    let mut out = std::io::BufWriter::with_capacity(1 << 16, out);
+    writeln!(out, "$MeshFormat\n2.2 0 8\n$EndMeshFormat")?;
+    write_names(mesh, &mut out)?;
+    writeln!(out, "$Nodes\n{}", mesh.n_nodes())?;
+    for node in 0..mesh.n_nodes() {
+        let [x, y] = mesh.point(node);
+        writeln!(out, "{} {x:?} {y:?} 0", mesh.node_label(node))?;
+    }
+    writeln!(out, "$EndNodes")?;
+    write_elements(mesh, &mut out)?;
+    out.flush()
+}
+
+fn write_names(mesh: &Mesh, out: &mut dyn Write) -> Result<()> {
+    let n = mesh.bodies.len() + mesh.surfaces.len() + mesh.node_sets.len();
+    writeln!(out, "$PhysicalNames\n{n}")?;
+    let sets = mesh
+        .node_sets
+        .keys()
+        .enumerate()
+        .map(|(k, name)| (0, k, name));
+    let surfaces = mesh
+        .surfaces
+        .keys()
+        .enumerate()
+        .map(|(k, name)| (1, k, name));
+    let bodies = mesh.bodies.iter().enumerate().map(|(k, name)| (2, k, name));
+    for (dimension, k, name) in sets.chain(surfaces).chain(bodies) {
+        if name.contains(['"', '\n', '\r']) {
+            return Err(Error::new(
+                ErrorKind::InvalidInput,
+                format!("the name {name:?} cannot be written to a Gmsh file: rename it"),
+            ));
+        }
+        writeln!(out, "{dimension} {} \"{name}\"", k + 1)?;
+    }
+    writeln!(out, "$EndPhysicalNames")
+}
+
+fn write_elements(mesh: &Mesh, out: &mut dyn Write) -> Result<()> {
+    let n_elements = mesh.n_elements();
+    let n_lines: usize = mesh.surfaces.values().map(|s| s.facets.len()).sum();
+    let n_points: usize = mesh.node_sets.values().map(Vec::len).sum();
+    writeln!(out, "$Elements\n{}", n_elements + n_lines + n_points)?;
+    // Lines and points are numbered after the largest number of an element.
+    let mut number = 0;
+    for element in 0..n_elements {
+        let label = mesh.element_label(element);
+        number = number.max(label);
+        let kind = Kind::Element(mesh.shapes[element]);
+        let group = mesh.element_body[element] + 1;
+        write!(out, "{label} {} 2 {group} {group}", kind.type_number())?;
+        for &node in mesh.nodes(element) {
+            write!(out, " {}", mesh.node_label(node as usize))?;
+        }
+        writeln!(out)?;
+    }
+    for (group, surface) in (1..).zip(mesh.surfaces.values()) {
+        for &facet in &surface.facets {
+            number += 1;
+            let n_nodes = mesh.facet_nodes(facet).count();
+            let kind = Kind::Line { n_nodes };
+            write!(out, "{number} {} 2 {group} {group}", kind.type_number())?;
+            for node in mesh.facet_nodes(facet) {
+                write!(out, " {}", mesh.node_label(node))?;
+            }
+            writeln!(out)?;
+        }
+    }
+    for (group, nodes) in (1..).zip(mesh.node_sets.values()) {
+        for &node in nodes {
+            number += 1;
+            let kind = Kind::Point.type_number();
+            writeln!(
+                out,
+                "{number} {kind} 2 {group} {group} {}",
+                mesh.node_label(node)
+            )?;
+        }
+    }
+    writeln!(out, "$EndElements")
+}
