@@ -85,7 +85,7 @@ impl HertzPoint {
     /// `s_rr = s_tt = -p0 [(1+nu)(1 - (z/a) atan(a/z)) - 1/(2 (1 + z^2/a^2))]`.
     ///
     /// # Source
-    /// M. T. Huber, Ann. Phys. 14 (1904) 153, DOI 10.1002/andp.19043190407; on the axis and at the
+    /// M. T. Huber, Ann. Phys. 14 (1904) 153; on the axis and at the
     /// surface K. L. Johnson, *Contact Mechanics*, eqs (3.42)-(3.45), pp. 61-62.
     pub fn stress(&self, r: f64, z: f64, load: f64, poisson: f64) -> [f64; 4] {
         let contact_radius = self.contact_radius(load);
