@@ -184,7 +184,6 @@ impl Engine<'_> {
         report: &mut OnIncrement,
     ) -> Result<Arrival> {
         self.refresh();
-        let origin = self.at.clone();
         let mut done = 0usize;
         let mut watched = monitor.map(|m| m(self));
         loop {
@@ -235,7 +234,6 @@ impl Engine<'_> {
             if at_end {
                 return Ok(Arrival::End);
             }
-            let _ = &origin;
         }
     }
 
@@ -395,26 +393,19 @@ impl Engine<'_> {
         let reached = saved.at.share_of(&self.at, end);
         let sign = if was < 0.0 { 1.0 } else { -1.0 };
         let mut failure = None;
-        let mut last = -1.0;
-        let mut values = |engine: &mut Self, t: f64| {
+        let last = std::cell::Cell::new(-1.0);
+        let mut value_at = |t: f64| {
             if t <= 0.0 {
                 return sign * was;
             }
-            saved.put_back(engine);
-            match engine.find_increment(
-                end,
-                t,
-                Stepper {
-                    stepping: stepper.stepping,
-                    ..stepper
-                },
-            ) {
+            saved.put_back(self);
+            match self.find_increment(end, t, stepper) {
                 Ok(increment) => {
                     reported.residual = increment.residual;
                     reported.iterations += increment.iterations;
-                    engine.accept(end, increment, reported);
-                    last = t;
-                    sign * monitor(engine)
+                    self.accept(end, increment, reported);
+                    last.set(t);
+                    sign * monitor(self)
                 }
                 Err(error) => {
                     failure = Some(error);
@@ -422,9 +413,9 @@ impl Engine<'_> {
                 }
             }
         };
-        let t = bracketed_root(0.0, reached, MONITOR_ACCURACY, |t| values(self, t));
-        if t != last && failure.is_none() {
-            values(self, t);
+        let t = bracketed_root(0.0, reached, MONITOR_ACCURACY, &mut value_at);
+        if t != last.get() {
+            value_at(t);
         }
         match failure {
             Some(error) => Err(error),

@@ -136,11 +136,12 @@ impl<'m, 'o> Run<'m, 'o> {
         self.fit_zone()?;
         self.observer.phase("load program");
         let targets = &self.model().scene.program.targets;
+        let labels = self.model().scene.program.labels();
         for (index, target) in targets.iter().enumerate() {
-            self.reach(target, &target.label(index))?;
+            self.reach(target, &labels[index])?;
             self.done = index + 1;
             let start = Instant::now();
-            let state = self.engine.state(&target.label(index), target.fields)?;
+            let state = self.engine.state(&labels[index], target.fields)?;
             self.results.states.push(state);
             self.seconds.states += start.elapsed().as_secs_f64();
         }
@@ -400,10 +401,10 @@ impl<'m, 'o> Run<'m, 'o> {
         engine.zone.take_over(&old.zone);
         engine.border = old.border.clone();
         engine.at = old.at.clone();
-        let initial = engine.zone.initial_load();
+        let initial = engine.zone.initial_load(engine.sub.zeros());
         let at = engine.at.clone();
         engine.zone.set_factors(&at.factors);
-        engine.now = engine.respond(&at, &initial.unwrap_or_else(|| engine.sub.zeros()));
+        engine.now = engine.respond(&at, &initial);
         self.recovery = Some(Recovery::new(
             self.model(),
             &choice.elements,
@@ -585,10 +586,10 @@ impl<'m, 'o> Run<'m, 'o> {
                 _ => return Err(stopped()),
             }
         }
+        let off = monitor(&mut self.engine);
         Err(Error::analysis(format!(
-            "target `{label}` was never reached: the load factor went to {:.6} and the target quantity is still off by {:.6e}",
-            self.engine.at.alpha,
-            monitor(&mut self.engine)
+            "target `{label}` was never reached: the load factor went to {:.6} and the target quantity is still off by {off:.6e}",
+            self.engine.at.alpha
         )))
     }
 

@@ -10,13 +10,13 @@ pub(super) fn rows(model: &Model, results: &Results) -> Vec<ReferenceRow> {
     let mut rows = Vec::new();
     for entry in &model.scene.reference {
         if let Some(hertz) = entry.hertz_line {
-            rows.extend(hertz_line(model, results, hertz.radius));
+            rows.extend(hertz_line(model, results, hertz.radius).unwrap_or_default());
         }
         if let Some(hertz) = entry.hertz_point {
-            rows.extend(hertz_point(model, results, hertz.radius));
+            rows.extend(hertz_point(model, results, hertz.radius).unwrap_or_default());
         }
         if entry.disc_in_plate.is_some() {
-            rows.extend(disc_in_plate(model, results));
+            rows.extend(disc_in_plate(model, results).unwrap_or_default());
         }
         if let (Some(quantity), Some(value)) = (&entry.quantity, entry.value) {
             if let Some(computed) = lookup(results, quantity) {

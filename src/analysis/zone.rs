@@ -206,6 +206,22 @@ impl Zone {
             .map(|(i, e)| (e.element, &self.committed[self.points_of(i)]))
     }
 
+    /// Initial loads of the committed plastic strains.
+    pub fn initial_load(&self, mut out: Trailing) -> Trailing {
+        out.fill(0.0);
+        for (i, element) in self.elements.iter().enumerate() {
+            let elastic = &self.materials[element.body as usize].1;
+            let mut force = [0.0; MAX_FREEDOMS];
+            for (point, state) in element.points.iter().zip(&self.committed[self.points_of(i)]) {
+                if state.equivalent > 0.0 {
+                    point.add_force(&multiply(elastic, &state.strain), &mut force);
+                }
+            }
+            element.scatter(&force, &mut out);
+        }
+        out
+    }
+
     fn points_of(&self, i: usize) -> std::ops::Range<usize> {
         self.first_point[i]..self.first_point[i + 1]
     }

@@ -5,10 +5,11 @@ use super::progress::Progress;
 use super::{interrupt, print, report};
 use crate::analysis::{self, Analysis, Check};
 use crate::error::{Error, ErrorKind, Result};
+use crate::linalg::Backend;
 use crate::model::Model;
-use crate::output;
+use crate::output::{self, RunHeader};
 use crate::results::Results;
-use crate::scene::Scene;
+use crate::scene::{Kind, Scene};
 use std::path::{Path, PathBuf};
 
 /// Does what the user asked for.
@@ -33,19 +34,21 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, act: Act) -> Result<(
         require_directory(out)?;
     }
     interrupt::listen()?;
+    let start = std::time::Instant::now();
     let mut progress = Progress::new(arguments.quiet);
     progress.start("mesh and model");
     let model = Model::new(&scene)?;
     let mut analysis = Analysis::new(model, common.solver.into())?;
     let results = act(&mut analysis, &mut progress)?;
     let model = analysis.model();
+    let header = header(&scene, model, common, start.elapsed().as_secs_f64());
     if let Some(out) = &out {
         progress.start("output");
-        output::write(out, &scene, model, &results)?;
+        output::write(out, &header, &model.mesh, &results)?;
     }
     progress.finish();
     let text = if common.json {
-        json(&output::summary(&scene, model, &results))?
+        json(&output::summary(&header, &results))?
     } else {
         report::results(&scene, &results, out.as_deref())
     };
@@ -56,6 +59,22 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, act: Act) -> Result<(
             results.incomplete_kind.unwrap_or(ErrorKind::Analysis),
             format!("the run ended before its program did: {why}"),
         )),
+    }
+}
+
+fn header(scene: &Scene, model: &Model, common: &CommonArguments, wall_seconds: f64) -> RunHeader {
+    let kind = match scene.kind {
+        Kind::PlaneStrain => "plane_strain",
+        Kind::PlaneStress => "plane_stress",
+        Kind::Axisymmetric => "axisymmetric",
+    };
+    RunHeader {
+        scene_title: scene.title.clone(),
+        scene_file: Some(common.scene.display().to_string()),
+        kind: kind.to_string(),
+        solver: Backend::from(common.solver).name().to_string(),
+        wall_seconds,
+        bodies: model.mesh.bodies.clone(),
     }
 }
 

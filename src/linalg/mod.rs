@@ -42,7 +42,7 @@ pub struct Partition {
 }
 
 /// What a factorisation will cost, from the symbolic analysis alone.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct Prediction {
     /// Name of the ordering chosen.
     pub ordering: &'static str,
@@ -130,6 +130,16 @@ pub enum Backend {
     Cholmod,
     /// Dense, by the textbook, in Rust.
     Dense,
+}
+
+impl Backend {
+    /// The name used on the command line and in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Backend::Cholmod => "cholmod",
+            Backend::Dense => "dense",
+        }
+    }
 }
 
 impl Default for Backend {
@@ -251,4 +261,12 @@ pub fn multiply(matrix: &SymmetricCsc, x: &[f64], y: &mut [f64]) {
         }
         y[j] += sum;
     }
+}
+
+/// The BLAS that the factorisation uses, in words.
+pub fn blas_name() -> String {
+    #[cfg(feature = "cholmod")]
+    return cholmod::blas_name();
+    #[cfg(not(feature = "cholmod"))]
+    "none (dense backend in Rust)".to_string()
 }

@@ -13,7 +13,7 @@ pub use held::{FloatingBodies, Pin};
 pub use loads::{LoadCase, Magnitude};
 pub use pairs::{ContactSurface, Pair};
 
-use crate::analytical;
+use crate::analytical::{self, HertzLine, HertzPoint};
 use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::mesh::{self, Mesh, Shape};
@@ -109,24 +109,8 @@ impl Model {
 }
 
 fn build_mesh(scene: &Scene) -> Result<Mesh> {
-    let source = &scene.mesh;
-    if let Some(p) = &source.cylinder_on_half_plane {
-        let half_width = match p.half_width {
-            Some(b) => b,
-            None => yield_half_width(scene, p.radius)?,
-        };
-        mesh::generate::cylinder_on_half_plane(p, half_width)
-    } else if let Some(p) = &source.disc_in_plate {
-        mesh::generate::disc_in_plate(p)
-    } else if let Some(parts) = &source.parts {
-        mesh::generate::parts(parts)
-    } else if let Some(path) = &source.file {
-        mesh::gmsh::read(&scene.resolve_path(path))
-    } else {
-        Err(Error::input(
-            "the scene names no mesh: give one of [mesh.cylinder_on_half_plane], [mesh.disc_in_plate], [[mesh.parts]] or mesh.file",
-        ))
-    }
+    let folder = scene.file.as_deref().and_then(std::path::Path::parent);
+    mesh::generate::from_source(&scene.mesh, folder, |p| yield_half_width(scene, p.radius))
 }
 
 /// Contact half width (radius) at first yield by Hertz, for the weaker of the two bodies: sizes the generated mesh.
@@ -149,22 +133,16 @@ fn yield_half_width(scene: &Scene, radius: f64) -> Result<f64> {
         b.youngs_modulus,
         b.poissons_ratio,
     );
-    let widths = [a, b].into_iter().filter_map(|m| {
-        let (nu, y) = (m.poissons_ratio, m.yield_stress?);
-        Some(match scene.kind {
-            Kind::Axisymmetric => analytical::HertzPoint {
-                radius,
-                contact_modulus: modulus,
-            }
-            .yield_radius(nu, y),
-            _ => analytical::HertzLine {
-                radius,
-                contact_modulus: modulus,
-            }
-            .yield_half_width(nu, y),
-        })
-    });
-    widths.reduce(f64::min).ok_or_else(|| {
+    let mut smallest: Option<f64> = None;
+    for material in [a, b] {
+        let (nu, Some(y)) = (material.poissons_ratio, material.yield_stress) else { continue };
+        let width = match scene.kind {
+            Kind::Axisymmetric => HertzPoint::new(radius, modulus)?.yield_contact_radius(nu, y),
+            _ => HertzLine::new(radius, modulus)?.yield_half_width(nu, y),
+        };
+        smallest = Some(smallest.map_or(width, |s| s.min(width)));
+    }
+    smallest.ok_or_else(|| {
         Error::input(
             "mesh.cylinder_on_half_plane: no body has a yield stress, so the contact half width at yield is unknown; \
              give `half_width`",

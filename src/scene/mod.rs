@@ -87,13 +87,3 @@ pub enum Kind {
     /// Coordinates are (r, z), x = 0 is the axis; forces are totals over the full circle.
     Axisymmetric,
 }
-
-impl Scene {
-    /// A path of the scene, relative to the scene's file.
-    pub fn resolve_path(&self, path: &std::path::Path) -> PathBuf {
-        match self.file.as_deref().and_then(std::path::Path::parent) {
-            Some(folder) => folder.join(path),
-            None => path.to_path_buf(),
-        }
-    }
-}
