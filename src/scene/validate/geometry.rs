@@ -88,7 +88,14 @@ impl Checks {
     fn disc_in_plate(&mut self, parameters: &DiscInPlate, kind: Kind) {
         let key = |name: &str| format!("mesh.disc_in_plate.{name}");
         self.positive(key("radius"), parameters.radius);
-        self.count(key("resolution"), parameters.resolution, 2);
+        self.require(
+            parameters.resolution >= 2 && parameters.resolution.is_multiple_of(2),
+            key("resolution"),
+            format!(
+                "{} must be an even number, 2 or more",
+                parameters.resolution
+            ),
+        );
         self.require(
             parameters.far_radius > 1.0,
             key("far_radius"),
@@ -180,17 +187,10 @@ impl Checks {
                 format!("{key}.side"),
                 format!("\"{}\" is none of {}", piece.side, sides.join(", ")),
             );
-            let [from, to] = match piece.side.as_str() {
-                "left" | "right" => block.y,
-                _ => block.x,
-            };
             self.require(
-                piece.from < piece.to && piece.from >= from && piece.to <= to,
+                piece.from < piece.to,
                 key,
-                format!(
-                    "{} to {} must be an ascending range within the side, {from} to {to}",
-                    piece.from, piece.to
-                ),
+                format!("from = {} must be less than to = {}", piece.from, piece.to),
             );
         }
     }

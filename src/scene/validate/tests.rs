@@ -193,6 +193,30 @@ fn mesh_sources() {
             ),
         ],
     );
+    refused(
+        || {
+            let text = include_str!("../../../data/scenes/disc_in_plate.toml");
+            Scene::parse(text, "disc.toml").unwrap()
+        },
+        &[
+            (
+                |s| s.mesh.disc_in_plate.as_mut().unwrap().resolution = 45,
+                "mesh.disc_in_plate.resolution: 45 must be an even number",
+            ),
+            (
+                |s| s.mesh.disc_in_plate.as_mut().unwrap().far_radius = 1.0,
+                "mesh.disc_in_plate.far_radius: 1 must be greater than 1",
+            ),
+            (
+                |s| s.mesh.disc_in_plate.as_mut().unwrap().interference = -10.0,
+                "mesh.disc_in_plate.interference: -10 must be small",
+            ),
+            (
+                |s| s.kind = Kind::Axisymmetric,
+                "kind: disc_in_plate is a plane model",
+            ),
+        ],
+    );
     macro_rules! part {
         ($scene:ident, $index:literal) => {
             $scene.mesh.parts.as_mut().unwrap()[$index]
@@ -234,8 +258,8 @@ fn mesh_sources() {
                 "name of a side or corner",
             ),
             (
-                |s| block!(s).pieces[0].to = 1.5,
-                "0 to 1.5 must be an ascending range",
+                |s| block!(s).pieces[0].to = 0.0,
+                "from = 0 must be less than to = 0",
             ),
             (
                 |s| {
