@@ -257,11 +257,13 @@ impl Engine<'_> {
         self.zone.commit();
         self.border = increment.changes;
         for k in self.border.clone() {
-            self.now.gap[k] = self.now.gap[k].max(0.0);
-            self.now.force[k] = self.now.force[k].max(0.0);
             if self.tableau.flip(k) {
                 self.counts.contact_changes += 1;
             }
+        }
+        // Within gamma of its condition's border a pair may be beyond it by as much.
+        for value in self.now.gap.iter_mut().chain(&mut self.now.force) {
+            *value = value.max(0.0);
         }
         self.update_force_scale();
         reported.event = describe(&changes);

@@ -54,6 +54,8 @@ pub enum NoIncrement {
 const BACKTRACKS: usize = 12;
 /// Iterations of the unaccelerated or Anderson iteration count for this many of Newton's limit.
 const CHEAP_ITERATIONS: usize = 100;
+/// A change of contact in this last share of a piece counts as its end: the target comes first.
+const AT_END: f64 = 1e-9;
 /// A share of the increment below this means that a pair changes at once.
 const AT_ONCE: f64 = 1e-12;
 
@@ -92,7 +94,7 @@ impl Engine<'_> {
             if limit.share <= AT_ONCE {
                 return Err(NoIncrement::WrongStatus(limit.pairs));
             }
-            t = most * limit.share.min(1.0);
+            t = if limit.share >= 1.0 - AT_END { most } else { most * limit.share };
         }
         let mut state = before.clone();
         advance(&mut state, t, &rates);
@@ -125,7 +127,7 @@ impl Engine<'_> {
                     pairs: Vec::new(),
                 }
             };
-            let reach = limit.share.min(most / t);
+            let reach = self.reach(&limit, t, most);
             let gamma = if let EndsAt::NextChange { gamma } = ends_at {
                 gamma
             } else {
@@ -181,7 +183,7 @@ impl Engine<'_> {
             }
             if follows {
                 let limit = step_limit(&base, &values(self, &state), &self.border);
-                let reach = limit.share.min(most / t);
+                let reach = self.reach(&limit, t, most);
                 if reach <= AT_ONCE {
                     return Err(NoIncrement::WrongStatus(limit.pairs));
                 }
@@ -198,6 +200,11 @@ impl Engine<'_> {
                 }
             }
         }
+    }
+
+    /// Factor on the increment so far (share `t` of the piece) that brings it to the next change or to the end.
+    fn reach(&self, limit: &StepLimit, t: f64, most: f64) -> f64 {
+        if limit.share * t >= most * (1.0 - AT_END) { most / t } else { limit.share }
     }
 
     /// Rates of everything with the share of the piece: elastic, plus plastic where points flow (tangent).

@@ -4,6 +4,13 @@ use super::engine::Engine;
 use crate::model::{Magnitude, Model};
 use crate::results::{PairState, Status};
 
+/// Pairs at the edge, the last closed one included, that are left out when the edge is extrapolated: their forces depend on
+/// where in the facet the contact ends. Measured on Hertz' line contact: leaving out one, two, three pairs puts the edge
+/// off by 0.04, 0.01 and 0.02 elements.
+const EDGE_SKIP: isize = 2;
+/// Pairs before those from which the edge is extrapolated.
+const EDGE_POINTS: isize = 3;
+
 /// Contact pressures and extents at the current state.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ContactFigures {
@@ -102,10 +109,15 @@ pub fn contact_figures(model: &Model, force: &[f64]) -> ContactFigures {
                     begin,
                     end: k,
                 };
-                let (from, to) = (patch.edge(begin, -1), patch.edge(k - 1, 1));
+                let (at_begin, at_end) = (patch.is_symmetric(begin), patch.is_symmetric(k - 1));
+                let middle = match (at_begin, at_end) {
+                    (true, _) => model.pairs[begin].arc,
+                    (_, true) => model.pairs[k - 1].arc,
+                    _ => 0.5 * (model.pairs[begin].arc + model.pairs[k - 1].arc),
+                };
+                let (from, to) = (patch.edge(begin, -1, middle), patch.edge(k - 1, 1, middle));
                 out.patch = Some([from, to]);
                 out.contact = index;
-                let (at_begin, at_end) = (patch.is_symmetric(begin), patch.is_symmetric(k - 1));
                 out.half_width = if at_begin || at_end {
                     to - from
                 } else {
@@ -141,32 +153,38 @@ impl Patch<'_> {
                 .all(|&node| self.model.freedoms.slots[node][1] == crate::model::Slot::Fixed)
     }
 
-    /// Where contact ends beyond pair `last`, along the surface in direction `way`: near the edge of a smooth contact the
-    /// pressure squared falls linearly to zero, so it is extrapolated from the three pairs before the last;
-    /// the edge lies between the last closed and the first open pair.
-    fn edge(&self, last: usize, way: isize) -> f64 {
+    /// Where contact ends beyond pair `last`, along the surface in direction `way`. Near the edge of a smooth contact the
+    /// pressure squared falls to zero linearly in the squared distance from the middle (exactly so in Hertz' contact): it
+    /// is extrapolated from the pairs before the last, and the edge lies near the last closed and the first open pair.
+    fn edge(&self, last: usize, way: isize, middle: f64) -> f64 {
         let arc = |k: usize| self.model.pairs[k].arc;
-        let neighbour = |k: usize, step: isize| {
-            k.checked_add_signed(step)
-                .filter(|i| self.range.contains(i))
-        };
-        let Some(beyond) = neighbour(last, way) else {
-            return arc(last);
-        };
-        let inner: Vec<usize> = (1..=3)
+        let neighbour = |k: usize, step: isize| k.checked_add_signed(step).filter(|i| self.range.contains(i));
+        let Some(beyond) = neighbour(last, way) else { return arc(last) };
+        let inner: Vec<usize> = (EDGE_SKIP..EDGE_SKIP + EDGE_POINTS)
             .filter_map(|i| neighbour(last, -i * way))
             .filter(|k| (self.begin..self.end).contains(k))
             .collect();
-        let points: Vec<(f64, f64)> = inner
-            .iter()
-            .map(|&k| (arc(k), self.pressure[k].powi(2)))
-            .collect();
-        let (low, high) = (arc(last).min(arc(beyond)), arc(last).max(arc(beyond)));
-        match falling_line_zero(&points, way as f64) {
-            // One pair of slack inwards: the last closed pair may carry the rest of a partly covered facet.
-            Some(zero) => zero.clamp(low - 0.5 * (high - low), high),
-            None => 0.5 * (low + high),
-        }
+        let squared = |slope: f64| -> Vec<(f64, f64)> {
+            inner
+                .iter()
+                .map(|&k| {
+                    let (at, p2) = ((arc(k) - middle).abs(), self.pressure[k].powi(2));
+                    // A nodal pressure is an average: of sqrt(c d), d the distance from the edge, over the node's area
+                    // it falls short by c d (1 - spread/(4 d^2)), and c d = p^2.
+                    let local_slope = 2.0 * at * slope;
+                    (at * at, p2 + local_slope * local_slope * self.model.pairs[k].spread / (4.0 * p2))
+                })
+                .collect()
+        };
+        let points = squared(falling_line(&squared(0.0)).map_or(0.0, |line| line.0));
+        let spacing = (arc(beyond) - arc(last)).abs();
+        let distance = (arc(last) - middle).abs();
+        // The last closed pair may carry the rest of a partly covered facet.
+        let edge = match falling_line(&points) {
+            Some((_, zero)) => zero.max(0.0).sqrt().clamp(distance - 0.5 * spacing, distance + spacing),
+            None => distance + 0.5 * spacing,
+        };
+        middle + way as f64 * edge
     }
 
     /// Pressure between pairs, linear.
@@ -186,20 +204,17 @@ impl Patch<'_> {
     }
 }
 
-/// Zero of the least-squares line through the points, if it falls in direction `way`.
-fn falling_line_zero(points: &[(f64, f64)], way: f64) -> Option<f64> {
+/// Slope and zero of the least-squares line through the points, if it falls.
+fn falling_line(points: &[(f64, f64)]) -> Option<(f64, f64)> {
     if points.len() < 2 {
         return None;
     }
     let n = points.len() as f64;
-    let (mx, my) = (
-        points.iter().map(|p| p.0).sum::<f64>() / n,
-        points.iter().map(|p| p.1).sum::<f64>() / n,
-    );
+    let (mx, my) = (points.iter().map(|p| p.0).sum::<f64>() / n, points.iter().map(|p| p.1).sum::<f64>() / n);
     let sxx: f64 = points.iter().map(|p| (p.0 - mx).powi(2)).sum();
     let sxy: f64 = points.iter().map(|p| (p.0 - mx) * (p.1 - my)).sum();
     let slope = sxy / sxx;
-    (slope * way < 0.0).then(|| mx - my / slope)
+    (slope < 0.0).then(|| (slope, mx - my / slope))
 }
 
 impl Engine<'_> {
@@ -245,7 +260,8 @@ impl Engine<'_> {
     }
 
     /// The dent that the plastic strains alone leave: largest opening of a pair under the initial loads with all contact
-    /// taken away, relative to the outermost pair where a body is held by contact alone.
+    /// taken away; where a body is held by contact alone (its rigid motion then is free) relative to the pair with the largest
+    /// initial gap of the same contact.
     pub fn residual_depth(&mut self) -> f64 {
         if self.now.initial.largest() == 0.0 || self.now.gap.is_empty() {
             return 0.0;
@@ -256,6 +272,12 @@ impl Engine<'_> {
         unloaded.reset(&vec![true; forces.len()]);
         let (mut gap, mut force) = (vec![0.0; forces.len()], vec![0.0; forces.len()]);
         unloaded.solve(&forces, &mut gap, &mut force);
-        gap.iter().fold(0.0, |m, g| m.max(*g))
+        let floating = !self.model.floating.bodies.is_empty();
+        let deepest = |range: std::ops::Range<usize>| {
+            let outermost = range.clone().max_by(|&a, &b| self.model.pairs[a].gap.total_cmp(&self.model.pairs[b].gap));
+            let level = outermost.filter(|_| floating).map_or(0.0, |k| gap[k]);
+            range.map(|k| gap[k] - level).fold(0.0, f64::max)
+        };
+        self.model.contacts.iter().map(|c| deepest(c.range.clone())).fold(0.0, f64::max)
     }
 }

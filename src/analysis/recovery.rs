@@ -1,12 +1,13 @@
 //! Stress where it is most accurate, and its maximum between the points.
 //!
-//! Stresses are sampled at superconvergent points. Around an element a quadratic polynomial is fitted to each stress
-//! component over a patch of elements of the same body, and von Mises' stress is maximised over the element:
-//! yield load and yield depth then are continuous quantities, not quantised by the mesh.
+//! Stresses are sampled at superconvergent points. Between them each component is a moving least-squares fit: at a
+//! point `x` a cubic polynomial is fitted to the samples of the same body around, with weights that fall smoothly to zero,
+//! so the recovered stress is continuous, across elements too. Von Mises' stress is maximised over it: yield load and
+//! yield depth then are continuous quantities, not quantised by the mesh.
 //!
 //! # Source
-//! O. C. Zienkiewicz, J. Z. Zhu, superconvergent patch recovery (1992), doi:10.1002/nme.1620330702, with patches of
-//! elements round an element instead of a node.
+//! O. C. Zienkiewicz, J. Z. Zhu, superconvergent patch recovery (1992), doi:10.1002/nme.1620330702; P. Lancaster,
+//! K. Salkauskas, moving least squares (1981), doi:10.1090/S0025-5718-1981-0616367-1.
 
 use super::gather::{GatheredElement, Lookup, Places, Prescribed};
 use crate::assembly::LocalElement;
@@ -14,16 +15,22 @@ use crate::element::shape_functions;
 use crate::material::{Material, Matrix4, stress, von_mises};
 use crate::model::Model;
 use crate::substructure::Trailing;
-use nalgebra::{DMatrix, SVD};
+use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Share of the largest sampled ratio above which an element is searched for the recovered maximum.
 const CANDIDATE: f64 = 0.93;
-/// Terms of the quadratic polynomial.
-const TERMS: usize = 6;
-/// Fewest samples for a quadratic fit.
-const SAMPLES: usize = 9;
+/// Largest sample over yield below which the maximum is not searched.
+const FAR_BELOW: f64 = 0.85;
+/// Step at which the search for the maximum stops, in reference coordinates: the value is then right to its square.
+const FINEST: f64 = 2e-5;
+/// Terms of the polynomials that are tried: cubic, quadratic, linear, constant.
+const TERMS: [usize; 4] = [10, 6, 3, 1];
+/// Layers of elements around an element that belong to its patch.
+const LAYERS: usize = 3;
+/// Reach of the weights in element sizes.
+const REACH: f64 = 3.25;
 
 /// The sampled stress `[xx, yy, zz, xy]` of all points of all elements, element by element.
 pub type Samples = Vec<[f64; 4]>;
@@ -49,13 +56,12 @@ pub struct Recovery {
     patches: BTreeMap<u32, Patch>,
 }
 
-/// Least-squares fit over a patch: polynomial coefficients are `fit * samples`.
+/// Samples around an element, in coordinates relative to it and scaled by its size.
 #[derive(Debug, Clone)]
 struct Patch {
     center: [f64; 2],
     scale: [f64; 2],
-    samples: Vec<u32>,
-    fit: DMatrix<f64>,
+    samples: Vec<(u32, [f64; 2])>,
 }
 
 impl Recovery {
@@ -114,211 +120,198 @@ impl Recovery {
         blocks.concat()
     }
 
-    /// The recovered maximum of von Mises stress over yield stress.
+    /// The recovered maximum of von Mises stress over yield stress. Where the largest sample is far below yield it is
+    /// returned as it is: its exact size does not matter.
     pub fn peak(&mut self, model: &Model, samples: &Samples) -> Option<Peak> {
         let raw: Vec<f64> = (0..self.elements.len())
             .map(|i| {
-                let y = self.materials[self.elements[i].body as usize]
-                    .0
-                    .yield_stress();
-                samples[self.first[i]..self.first[i + 1]]
-                    .iter()
-                    .map(|s| von_mises(s) / y)
-                    .fold(0.0, f64::max)
+                let y = self.materials[self.elements[i].body as usize].0.yield_stress();
+                samples[self.first[i]..self.first[i + 1]].iter().map(|s| von_mises(s) / y).fold(0.0, f64::max)
             })
             .collect();
-        let largest = raw.iter().copied().fold(0.0, f64::max);
-        if largest == 0.0 {
-            return None;
+        let top = (0..raw.len()).max_by(|&a, &b| raw[a].total_cmp(&raw[b]))?;
+        if raw[top] < FAR_BELOW {
+            let element = &self.elements[top];
+            return Some(Peak { ratio: raw[top], location: element.points[0].position, body: element.body as usize });
         }
-        let candidates: Vec<usize> = (0..raw.len())
-            .filter(|&i| raw[i] >= CANDIDATE * largest)
-            .collect();
+        // A smooth field has its maximum in or beside an element whose sample is a local maximum.
         let mut best: Option<Peak> = None;
-        for i in candidates {
-            let peak = self.search(model, i, samples);
-            if best.is_none_or(|b| peak.ratio > b.ratio) {
-                best = Some(peak);
+        for i in (0..raw.len()).filter(|&i| raw[i] >= CANDIDATE * raw[top]) {
+            let around = self.neighbours_of(model, i);
+            if around.iter().all(|&j| raw[j as usize] <= raw[i]) {
+                let peak = self.climb(model, &around, samples);
+                if best.is_none_or(|b| peak.ratio > b.ratio) {
+                    best = Some(peak);
+                }
             }
         }
         best
     }
 
-    /// Stress over yield stress at a given point of the element that holds the peak is linear in the samples: the value of
-    /// the peak's ratio for other samples, at the same location search.
-    fn search(&mut self, model: &Model, i: usize, samples: &Samples) -> Peak {
-        let body = self.elements[i].body as usize;
-        let yield_stress = self.materials[body].0.yield_stress();
-        let element = self.elements[i].element;
-        if !self.patches.contains_key(&(i as u32)) {
-            let patch = self.patch(model, i);
-            self.patches.insert(i as u32, patch);
-        }
-        let patch = &self.patches[&(i as u32)];
-        let coefficients = patch.coefficients(samples);
-        let shape = model.mesh.shapes[element];
-        let x = model.element_coordinates(element);
-        let triangle = shape.n_corners() == 3;
-        let at = |reference: [f64; 2]| {
-            let (n, _) = shape_functions(shape, reference);
-            let mut point = [0.0; 2];
-            for (n, x) in n.iter().zip(&x).take(shape.n_nodes()) {
-                point[0] += n * x[0];
-                point[1] += n * x[1];
-            }
-            (
-                von_mises(&patch.value(&coefficients, point)) / yield_stress,
-                point,
-            )
-        };
-        // Nested grids: the maximum of a smooth function over the element, to about 1e-7 of its size, hence
-        // to 1e-14 in value.
-        let (mut center, mut half) = if triangle {
-            ([0.5, 0.5], 0.5)
-        } else {
-            ([0.0, 0.0], 1.0)
-        };
-        let (mut best, mut place) = at(center);
-        let mut best_reference = center;
-        while half > 1e-7 {
+    /// Elements of the same body that share a node with element `i`, itself included.
+    fn neighbours_of(&self, model: &Model, i: usize) -> Vec<u32> {
+        let body = self.elements[i].body;
+        let mut around: Vec<u32> = model
+            .mesh
+            .nodes(self.elements[i].element)
+            .iter()
+            .flat_map(|node| &self.neighbours[node])
+            .copied()
+            .filter(|&m| self.elements[m as usize].body == body)
+            .collect();
+        around.sort_unstable();
+        around.dedup();
+        around
+    }
+
+    /// The maximum over some elements: a grid in each, then smaller and smaller steps round the best point.
+    fn climb(&mut self, model: &Model, elements: &[u32], samples: &Samples) -> Peak {
+        let mut best = (f64::NEG_INFINITY, [0.0; 2], [0.0; 2], elements[0]);
+        for &i in elements {
+            self.cache_patch(model, i);
             for a in -2..=2 {
                 for b in -2..=2 {
-                    let mut reference = [
-                        center[0] + 0.5 * half * f64::from(a),
-                        center[1] + 0.5 * half * f64::from(b),
-                    ];
-                    if triangle {
-                        reference = reference.map(|v| v.max(0.0));
-                        let sum = reference[0] + reference[1];
-                        if sum > 1.0 {
-                            reference = reference.map(|v| v / sum);
-                        }
-                    } else {
-                        reference = reference.map(|v| v.clamp(-1.0, 1.0));
-                    }
-                    let (value, point) = at(reference);
-                    if value > best {
-                        (best, place, best_reference) = (value, point, reference);
+                    let reference = self.inside(model, i, [0.5 * f64::from(a), 0.5 * f64::from(b)]);
+                    let (value, point) = self.value_at(model, i, reference, samples);
+                    if value > best.0 {
+                        best = (value, reference, point, i);
                     }
                 }
             }
-            center = best_reference;
-            half *= 0.5;
         }
-        Peak {
-            ratio: best,
-            location: place,
-            body,
+        let mut step = 0.25;
+        while step > FINEST {
+            let from = best;
+            for a in -1..=1 {
+                for b in -1..=1 {
+                    let moved = [from.1[0] + step * f64::from(a), from.1[1] + step * f64::from(b)];
+                    let reference = self.inside(model, from.3, moved);
+                    let (value, point) = self.value_at(model, from.3, reference, samples);
+                    if value > best.0 {
+                        best = (value, reference, point, from.3);
+                    }
+                }
+            }
+            if best.1 == from.1 {
+                step *= 0.5;
+            }
+        }
+        Peak { ratio: best.0, location: best.2, body: self.elements[best.3 as usize].body as usize }
+    }
+
+    /// The reference point moved into the element. Quadrilaterals use `[-1, 1]^2`, triangles the same square folded onto
+    /// the triangle.
+    fn inside(&self, model: &Model, i: u32, reference: [f64; 2]) -> [f64; 2] {
+        let clamped = reference.map(|v| v.clamp(-1.0, 1.0));
+        if model.mesh.shapes[self.elements[i as usize].element].n_corners() == 4 {
+            return clamped;
+        }
+        let positive = clamped.map(|v| v.max(0.0));
+        let sum = positive[0] + positive[1];
+        if sum > 1.0 { positive.map(|v| v / sum) } else { positive }
+    }
+
+    /// Recovered von Mises stress over yield stress at a reference point of an element, and where that is.
+    fn value_at(&self, model: &Model, i: u32, reference: [f64; 2], samples: &Samples) -> (f64, [f64; 2]) {
+        let element = &self.elements[i as usize];
+        let (n, _) = shape_functions(model.mesh.shapes[element.element], reference);
+        let x = model.element_coordinates(element.element);
+        let mut point = [0.0; 2];
+        for (n, x) in n.iter().zip(&x) {
+            point[0] += n * x[0];
+            point[1] += n * x[1];
+        }
+        let yield_stress = self.materials[element.body as usize].0.yield_stress();
+        match self.patches.get(&i) {
+            Some(patch) => (von_mises(&patch.value(samples, point)) / yield_stress, point),
+            None => (0.0, point),
         }
     }
 
-    /// Element `i` and its neighbours in the same body, widened until a quadratic fit is possible.
+    fn cache_patch(&mut self, model: &Model, i: u32) {
+        if !self.patches.contains_key(&i) {
+            let patch = self.patch(model, i as usize);
+            self.patches.insert(i, patch);
+        }
+    }
+
+    /// The samples of the element's body in the layers of elements around it.
     fn patch(&self, model: &Model, i: usize) -> Patch {
-        let body = self.elements[i].body;
         let mut members = std::collections::BTreeSet::from([i as u32]);
-        for _ in 0..4 {
-            let around: Vec<u32> = members
-                .iter()
-                .flat_map(|&m| model.mesh.nodes(self.elements[m as usize].element))
-                .flat_map(|node| &self.neighbours[node])
-                .copied()
-                .filter(|&m| self.elements[m as usize].body == body)
-                .collect();
+        for _ in 0..LAYERS {
+            let around: Vec<u32> = members.iter().flat_map(|&m| self.neighbours_of(model, m as usize)).collect();
             members.extend(around);
-            let n_samples: usize = members
-                .iter()
-                .map(|&m| self.elements[m as usize].points.len())
-                .sum();
-            if n_samples >= SAMPLES {
-                if let Some(patch) = self.fit(i, &members, TERMS) {
-                    return patch;
-                }
-            }
         }
-        self.fit(i, &members, 3)
-            .or_else(|| self.fit(i, &std::collections::BTreeSet::from([i as u32]), 1))
-            .unwrap_or_else(|| {
-                let at = self.elements[i].points[0].position;
-                Patch {
-                    center: at,
-                    scale: [1.0; 2],
-                    samples: vec![self.first[i] as u32],
-                    fit: DMatrix::from_element(1, 1, 1.0),
-                }
-            })
-    }
-
-    fn fit(
-        &self,
-        i: usize,
-        members: &std::collections::BTreeSet<u32>,
-        terms: usize,
-    ) -> Option<Patch> {
-        let mut samples = Vec::new();
-        let mut positions = Vec::new();
-        for &m in members {
-            for (g, point) in self.elements[m as usize].points.iter().enumerate() {
-                samples.push((self.first[m as usize] + g) as u32);
-                positions.push(point.position);
-            }
-        }
-        let own = &self.elements[i].points;
-        let center = own.iter().fold([0.0; 2], |c, p| {
-            [
-                c[0] + p.position[0] / own.len() as f64,
-                c[1] + p.position[1] / own.len() as f64,
-            ]
-        });
-        let mut scale = [0.0f64; 2];
-        for p in &positions {
+        let nodes = model.mesh.nodes(self.elements[i].element);
+        let mut low = [f64::INFINITY; 2];
+        let mut high = [f64::NEG_INFINITY; 2];
+        for &node in nodes {
+            let x = model.mesh.point(node as usize);
             for d in 0..2 {
-                scale[d] = scale[d].max((p[d] - center[d]).abs());
+                low[d] = low[d].min(x[d]);
+                high[d] = high[d].max(x[d]);
             }
         }
-        if scale.iter().any(|s| *s == 0.0) && terms > 1 {
-            return None;
-        }
-        let scale = scale.map(|s| if s == 0.0 { 1.0 } else { s });
-        let patch = Patch {
-            center,
-            scale,
-            samples,
-            fit: DMatrix::zeros(0, 0),
-        };
-        let matrix = DMatrix::from_fn(positions.len(), terms, |r, c| patch.terms(positions[r])[c]);
-        let svd = SVD::new(matrix, true, true);
-        if svd.singular_values.min() < 1e-3 * svd.singular_values.max() {
-            return None;
-        }
-        svd.pseudo_inverse(0.0)
-            .ok()
-            .map(|fit| Patch { fit, ..patch })
+        let center = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
+        let scale = [high[0] - low[0], high[1] - low[1]];
+        let samples = members
+            .iter()
+            .flat_map(|&m| {
+                let first = self.first[m as usize] as u32;
+                self.elements[m as usize].points.iter().enumerate().map(move |(g, p)| {
+                    let at = p.position;
+                    (first + g as u32, [(at[0] - center[0]) / scale[0], (at[1] - center[1]) / scale[1]])
+                })
+            })
+            .collect();
+        Patch { center, scale, samples }
     }
 }
 
 impl Patch {
-    fn terms(&self, at: [f64; 2]) -> [f64; TERMS] {
-        let x = (at[0] - self.center[0]) / self.scale[0];
-        let y = (at[1] - self.center[1]) / self.scale[1];
-        [1.0, x, y, x * x, x * y, y * y]
+    /// Moving least squares at a point: the fit of the highest degree that the samples around determine.
+    fn value(&self, samples: &Samples, at: [f64; 2]) -> [f64; 4] {
+        let x = [(at[0] - self.center[0]) / self.scale[0], (at[1] - self.center[1]) / self.scale[1]];
+        TERMS.iter().find_map(|&n| self.fit(samples, x, n)).unwrap_or([0.0; 4])
     }
 
-    fn coefficients(&self, samples: &Samples) -> Vec<[f64; 4]> {
-        (0..self.fit.nrows())
-            .map(|t| {
-                let mut sum = [0.0; 4];
-                for (k, &sample) in self.samples.iter().enumerate() {
-                    for c in 0..4 {
-                        sum[c] += self.fit[(t, k)] * samples[sample as usize][c];
-                    }
+    /// Value at `x` of the weighted fit with `n` terms, by the normal equations; terms are centred at `x`, so that the value
+    /// is the constant term. `None` where the samples do not determine it.
+    fn fit(&self, samples: &Samples, x: [f64; 2], n: usize) -> Option<[f64; 4]> {
+        let mut gram = DMatrix::<f64>::zeros(n, n);
+        let mut right = DMatrix::<f64>::zeros(n, 4);
+        let mut used = 0;
+        for &(sample, position) in &self.samples {
+            let (dx, dy) = (position[0] - x[0], position[1] - x[1]);
+            let distance = (dx * dx + dy * dy) / (REACH * REACH);
+            if distance >= 1.0 && n > 1 {
+                continue;
+            }
+            used += 1;
+            let weight = if n > 1 { (1.0 - distance).powi(3) } else { 1.0 / (1.0 + distance) };
+            let terms = [1.0, dx, dy, dx * dx, dx * dy, dy * dy, dx * dx * dx, dx * dx * dy, dx * dy * dy, dy * dy * dy];
+            for a in 0..n {
+                for b in 0..n {
+                    gram[(a, b)] += weight * terms[a] * terms[b];
                 }
-                sum
-            })
-            .collect()
-    }
-
-    fn value(&self, coefficients: &[[f64; 4]], at: [f64; 2]) -> [f64; 4] {
-        let terms = self.terms(at);
-        std::array::from_fn(|c| coefficients.iter().zip(&terms).map(|(k, t)| k[c] * t).sum())
+                for c in 0..4 {
+                    right[(a, c)] += weight * terms[a] * samples[sample as usize][c];
+                }
+            }
+        }
+        if used < n + n / 2 {
+            return None;
+        }
+        let scaling = DVector::from_fn(n, |i, _| 1.0 / gram[(i, i)].max(f64::MIN_POSITIVE).sqrt());
+        let scaled = DMatrix::from_fn(n, n, |i, j| gram[(i, j)] * scaling[i] * scaling[j]);
+        let factor = scaled.cholesky()?;
+        if (0..n).any(|i| factor.l_dirty()[(i, i)] < 1e-2) {
+            return None;
+        }
+        for mut column in right.column_iter_mut() {
+            column.component_mul_assign(&scaling);
+        }
+        let solution = factor.solve(&right);
+        Some(std::array::from_fn(|c| solution[(0, c)] * scaling[0]))
     }
 }

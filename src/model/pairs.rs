@@ -28,6 +28,9 @@ pub struct Pair {
     pub interference: f64,
     /// Area that belongs to the pair: integral of the node's shape function over the second surface.
     pub area: f64,
+    /// Mean squared distance from the node over the area, weighted with the shape function: the nodal pressure is the
+    /// average of the pressure with these weights.
+    pub spread: f64,
     /// Distance along the second surface from its begin.
     pub arc: f64,
 }
@@ -121,6 +124,7 @@ fn resolve_contact(
         match facing(mesh, x, normal[j], &first_nodes, tolerance) {
             Some(i) if !taken[i] => {
                 taken[i] = true;
+                let area = areas.get(&node).copied().unwrap_or([0.0; 2]);
                 let y = mesh.point(first_nodes[i]);
                 let geometric = dot([y[0] - x[0], y[1] - x[1]], normal[j]);
                 pairs.push(Pair {
@@ -130,7 +134,8 @@ fn resolve_contact(
                     normal: normal[j],
                     gap: contact.gap.unwrap_or(geometric),
                     interference: contact.interference,
-                    area: areas.get(&node).copied().unwrap_or(0.0),
+                    area: area[0],
+                    spread: if area[0] != 0.0 { area[1] / area[0] } else { 0.0 },
                     arc,
                 });
             }
@@ -221,15 +226,19 @@ fn longest_facet(mesh: &Mesh, surface: &Surface) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Integral of each node's shape function over a surface.
-fn nodal_areas(scene: &Scene, mesh: &Mesh, surface: &Surface) -> BTreeMap<usize, f64> {
-    let mut areas = BTreeMap::new();
+/// Integrals of each node's shape function over a surface, plain and times the squared distance from the node.
+fn nodal_areas(scene: &Scene, mesh: &Mesh, surface: &Surface) -> BTreeMap<usize, [f64; 2]> {
+    let mut areas: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
     for &facet in &surface.facets {
         let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
         let x: Vec<[f64; 2]> = nodes.iter().map(|&n| mesh.point(n)).collect();
         for point in facet_points(scene.kind, &x) {
             for (i, &node) in nodes.iter().enumerate() {
-                *areas.entry(node).or_insert(0.0) += point.weight * point.values[i];
+                let d = [point.position[0] - x[i][0], point.position[1] - x[i][1]];
+                let share = point.weight * point.values[i];
+                let sums = areas.entry(node).or_insert([0.0; 2]);
+                sums[0] += share;
+                sums[1] += share * dot(d, d);
             }
         }
     }

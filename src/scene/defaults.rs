@@ -11,7 +11,7 @@ pub(super) fn fine_depth() -> f64 {
 }
 
 pub(super) fn far_size() -> f64 {
-    50.0
+    2000.0
 }
 
 pub(super) fn growth() -> f64 {

@@ -7,14 +7,17 @@ use crate::scene::CylinderOnHalfPlane;
 use crate::{Error, Result};
 
 const KEY: &str = "mesh.cylinder_on_half_plane";
-/// The cylinder's block may reach this share of the radius: further out its bottom is nearly vertical.
+/// The candidates may reach this share of the radius: further out the circle is nearly vertical.
 const WIDEST: f64 = 0.9;
 
 /// Half model (x >= 0) of a cylinder or ball on a half plane or half space.
 ///
 /// With `b` = `half_width` (contact half width at first yield, same unit as the radius `R`) and
-/// `W = far_size b`, the half plane is the block `[0, W] x [-W, 0]` and the cylinder the block `[0, W]`
-/// between its surface `y = R - sqrt(R^2 - x^2)` and the flat top `y = W`. Elements are even with
+/// `W = far_size b`, the half plane is the block `[0, W] x [-W, 0]` and the cylinder the block `[0, W]` between
+/// its surface and the flat top `y = W`. The surface is the circle `y = R - sqrt(R^2 - x^2)` over the candidates and levels
+/// off beyond: as in Hertz' theory both bodies are half planes that differ from flat near the contact only. A body of
+/// finite size W changes the stress under the contact by the order b/W (a uniform stress along the surface), a true
+/// cylinder by b/R; `far_size` is therefore large, which the growing elements make cheap. Elements are even with
 /// size `b/resolution` out to `fine_width b` and down to `fine_depth b` (to the nearest whole
 /// element), then grow by `growth`. Both surfaces have nodes at the same `x`; corner and mid-side
 /// nodes of the cylinder lie on the circle to round-off, so that nodal gaps are the exact gaps.
@@ -51,7 +54,7 @@ pub fn cylinder_on_half_plane(p: &CylinderOnHalfPlane, half_width: f64) -> Resul
             // The bottom's shape fades out linearly towards the flat top.
             [
                 x[i],
-                height + bottom(p.radius, x[i]) * (1.0 - height / size),
+                height + layout.bottom(p.radius, x[i]) * (1.0 - height / size),
             ]
         },
         |_, _| None,
@@ -70,7 +73,7 @@ pub fn cylinder_on_half_plane(p: &CylinderOnHalfPlane, half_width: f64) -> Resul
     cylinder.surface(
         "outside",
         grid.side_range(Side::Bottom, outside.clone()),
-        circle,
+        None,
     )?;
     cylinder.surface("top", grid.side(Side::Top), line([0.0, 1.0]))?;
     cylinder.surface("symmetry", grid.side(Side::Left), line([-1.0, 0.0]))?;
@@ -94,11 +97,6 @@ pub fn cylinder_on_half_plane(p: &CylinderOnHalfPlane, half_width: f64) -> Resul
     Ok(mesh)
 }
 
-/// Height of the circle's bottom, `R - sqrt(R^2 - x^2)` without its cancellation.
-fn bottom(radius: f64, x: f64) -> f64 {
-    x * x / (radius + ((radius - x) * (radius + x)).sqrt())
-}
-
 /// Grid lines of both bodies.
 struct Layout {
     /// Even elements along x.
@@ -112,6 +110,16 @@ struct Layout {
 }
 
 impl Layout {
+    /// Height of the cylinder's surface: the circle, without the cancellation of `R - sqrt(R^2 - x^2)`, out to the last
+    /// candidate at `c`; beyond, with the slope there, `y_c + slope c (1 - exp(-(x - c)/c))`.
+    fn bottom(&self, radius: f64, x: f64) -> f64 {
+        let root = |x: f64| ((radius - x) * (radius + x)).sqrt();
+        let edge = self.x[2 * self.n_fine];
+        let at = x.min(edge);
+        let height = at * at / (radius + root(at));
+        if x <= edge { height } else { height - edge * edge / root(edge) * (-(x - edge) / edge).exp_m1() }
+    }
+
     fn new(p: &CylinderOnHalfPlane, half_width: f64) -> Result<Layout> {
         let key = |name: &str| format!("{KEY}.{name}");
         limits::positive(&key("radius"), p.radius)?;
@@ -123,13 +131,14 @@ impl Layout {
         limits::at_least(&key("resolution"), p.resolution, 1)?;
 
         let size = p.far_size * half_width;
-        if size > WIDEST * p.radius {
+        let candidates = p.fine_width * half_width;
+        if candidates > WIDEST * p.radius {
             return Err(Error::input(format!(
-                "{}: far_size = {} times half_width = {half_width} is {size}, more than {WIDEST} of the \
-                 radius {}; give a far_size of at most {:.4}, or check radius and materials (the half \
+                "{}: fine_width = {} times half_width = {half_width} is {candidates}, more than {WIDEST} of the \
+                 radius {}; give a fine_width of at most {:.4}, or check radius and materials (the half \
                  width at first yield is about radius times yield stress over modulus)",
-                key("far_size"),
-                p.far_size,
+                key("fine_width"),
+                p.fine_width,
                 p.radius,
                 WIDEST * p.radius / half_width
             )));
