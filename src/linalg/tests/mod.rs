@@ -47,8 +47,8 @@ pub(super) struct Sample {
     pub(super) matrix: SymmetricCsc,
     pub(super) partition: Partition,
     pub(super) shift: Vec<f64>,
-    smallest: f64,
-    largest: f64,
+    pub(super) smallest: f64,
+    pub(super) largest: f64,
 }
 
 impl Sample {
