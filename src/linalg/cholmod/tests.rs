@@ -375,42 +375,45 @@ fn kernels_of_every_width_do_what_they_say() {
     for width in 1..=PANEL {
         for m in [0, 1, 3, 4, 7, 16, 33] {
             let rectangle = numbers.vector(width * m);
+            let mut tiles = Vec::new();
+            panel::store_rectangle(m, width, |j| &rectangle[j * m..(j + 1) * m], &mut tiles);
+            assert_eq!(tiles.len(), width * m);
             let x = numbers.vector(width);
             let y = numbers.vector(m);
             // Twice the number of terms in rounding errors: two orders of summation.
             let tolerance = |terms: usize| 2.0 * terms as f64 * f64::EPSILON;
 
             let mut product = vec![1.0; m];
-            panel::multiply(&rectangle, &x, &mut product);
+            panel::multiply(&tiles, &x, &mut product);
             for i in 0..m {
                 let sum: f64 = (0..width).map(|j| rectangle[j * m + i] * x[j]).sum();
                 assert!((product[i] - sum).abs() <= tolerance(width) * width as f64);
             }
             let mut difference = x.clone();
-            panel::subtract_transposed(&rectangle, &y, &mut difference);
+            panel::subtract_transposed(&tiles, &y, &mut difference);
             for j in 0..width {
                 let sum: f64 = (0..m).map(|i| rectangle[j * m + i] * y[i]).sum();
                 assert!((difference[j] - (x[j] - sum)).abs() <= tolerance(m + 1) * (m + 1) as f64);
             }
         }
         // Diagonally dominant, so that the inverse is small: x -> L x -> L^-1 L x.
+        let columns: Vec<Vec<f64>> = (0..width)
+            .map(|j| {
+                let below = numbers.vector(width - j - 1);
+                let small = below.iter().map(|l| l / width as f64);
+                std::iter::once(2.0).chain(small).collect()
+            })
+            .collect();
+        let at = |i: usize, j: usize| columns[j][i - j];
         let mut triangle = Vec::new();
-        for j in 0..width {
-            triangle.push(2.0);
-            triangle.extend(
-                numbers
-                    .vector(width - j - 1)
-                    .iter()
-                    .map(|l| l / width as f64),
-            );
-        }
-        let at = |i: usize, j: usize| triangle[j * width - j * (j + 1) / 2 + i];
+        panel::store_triangle(width, |j| &columns[j], &mut triangle);
+        assert_eq!(triangle.len(), panel::triangle_len(width));
         let x = numbers.vector(width);
         let mut y = x.clone();
         panel::multiply_lower(&triangle, &mut y);
-        for i in 0..width {
+        for (i, y) in y.iter().enumerate() {
             let sum: f64 = (0..=i).map(|j| at(i, j) * x[j]).sum();
-            assert!((y[i] - sum).abs() <= 4.0 * width as f64 * f64::EPSILON);
+            assert!((y - sum).abs() <= 4.0 * width as f64 * f64::EPSILON);
         }
         panel::solve_lower(&triangle, &mut y);
         assert!(distance(&y, &x) <= 8.0 * width as f64 * f64::EPSILON * norm(&x));
