@@ -201,10 +201,15 @@ impl Engine<'_> {
                 Stepping::Steps => 1.0 / (stepper.steps - done.min(stepper.steps - 1)) as f64,
             };
             let distance = self.at.distance(end);
-            let trusted = if trust < left * distance { trust / distance } else { left };
+            let trusted = if trust < left * distance {
+                trust / distance
+            } else {
+                left
+            };
             let saved = Saved::of(self);
             let solves = self.counts.trailing_solves;
-            let (increment, cut) = self.find_increment(end, trusted, smallest / distance, stepper)?;
+            let (increment, cut) =
+                self.find_increment(end, trusted, smallest / distance, stepper)?;
             trust = match (cut, trusted < left) {
                 (true, _) => increment.t * distance,
                 (false, true) => 2.0 * trust,
@@ -306,7 +311,9 @@ impl Engine<'_> {
                     EndsAt::NextChange {
                         gamma: stepper.gamma,
                     },
-                    stepper.settings, stepper.stop),
+                    stepper.settings,
+                    stepper.stop,
+                ),
                 Stepping::Events => self.solve_step(end, 1e-3 * most, stepper)?,
                 Stepping::Steps => self.solve_step(end, most, stepper)?,
             };
@@ -356,7 +363,13 @@ impl Engine<'_> {
         let mut fewest = usize::MAX;
         let mut patience = 6;
         for _ in 0..10 * (self.now.gap.len() + 10) {
-            let increment = match self.increment(end, most, EndsAt::EndOfPiece, stepper.settings, stepper.stop) {
+            let increment = match self.increment(
+                end,
+                most,
+                EndsAt::EndOfPiece,
+                stepper.settings,
+                stepper.stop,
+            ) {
                 Ok(increment) => increment,
                 Err(error) => return Ok(Err(error)),
             };
@@ -493,7 +506,12 @@ impl Engine<'_> {
 impl LoadPoint {
     /// Change of all factors and of the interference on the way to `end`.
     fn step_to(&self, end: &LoadPoint) -> Vec<f64> {
-        let mut step: Vec<f64> = end.factors.iter().zip(&self.factors).map(|(b, a)| b - a).collect();
+        let mut step: Vec<f64> = end
+            .factors
+            .iter()
+            .zip(&self.factors)
+            .map(|(b, a)| b - a)
+            .collect();
         step.push(end.interference - self.interference);
         step
     }

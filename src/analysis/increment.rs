@@ -52,8 +52,10 @@ pub enum NoIncrement {
     Stopped,
 }
 
-/// Halvings of a line search.
-const BACKTRACKS: usize = 12;
+/// Most evaluations of a line search.
+const SEARCH: usize = 8;
+/// Slope at the end of a line search over that at its begin.
+const FLAT_ENOUGH: f64 = 0.7;
 /// Iterations of the unaccelerated or Anderson iteration count for this many of Newton's limit.
 const CHEAP_ITERATIONS: usize = 100;
 /// Newton's iteration is given up when the residual has not fallen below this share of the best for `PATIENCE` iterations.
@@ -77,9 +79,7 @@ impl Engine<'_> {
     ) -> Result<Increment, NoIncrement> {
         let start = self.at.clone();
         let before = self.now.clone();
-        let rates = self.rates(end,
-            settings.plastic_iteration == PlasticIteration::Newton,
-        );
+        let rates = self.rates(end, settings.plastic_iteration == PlasticIteration::Newton);
         let follows = matches!(ends_at, EndsAt::NextChange { .. });
         let values = |engine: &Self, state: &Equilibrium| engine.values(&state.gap, &state.force);
         let base = values(self, &before);
@@ -99,7 +99,11 @@ impl Engine<'_> {
             if limit.share <= AT_ONCE {
                 return Err(NoIncrement::WrongStatus(limit.pairs));
             }
-            t = if limit.share >= 1.0 - AT_END { most } else { most * limit.share };
+            t = if limit.share >= 1.0 - AT_END {
+                most
+            } else {
+                most * limit.share
+            };
         }
         let mut state = before.clone();
         advance(&mut state, t, &rates);
@@ -109,6 +113,7 @@ impl Engine<'_> {
         let mut iterations = 0;
         let mut last = f64::INFINITY;
         let mut best = (f64::INFINITY, 0);
+        let mut damping = 0.0;
         let newton = settings.plastic_iteration == PlasticIteration::Newton;
         let most_iterations = match settings.plastic_iteration {
             PlasticIteration::Newton => settings.max_iterations,
@@ -177,7 +182,7 @@ impl Engine<'_> {
                 let direction = match settings.plastic_iteration {
                     PlasticIteration::Newton => {
                         let forcing = (residual / last).powi(2).clamp(1e-5, 0.03);
-                        let mut change = self.solve_tangent(&balance, forcing);
+                        let mut change = self.solve_tangent(&balance, forcing, 1.0 - damping);
                         change.add(1.0, &balance);
                         self.direction(change)
                     }
@@ -187,11 +192,12 @@ impl Engine<'_> {
                     }
                     PlasticIteration::Plain => self.direction(balance.clone()),
                 };
-                let length = if settings.plastic_iteration == PlasticIteration::Newton {
+                let length = if newton {
                     self.line_search(&state, &direction, &balance)
                 } else {
                     1.0
                 };
+                damping = next_damping(damping, length);
                 advance(&mut state, length, &direction);
                 last = residual;
             }
@@ -218,7 +224,11 @@ impl Engine<'_> {
 
     /// Factor on the increment so far (share `t` of the piece) that brings it to the next change or to the end.
     fn reach(&self, limit: &StepLimit, t: f64, most: f64) -> f64 {
-        if limit.share * t >= most * (1.0 - AT_END) { most / t } else { limit.share }
+        if limit.share * t >= most * (1.0 - AT_END) {
+            most / t
+        } else {
+            limit.share
+        }
     }
 
     /// Rates of everything with the share of the piece: elastic, plus plastic where points flow (tangent).
@@ -232,7 +242,7 @@ impl Engine<'_> {
         if tangent && !self.zone.is_idle() {
             let mut driven = self.sub.zeros();
             self.zone.softening_times(&rates.u, &mut driven);
-            let mut change = self.solve_tangent(&driven, 1e-3);
+            let mut change = self.solve_tangent(&driven, 1e-3, 1.0);
             change.add(1.0, &driven);
             let plastic = self.direction(change);
             rates.u.add(1.0, &plastic.u);
@@ -296,8 +306,9 @@ impl Engine<'_> {
             .collect()
     }
 
-    /// Length along a Newton direction: the energy of the increment is convex, its slope along the direction is the
-    /// out-of-balance force times the direction. Lengths are halved until the slope has fallen.
+    /// Length along a Newton direction. The energy of the increment is convex and its slope along the direction is the
+    /// out-of-balance force times the direction: the full length is taken unless the slope has turned and is still steep;
+    /// then its zero is bracketed.
     fn line_search(
         &mut self,
         state: &Equilibrium,
@@ -305,27 +316,41 @@ impl Engine<'_> {
         balance: &Trailing,
     ) -> f64 {
         let slope = balance.dot(&direction.u);
-        let size = balance.largest();
+        let (mut low, mut at_low) = (0.0, slope);
+        let (mut high, mut at_high) = (1.0, f64::NAN);
         let mut length = 1.0;
         let mut trial = state.clone();
         let mut out = self.sub.zeros();
-        for _ in 0..BACKTRACKS {
+        for _ in 0..SEARCH {
             trial.clone_from(state);
             advance(&mut trial, length, direction);
             self.zone.evaluate(&trial.u, &mut out);
             self.counts.plastic_iterations += 1;
             out.add(-1.0, &trial.initial);
             let there = out.dot(&direction.u);
-            if out.largest() < size || there.abs() <= 0.9 * slope.abs() {
-                return length;
+            if there.abs() <= FLAT_ENOUGH * slope.abs() || (there > 0.0 && length == 1.0) {
+                break;
             }
-            length *= if there < 0.0 && slope > 0.0 {
-                (slope / (slope - there)).clamp(0.1, 0.5)
+            if there > 0.0 {
+                (low, at_low) = (length, there);
             } else {
-                0.5
-            };
+                (high, at_high) = (length, there);
+            }
+            let secant = low + (high - low) * at_low / (at_low - at_high);
+            length = secant.clamp(low + 0.1 * (high - low), high - 0.1 * (high - low));
         }
         length
+    }
+}
+
+/// Newton's tangent is damped towards the elastic stiffness after a short step and freed again after full ones.
+fn next_damping(damping: f64, length: f64) -> f64 {
+    if length < 0.5 {
+        f64::min(4.0 * damping.max(0.01), 0.6)
+    } else if length >= 1.0 {
+        if damping < 0.01 { 0.0 } else { 0.25 * damping }
+    } else {
+        damping
     }
 }
 

@@ -158,8 +158,13 @@ impl Patch<'_> {
     /// is extrapolated from the pairs before the last, and the edge lies near the last closed and the first open pair.
     fn edge(&self, last: usize, way: isize, middle: f64) -> f64 {
         let arc = |k: usize| self.model.pairs[k].arc;
-        let neighbour = |k: usize, step: isize| k.checked_add_signed(step).filter(|i| self.range.contains(i));
-        let Some(beyond) = neighbour(last, way) else { return arc(last) };
+        let neighbour = |k: usize, step: isize| {
+            k.checked_add_signed(step)
+                .filter(|i| self.range.contains(i))
+        };
+        let Some(beyond) = neighbour(last, way) else {
+            return arc(last);
+        };
         let inner: Vec<usize> = (EDGE_SKIP..EDGE_SKIP + EDGE_POINTS)
             .filter_map(|i| neighbour(last, -i * way))
             .filter(|k| (self.begin..self.end).contains(k))
@@ -172,7 +177,10 @@ impl Patch<'_> {
                     // A nodal pressure is an average: of sqrt(c d), d the distance from the edge, over the node's area
                     // it falls short by c d (1 - spread/(4 d^2)), and c d = p^2.
                     let local_slope = 2.0 * at * slope;
-                    (at * at, p2 + local_slope * local_slope * self.model.pairs[k].spread / (4.0 * p2))
+                    (
+                        at * at,
+                        p2 + local_slope * local_slope * self.model.pairs[k].spread / (4.0 * p2),
+                    )
                 })
                 .collect()
         };
@@ -181,7 +189,10 @@ impl Patch<'_> {
         let distance = (arc(last) - middle).abs();
         // The last closed pair may carry the rest of a partly covered facet.
         let edge = match falling_line(&points) {
-            Some((_, zero)) => zero.max(0.0).sqrt().clamp(distance - 0.5 * spacing, distance + spacing),
+            Some((_, zero)) => zero
+                .max(0.0)
+                .sqrt()
+                .clamp(distance - 0.5 * spacing, distance + spacing),
             None => distance + 0.5 * spacing,
         };
         middle + way as f64 * edge
@@ -210,7 +221,10 @@ fn falling_line(points: &[(f64, f64)]) -> Option<(f64, f64)> {
         return None;
     }
     let n = points.len() as f64;
-    let (mx, my) = (points.iter().map(|p| p.0).sum::<f64>() / n, points.iter().map(|p| p.1).sum::<f64>() / n);
+    let (mx, my) = (
+        points.iter().map(|p| p.0).sum::<f64>() / n,
+        points.iter().map(|p| p.1).sum::<f64>() / n,
+    );
     let sxx: f64 = points.iter().map(|p| (p.0 - mx).powi(2)).sum();
     let sxy: f64 = points.iter().map(|p| (p.0 - mx) * (p.1 - my)).sum();
     let slope = sxy / sxx;
@@ -223,29 +237,33 @@ impl Engine<'_> {
         contact_figures(self.model, &self.now.force)
     }
 
-    /// The total load of the current state: size of the first load that varies, times its factor; of a force the
-    /// whole's.
-    pub fn total_load_size(&self) -> f64 {
+    /// The load that the results are told by: the first that varies, else the first.
+    pub fn leading_load(&self) -> Option<usize> {
+        let varies =
+            |l: &crate::model::LoadCase| !matches!(l.history, crate::scene::History::Constant);
         let loads = &self.model.loads;
-        let leading = loads.iter().position(|l| {
-            !matches!(l.history, crate::scene::History::Constant)
-                && l.measures != Magnitude::Displacement
-        });
-        match leading {
-            Some(i) => self.at.factors[i].abs() * loads[i].magnitude,
-            None => self.now.force.iter().sum::<f64>() * self.model.symmetry,
+        loads
+            .iter()
+            .position(varies)
+            .or(if loads.is_empty() { None } else { Some(0) })
+    }
+
+    /// The total load of the current state: size of the leading load times its factor; of a force the whole's. Where it
+    /// prescribes displacements, the contact force, if there is contact; else NaN: the reaction is known with the state
+    /// only.
+    pub fn total_load_size(&self) -> f64 {
+        match self.leading_load() {
+            Some(i) if self.model.loads[i].measures != Magnitude::Displacement => {
+                self.at.factors[i].abs() * self.model.loads[i].magnitude
+            }
+            _ if self.now.force.is_empty() => f64::NAN,
+            _ => self.now.force.iter().sum::<f64>() * self.model.symmetry,
         }
     }
 
     /// Mean displacement of the first varying load's nodes along the load, for displacements of the whole model.
     pub fn approach(&self, u: &[f64]) -> f64 {
-        let Some(load) = self
-            .model
-            .loads
-            .iter()
-            .find(|l| !matches!(l.history, crate::scene::History::Constant))
-            .or(self.model.loads.first())
-        else {
+        let Some(load) = self.leading_load().map(|i| &self.model.loads[i]) else {
             return 0.0;
         };
         let along: f64 = load
@@ -274,10 +292,16 @@ impl Engine<'_> {
         unloaded.solve(&forces, &mut gap, &mut force);
         let floating = !self.model.floating.bodies.is_empty();
         let deepest = |range: std::ops::Range<usize>| {
-            let outermost = range.clone().max_by(|&a, &b| self.model.pairs[a].gap.total_cmp(&self.model.pairs[b].gap));
+            let outermost = range
+                .clone()
+                .max_by(|&a, &b| self.model.pairs[a].gap.total_cmp(&self.model.pairs[b].gap));
             let level = outermost.filter(|_| floating).map_or(0.0, |k| gap[k]);
             range.map(|k| gap[k] - level).fold(0.0, f64::max)
         };
-        self.model.contacts.iter().map(|c| deepest(c.range.clone())).fold(0.0, f64::max)
+        self.model
+            .contacts
+            .iter()
+            .map(|c| deepest(c.range.clone()))
+            .fold(0.0, f64::max)
     }
 }

@@ -649,7 +649,6 @@ impl<'m, 'o> Run<'m, 'o> {
     }
 }
 
-
 fn row(engine: &Engine, report: &IncrementReport, increment: usize) -> HistoryRow {
     let figures = engine.contact_figures();
     let (plastic_points, strain) = engine.zone.extent();

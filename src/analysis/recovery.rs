@@ -125,14 +125,23 @@ impl Recovery {
     pub fn peak(&mut self, model: &Model, samples: &Samples) -> Option<Peak> {
         let raw: Vec<f64> = (0..self.elements.len())
             .map(|i| {
-                let y = self.materials[self.elements[i].body as usize].0.yield_stress();
-                samples[self.first[i]..self.first[i + 1]].iter().map(|s| von_mises(s) / y).fold(0.0, f64::max)
+                let y = self.materials[self.elements[i].body as usize]
+                    .0
+                    .yield_stress();
+                samples[self.first[i]..self.first[i + 1]]
+                    .iter()
+                    .map(|s| von_mises(s) / y)
+                    .fold(0.0, f64::max)
             })
             .collect();
         let top = (0..raw.len()).max_by(|&a, &b| raw[a].total_cmp(&raw[b]))?;
         if raw[top] < FAR_BELOW {
             let element = &self.elements[top];
-            return Some(Peak { ratio: raw[top], location: element.points[0].position, body: element.body as usize });
+            return Some(Peak {
+                ratio: raw[top],
+                location: element.points[0].position,
+                body: element.body as usize,
+            });
         }
         // A smooth field has its maximum in or beside an element whose sample is a local maximum.
         let mut best: Option<Peak> = None;
@@ -184,7 +193,10 @@ impl Recovery {
             let from = best;
             for a in -1..=1 {
                 for b in -1..=1 {
-                    let moved = [from.1[0] + step * f64::from(a), from.1[1] + step * f64::from(b)];
+                    let moved = [
+                        from.1[0] + step * f64::from(a),
+                        from.1[1] + step * f64::from(b),
+                    ];
                     let reference = self.inside(model, from.3, moved);
                     let (value, point) = self.value_at(model, from.3, reference, samples);
                     if value > best.0 {
@@ -196,7 +208,11 @@ impl Recovery {
                 step *= 0.5;
             }
         }
-        Peak { ratio: best.0, location: best.2, body: self.elements[best.3 as usize].body as usize }
+        Peak {
+            ratio: best.0,
+            location: best.2,
+            body: self.elements[best.3 as usize].body as usize,
+        }
     }
 
     /// The reference point moved into the element. Quadrilaterals use `[-1, 1]^2`, triangles the same square folded onto
@@ -208,11 +224,21 @@ impl Recovery {
         }
         let positive = clamped.map(|v| v.max(0.0));
         let sum = positive[0] + positive[1];
-        if sum > 1.0 { positive.map(|v| v / sum) } else { positive }
+        if sum > 1.0 {
+            positive.map(|v| v / sum)
+        } else {
+            positive
+        }
     }
 
     /// Recovered von Mises stress over yield stress at a reference point of an element, and where that is.
-    fn value_at(&self, model: &Model, i: u32, reference: [f64; 2], samples: &Samples) -> (f64, [f64; 2]) {
+    fn value_at(
+        &self,
+        model: &Model,
+        i: u32,
+        reference: [f64; 2],
+        samples: &Samples,
+    ) -> (f64, [f64; 2]) {
         let element = &self.elements[i as usize];
         let (n, _) = shape_functions(model.mesh.shapes[element.element], reference);
         let x = model.element_coordinates(element.element);
@@ -223,7 +249,10 @@ impl Recovery {
         }
         let yield_stress = self.materials[element.body as usize].0.yield_stress();
         match self.patches.get(&i) {
-            Some(patch) => (von_mises(&patch.value(samples, point)) / yield_stress, point),
+            Some(patch) => (
+                von_mises(&patch.value(samples, point)) / yield_stress,
+                point,
+            ),
             None => (0.0, point),
         }
     }
@@ -239,7 +268,10 @@ impl Recovery {
     fn patch(&self, model: &Model, i: usize) -> Patch {
         let mut members = std::collections::BTreeSet::from([i as u32]);
         for _ in 0..LAYERS {
-            let around: Vec<u32> = members.iter().flat_map(|&m| self.neighbours_of(model, m as usize)).collect();
+            let around: Vec<u32> = members
+                .iter()
+                .flat_map(|&m| self.neighbours_of(model, m as usize))
+                .collect();
             members.extend(around);
         }
         let nodes = model.mesh.nodes(self.elements[i].element);
@@ -258,21 +290,41 @@ impl Recovery {
             .iter()
             .flat_map(|&m| {
                 let first = self.first[m as usize] as u32;
-                self.elements[m as usize].points.iter().enumerate().map(move |(g, p)| {
-                    let at = p.position;
-                    (first + g as u32, [(at[0] - center[0]) / scale[0], (at[1] - center[1]) / scale[1]])
-                })
+                self.elements[m as usize]
+                    .points
+                    .iter()
+                    .enumerate()
+                    .map(move |(g, p)| {
+                        let at = p.position;
+                        (
+                            first + g as u32,
+                            [
+                                (at[0] - center[0]) / scale[0],
+                                (at[1] - center[1]) / scale[1],
+                            ],
+                        )
+                    })
             })
             .collect();
-        Patch { center, scale, samples }
+        Patch {
+            center,
+            scale,
+            samples,
+        }
     }
 }
 
 impl Patch {
     /// Moving least squares at a point: the fit of the highest degree that the samples around determine.
     fn value(&self, samples: &Samples, at: [f64; 2]) -> [f64; 4] {
-        let x = [(at[0] - self.center[0]) / self.scale[0], (at[1] - self.center[1]) / self.scale[1]];
-        TERMS.iter().find_map(|&n| self.fit(samples, x, n)).unwrap_or([0.0; 4])
+        let x = [
+            (at[0] - self.center[0]) / self.scale[0],
+            (at[1] - self.center[1]) / self.scale[1],
+        ];
+        TERMS
+            .iter()
+            .find_map(|&n| self.fit(samples, x, n))
+            .unwrap_or([0.0; 4])
     }
 
     /// Value at `x` of the weighted fit with `n` terms, by the normal equations; terms are centred at `x`, so that the value
@@ -288,8 +340,23 @@ impl Patch {
                 continue;
             }
             used += 1;
-            let weight = if n > 1 { (1.0 - distance).powi(3) } else { 1.0 / (1.0 + distance) };
-            let terms = [1.0, dx, dy, dx * dx, dx * dy, dy * dy, dx * dx * dx, dx * dx * dy, dx * dy * dy, dy * dy * dy];
+            let weight = if n > 1 {
+                (1.0 - distance).powi(3)
+            } else {
+                1.0 / (1.0 + distance)
+            };
+            let terms = [
+                1.0,
+                dx,
+                dy,
+                dx * dx,
+                dx * dy,
+                dy * dy,
+                dx * dx * dx,
+                dx * dx * dy,
+                dx * dy * dy,
+                dy * dy * dy,
+            ];
             for a in 0..n {
                 for b in 0..n {
                     gram[(a, b)] += weight * terms[a] * terms[b];

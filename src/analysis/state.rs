@@ -6,7 +6,7 @@ use crate::assembly::local_element;
 use crate::element::MAX_FREEDOMS;
 use crate::error::Result;
 use crate::material::{PlasticState, stress, von_mises};
-use crate::model::{Model, Slot};
+use crate::model::{Magnitude, Model, Slot};
 use crate::results::{Fields, Quality, State};
 use rayon::prelude::*;
 
@@ -49,7 +49,9 @@ impl Engine<'_> {
         Ok(State {
             name: name.to_string(),
             alpha: self.at.alpha,
-            load: self.total_load_size(),
+            load: self
+                .reaction(&elements)
+                .unwrap_or_else(|| self.total_load_size()),
             contact_force: figures.force * self.model.symmetry,
             max_pressure: figures.max_pressure,
             pole_pressure: figures.pole_pressure,
@@ -115,6 +117,31 @@ impl Engine<'_> {
                 out
             })
             .collect()
+    }
+
+    /// The total reaction, along the load, of the first load if that prescribes displacements (the whole's).
+    fn reaction(&self, elements: &[ElementState]) -> Option<f64> {
+        let model = self.model;
+        let leading = self.leading_load()?;
+        let direction = model.loads[leading].direction;
+        if model.loads[leading].measures != Magnitude::Displacement {
+            return None;
+        }
+        let mut total = 0.0;
+        for (e, element) in elements.iter().enumerate() {
+            for (i, &node) in model.mesh.nodes(e).iter().enumerate() {
+                let axes = model.freedoms.local(node as usize);
+                for (d, slot) in model.freedoms.slots[node as usize].iter().enumerate() {
+                    if let Slot::Prescribed(p) = *slot {
+                        if model.freedoms.prescribed[p as usize].load == leading {
+                            let along = axes[d][0] * direction[0] + axes[d][1] * direction[1];
+                            total += element.force[2 * i + d] * along;
+                        }
+                    }
+                }
+            }
+        }
+        Some(total.abs() * model.symmetry)
     }
 
     /// Largest nodal force that the stresses leave unbalanced, over the largest nodal force of the run.

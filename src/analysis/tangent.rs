@@ -38,9 +38,10 @@ impl Engine<'_> {
         }
     }
 
-    /// Solves `(S - K_p) du = residual` to `tolerance` (energy norm, relative) and returns `K_p du`, the change of
-    /// initial loads beyond the residual that Newton's method asks for.
-    pub fn solve_tangent(&mut self, residual: &Trailing, tolerance: f64) -> Trailing {
+    /// Solves `(S - keep K_p) du = residual` to `tolerance` (energy norm, relative) and returns `keep K_p du`, the change of
+    /// initial loads beyond the residual that Newton's method asks for. `keep = 1` is the tangent, 0 the plain iteration;
+    /// in between the condition is at most `1/(1 - keep)`, also where the material has no stiffness left.
+    pub fn solve_tangent(&mut self, residual: &Trailing, tolerance: f64, keep: f64) -> Trailing {
         let n = self.now.gap.len();
         let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
         let mut softened = self.sub.zeros();
@@ -57,6 +58,9 @@ impl Engine<'_> {
                 break;
             }
             self.zone.softening_times(&p, &mut softened);
+            for value in softened.iter_mut() {
+                *value *= keep;
+            }
             let curvature = stiff_p.dot(&p) - softened.dot(&p);
             if curvature <= 1e-14 * stiff_p.dot(&p) {
                 break;

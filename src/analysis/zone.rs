@@ -212,7 +212,11 @@ impl Zone {
         for (i, element) in self.elements.iter().enumerate() {
             let elastic = &self.materials[element.body as usize].1;
             let mut force = [0.0; MAX_FREEDOMS];
-            for (point, state) in element.points.iter().zip(&self.committed[self.points_of(i)]) {
+            for (point, state) in element
+                .points
+                .iter()
+                .zip(&self.committed[self.points_of(i)])
+            {
                 if state.equivalent > 0.0 {
                     point.add_force(&multiply(elastic, &state.strain), &mut force);
                 }
