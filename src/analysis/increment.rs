@@ -50,8 +50,10 @@ pub enum NoIncrement {
     NotConverged(f64),
 }
 
-/// Halvings of a line search.
+/// Cuts of a line search.
 const BACKTRACKS: usize = 12;
+/// Share of the slope at the begin to which the slope beyond a minimum may grow: nearly the minimum.
+const OVERSHOOT: f64 = 0.1;
 /// Iterations of the unaccelerated or Anderson iteration count for this many of Newton's limit.
 const CHEAP_ITERATIONS: usize = 100;
 /// A change of contact in this last share of a piece counts as its end: the target comes first.
@@ -160,23 +162,23 @@ impl Engine<'_> {
                 return Err(NoIncrement::NotConverged(residual));
             }
             if residual > settings.tolerance {
-                let direction = match settings.plastic_iteration {
+                let (direction, length) = match settings.plastic_iteration {
                     PlasticIteration::Newton => {
                         let forcing = (residual / last).powi(2).clamp(1e-5, 0.03);
                         let mut change = self.solve_tangent(&balance, forcing);
                         change.add(1.0, &balance);
-                        self.direction(change)
+                        let newton = self.direction(change);
+                        match self.line_search(&state, &newton, &balance) {
+                            Some(length) => (newton, length),
+                            // The elastic stiffness bounds the tangent from above: the plain step always lowers the energy.
+                            None => (self.direction(balance.clone()), 1.0),
+                        }
                     }
                     PlasticIteration::Anderson => {
                         let change = anderson.change(&state.initial, &balance);
-                        self.direction(change)
+                        (self.direction(change), 1.0)
                     }
-                    PlasticIteration::Plain => self.direction(balance.clone()),
-                };
-                let length = if settings.plastic_iteration == PlasticIteration::Newton {
-                    self.line_search(&state, &direction, &balance)
-                } else {
-                    1.0
+                    PlasticIteration::Plain => (self.direction(balance.clone()), 1.0),
                 };
                 advance(&mut state, length, &direction);
                 last = residual;
@@ -283,16 +285,19 @@ impl Engine<'_> {
             .collect()
     }
 
-    /// Length along a Newton direction: the energy of the increment is convex, its slope along the direction is the
-    /// out-of-balance force times the direction. Lengths are halved until the slope has fallen.
+    /// Length along a Newton direction. The energy of the increment is convex and the out-of-balance force times the
+    /// direction is the negative of its slope: while that has not turned, the energy has fallen all the way. A length
+    /// that overshoots is cut by the secant. `None` where the direction leads nowhere.
     fn line_search(
         &mut self,
         state: &Equilibrium,
         direction: &Direction,
         balance: &Trailing,
-    ) -> f64 {
+    ) -> Option<f64> {
         let slope = balance.dot(&direction.u);
-        let size = balance.largest();
+        if slope <= 0.0 || !slope.is_finite() {
+            return None;
+        }
         let mut length = 1.0;
         let mut trial = state.clone();
         let mut out = self.sub.zeros();
@@ -303,16 +308,14 @@ impl Engine<'_> {
             self.counts.plastic_iterations += 1;
             out.add(-1.0, &trial.initial);
             let there = out.dot(&direction.u);
-            if out.largest() < size || there.abs() <= 0.9 * slope.abs() {
-                return length;
+            if there >= -OVERSHOOT * slope {
+                return Some(length);
             }
-            length *= if there < 0.0 && slope > 0.0 {
-                (slope / (slope - there)).clamp(0.1, 0.5)
-            } else {
-                0.5
-            };
+            // Not a number: far too long.
+            let share = slope / (slope - there);
+            length *= if share.is_finite() { share.clamp(0.01, 0.9) } else { 0.01 };
         }
-        length
+        None
     }
 }
 
