@@ -6,8 +6,9 @@ use crate::assembly::local_element;
 use crate::element::MAX_FREEDOMS;
 use crate::error::Result;
 use crate::material::{PlasticState, stress, von_mises};
-use crate::model::{Model, Slot};
+use crate::model::{Magnitude, Model, Slot};
 use crate::results::{Fields, Quality, State};
+use crate::scene::History;
 use rayon::prelude::*;
 
 /// Stress figures and nodal forces of an element.
@@ -49,7 +50,7 @@ impl Engine<'_> {
         Ok(State {
             name: name.to_string(),
             alpha: self.at.alpha,
-            load: self.total_load_size(),
+            load: self.reaction(&elements).unwrap_or_else(|| self.total_load_size()),
             contact_force: figures.force * self.model.symmetry,
             max_pressure: figures.max_pressure,
             pole_pressure: figures.pole_pressure,
@@ -115,6 +116,31 @@ impl Engine<'_> {
                 out
             })
             .collect()
+    }
+
+    /// Where the loads that vary are prescribed displacements only and nothing touches: the force that holds the first of
+    /// them, along its displacement, of the whole.
+    fn reaction(&self, elements: &[ElementState]) -> Option<f64> {
+        let model = self.model;
+        let mut varying = model.loads.iter().enumerate().filter(|(_, l)| !matches!(l.history, History::Constant));
+        if varying.clone().any(|(_, l)| l.measures != Magnitude::Displacement) || !model.pairs.is_empty() {
+            return None;
+        }
+        let (leading, _) = varying.next()?;
+        let mut sum = 0.0;
+        for (e, element) in elements.iter().enumerate() {
+            for (i, &node) in model.mesh.nodes(e).iter().enumerate() {
+                for (d, slot) in model.freedoms.slots[node as usize].iter().enumerate() {
+                    if let Slot::Prescribed(p) = slot {
+                        let prescribed = &model.freedoms.prescribed[*p as usize];
+                        if prescribed.load == leading {
+                            sum += element.force[2 * i + d] * prescribed.value.signum();
+                        }
+                    }
+                }
+            }
+        }
+        Some(sum * self.at.factors[leading].signum() * model.symmetry)
     }
 
     /// Largest nodal force that the stresses leave unbalanced, over the largest nodal force of the run.
