@@ -52,10 +52,10 @@ pub enum NoIncrement {
     Stopped,
 }
 
-/// Most evaluations of a line search.
-const SEARCH: usize = 8;
-/// Slope at the end of a line search over that at its begin.
-const FLAT_ENOUGH: f64 = 0.7;
+/// Cuts of a line search.
+const BACKTRACKS: usize = 12;
+/// Share of the slope at the begin to which the slope beyond a minimum may grow: nearly the minimum.
+const OVERSHOOT: f64 = 0.1;
 /// Iterations of the unaccelerated or Anderson iteration count for this many of Newton's limit.
 const CHEAP_ITERATIONS: usize = 100;
 /// Newton's iteration is given up when the residual has not fallen below this share of the best for `PATIENCE` iterations.
@@ -179,25 +179,30 @@ impl Engine<'_> {
                 return Err(NoIncrement::NotConverged(residual));
             }
             if residual > settings.tolerance {
-                let direction = match settings.plastic_iteration {
+                let (direction, length) = match settings.plastic_iteration {
                     PlasticIteration::Newton => {
                         let forcing = (residual / last).powi(2).clamp(1e-5, 0.03);
                         let mut change = self.solve_tangent(&balance, forcing, 1.0 - damping);
                         change.add(1.0, &balance);
-                        self.direction(change)
+                        let newton = self.direction(change);
+                        match self.line_search(&state, &newton, &balance) {
+                            Some(length) => {
+                                damping = next_damping(damping, length);
+                                (newton, length)
+                            }
+                            // The elastic stiffness bounds the tangent from above: the plain step always lowers the energy.
+                            None => {
+                                damping = next_damping(damping, 0.0);
+                                (self.direction(balance.clone()), 1.0)
+                            }
+                        }
                     }
                     PlasticIteration::Anderson => {
                         let change = anderson.change(&state.initial, &balance);
-                        self.direction(change)
+                        (self.direction(change), 1.0)
                     }
-                    PlasticIteration::Plain => self.direction(balance.clone()),
+                    PlasticIteration::Plain => (self.direction(balance.clone()), 1.0),
                 };
-                let length = if newton {
-                    self.line_search(&state, &direction, &balance)
-                } else {
-                    1.0
-                };
-                damping = next_damping(damping, length);
                 advance(&mut state, length, &direction);
                 last = residual;
             }
@@ -306,40 +311,37 @@ impl Engine<'_> {
             .collect()
     }
 
-    /// Length along a Newton direction. The energy of the increment is convex and its slope along the direction is the
-    /// out-of-balance force times the direction: the full length is taken unless the slope has turned and is still steep;
-    /// then its zero is bracketed.
+    /// Length along a Newton direction. The energy of the increment is convex and the out-of-balance force times the
+    /// direction is the negative of its slope: while that has not turned, the energy has fallen all the way. A length
+    /// that overshoots is cut by the secant. `None` where the direction leads nowhere.
     fn line_search(
         &mut self,
         state: &Equilibrium,
         direction: &Direction,
         balance: &Trailing,
-    ) -> f64 {
+    ) -> Option<f64> {
         let slope = balance.dot(&direction.u);
-        let (mut low, mut at_low) = (0.0, slope);
-        let (mut high, mut at_high) = (1.0, f64::NAN);
+        if slope <= 0.0 || !slope.is_finite() {
+            return None;
+        }
         let mut length = 1.0;
         let mut trial = state.clone();
         let mut out = self.sub.zeros();
-        for _ in 0..SEARCH {
+        for _ in 0..BACKTRACKS {
             trial.clone_from(state);
             advance(&mut trial, length, direction);
             self.zone.evaluate(&trial.u, &mut out);
             self.counts.plastic_iterations += 1;
             out.add(-1.0, &trial.initial);
             let there = out.dot(&direction.u);
-            if there.abs() <= FLAT_ENOUGH * slope.abs() || (there > 0.0 && length == 1.0) {
-                break;
+            if there >= -OVERSHOOT * slope {
+                return Some(length);
             }
-            if there > 0.0 {
-                (low, at_low) = (length, there);
-            } else {
-                (high, at_high) = (length, there);
-            }
-            let secant = low + (high - low) * at_low / (at_low - at_high);
-            length = secant.clamp(low + 0.1 * (high - low), high - 0.1 * (high - low));
+            // Not a number: far too long.
+            let share = slope / (slope - there);
+            length *= if share.is_finite() { share.clamp(0.01, 0.9) } else { 0.01 };
         }
-        length
+        None
     }
 }
 

@@ -8,6 +8,7 @@ use crate::error::Result;
 use crate::material::{PlasticState, stress, von_mises};
 use crate::model::{Magnitude, Model, Slot};
 use crate::results::{Fields, Quality, State};
+use crate::scene::History;
 use rayon::prelude::*;
 
 /// Stress figures and nodal forces of an element.
@@ -49,9 +50,7 @@ impl Engine<'_> {
         Ok(State {
             name: name.to_string(),
             alpha: self.at.alpha,
-            load: self
-                .reaction(&elements)
-                .unwrap_or_else(|| self.total_load_size()),
+            load: self.reaction(&elements).unwrap_or_else(|| self.total_load_size()),
             contact_force: figures.force * self.model.symmetry,
             max_pressure: figures.max_pressure,
             pole_pressure: figures.pole_pressure,
@@ -119,29 +118,29 @@ impl Engine<'_> {
             .collect()
     }
 
-    /// The total reaction, along the load, of the first load if that prescribes displacements (the whole's).
+    /// Where the loads that vary are prescribed displacements only and nothing touches: the force that holds the first of
+    /// them, along its displacement, of the whole.
     fn reaction(&self, elements: &[ElementState]) -> Option<f64> {
         let model = self.model;
-        let leading = self.leading_load()?;
-        let direction = model.loads[leading].direction;
-        if model.loads[leading].measures != Magnitude::Displacement {
+        let mut varying = model.loads.iter().enumerate().filter(|(_, l)| !matches!(l.history, History::Constant));
+        if varying.clone().any(|(_, l)| l.measures != Magnitude::Displacement) || !model.pairs.is_empty() {
             return None;
         }
-        let mut total = 0.0;
+        let (leading, _) = varying.next()?;
+        let mut sum = 0.0;
         for (e, element) in elements.iter().enumerate() {
             for (i, &node) in model.mesh.nodes(e).iter().enumerate() {
-                let axes = model.freedoms.local(node as usize);
                 for (d, slot) in model.freedoms.slots[node as usize].iter().enumerate() {
-                    if let Slot::Prescribed(p) = *slot {
-                        if model.freedoms.prescribed[p as usize].load == leading {
-                            let along = axes[d][0] * direction[0] + axes[d][1] * direction[1];
-                            total += element.force[2 * i + d] * along;
+                    if let Slot::Prescribed(p) = slot {
+                        let prescribed = &model.freedoms.prescribed[*p as usize];
+                        if prescribed.load == leading {
+                            sum += element.force[2 * i + d] * prescribed.value.signum();
                         }
                     }
                 }
             }
         }
-        Some(total.abs() * model.symmetry)
+        Some(sum * self.at.factors[leading].signum() * model.symmetry)
     }
 
     /// Largest nodal force that the stresses leave unbalanced, over the largest nodal force of the run.

@@ -11,7 +11,7 @@ pub(super) fn fine_depth() -> f64 {
 }
 
 pub(super) fn far_size() -> f64 {
-    2000.0
+    20_000.0
 }
 
 pub(super) fn growth() -> f64 {
@@ -23,7 +23,7 @@ pub(super) fn shape() -> Shape {
 }
 
 pub(super) fn far_radius() -> f64 {
-    20.0
+    100.0
 }
 
 pub(super) fn disc_growth() -> f64 {

@@ -1,0 +1,15 @@
+//! Published cases with known answers, run through the library: one case per file, its source at the head.
+
+mod contact_patch;
+mod cyclic_element;
+mod disc_in_plate;
+mod flat_punch;
+mod hertz_line;
+mod hertz_line_history;
+mod hertz_point;
+mod quality;
+mod run;
+mod shrink_fit;
+mod thick_cylinder;
+mod thick_sphere;
+mod yield_load;

@@ -1,0 +1,52 @@
+//! Scene to results, as a user of the library would.
+
+use brinell::analysis::Analysis;
+use brinell::linalg::Backend;
+use brinell::model::Model;
+use brinell::progress::Silent;
+use brinell::results::{Results, State};
+use brinell::scene::Scene;
+
+fn backend() -> Backend {
+    if cfg!(feature = "cholmod") { Backend::default() } else { Backend::Dense }
+}
+
+fn analysis(scene: &Scene) -> Analysis {
+    Analysis::new(Model::new(scene).unwrap(), backend()).unwrap()
+}
+
+/// A scene of `data/scenes` with overrides.
+pub fn scene(name: &str, overrides: &[&str]) -> Scene {
+    let path = format!("{}/data/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let overrides: Vec<String> = overrides.iter().map(|o| o.to_string()).collect();
+    Scene::load_with(path, &overrides).unwrap()
+}
+
+/// Runs a scene's whole program, which it must reach the end of.
+pub fn run(scene: &Scene) -> Results {
+    let results = analysis(scene).run(&mut Silent).unwrap();
+    assert_eq!(results.incomplete, None);
+    results
+}
+
+/// Runs a scene that may end early.
+pub fn run_until_it_ends(scene: &Scene) -> Results {
+    analysis(scene).run(&mut Silent).unwrap()
+}
+
+/// The yield load only.
+pub fn yield_load(scene: &Scene) -> Results {
+    analysis(scene).yield_load(&mut Silent).unwrap()
+}
+
+/// The state of a name.
+pub fn state<'a>(results: &'a Results, name: &str) -> &'a State {
+    results.states.iter().find(|s| s.name == name).unwrap()
+}
+
+/// Panics unless `value` is within `tolerance` (relative) of `exact`.
+#[track_caller]
+pub fn close(value: f64, exact: f64, tolerance: f64) {
+    let error = (value / exact - 1.0).abs();
+    assert!(error <= tolerance, "{value} against {exact}: off by {error:.3e}, more than {tolerance:.1e}");
+}
