@@ -21,6 +21,8 @@ pub mod error;
 
 pub mod analytical;
 
+pub mod shape;
+
 pub mod scene;
 
 pub mod mesh;
