@@ -33,9 +33,9 @@ pub mod element;
 
 pub mod model;
 
-pub mod assembly;
-
 pub mod linalg;
+
+pub mod assembly;
 
 pub mod contact;
 
