@@ -124,7 +124,10 @@ fn of_the_whole(scene: &Scene, mesh: &Mesh) -> Scene {
     axis.on = "axis".into();
     whole.support.retain(|s| !cut(s));
     whole.support.push(axis);
-    if let Some(force) = whole.load.iter_mut().find_map(|l| l.plane_force.as_mut()) {
+    // Total forces in a scene with a symmetry are those of the whole.
+    if scene.symmetry == 1
+        && let Some(force) = whole.load.iter_mut().find_map(|l| l.plane_force.as_mut())
+    {
         force.total *= 2.0;
     }
     whole.symmetry = 1;
