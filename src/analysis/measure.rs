@@ -107,7 +107,8 @@ pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigur
                 k += 1;
             }
             let sum: f64 = force[begin..k].iter().sum();
-            if sum > largest {
+            // Bodies in a row pass the same force on: the first of equal patches is taken, not that of the larger round-off.
+            if sum > largest * (1.0 + VANISHING) {
                 largest = sum;
                 let patch = Patch {
                     model,
