@@ -21,6 +21,8 @@ pub mod error;
 
 pub mod analytical;
 
+pub mod shape;
+
 pub mod scene;
 
 pub mod mesh;
@@ -31,9 +33,9 @@ pub mod element;
 
 pub mod model;
 
-pub mod assembly;
-
 pub mod linalg;
+
+pub mod assembly;
 
 pub mod contact;
 

@@ -10,6 +10,11 @@ use crate::results::{PairState, Status};
 const EDGE_SKIP: isize = 2;
 /// Pairs before those from which the edge is extrapolated.
 const EDGE_POINTS: isize = 3;
+/// Forces below this share of the largest are of pairs about to open or just closed: at a change of contact the force is zero up
+/// to round-off or gamma, and the extent of the contact must not depend on what is left of it.
+const VANISHING: f64 = 1e-7;
+/// Forces below this share of the largest of the run are round-off of an unloaded contact.
+const ROUND_OFF: f64 = 1e-13;
 
 /// Contact pressures and extents at the current state.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -78,29 +83,32 @@ pub fn pair_states(model: &Model, gap: &[f64], force: &[f64], open: &[bool]) -> 
         .collect()
 }
 
-/// Figures of the largest contact patch.
-pub fn contact_figures(model: &Model, force: &[f64]) -> ContactFigures {
+/// Figures of the largest contact patch. `scale` is the largest force of the run.
+pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigures {
     let pressure = pressures(model, force);
     let mut out = ContactFigures {
         max_pressure: pressure.iter().fold(0.0, |m, p| m.max(*p)),
         force: force.iter().sum(),
         ..ContactFigures::default()
     };
+    let strongest = force.iter().fold(0.0f64, |m, r| m.max(*r));
+    let vanishing = (VANISHING * strongest).max(ROUND_OFF * scale);
     let mut largest = 0.0;
     for (index, contact) in model.contacts.iter().enumerate() {
         let range = contact.range.clone();
         let mut k = range.start;
         while k < range.end {
-            if force[k] <= 0.0 {
+            if force[k] <= vanishing {
                 k += 1;
                 continue;
             }
             let begin = k;
-            while k < range.end && force[k] > 0.0 {
+            while k < range.end && force[k] > vanishing {
                 k += 1;
             }
             let sum: f64 = force[begin..k].iter().sum();
-            if sum > largest {
+            // Bodies in a row pass the same force on: the first of equal patches is taken, not that of the larger round-off.
+            if sum > largest * (1.0 + VANISHING) {
                 largest = sum;
                 let patch = Patch {
                     model,
@@ -234,7 +242,7 @@ fn falling_line(points: &[(f64, f64)]) -> Option<(f64, f64)> {
 impl Engine<'_> {
     /// Contact figures of the current state.
     pub fn contact_figures(&self) -> ContactFigures {
-        contact_figures(self.model, &self.now.force)
+        contact_figures(self.model, &self.now.force, self.force_scale)
     }
 
     /// The load that the results are told by: the first that varies, else the first.

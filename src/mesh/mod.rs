@@ -7,11 +7,10 @@ mod conformity;
 pub mod generate;
 pub mod gmsh;
 mod jacobian;
-mod shape;
 pub mod surface;
 mod validate;
 
-pub use shape::Shape;
+pub use crate::shape::Shape;
 pub use validate::validate;
 
 use std::collections::BTreeMap;

@@ -1,6 +1,6 @@
 //! Values of keys that a scene may leave out.
 
-use crate::mesh::Shape;
+use crate::shape::Shape;
 
 pub(super) fn fine_width() -> f64 {
     2.0

@@ -1,6 +1,6 @@
 //! Where the mesh comes from: a generator with its parameters, or a file.
 
-use crate::mesh::Shape;
+use crate::shape::Shape;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 

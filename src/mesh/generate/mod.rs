@@ -29,7 +29,8 @@ use std::path::Path;
 /// The mesh that a scene's `[mesh]` asks for.
 ///
 /// A relative `file` is looked up in `directory` (the scene file's). `half_width` gives the contact
-/// half width at first yield of a cylinder on a half plane; it is only called for that geometry.
+/// half width at first yield of a cylinder on a half plane; it is only called for that geometry, where the
+/// source does not give one.
 ///
 /// # Errors
 /// Input errors if not exactly one source is given, and those of the source itself.
@@ -52,7 +53,11 @@ pub fn from_source(
         )));
     }
     if let Some(p) = &source.cylinder_on_half_plane {
-        cylinder_on_half_plane(p, half_width(p)?)
+        let half_width = match p.half_width {
+            Some(given) => given,
+            None => half_width(p)?,
+        };
+        cylinder_on_half_plane(p, half_width)
     } else if let Some(p) = &source.disc_in_plate {
         disc_in_plate(p)
     } else if let Some(p) = &source.parts {

@@ -267,7 +267,7 @@ fn overrides_reach_every_part_of_a_scene() {
     assert_eq!(scene.materials["steel"].plastic_modulus, Some(1000.0));
     let part = &scene.mesh.parts.as_ref().unwrap()[0];
     assert_eq!(part.block.as_ref().unwrap().elements, [2, 6]);
-    assert_eq!(part.element, crate::mesh::Shape::Quad8);
+    assert_eq!(part.element, crate::shape::Shape::Quad8);
     // A later override wins over an earlier one.
     let table = History::Table(vec![[0.0, 0.0], [1.0, 2.0]]);
     assert_eq!(scene.load[0].history, table);

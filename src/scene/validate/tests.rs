@@ -1,6 +1,6 @@
 //! One rule of validation per row: what is done to a good scene, and what the message must hold.
 
-use crate::mesh::Shape;
+use crate::shape::Shape;
 use crate::scene::{
     Direction, Displacement, DisplacementTarget, History, Kind, PlaneForce, Plastic, Reference,
     Ring, Scene, Target, Unit,

@@ -1,0 +1,11 @@
+//! CHOLMOD against the dense reference: the same condensed matrix, the same yield load, the same histories.
+//!
+//! The dense backend does by textbook formulas what CHOLMOD does with a constrained ordering and partial solves. They share no code
+//! below `Condensed`, so agreement to 1e-10 leaves no room for a wrong block, sign or permutation.
+#![cfg(feature = "cholmod")]
+
+mod agreement;
+mod random;
+#[path = "../running/mod.rs"]
+mod running;
+mod scenes;

@@ -1,0 +1,284 @@
+//! The structure that the project means to keep: module order, where `unsafe` lives, sizes, schema, scenes.
+
+use brinell::scene::Scene;
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// All files below `folder` with this ending, sorted.
+fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
+    fn walk(folder: &Path, ending: &str, out: &mut Vec<PathBuf>) {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                walk(&path, ending, out);
+            } else if path.extension().is_some_and(|e| e == ending) {
+                out.push(path);
+            }
+        }
+    }
+    let mut out = Vec::new();
+    walk(&root().join(folder), ending, &mut out);
+    out.sort();
+    assert!(!out.is_empty(), "no .{ending} in {folder}");
+    out
+}
+
+/// The path below the root, with `/`.
+fn name(path: &Path) -> String {
+    let below = path.strip_prefix(root()).unwrap();
+    below.to_string_lossy().replace('\\', "/")
+}
+
+/// The code of a file without comments (a `//` inside a string ends the line too: that hides code, it adds none).
+fn code(path: &Path) -> String {
+    let text = std::fs::read_to_string(path).unwrap();
+    let lines = text.lines().map(|l| l.split("//").next().unwrap_or(""));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+fn is_test(name: &str) -> bool {
+    name.contains("/tests/") || name.ends_with("tests.rs")
+}
+
+/// The module a file belongs to: `src/mesh/gmsh/mod.rs` to `mesh`.
+fn module(name: &str) -> &str {
+    let below = name.strip_prefix("src/").unwrap();
+    let end = below.find('/').unwrap_or(below.len() - ".rs".len());
+    &below[..end]
+}
+
+/// First path segments that follow `crate::` in some code; of `crate::{a, b::c}` both.
+fn imports(code: &str) -> BTreeSet<String> {
+    let word = |text: &str| -> String {
+        let word = text.trim_start();
+        let end = word
+            .find(|c: char| !(c.is_alphanumeric() || c == '_'))
+            .unwrap_or(word.len());
+        word[..end].to_string()
+    };
+    let mut out = BTreeSet::new();
+    for (at, _) in code.match_indices("crate::") {
+        let rest = &code[at + "crate::".len()..];
+        let Some(list) = rest.strip_prefix('{') else {
+            out.insert(word(rest));
+            continue;
+        };
+        let mut depth = 0;
+        let mut item = String::new();
+        for c in list.chars() {
+            match c {
+                '{' => depth += 1,
+                '}' if depth == 0 => break,
+                '}' => depth -= 1,
+                ',' if depth == 0 => {
+                    out.insert(word(&item));
+                    item.clear();
+                    continue;
+                }
+                _ => {}
+            }
+            item.push(c);
+        }
+        out.insert(word(&item));
+    }
+    out.remove("");
+    out
+}
+
+#[test]
+fn imports_are_found_in_every_form() {
+    let found = imports("use crate::a::B; use crate::{c::{D, E}, f, G}; let x = crate::h::i();");
+    let expected = ["a", "c", "f", "G", "h"].map(String::from);
+    assert_eq!(found, BTreeSet::from(expected));
+}
+
+/// A module imports only from itself and from modules declared above it in `lib.rs`.
+#[test]
+fn modules_import_from_above_only() {
+    let order: Vec<String> = code(&root().join("src/lib.rs"))
+        .lines()
+        .filter_map(|l| {
+            l.trim()
+                .strip_prefix("pub mod ")?
+                .strip_suffix(';')
+                .map(String::from)
+        })
+        .collect();
+    assert!(order.len() > 10, "{order:?}");
+    let mut wrong = Vec::new();
+    for path in files("src", "rs") {
+        let name = name(&path);
+        if ["src/lib.rs", "src/main.rs"].contains(&name.as_str()) {
+            continue;
+        }
+        let own = order.iter().position(|m| m == module(&name));
+        let own = own.unwrap_or_else(|| panic!("{name} belongs to no module of lib.rs"));
+        for import in imports(&code(&path)) {
+            // `Error`, `ErrorKind` and `Result` stand at the root, for `error`.
+            if let Some(place) = order.iter().position(|m| *m == import)
+                && place > own
+            {
+                wrong.push(format!("{name} imports from `{import}`, declared below"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+#[test]
+fn unsafe_is_at_home_in_one_place() {
+    for path in files("src", "rs") {
+        let name = name(&path);
+        let text = code(&path);
+        let uses = text
+            .split(|c: char| !(c.is_alphanumeric() || c == '_'))
+            .any(|word| word == "unsafe");
+        let home = name.starts_with("src/linalg/cholmod/") || name.starts_with("src/capi");
+        assert!(home || !uses, "{name} has `unsafe`");
+    }
+}
+
+#[test]
+fn the_library_never_prints() {
+    for path in files("src", "rs") {
+        let name = name(&path);
+        if name.starts_with("src/cli/") || name == "src/main.rs" || is_test(&name) {
+            continue;
+        }
+        // What a file tests of itself stands at its end.
+        let text = code(&path);
+        let text = text.split("#[cfg(test)]").next().unwrap_or("");
+        for macro_name in [
+            "println!",
+            "eprintln!",
+            "print!",
+            "eprint!",
+            "dbg!",
+            "todo!",
+            "unimplemented!",
+        ] {
+            assert!(!text.contains(macro_name), "{name} has {macro_name}");
+        }
+    }
+}
+
+/// Files that are longer and wait to be divided: they may shrink, not grow.
+const TOO_LONG: [(&str, usize); 1] = [("src/analysis/program.rs", 750)];
+
+#[test]
+fn files_have_at_most_500_lines() {
+    let long: Vec<String> = ["src", "tests"]
+        .iter()
+        .flat_map(|folder| files(folder, "rs"))
+        .map(|path| {
+            (
+                name(&path),
+                std::fs::read_to_string(&path).unwrap().lines().count(),
+            )
+        })
+        .filter(|(name, lines)| {
+            let known = TOO_LONG.iter().find(|(file, _)| file == name);
+            *lines > known.map_or(500, |(_, most)| *most)
+        })
+        .map(|(name, lines)| format!("{name}: {lines}"))
+        .collect();
+    assert!(long.is_empty(), "{long:#?}");
+}
+
+#[test]
+fn every_scene_parses() {
+    for path in files("data/scenes", "toml") {
+        let scene = Scene::load(&path).unwrap_or_else(|e| panic!("{}: {e}", name(&path)));
+        assert!(!scene.title.is_empty(), "{} has no title", name(&path));
+    }
+}
+
+/// Every key that the program writes is in the schema, and every key of the schema is written.
+#[test]
+fn the_schema_has_the_keys_that_the_program_writes() {
+    let out = tempfile::tempdir().unwrap();
+    let dir = out.path().join("results");
+    let run = std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
+        .args(["run", "-q", "--out"])
+        .arg(&dir)
+        .arg(root().join("data/scenes/hard/interference.toml"))
+        // With yield, reference values and the angle of contact: an object of each kind.
+        .args(["--set", "materials.steel.yield_stress=200"])
+        .args(["--set", "materials.steel.plastic_modulus=20000"])
+        .args(["--set", "program.targets=[{ load_factor = 10.0 }]"])
+        .args([
+            "--set",
+            "reference=[{ quantity = \"states.0.load\", value = 1.0, source = \"none\" }]",
+        ])
+        .output()
+        .unwrap();
+    assert!(
+        run.status.success(),
+        "{}",
+        String::from_utf8_lossy(&run.stderr)
+    );
+    let summary = std::fs::read_to_string(dir.join("summary.json")).unwrap();
+    let summary: Value = serde_json::from_str(&summary).unwrap();
+    let schema: Value = serde_json::from_str(brinell::output::SUMMARY_SCHEMA).unwrap();
+    let on_disk = std::fs::read_to_string(root().join("data/schema/summary.schema.json")).unwrap();
+    assert_eq!(on_disk, brinell::output::SUMMARY_SCHEMA);
+    if let Err(error) = jsonschema::validate(&schema, &summary) {
+        panic!("{error}");
+    }
+    let mut compared = 0;
+    same_keys(&schema, &schema, &summary, "summary", &mut compared);
+    assert!(compared >= 8, "only {compared} objects compared");
+}
+
+/// Follows `$ref` and the object among the alternatives of a nullable value.
+fn resolve<'s>(root: &'s Value, schema: &'s Value) -> &'s Value {
+    if let Some(reference) = schema["$ref"].as_str() {
+        let pointer = reference.strip_prefix('#').unwrap();
+        return resolve(root, root.pointer(pointer).unwrap());
+    }
+    for alternatives in ["anyOf", "oneOf"] {
+        if let Some(list) = schema[alternatives].as_array() {
+            let inner = list.iter().map(|s| resolve(root, s));
+            if let Some(object) = inner.into_iter().find(|s| s["properties"].is_object()) {
+                return object;
+            }
+        }
+    }
+    schema
+}
+
+fn same_keys(root: &Value, schema: &Value, value: &Value, path: &str, compared: &mut usize) {
+    let schema = resolve(root, schema);
+    match value {
+        Value::Object(object) => {
+            // Objects with free keys (bodies, phases) have no properties.
+            let Some(known) = schema["properties"].as_object() else {
+                return;
+            };
+            *compared += 1;
+            let written: BTreeSet<&String> = object.keys().collect();
+            let described: BTreeSet<&String> = known.keys().collect();
+            assert_eq!(written, described, "keys of {path}");
+            for (key, value) in object {
+                same_keys(root, &known[key], value, &format!("{path}.{key}"), compared);
+            }
+        }
+        Value::Array(items) => {
+            for (index, item) in items.iter().enumerate() {
+                same_keys(
+                    root,
+                    &schema["items"],
+                    item,
+                    &format!("{path}.{index}"),
+                    compared,
+                );
+            }
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,8 @@
+//! What must not matter: units, sizes, numbering, order, threads, mirrors.
+
+mod mirrors;
+mod numbering;
+#[path = "../running/mod.rs"]
+mod running;
+mod threads;
+mod units;

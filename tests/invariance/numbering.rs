@@ -1,0 +1,202 @@
+//! Numbers of nodes and elements, order of bodies and contacts, which surface is called first.
+
+use crate::running::{close, largest, load, parse, run, run_on, same_contact, state};
+use brinell::mesh::{Facet, Mesh, gmsh};
+use brinell::model::Model;
+use brinell::results::{Results, State};
+use brinell::scene::Scene;
+
+/// A fixed shuffle of `0..n`: steps of the golden ratio, made prime to `n`.
+fn shuffle(n: usize) -> Vec<usize> {
+    let divides = |step: usize| (2..=step).any(|d| step.is_multiple_of(d) && n.is_multiple_of(d));
+    let mut step = (n as f64 * 0.618) as usize + 1;
+    while divides(step) {
+        step += 1;
+    }
+    (0..n).map(|k| (k * step + 3) % n).collect()
+}
+
+/// The same mesh with other numbers of nodes and elements, and elements that begin at another corner.
+pub fn renumbered(mesh: &Mesh) -> Mesh {
+    let (nodes, elements) = (shuffle(mesh.n_nodes()), shuffle(mesh.n_elements()));
+    let mut out = Mesh {
+        dimension: mesh.dimension,
+        coordinates: vec![0.0; mesh.coordinates.len()],
+        bodies: mesh.bodies.clone(),
+        ..Mesh::default()
+    };
+    for (old, &new) in nodes.iter().enumerate() {
+        let x = mesh.point(old);
+        out.coordinates[2 * new..2 * new + 2].copy_from_slice(&x);
+    }
+    let mut old_of = vec![0; elements.len()];
+    for (old, &new) in elements.iter().enumerate() {
+        old_of[new] = old;
+    }
+    for &old in &old_of {
+        let corners = mesh.shapes[old].n_corners();
+        let turn = old % corners;
+        let own = mesh.nodes(old);
+        let mut list: Vec<u32> = (0..own.len())
+            .map(|i| own[i / corners * corners + (i + turn) % corners])
+            .collect();
+        for node in &mut list {
+            *node = nodes[*node as usize] as u32;
+        }
+        out.push_element(mesh.shapes[old], mesh.element_body[old] as usize, &list);
+    }
+    for (name, surface) in &mesh.surfaces {
+        let mut surface = surface.clone();
+        for facet in &mut surface.facets {
+            let corners = mesh.shapes[facet.element].n_corners();
+            let turn = facet.element % corners;
+            *facet = Facet {
+                element: elements[facet.element],
+                local: (facet.local + corners - turn) % corners,
+            };
+        }
+        surface.facets.reverse();
+        out.surfaces.insert(name.clone(), surface);
+    }
+    for (name, set) in &mesh.node_sets {
+        let mut set: Vec<usize> = set.iter().map(|&n| nodes[n]).collect();
+        set.sort_unstable();
+        out.node_sets.insert(name.clone(), set);
+    }
+    out
+}
+
+/// States with their pairs sorted by contact and position.
+fn sorted(results: &Results) -> Vec<State> {
+    let mut states = results.states.clone();
+    for s in &mut states {
+        s.pairs.sort_by(|a, b| {
+            let key = |p: &brinell::results::PairState| (p.contact, p.position);
+            key(a).partial_cmp(&key(b)).unwrap()
+        });
+    }
+    states
+}
+
+/// Both runs end in the same states. Elastic: `tolerance` is round-off; plastic: that of the plastic iteration and of gamma.
+fn same(what: &str, a: &Results, b: &Results, tolerance: f64) {
+    assert_eq!(a.states.len(), b.states.len(), "{what}");
+    for (s, t) in sorted(a).iter().zip(&sorted(b)) {
+        same_contact(&format!("{what}, state {}", s.name), s, t, tolerance);
+        let strain = largest(a.states.iter().map(|s| s.max_equivalent_plastic_strain));
+        close(
+            what,
+            s.max_equivalent_plastic_strain,
+            t.max_equivalent_plastic_strain,
+            strain,
+            tolerance,
+        );
+        // A dent is a difference of movements: of gaps, and of strain times the size of the model (about 1).
+        let depth = largest(a.states.iter().flat_map(|s| &s.pairs).map(|p| p.gap)).max(strain);
+        close(what, s.residual_depth, t.residual_depth, depth, tolerance);
+    }
+    if let (Some(x), Some(y)) = (a.first_yield, b.first_yield) {
+        close(what, x.alpha, y.alpha, x.alpha, 1e-11);
+    }
+}
+
+#[test]
+fn numbers_of_nodes_and_elements_do_not_matter() {
+    for (name, tolerance) in [
+        ("hard/unload_reload", 1e-8),
+        ("hard/zero_gap_conforming", 1e-10),
+        ("hard/three_in_a_row", 1e-11),
+        ("hard/interference", 1e-11),
+        ("hard/all_closed", 1e-8),
+    ] {
+        let scene = load(name, &[]);
+        let mesh = Model::new(&scene).unwrap().mesh;
+        let other = renumbered(&mesh);
+        assert_ne!(mesh.connectivity, other.connectivity);
+        same(name, &run(&scene), &run_on(&scene, other), tolerance);
+    }
+}
+
+#[test]
+fn quadratic_elements_may_begin_at_any_corner() {
+    let set = [
+        "mesh.cylinder_on_half_plane.element=quad8",
+        "mesh.cylinder_on_half_plane.resolution=2",
+    ];
+    let scene = load("hard/separation", &set);
+    let mesh = Model::new(&scene).unwrap().mesh;
+    same(
+        "quad8",
+        &run(&scene),
+        &run_on(&scene, renumbered(&mesh)),
+        1e-8,
+    );
+}
+
+/// Through a file, with straight surfaces (the format has no curves).
+#[test]
+fn a_mesh_survives_gmsh_in_any_numbering() {
+    for name in ["hard/three_in_a_row", "hard/floating_body", "three_bodies"] {
+        let scene = load(name, &[]);
+        let mesh = Model::new(&scene).unwrap().mesh;
+        let mut text = Vec::new();
+        gmsh::write(&renumbered(&mesh), &mut text).unwrap();
+        let read = gmsh::parse(&text, "renumbered.msh").unwrap();
+        let tolerance = if name == "three_bodies" { 1e-8 } else { 1e-10 };
+        same(name, &run(&scene), &run_on(&scene, read), tolerance);
+    }
+}
+
+/// Bodies, contacts, supports and loads in the opposite order.
+#[test]
+fn the_order_in_the_scene_does_not_matter() {
+    let scene = load("hard/three_in_a_row", &[]);
+    let mut other = scene.clone();
+    other.mesh.parts.as_mut().unwrap().reverse();
+    other.support.reverse();
+    other.contact.reverse();
+    let (a, mut b) = (run(&scene), run(&other));
+    for s in &mut b.states {
+        for p in &mut s.pairs {
+            p.contact = 1 - p.contact;
+        }
+    }
+    same("reversed", &a, &b, 1e-11);
+}
+
+/// First and second surface swapped: the normal turns round, gaps and forces stay. On straight surfaces.
+#[test]
+fn first_and_second_may_be_swapped() {
+    for (name, tolerance) in [
+        ("hard/three_in_a_row", 1e-11),
+        ("hard/lift_off", 1e-11),
+        ("hard/all_closed", 1e-8),
+    ] {
+        let scene = load(name, &[]);
+        let mut other: Scene = scene.clone();
+        for contact in &mut other.contact {
+            std::mem::swap(&mut contact.first, &mut contact.second);
+        }
+        same(name, &run(&scene), &run(&other), tolerance);
+    }
+}
+
+/// One load of 100 or two of 50 on the same place; a support twice.
+#[test]
+fn loads_add_up() {
+    let text = std::fs::read_to_string(crate::running::scene_file("hard/three_in_a_row")).unwrap();
+    let load = "[[load]]\nname = \"press\"\non = \"upper.pad\"\npressure = 100.0\n";
+    assert!(text.contains(load));
+    let half =
+        |name: &str| format!("[[load]]\nname = \"{name}\"\non = \"upper.pad\"\npressure = 50.0\n");
+    let split = text.replace(load, &(half("a") + &half("b")));
+    let (a, b) = (run(&parse(&text)), run(&parse(&split)));
+    same("split load", &a, &b, 1e-11);
+    close(
+        "force",
+        state(&b, "half").contact_force,
+        state(&a, "half").contact_force,
+        100.0,
+        1e-11,
+    );
+}

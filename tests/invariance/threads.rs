@@ -1,0 +1,73 @@
+//! One thread or two: the same bits.
+
+use crate::running::scene_file;
+use serde_json::Value;
+use std::path::Path;
+use std::process::Command;
+
+fn run(name: &str, threads: &str, out: &Path, overrides: &[&str]) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    command
+        .arg("run")
+        .arg(scene_file(name))
+        .args(["-q", "--threads", threads, "--out"])
+        .arg(out);
+    for set in overrides {
+        command.args(["--set", set]);
+    }
+    let output = command.output().unwrap();
+    assert!(
+        output.status.success(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+}
+
+/// The summary without what depends on the clock and the process.
+fn summary(out: &Path) -> Value {
+    let text = std::fs::read_to_string(out.join("summary.json")).unwrap();
+    let mut summary: Value = serde_json::from_str(&text).unwrap();
+    let object = summary.as_object_mut().unwrap();
+    assert!(object.remove("timings").is_some());
+    assert!(object.remove("peak_memory_bytes").is_some());
+    for effect in object["effects"].as_object_mut().unwrap().values_mut() {
+        assert!(effect.as_object_mut().unwrap().remove("seconds").is_some());
+    }
+    summary
+}
+
+#[test]
+fn the_number_of_threads_changes_no_bit() {
+    for (name, overrides) in [
+        (
+            "hard/unload_reload",
+            vec!["mesh.cylinder_on_half_plane.resolution=8"],
+        ),
+        (
+            "hard/zero_gap_conforming",
+            vec!["mesh.disc_in_plate.resolution=48"],
+        ),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let [one, two] = ["1", "2"].map(|threads| {
+            let out = folder.path().join(threads);
+            run(name, threads, &out, &overrides);
+            out
+        });
+        assert_eq!(summary(&one), summary(&two), "{name}");
+        let files = |out: &Path| {
+            let mut names: Vec<_> = std::fs::read_dir(out)
+                .unwrap()
+                .map(|e| e.unwrap().file_name())
+                .collect();
+            names.sort();
+            names
+        };
+        assert_eq!(files(&one), files(&two));
+        assert!(files(&one).len() >= 4);
+        for file in files(&one).iter().filter(|f| *f != "summary.json") {
+            let [a, b] = [&one, &two].map(|out| std::fs::read(out.join(file)).unwrap());
+            assert!(a == b, "{name}: {} differs", file.display());
+        }
+    }
+}

@@ -1,0 +1,7 @@
+//! Properties: the complementarity solver on any problem, and states that do not depend on the steps.
+
+mod complementarity;
+mod path;
+#[path = "../running/mod.rs"]
+mod running;
+mod steps;

@@ -1,0 +1,97 @@
+//! The answer does not depend on how the path is cut into increments.
+
+use crate::running::{close, healthy, load, run, same_contact};
+use brinell::results::Results;
+
+/// The coarse cylinder, to twice its yield load and down to half of it.
+fn cylinder(overrides: &[&str]) -> Results {
+    let mut all = vec![
+        "program.targets=[{ yield = true }, { load_factor = 1.0 }, { load_factor = 2.0 }, { load_factor = 0.5 }]",
+        "materials.steel.plastic_modulus=60000.0",
+    ];
+    all.extend(overrides);
+    run(&load("hard/unload_reload", &all))
+}
+
+/// Elastic: contact is followed exactly, so neither gamma nor steps leave a trace.
+#[test]
+fn elastic_states_do_not_depend_on_increments() {
+    let elastic = [
+        "bodies.cylinder.plastic=false",
+        "bodies.half_plane.plastic=false",
+        "program.unit=load",
+        "mesh.cylinder_on_half_plane.half_width=0.2",
+    ];
+    let targets =
+        "program.targets=[{ load_factor = 1.0 }, { load_factor = 3.0 }, { load_factor = 0.2 }]";
+    let with = |more: &[&str]| {
+        let mut all = elastic.to_vec();
+        all.push(targets);
+        all.extend(more);
+        let results = run(&load("hard/unload_reload", &all));
+        healthy(&results);
+        results
+    };
+    let reference = with(&[]);
+    for gamma in ["1e-12", "1e-6", "1e-3", "0.3"] {
+        let other = with(&[&format!("program.gamma={gamma}")]);
+        for (a, b) in reference.states.iter().zip(&other.states) {
+            same_contact(gamma, a, b, 1e-12);
+        }
+    }
+    for steps in ["1", "7", "1000"] {
+        let other = with(&["program.stepping=steps", &format!("program.steps={steps}")]);
+        for (a, b) in reference.states.iter().zip(&other.states) {
+            same_contact(steps, a, b, 1e-12);
+        }
+    }
+}
+
+/// Elastoplastic: radial return is a backward Euler rule, so states of coarse increments are off by O(increment) at most. Fixed steps and
+/// events converge to one answer.
+#[test]
+fn elastoplastic_states_converge_to_one_answer() {
+    let of = |steps: usize| {
+        let results = cylinder(&["program.stepping=steps", &format!("program.steps={steps}")]);
+        healthy(&results);
+        results.states[2].max_equivalent_plastic_strain
+    };
+    let [four, sixteen, finest] = [4, 16, 64].map(of);
+    let (coarse, fine) = ((four - finest).abs(), (sixteen - finest).abs());
+    // Of first order: differences to the finest in the ratio (1/4 - 1/64) : (1/16 - 1/64) = 5; half of it is asked for.
+    assert!(fine < 0.4 * coarse, "{four:e} {sixteen:e} {finest:e}");
+
+    let events = cylinder(&[]);
+    healthy(&events);
+    // Events cut the load into about as many increments as pairs close: their error is that of steps of such a number.
+    let closed = events
+        .history
+        .iter()
+        .filter(|row| row.plastic_points > 0)
+        .count();
+    let strain = events.states[2].max_equivalent_plastic_strain;
+    assert!(closed > 2, "{closed} elastoplastic increments");
+    close(
+        "strain by events",
+        strain,
+        finest,
+        finest,
+        2.0 * (coarse / finest).max(1e-9),
+    );
+}
+
+/// gamma only says how exactly a change of contact is hit. From 1e-10 to 1e-6 the states agree to gamma; a gamma of 0.3 is a coarse path,
+/// off by as much as a coarse step, yet in equilibrium.
+#[test]
+fn gamma_bounds_the_error_of_elastoplastic_states() {
+    let reference = cylinder(&["program.gamma=1e-10"]);
+    for gamma in [1e-8, 1e-6] {
+        let other = cylinder(&[&format!("program.gamma={gamma:e}")]);
+        for (a, b) in reference.states.iter().zip(&other.states) {
+            same_contact(&format!("gamma {gamma:e}"), a, b, 100.0 * gamma);
+        }
+    }
+    for gamma in ["1e-12", "0.3"] {
+        healthy(&cylinder(&[&format!("program.gamma={gamma}")]));
+    }
+}

@@ -1,0 +1,140 @@
+//! Running scenes in tests, and comparing what came out.
+#![allow(dead_code)] // every test binary uses a part of it
+
+use brinell::analysis::Analysis;
+use brinell::linalg::Backend;
+use brinell::mesh::Mesh;
+use brinell::model::Model;
+use brinell::progress::Silent;
+use brinell::results::{Results, State, Status};
+use brinell::scene::Scene;
+use brinell::{Error, Result};
+use std::path::PathBuf;
+
+/// A file under `data/scenes`.
+pub fn scene_file(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+        .join("data/scenes")
+        .join(format!("{name}.toml"))
+}
+
+/// A scene of `data/scenes` with values overridden.
+pub fn load(name: &str, overrides: &[&str]) -> Scene {
+    let overrides: Vec<String> = overrides.iter().map(|o| o.to_string()).collect();
+    Scene::load_with(scene_file(name), &overrides).unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+/// A scene from its text.
+pub fn parse(text: &str) -> Scene {
+    Scene::parse(text, "test.toml").unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+/// Runs a scene; an incomplete run is an error, as on the command line.
+pub fn try_run(scene: &Scene, backend: Backend) -> Result<Results> {
+    complete(Analysis::new(Model::new(scene)?, backend)?.run(&mut Silent)?)
+}
+
+/// Runs a scene on a given mesh.
+pub fn run_on(scene: &Scene, mesh: Mesh) -> Results {
+    let model = Model::from_mesh(scene, mesh).unwrap_or_else(|e| panic!("{}: {e}", scene.title));
+    Analysis::new(model, Backend::default())
+        .and_then(|mut a| a.run(&mut Silent))
+        .and_then(complete)
+        .unwrap_or_else(|e| panic!("{}: {e}", scene.title))
+}
+
+fn complete(results: Results) -> Result<Results> {
+    match &results.incomplete {
+        None => Ok(results),
+        Some(why) => Err(Error::new(
+            results
+                .incomplete_kind
+                .unwrap_or(brinell::ErrorKind::Internal),
+            why.clone(),
+        )),
+    }
+}
+
+/// Runs a scene that must succeed.
+pub fn run(scene: &Scene) -> Results {
+    try_run(scene, Backend::default()).unwrap_or_else(|e| panic!("{}: {e}", scene.title))
+}
+
+/// Runs a scene of `data/scenes` that must succeed.
+pub fn run_file(name: &str, overrides: &[&str]) -> Results {
+    run(&load(name, overrides))
+}
+
+/// The state of a name.
+pub fn state<'r>(results: &'r Results, name: &str) -> &'r State {
+    results
+        .states
+        .iter()
+        .find(|s| s.name == name)
+        .unwrap_or_else(|| panic!("no state `{name}`"))
+}
+
+/// Largest absolute value.
+pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, |m, v| m.max(v.abs()))
+}
+
+/// `|a - b| <= tolerance * scale`, with a message.
+#[track_caller]
+pub fn close(what: &str, a: f64, b: f64, scale: f64, tolerance: f64) {
+    let off = (a - b).abs();
+    assert!(
+        off <= tolerance * scale.abs(),
+        "{what}: {a:.17e} against {b:.17e}, off by {:.3e} of {scale:.3e}, allowed {tolerance:.1e}",
+        off / scale.abs()
+    );
+}
+
+/// Two states have the same statuses and, to `tolerance` of the largest of each kind, the same gaps and forces.
+#[track_caller]
+pub fn same_contact(what: &str, a: &State, b: &State, tolerance: f64) {
+    assert_eq!(a.pairs.len(), b.pairs.len(), "{what}");
+    let gap = largest(a.pairs.iter().map(|p| p.gap));
+    let force = largest(a.pairs.iter().map(|p| p.force));
+    for (p, q) in a.pairs.iter().zip(&b.pairs) {
+        close(
+            &format!("{what}: gap of pair {}", p.pair),
+            p.gap,
+            q.gap,
+            gap,
+            tolerance,
+        );
+        close(
+            &format!("{what}: force of pair {}", p.pair),
+            p.force,
+            q.force,
+            force,
+            tolerance,
+        );
+        // A pair with neither gap nor force may be called either.
+        if p.gap > tolerance * gap || p.force > tolerance * force {
+            assert_eq!(p.status, q.status, "{what}: status of pair {}", p.pair);
+        }
+    }
+}
+
+/// Every state obeys equilibrium (`<= 1e-8` of the load), complementarity and non-penetration (round-off of `n`
+/// freedoms), with a small backward error.
+#[track_caller]
+pub fn healthy(results: &Results) {
+    for state in &results.states {
+        let q = &state.quality;
+        let name = &state.name;
+        assert!(q.backward_error <= 1e-13, "{name}: {q:?}");
+        assert!(q.equilibrium <= 1e-8, "{name}: {q:?}");
+        assert!(q.complementarity <= 1e-12, "{name}: {q:?}");
+        assert!(q.penetration <= 1e-12, "{name}: {q:?}");
+        for pair in &state.pairs {
+            assert!(pair.gap >= 0.0 && pair.force >= 0.0, "{name}: {pair:?}");
+            match pair.status {
+                Status::Open => assert_eq!(pair.force, 0.0, "{name}: {pair:?}"),
+                Status::Closed => assert_eq!(pair.gap, 0.0, "{name}: {pair:?}"),
+            }
+        }
+    }
+}

@@ -1,0 +1,178 @@
+//! Plastic flow: uniform, cyclic, at the limit load, nearly incompressible.
+
+use crate::running::{close, healthy, largest, load, run_file, same_contact, state};
+use brinell::ErrorKind;
+use brinell::analysis::Analysis;
+use brinell::linalg::Backend;
+use brinell::mesh::Mesh;
+use brinell::model::Model;
+use brinell::progress::Silent;
+use brinell::results::{Results, State};
+
+/// What was computed up to the end of a run that need not complete, and the mesh.
+fn as_far_as_it_goes(name: &str) -> (Mesh, Results) {
+    let model = Model::new(&load(name, &[])).unwrap();
+    let mut analysis = Analysis::new(model, Backend::default()).unwrap();
+    let results = analysis.run(&mut Silent).unwrap();
+    (analysis.model().mesh.clone(), results)
+}
+
+/// Nothing elastic is left to confine the flow: the plain initial-load iteration contracts at 3G/(3G + H) only, and codes stop at their
+/// limit of iterations short of equilibrium. The bar's solution is exact for the elements.
+#[test]
+fn uniform_flow_with_every_pair_closed_is_that_of_a_bar() {
+    let results = run_file("hard/all_closed", &[]);
+    healthy(&results);
+    close("yield", results.first_yield.unwrap().alpha, 1.0, 1.0, 1e-12);
+    let strain = (600.0 - 500.0) / 1000.0;
+    for name in ["plastic", "unloaded"] {
+        // The forces balance to 1e-10: stress to 6e-8, strain to 6e-8 / H.
+        let s = state(&results, name);
+        close(
+            "strain",
+            s.max_equivalent_plastic_strain,
+            strain,
+            600.0 / 1000.0,
+            1e-9,
+        );
+    }
+    for p in &state(&results, "plastic").pairs {
+        close("pressure", p.pressure, 600.0, 600.0, 1e-9);
+    }
+    close(
+        "unloaded",
+        state(&results, "unloaded").contact_force,
+        0.0,
+        1200.0,
+        1e-10,
+    );
+}
+
+/// Unloading is elastic if the flow rule sees the trial stress of the committed state, not of the last iterate, and contact is reversible
+/// if gaps are total, not summed up. Events are hit within gamma = 1e-8.
+#[test]
+fn unloading_and_reloading_comes_back_to_the_same_state() {
+    let results = run_file("hard/unload_reload", &[]);
+    healthy(&results);
+    let (first, second) = (state(&results, "first"), state(&results, "second"));
+    same_contact("reloaded", first, second, 1e-7);
+    let strain = first.max_equivalent_plastic_strain;
+    close(
+        "strain",
+        strain,
+        second.max_equivalent_plastic_strain,
+        strain,
+        1e-7,
+    );
+    let below = state(&results, "below").max_equivalent_plastic_strain;
+    close("strain below", strain, below, strain, 1e-7);
+    assert!(state(&results, "beyond").max_equivalent_plastic_strain > 1.001 * strain);
+}
+
+/// History that is committed in the middle of an iteration ratchets: plastic strain grows from cycle to cycle for ever. Here the
+/// loop closes, and the steps from cycle to cycle shrink to it.
+#[test]
+fn cyclic_load_closes_its_loop() {
+    let results = run_file("hard/cyclic", &[]);
+    healthy(&results);
+    let strain = |s: &State| s.max_equivalent_plastic_strain;
+    let at = |name: &str, k: usize| state(&results, &format!("{name} {k}")).clone();
+    for name in ["high", "low"] {
+        let growth = |k: usize| strain(&at(name, k + 1)) - strain(&at(name, k));
+        assert!(
+            growth(4) <= growth(1) + 1e-12,
+            "{name}: {} {}",
+            growth(1),
+            growth(4)
+        );
+        close(
+            name,
+            strain(&at(name, 5)),
+            strain(&at(name, 4)),
+            strain(&at(name, 5)),
+            1e-6,
+        );
+        same_contact(name, &at(name, 4), &at(name, 5), 1e-6);
+    }
+}
+
+/// Beyond the limit load there is no equilibrium: codes cut back until they give up without a word, or return the last iterate. The
+/// column carries Y exactly; the drive gives up after 12 cuts by 4 of the step to 1.5.
+#[test]
+fn the_limit_load_is_bracketed_and_reported_as_collapse() {
+    let (_, results) = as_far_as_it_goes("hard/limit_load");
+    assert_eq!(
+        results.incomplete_kind,
+        Some(ErrorKind::Collapse),
+        "{:?}",
+        results.incomplete
+    );
+    assert_eq!(results.states.len(), 1);
+    healthy(&results);
+    let last = results.history.last().unwrap().alpha;
+    let smallest_step = 0.5 * 0.25f64.powi(12);
+    assert!(
+        (1.0 - 1e-9..=1.0 + smallest_step).contains(&last),
+        "{last:.15}"
+    );
+    let why = results.incomplete.unwrap();
+    assert!(why.contains("load factor"), "{why}");
+}
+
+/// nu = 0.4999 and isochoric flow: fully integrated linear elements lock (no limit load at all), selectively reduced ones may
+/// leave a checkerboard of mean stress.
+#[test]
+fn nearly_incompressible_flow_neither_locks_nor_checkers() {
+    let (mesh, results) = as_far_as_it_goes("hard/nearly_incompressible");
+    healthy(&results);
+    let k = 240.0 / 3f64.sqrt();
+    let limit = 2.0 * k * 2f64.ln();
+    assert_eq!(
+        results.incomplete_kind,
+        Some(ErrorKind::Collapse),
+        "{:?}",
+        results.incomplete
+    );
+    let last = results.history.last().unwrap().alpha;
+    close("limit load", last, limit, limit, 0.01);
+
+    // Hill's fields at p = 185 for nu = 1/2: plastic to c, elastic outside.
+    let (a, b, p) = (100.0f64, 200.0f64, 185.0);
+    let pressure = |c: f64| k * (2.0 * (c / a).ln() + 1.0 - c * c / (b * b));
+    let (mut low, mut high) = (a, b);
+    for _ in 0..60 {
+        let c = 0.5 * (low + high);
+        if pressure(c) < p { low = c } else { high = c }
+    }
+    let c = low;
+    let exact = |r: f64| k * (c * c / (b * b) - if r < c { 2.0 * (c / r).ln() } else { 0.0 });
+    let flow = state(&results, "flow");
+    let stress = &flow.fields.as_ref().unwrap().stress;
+    let mut by_radius: Vec<(f64, f64)> = Vec::new();
+    for e in 0..mesh.n_elements() {
+        let nodes = mesh.nodes(e);
+        let radius = nodes
+            .iter()
+            .map(|&n| mesh.point(n as usize))
+            .map(|x| x[0].hypot(x[1]))
+            .sum::<f64>()
+            / nodes.len() as f64;
+        let mean = stress[4 * e..4 * e + 3].iter().sum::<f64>() / 3.0;
+        // A checkerboard is of the size of k; linear elements of 1/12 of the wall leave about h^2 and the kink at c.
+        close(
+            &format!("mean stress at {radius}"),
+            mean,
+            exact(radius),
+            k,
+            0.05,
+        );
+        by_radius.push((radius, mean));
+    }
+    // The mesh is the same in every sector: so is the solution, to the tolerance of the plastic iteration.
+    by_radius.sort_by(|x, y| x.0.total_cmp(&y.0));
+    for ring in by_radius.chunks(8) {
+        assert!(ring[7].0 - ring[0].0 < 1e-9);
+        let spread = largest(ring.iter().map(|s| s.1 - ring[0].1));
+        assert!(spread < 1e-6 * k, "{ring:?}");
+    }
+}

@@ -1,0 +1,82 @@
+//! Bodies that nothing but contact holds.
+
+use crate::running::{close, healthy, largest, run_file, same_contact, state};
+use brinell::results::Status;
+
+/// With every pair open the structure is singular: codes stop at a zero pivot, or add springs that carry part of the load.
+/// Here the contact carries all of it, uniformly: 10 MPa on 2 mm.
+#[test]
+fn a_floating_body_falls_through_its_gap_and_is_held() {
+    let results = run_file("hard/floating_body", &[]);
+    healthy(&results);
+    for (s, pressure) in results.states.iter().zip([10.0, 2.5, 10.0]) {
+        // Round-off of gaps 1000 times as large as the elastic displacements.
+        close(
+            "force",
+            s.contact_force,
+            2.0 * pressure,
+            2.0 * pressure,
+            1e-10,
+        );
+        for pair in &s.pairs {
+            assert_eq!(pair.status, Status::Closed);
+            close("pressure", pair.pressure, pressure, pressure, 1e-10);
+        }
+    }
+    same_contact("reloaded", &results.states[0], &results.states[2], 1e-10);
+}
+
+/// Two floating bodies on top of each other: the middle one is held by two contacts, one of which opens in part. Each contact
+/// carries the whole load, and without gaps the state is proportional to it.
+#[test]
+fn three_bodies_in_a_row_pass_the_load_on() {
+    let results = run_file("hard/three_in_a_row", &[]);
+    healthy(&results);
+    let [full, half] = [&results.states[0], state(&results, "half")];
+    for contact in 0..2 {
+        let sum = |s: &brinell::results::State| -> f64 {
+            let of_contact = s.pairs.iter().filter(|p| p.contact == contact);
+            of_contact.map(|p| p.force).sum()
+        };
+        close("force", sum(full), 100.0, 100.0, 1e-10);
+        close("force", sum(half), 50.0, 50.0, 1e-10);
+    }
+    assert!(full.pairs.iter().any(|p| p.status == Status::Open));
+    assert!(full.pairs.iter().any(|p| p.status == Status::Closed));
+    let scale = largest(full.pairs.iter().map(|p| p.force));
+    for (a, b) in full.pairs.iter().zip(&half.pairs) {
+        assert_eq!(a.status, b.status);
+        close("proportional", a.force, 2.0 * b.force, scale, 1e-10);
+    }
+}
+
+/// One pair holds the cylinder: the contact problem has one closed row, and the next pair closes only after a million times the load.
+/// Codes that want several active pairs, or compare forces with an absolute tolerance, lose it.
+#[test]
+fn one_closed_pair_holds_a_body() {
+    let results = run_file("hard/one_pair", &[]);
+    healthy(&results);
+    let [touch, press, again] = &results.states[..] else {
+        panic!("three states")
+    };
+    for s in [touch, again] {
+        let closed: Vec<_> = s
+            .pairs
+            .iter()
+            .filter(|p| p.status == Status::Closed)
+            .collect();
+        assert_eq!(closed.len(), 1);
+        close("force", closed[0].force, 1e-3, 1e-3, 1e-9);
+    }
+    let sum: f64 = press.pairs.iter().map(|p| p.force).sum();
+    close("force", sum, 1e3, 1e3, 1e-10);
+    assert!(
+        press
+            .pairs
+            .iter()
+            .filter(|p| p.status == Status::Closed)
+            .count()
+            > 2
+    );
+    same_contact("back", touch, again, 1e-9);
+}

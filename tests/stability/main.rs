@@ -1,0 +1,10 @@
+//! Short runs in which contact codes commonly fail: each says why, and what passing means.
+//!
+//! The scenes are in `data/scenes/hard`.
+
+mod flow;
+mod held_by_contact;
+mod numbers;
+#[path = "../running/mod.rs"]
+mod running;
+mod touching;

@@ -1,0 +1,127 @@
+//! Contact that comes and goes: lift-off, ties, grazing, conforming surfaces, separation.
+
+use crate::running::{close, healthy, run_file, same_contact, state};
+use brinell::results::Status;
+
+/// Codes that keep a list of "active" nodes forget the ones that left, or start the second contact with the first one's forces.
+/// The path is elastic: the same displacement gives the same state.
+#[test]
+fn a_body_that_lifts_off_comes_back_to_the_same_state() {
+    let results = run_file("hard/lift_off", &[]);
+    healthy(&results);
+    let up = state(&results, "up");
+    assert_eq!(up.contact_force, 0.0);
+    assert!(up.pairs.iter().all(|p| p.status == Status::Open));
+    let (down, again) = (state(&results, "down"), state(&results, "down again"));
+    assert!(down.contact_force > 0.0);
+    same_contact("down again", down, again, 1e-10);
+}
+
+/// 301 pairs reach zero at the same load up to round-off. Codes that change one pair at a time see 301 increments of length zero, or chatter.
+/// The strip is in uniaxial stress: opening at displacement 0, and p = E u / h.
+#[test]
+fn hundreds_of_pairs_open_and_close_as_one() {
+    let results = run_file("hard/ties", &[]);
+    healthy(&results);
+    for name in ["pressed", "pressed again"] {
+        let s = state(&results, name);
+        assert_eq!(s.pairs.len(), 301);
+        for p in &s.pairs {
+            assert_eq!(p.status, Status::Closed);
+            // Round-off of a strip 300 elements long.
+            close("pressure", p.pressure, 105.0, 105.0, 1e-9);
+        }
+    }
+    assert!(
+        state(&results, "apart")
+            .pairs
+            .iter()
+            .all(|p| p.status == Status::Open)
+    );
+    // All or none, at each end of an increment.
+    for row in &results.history {
+        assert!([0, 301].contains(&row.closed_pairs), "{row:?}");
+    }
+    let events: Vec<_> = results
+        .history
+        .iter()
+        .filter(|row| row.event.contains("opens") || row.event.contains("closes"))
+        .collect();
+    assert!(events.len() <= 2, "{events:?}");
+    assert_eq!(results.counts.contact_changes % 301, 0);
+    for (row, alpha) in events.iter().zip([1.5, 2.5]) {
+        close("event", row.alpha, alpha, 1.0, 1e-9);
+    }
+}
+
+/// A gap that just closes at the end of a step: "g <= 0" and "r > 0" are both undecided, and codes flip the pair for ever. At the target
+/// neither gap nor force is left, and beyond it the pressure is E times the strain.
+#[test]
+fn grazing_contact_is_neither_missed_nor_repeated() {
+    let results = run_file("hard/grazing", &[]);
+    healthy(&results);
+    for name in ["graze", "graze again", "graze on the way up"] {
+        let s = state(&results, name);
+        close("force", s.contact_force, 0.0, 2.0 * 52.5, 1e-9);
+        for p in &s.pairs {
+            close("gap", p.gap, 0.0, 0.25, 1e-12);
+        }
+    }
+    for p in &state(&results, "away").pairs {
+        close("gap", p.gap, 0.125, 0.25, 1e-12);
+    }
+    for p in &state(&results, "press").pairs {
+        // The strain is the 1/500 of a displacement that is more than the gap: 500 times its round-off.
+        close("pressure", p.pressure, 52.5, 52.5, 1e-10);
+    }
+    for p in &state(&results, "start").pairs {
+        close("gap", p.gap, 0.25, 0.25, 1e-12);
+    }
+    assert!(results.history.len() <= 12, "{}", results.history.len());
+}
+
+/// Without a gap every change of contact happens at load 0+: an event algorithm that starts at "all closed" or "all open" never leaves it.
+/// Statuses and p / S do not depend on the load over twelve orders of magnitude.
+#[test]
+fn conforming_contact_does_not_depend_on_the_size_of_the_load() {
+    let results = run_file("hard/zero_gap_conforming", &[]);
+    healthy(&results);
+    let one = state(&results, "one");
+    let largest = one.max_pressure;
+    for (name, factor) in [("tiny", 1e-6), ("huge", 1e6), ("back", 1.0)] {
+        let s = state(&results, name);
+        for (a, b) in one.pairs.iter().zip(&s.pairs) {
+            assert_eq!(a.status, b.status, "{name}");
+            close(
+                name,
+                factor * a.pressure,
+                b.pressure,
+                factor * largest,
+                1e-10,
+            );
+        }
+    }
+    assert_eq!(state(&results, "unloaded").contact_force, 0.0);
+    // Exact: 19.625 degrees. The end of the contact is between two nodes, an element apart.
+    let [from, to] = one.contact_arc.unwrap();
+    close("half angle", to - from, 19.625, 90.0 / 24.0, 1.0);
+}
+
+/// The last pair opens at load 0 exactly, and then nothing holds the cylinder: the end of the path is singular. What is left is
+/// no force and a dent.
+#[test]
+fn complete_separation_at_no_load_leaves_the_dent() {
+    let results = run_file("hard/separation", &[]);
+    healthy(&results);
+    let (loaded, unloaded) = (&results.states[1], state(&results, "unloaded"));
+    close(
+        "force",
+        unloaded.contact_force,
+        0.0,
+        loaded.contact_force,
+        1e-10,
+    );
+    assert!(unloaded.max_equivalent_plastic_strain >= loaded.max_equivalent_plastic_strain);
+    assert!(loaded.plastic_points > 0);
+    assert!(unloaded.residual_depth.abs() > 0.0);
+}
