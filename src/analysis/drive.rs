@@ -45,7 +45,7 @@ pub enum Arrival {
 }
 
 /// How increments are taken.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub struct Stepper<'a> {
     /// Solver settings.
     pub settings: &'a Settings,
@@ -55,6 +55,8 @@ pub struct Stepper<'a> {
     pub steps: usize,
     /// Tolerance of events.
     pub gamma: f64,
+    /// Asked between attempts: true ends the drive at the last accepted increment.
+    pub stop: &'a dyn Fn() -> bool,
 }
 
 /// Accuracy with which a monitored quantity is hit, as a share of the increment.
@@ -63,6 +65,8 @@ const MONITOR_ACCURACY: f64 = 1e-10;
 const CUT: f64 = 0.25;
 /// Cuts after which the load is taken to have passed the limit load.
 const MOST_CUTS: usize = 12;
+/// An increment that converges for no larger share of what is left ends the run: the limit load is then known to this.
+const LEAST_SHARE: f64 = 1e-6;
 /// Status corrections at one point of the path before they are taken to cycle.
 const MOST_CORRECTIONS: usize = 60;
 
@@ -186,6 +190,7 @@ impl Engine<'_> {
         self.refresh();
         let mut done = 0usize;
         let mut watched = monitor.map(|m| m(self));
+        let mut reach = f64::INFINITY;
         loop {
             let left = match stepper.stepping {
                 Stepping::Events => 1.0,
@@ -193,7 +198,7 @@ impl Engine<'_> {
             };
             let saved = Saved::of(self);
             let solves = self.counts.trailing_solves;
-            let increment = self.find_increment(end, left, stepper)?;
+            let increment = self.find_increment(end, left, stepper, &mut reach)?;
             if increment.guard_flows > 0 {
                 saved.put_back(self);
                 return Ok(Arrival::ZoneTooSmall);
@@ -269,18 +274,24 @@ impl Engine<'_> {
         reported.event = describe(&changes);
     }
 
-    /// An increment with statuses that are right at its begin (events) or at its end (steps).
+    /// An increment with statuses that are right at its begin (events) or at its end (steps). `reach` is the share of the
+    /// piece that is worth trying after cuts (infinite where there were none), and is updated: near the limit load it
+    /// would cost much to begin with the whole piece again and again.
     fn find_increment(
         &mut self,
         end: &LoadPoint,
         left: f64,
         stepper: Stepper,
+        reach: &mut f64,
     ) -> Result<Increment> {
-        let mut most = left;
+        let mut most = left.min(*reach);
         let mut cuts = 0;
         let mut corrections = 0;
         let mut seen: Vec<Vec<bool>> = Vec::new();
         loop {
+            if (stepper.stop)() {
+                return Err(Error::new(ErrorKind::Stopped, "stopped by the user"));
+            }
             let outcome = match stepper.stepping {
                 Stepping::Events if corrections < MOST_CORRECTIONS => self.increment(
                     end,
@@ -294,7 +305,12 @@ impl Engine<'_> {
                 Stepping::Steps => self.solve_step(end, most, stepper)?,
             };
             match outcome {
-                Ok(increment) => return Ok(increment),
+                Ok(increment) => {
+                    if cuts > 0 || reach.is_finite() {
+                        *reach = most / (CUT * (1.0 - increment.t).max(f64::MIN_POSITIVE));
+                    }
+                    return Ok(increment);
+                }
                 Err(NoIncrement::WrongStatus(pairs)) => {
                     corrections += 1;
                     seen.push(self.tableau.open().to_vec());
@@ -311,19 +327,18 @@ impl Engine<'_> {
                 }
                 Err(NoIncrement::NotConverged(residual)) => {
                     cuts += 1;
-                    if cuts > MOST_CUTS {
+                    most *= CUT;
+                    if cuts > MOST_CUTS || most < left * LEAST_SHARE {
                         return Err(Error::new(
                             ErrorKind::Collapse,
                             format!(
-                                "the load cannot be raised beyond load factor {:.6}: at {:.6} no equilibrium was found (out-of-balance \
-                                 force {residual:.1e} of the largest force); the last load factor that was held is {:.6}",
+                                "collapse: the last load factor that was held is {:.6}; at {:.6} no equilibrium was found (out-of-balance \
+                                 force {residual:.1e} of the largest force), so the limit load lies between the two",
                                 self.at.alpha,
-                                self.at.towards(end, most).alpha,
-                                self.at.alpha
+                                self.at.towards(end, most / CUT).alpha,
                             ),
                         ));
                     }
-                    most *= CUT;
                 }
             }
         }
@@ -401,7 +416,8 @@ impl Engine<'_> {
                 return sign * was;
             }
             saved.put_back(self);
-            match self.find_increment(end, t, stepper) {
+            let mut unlimited = f64::INFINITY;
+            match self.find_increment(end, t, stepper, &mut unlimited) {
                 Ok(increment) => {
                     reported.residual = increment.residual;
                     reported.iterations += increment.iterations;

@@ -54,6 +54,8 @@ pub enum NoIncrement {
 const BACKTRACKS: usize = 12;
 /// Iterations of the unaccelerated or Anderson iteration count for this many of Newton's limit.
 const CHEAP_ITERATIONS: usize = 100;
+/// Newton iterations in which the residual must halve at least once.
+const PATIENCE: usize = 25;
 /// A change of contact in this last share of a piece counts as its end: the target comes first.
 const AT_END: f64 = 1e-9;
 /// A share of the increment below this means that a pair changes at once.
@@ -103,6 +105,7 @@ impl Engine<'_> {
         let mut balance = self.sub.zeros();
         let mut iterations = 0;
         let mut last = f64::INFINITY;
+        let (mut best, mut best_at) = (f64::INFINITY, 0);
         let most_iterations = match settings.plastic_iteration {
             PlasticIteration::Newton => settings.max_iterations,
             _ => settings.max_iterations * CHEAP_ITERATIONS,
@@ -156,7 +159,13 @@ impl Engine<'_> {
                     guard_flows: evaluation.guard_flows,
                 });
             }
-            if iterations >= most_iterations || !residual.is_finite() {
+            if residual < 0.5 * best {
+                (best, best_at) = (residual, iterations);
+            }
+            // Newton's method halves the residual many times over, unless there is no equilibrium.
+            let stuck = settings.plastic_iteration == PlasticIteration::Newton
+                && iterations > best_at + PATIENCE;
+            if stuck || iterations >= most_iterations || !residual.is_finite() {
                 return Err(NoIncrement::NotConverged(residual));
             }
             if residual > settings.tolerance {

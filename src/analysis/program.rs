@@ -12,6 +12,7 @@ use crate::model::Model;
 use crate::progress::{Flow, Observer};
 use crate::results::{HistoryRow, Quality, Results, Sizes, YieldPoint};
 use crate::scene::{Direction, Target, Unit, YieldMethod};
+use std::cell::RefCell;
 use std::time::Instant;
 
 /// Doublings of the load in search of first yield or of a target.
@@ -424,21 +425,23 @@ impl<'m, 'o> Run<'m, 'o> {
         watch_yield: bool,
     ) -> Result<Arrival> {
         let model = self.model();
-        let stepper = Stepper {
-            settings: &model.scene.analysis,
-            stepping: model.scene.program.stepping,
-            steps: model.scene.program.steps,
-            gamma: model.scene.program.gamma,
-        };
         loop {
             let start = Instant::now();
-            let (results, observer) = (&mut self.results, &mut *self.observer);
+            let (results, observer) = (&mut self.results, RefCell::new(&mut *self.observer));
+            let stop = || observer.borrow().stop_requested();
+            let stepper = Stepper {
+                settings: &model.scene.analysis,
+                stepping: model.scene.program.stepping,
+                steps: model.scene.program.steps,
+                gamma: model.scene.program.gamma,
+                stop: &stop,
+            };
             let fraction = self.done as f64 / model.scene.program.targets.len().max(1) as f64;
             let mut report = |engine: &mut Engine, increment: &IncrementReport| {
                 let row = row(engine, increment, results.history.len() + 1);
-                let flow = observer.increment(&row, fraction);
+                let flow = observer.borrow_mut().increment(&row, fraction);
                 results.history.push(row);
-                Ok(flow == Flow::Continue && !observer.stop_requested())
+                Ok(flow == Flow::Continue && !stop())
             };
             let plastic = self.plastic && !self.choice.elements.is_empty();
             let arrival = if plastic {
