@@ -188,6 +188,11 @@ impl Engine<'_> {
         report: &mut OnIncrement,
     ) -> Result<Arrival> {
         self.refresh();
+        self.update_force_scale();
+        if self.force_scale == 0.0 {
+            // Nothing acts yet: residuals are measured against what the end of the piece applies.
+            self.force_scale = self.external(end).largest();
+        }
         let mut done = 0usize;
         let mut watched = monitor.map(|m| m(self));
         let mut reach = f64::INFINITY;

@@ -227,16 +227,3 @@ fn a_wrong_override_is_exit_code_2_and_names_itself() {
         fails(&["check", &scene, "--set", text], 2, &[fragment]);
     }
 }
-
-#[test]
-fn a_result_directory_that_is_a_file_is_found_before_the_run() {
-    let good = std::fs::read_to_string(scene("contact_patch")).unwrap();
-    let folder = Folder::with_scene(&good);
-    let path = folder.scene();
-    let path = path.to_str().unwrap();
-    fails(
-        &["run", path, "--out", path],
-        3,
-        &["exists and is not a directory", "--out"],
-    );
-}
