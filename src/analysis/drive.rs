@@ -333,6 +333,8 @@ impl Engine<'_> {
                 Err(NoIncrement::NotConverged(residual)) => {
                     cuts += 1;
                     most *= CUT;
+                    // The points flow as in the state that failed: its tangent, often singular, must not predict the next.
+                    self.zone.assume_elastic();
                     if cuts > MOST_CUTS || most < left * LEAST_SHARE {
                         return Err(Error::new(
                             ErrorKind::Collapse,

@@ -45,14 +45,18 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, act: Act) -> Result<(
     progress.start("assembly");
     let mut analysis = Analysis::new(model, common.solver.into())?;
     let mut results = act(&mut analysis, &mut progress)?;
-    results.timings.insert(0, ("mesh and model".to_string(), modelled));
+    results
+        .timings
+        .insert(0, ("mesh and model".to_string(), modelled));
     let model = analysis.model();
     let computed = seconds();
     let header = header(&scene, model, common, computed);
     if let Some(out) = &out {
         progress.start("output");
         output::write(out, &header, &model.mesh, &results)?;
-        results.timings.push(("output".to_string(), seconds() - computed));
+        results
+            .timings
+            .push(("output".to_string(), seconds() - computed));
     }
     progress.finish();
     let text = if common.json {

@@ -2,8 +2,8 @@
 
 use crate::error::{Error, ErrorKind, Result};
 use std::io::Write;
-use std::time::{Duration, Instant};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 /// A second signal this soon is the same wish: `timeout` and terminals send one to the process and one to its group.

@@ -23,7 +23,11 @@ pub(super) fn results(
     if let Some(first) = &results.first_yield {
         report.first_yield(first, bodies, results.sizes.contact_pairs > 0);
     }
-    report.states(&results.states, scene.program.unit, results.sizes.contact_pairs > 0);
+    report.states(
+        &results.states,
+        scene.program.unit,
+        results.sizes.contact_pairs > 0,
+    );
     if let Some(why) = &results.incomplete {
         report.paragraph(&format!("INCOMPLETE: {why}"));
     }
@@ -237,7 +241,9 @@ impl Report {
         let differ = |a: f64, b: f64| (a - b).abs() > SAME * a.abs().max(b.abs());
         let arc = states.iter().any(|s| s.contact_arc.is_some());
         let force = states.iter().any(|s| differ(s.load, s.contact_force));
-        let pole = states.iter().any(|s| differ(s.max_pressure, s.pole_pressure));
+        let pole = states
+            .iter()
+            .any(|s| differ(s.max_pressure, s.pole_pressure));
         let plastic = states.iter().any(|s| s.plastic_points > 0);
         let degrees = |s: &State, end: usize| match s.contact_arc {
             Some(arc) => format!("{:.2}", arc[end] + 0.0),
@@ -255,16 +261,56 @@ impl Report {
                 columns.push((Number, heading, cell));
             }
         };
-        show(contact && force, "contact\nforce", Box::new(|s| number(s.contact_force)));
-        show(contact, "max\npressure", Box::new(|s| number(s.max_pressure)));
-        show(contact && pole, "pole\npressure", Box::new(|s| number(s.pole_pressure)));
-        show(contact && !arc, "half\nwidth", Box::new(|s| number(s.half_width)));
-        show(contact && arc, "arc\nfrom\n[deg]", Box::new(move |s| degrees(s, 0)));
-        show(contact && arc, "arc\nto\n[deg]", Box::new(move |s| degrees(s, 1)));
-        show(contact && !arc && !pole, "approach", Box::new(move |s| small(s.approach)));
-        show(!contact, "displace-\nment", Box::new(move |s| small(s.approach)));
-        show(contact && plastic, "residual\ndepth", Box::new(move |s| small(s.residual_depth)));
-        show(plastic, "plastic\npoints", Box::new(|s| s.plastic_points.to_string()));
+        show(
+            contact && force,
+            "contact\nforce",
+            Box::new(|s| number(s.contact_force)),
+        );
+        show(
+            contact,
+            "max\npressure",
+            Box::new(|s| number(s.max_pressure)),
+        );
+        show(
+            contact && pole,
+            "pole\npressure",
+            Box::new(|s| number(s.pole_pressure)),
+        );
+        show(
+            contact && !arc,
+            "half\nwidth",
+            Box::new(|s| number(s.half_width)),
+        );
+        show(
+            contact && arc,
+            "arc\nfrom\n[deg]",
+            Box::new(move |s| degrees(s, 0)),
+        );
+        show(
+            contact && arc,
+            "arc\nto\n[deg]",
+            Box::new(move |s| degrees(s, 1)),
+        );
+        show(
+            contact && !arc && !pole,
+            "approach",
+            Box::new(move |s| small(s.approach)),
+        );
+        show(
+            !contact,
+            "displace-\nment",
+            Box::new(move |s| small(s.approach)),
+        );
+        show(
+            contact && plastic,
+            "residual\ndepth",
+            Box::new(move |s| small(s.residual_depth)),
+        );
+        show(
+            plastic,
+            "plastic\npoints",
+            Box::new(|s| s.plastic_points.to_string()),
+        );
         show(
             plastic,
             "max\nplastic\nstrain",

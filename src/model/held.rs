@@ -353,7 +353,11 @@ impl<'a> Motions<'a> {
 
 /// A coordinate without the round-off of a body of this size.
 fn tidy(coordinate: f64, size: f64) -> f64 {
-    if coordinate.abs() < 1e-9 * size { 0.0 } else { coordinate }
+    if coordinate.abs() < 1e-9 * size {
+        0.0
+    } else {
+        coordinate
+    }
 }
 
 /// The same motions by a basis that can be told in words: rotations are taken out of all vectors but as many as it takes, then

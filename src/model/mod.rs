@@ -135,7 +135,9 @@ fn yield_half_width(scene: &Scene, radius: f64) -> Result<f64> {
     );
     let mut smallest: Option<f64> = None;
     for material in [a, b] {
-        let (nu, Some(y)) = (material.poissons_ratio, material.yield_stress) else { continue };
+        let (nu, Some(y)) = (material.poissons_ratio, material.yield_stress) else {
+            continue;
+        };
         let width = match scene.kind {
             Kind::Axisymmetric => HertzPoint::new(radius, modulus)?.yield_contact_radius(nu, y),
             _ => HertzLine::new(radius, modulus)?.yield_half_width(nu, y),

@@ -135,7 +135,11 @@ fn resolve_contact(
                     gap: contact.gap.unwrap_or(geometric),
                     interference: contact.interference,
                     area: area[0],
-                    spread: if area[0] != 0.0 { area[1] / area[0] } else { 0.0 },
+                    spread: if area[0] != 0.0 {
+                        area[1] / area[0]
+                    } else {
+                        0.0
+                    },
                     arc,
                 });
             }

@@ -46,7 +46,9 @@ fn scene(header: &RunHeader) -> String {
         return header.scene_title.clone();
     }
     let file = header.scene_file.as_deref().map(Path::new);
-    let name = file.and_then(Path::file_name).map(|name| name.to_string_lossy());
+    let name = file
+        .and_then(Path::file_name)
+        .map(|name| name.to_string_lossy());
     name.map_or_else(|| "untitled".to_string(), |name| name.into_owned())
 }
 

@@ -4,7 +4,12 @@ use super::{brinell, scene};
 use std::time::{Duration, Instant};
 
 /// Small and quick scenes to damage.
-const SCENES: [&str; 4] = ["contact_patch", "gmsh_blocks", "shrink_fit", "thick_cylinder"];
+const SCENES: [&str; 4] = [
+    "contact_patch",
+    "gmsh_blocks",
+    "shrink_fit",
+    "thick_cylinder",
+];
 const MUTATIONS: usize = 300;
 const TIME: Duration = Duration::from_secs(20);
 
@@ -43,10 +48,31 @@ fn damage(text: &str, random: &mut Random) -> String {
         }
         3 | 4 => {
             let value = random.pick(&[
-                "0", "-1", "1", "2", "1e-300", "1e300", "-1e30", "nan", "inf", "true", "\"x\"", "[]", "{}", "[1.0, 2.0]",
-                "9223372036854775807", "\"\"", "0.5", "1e-12", "[0, 0]", "\"upper.top\"", "\"constant\"",
+                "0",
+                "-1",
+                "1",
+                "2",
+                "1e-300",
+                "1e300",
+                "-1e30",
+                "nan",
+                "inf",
+                "true",
+                "\"x\"",
+                "[]",
+                "{}",
+                "[1.0, 2.0]",
+                "9223372036854775807",
+                "\"\"",
+                "0.5",
+                "1e-12",
+                "[0, 0]",
+                "\"upper.top\"",
+                "\"constant\"",
             ]);
-            let assigned: Vec<usize> = (0..lines.len()).filter(|&i| lines[i].contains(" = ")).collect();
+            let assigned: Vec<usize> = (0..lines.len())
+                .filter(|&i| lines[i].contains(" = "))
+                .collect();
             let at = assigned[random.below(assigned.len())];
             // The last value of the line: often the inner one of a table or list.
             let places: Vec<usize> = lines[at].match_indices(" = ").map(|(i, _)| i).collect();
@@ -84,14 +110,29 @@ fn damaged_scenes_end_with_documented_exit_codes() {
         }
         let name = SCENES[number % SCENES.len()];
         let mut text = std::fs::read_to_string(scene(name)).unwrap();
-        text = text.replace("../meshes", "meshes").replace("[16, 16]", "[3, 3]");
-        text = text.replace("    { load_factor = 180.0 },\n    { load_factor = 190.0 },\n", "");
+        text = text
+            .replace("../meshes", "meshes")
+            .replace("[16, 16]", "[3, 3]");
+        text = text.replace(
+            "    { load_factor = 180.0 },\n    { load_factor = 190.0 },\n",
+            "",
+        );
         for _ in 0..1 + random.below(2) {
             text = damage(&text, &mut random);
         }
         std::fs::write(path, &text).unwrap();
         // Elastic and plastic runs alike; the plastic ones are bounded by few increments.
-        let output = brinell(&["run", path, "--quiet", "--threads", "1", "--solver", "dense", "--out", out]);
+        let output = brinell(&[
+            "run",
+            path,
+            "--quiet",
+            "--threads",
+            "1",
+            "--solver",
+            "dense",
+            "--out",
+            out,
+        ]);
         let stderr = String::from_utf8_lossy(&output.stderr);
         let code = output.status.code().unwrap_or(-1);
         assert!(
@@ -104,8 +145,14 @@ fn damaged_scenes_end_with_documented_exit_codes() {
         if code == 0 || code >= 5 {
             let _ = std::fs::remove_dir_all(out);
         }
-        assert!(!std::path::Path::new(out).exists(), "exit code {code} left results behind");
+        assert!(
+            !std::path::Path::new(out).exists(),
+            "exit code {code} left results behind"
+        );
     }
     // The damage is neither always fatal nor never.
-    assert!(codes.contains_key(&0) && codes.contains_key(&2), "{codes:?}");
+    assert!(
+        codes.contains_key(&0) && codes.contains_key(&2),
+        "{codes:?}"
+    );
 }

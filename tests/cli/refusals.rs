@@ -21,7 +21,10 @@ fn refused_with(name: &str, sets: &[&str], more: &[&str], code: i32, fragments: 
     let stderr = String::from_utf8(output.stderr.clone()).unwrap();
     assert_eq!(output.status.code(), Some(code), "{sets:?}: {stderr}");
     for fragment in fragments {
-        assert!(stderr.contains(fragment), "{sets:?}: no {fragment:?} in {stderr}");
+        assert!(
+            stderr.contains(fragment),
+            "{sets:?}: no {fragment:?} in {stderr}"
+        );
     }
     assert_eq!(stdout(&output), "");
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
@@ -31,13 +34,19 @@ fn refused_with(name: &str, sets: &[&str], more: &[&str], code: i32, fragments: 
 fn wrong_types_and_values_of_a_material() {
     for (value, fragments) in [
         ("\"stiff\"", ["youngs_modulus", "expected a number"]),
-        ("-210000.0", ["youngs_modulus", "-210000 must be greater than zero"]),
+        (
+            "-210000.0",
+            ["youngs_modulus", "-210000 must be greater than zero"],
+        ),
         ("0.0", ["youngs_modulus", "0 must be greater than zero"]),
         ("nan", ["youngs_modulus", "not a finite number"]),
         ("inf", ["youngs_modulus", "not a finite number"]),
         ("-inf", ["youngs_modulus", "not a finite number"]),
     ] {
-        let folder = patch("youngs_modulus = 210000.0", &format!("youngs_modulus = {value}"));
+        let folder = patch(
+            "youngs_modulus = 210000.0",
+            &format!("youngs_modulus = {value}"),
+        );
         folder.refused(2, &fragments);
         folder.refused(2, &["scene.toml:"]);
     }
@@ -58,7 +67,10 @@ fn values_of_other_keys() {
         ("program.gamma=0.0", "program.gamma"),
         ("analysis.max_iterations=0", "analysis.max_iterations"),
         ("mesh.parts.1.block.x=[0.0,0.0]", "mesh.parts.1.block.x"),
-        ("mesh.parts.1.block.elements=[0,4]", "mesh.parts.1.block.elements"),
+        (
+            "mesh.parts.1.block.elements=[0,4]",
+            "mesh.parts.1.block.elements",
+        ),
         ("contact.0.normal=[0.0,0.0]", "contact.0.normal"),
     ] {
         refused_with("contact_patch", &[set], &[], 2, &[fragment]);
@@ -75,7 +87,10 @@ fn unknown_keys_everywhere_are_named_with_the_likely_one() {
     ] {
         patch(old, new).refused(
             2,
-            &["scene.toml:", &format!("unknown key `{key}`, did you mean `{meant}`?")],
+            &[
+                "scene.toml:",
+                &format!("unknown key `{key}`, did you mean `{meant}`?"),
+            ],
         );
     }
 }
@@ -83,8 +98,17 @@ fn unknown_keys_everywhere_are_named_with_the_likely_one() {
 #[test]
 fn effects_that_brinell_has_not() {
     for (set, fragments) in [
-        ("contact.0.friction=0.3", ["contact.0.friction", "no friction"]),
-        ("analysis.large_strain=true", ["analysis.large_strain", "strains and displacements are small"]),
+        (
+            "contact.0.friction=0.3",
+            ["contact.0.friction", "no friction"],
+        ),
+        (
+            "analysis.large_strain=true",
+            [
+                "analysis.large_strain",
+                "strains and displacements are small",
+            ],
+        ),
     ] {
         refused_with("contact_patch", &[set], &[], 2, &fragments);
     }
@@ -92,15 +116,20 @@ fn effects_that_brinell_has_not() {
 
 #[test]
 fn files_that_are_missing_or_of_another_kind() {
-    refused_with("contact_patch", &["mesh={file=\"none.msh\"}"], &[], 3, &[
-        "cannot read the mesh file",
-        "none.msh",
-        "No such file",
-    ]);
-    refused_with("contact_patch", &["mesh={file=\"contact_patch.toml\"}"], &[], 2, &[
-        "contact_patch.toml, line 1",
-        "not a Gmsh mesh",
-    ]);
+    refused_with(
+        "contact_patch",
+        &["mesh={file=\"none.msh\"}"],
+        &[],
+        3,
+        &["cannot read the mesh file", "none.msh", "No such file"],
+    );
+    refused_with(
+        "contact_patch",
+        &["mesh={file=\"contact_patch.toml\"}"],
+        &[],
+        2,
+        &["contact_patch.toml, line 1", "not a Gmsh mesh"],
+    );
 }
 
 /// The Gmsh scene beside a changed copy of its mesh.
@@ -121,26 +150,40 @@ fn duplicate_numbers_in_a_mesh_file() {
 #[test]
 fn elements_that_are_turned_inside_out_are_named() {
     // Node 13, inside the lower block, is moved out of it.
-    gmsh("\n13\n14\n15\n1 -1 0\n", "\n13\n14\n15\n1 9 0\n").refused(2, &[
-        "element ",
-        "(quad4, body `lower`)",
-        "Jacobian",
-        "near node ",
-    ]);
+    gmsh("\n13\n14\n15\n1 -1 0\n", "\n13\n14\n15\n1 9 0\n").refused(
+        2,
+        &[
+            "element ",
+            "(quad4, body `lower`)",
+            "Jacobian",
+            "near node ",
+        ],
+    );
 }
 
 #[test]
 fn sets_that_are_missing_or_empty() {
-    refused_with("contact_patch", &["support.0.on=lower.botom"], &[], 2, &[
-        "support 1 on `lower.botom`",
-        "did you mean `lower.bottom`?",
-    ]);
-    refused_with("contact_patch", &["contact.0.second=lower.tip"], &[], 2, &[
-        "contact 1",
-        "`lower.tip`",
-        "did you mean `lower.top`?",
-    ]);
-    refused_with("contact_patch", &["load.0.on=upper.tp"], &[], 2, &["`upper.tp`", "`upper.top`"]);
+    refused_with(
+        "contact_patch",
+        &["support.0.on=lower.botom"],
+        &[],
+        2,
+        &["support 1 on `lower.botom`", "did you mean `lower.bottom`?"],
+    );
+    refused_with(
+        "contact_patch",
+        &["contact.0.second=lower.tip"],
+        &[],
+        2,
+        &["contact 1", "`lower.tip`", "did you mean `lower.top`?"],
+    );
+    refused_with(
+        "contact_patch",
+        &["load.0.on=upper.tp"],
+        &[],
+        2,
+        &["`upper.tp`", "`upper.top`"],
+    );
     // A piece of a side that holds no facet.
     patch(
         "block = { x = [0.0, 2.0], y = [1.0, 2.0], elements = [8, 4] }",
@@ -152,42 +195,62 @@ fn sets_that_are_missing_or_empty() {
 
 #[test]
 fn surfaces_whose_nodes_do_not_pair_are_named_with_the_nodes() {
-    refused_with("contact_patch", &["mesh.parts.1.block.elements=[7,4]"], &[], 2, &[
-        "contact 1 (`upper.bottom` on `lower.top`)",
-        "nodes do not pair",
-        "nodes 44, 43, 42, 41, 40, 39, and 1 more of `lower.top`",
-    ]);
+    refused_with(
+        "contact_patch",
+        &["mesh.parts.1.block.elements=[7,4]"],
+        &[],
+        2,
+        &[
+            "contact 1 (`upper.bottom` on `lower.top`)",
+            "nodes do not pair",
+            "nodes 44, 43, 42, 41, 40, 39, and 1 more of `lower.top`",
+        ],
+    );
 }
 
 #[test]
 fn a_node_in_two_pairs() {
     let twice = "{ first = \"upper.bottom\", second = \"lower.top\" }";
-    refused_with("contact_patch", &[&format!("contact=[{twice},{twice}]")], &[], 2, &[
-        "node 54 is in two contact pairs",
-        "contact 1",
-        "contact 2",
-    ]);
+    refused_with(
+        "contact_patch",
+        &[&format!("contact=[{twice},{twice}]")],
+        &[],
+        2,
+        &["node 54 is in two contact pairs", "contact 1", "contact 2"],
+    );
 }
 
 #[test]
 fn bodies_that_overlap_in_the_mesh() {
-    refused_with("contact_patch", &["mesh.parts.1.block.y=[0.9,2.0]"], &[], 2, &[
-        "nodes 54 and 45 overlap by 1.000e-1",
-        "interference",
-    ]);
+    refused_with(
+        "contact_patch",
+        &["mesh.parts.1.block.y=[0.9,2.0]"],
+        &[],
+        2,
+        &["nodes 54 and 45 overlap by 1.000e-1", "interference"],
+    );
 }
 
 #[test]
 fn bodies_that_can_move_freely_are_named_with_the_motion() {
     // Nothing is supported and the pressure pushes both bodies down.
-    refused_with("contact_patch", &["support=[]"], &[], 4, &[
-        "bodies `lower` and `upper` can move along y together",
-        "load `press` drives it",
-    ]);
+    refused_with(
+        "contact_patch",
+        &["support=[]"],
+        &[],
+        4,
+        &[
+            "bodies `lower` and `upper` can move along y together",
+            "load `press` drives it",
+        ],
+    );
     // Nothing holds the upper body sideways.
     refused_with(
         "contact_patch",
-        &["support.2.on=lower.left", "load=[{on=\"upper.top\",traction=[1.0,-10.0]}]"],
+        &[
+            "support.2.on=lower.left",
+            "load=[{on=\"upper.top\",traction=[1.0,-10.0]}]",
+        ],
         &[],
         4,
         &["body `upper` can move along x", "add a support"],
@@ -203,19 +266,31 @@ fn bodies_that_can_move_freely_are_named_with_the_motion() {
 
 #[test]
 fn a_load_that_closes_nothing() {
-    refused_with("contact_patch", &["load.0.pressure=-10.0"], &[], 4, &[
-        "`upper.bottom` on `lower.top`",
-        "closes no contact",
-        "body `upper`",
-    ]);
+    refused_with(
+        "contact_patch",
+        &["load.0.pressure=-10.0"],
+        &[],
+        4,
+        &[
+            "`upper.bottom` on `lower.top`",
+            "closes no contact",
+            "body `upper`",
+        ],
+    );
 }
 
 #[test]
 fn a_support_along_a_contact_normal() {
-    refused_with("contact_patch", &["support.2.fix=[\"x\",\"y\"]"], &[], 2, &[
-        "node 46",
-        "support 3 on `upper.left` acts along its contact normal",
-    ]);
+    refused_with(
+        "contact_patch",
+        &["support.2.fix=[\"x\",\"y\"]"],
+        &[],
+        2,
+        &[
+            "node 46",
+            "support 3 on `upper.left` acts along its contact normal",
+        ],
+    );
 }
 
 #[test]
@@ -235,19 +310,32 @@ fn targets_that_are_never_reached() {
 
 #[test]
 fn elements_of_no_size_and_meshes_beyond_reason() {
-    refused_with("contact_patch", &["mesh.parts.1.block.x=[0.0,1e-300]"], &[], 2, &[
-        "element 33 (quad4, body `upper`) is flat",
-    ]);
+    refused_with(
+        "contact_patch",
+        &["mesh.parts.1.block.x=[0.0,1e-300]"],
+        &[],
+        2,
+        &["element 33 (quad4, body `upper`) is flat"],
+    );
     for elements in ["[100000,100000]", "[9223372036854775807,4]"] {
         let set = format!("mesh.parts.1.block.elements={elements}");
-        refused_with("contact_patch", &[&set], &[], 2, &["body `upper`", "elements, more than 5e7"]);
+        refused_with(
+            "contact_patch",
+            &[&set],
+            &[],
+            2,
+            &["body `upper`", "elements, more than 5e7"],
+        );
     }
     refused_with(
         "cylinder_on_half_plane",
         &["mesh.cylinder_on_half_plane.resolution=1000000"],
         &[],
         2,
-        &["mesh.cylinder_on_half_plane.resolution", "elements, more than 5e7"],
+        &[
+            "mesh.cylinder_on_half_plane.resolution",
+            "elements, more than 5e7",
+        ],
     );
 }
 
@@ -255,16 +343,26 @@ fn elements_of_no_size_and_meshes_beyond_reason() {
 fn a_model_that_is_too_large_for_the_dense_backend() {
     refused_with(
         "contact_patch",
-        &["mesh.parts.0.block.elements=[100,40]", "mesh.parts.1.block.elements=[100,40]"],
+        &[
+            "mesh.parts.0.block.elements=[100,40]",
+            "mesh.parts.1.block.elements=[100,40]",
+        ],
         &["--solver", "dense"],
         2,
-        &["too many for the dense solver", "at most 6000", "--solver cholmod"],
+        &[
+            "too many for the dense solver",
+            "at most 6000",
+            "--solver cholmod",
+        ],
     );
 }
 
 #[test]
 fn a_result_directory_that_cannot_be_written_is_found_before_the_run() {
-    let folder = patch("elements = [8, 4] }\n\n[materials", "elements = [8, 4] }\n\n[materials");
+    let folder = patch(
+        "elements = [8, 4] }\n\n[materials",
+        "elements = [8, 4] }\n\n[materials",
+    );
     let (path, in_file) = (folder.scene(), folder.path("scene.toml/out"));
     for (out, code, fragment) in [
         (path.to_str().unwrap(), 2, "scene.toml"),
@@ -272,10 +370,20 @@ fn a_result_directory_that_cannot_be_written_is_found_before_the_run() {
         ("/proc/no/such/place", 3, "/proc"),
     ] {
         // A support on nothing would be an error too: the directory is looked at first.
-        let output = brinell(&["run", path.to_str().unwrap(), "--set", "support.0.on=nothing", "--out", out]);
+        let output = brinell(&[
+            "run",
+            path.to_str().unwrap(),
+            "--set",
+            "support.0.on=nothing",
+            "--out",
+            out,
+        ]);
         let stderr = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(code), "{stderr}");
-        assert!(stderr.contains(fragment) && !stderr.contains("nothing"), "{stderr}");
+        assert!(
+            stderr.contains(fragment) && !stderr.contains("nothing"),
+            "{stderr}"
+        );
     }
     assert_eq!(folder.entries(), 1);
     // A directory that is not a result of brinell is not replaced.

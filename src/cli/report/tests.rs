@@ -169,10 +169,17 @@ fn columns_are_those_that_tell_something() {
     for heading in ["half", "residual", "approach"] {
         assert!(plain.contains(heading), "{plain}");
     }
-    assert!(!plain.contains("[deg]") && !plain.contains("displace-"), "{plain}");
+    assert!(
+        !plain.contains("[deg]") && !plain.contains("displace-"),
+        "{plain}"
+    );
     results.states[0].contact_arc = Some([-0.0, 19.4855]);
     let state = results.states[0].clone();
-    results.states.push(State { contact_arc: None, name: "parted".into(), ..state });
+    results.states.push(State {
+        contact_arc: None,
+        name: "parted".into(),
+        ..state
+    });
     let arc = report(&results, None);
     assert!(arc.contains("[deg]") && !arc.contains("approach"), "{arc}");
     let row = |name: &str| arc.lines().find(|l| l.contains(name)).unwrap().to_string();

@@ -117,7 +117,11 @@ impl Layout {
         let edge = self.x[2 * self.n_fine];
         let at = x.min(edge);
         let height = at * at / (radius + root(at));
-        if x <= edge { height } else { height - edge * edge / root(edge) * (-(x - edge) / edge).exp_m1() }
+        if x <= edge {
+            height
+        } else {
+            height - edge * edge / root(edge) * (-(x - edge) / edge).exp_m1()
+        }
     }
 
     fn new(p: &CylinderOnHalfPlane, half_width: f64) -> Result<Layout> {
