@@ -55,7 +55,7 @@ pub struct Stepper<'a> {
     pub steps: usize,
     /// Tolerance of events.
     pub gamma: f64,
-    /// Asked between attempts: true ends the drive at the last accepted increment.
+    /// Asked between iterations: true stops the run at the last accepted increment.
     pub stop: &'a dyn Fn() -> bool,
 }
 
@@ -63,10 +63,9 @@ pub struct Stepper<'a> {
 const MONITOR_ACCURACY: f64 = 1e-10;
 /// Cut factor after an increment that did not converge.
 const CUT: f64 = 0.25;
-/// Cuts after which the load is taken to have passed the limit load.
-const MOST_CUTS: usize = 12;
-/// An increment that converges for no larger share of what is left ends the run: the limit load is then known to this.
-const LEAST_SHARE: f64 = 1e-6;
+/// Share of a piece of the load path below which increments are not cut: the load has passed the limit load, which is then
+/// known to this share.
+const SMALLEST_CUT: f64 = 1e-6;
 /// Status corrections at one point of the path before they are taken to cycle.
 const MOST_CORRECTIONS: usize = 60;
 
@@ -193,17 +192,29 @@ impl Engine<'_> {
             // Nothing acts yet: residuals are measured against what the end of the piece applies.
             self.force_scale = self.external(end).largest();
         }
+        if self.turns_back(end) {
+            self.zone.assume_elastic();
+        }
         let mut done = 0usize;
         let mut watched = monitor.map(|m| m(self));
-        let mut reach = f64::INFINITY;
+        let smallest = SMALLEST_CUT * self.at.distance(end);
+        // After an increment that did not converge the next ones are short, and grow again while they succeed.
+        let mut trust = f64::INFINITY;
         loop {
             let left = match stepper.stepping {
                 Stepping::Events => 1.0,
                 Stepping::Steps => 1.0 / (stepper.steps - done.min(stepper.steps - 1)) as f64,
             };
+            let distance = self.at.distance(end);
+            let trusted = if trust < left * distance { trust / distance } else { left };
             let saved = Saved::of(self);
             let solves = self.counts.trailing_solves;
-            let increment = self.find_increment(end, left, stepper, &mut reach)?;
+            let (increment, cut) = self.find_increment(end, trusted, smallest / distance, stepper)?;
+            trust = match (cut, trusted < left) {
+                (true, _) => increment.t * distance,
+                (false, true) => 2.0 * trust,
+                (false, false) => f64::INFINITY,
+            };
             if increment.guard_flows > 0 {
                 saved.put_back(self);
                 return Ok(Arrival::ZoneTooSmall);
@@ -250,6 +261,7 @@ impl Engine<'_> {
     /// Takes a found increment: history, state, and the statuses beyond it.
     fn accept(&mut self, end: &LoadPoint, increment: Increment, reported: &mut IncrementReport) {
         let start = self.at.clone();
+        self.last_step = self.at.step_to(end);
         let changes: Vec<Change> = increment
             .changes
             .iter()
@@ -279,24 +291,19 @@ impl Engine<'_> {
         reported.event = describe(&changes);
     }
 
-    /// An increment with statuses that are right at its begin (events) or at its end (steps). `reach` is the share of the
-    /// piece that is worth trying after cuts (infinite where there were none), and is updated: near the limit load it
-    /// would cost much to begin with the whole piece again and again.
+    /// An increment with statuses that are right at its begin (events) or at its end (steps).
+    /// Increments that do not converge are cut, down to the share `smallest`; returns whether any was.
     fn find_increment(
         &mut self,
         end: &LoadPoint,
         left: f64,
+        smallest: f64,
         stepper: Stepper,
-        reach: &mut f64,
-    ) -> Result<Increment> {
-        let mut most = left.min(*reach);
-        let mut cuts = 0;
+    ) -> Result<(Increment, bool)> {
+        let mut most = left;
         let mut corrections = 0;
         let mut seen: Vec<Vec<bool>> = Vec::new();
         loop {
-            if (stepper.stop)() {
-                return Err(Error::new(ErrorKind::Stopped, "stopped by the user"));
-            }
             let outcome = match stepper.stepping {
                 Stepping::Events if corrections < MOST_CORRECTIONS => self.increment(
                     end,
@@ -304,18 +311,12 @@ impl Engine<'_> {
                     EndsAt::NextChange {
                         gamma: stepper.gamma,
                     },
-                    stepper.settings,
-                ),
+                    stepper.settings, stepper.stop),
                 Stepping::Events => self.solve_step(end, 1e-3 * most, stepper)?,
                 Stepping::Steps => self.solve_step(end, most, stepper)?,
             };
             match outcome {
-                Ok(increment) => {
-                    if cuts > 0 || reach.is_finite() {
-                        *reach = most / (CUT * (1.0 - increment.t).max(f64::MIN_POSITIVE));
-                    }
-                    return Ok(increment);
-                }
+                Ok(increment) => return Ok((increment, most < left)),
                 Err(NoIncrement::WrongStatus(pairs)) => {
                     corrections += 1;
                     seen.push(self.tableau.open().to_vec());
@@ -330,22 +331,22 @@ impl Engine<'_> {
                         }
                     }
                 }
+                Err(NoIncrement::Stopped) => return Err(stopped()),
                 Err(NoIncrement::NotConverged(residual)) => {
-                    cuts += 1;
-                    most *= CUT;
-                    // The points flow as in the state that failed: its tangent, often singular, must not predict the next.
-                    self.zone.assume_elastic();
-                    if cuts > MOST_CUTS || most < left * LEAST_SHARE {
+                    if CUT * most < smallest {
                         return Err(Error::new(
                             ErrorKind::Collapse,
                             format!(
-                                "collapse: the last load factor that was held is {:.6}; at {:.6} no equilibrium was found (out-of-balance \
-                                 force {residual:.1e} of the largest force), so the limit load lies between the two",
+                                "limit load: load factor {:.9} is the last that was held, at {:.9} no equilibrium was found \
+                                 (out-of-balance force {residual:.1e} of the largest force)",
                                 self.at.alpha,
-                                self.at.towards(end, most / CUT).alpha,
+                                self.at.towards(end, most).alpha,
                             ),
                         ));
                     }
+                    most *= CUT;
+                    // The points flow as in the state that failed: its tangent, often singular, must not predict the next.
+                    self.zone.assume_elastic();
                 }
             }
         }
@@ -362,7 +363,7 @@ impl Engine<'_> {
         let mut fewest = usize::MAX;
         let mut patience = 6;
         for _ in 0..10 * (self.now.gap.len() + 10) {
-            let increment = match self.increment(end, most, EndsAt::EndOfPiece, stepper.settings) {
+            let increment = match self.increment(end, most, EndsAt::EndOfPiece, stepper.settings, stepper.stop) {
                 Ok(increment) => increment,
                 Err(error) => return Ok(Err(error)),
             };
@@ -423,9 +424,8 @@ impl Engine<'_> {
                 return sign * was;
             }
             saved.put_back(self);
-            let mut unlimited = f64::INFINITY;
-            match self.find_increment(end, t, stepper, &mut unlimited) {
-                Ok(increment) => {
+            match self.find_increment(end, t, SMALLEST_CUT * t, stepper) {
+                Ok((increment, _)) => {
                     reported.residual = increment.residual;
                     reported.iterations += increment.iterations;
                     self.accept(end, increment, reported);
@@ -447,6 +447,11 @@ impl Engine<'_> {
             None => Ok(()),
         }
     }
+}
+
+/// The error of a run that its caller stopped.
+pub fn stopped() -> Error {
+    Error::new(ErrorKind::Stopped, "stopped by the user")
 }
 
 /// A committed state to go back to.
@@ -483,7 +488,28 @@ impl Saved {
     }
 }
 
+impl Engine<'_> {
+    /// Whether the way to `end` leads back against the last increment: then the material unloads elastically at first.
+    fn turns_back(&self, end: &LoadPoint) -> bool {
+        let step = self.at.step_to(end);
+        let along: f64 = step.iter().zip(&self.last_step).map(|(a, b)| a * b).sum();
+        along <= 0.0
+    }
+}
+
 impl LoadPoint {
+    /// Change of all factors and of the interference on the way to `end`.
+    fn step_to(&self, end: &LoadPoint) -> Vec<f64> {
+        let mut step: Vec<f64> = end.factors.iter().zip(&self.factors).map(|(b, a)| b - a).collect();
+        step.push(end.interference - self.interference);
+        step
+    }
+
+    /// Largest change of a factor on the way to `end`.
+    fn distance(&self, end: &LoadPoint) -> f64 {
+        self.step_to(end).iter().fold(0.0, |m, d| m.max(d.abs()))
+    }
+
     /// Share of the way from here to `end` at which `between` lies.
     fn share_of(&self, between: &LoadPoint, end: &LoadPoint) -> f64 {
         if end.alpha != self.alpha {

@@ -66,8 +66,6 @@ pub struct Engine<'m> {
     pub zone: Zone,
     /// Where zone and contact freedoms are.
     pub places: Places,
-    /// Elements of the zone.
-    pub elements: Vec<usize>,
     /// Condensed loads at factor 1.
     loads: Vec<Trailing>,
     /// Forces `t` of the tied pairs for each load at factor 1.
@@ -90,6 +88,8 @@ pub struct Engine<'m> {
     pub fresh: bool,
     /// Pairs that arrived at the border of their condition with the last event.
     pub border: Vec<usize>,
+    /// Change of the load point over the piece of the last increment: tells loading from unloading.
+    pub last_step: Vec<f64>,
 }
 
 impl<'m> Engine<'m> {
@@ -146,13 +146,13 @@ impl<'m> Engine<'m> {
             },
             fresh: true,
             border: Vec::new(),
+            last_step: vec![0.0; model.loads.len() + 1],
             gap,
             interference,
             sub,
             tableau,
             zone,
             places,
-            elements,
         };
         for load in &system.loads {
             let condensed = engine.sub.condense(load)?;
