@@ -92,7 +92,10 @@ pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
         n => effect(
             "contact",
             true,
-            format!("{n} pairs on {} contact surface(s)", model.contacts.len()),
+            match model.contacts.len() {
+                1 => format!("{n} pairs of nodes may touch"),
+                surfaces => format!("{n} pairs of nodes on {surfaces} pairs of surfaces may touch"),
+            },
         ),
     };
     let plasticity = if able.is_empty() {

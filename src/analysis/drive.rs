@@ -187,6 +187,11 @@ impl Engine<'_> {
         report: &mut OnIncrement,
     ) -> Result<Arrival> {
         self.refresh();
+        self.update_force_scale();
+        if self.force_scale == 0.0 {
+            // Nothing acts yet: residuals are measured against what the end of the piece applies.
+            self.force_scale = self.external(end).largest();
+        }
         if self.turns_back(end) {
             self.zone.assume_elastic();
         }
@@ -347,6 +352,8 @@ impl Engine<'_> {
                         ));
                     }
                     most *= CUT;
+                    // The points flow as in the state that failed: its tangent, often singular, must not predict the next.
+                    self.zone.assume_elastic();
                 }
             }
         }

@@ -66,8 +66,6 @@ pub struct Engine<'m> {
     pub zone: Zone,
     /// Where zone and contact freedoms are.
     pub places: Places,
-    /// Elements of the zone.
-    pub elements: Vec<usize>,
     /// Condensed loads at factor 1.
     loads: Vec<Trailing>,
     /// Forces `t` of the tied pairs for each load at factor 1.
@@ -155,7 +153,6 @@ impl<'m> Engine<'m> {
             tableau,
             zone,
             places,
-            elements,
         };
         for load in &system.loads {
             let condensed = engine.sub.condense(load)?;

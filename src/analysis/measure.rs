@@ -3,6 +3,7 @@
 use super::engine::Engine;
 use crate::model::{Magnitude, Model};
 use crate::results::{PairState, Status};
+use std::borrow::Cow;
 
 /// Pairs at the edge, the last closed one included, that are left out when the edge is extrapolated: their forces depend on
 /// where in the facet the contact ends. Measured on Hertz' line contact: leaving out one, two, three pairs puts the edge
@@ -88,7 +89,7 @@ pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigur
     let pressure = pressures(model, force);
     let mut out = ContactFigures {
         max_pressure: pressure.iter().fold(0.0, |m, p| m.max(*p)),
-        force: force.iter().sum(),
+        force: sum(force),
         ..ContactFigures::default()
     };
     let strongest = force.iter().fold(0.0f64, |m, r| m.max(*r));
@@ -140,6 +141,11 @@ pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigur
         }
     }
     out
+}
+
+/// The sum; of nothing it is 0, where `Iterator::sum` gives -0.
+fn sum(forces: &[f64]) -> f64 {
+    forces.iter().fold(0.0, |sum, force| sum + force)
 }
 
 /// A run of closed pairs `begin..end` of a contact.
@@ -242,7 +248,18 @@ fn falling_line(points: &[(f64, f64)]) -> Option<(f64, f64)> {
 impl Engine<'_> {
     /// Contact figures of the current state.
     pub fn contact_figures(&self) -> ContactFigures {
-        contact_figures(self.model, &self.now.force, self.force_scale)
+        contact_figures(self.model, &self.contact_forces(), self.force_scale)
+    }
+
+    /// The contact forces. Residual stresses balance to the tolerance of the plastic iteration only: where all contact
+    /// forces together are less than that, the bodies have parted and nothing is left but the imbalance.
+    pub fn contact_forces(&self) -> Cow<'_, [f64]> {
+        let force = &self.now.force;
+        let imbalance = self.model.scene.analysis.tolerance * self.force_scale;
+        if self.now.initial.largest() > 0.0 && sum(force) <= imbalance {
+            return Cow::Owned(vec![0.0; force.len()]);
+        }
+        Cow::Borrowed(force)
     }
 
     /// The load that the results are told by: the first that varies, else the first.
@@ -265,7 +282,7 @@ impl Engine<'_> {
                 self.at.factors[i].abs() * self.model.loads[i].magnitude
             }
             _ if self.now.force.is_empty() => f64::NAN,
-            _ => self.now.force.iter().sum::<f64>() * self.model.symmetry,
+            _ => sum(&self.contact_forces()) * self.model.symmetry,
         }
     }
 

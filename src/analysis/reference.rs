@@ -18,16 +18,11 @@ pub(super) fn rows(model: &Model, results: &Results) -> Vec<ReferenceRow> {
         if entry.disc_in_plate.is_some() {
             rows.extend(disc_in_plate(model, results).unwrap_or_default());
         }
-        if let (Some(quantity), Some(value)) = (&entry.quantity, entry.value) {
-            if let Some(computed) = lookup(results, quantity) {
-                rows.push(row(
-                    quantity,
-                    value,
-                    computed,
-                    None,
-                    entry.source.as_deref().unwrap_or("scene"),
-                ));
-            }
+        if let (Some(quantity), Some(value)) = (&entry.quantity, entry.value)
+            && let Some(computed) = lookup(results, quantity)
+        {
+            let source = entry.source.as_deref().unwrap_or("scene");
+            rows.push(row(quantity, value, computed, None, source));
         }
     }
     rows

@@ -64,7 +64,7 @@ impl Engine<'_> {
             pairs: pair_states(
                 self.model,
                 &self.now.gap,
-                &self.now.force,
+                &self.contact_forces(),
                 self.tableau.open(),
             ),
             fields: with_fields.then(|| self.fields(&u, &elements)),

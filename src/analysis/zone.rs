@@ -72,16 +72,6 @@ impl Zone {
         }
     }
 
-    /// Number of elements.
-    pub fn n_elements(&self) -> usize {
-        self.elements.len()
-    }
-
-    /// Number of Gauss points.
-    pub fn n_points(&self) -> usize {
-        self.committed.len()
-    }
-
     /// Bytes held.
     pub fn bytes(&self) -> u64 {
         (self.elements.capacity() * std::mem::size_of::<GatheredElement>()

@@ -65,10 +65,10 @@ pub fn assemble(model: &Model) -> Result<System> {
                 let freedoms = incidence.freedoms(element as usize);
                 let matrix = elements.matrix(element as usize);
                 for (i, &freedom) in freedoms.iter().enumerate() {
-                    if freedom >= 0 && freedom <= j as i64 {
-                        if let Ok(at) = rows.binary_search(&freedom) {
-                            column[at] += matrix[packed(i, local as usize)];
-                        }
+                    if (0..=j as i64).contains(&freedom)
+                        && let Ok(at) = rows.binary_search(&freedom)
+                    {
+                        column[at] += matrix[packed(i, local as usize)];
                     }
                 }
             }

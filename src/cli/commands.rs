@@ -10,7 +10,8 @@ use crate::model::Model;
 use crate::output::{self, RunHeader};
 use crate::results::Results;
 use crate::scene::{Kind, Scene};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+use std::time::Instant;
 
 /// Does what the user asked for.
 pub(super) fn execute(arguments: &Arguments) -> Result<()> {
@@ -31,26 +32,37 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, act: Act) -> Result<(
     let common = &arguments.common;
     let scene = prepare(common)?;
     if let Some(out) = &out {
-        require_directory(out)?;
+        // A directory that cannot be written is better found before an hour's run than after it.
+        output::check_directory(out)?;
     }
     interrupt::listen()?;
-    let start = std::time::Instant::now();
+    let start = Instant::now();
+    let seconds = || start.elapsed().as_secs_f64();
     let mut progress = Progress::new(arguments.quiet);
     progress.start("mesh and model");
     let model = Model::new(&scene)?;
+    let modelled = seconds();
+    progress.start("assembly");
     let mut analysis = Analysis::new(model, common.solver.into())?;
-    let results = act(&mut analysis, &mut progress)?;
+    let mut results = act(&mut analysis, &mut progress)?;
+    results
+        .timings
+        .insert(0, ("mesh and model".to_string(), modelled));
     let model = analysis.model();
-    let header = header(&scene, model, common, start.elapsed().as_secs_f64());
+    let computed = seconds();
+    let header = header(&scene, model, common, computed);
     if let Some(out) = &out {
         progress.start("output");
         output::write(out, &header, &model.mesh, &results)?;
+        results
+            .timings
+            .push(("output".to_string(), seconds() - computed));
     }
     progress.finish();
     let text = if common.json {
         json(&output::summary(&header, &results))?
     } else {
-        report::results(&scene, &results, out.as_deref())
+        report::results(&scene, &header.bodies, &results, seconds(), out.as_deref())
     };
     print(&text)?;
     match &results.incomplete {
@@ -101,20 +113,6 @@ fn prepare(common: &CommonArguments) -> Result<Scene> {
             })?;
     }
     Ok(scene)
-}
-
-/// A result directory that cannot be one is better found before an hour's run than after it.
-fn require_directory(out: &Path) -> Result<()> {
-    if out.exists() && !out.is_dir() {
-        return Err(Error::new(
-            ErrorKind::Io,
-            format!(
-                "{} exists and is not a directory; give another one with --out",
-                out.display()
-            ),
-        ));
-    }
-    Ok(())
 }
 
 fn json(value: &impl serde::Serialize) -> Result<String> {

@@ -1,10 +1,13 @@
-//! Ctrl-C: the first asks the run to end after its increment, the second ends the program.
+//! Ctrl-C: the first asks the run to end at the last accepted increment, the second ends the program.
 
 use crate::error::{Error, ErrorKind, Result};
 use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
+/// A second signal this soon is the same wish: `timeout` and terminals send one to the process and one to its group.
+const SAME_WISH: Duration = Duration::from_millis(200);
 
 /// Has the user asked the run to end?
 pub(super) fn requested() -> bool {
@@ -16,14 +19,22 @@ pub(super) fn requested() -> bool {
 /// # Errors
 /// The system refuses the signal handler.
 pub(super) fn listen() -> Result<()> {
-    ctrlc::set_handler(|| {
-        if REQUESTED.swap(true, Ordering::Relaxed) {
-            std::process::exit(i32::from(ErrorKind::Stopped.exit_code()));
+    let mut first: Option<Instant> = None;
+    ctrlc::set_handler(move || {
+        REQUESTED.store(true, Ordering::Relaxed);
+        match first {
+            Some(first) if first.elapsed() > SAME_WISH => {
+                std::process::exit(i32::from(ErrorKind::Stopped.exit_code()));
+            }
+            Some(_) => {}
+            None => {
+                first = Some(Instant::now());
+                let _ = writeln!(
+                    std::io::stderr(),
+                    "stopping at the end of this increment; Ctrl-C again ends at once, without results"
+                );
+            }
         }
-        let _ = writeln!(
-            std::io::stderr(),
-            "stopping after this increment; Ctrl-C again ends at once, without results"
-        );
     })
     .map_err(|cause| Error::internal("cannot listen for Ctrl-C").because(cause))
 }

@@ -5,28 +5,42 @@ use super::table::{Column::*, Table, WIDTH, wrap};
 use crate::analysis::Check;
 use crate::linalg::Prediction;
 use crate::results::{Effect, Quality, ReferenceRow, Results, Sizes, State, YieldPoint};
-use crate::scene::{Kind, Scene};
+use crate::scene::{Kind, Scene, Unit};
 use std::path::Path;
 
-/// The summary of a run or of a yield load.
-pub(super) fn results(scene: &Scene, results: &Results, out: Option<&Path>) -> String {
+/// The summary of a run or of a yield load. `bodies` are the names by index, `wall_seconds` is the time of the whole command.
+pub(super) fn results(
+    scene: &Scene,
+    bodies: &[String],
+    results: &Results,
+    wall_seconds: f64,
+    out: Option<&Path>,
+) -> String {
     let mut report = Report::new(scene);
     report.sizes(&results.sizes);
     report.factor(&results.factor);
     report.effects(&results.effects);
-    report.first_yield(results.first_yield.as_ref());
-    report.states(&results.states);
+    if let Some(first) = &results.first_yield {
+        report.first_yield(first, bodies, results.sizes.contact_pairs > 0);
+    }
+    report.states(
+        &results.states,
+        scene.program.unit,
+        results.sizes.contact_pairs > 0,
+    );
     if let Some(why) = &results.incomplete {
         report.paragraph(&format!("INCOMPLETE: {why}"));
     }
     report.reference(&results.reference);
     report.quality(&results.quality);
-    report.cost(results);
+    report.cost(results, wall_seconds);
     report.list("Warnings", &results.warnings);
     if let Some(out) = out {
+        let with_fields = results.states.iter().any(|state| state.fields.is_some());
         report.paragraph(&format!(
-            "Results in {}: summary.json, history.csv, contact.csv, fields.pvd",
-            out.display()
+            "Results in {}: summary.json, history.csv, contact.csv{}",
+            out.display(),
+            if with_fields { ", fields.pvd" } else { "" }
         ));
     }
     report.text
@@ -40,7 +54,7 @@ pub(super) fn check(scene: &Scene, check: &Check) -> String {
     report.labelled(
         "Predicted",
         &format!(
-            "{} for the factorisation; BLAS: {}",
+            "about {} for each factorisation; BLAS: {}",
             seconds(check.predicted_seconds),
             check.blas
         ),
@@ -50,6 +64,14 @@ pub(super) fn check(scene: &Scene, check: &Check) -> String {
     report.text
 }
 
+/// `3 elements`, `1 element`.
+fn counted(count: usize, what: &str) -> String {
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {what}{plural}")
+}
+
+/// Two figures of a state within this of each other need no column each: the table shows six digits.
+const SAME: f64 = 1e-6;
 /// Width of the labels.
 const LABEL: usize = 9;
 
@@ -122,14 +144,19 @@ impl Report {
         self.labelled(
             "Model",
             &format!(
-                "{} elements, {} nodes, {} freedoms, {} contact pairs; \
-             plastic zone {} elements, {} freedoms",
-                sizes.elements,
-                sizes.nodes,
-                sizes.freedoms,
-                sizes.contact_pairs,
-                sizes.zone_elements,
-                sizes.zone_freedoms
+                "{}, {}, {}, {}; {}",
+                counted(sizes.elements, "element"),
+                counted(sizes.nodes, "node"),
+                counted(sizes.freedoms, "freedom"),
+                counted(sizes.contact_pairs, "contact pair"),
+                match sizes.zone_elements {
+                    0 => "no plastic zone".to_string(),
+                    n => format!(
+                        "plastic zone {}, {}",
+                        counted(n, "element"),
+                        counted(sizes.zone_freedoms, "freedom")
+                    ),
+                }
             ),
         );
     }
@@ -163,11 +190,16 @@ impl Report {
             (Number, "memory"),
         ]);
         for effect in effects {
-            let (time, memory) = if effect.on {
-                (seconds(effect.seconds), bytes(effect.memory_bytes as f64))
-            } else {
-                ("-".to_string(), "-".to_string())
+            // An effect that is off, or that costs nothing of its own, has no figures.
+            let cost = |nonzero: bool, text: String| match nonzero {
+                true => text,
+                false => "-".to_string(),
             };
+            let time = cost(effect.on && effect.seconds > 0.0, seconds(effect.seconds));
+            let memory = cost(
+                effect.on && effect.memory_bytes > 0,
+                bytes(effect.memory_bytes as f64),
+            );
             let on = if effect.on { "on" } else { "off" };
             table.row([
                 effect.name.clone(),
@@ -180,81 +212,153 @@ impl Report {
         self.section("Effects", &table);
     }
 
-    fn first_yield(&mut self, first: Option<&YieldPoint>) {
-        let Some(first) = first else { return };
-        let mut table = Table::new(&[
-            (Number, "load\nfactor"),
-            (Number, "load"),
-            (Number, "max\npressure"),
-            (Number, "half\nwidth"),
-            (Number, "x"),
-            (Number, "y"),
+    fn first_yield(&mut self, first: &YieldPoint, bodies: &[String], contact: bool) {
+        let body = bodies.get(first.body).cloned().unwrap_or_default();
+        let mut columns = vec![
+            (Number, "factor on\nthe loads", number(first.alpha)),
+            (Number, "load", number(first.load)),
+        ];
+        if contact {
+            columns.push((Number, "max\npressure", number(first.max_pressure)));
+            columns.push((Number, "half\nwidth", number(first.half_width)));
+        }
+        columns.extend([
+            (Text, "in body", body),
+            (Number, "at x", number(first.location[0])),
+            (Number, "y", number(first.location[1])),
         ]);
-        table.row(
-            [
-                first.alpha,
-                first.load,
-                first.max_pressure,
-                first.half_width,
-                first.location[0],
-                first.location[1],
-            ]
-            .map(number),
-        );
+        let headings: Vec<_> = columns.iter().map(|c| (c.0, c.1)).collect();
+        let mut table = Table::new(&headings);
+        table.row(columns.into_iter().map(|c| c.2));
         self.section("First yield", &table);
     }
 
-    fn states(&mut self, states: &[State]) {
+    /// The states, with the columns that tell something in this scene.
+    fn states(&mut self, states: &[State], unit: Unit, contact: bool) {
         if states.is_empty() {
             return;
         }
-        let mut table = Table::new(&[
-            (Text, "state"),
-            (Number, "load\nfactor"),
-            (Number, "load"),
-            (Number, "max\npressure"),
-            (Number, "half\nwidth"),
-            (Number, "residual\ndepth"),
-            (Number, "plastic\npoints"),
-            (Number, "max plastic\nstrain"),
-        ]);
+        let differ = |a: f64, b: f64| (a - b).abs() > SAME * a.abs().max(b.abs());
+        let arc = states.iter().any(|s| s.contact_arc.is_some());
+        let force = states.iter().any(|s| differ(s.load, s.contact_force));
+        let pole = states
+            .iter()
+            .any(|s| differ(s.max_pressure, s.pole_pressure));
+        let plastic = states.iter().any(|s| s.plastic_points > 0);
+        let degrees = |s: &State, end: usize| match s.contact_arc {
+            Some(arc) => format!("{:.2}", arc[end] + 0.0),
+            None => "-".to_string(),
+        };
+        let small = |value: f64| significant(value, 5);
+        type Cell<'a> = Box<dyn Fn(&State) -> String + 'a>;
+        let mut columns: Vec<(super::table::Column, &'static str, Cell)> = vec![
+            (Text, "state", Box::new(|s| s.name.clone())),
+            (Number, "load\nfactor", Box::new(|s| number(s.alpha))),
+            (Number, "load", Box::new(|s| number(s.load))),
+        ];
+        let mut show = |when: bool, heading: &'static str, cell: Cell<'static>| {
+            if when {
+                columns.push((Number, heading, cell));
+            }
+        };
+        show(
+            contact && force,
+            "contact\nforce",
+            Box::new(|s| number(s.contact_force)),
+        );
+        show(
+            contact,
+            "max\npressure",
+            Box::new(|s| number(s.max_pressure)),
+        );
+        show(
+            contact && pole,
+            "pole\npressure",
+            Box::new(|s| number(s.pole_pressure)),
+        );
+        show(
+            contact && !arc,
+            "half\nwidth",
+            Box::new(|s| number(s.half_width)),
+        );
+        show(
+            contact && arc,
+            "arc\nfrom\n[deg]",
+            Box::new(move |s| degrees(s, 0)),
+        );
+        show(
+            contact && arc,
+            "arc\nto\n[deg]",
+            Box::new(move |s| degrees(s, 1)),
+        );
+        show(
+            contact && !arc && !pole,
+            "approach",
+            Box::new(move |s| small(s.approach)),
+        );
+        show(
+            !contact,
+            "displace-\nment",
+            Box::new(move |s| small(s.approach)),
+        );
+        show(
+            contact && plastic,
+            "residual\ndepth",
+            Box::new(move |s| small(s.residual_depth)),
+        );
+        show(
+            plastic,
+            "plastic\npoints",
+            Box::new(|s| s.plastic_points.to_string()),
+        );
+        show(
+            plastic,
+            "max\nplastic\nstrain",
+            Box::new(move |s| small(s.max_equivalent_plastic_strain)),
+        );
+        let headings: Vec<_> = columns.iter().map(|c| (c.0, c.1)).collect();
+        let mut table = Table::new(&headings);
         for state in states {
-            table.row([
-                state.name.clone(),
-                number(state.alpha),
-                number(state.load),
-                number(state.max_pressure),
-                number(state.half_width),
-                number(state.residual_depth),
-                state.plastic_points.to_string(),
-                number(state.max_equivalent_plastic_strain),
-            ]);
+            table.row(columns.iter().map(|c| (c.2)(state)));
         }
-        self.section("States", &table);
+        self.section(
+            match unit {
+                Unit::Load => "States",
+                Unit::Yield => "States (load factor 1 is first yield)",
+            },
+            &table,
+        );
     }
 
     fn reference(&mut self, rows: &[ReferenceRow]) {
         if rows.is_empty() {
             return;
         }
-        let mut table = Table::new(&[
+        let published = rows.iter().any(|row| row.published_ratio.is_some());
+        let mut headings = vec![
             (Text, "quantity"),
             (Number, "reference"),
             (Number, "computed"),
             (Number, "ratio"),
-            (Number, "ratio of\nthe paper"),
-            (Text, "source"),
-        ]);
+        ];
+        if published {
+            headings.push((Number, "ratio of\nthe paper"));
+        }
+        headings.push((Text, "source"));
+        let mut table = Table::new(&headings);
         for row in rows {
-            table.row([
+            let mut cells = vec![
                 row.quantity.clone(),
                 number(row.reference),
                 number(row.computed),
                 number(row.ratio),
-                row.published_ratio
-                    .map_or("-".to_string(), |ratio| ratio.to_string()),
-                row.source.clone(),
-            ]);
+            ];
+            if published {
+                let ratio = row.published_ratio.map(|ratio| ratio.to_string());
+                cells.push(ratio.unwrap_or_else(|| "-".to_string()));
+            }
+            cells.push(row.source.clone());
+            table.row(cells);
         }
         self.section("Reference values", &table);
     }
@@ -274,35 +378,27 @@ impl Report {
         );
     }
 
-    fn cost(&mut self, results: &Results) {
+    fn cost(&mut self, results: &Results, wall_seconds: f64) {
         let counts = &results.counts;
-        self.labelled(
-            "Counts",
-            &format!(
-                "{} increments, {} factorizations, {} trailing solves, {} full solves, \
-             {} plastic iterations, {} contact changes",
-                results.history.len(),
-                counts.factorizations,
-                counts.trailing_solves,
-                counts.full_solves,
-                counts.plastic_iterations,
-                counts.contact_changes
-            ),
-        );
+        let list = [
+            counted(results.history.len(), "increment"),
+            counted(counts.factorizations, "factorization"),
+            counted(counts.trailing_solves, "trailing solve"),
+            counted(counts.full_solves, "full solve"),
+            counted(counts.plastic_iterations, "plastic iteration"),
+            counted(counts.contact_changes, "contact change"),
+        ];
+        self.labelled("Counts", &list.join(", "));
         if results.timings.is_empty() {
             return;
         }
-        let total: f64 = results.timings.iter().map(|(_, time)| time).sum();
         let mut table = Table::new(&[(Text, "phase"), (Number, "time"), (Number, "share")]);
-        for (phase, time) in &results.timings {
-            let share = if total > 0.0 {
-                100.0 * time / total
-            } else {
-                0.0
-            };
+        // A phase that did not run took exactly no time.
+        for (phase, time) in results.timings.iter().filter(|(_, time)| *time > 0.0) {
+            let share = 100.0 * time / wall_seconds.max(*time);
             table.row([phase.clone(), seconds(*time), format!("{share:.0} %")]);
         }
-        table.row(["total".to_string(), seconds(total), String::new()]);
+        table.row(["total".to_string(), seconds(wall_seconds), String::new()]);
         self.section("Time", &table);
     }
 }

@@ -46,7 +46,7 @@ impl Table {
         let height = heading.iter().map(|h| h.lines().count()).max().unwrap_or(0);
         let heading: Vec<String> = heading
             .iter()
-            .map(|h| "\n".repeat(height - h.lines().count()) + h)
+            .map(|h| "\n".repeat(height.saturating_sub(h.lines().count().max(1))) + h)
             .collect();
         self.set(&heading, &widths, &mut text);
         let length = widths.iter().sum::<usize>() + GAP * widths.len().saturating_sub(1);
@@ -172,6 +172,13 @@ mod tests {
         let words = text.matches("because").count();
         assert_eq!(words, 20, "words lost:\n{text}");
         assert!(text.lines().count() > 4);
+    }
+
+    #[test]
+    fn an_empty_heading_takes_no_line() {
+        let mut table = Table::new(&[(Column::Text, "effect"), (Column::Text, "")]);
+        table.row(["contact".to_string(), "on".to_string()]);
+        assert_eq!(table.render(), "  effect\n  -----------\n  contact  on\n");
     }
 
     #[test]

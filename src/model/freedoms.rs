@@ -381,7 +381,7 @@ pub(super) fn unknown_name(name: &str, what: &str, known: &[&str]) -> Error {
 
 fn is_aligned(axis: [f64; 2], direction: [f64; 2]) -> bool {
     let along = dot(axis, direction).abs();
-    along > 1.0 - ALIGNED || along < ALIGNED
+    !(ALIGNED..=1.0 - ALIGNED).contains(&along)
 }
 
 fn axis(direction: Direction) -> usize {

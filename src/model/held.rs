@@ -252,10 +252,11 @@ impl<'a> Motions<'a> {
         }
         let largest = gram.diagonal().max().max(1.0);
         let eigen = SymmetricEigen::new(gram);
-        (0..n)
+        let motions = (0..n)
             .filter(|&k| eigen.eigenvalues[k] < FREE * FREE * largest)
             .map(|k| eigen.eigenvectors.column(k).into_owned())
-            .collect()
+            .collect();
+        plain(motions, per)
     }
 
     fn moved(&self, mode: &DVector<f64>) -> Vec<usize> {
@@ -330,8 +331,8 @@ impl<'a> Motions<'a> {
                 let (c, s) = (self.center[first], 2.0 / self.size[first]);
                 format!(
                     "rotate about ({:.4}, {:.4})",
-                    c[0] - y / (s * turn),
-                    c[1] + x / (s * turn)
+                    tidy(c[0] - y / (s * turn), self.size[first]),
+                    tidy(c[1] + x / (s * turn), self.size[first])
                 )
             } else if y.abs() <= 1e-6 * x.abs() {
                 "move along x".to_string()
@@ -348,6 +349,43 @@ impl<'a> Motions<'a> {
             bodies.join(" and ")
         )
     }
+}
+
+/// A coordinate without the round-off of a body of this size.
+fn tidy(coordinate: f64, size: f64) -> f64 {
+    if coordinate.abs() < 1e-9 * size {
+        0.0
+    } else {
+        coordinate
+    }
+}
+
+/// The same motions by a basis that can be told in words: rotations are taken out of all vectors but as many as it takes, then
+/// motions along y, then along x (reduced echelon form). Motions without rotation come first.
+fn plain(mut motions: Vec<DVector<f64>>, per: usize) -> Vec<DVector<f64>> {
+    let n = motions.first().map_or(0, DVector::len);
+    let mut done = 0;
+    for kind in (0..per).rev() {
+        for row in (kind..n).step_by(per) {
+            let Some(pivot) = (done..motions.len())
+                .max_by(|&a, &b| motions[a][row].abs().total_cmp(&motions[b][row].abs()))
+                .filter(|&k| motions[k][row].abs() > 1e-6)
+            else {
+                continue;
+            };
+            motions.swap(done, pivot);
+            let vector = &motions[done] / motions[done][row];
+            for (k, other) in motions.iter_mut().enumerate() {
+                if k != done {
+                    *other -= &vector * other[row];
+                }
+            }
+            motions[done] = vector;
+            done += 1;
+        }
+    }
+    motions.reverse();
+    motions.iter().map(|m| m / m.norm()).collect()
 }
 
 fn root(parent: &mut [usize], mut i: usize) -> usize {

@@ -4,6 +4,7 @@ use super::{RunHeader, fields};
 use crate::linalg::Prediction;
 use crate::results::{Effect, ReferenceRow, Results, State, Status, YieldPoint};
 use serde_json::{Map, Value, json};
+use std::path::Path;
 
 /// The content of `summary.json`. Numbers that are not finite become null.
 ///
@@ -15,7 +16,8 @@ pub fn summary(header: &RunHeader, results: &Results) -> Value {
     let states = results.states.iter().enumerate();
     json!({
         "brinell": env!("CARGO_PKG_VERSION"),
-        "scene": { "title": header.scene_title, "file": header.scene_file },
+        "scene": scene(header),
+        "scene_file": header.scene_file,
         "kind": header.kind,
         "solver": header.solver,
         "nodes": sizes.nodes,
@@ -36,6 +38,18 @@ pub fn summary(header: &RunHeader, results: &Results) -> Value {
         "warnings": results.warnings,
         "incomplete": results.incomplete,
     })
+}
+
+/// What a reader calls the scene: its title, or the name of its file.
+fn scene(header: &RunHeader) -> String {
+    if !header.scene_title.is_empty() {
+        return header.scene_title.clone();
+    }
+    let file = header.scene_file.as_deref().map(Path::new);
+    let name = file
+        .and_then(Path::file_name)
+        .map(|name| name.to_string_lossy());
+    name.map_or_else(|| "untitled".to_string(), |name| name.into_owned())
 }
 
 fn effects(effects: &[Effect]) -> Value {

@@ -19,9 +19,20 @@ pub struct MeshSource {
     pub file: Option<PathBuf>,
 }
 
-/// The half model (x >= 0) of a cylinder (ball) pressed on a half plane (half space). Bodies
-/// `cylinder` and `half_plane`; surfaces `cylinder.contact`, `cylinder.top`, `cylinder.symmetry`,
-/// `half_plane.contact`, `half_plane.bottom`, `half_plane.symmetry`, `half_plane.side`, `cylinder.side`.
+/// The half model (x >= 0) of a cylinder (ball) pressed on a half plane (half space), the first contact at
+/// the origin. Bodies `cylinder` (above) and `half_plane`.
+///
+/// | set | where |
+/// |---|---|
+/// | `cylinder.contact`, `half_plane.contact` | the contact candidates: the evenly meshed part of the surfaces, out to `fine_width` |
+/// | `cylinder.outside`, `half_plane.outside` | the rest of the two surfaces |
+/// | `cylinder.symmetry`, `half_plane.symmetry` | the line x = 0 |
+/// | `cylinder.side`, `half_plane.side` | the outer ends, x = `far_size` half widths |
+/// | `cylinder.top`, `half_plane.bottom` | the cuts, y = +-`far_size` half widths |
+/// | `cylinder.pole`, `half_plane.pole` | node sets: the node at the origin |
+///
+/// The cylinder follows the circle over the candidates and levels off beyond: the model is that of Hertz, two half
+/// planes which differ from flat near the contact only. See [`crate::mesh::generate::cylinder_on_half_plane`].
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CylinderOnHalfPlane {
@@ -37,7 +48,8 @@ pub struct CylinderOnHalfPlane {
     /// Depth of the evenly meshed region, in half widths.
     #[serde(default = "super::defaults::fine_depth")]
     pub fine_depth: f64,
-    /// Size of each body, in half widths.
+    /// Size of each body, in half widths. The bodies stand for infinite ones: a size W changes the stress under the contact by
+    /// the order b/W, so the default is large; elements that grow with the distance make it cheap.
     #[serde(default = "super::defaults::far_size")]
     pub far_size: f64,
     /// Ratio of neighbouring element sizes outside the even region.
@@ -50,7 +62,8 @@ pub struct CylinderOnHalfPlane {
 
 /// Quarter model (x, y >= 0) of a disc that fills the hole of a plate, tension along x. Bodies
 /// `disc` and `plate`; surfaces `disc.contact`, `plate.contact` (the hole), `plate.far`,
-/// `disc.symmetry_x`, `plate.symmetry_x` (on x = 0), `disc.symmetry_y`, `plate.symmetry_y` (on y = 0).
+/// `disc.symmetry_x`, `plate.symmetry_x` (on x = 0), `disc.symmetry_y`, `plate.symmetry_y` (on y = 0); node sets
+/// `disc.pole`, `plate.pole` (on the y axis, where the contact stays) and `disc.center`.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DiscInPlate {

@@ -44,8 +44,9 @@ pub struct Scene {
     pub title: String,
     /// Plane strain, plane stress or axisymmetric.
     pub kind: Kind,
-    /// How many copies of the model make the whole: 2 for a half model, 4 for a quarter. Total forces in the
-    /// scene and in results are those of the whole.
+    /// How many copies of the model make the whole: 1 (the default) where all of it is meshed, 2 for a half model, 4 for a
+    /// quarter. Total forces (`force`, `plane_force`) in the scene, and loads and contact forces in the results, are those of the
+    /// whole; the model carries its share of them.
     #[serde(default = "defaults::single")]
     pub symmetry: usize,
     /// Where the mesh comes from.

@@ -1,5 +1,10 @@
 //! The program from the outside: what it prints where, and its exit codes.
 
+mod interruption;
+mod mutations;
+mod outputs;
+mod refusals;
+
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
@@ -30,12 +35,56 @@ impl Folder {
         Folder { folder }
     }
 
+    /// A scene of `data/scenes`, each of `changes` (old, new) made at its only place.
+    fn with_changes(name: &str, changes: &[(&str, &str)]) -> Folder {
+        let mut text = std::fs::read_to_string(scene(name)).unwrap();
+        for (old, new) in changes {
+            assert_eq!(text.matches(old).count(), 1, "{old:?} in {name}");
+            text = text.replace(old, new);
+        }
+        Folder::with_scene(&text)
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
     fn scene(&self) -> PathBuf {
-        self.folder.path().join("scene.toml")
+        self.path("scene.toml")
     }
 
     fn entries(&self) -> usize {
         std::fs::read_dir(self.folder.path()).unwrap().count()
+    }
+
+    /// Runs `command` on the scene, results going to `out` in the folder (`check` has none).
+    fn brinell(&self, command: &str, more: &[&str]) -> Output {
+        let (scene, out) = (self.scene(), self.path("out"));
+        let mut arguments = vec![command, scene.to_str().unwrap()];
+        if command != "check" {
+            arguments.extend(["--out", out.to_str().unwrap()]);
+        }
+        arguments.extend(more);
+        brinell(&arguments)
+    }
+
+    /// `run` fails with `code` and one error that holds the `fragments`, and leaves nothing behind.
+    fn refused(&self, code: i32, fragments: &[&str]) {
+        let entries = self.entries();
+        let output = self.brinell("run", &["--quiet"]);
+        let stderr = String::from_utf8(output.stderr.clone()).unwrap();
+        assert_eq!(output.status.code(), Some(code), "{stderr}");
+        assert_eq!(stderr.matches("error: ").count(), 1, "{stderr}");
+        for fragment in fragments {
+            assert!(stderr.contains(fragment), "no {fragment:?} in {stderr}");
+        }
+        assert_eq!(stdout(&output), "");
+        assert_eq!(self.entries(), entries, "something was left behind");
+    }
+
+    fn summary(&self) -> serde_json::Value {
+        let text = std::fs::read_to_string(self.path("out/summary.json")).unwrap();
+        serde_json::from_str(&text).unwrap()
     }
 }
 
@@ -177,17 +226,4 @@ fn a_wrong_override_is_exit_code_2_and_names_itself() {
     ] {
         fails(&["check", &scene, "--set", text], 2, &[fragment]);
     }
-}
-
-#[test]
-fn a_result_directory_that_is_a_file_is_found_before_the_run() {
-    let good = std::fs::read_to_string(scene("contact_patch")).unwrap();
-    let folder = Folder::with_scene(&good);
-    let path = folder.scene();
-    let path = path.to_str().unwrap();
-    fails(
-        &["run", path, "--out", path],
-        3,
-        &["exists and is not a directory", "--out"],
-    );
 }

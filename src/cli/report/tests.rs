@@ -9,6 +9,11 @@ fn scene() -> Scene {
     Scene::parse(text, "scene.toml").unwrap()
 }
 
+fn report(of: &Results, out: Option<&Path>) -> String {
+    let bodies = ["cylinder", "half_plane"].map(String::from);
+    results(&scene(), &bodies, of, 5.0, out)
+}
+
 fn full() -> Results {
     let name = "a state with a name that is much longer than anybody would want to read in a table";
     Results {
@@ -53,6 +58,7 @@ fn full() -> Results {
             residual_depth: -1.234567e-12,
             plastic_points: 1234567,
             max_equivalent_plastic_strain: 1.2345678e-5,
+            fields: Some(Default::default()),
             ..State::default()
         }],
         history: vec![HistoryRow::default(); 3],
@@ -93,7 +99,7 @@ fn full() -> Results {
 
 #[test]
 fn a_report_fits_the_page_and_holds_every_section() {
-    let text = results(&scene(), &full(), Some(&PathBuf::from("cylinder.out")));
+    let text = report(&full(), Some(&PathBuf::from("cylinder.out")));
     for line in text.lines() {
         assert!(line.chars().count() <= WIDTH, "too wide: {line}");
         assert_eq!(line, line.trim_end(), "blanks at the end: {line:?}");
@@ -107,20 +113,21 @@ fn a_report_fits_the_page_and_holds_every_section() {
         "1.5 MB",
         "\nFirst yield\n",
         "0.217000  217.000",
+        "half_plane",
         "-0.109470",
-        "\nStates\n",
+        "\nStates (load factor 1 is first yield)\n",
         "1.05150",
         "-1234568",
-        "-1.23457e-12",
+        "-1.2346e-12",
         "\nReference values\n",
         "0.996710",
         "0.94",
         "backward error 1.2e-16, equilibrium 3.2e-11, complementarity 0",
-        "3 increments, 1 factorizations, 1234 trailing solves",
-        "factorisation  3.000 s   75 %",
-        "total          4.000 s",
+        "3 increments, 1 factorization, 1234 trailing solves",
+        "factorisation  3.000 s   60 %",
+        "total          5.000 s",
         "\nWarnings\n  - something",
-        "Results in cylinder.out: summary.json",
+        "Results in cylinder.out: summary.json, history.csv, contact.csv, fields.pvd\n",
     ] {
         assert!(text.contains(fragment), "no {fragment:?} in\n{text}");
     }
@@ -129,7 +136,7 @@ fn a_report_fits_the_page_and_holds_every_section() {
 
 #[test]
 fn an_effect_that_is_off_has_no_cost() {
-    let text = results(&scene(), &full(), None);
+    let text = report(&full(), None);
     let line = text.lines().find(|l| l.contains("interference")).unwrap();
     let cells: Vec<&str> = line.split_whitespace().collect();
     assert_eq!(cells[1], "off");
@@ -139,7 +146,7 @@ fn an_effect_that_is_off_has_no_cost() {
 
 #[test]
 fn what_there_is_nothing_of_is_left_out() {
-    let text = results(&scene(), &Results::default(), None);
+    let text = report(&Results::default(), None);
     for heading in [
         "Effects",
         "First yield",
@@ -154,10 +161,43 @@ fn what_there_is_nothing_of_is_left_out() {
 }
 
 #[test]
+fn columns_are_those_that_tell_something() {
+    let mut results = full();
+    results.states[0].name = "pulled".into();
+    results.states[0].pole_pressure = results.states[0].max_pressure;
+    let plain = report(&results, None);
+    for heading in ["half", "residual", "approach"] {
+        assert!(plain.contains(heading), "{plain}");
+    }
+    assert!(
+        !plain.contains("[deg]") && !plain.contains("displace-"),
+        "{plain}"
+    );
+    results.states[0].contact_arc = Some([-0.0, 19.4855]);
+    let state = results.states[0].clone();
+    results.states.push(State {
+        contact_arc: None,
+        name: "parted".into(),
+        ..state
+    });
+    let arc = report(&results, None);
+    assert!(arc.contains("[deg]") && !arc.contains("approach"), "{arc}");
+    let row = |name: &str| arc.lines().find(|l| l.contains(name)).unwrap().to_string();
+    assert!(row("pulled").contains(" 0.00  19.49 "), "{arc}");
+    assert!(row("parted").contains(" -      - "), "{arc}");
+    results.sizes.contact_pairs = 0;
+    let lone = report(&results, None);
+    assert!(lone.contains("displace-"), "{lone}");
+    for heading in ["pole", "arc ", "residual"] {
+        assert!(!lone.contains(heading), "{lone}");
+    }
+}
+
+#[test]
 fn an_incomplete_run_says_so() {
     let mut partial = full();
     partial.incomplete = Some("stopped at load factor 1.2".into());
-    let text = results(&scene(), &partial, None);
+    let text = report(&partial, None);
     assert!(
         text.contains("\nINCOMPLETE: stopped at load factor 1.2\n"),
         "{text}"
@@ -177,7 +217,7 @@ fn a_check_tells_effects_cost_and_notes() {
     };
     let text = check(&scene(), &prediction);
     for fragment in [
-        "Predicted  12.3 s for the factorisation; BLAS: OpenBLAS 0.3.21",
+        "Predicted  about 12.3 s for each factorisation; BLAS: OpenBLAS 0.3.21",
         "\nEffects\n",
         "\nNotes\n  - use a finer mesh\n",
     ] {

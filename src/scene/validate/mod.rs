@@ -78,6 +78,7 @@ pub(super) fn problems(scene: &Scene) -> Vec<Problem> {
     checks.finite(scene);
     // A comparison with NaN would only repeat the problem in other words.
     if checks.problems.is_empty() {
+        checks.count("symmetry", scene.symmetry, 1);
         checks.geometry(scene);
         checks.materials(scene);
         checks.boundary(scene);

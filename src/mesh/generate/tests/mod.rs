@@ -60,10 +60,11 @@ pub(super) fn check_common(mesh: &Mesh) {
         );
         let exact = surface::normals(mesh, surface, &nodes);
         let mut unknown = surface.clone();
-        let curve = unknown
-            .curve
-            .take()
-            .expect("all generated surfaces have a curve");
+        let Some(curve) = unknown.curve.take() else {
+            // Where the cylinder's surface levels off it is no simple curve.
+            assert_eq!(name, "cylinder.outside");
+            continue;
+        };
         let averaged = surface::normals(mesh, &unknown, &nodes);
         // Half the largest angle of a facet bounds the deviation at the ends, where one facet decides.
         let tolerance = match curve {

@@ -1,0 +1,103 @@
+//! Ctrl-C: what was computed is written and marked as incomplete.
+#![cfg(unix)]
+
+use super::Folder;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// A run of thousands of cheap increments.
+fn long() -> Folder {
+    Folder::with_changes(
+        "thick_cylinder",
+        &[
+            ("elements = [16, 16]", "elements = [2, 2]"),
+            (
+                "[program]",
+                "[program]\nstepping = \"steps\"\nsteps = 10000000",
+            ),
+            (
+                "yield_stress = 240.0",
+                "yield_stress = 240.0\nplastic_modulus = 2000.0",
+            ),
+        ],
+    )
+}
+
+fn start(folder: &Folder) -> Child {
+    let (scene, out) = (folder.scene(), folder.path("out"));
+    Command::new(env!("CARGO_BIN_EXE_brinell"))
+        .args([
+            "run",
+            scene.to_str().unwrap(),
+            "--threads",
+            "1",
+            "--out",
+            out.to_str().unwrap(),
+        ])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+fn interrupt(child: &Child, signal: &str) {
+    let status = Command::new("kill")
+        .args([signal, &child.id().to_string()])
+        .status()
+        .unwrap();
+    assert!(status.success());
+}
+
+/// Waits until the program has said `what` on standard error.
+fn wait_for(child: &mut Child, what: &str) {
+    use std::io::BufRead;
+    let stderr = child.stderr.take().unwrap();
+    let mut lines = std::io::BufReader::new(stderr).lines();
+    assert!(
+        lines.any(|line| line.unwrap().contains(what)),
+        "{what:?} was never said"
+    );
+    // The rest is read so that the program does not stop at a full or closed pipe.
+    std::thread::spawn(move || lines.for_each(drop));
+}
+
+#[test]
+fn the_first_signal_ends_the_run_with_results_that_are_marked_incomplete() {
+    for signal in ["-INT", "-TERM"] {
+        let folder = long();
+        let mut child = start(&folder);
+        wait_for(&mut child, "load program");
+        // The first increments (to first yield) need no more than this, on a loaded machine too.
+        std::thread::sleep(Duration::from_millis(1500));
+        interrupt(&child, signal);
+        let status = child.wait().unwrap();
+        assert_eq!(status.code(), Some(130));
+        let summary = folder.summary();
+        assert!(
+            summary["incomplete"].as_str().unwrap().contains("stopped"),
+            "{summary}"
+        );
+        let history = std::fs::read_to_string(folder.path("out/history.csv")).unwrap();
+        assert!(history.lines().count() >= 2, "no increment: {history}");
+        assert_eq!(folder.entries(), 2);
+    }
+}
+
+#[test]
+fn a_second_signal_ends_the_program_at_once_and_leaves_nothing() {
+    // One huge increment: its factorisation and first iterations take far longer than the signals.
+    let folder = Folder::with_changes(
+        "thick_cylinder",
+        &[("elements = [16, 16]", "elements = [160, 320]")],
+    );
+    let mut child = start(&folder);
+    wait_for(&mut child, "mesh and model");
+    interrupt(&child, "-INT");
+    std::thread::sleep(Duration::from_millis(400));
+    let begin = Instant::now();
+    interrupt(&child, "-INT");
+    let status = child.wait().unwrap();
+    assert_eq!(status.code(), Some(130));
+    assert!(begin.elapsed() < Duration::from_secs(5));
+    assert_eq!(folder.entries(), 1);
+}

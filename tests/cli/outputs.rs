@@ -1,0 +1,269 @@
+//! What good commands print and write.
+
+use super::{Folder, brinell, scene, stdout};
+use serde_json::Value;
+
+#[test]
+fn run_prints_a_report_and_writes_the_results() {
+    let folder = Folder::with_changes("contact_patch", &[]);
+    let output = folder.brinell("run", &["--quiet"]);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    assert!(output.stderr.is_empty(), "not quiet: {output:?}");
+    let text = stdout(&output);
+    for fragment in [
+        "Contact patch test (plane strain)",
+        "64 elements, 90 nodes",
+        "no plastic zone",
+        "floating bodies",
+        "upper held by contact alone",
+        "States\n",
+        "pressed",
+        "states.pressed.max_pressure",
+        "mesh and model",
+        "total",
+        "summary.json, history.csv, contact.csv, fields.pvd",
+    ] {
+        assert!(text.contains(fragment), "no {fragment:?} in\n{text}");
+    }
+    for line in text.lines() {
+        assert!(
+            line.chars().count() <= 110 && line == line.trim_end(),
+            "{line:?}"
+        );
+    }
+    let files = ["summary.json", "history.csv", "contact.csv", "fields.pvd"];
+    for file in files {
+        assert!(folder.path("out").join(file).is_file(), "{file}");
+    }
+    let summary = folder.summary();
+    assert_eq!(summary["scene"], "Contact patch test");
+    assert_eq!(summary["scene_file"], folder.scene().to_str().unwrap());
+    assert_eq!(summary["incomplete"], Value::Null);
+    assert!(summary["timings"]["mesh and model"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn progress_goes_to_standard_error() {
+    let folder = Folder::with_changes("contact_patch", &[]);
+    let output = folder.brinell("run", &[]);
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    for phase in ["mesh and model", "assembly", "factorisation", "output"] {
+        assert!(stderr.contains(phase), "no {phase:?} in {stderr}");
+    }
+}
+
+#[test]
+fn a_scene_without_a_title_goes_by_its_file() {
+    let folder = Folder::with_changes("contact_patch", &[("title = \"Contact patch test\"\n", "")]);
+    let output = folder.brinell("run", &["-q"]);
+    assert!(
+        stdout(&output).starts_with(folder.scene().to_str().unwrap()),
+        "{output:?}"
+    );
+    assert_eq!(folder.summary()["scene"], "scene.toml");
+}
+
+#[test]
+fn json_is_the_summary() {
+    for command in ["run", "yield"] {
+        let folder = Folder::with_changes(
+            "thick_cylinder",
+            &[
+                ("elements = [16, 16]", "elements = [4, 4]"),
+                (
+                    "    { load_factor = 160.0 },\n    { load_factor = 180.0 },\n    { load_factor = 190.0 },\n",
+                    "",
+                ),
+            ],
+        );
+        let output = folder.brinell(command, &["--json", "--quiet", "--threads", "1"]);
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        let mut printed: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let mut written = folder.summary();
+        // The printed one also knows how long writing took, and what memory.
+        for value in [&mut printed, &mut written] {
+            value["timings"] = Value::Null;
+            value["peak_memory_bytes"] = Value::Null;
+        }
+        assert_eq!(printed, written);
+        assert_eq!(printed["yield"]["location"]["body"], "tube");
+        let [x, y] = ["x", "y"].map(|k| printed["yield"]["location"][k].as_f64().unwrap());
+        // First yield is at the bore; the chord of a quad8 side leaves the circle by less than 1e-3 radii.
+        assert!((x.hypot(y) / 100.0 - 1.0).abs() < 1e-3, "{x} {y}");
+        assert_eq!(
+            printed["states"].as_array().unwrap().is_empty(),
+            command == "yield"
+        );
+    }
+}
+
+#[test]
+fn yield_writes_nothing_unless_asked() {
+    let folder = Folder::with_changes(
+        "thick_cylinder",
+        &[("elements = [16, 16]", "elements = [4, 4]")],
+    );
+    let output = brinell(&["yield", folder.scene().to_str().unwrap(), "-q"]);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let text = stdout(&output);
+    assert!(
+        text.contains("First yield") && text.contains("in body"),
+        "{text}"
+    );
+    assert!(
+        !text.contains("States") && !text.contains("Results in"),
+        "{text}"
+    );
+    // No contact in the scene: no columns for it.
+    assert!(!text.contains("pressure  "), "{text}");
+    assert_eq!(folder.entries(), 1);
+}
+
+#[test]
+fn check_tells_effects_sizes_cost_and_blas_of_every_scene() {
+    let scenes = concat!(env!("CARGO_MANIFEST_DIR"), "/data/scenes");
+    let mut n = 0;
+    for entry in std::fs::read_dir(scenes).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|e| e != "toml") {
+            continue;
+        }
+        n += 1;
+        let before = std::fs::read_dir(scenes).unwrap().count();
+        // The dense solver takes small models only.
+        let output = brinell(&["check", path.to_str().unwrap()]);
+        if cfg!(feature = "cholmod") {
+            assert_eq!(output.status.code(), Some(0), "{path:?} {output:?}");
+            let text = stdout(&output);
+            for fragment in [
+                "Model",
+                "Factor",
+                "Predicted",
+                "BLAS",
+                "Effects",
+                "friction",
+            ] {
+                assert!(
+                    text.contains(fragment),
+                    "{path:?}: no {fragment:?} in\n{text}"
+                );
+            }
+        } else {
+            assert!(
+                [Some(0), Some(2)].contains(&output.status.code()),
+                "{path:?} {output:?}"
+            );
+        }
+        assert_eq!(std::fs::read_dir(scenes).unwrap().count(), before);
+    }
+    assert!(n >= 10, "{n} scenes");
+    let output = brinell(&["check", &scene("contact_patch"), "--json"]);
+    let check: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(check["sizes"]["elements"], 64);
+}
+
+#[test]
+fn the_disc_scene_shows_the_contact_arc() {
+    let folder = Folder::with_changes(
+        "disc_in_plate",
+        &[
+            ("resolution = 90 ", "resolution = 16 "),
+            (
+                "resolution = 16          # one element per degree",
+                "resolution = 16\nfar_radius = 4.0\ngrowth = 1.2",
+            ),
+            (
+                "    { load_factor = 1.25 },\n    { load_factor = 1.5 },\n    { load_factor = 1.75 },\n    { load_factor = 2.0 },\n",
+                "",
+            ),
+            (
+                "    { name = \"unloading 1.75\", load_factor = 1.75 },\n    { name = \"unloading 1.5\", load_factor = 1.5 },\n    { name = \"unloading 1.25\", load_factor = 1.25 },\n    { name = \"unloading 1\", load_factor = 1.0 },\n",
+                "",
+            ),
+        ],
+    );
+    let output = folder.brinell("run", &["-q"]);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let text = stdout(&output);
+    for fragment in [
+        "States (load factor 1 is first yield)",
+        "[deg]",
+        "contact",
+        "pole",
+        "arc",
+    ] {
+        assert!(text.contains(fragment), "no {fragment:?} in\n{text}");
+    }
+    let states = folder.summary()["states"].clone();
+    // One element spans 5.6 degrees; the exact half angle is 19.625 (integral equation of the receding contact).
+    let to = states[0]["contact_arc"]["to"].as_f64().unwrap();
+    assert!((to - 19.625).abs() < 0.5 * 90.0 / 16.0, "{to}");
+    assert_eq!(states[0]["contact_arc"]["from"], 0.0);
+    for key in ["pole_pressure", "max_pressure", "contact_force"] {
+        assert!(states[0][key].as_f64().unwrap() > 0.0, "{key}");
+    }
+}
+
+#[test]
+fn backends_and_thread_counts_agree() {
+    let folder = Folder::with_changes("shrink_fit", &[]);
+    let mut pressures = Vec::new();
+    for more in [
+        ["--solver", "dense"],
+        ["--threads", "1"],
+        ["--threads", "2"],
+    ] {
+        let output = folder.brinell("run", &[&more[..], &["-q"]].concat());
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        pressures.push(
+            folder.summary()["states"][0]["max_pressure"]
+                .as_f64()
+                .unwrap(),
+        );
+    }
+    assert_eq!(pressures[1], pressures[2]);
+    assert!(
+        (pressures[0] / pressures[1] - 1.0).abs() < 1e-10,
+        "{pressures:?}"
+    );
+}
+
+#[test]
+fn the_limit_load_is_reported_as_collapse_with_what_was_held() {
+    let folder = Folder::with_changes(
+        "thick_cylinder",
+        &[
+            ("elements = [16, 16]", "elements = [2, 2]"),
+            (
+                "    { load_factor = 160.0 },\n    { load_factor = 180.0 },\n    { load_factor = 190.0 },\n",
+                "    { load_factor = 300.0 },\n",
+            ),
+        ],
+    );
+    let output = folder.brinell("run", &["-q"]);
+    let stderr = String::from_utf8(output.stderr.clone()).unwrap();
+    assert_eq!(output.status.code(), Some(6), "{stderr}");
+    assert!(
+        stderr.contains("limit load: load factor"),
+        "{stderr}"
+    );
+    assert!(
+        stdout(&output).contains("INCOMPLETE: limit load"),
+        "{output:?}"
+    );
+    let summary = folder.summary();
+    assert!(summary["incomplete"].as_str().unwrap().contains("limit load"));
+    assert_eq!(summary["states"].as_array().unwrap().len(), 3);
+    let history = std::fs::read_to_string(folder.path("out/history.csv")).unwrap();
+    let held: f64 = history
+        .lines()
+        .last()
+        .unwrap()
+        .split(',')
+        .nth(1)
+        .unwrap()
+        .parse()
+        .unwrap();
+    // Exact collapse of the wall is 2k ln(b/a) = 192.09 (Hill, chapter V); two elements through the wall are coarse.
+    assert!((held / 192.09 - 1.0).abs() < 0.02, "{held}");
+}

@@ -1,0 +1,395 @@
+//! Bad input: each kind has a clear message, its exit code, and leaves nothing behind.
+
+use super::{Folder, brinell, scene, stdout};
+
+/// The contact patch scene with one place changed.
+fn patch(old: &str, new: &str) -> Folder {
+    Folder::with_changes("contact_patch", &[(old, new)])
+}
+
+/// The same with values put over, as `--set` does.
+fn refused_with(name: &str, sets: &[&str], more: &[&str], code: i32, fragments: &[&str]) {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let scene = scene(name);
+    let mut arguments = vec!["run", &scene, "--quiet", "--out", out.to_str().unwrap()];
+    for set in sets {
+        arguments.extend(["--set", set]);
+    }
+    arguments.extend(more);
+    let output = brinell(&arguments);
+    let stderr = String::from_utf8(output.stderr.clone()).unwrap();
+    assert_eq!(output.status.code(), Some(code), "{sets:?}: {stderr}");
+    for fragment in fragments {
+        assert!(
+            stderr.contains(fragment),
+            "{sets:?}: no {fragment:?} in {stderr}"
+        );
+    }
+    assert_eq!(stdout(&output), "");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn wrong_types_and_values_of_a_material() {
+    for (value, fragments) in [
+        ("\"stiff\"", ["youngs_modulus", "expected a number"]),
+        (
+            "-210000.0",
+            ["youngs_modulus", "-210000 must be greater than zero"],
+        ),
+        ("0.0", ["youngs_modulus", "0 must be greater than zero"]),
+        ("nan", ["youngs_modulus", "not a finite number"]),
+        ("inf", ["youngs_modulus", "not a finite number"]),
+        ("-inf", ["youngs_modulus", "not a finite number"]),
+    ] {
+        let folder = patch(
+            "youngs_modulus = 210000.0",
+            &format!("youngs_modulus = {value}"),
+        );
+        folder.refused(2, &fragments);
+        folder.refused(2, &["scene.toml:"]);
+    }
+    for value in ["0.5", "0.7", "-1.0", "nan"] {
+        let folder = patch("poissons_ratio = 0.3", &format!("poissons_ratio = {value}"));
+        folder.refused(2, &["materials.steel.poissons_ratio"]);
+    }
+}
+
+#[test]
+fn values_of_other_keys() {
+    for (set, fragment) in [
+        ("symmetry=0", "symmetry: 0 must be at least 1"),
+        ("symmetry=-2", "symmetry"),
+        ("kind=plane_strayn", "plane_strain"),
+        ("program.targets=[]", "program.targets: is empty"),
+        ("program.targets=[{yield=true}]", "no body can yield"),
+        ("program.gamma=0.0", "program.gamma"),
+        ("analysis.max_iterations=0", "analysis.max_iterations"),
+        ("mesh.parts.1.block.x=[0.0,0.0]", "mesh.parts.1.block.x"),
+        (
+            "mesh.parts.1.block.elements=[0,4]",
+            "mesh.parts.1.block.elements",
+        ),
+        ("contact.0.normal=[0.0,0.0]", "contact.0.normal"),
+    ] {
+        refused_with("contact_patch", &[set], &[], 2, &[fragment]);
+    }
+}
+
+#[test]
+fn unknown_keys_everywhere_are_named_with_the_likely_one() {
+    for (old, new, key, meant) in [
+        ("fix = [\"y\"]", "fixx = [\"y\"]", "fixx", "fix"),
+        ("pressure = 10.0", "presure = 10.0", "presure", "pressure"),
+        ("first = ", "frist = ", "frist", "first"),
+        ("[program]", "[progam]", "progam", "program"),
+    ] {
+        patch(old, new).refused(
+            2,
+            &[
+                "scene.toml:",
+                &format!("unknown key `{key}`, did you mean `{meant}`?"),
+            ],
+        );
+    }
+}
+
+#[test]
+fn effects_that_brinell_has_not() {
+    for (set, fragments) in [
+        (
+            "contact.0.friction=0.3",
+            ["contact.0.friction", "no friction"],
+        ),
+        (
+            "analysis.large_strain=true",
+            [
+                "analysis.large_strain",
+                "strains and displacements are small",
+            ],
+        ),
+    ] {
+        refused_with("contact_patch", &[set], &[], 2, &fragments);
+    }
+}
+
+#[test]
+fn files_that_are_missing_or_of_another_kind() {
+    refused_with(
+        "contact_patch",
+        &["mesh={file=\"none.msh\"}"],
+        &[],
+        3,
+        &["cannot read the mesh file", "none.msh", "No such file"],
+    );
+    refused_with(
+        "contact_patch",
+        &["mesh={file=\"contact_patch.toml\"}"],
+        &[],
+        2,
+        &["contact_patch.toml, line 1", "not a Gmsh mesh"],
+    );
+}
+
+/// The Gmsh scene beside a changed copy of its mesh.
+fn gmsh(old: &str, new: &str) -> Folder {
+    let folder = Folder::with_changes("gmsh_blocks", &[("../meshes/two_blocks.msh", "mesh.msh")]);
+    let mesh = concat!(env!("CARGO_MANIFEST_DIR"), "/data/meshes/two_blocks.msh");
+    let text = std::fs::read_to_string(mesh).unwrap();
+    assert_eq!(text.matches(old).count(), 1, "{old:?}");
+    std::fs::write(folder.path("mesh.msh"), text.replace(old, new)).unwrap();
+    folder
+}
+
+#[test]
+fn duplicate_numbers_in_a_mesh_file() {
+    gmsh("\n9\n10\n", "\n9\n9\n").refused(2, &["mesh.msh, line ", "9", "twice"]);
+}
+
+#[test]
+fn elements_that_are_turned_inside_out_are_named() {
+    // Node 13, inside the lower block, is moved out of it.
+    gmsh("\n13\n14\n15\n1 -1 0\n", "\n13\n14\n15\n1 9 0\n").refused(
+        2,
+        &[
+            "element ",
+            "(quad4, body `lower`)",
+            "Jacobian",
+            "near node ",
+        ],
+    );
+}
+
+#[test]
+fn sets_that_are_missing_or_empty() {
+    refused_with(
+        "contact_patch",
+        &["support.0.on=lower.botom"],
+        &[],
+        2,
+        &["support 1 on `lower.botom`", "did you mean `lower.bottom`?"],
+    );
+    refused_with(
+        "contact_patch",
+        &["contact.0.second=lower.tip"],
+        &[],
+        2,
+        &["contact 1", "`lower.tip`", "did you mean `lower.top`?"],
+    );
+    refused_with(
+        "contact_patch",
+        &["load.0.on=upper.tp"],
+        &[],
+        2,
+        &["`upper.tp`", "`upper.top`"],
+    );
+    // A piece of a side that holds no facet.
+    patch(
+        "block = { x = [0.0, 2.0], y = [1.0, 2.0], elements = [8, 4] }",
+        "block = { x = [0.0, 2.0], y = [1.0, 2.0], elements = [8, 4], \
+         pieces = [{ name = \"pad\", side = \"top\", from = 0.1, to = 0.2 }] }",
+    )
+    .refused(2, &["pad"]);
+}
+
+#[test]
+fn surfaces_whose_nodes_do_not_pair_are_named_with_the_nodes() {
+    refused_with(
+        "contact_patch",
+        &["mesh.parts.1.block.elements=[7,4]"],
+        &[],
+        2,
+        &[
+            "contact 1 (`upper.bottom` on `lower.top`)",
+            "nodes do not pair",
+            "nodes 44, 43, 42, 41, 40, 39, and 1 more of `lower.top`",
+        ],
+    );
+}
+
+#[test]
+fn a_node_in_two_pairs() {
+    let twice = "{ first = \"upper.bottom\", second = \"lower.top\" }";
+    refused_with(
+        "contact_patch",
+        &[&format!("contact=[{twice},{twice}]")],
+        &[],
+        2,
+        &["node 54 is in two contact pairs", "contact 1", "contact 2"],
+    );
+}
+
+#[test]
+fn bodies_that_overlap_in_the_mesh() {
+    refused_with(
+        "contact_patch",
+        &["mesh.parts.1.block.y=[0.9,2.0]"],
+        &[],
+        2,
+        &["nodes 54 and 45 overlap by 1.000e-1", "interference"],
+    );
+}
+
+#[test]
+fn bodies_that_can_move_freely_are_named_with_the_motion() {
+    // Nothing is supported and the pressure pushes both bodies down.
+    refused_with(
+        "contact_patch",
+        &["support=[]"],
+        &[],
+        4,
+        &[
+            "bodies `lower` and `upper` can move along y together",
+            "load `press` drives it",
+        ],
+    );
+    // Nothing holds the upper body sideways.
+    refused_with(
+        "contact_patch",
+        &[
+            "support.2.on=lower.left",
+            "load=[{on=\"upper.top\",traction=[1.0,-10.0]}]",
+        ],
+        &[],
+        4,
+        &["body `upper` can move along x", "add a support"],
+    );
+    refused_with(
+        "thick_cylinder",
+        &["support=[{on=\"tube.start\",fix=[\"y\"]}]"],
+        &[],
+        4,
+        &["body `tube` can move along x"],
+    );
+}
+
+#[test]
+fn a_load_that_closes_nothing() {
+    refused_with(
+        "contact_patch",
+        &["load.0.pressure=-10.0"],
+        &[],
+        4,
+        &[
+            "`upper.bottom` on `lower.top`",
+            "closes no contact",
+            "body `upper`",
+        ],
+    );
+}
+
+#[test]
+fn a_support_along_a_contact_normal() {
+    refused_with(
+        "contact_patch",
+        &["support.2.fix=[\"x\",\"y\"]"],
+        &[],
+        2,
+        &[
+            "node 46",
+            "support 3 on `upper.left` acts along its contact normal",
+        ],
+    );
+}
+
+#[test]
+fn targets_that_are_never_reached() {
+    refused_with(
+        "thick_cylinder",
+        &[
+            "mesh.parts.0.ring.elements=[2,2]",
+            "materials.steel.plastic_modulus=1000.0",
+            "program.targets=[{name=\"far\",displacement={on=\"tube.inner\",direction=\"x\",value=-5.0}}]",
+        ],
+        &[],
+        5,
+        &["target `far` was never reached"],
+    );
+}
+
+#[test]
+fn elements_of_no_size_and_meshes_beyond_reason() {
+    refused_with(
+        "contact_patch",
+        &["mesh.parts.1.block.x=[0.0,1e-300]"],
+        &[],
+        2,
+        &["element 33 (quad4, body `upper`) is flat"],
+    );
+    for elements in ["[100000,100000]", "[9223372036854775807,4]"] {
+        let set = format!("mesh.parts.1.block.elements={elements}");
+        refused_with(
+            "contact_patch",
+            &[&set],
+            &[],
+            2,
+            &["body `upper`", "elements, more than 5e7"],
+        );
+    }
+    refused_with(
+        "cylinder_on_half_plane",
+        &["mesh.cylinder_on_half_plane.resolution=1000000"],
+        &[],
+        2,
+        &[
+            "mesh.cylinder_on_half_plane.resolution",
+            "elements, more than 5e7",
+        ],
+    );
+}
+
+#[test]
+fn a_model_that_is_too_large_for_the_dense_backend() {
+    refused_with(
+        "contact_patch",
+        &[
+            "mesh.parts.0.block.elements=[100,40]",
+            "mesh.parts.1.block.elements=[100,40]",
+        ],
+        &["--solver", "dense"],
+        2,
+        &[
+            "too many for the dense solver",
+            "at most 6000",
+            "--solver cholmod",
+        ],
+    );
+}
+
+#[test]
+fn a_result_directory_that_cannot_be_written_is_found_before_the_run() {
+    let folder = patch(
+        "elements = [8, 4] }\n\n[materials",
+        "elements = [8, 4] }\n\n[materials",
+    );
+    let (path, in_file) = (folder.scene(), folder.path("scene.toml/out"));
+    for (out, code, fragment) in [
+        (path.to_str().unwrap(), 2, "scene.toml"),
+        (in_file.to_str().unwrap(), 3, "scene.toml"),
+        ("/proc/no/such/place", 3, "/proc"),
+    ] {
+        // A support on nothing would be an error too: the directory is looked at first.
+        let output = brinell(&[
+            "run",
+            path.to_str().unwrap(),
+            "--set",
+            "support.0.on=nothing",
+            "--out",
+            out,
+        ]);
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(code), "{stderr}");
+        assert!(
+            stderr.contains(fragment) && !stderr.contains("nothing"),
+            "{stderr}"
+        );
+    }
+    assert_eq!(folder.entries(), 1);
+    // A directory that is not a result of brinell is not replaced.
+    std::fs::create_dir(folder.path("out")).unwrap();
+    std::fs::write(folder.path("out/thesis.txt"), "years of work").unwrap();
+    let output = folder.brinell("run", &[]);
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(std::fs::read_dir(folder.path("out")).unwrap().count(), 1);
+}
