@@ -163,9 +163,7 @@ impl Engine<'_> {
                 let direction = match settings.plastic_iteration {
                     PlasticIteration::Newton => {
                         let forcing = (residual / last).powi(2).clamp(1e-5, 0.03);
-                        let mut change = self.solve_tangent(&balance, forcing);
-                        change.add(1.0, &balance);
-                        self.direction(change)
+                        self.solve_tangent(&balance, forcing)
                     }
                     PlasticIteration::Anderson => {
                         let change = anderson.change(&state.initial, &balance);
@@ -209,7 +207,6 @@ impl Engine<'_> {
 
     /// Rates of everything with the share of the piece: elastic, plus plastic where points flow (tangent).
     fn rates(&mut self, start: &LoadPoint, end: &LoadPoint, tangent: bool) -> Direction {
-        let n = self.now.gap.len();
         let ahead = self.respond_rate(start, end);
         let mut rates = Direction {
             initial: self.sub.zeros(),
@@ -218,15 +215,8 @@ impl Engine<'_> {
         if tangent && !self.zone.is_idle() {
             let mut driven = self.sub.zeros();
             self.zone.softening_times(&rates.u, &mut driven);
-            let mut change = self.solve_tangent(&driven, 1e-3);
-            change.add(1.0, &driven);
-            let plastic = self.direction(change);
-            rates.u.add(1.0, &plastic.u);
-            rates.initial.add(1.0, &plastic.initial);
-            for k in 0..n {
-                rates.gap[k] += plastic.gap[k];
-                rates.force[k] += plastic.force[k];
-            }
+            let plastic = self.solve_tangent(&driven, 1e-3);
+            rates.add(1.0, &plastic);
         }
         rates
     }
