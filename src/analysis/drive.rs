@@ -58,7 +58,7 @@ pub struct Stepper<'a> {
 }
 
 /// Accuracy with which a monitored quantity is hit, as a share of the increment.
-const MONITOR_ACCURACY: f64 = 1e-10;
+pub(super) const MONITOR_ACCURACY: f64 = 1e-10;
 /// Cut factor after an increment that did not converge.
 const CUT: f64 = 0.25;
 /// Cuts after which the load is taken to have passed the limit load.
@@ -191,6 +191,11 @@ impl Engine<'_> {
                 Stepping::Events => 1.0,
                 Stepping::Steps => 1.0 / (stepper.steps - done.min(stepper.steps - 1)) as f64,
             };
+            if self.zone.is_idle() && stepper.stepping == Stepping::Events {
+                if let Some(arrival) = self.follow_elastic(end, monitor, &mut watched, report)? {
+                    return Ok(arrival);
+                }
+            }
             let saved = Saved::of(self);
             let solves = self.counts.trailing_solves;
             let increment = self.find_increment(end, left, stepper)?;
