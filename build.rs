@@ -1,7 +1,8 @@
 //! Finds what CHOLMOD needs and writes the bindings that `suitesparse_sys` does not have: the
 //! configuration functions of OpenBLAS (`ffi/openblas.h`).
 //!
-//! `OPENBLAS_LIBRARY_DIR` and `SUITESPARSE_INCLUDE_DIR` name other places than the usual ones.
+//! `OPENBLAS_LIBRARY_DIR` names another place for it than the usual ones. SuiteSparse itself is found by
+//! `suitesparse_sys`, whose build comes before this one.
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");
@@ -17,7 +18,7 @@ fn main() {
 #[cfg(feature = "cholmod")]
 mod native {
     use std::env;
-    use std::path::{Path, PathBuf};
+    use std::path::PathBuf;
 
     /// What to install, in the words of the reader's package manager.
     const REMEDY: &str = "install SuiteSparse, OpenBLAS and libclang (Debian, Ubuntu: `apt-get install \
@@ -26,15 +27,6 @@ mod native {
 
     pub fn configure() -> Result<(), String> {
         println!("cargo:rerun-if-env-changed=OPENBLAS_LIBRARY_DIR");
-        println!("cargo:rerun-if-env-changed=SUITESPARSE_INCLUDE_DIR");
-        // suitesparse_sys says where it found the headers; where it found none the compiler may
-        // still know a place, which it has proven by getting this far.
-        if let Some(include) = env::var_os("DEP_SUITESPARSE_SUITESPARSE_INCLUDE") {
-            let header = Path::new(&include).join("cholmod.h");
-            if !header.exists() {
-                return Err(format!("{} is missing: {REMEDY}", header.display()));
-            }
-        }
         write_openblas_bindings()?;
         match openblas_directory() {
             Some(directory) => {
@@ -60,6 +52,7 @@ mod native {
             bindgen::Builder::default()
                 .header("ffi/openblas.h")
                 .allowlist_function("openblas_.*")
+                .rust_target(bindgen::RustTarget::stable(89, 0).unwrap_or_default())
                 .rust_edition(bindgen::RustEdition::Edition2024)
                 .generate()
         })

@@ -45,7 +45,7 @@ pub enum Arrival {
 }
 
 /// How increments are taken.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub struct Stepper<'a> {
     /// Solver settings.
     pub settings: &'a Settings,
@@ -55,14 +55,17 @@ pub struct Stepper<'a> {
     pub steps: usize,
     /// Tolerance of events.
     pub gamma: f64,
+    /// Asked between iterations: true stops the run at the last accepted increment.
+    pub stop: &'a dyn Fn() -> bool,
 }
 
 /// Accuracy with which a monitored quantity is hit, as a share of the increment.
 pub(super) const MONITOR_ACCURACY: f64 = 1e-10;
 /// Cut factor after an increment that did not converge.
 const CUT: f64 = 0.25;
-/// Cuts after which the load is taken to have passed the limit load.
-const MOST_CUTS: usize = 12;
+/// Share of a piece of the load path below which increments are not cut: the load has passed the limit load, which is then
+/// known to this share.
+const SMALLEST_CUT: f64 = 1e-6;
 /// Status corrections at one point of the path before they are taken to cycle.
 const MOST_CORRECTIONS: usize = 60;
 
@@ -184,8 +187,14 @@ impl Engine<'_> {
         report: &mut OnIncrement,
     ) -> Result<Arrival> {
         self.refresh();
+        if self.turns_back(end) {
+            self.zone.assume_elastic();
+        }
         let mut done = 0usize;
         let mut watched = monitor.map(|m| m(self));
+        let smallest = SMALLEST_CUT * self.at.distance(end);
+        // After an increment that did not converge the next ones are short, and grow again while they succeed.
+        let mut trust = f64::INFINITY;
         loop {
             let left = match stepper.stepping {
                 Stepping::Events => 1.0,
@@ -196,9 +205,16 @@ impl Engine<'_> {
                     return Ok(arrival);
                 }
             }
+            let distance = self.at.distance(end);
+            let trusted = if trust < left * distance { trust / distance } else { left };
             let saved = Saved::of(self);
             let solves = self.counts.trailing_solves;
-            let increment = self.find_increment(end, left, stepper)?;
+            let (increment, cut) = self.find_increment(end, trusted, smallest / distance, stepper)?;
+            trust = match (cut, trusted < left) {
+                (true, _) => increment.t * distance,
+                (false, true) => 2.0 * trust,
+                (false, false) => f64::INFINITY,
+            };
             if increment.guard_flows > 0 {
                 saved.put_back(self);
                 return Ok(Arrival::ZoneTooSmall);
@@ -245,6 +261,7 @@ impl Engine<'_> {
     /// Takes a found increment: history, state, and the statuses beyond it.
     fn accept(&mut self, end: &LoadPoint, increment: Increment, reported: &mut IncrementReport) {
         let start = self.at.clone();
+        self.last_step = self.at.step_to(end);
         let changes: Vec<Change> = increment
             .changes
             .iter()
@@ -275,14 +292,15 @@ impl Engine<'_> {
     }
 
     /// An increment with statuses that are right at its begin (events) or at its end (steps).
+    /// Increments that do not converge are cut, down to the share `smallest`; returns whether any was.
     fn find_increment(
         &mut self,
         end: &LoadPoint,
         left: f64,
+        smallest: f64,
         stepper: Stepper,
-    ) -> Result<Increment> {
+    ) -> Result<(Increment, bool)> {
         let mut most = left;
-        let mut cuts = 0;
         let mut corrections = 0;
         let mut seen: Vec<Vec<bool>> = Vec::new();
         loop {
@@ -293,13 +311,12 @@ impl Engine<'_> {
                     EndsAt::NextChange {
                         gamma: stepper.gamma,
                     },
-                    stepper.settings,
-                ),
+                    stepper.settings, stepper.stop),
                 Stepping::Events => self.solve_step(end, 1e-3 * most, stepper)?,
                 Stepping::Steps => self.solve_step(end, most, stepper)?,
             };
             match outcome {
-                Ok(increment) => return Ok(increment),
+                Ok(increment) => return Ok((increment, most < left)),
                 Err(NoIncrement::WrongStatus(pairs)) => {
                     corrections += 1;
                     seen.push(self.tableau.open().to_vec());
@@ -314,17 +331,16 @@ impl Engine<'_> {
                         }
                     }
                 }
+                Err(NoIncrement::Stopped) => return Err(stopped()),
                 Err(NoIncrement::NotConverged(residual)) => {
-                    cuts += 1;
-                    if cuts > MOST_CUTS {
+                    if CUT * most < smallest {
                         return Err(Error::new(
                             ErrorKind::Collapse,
                             format!(
-                                "the load cannot be raised beyond load factor {:.6}: at {:.6} no equilibrium was found (out-of-balance \
-                                 force {residual:.1e} of the largest force); the last load factor that was held is {:.6}",
+                                "limit load: load factor {:.9} is the last that was held, at {:.9} no equilibrium was found \
+                                 (out-of-balance force {residual:.1e} of the largest force)",
                                 self.at.alpha,
                                 self.at.towards(end, most).alpha,
-                                self.at.alpha
                             ),
                         ));
                     }
@@ -345,7 +361,7 @@ impl Engine<'_> {
         let mut fewest = usize::MAX;
         let mut patience = 6;
         for _ in 0..10 * (self.now.gap.len() + 10) {
-            let increment = match self.increment(end, most, EndsAt::EndOfPiece, stepper.settings) {
+            let increment = match self.increment(end, most, EndsAt::EndOfPiece, stepper.settings, stepper.stop) {
                 Ok(increment) => increment,
                 Err(error) => return Ok(Err(error)),
             };
@@ -406,8 +422,8 @@ impl Engine<'_> {
                 return sign * was;
             }
             saved.put_back(self);
-            match self.find_increment(end, t, stepper) {
-                Ok(increment) => {
+            match self.find_increment(end, t, SMALLEST_CUT * t, stepper) {
+                Ok((increment, _)) => {
                     reported.residual = increment.residual;
                     reported.iterations += increment.iterations;
                     self.accept(end, increment, reported);
@@ -429,6 +445,11 @@ impl Engine<'_> {
             None => Ok(()),
         }
     }
+}
+
+/// The error of a run that its caller stopped.
+pub fn stopped() -> Error {
+    Error::new(ErrorKind::Stopped, "stopped by the user")
 }
 
 /// A committed state to go back to.
@@ -465,7 +486,28 @@ impl Saved {
     }
 }
 
+impl Engine<'_> {
+    /// Whether the way to `end` leads back against the last increment: then the material unloads elastically at first.
+    fn turns_back(&self, end: &LoadPoint) -> bool {
+        let step = self.at.step_to(end);
+        let along: f64 = step.iter().zip(&self.last_step).map(|(a, b)| a * b).sum();
+        along <= 0.0
+    }
+}
+
 impl LoadPoint {
+    /// Change of all factors and of the interference on the way to `end`.
+    pub(super) fn step_to(&self, end: &LoadPoint) -> Vec<f64> {
+        let mut step: Vec<f64> = end.factors.iter().zip(&self.factors).map(|(b, a)| b - a).collect();
+        step.push(end.interference - self.interference);
+        step
+    }
+
+    /// Largest change of a factor on the way to `end`.
+    fn distance(&self, end: &LoadPoint) -> f64 {
+        self.step_to(end).iter().fold(0.0, |m, d| m.max(d.abs()))
+    }
+
     /// Share of the way from here to `end` at which `between` lies.
     fn share_of(&self, between: &LoadPoint, end: &LoadPoint) -> f64 {
         if end.alpha != self.alpha {

@@ -90,6 +90,8 @@ pub struct Engine<'m> {
     pub fresh: bool,
     /// Pairs that arrived at the border of their condition with the last event.
     pub border: Vec<usize>,
+    /// Change of the load point over the piece of the last increment: tells loading from unloading.
+    pub last_step: Vec<f64>,
 }
 
 impl<'m> Engine<'m> {
@@ -146,6 +148,7 @@ impl<'m> Engine<'m> {
             },
             fresh: true,
             border: Vec::new(),
+            last_step: vec![0.0; model.loads.len() + 1],
             gap,
             interference,
             sub,

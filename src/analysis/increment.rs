@@ -48,12 +48,18 @@ pub enum NoIncrement {
     WrongStatus(Vec<usize>),
     /// The iteration did not converge; the last relative residual.
     NotConverged(f64),
+    /// The caller asked to stop.
+    Stopped,
 }
 
 /// Halvings of a line search.
 const BACKTRACKS: usize = 12;
 /// Iterations of the unaccelerated or Anderson iteration count for this many of Newton's limit.
 const CHEAP_ITERATIONS: usize = 100;
+/// Newton's iteration is given up when the residual has not fallen below this share of the best for `PATIENCE` iterations.
+const PROGRESS: f64 = 0.7;
+/// See [`PROGRESS`].
+const PATIENCE: usize = 15;
 /// A change of contact in this last share of a piece counts as its end: the target comes first.
 const AT_END: f64 = 1e-9;
 /// A share of the increment below this means that a pair changes at once.
@@ -67,12 +73,11 @@ impl Engine<'_> {
         most: f64,
         ends_at: EndsAt,
         settings: &Settings,
+        stop: &dyn Fn() -> bool,
     ) -> Result<Increment, NoIncrement> {
         let start = self.at.clone();
         let before = self.now.clone();
-        let rates = self.rates(
-            &start,
-            end,
+        let rates = self.rates(end,
             settings.plastic_iteration == PlasticIteration::Newton,
         );
         let follows = matches!(ends_at, EndsAt::NextChange { .. });
@@ -103,6 +108,8 @@ impl Engine<'_> {
         let mut balance = self.sub.zeros();
         let mut iterations = 0;
         let mut last = f64::INFINITY;
+        let mut best = (f64::INFINITY, 0);
+        let newton = settings.plastic_iteration == PlasticIteration::Newton;
         let most_iterations = match settings.plastic_iteration {
             PlasticIteration::Newton => settings.max_iterations,
             _ => settings.max_iterations * CHEAP_ITERATIONS,
@@ -156,7 +163,14 @@ impl Engine<'_> {
                     guard_flows: evaluation.guard_flows,
                 });
             }
-            if iterations >= most_iterations || !residual.is_finite() {
+            if residual < PROGRESS * best.0 {
+                best = (residual, iterations);
+            }
+            if stop() {
+                return Err(NoIncrement::Stopped);
+            }
+            let stuck = newton && iterations >= best.1 + PATIENCE;
+            if iterations >= most_iterations || stuck || !residual.is_finite() {
                 return Err(NoIncrement::NotConverged(residual));
             }
             if residual > settings.tolerance {
@@ -206,8 +220,8 @@ impl Engine<'_> {
     }
 
     /// Rates of everything with the share of the piece: elastic, plus plastic where points flow (tangent).
-    fn rates(&mut self, start: &LoadPoint, end: &LoadPoint, tangent: bool) -> Direction {
-        let ahead = self.respond_rate(start, end);
+    fn rates(&mut self, end: &LoadPoint, tangent: bool) -> Direction {
+        let ahead = self.respond_rate(end);
         let mut rates = Direction {
             initial: self.sub.zeros(),
             ..ahead
@@ -222,7 +236,7 @@ impl Engine<'_> {
     }
 
     /// Elastic change over the whole piece with the current statuses.
-    fn respond_rate(&mut self, start: &LoadPoint, end: &LoadPoint) -> Direction {
+    fn respond_rate(&mut self, end: &LoadPoint) -> Direction {
         let initial = self.now.initial.clone();
         let from = self.now.clone();
         let to = self.respond(end, &initial);
@@ -236,7 +250,6 @@ impl Engine<'_> {
             .zip(&from.force)
             .map(|(a, b)| a - b)
             .collect();
-        let _ = start;
         Direction {
             u,
             initial: self.sub.zeros(),

@@ -1,17 +1,18 @@
 //! The load program: first yield, then target after target.
 
-use super::drive::{Arrival, IncrementReport, Monitor, Stepper};
+use super::drive::{Arrival, IncrementReport, Monitor, Stepper, stopped};
 use super::engine::{Engine, LoadPoint};
 use super::recovery::{Peak, Recovery};
 use super::zone_choice::{self, Choice};
 use super::{check, reference};
 use crate::assembly::System;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::linalg::Backend;
 use crate::model::Model;
 use crate::progress::{Flow, Observer};
 use crate::results::{HistoryRow, Quality, Results, Sizes, YieldPoint};
 use crate::scene::{Direction, Target, Unit, YieldMethod};
+use std::cell::RefCell;
 use std::time::Instant;
 
 /// Doublings of the load in search of first yield or of a target.
@@ -403,6 +404,7 @@ impl<'m, 'o> Run<'m, 'o> {
         engine.tableau.reset(old.tableau.open());
         engine.zone.take_over(&old.zone);
         engine.border = old.border.clone();
+        engine.last_step = old.last_step.clone();
         engine.at = old.at.clone();
         let initial = engine.zone.initial_load(engine.sub.zeros());
         let at = engine.at.clone();
@@ -427,21 +429,25 @@ impl<'m, 'o> Run<'m, 'o> {
         watch_yield: bool,
     ) -> Result<Arrival> {
         let model = self.model();
-        let stepper = Stepper {
-            settings: &model.scene.analysis,
-            stepping: model.scene.program.stepping,
-            steps: model.scene.program.steps,
-            gamma: model.scene.program.gamma,
-        };
+        let program = &model.scene.program;
+        let fraction = self.done as f64 / program.targets.len().max(1) as f64;
         loop {
             let start = Instant::now();
-            let (results, observer) = (&mut self.results, &mut *self.observer);
-            let fraction = self.done as f64 / model.scene.program.targets.len().max(1) as f64;
+            let results = &mut self.results;
+            let observer = RefCell::new(&mut *self.observer);
+            let stop = || observer.borrow().stop_requested();
+            let stepper = Stepper {
+                settings: &model.scene.analysis,
+                stepping: program.stepping,
+                steps: program.steps,
+                gamma: program.gamma,
+                stop: &stop,
+            };
             let mut report = |engine: &mut Engine, increment: &IncrementReport| {
                 let row = row(engine, increment, results.history.len() + 1);
-                let flow = observer.increment(&row, fraction);
+                let flow = observer.borrow_mut().increment(&row, fraction);
                 results.history.push(row);
-                Ok(flow == Flow::Continue && !observer.stop_requested())
+                Ok(flow == Flow::Continue && !stop())
             };
             let plastic = self.plastic && !self.choice.elements.is_empty();
             let arrival = if plastic {
@@ -646,9 +652,6 @@ impl<'m, 'o> Run<'m, 'o> {
     }
 }
 
-fn stopped() -> Error {
-    Error::new(ErrorKind::Stopped, "stopped by the user")
-}
 
 fn row(engine: &Engine, report: &IncrementReport, increment: usize) -> HistoryRow {
     let figures = engine.contact_figures();

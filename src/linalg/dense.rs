@@ -311,8 +311,8 @@ fn full(matrix: &SymmetricCsc) -> DMatrix<f64> {
     let mut k = DMatrix::zeros(n, n);
     for (j, column) in matrix.outer_iterator().enumerate() {
         for (i, &a) in column.iter() {
-            k[(i as usize, j)] = a;
-            k[(j, i as usize)] = a;
+            k[(i, j)] = a;
+            k[(j, i)] = a;
         }
     }
     k

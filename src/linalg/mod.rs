@@ -253,7 +253,6 @@ pub fn multiply(matrix: &SymmetricCsc, x: &[f64], y: &mut [f64]) {
     for (j, column) in matrix.outer_iterator().enumerate() {
         let mut sum = 0.0;
         for (i, &a) in column.iter() {
-            let i = i as usize;
             sum += a * x[i];
             if i != j {
                 y[i] += a * x[j];

@@ -10,6 +10,8 @@ use brinell::linalg::cholmod::{
 use brinell::linalg::{Condensed, Partition, SymmetricCsc};
 use std::time::Instant;
 
+// Shared with the unit tests, which use more of it.
+#[allow(dead_code)]
 #[path = "../../src/linalg/tests/matrices.rs"]
 mod matrices;
 use matrices::{Grid, Support};

@@ -1,6 +1,7 @@
 //! `cholmod_common`: parameters, status and statistics of one factorisation.
 
 use crate::error::{Error, ErrorKind, Result};
+use std::mem::MaybeUninit;
 use suitesparse_sys as sys;
 
 /// CHOLMOD's parameter and status object. Each factor owns one, so factors share no state.
@@ -15,11 +16,11 @@ unsafe impl Send for Common {}
 impl Common {
     /// Starts CHOLMOD: silent, one given ordering, left-looking LL'.
     pub(super) fn start() -> Result<Self> {
-        let mut raw: Box<std::mem::MaybeUninit<sys::cholmod_common>> = Box::new_zeroed();
+        let mut raw: MaybeUninit<sys::cholmod_common> = MaybeUninit::zeroed();
         // SAFETY: `cholmod_l_start` writes every field it reads later; all of them are integers,
         // floats, pointers or optional functions, for which zero is a valid value.
-        let (started, mut raw) =
-            unsafe { (sys::cholmod_l_start(raw.as_mut_ptr()), raw.assume_init()) };
+        let (started, raw) = unsafe { (sys::cholmod_l_start(raw.as_mut_ptr()), raw.assume_init()) };
+        let mut raw = Box::new(raw);
         if started == 0 {
             return Err(Error::internal(format!(
                 "CHOLMOD did not start (status {})",

@@ -9,6 +9,9 @@
 //! `D = diag(shift)` acts on contact freedoms only, so it enters `L_cc` alone: `L_cc L_cc' = C + D`.
 //! Of the whole module only `common`, `sparse`, `ordering`, `factor` and `blas` call C.
 //!
+//! The same BLAS with the same number of threads gives the same bits in every run; another number of threads may
+//! add in another order and differ by round-off ([`set_blas_threads`]).
+//!
 //! # Source
 //! T. A. Davis, *Direct Methods for Sparse Linear Systems*, SIAM 2006, chapter 4, doi:10.1137/1.9780898718881;
 //! Y. Chen, T. A. Davis, W. W. Hager, S. Rajamanickam, *Algorithm 887: CHOLMOD*, ACM TOMS 35 (3), 2008,

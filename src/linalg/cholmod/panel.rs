@@ -1,5 +1,4 @@
-//! Dense kernels on one panel of `L`: a packed lower triangle (column by column) and a rectangle
-//! (`rows x columns`, column-major).
+//! Dense kernels on one panel of `L`: a lower triangle and a rectangle below it.
 //!
 //! | kernel | does |
 //! |---|---|
@@ -9,123 +8,308 @@
 //! | [`multiply`] | `y = A x` |
 //! | [`subtract_transposed`] | `x -= A' y` |
 //!
-//! They are written so that the compiler vectorises them: four columns at a time share the loads and
-//! stores of the long vector, and sums run in lanes of their own.
+//! Both parts are cut into strips of [`STRIP`] columns. A strip of the rectangle is stored in tiles of [`TILE`] rows,
+//! column by column within a tile; one of the triangle is a packed triangle of its own, then the tiles
+//! below it. So four columns share the loads and stores of the long vector, only every fourth column waits
+//! for those before it, and the memory is read in one stream in either direction of the solve.
 
-/// Partial sums of one dot product: enough to hide the latency of an addition.
+use std::ops::Range;
+
+/// Columns of a strip; the last of a panel may have fewer.
+const STRIP: usize = 4;
+
+/// Rows of a tile, a cache line; the last of a strip may have fewer.
+const TILE: usize = 8;
+
+/// Partial sums of one dot product.
 const LANES: usize = 4;
 
-/// `x = L^-1 x`.
-pub(super) fn solve_lower(triangle: &[f64], x: &mut [f64]) {
-    let mut rest = triangle;
-    for j in 0..x.len() {
-        let (column, tail) = rest.split_at(x.len() - j);
-        rest = tail;
-        let value = x[j] / column[0];
-        x[j] = value;
-        for (x, &l) in x[j + 1..].iter_mut().zip(&column[1..]) {
-            *x -= l * value;
+/// The strips of `width` columns.
+fn strips(width: usize) -> impl DoubleEndedIterator<Item = Range<usize>> {
+    (0..width.div_ceil(STRIP)).map(move |k| STRIP * k..(STRIP * (k + 1)).min(width))
+}
+
+/// Values of a triangle of `width` columns.
+pub(super) fn triangle_len(width: usize) -> usize {
+    width * (width + 1) / 2
+}
+
+/// Appends the lower triangle of `width` columns to `out`; `column(k)` starts at its diagonal.
+pub(super) fn store_triangle<'a>(
+    width: usize,
+    column: impl Fn(usize) -> &'a [f64],
+    out: &mut Vec<f64>,
+) {
+    for strip in strips(width) {
+        for k in strip.clone() {
+            out.extend_from_slice(&column(k)[..strip.end - k]);
+        }
+        store_strip(
+            width - strip.end,
+            strip.clone(),
+            |k| &column(k)[strip.end - k..],
+            out,
+        );
+    }
+}
+
+/// Appends the rectangle of `width` columns of `rows` rows to `out`.
+pub(super) fn store_rectangle<'a>(
+    rows: usize,
+    width: usize,
+    column: impl Fn(usize) -> &'a [f64],
+    out: &mut Vec<f64>,
+) {
+    for strip in strips(width) {
+        store_strip(rows, strip, &column, out);
+    }
+}
+
+fn store_strip<'a>(
+    rows: usize,
+    strip: Range<usize>,
+    column: impl Fn(usize) -> &'a [f64],
+    out: &mut Vec<f64>,
+) {
+    for top in (0..rows).step_by(TILE) {
+        for k in strip.clone() {
+            out.extend_from_slice(&column(k)[top..(top + TILE).min(rows)]);
         }
     }
 }
 
-/// `x = L^-T x`.
-pub(super) fn solve_upper(triangle: &[f64], x: &mut [f64]) {
-    let mut rest = triangle;
+/// `y += A x` for one strip.
+#[inline(always)]
+fn add_strip(strip: &[f64], x: &[f64], y: &mut [f64]) {
+    let whole = y.len() - y.len() % TILE;
+    let (y, y_end) = y.split_at_mut(whole);
+    let (strip, end) = strip.split_at(x.len() * whole);
+    if let &[x0, x1, x2, x3] = x {
+        for (tile, y) in strip
+            .chunks_exact(STRIP * TILE)
+            .zip(y.chunks_exact_mut(TILE))
+        {
+            let (a, tile) = tile.split_at(TILE);
+            let (b, tile) = tile.split_at(TILE);
+            let (c, d) = tile.split_at(TILE);
+            for i in 0..TILE {
+                y[i] += (a[i] * x0 + b[i] * x1) + (c[i] * x2 + d[i] * x3);
+            }
+        }
+    } else {
+        for (tile, y) in strip
+            .chunks_exact(x.len() * TILE)
+            .zip(y.chunks_exact_mut(TILE))
+        {
+            for (column, x) in tile.chunks_exact(TILE).zip(x) {
+                for i in 0..TILE {
+                    y[i] += column[i] * x;
+                }
+            }
+        }
+    }
+    if !y_end.is_empty() {
+        for (column, x) in end.chunks_exact(y_end.len()).zip(x) {
+            for (y, a) in y_end.iter_mut().zip(column) {
+                *y += a * x;
+            }
+        }
+    }
+}
+
+/// `x -= A' y` for one strip.
+#[inline(always)]
+fn subtract_strip_transposed(strip: &[f64], y: &[f64], x: &mut [f64]) {
+    let whole = y.len() - y.len() % TILE;
+    let (y, y_end) = y.split_at(whole);
+    let (strip, end) = strip.split_at(x.len() * whole);
+    let mut sums = [[0.0; LANES]; STRIP];
+    if x.len() == STRIP {
+        for (tile, y) in strip.chunks_exact(STRIP * TILE).zip(y.chunks_exact(TILE)) {
+            for half in (0..TILE).step_by(LANES) {
+                for (k, sum) in sums.iter_mut().enumerate() {
+                    for lane in 0..LANES {
+                        sum[lane] += tile[k * TILE + half + lane] * y[half + lane];
+                    }
+                }
+            }
+        }
+    } else {
+        for (tile, y) in strip.chunks_exact(x.len() * TILE).zip(y.chunks_exact(TILE)) {
+            for (column, sum) in tile.chunks_exact(TILE).zip(&mut sums) {
+                for i in 0..TILE {
+                    sum[i % LANES] += column[i] * y[i];
+                }
+            }
+        }
+    }
+    for (k, (x, sum)) in x.iter_mut().zip(&sums).enumerate() {
+        let column = &end[k * y_end.len()..(k + 1) * y_end.len()];
+        let tail: f64 = column.iter().zip(y_end).map(|(a, y)| a * y).sum();
+        *x -= ((sum[0] + sum[1]) + (sum[2] + sum[3])) + tail;
+    }
+}
+
+/// `x = L^-1 x` for the packed triangle of one strip.
+#[inline(always)]
+fn solve_corner(corner: &[f64], x: &mut [f64]) {
+    if let (&mut [x0, x1, x2, x3], &[l00, l10, l20, l30, l11, l21, l31, l22, l32, l33]) =
+        (&mut *x, corner)
+    {
+        // The reciprocals do not wait for x.
+        let [r0, r1, r2, r3] = [1.0 / l00, 1.0 / l11, 1.0 / l22, 1.0 / l33];
+        let x0 = x0 * r0;
+        let x1 = (x1 - l10 * x0) * r1;
+        let x2 = ((x2 - l20 * x0) - l21 * x1) * r2;
+        let x3 = (((x3 - l30 * x0) - l31 * x1) - l32 * x2) * r3;
+        x.copy_from_slice(&[x0, x1, x2, x3]);
+        return;
+    }
+    let mut rest = corner;
+    for j in 0..x.len() {
+        let (column, next) = rest.split_at(x.len() - j);
+        rest = next;
+        x[j] /= column[0];
+        for i in 1..column.len() {
+            x[j + i] -= column[i] * x[j];
+        }
+    }
+}
+
+/// `x = L^-T x` for the packed triangle of one strip.
+#[inline(always)]
+fn solve_corner_transposed(corner: &[f64], x: &mut [f64]) {
+    if let (&mut [x0, x1, x2, x3], &[l00, l10, l20, l30, l11, l21, l31, l22, l32, l33]) =
+        (&mut *x, corner)
+    {
+        let [r0, r1, r2, r3] = [1.0 / l00, 1.0 / l11, 1.0 / l22, 1.0 / l33];
+        let x3 = x3 * r3;
+        let x2 = (x2 - l32 * x3) * r2;
+        let x1 = ((x1 - l31 * x3) - l21 * x2) * r1;
+        let x0 = (((x0 - l30 * x3) - l20 * x2) - l10 * x1) * r0;
+        x.copy_from_slice(&[x0, x1, x2, x3]);
+        return;
+    }
+    let mut rest = corner;
     for j in (0..x.len()).rev() {
         let (head, column) = rest.split_at(rest.len() - (x.len() - j));
         rest = head;
-        x[j] = (x[j] - dot(&column[1..], &x[j + 1..])) / column[0];
+        for i in 1..column.len() {
+            x[j] -= column[i] * x[j + i];
+        }
+        x[j] /= column[0];
+    }
+}
+
+#[inline(always)]
+fn solve_lower_by_strips(triangle: &[f64], x: &mut [f64]) {
+    let mut rest = triangle;
+    for strip in strips(x.len()) {
+        let (own, below) = x[strip.start..].split_at_mut(strip.len());
+        let (corner, tiles) = rest.split_at(triangle_len(own.len()));
+        let (tiles, next) = tiles.split_at(own.len() * below.len());
+        rest = next;
+        solve_corner(corner, own);
+        let mut negative = [0.0; STRIP];
+        for (negative, x) in negative.iter_mut().zip(&*own) {
+            *negative = -x;
+        }
+        add_strip(tiles, &negative[..own.len()], below);
+    }
+}
+
+#[inline(always)]
+fn solve_upper_by_strips(triangle: &[f64], x: &mut [f64]) {
+    let mut rest = triangle;
+    for strip in strips(x.len()).rev() {
+        let (own, below) = x[strip.start..].split_at_mut(strip.len());
+        let (head, tiles) = rest.split_at(rest.len() - own.len() * below.len());
+        let (head, corner) = head.split_at(head.len() - triangle_len(own.len()));
+        rest = head;
+        subtract_strip_transposed(tiles, below, own);
+        solve_corner_transposed(corner, own);
     }
 }
 
 /// `x = L x`.
 pub(super) fn multiply_lower(triangle: &[f64], x: &mut [f64]) {
     let mut rest = triangle;
-    for j in (0..x.len()).rev() {
-        let (head, column) = rest.split_at(rest.len() - (x.len() - j));
+    for strip in strips(x.len()).rev() {
+        let (own, below) = x[strip.start..].split_at_mut(strip.len());
+        let (head, tiles) = rest.split_at(rest.len() - own.len() * below.len());
+        let (head, mut corner) = head.split_at(head.len() - triangle_len(own.len()));
         rest = head;
-        let value = x[j];
-        x[j] = value * column[0];
-        for (x, &l) in x[j + 1..].iter_mut().zip(&column[1..]) {
-            *x += l * value;
+        add_strip(tiles, own, below);
+        for j in (0..own.len()).rev() {
+            let (head, column) = corner.split_at(corner.len() - (own.len() - j));
+            corner = head;
+            for i in 1..column.len() {
+                own[j + i] += column[i] * own[j];
+            }
+            own[j] *= column[0];
         }
     }
 }
 
-/// `y = A x` with `A` of `y.len() x x.len()`.
-pub(super) fn multiply(rectangle: &[f64], x: &[f64], y: &mut [f64]) {
-    let m = y.len();
+#[inline(always)]
+fn multiply_by_strips(rectangle: &[f64], x: &[f64], y: &mut [f64]) {
     y.fill(0.0);
-    if m == 0 {
-        return;
-    }
-    let fours = rectangle.chunks_exact(4 * m);
-    let ones = fours.remainder();
-    for (block, x) in fours.zip(x.chunks_exact(4)) {
-        let (a, block) = block.split_at(m);
-        let (b, block) = block.split_at(m);
-        let (c, d) = block.split_at(m);
-        for ((((y, a), b), c), d) in y.iter_mut().zip(a).zip(b).zip(c).zip(d) {
-            *y += (a * x[0] + b * x[1]) + (c * x[2] + d * x[3]);
-        }
-    }
-    let rest = x.chunks_exact(4).remainder();
-    for (column, &x) in ones.chunks_exact(m).zip(rest) {
-        for (y, a) in y.iter_mut().zip(column) {
-            *y += a * x;
-        }
+    let mut rest = rectangle;
+    for x in x.chunks(STRIP) {
+        let (strip, next) = rest.split_at(x.len() * y.len());
+        rest = next;
+        add_strip(strip, x, y);
     }
 }
 
-/// `x -= A' y` with `A` of `y.len() x x.len()`.
-pub(super) fn subtract_transposed(rectangle: &[f64], y: &[f64], x: &mut [f64]) {
-    let m = y.len();
-    if m == 0 {
-        return;
-    }
-    let fours = rectangle.chunks_exact(4 * m);
-    let ones = fours.remainder();
-    let mut targets = x.chunks_exact_mut(4);
-    for (block, x) in fours.zip(&mut targets) {
-        let (a, block) = block.split_at(m);
-        let (b, block) = block.split_at(m);
-        let (c, d) = block.split_at(m);
-        let mut sums = [[0.0; LANES]; 4];
-        let whole = m - m % LANES;
-        for i in (0..whole).step_by(LANES) {
-            let y: &[f64] = &y[i..i + LANES];
-            for (sum, column) in sums.iter_mut().zip([a, b, c, d]) {
-                let column = &column[i..i + LANES];
-                for lane in 0..LANES {
-                    sum[lane] += column[lane] * y[lane];
-                }
-            }
-        }
-        for (x, (sum, column)) in x.iter_mut().zip(sums.iter().zip([a, b, c, d])) {
-            let mut total = (sum[0] + sum[1]) + (sum[2] + sum[3]);
-            for i in whole..m {
-                total += column[i] * y[i];
-            }
-            *x -= total;
-        }
-    }
-    for (column, x) in ones.chunks_exact(m).zip(targets.into_remainder()) {
-        *x -= dot(column, y);
+#[inline(always)]
+fn subtract_transposed_by_strips(rectangle: &[f64], y: &[f64], x: &mut [f64]) {
+    let mut rest = rectangle;
+    for x in x.chunks_mut(STRIP) {
+        let (strip, next) = rest.split_at(x.len() * y.len());
+        rest = next;
+        subtract_strip_transposed(strip, y, x);
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; LANES];
-    let (a, b) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
-    let mut total = 0.0;
-    for (a, b) in a.remainder().iter().zip(b.remainder()) {
-        total += a * b;
-    }
-    for (a, b) in a.zip(b) {
-        for lane in 0..LANES {
-            sums[lane] += a[lane] * b[lane];
+/// Compiles a kernel twice, for any processor and for one with wider vectors, and picks at run time. The second
+/// has the same operations in the same order (no fused ones), so both give the same bits.
+macro_rules! for_this_processor {
+    ($(#[$doc:meta])* $name:ident, $wide:ident, $kernel:ident, ($($arg:ident: $type:ty),*)) => {
+        $(#[$doc])*
+        pub(super) fn $name($($arg: $type),*) {
+            #[cfg(target_arch = "x86_64")]
+            if std::arch::is_x86_feature_detected!("avx2") {
+                // SAFETY: the processor has the feature that the function was compiled for.
+                return unsafe { $wide($($arg),*) };
+            }
+            $kernel($($arg),*);
         }
-    }
-    total + ((sums[0] + sums[1]) + (sums[2] + sums[3]))
+
+        #[cfg(target_arch = "x86_64")]
+        #[target_feature(enable = "avx2")]
+        fn $wide($($arg: $type),*) {
+            $kernel($($arg),*);
+        }
+    };
 }
+
+for_this_processor!(
+    /// `x = L^-1 x`.
+    solve_lower, solve_lower_avx2, solve_lower_by_strips, (triangle: &[f64], x: &mut [f64])
+);
+for_this_processor!(
+    /// `x = L^-T x`.
+    solve_upper, solve_upper_avx2, solve_upper_by_strips, (triangle: &[f64], x: &mut [f64])
+);
+for_this_processor!(
+    /// `y = A x` with `A` of `y.len() x x.len()`.
+    multiply, multiply_avx2, multiply_by_strips, (rectangle: &[f64], x: &[f64], y: &mut [f64])
+);
+for_this_processor!(
+    /// `x -= A' y` with `A` of `y.len() x x.len()`.
+    subtract_transposed,
+    subtract_transposed_avx2,
+    subtract_transposed_by_strips,
+    (rectangle: &[f64], y: &[f64], x: &mut [f64])
+);

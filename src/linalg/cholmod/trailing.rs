@@ -7,7 +7,8 @@
 //!
 //! These solves are the hot loop of a plastic analysis: thousands of calls, each bound by how fast the
 //! memory delivers `L_tt`. Columns of the same structure are kept as dense panels of at most
-//! [`PANEL_WIDTH`] columns: a packed lower triangle, then a rectangle whose rows are listed once.
+//! [`PANEL_WIDTH`] columns: a lower triangle, then a rectangle whose rows are listed once, both stored as the kernels ([`panel`])
+//! read them.
 
 use super::factor::Factor;
 use super::ordering::Groups;
@@ -18,8 +19,7 @@ use nalgebra::DMatrix;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-/// Columns of a panel: wide enough that rows are gathered rarely, narrow enough that the triangle,
-/// whose columns get short, is a small part.
+/// Columns of a panel: enough that rows are gathered rarely. 16, 32 and 64 differ by a few per cent.
 const PANEL_WIDTH: usize = 64;
 
 /// Neighbouring columns of one group with the same structure.
@@ -30,13 +30,13 @@ struct Panel {
     width: usize,
     /// Rows below the panel's own columns, in `Trailing::rows`.
     rows: Range<usize>,
-    /// First value in `Trailing::values`: the triangle, column by column, then the rectangle.
+    /// First value in `Trailing::values`: the triangle, then the rectangle.
     values: usize,
 }
 
 impl Panel {
     fn triangle(&self) -> Range<usize> {
-        self.values..self.values + self.width * (self.width + 1) / 2
+        self.values..self.values + panel::triangle_len(self.width)
     }
 
     fn rectangle(&self) -> Range<usize> {
@@ -160,14 +160,17 @@ impl Trailing {
             previous = below;
             listed = rows.clone();
             let values = self.values.len();
-            for k in 0..width {
-                let column = columns.get(j + k);
-                self.values.extend_from_slice(&column.values[..width - k]);
-            }
-            for k in 0..width {
-                let column = columns.get(j + k);
-                self.values.extend_from_slice(&column.values[width - k..]);
-            }
+            panel::store_triangle(
+                width,
+                |k| &columns.get(j + k).values[..width - k],
+                &mut self.values,
+            );
+            panel::store_rectangle(
+                below.len(),
+                width,
+                |k| &columns.get(j + k).values[width - k..],
+                &mut self.values,
+            );
             self.panels.push(Panel {
                 first: j - origin,
                 width,
@@ -254,19 +257,26 @@ impl Trailing {
         let n = self.contact.len();
         // U = L_cc': the columns of U are the rows of L, so products of rows run through memory.
         let mut upper = DMatrix::zeros(n, n);
+        let mut unit = [0.0; PANEL_WIDTH];
+        let mut below = vec![0.0; n];
         for p in &self.panels[self.n_zone_panels..] {
-            let triangle = &self.values[p.triangle()];
-            let rectangle = &self.values[p.rectangle()];
             let list = &self.rows[p.rows.clone()];
             let first = p.first - self.n_zone;
-            let mut next = 0;
             for k in 0..p.width {
+                // Column k is L times a unit vector: exact, and the storage stays the kernels' own affair.
+                let column = &mut unit[..p.width];
+                column.fill(0.0);
+                column[k] = 1.0;
+                panel::multiply(
+                    &self.values[p.rectangle()],
+                    column,
+                    &mut below[..list.len()],
+                );
+                panel::multiply_lower(&self.values[p.triangle()], column);
                 for i in k..p.width {
-                    upper[(first + k, first + i)] = triangle[next];
-                    next += 1;
+                    upper[(first + k, first + i)] = column[i];
                 }
-                let column = &rectangle[k * list.len()..(k + 1) * list.len()];
-                for (&row, &value) in list.iter().zip(column) {
+                for (&row, &value) in list.iter().zip(&below) {
                     upper[(first + k, row as usize - self.n_zone)] = value;
                 }
             }
