@@ -141,6 +141,21 @@ impl Substructure {
         })
     }
 
+    /// Gives the factor's memory back: from here on there is nothing left to solve with, the structure only waits to
+    /// be replaced.
+    ///
+    /// # Errors
+    /// None that can occur: one freedom of stiffness 1 is always definite.
+    pub fn release(&mut self) -> Result<()> {
+        let one = linalg::SymmetricCsc::new_csc((1, 1), vec![0, 1], vec![0], vec![1.0]);
+        let partition = Partition {
+            n: 1,
+            ..Partition::default()
+        };
+        self.condensed = linalg::condense(Backend::Dense, &one, &partition, &[])?;
+        Ok(())
+    }
+
     /// The matrix T of the contact problem, all pairs closed.
     pub fn tableau(&self) -> Tableau {
         Tableau::new(self.contact_matrix.clone())

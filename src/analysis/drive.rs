@@ -60,7 +60,7 @@ pub struct Stepper<'a> {
 }
 
 /// Accuracy with which a monitored quantity is hit, as a share of the increment.
-const MONITOR_ACCURACY: f64 = 1e-10;
+pub(super) const MONITOR_ACCURACY: f64 = 1e-10;
 /// Cut factor after an increment that did not converge.
 const CUT: f64 = 0.25;
 /// Share of a piece of the load path below which increments are not cut: the load has passed the limit load, which is then
@@ -205,6 +205,11 @@ impl Engine<'_> {
                 Stepping::Events => 1.0,
                 Stepping::Steps => 1.0 / (stepper.steps - done.min(stepper.steps - 1)) as f64,
             };
+            if self.zone.is_idle() && stepper.stepping == Stepping::Events {
+                if let Some(arrival) = self.follow_elastic(end, monitor, &mut watched, report)? {
+                    return Ok(arrival);
+                }
+            }
             let distance = self.at.distance(end);
             let trusted = if trust < left * distance {
                 trust / distance
@@ -512,13 +517,8 @@ impl Engine<'_> {
 
 impl LoadPoint {
     /// Change of all factors and of the interference on the way to `end`.
-    fn step_to(&self, end: &LoadPoint) -> Vec<f64> {
-        let mut step: Vec<f64> = end
-            .factors
-            .iter()
-            .zip(&self.factors)
-            .map(|(b, a)| b - a)
-            .collect();
+    pub(super) fn step_to(&self, end: &LoadPoint) -> Vec<f64> {
+        let mut step: Vec<f64> = end.factors.iter().zip(&self.factors).map(|(b, a)| b - a).collect();
         step.push(end.interference - self.interference);
         step
     }

@@ -1,6 +1,8 @@
 //! Elastic pieces of the load path: contact alone changes, from event to event, on the dense matrix only.
 
+use super::drive::{Arrival, IncrementReport, MONITOR_ACCURACY, Monitor, OnIncrement};
 use super::engine::{Engine, LoadPoint};
+use super::yield_load::bracketed_root;
 use crate::contact::{self, Change, Path, PathEnd};
 use crate::error::Result;
 
@@ -79,6 +81,133 @@ impl ElasticPiece {
         engine.now.force.copy_from_slice(&self.path.force);
         engine.fresh = false;
         engine.border.clear();
+    }
+}
+
+impl Engine<'_> {
+    /// Follows unloading (or reloading) on the dense contact matrix for as long as no point flows, event by event; `None`
+    /// where the next stretch flows, with the last event before it as current state.
+    ///
+    /// This is the same path as that of elastoplastic increments in which nothing flows. Initial loads are constant, so the
+    /// first half of a trailing solve is linear in the load factor and done once for all events; each event costs the second
+    /// half and one look at all points of the zone. That look suffices: between two events strains are linear in the load
+    /// factor and von Mises' stress is a convex function of them, so where both ends of a stretch lie within the yield
+    /// surface all of it does.
+    ///
+    /// # Errors
+    /// Those of the report.
+    pub fn follow_elastic(
+        &mut self,
+        end: &LoadPoint,
+        monitor: Option<&Monitor>,
+        watched: &mut Option<f64>,
+        report: &mut OnIncrement,
+    ) -> Result<Option<Arrival>> {
+        if self.now.force.iter().all(|r| *r == 0.0) {
+            return Ok(None);
+        }
+        self.refresh();
+        let start = self.at.clone();
+        let mut border = self.border.clone();
+        let mut open = self.tableau.open().to_vec();
+        let Ok(mut piece) = ElasticPiece::new(self, end) else {
+            self.set_statuses(&open, border);
+            return Ok(None);
+        };
+        let n = self.now.gap.len();
+        let mut forces = vec![0.0; n];
+        let mut eliminated = self.external(&start);
+        let mut change = self.external(end);
+        change.add(-1.0, &eliminated);
+        eliminated.add(1.0, &self.now.initial);
+        self.sub.eliminate(&mut eliminated, &mut forces);
+        self.sub.eliminate(&mut change, &mut forces);
+        self.counts.trailing_solves += 2;
+        let mut balance = self.sub.zeros();
+        let mut solves = self.counts.trailing_solves;
+        loop {
+            let before = piece.t();
+            let saved = (self.at.clone(), self.now.gap.clone(), self.now.force.clone());
+            let outcome = piece.advance(self, 1.0);
+            let mut u = eliminated.clone();
+            u.add(piece.t(), &change);
+            let delta = self.delta(&self.at);
+            let slip: Vec<f64> = delta.iter().zip(&self.now.gap).map(|(d, g)| d - g).collect();
+            self.sub.recover(&mut u, &slip);
+            self.counts.trailing_solves += 1;
+            self.zone.set_factors(&self.at.factors);
+            let evaluation = self.zone.evaluate(&u, &mut balance);
+            self.counts.plastic_iterations += 1;
+            if evaluation.flowing > 0 {
+                self.zone.assume_elastic();
+                (self.at, self.now.gap, self.now.force) = saved;
+                self.set_statuses(&open, border);
+                return Ok(None);
+            }
+            std::mem::swap(&mut self.now.u, &mut u);
+            self.fresh = true;
+            self.last_step = start.step_to(end);
+            self.update_force_scale();
+            balance.add(-1.0, &self.now.initial);
+            let mut reported = IncrementReport {
+                event: "target".to_string(),
+                iterations: 1,
+                trailing_solves: self.counts.trailing_solves - solves,
+                residual: balance.largest() / self.force_scale.max(f64::MIN_POSITIVE),
+            };
+            solves = self.counts.trailing_solves;
+            if let (Some(monitor), Some(was)) = (monitor, *watched) {
+                let is = monitor(self);
+                if is == 0.0 || (is > 0.0) != (was > 0.0) {
+                    let (from, to) = (before, piece.t());
+                    let sign = if is > was { 1.0 } else { -1.0 };
+                    let accuracy = MONITOR_ACCURACY * (to - from).abs().max(f64::MIN_POSITIVE);
+                    let t = bracketed_root(from, to, accuracy, |t| {
+                        piece.go_back(self, t);
+                        sign * monitor(self)
+                    });
+                    piece.go_back(self, t);
+                    self.refresh();
+                    report(self, &reported)?;
+                    return Ok(Some(Arrival::Monitor));
+                }
+                *watched = Some(is);
+            }
+            let PathEnd::Event(changes) = outcome else {
+                self.at = end.clone();
+                let goes_on = report(self, &reported)?;
+                return Ok(Some(if goes_on { Arrival::End } else { Arrival::Stopped }));
+            };
+            reported.event = describe(&changes);
+            border = changes
+                .iter()
+                .map(|change| match *change {
+                    Change::Closes(k) | Change::Opens(k) => k,
+                })
+                .collect();
+            let before_turn = self.tableau.open().to_vec();
+            if piece.turn(self).is_err() {
+                // No rates beyond this event: elastoplastic increments find out why.
+                self.set_statuses(&before_turn, border);
+                report(self, &reported)?;
+                return Ok(None);
+            }
+            open = self.tableau.open().to_vec();
+            if !report(self, &reported)? {
+                return Ok(Some(Arrival::Stopped));
+            }
+        }
+    }
+
+    fn set_statuses(&mut self, open: &[bool], border: Vec<usize>) {
+        for (k, &open) in open.iter().enumerate() {
+            if self.tableau.open()[k] != open {
+                self.tableau.flip(k);
+            }
+        }
+        self.border = border;
+        self.fresh = false;
+        self.refresh();
     }
 }
 

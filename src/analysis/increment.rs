@@ -182,9 +182,7 @@ impl Engine<'_> {
                 let (direction, length) = match settings.plastic_iteration {
                     PlasticIteration::Newton => {
                         let forcing = (residual / last).powi(2).clamp(1e-5, 0.03);
-                        let mut change = self.solve_tangent(&balance, forcing, 1.0 - damping);
-                        change.add(1.0, &balance);
-                        let newton = self.direction(change);
+                        let newton = self.solve_tangent(&balance, forcing, 1.0 - damping);
                         match self.line_search(&state, &newton, &balance) {
                             Some(length) => {
                                 damping = next_damping(damping, length);
@@ -238,7 +236,6 @@ impl Engine<'_> {
 
     /// Rates of everything with the share of the piece: elastic, plus plastic where points flow (tangent).
     fn rates(&mut self, end: &LoadPoint, tangent: bool) -> Direction {
-        let n = self.now.gap.len();
         let ahead = self.respond_rate(end);
         let mut rates = Direction {
             initial: self.sub.zeros(),
@@ -247,15 +244,8 @@ impl Engine<'_> {
         if tangent && !self.zone.is_idle() {
             let mut driven = self.sub.zeros();
             self.zone.softening_times(&rates.u, &mut driven);
-            let mut change = self.solve_tangent(&driven, 1e-3, 1.0);
-            change.add(1.0, &driven);
-            let plastic = self.direction(change);
-            rates.u.add(1.0, &plastic.u);
-            rates.initial.add(1.0, &plastic.initial);
-            for k in 0..n {
-                rates.gap[k] += plastic.gap[k];
-                rates.force[k] += plastic.force[k];
-            }
+            let plastic = self.solve_tangent(&driven, 1e-3, 1.0);
+            rates.add(1.0, &plastic);
         }
         rates
     }

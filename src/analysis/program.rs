@@ -383,6 +383,9 @@ impl<'m, 'o> Run<'m, 'o> {
     fn rebuild(&mut self, choice: Choice) -> Result<()> {
         self.observer.phase("factorisation");
         let start = Instant::now();
+        // The old factor goes before the new one comes: two at once would be the peak of memory.
+        self.recovery = None;
+        self.engine.sub.release()?;
         let old = &self.engine;
         let mut engine = Engine::new(
             self.model(),

@@ -9,7 +9,7 @@
 //! O. C. Zienkiewicz, J. Z. Zhu, superconvergent patch recovery (1992), doi:10.1002/nme.1620330702; P. Lancaster,
 //! K. Salkauskas, moving least squares (1981), doi:10.1090/S0025-5718-1981-0616367-1.
 
-use super::gather::{GatheredElement, Lookup, Places, Prescribed};
+use super::gather::{GatheredElements, Nodal, Places};
 use crate::assembly::LocalElement;
 use crate::element::shape_functions;
 use crate::material::{Material, Matrix4, stress, von_mises};
@@ -48,10 +48,12 @@ pub struct Peak {
 
 /// Samples and recovers stresses in the elements that may yield.
 pub struct Recovery {
-    elements: Vec<GatheredElement>,
+    elements: GatheredElements,
     first: Vec<usize>,
+    /// Coordinates of the sampling points.
+    positions: Vec<[f64; 2]>,
     materials: Vec<(Material, Matrix4)>,
-    prescribed: Prescribed,
+    nodal: Nodal,
     neighbours: BTreeMap<u32, Vec<u32>>,
     patches: BTreeMap<u32, Patch>,
 }
@@ -67,27 +69,31 @@ struct Patch {
 impl Recovery {
     /// Recovery over the given elements (ascending).
     pub fn new(model: &Model, elements: &[usize], places: &Places) -> Self {
-        let list: Vec<GatheredElement> = elements
-            .par_iter()
-            .map(|&e| GatheredElement::new(model, e, LocalElement::sampled(model, e), places))
-            .collect();
+        let mut positions = Vec::new();
+        for &e in elements {
+            let points = LocalElement::samples_of(model, e);
+            positions.extend(points.iter().map(|p| p.position));
+        }
+        let packed =
+            GatheredElements::new(model, elements, places, |e| LocalElement::samples_of(model, e));
         let mut first = vec![0];
         let mut neighbours: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-        for (i, element) in list.iter().enumerate() {
-            first.push(first[i] + element.points.len());
-            for &node in model.mesh.nodes(element.element) {
+        for (i, element) in packed.list.iter().enumerate() {
+            first.push(first[i] + element.n_points as usize);
+            for &node in model.mesh.nodes(element.element as usize) {
                 neighbours.entry(node).or_default().push(i as u32);
             }
         }
         Recovery {
-            elements: list,
+            elements: packed,
             first,
+            positions,
             materials: model
                 .materials
                 .iter()
                 .map(|m| (m.clone(), m.elastic_matrix()))
                 .collect(),
-            prescribed: Prescribed::new(model),
+            nodal: Nodal::new(model, places),
             neighbours,
             patches: BTreeMap::new(),
         }
@@ -95,53 +101,37 @@ impl Recovery {
 
     /// Elastic stresses at the sampling points for displacements `u` and load factors.
     pub fn sample(&mut self, u: &Trailing, factors: &[f64]) -> Samples {
-        self.prescribed.set_factors(factors);
-        let lookup = Lookup::new(u, &self.prescribed);
-        let blocks: Vec<Vec<[f64; 4]>> = self
-            .elements
-            .par_iter()
+        self.nodal.set_factors(factors);
+        let nodal = self.nodal.displacements(u);
+        let (elements, materials) = (&self.elements, &self.materials);
+        let strains: Vec<_> = (0..elements.list.len())
+            .into_par_iter()
             .with_min_len(64)
-            .map(|element| {
-                let displacement = lookup.gather(element);
-                let elastic = &self.materials[element.body as usize].1;
-                element
-                    .points
-                    .iter()
-                    .map(|p| {
-                        stress(
-                            elastic,
-                            &p.strain(&displacement[..element.points.n_freedoms]),
-                            &[0.0; 4],
-                        )
-                    })
-                    .collect()
-            })
+            .map(|i| elements.strains(i, nodal))
             .collect();
-        blocks.concat()
+        let mut out = Vec::with_capacity(self.positions.len());
+        for (packed, strains) in elements.list.iter().zip(&strains) {
+            let elastic = &materials[packed.body as usize].1;
+            let points = &strains[..packed.n_points as usize];
+            out.extend(points.iter().map(|e| stress(elastic, e, &[0.0; 4])));
+        }
+        out
     }
 
     /// The recovered maximum of von Mises stress over yield stress. Where the largest sample is far below yield it is
     /// returned as it is: its exact size does not matter.
     pub fn peak(&mut self, model: &Model, samples: &Samples) -> Option<Peak> {
-        let raw: Vec<f64> = (0..self.elements.len())
+        let raw: Vec<f64> = (0..self.elements.list.len())
             .map(|i| {
-                let y = self.materials[self.elements[i].body as usize]
-                    .0
-                    .yield_stress();
-                samples[self.first[i]..self.first[i + 1]]
-                    .iter()
-                    .map(|s| von_mises(s) / y)
-                    .fold(0.0, f64::max)
+                let y = self.materials[self.elements.list[i].body as usize].0.yield_stress();
+                samples[self.first[i]..self.first[i + 1]].iter().map(|s| von_mises(s) / y).fold(0.0, f64::max)
             })
             .collect();
         let top = (0..raw.len()).max_by(|&a, &b| raw[a].total_cmp(&raw[b]))?;
         if raw[top] < FAR_BELOW {
-            let element = &self.elements[top];
-            return Some(Peak {
-                ratio: raw[top],
-                location: element.points[0].position,
-                body: element.body as usize,
-            });
+            let location = self.positions[self.first[top]];
+            let body = self.elements.list[top].body as usize;
+            return Some(Peak { ratio: raw[top], location, body });
         }
         // A smooth field has its maximum in or beside an element whose sample is a local maximum.
         let mut best: Option<Peak> = None;
@@ -159,14 +149,14 @@ impl Recovery {
 
     /// Elements of the same body that share a node with element `i`, itself included.
     fn neighbours_of(&self, model: &Model, i: usize) -> Vec<u32> {
-        let body = self.elements[i].body;
+        let body = self.elements.list[i].body;
         let mut around: Vec<u32> = model
             .mesh
-            .nodes(self.elements[i].element)
+            .nodes(self.elements.list[i].element as usize)
             .iter()
             .flat_map(|node| &self.neighbours[node])
             .copied()
-            .filter(|&m| self.elements[m as usize].body == body)
+            .filter(|&m| self.elements.list[m as usize].body == body)
             .collect();
         around.sort_unstable();
         around.dedup();
@@ -208,18 +198,14 @@ impl Recovery {
                 step *= 0.5;
             }
         }
-        Peak {
-            ratio: best.0,
-            location: best.2,
-            body: self.elements[best.3 as usize].body as usize,
-        }
+        Peak { ratio: best.0, location: best.2, body: self.elements.list[best.3 as usize].body as usize }
     }
 
     /// The reference point moved into the element. Quadrilaterals use `[-1, 1]^2`, triangles the same square folded onto
     /// the triangle.
     fn inside(&self, model: &Model, i: u32, reference: [f64; 2]) -> [f64; 2] {
         let clamped = reference.map(|v| v.clamp(-1.0, 1.0));
-        if model.mesh.shapes[self.elements[i as usize].element].n_corners() == 4 {
+        if model.mesh.shapes[self.elements.list[i as usize].element as usize].n_corners() == 4 {
             return clamped;
         }
         let positive = clamped.map(|v| v.max(0.0));
@@ -232,16 +218,10 @@ impl Recovery {
     }
 
     /// Recovered von Mises stress over yield stress at a reference point of an element, and where that is.
-    fn value_at(
-        &self,
-        model: &Model,
-        i: u32,
-        reference: [f64; 2],
-        samples: &Samples,
-    ) -> (f64, [f64; 2]) {
-        let element = &self.elements[i as usize];
-        let (n, _) = shape_functions(model.mesh.shapes[element.element], reference);
-        let x = model.element_coordinates(element.element);
+    fn value_at(&self, model: &Model, i: u32, reference: [f64; 2], samples: &Samples) -> (f64, [f64; 2]) {
+        let element = &self.elements.list[i as usize];
+        let (n, _) = shape_functions(model.mesh.shapes[element.element as usize], reference);
+        let x = model.element_coordinates(element.element as usize);
         let mut point = [0.0; 2];
         for (n, x) in n.iter().zip(&x) {
             point[0] += n * x[0];
@@ -274,7 +254,7 @@ impl Recovery {
                 .collect();
             members.extend(around);
         }
-        let nodes = model.mesh.nodes(self.elements[i].element);
+        let nodes = model.mesh.nodes(self.elements.list[i].element as usize);
         let mut low = [f64::INFINITY; 2];
         let mut high = [f64::NEG_INFINITY; 2];
         for &node in nodes {
@@ -288,22 +268,10 @@ impl Recovery {
         let scale = [high[0] - low[0], high[1] - low[1]];
         let samples = members
             .iter()
-            .flat_map(|&m| {
-                let first = self.first[m as usize] as u32;
-                self.elements[m as usize]
-                    .points
-                    .iter()
-                    .enumerate()
-                    .map(move |(g, p)| {
-                        let at = p.position;
-                        (
-                            first + g as u32,
-                            [
-                                (at[0] - center[0]) / scale[0],
-                                (at[1] - center[1]) / scale[1],
-                            ],
-                        )
-                    })
+            .flat_map(|&m| self.first[m as usize]..self.first[m as usize + 1])
+            .map(|sample| {
+                let at = self.positions[sample];
+                (sample as u32, [(at[0] - center[0]) / scale[0], (at[1] - center[1]) / scale[1]])
             })
             .collect();
         Patch {

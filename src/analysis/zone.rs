@@ -7,13 +7,16 @@
 //! `J` are the paper's initial loads (4.1); the plastic strains depend on the committed history and on the
 //! total strain at the end of the increment only, so within an increment they are a function of `u`.
 
-use super::gather::{GatheredElement, Lookup, Places, Prescribed};
-use crate::assembly::local_element;
+use super::gather::{AtPoints, GatheredElements, Nodal, Places};
+use crate::assembly::LocalElement;
 use crate::element::MAX_FREEDOMS;
 use crate::material::{Material, Matrix4, PlasticState, multiply};
 use crate::model::Model;
 use crate::substructure::Trailing;
 use rayon::prelude::*;
+
+/// Elements that a thread takes at a time.
+const GRAIN: usize = 64;
 
 /// Result of evaluating the material over the zone.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -24,143 +27,171 @@ pub struct Evaluation {
     pub guard_flows: usize,
 }
 
-/// The plastic zone with its history.
+/// The plastic zone with its history. Arrays over points give every element the same number of places (`stride`), so
+/// that they are cut by element without a list.
 pub struct Zone {
-    elements: Vec<GatheredElement>,
+    elements: GatheredElements,
     /// Elements in which flow means that the zone is too small.
     guard: Vec<bool>,
-    first_point: Vec<usize>,
+    stride: usize,
     materials: Vec<(Material, Matrix4)>,
     committed: Vec<PlasticState>,
+    /// Equal to `committed` except where `flows`.
     trial: Vec<PlasticState>,
+    /// `D - D_ep` at the last evaluated state; zero except where `flows`.
     softening: Vec<Matrix4>,
+    /// Points that flowed at the last evaluated state.
+    flows: Vec<bool>,
+    /// Flowing points of each element at the last evaluated state.
+    flowing: Vec<u8>,
     /// Elements with a flowing point, ascending.
     active: Vec<u32>,
     forces: Vec<[f64; MAX_FREEDOMS]>,
-    prescribed: Prescribed,
+    /// Initial loads of the committed plastic strains: what flows adds to them.
+    base: Trailing,
+    nodal: Nodal,
+    sums: Nodal,
 }
 
 impl Zone {
     /// Sets up the zone of the given elements (ascending); `guard` says which of them only watch. The free freedoms of
     /// the elements must be zone or contact freedoms.
     pub fn new(model: &Model, elements: &[usize], guard: &[bool], places: &Places) -> Self {
-        let list: Vec<GatheredElement> = elements
-            .par_iter()
-            .map(|&e| GatheredElement::new(model, e, local_element(model, e), places))
-            .collect();
-        let mut first_point = Vec::with_capacity(list.len() + 1);
-        first_point.push(0);
-        for element in &list {
-            first_point.push(first_point[first_point.len() - 1] + element.points.len());
-        }
-        let n_points = first_point[list.len()];
+        let elements = GatheredElements::new(model, elements, places, |e| {
+            LocalElement::points_of(model, e)
+        });
+        let n = elements.list.len();
+        let stride = elements
+            .list
+            .iter()
+            .map(|e| e.n_points as usize)
+            .max()
+            .unwrap_or(1);
+        let (n_zone, n_contact) = places.sizes();
         Zone {
-            forces: vec![[0.0; MAX_FREEDOMS]; list.len()],
-            elements: list,
+            forces: vec![[0.0; MAX_FREEDOMS]; n],
+            elements,
             guard: guard.to_vec(),
-            first_point,
+            stride,
             materials: model
                 .materials
                 .iter()
                 .map(|m| (m.clone(), m.elastic_matrix()))
                 .collect(),
-            committed: vec![PlasticState::default(); n_points],
-            trial: vec![PlasticState::default(); n_points],
-            softening: vec![[[0.0; 4]; 4]; n_points],
+            committed: vec![PlasticState::default(); n * stride],
+            trial: vec![PlasticState::default(); n * stride],
+            softening: vec![[[0.0; 4]; 4]; n * stride],
+            flows: vec![false; n * stride],
+            flowing: vec![0; n],
             active: Vec::new(),
-            prescribed: Prescribed::new(model),
+            base: Trailing::zeros(n_zone, n_contact),
+            nodal: Nodal::new(model, places),
+            sums: Nodal::new(model, places),
         }
     }
 
     /// Bytes held.
     pub fn bytes(&self) -> u64 {
-        (self.elements.capacity() * std::mem::size_of::<GatheredElement>()
-            + self.forces.capacity() * std::mem::size_of::<[f64; MAX_FREEDOMS]>()
-            + self.committed.capacity() * 2 * std::mem::size_of::<PlasticState>()
-            + self.softening.capacity() * std::mem::size_of::<Matrix4>()) as u64
+        (self.elements.bytes()
+            + self.forces.capacity() * size_of::<[f64; MAX_FREEDOMS]>()
+            + self.committed.capacity() * 2 * size_of::<PlasticState>()
+            + self.softening.capacity() * size_of::<Matrix4>()) as u64
     }
 
     /// Load factors that scale the prescribed displacements from now on.
     pub fn set_factors(&mut self, factors: &[f64]) {
-        self.prescribed.set_factors(factors);
+        self.nodal.set_factors(factors);
     }
 
-    /// Integrates the flow rule for displacements `u` and adds up the initial loads.
+    /// Integrates the flow rule for displacements `u` and adds up the initial loads: those of the committed plastic
+    /// strains, plus what the points that flow add.
     pub fn evaluate(&mut self, u: &Trailing, initial_load: &mut Trailing) -> Evaluation {
-        let lookup = Lookup::new(u, &self.prescribed);
-        let (materials, committed, first_point) =
-            (&self.materials, &self.committed, &self.first_point);
-        let trial = split(&mut self.trial, first_point);
-        let softening = split(&mut self.softening, first_point);
-        let status: Vec<(usize, bool)> = self
-            .elements
-            .par_iter()
-            .zip(first_point)
-            .zip(trial.into_par_iter().zip(softening).zip(&mut self.forces))
-            .with_min_len(64)
-            .map(|((element, &first), ((trial, softening), force))| {
-                let displacement = lookup.gather(element);
-                let (material, elastic) = &materials[element.body as usize];
-                let mut flowing = 0;
-                let mut strained = false;
-                force.fill(0.0);
-                for (i, point) in element.points.iter().enumerate() {
-                    let strain = point.strain(&displacement[..element.points.n_freedoms]);
-                    let update = material.integrate(elastic, &strain, &committed[first + i]);
-                    trial[i] = update.state;
-                    softening[i] = update.softening;
-                    flowing += usize::from(update.flows);
-                    if update.state.equivalent > 0.0 {
-                        strained = true;
-                        point.add_force(&multiply(elastic, &update.state.strain), force);
+        let nodal = self.nodal.displacements(u);
+        let (elements, materials, stride) = (&self.elements, &self.materials, self.stride);
+        (
+            &mut self.flowing,
+            &mut self.forces,
+            self.trial.par_chunks_mut(stride),
+            self.softening.par_chunks_mut(stride),
+            self.flows.par_chunks_mut(stride),
+            self.committed.par_chunks(stride),
+        )
+            .into_par_iter()
+            .enumerate()
+            .with_min_len(GRAIN)
+            .for_each(
+                |(i, (flowing, force, trial, softening, flows, committed))| {
+                    let packed = &elements.list[i];
+                    let (material, elastic) = &materials[packed.body as usize];
+                    let strains = elements.strains(i, nodal);
+                    let mut added = AtPoints::default();
+                    *flowing = 0;
+                    for g in 0..packed.n_points as usize {
+                        let (strain, old) = (&strains[g], &committed[g]);
+                        // Most points are elastic: nothing is stored for them.
+                        if material.stays_elastic(elastic, strain, old) {
+                            if flows[g] {
+                                flows[g] = false;
+                                trial[g] = *old;
+                                softening[g] = [[0.0; 4]; 4];
+                            }
+                            continue;
+                        }
+                        let update = material.integrate(elastic, strain, old);
+                        trial[g] = update.state;
+                        softening[g] = update.softening;
+                        flows[g] = true;
+                        *flowing += 1;
+                        let change =
+                            std::array::from_fn(|k| update.state.strain[k] - old.strain[k]);
+                        added[g] = multiply(elastic, &change);
                     }
-                }
-                (flowing, strained)
-            })
-            .collect();
+                    if *flowing > 0 {
+                        *force = elements.forces(i, &added);
+                    }
+                },
+            );
         let mut result = Evaluation::default();
         self.active.clear();
-        initial_load.fill(0.0);
-        for (i, &(flowing, strained)) in status.iter().enumerate() {
-            result.flowing += flowing;
+        let sums = self.sums.start_sum(Some(&self.base));
+        for (i, &flowing) in self.flowing.iter().enumerate() {
             if flowing > 0 {
+                result.flowing += flowing as usize;
                 self.active.push(i as u32);
                 result.guard_flows += usize::from(self.guard[i]);
-            }
-            if strained {
-                self.elements[i].scatter(&self.forces[i], initial_load);
+                self.elements.scatter(i, &self.forces[i], sums);
             }
         }
+        self.sums.sum_into(initial_load);
         result
     }
 
     /// `out = sum_g w_g B' (D - D_ep) B v` at the last evaluated state, for a `v` that vanishes where displacements are
     /// prescribed.
     pub fn softening_times(&mut self, v: &Trailing, out: &mut Trailing) {
-        let lookup = Lookup::homogeneous(v);
-        let (elements, softening, first_point) =
-            (&self.elements, &self.softening, &self.first_point);
+        let nodal = self.nodal.variation(v);
+        let (elements, softening, stride) = (&self.elements, &self.softening, self.stride);
         self.active
             .par_iter()
             .zip(&mut self.forces[..self.active.len()])
-            .with_min_len(64)
+            .with_min_len(GRAIN)
             .for_each(|(&i, force)| {
-                let element = &elements[i as usize];
-                let displacement = lookup.gather(element);
-                force.fill(0.0);
-                for (point, matrix) in element
-                    .points
+                let i = i as usize;
+                let strains = elements.strains(i, nodal);
+                let mut stress = AtPoints::default();
+                for (g, matrix) in softening[i * stride..][..elements.list[i].n_points as usize]
                     .iter()
-                    .zip(&softening[first_point[i as usize]..])
+                    .enumerate()
                 {
-                    let strain = point.strain(&displacement[..element.points.n_freedoms]);
-                    point.add_force(&multiply(matrix, &strain), force);
+                    stress[g] = multiply(matrix, &strains[g]);
                 }
+                *force = elements.forces(i, &stress);
             });
-        out.fill(0.0);
+        let sums = self.sums.start_sum(None);
         for (&i, force) in self.active.iter().zip(&self.forces) {
-            self.elements[i as usize].scatter(force, out);
+            self.elements.scatter(i as usize, force, sums);
         }
+        self.sums.sum_into(out);
     }
 
     /// True where no point flowed at the last evaluated state.
@@ -175,7 +206,13 @@ impl Zone {
 
     /// Makes the last evaluated state the history.
     pub fn commit(&mut self) {
-        self.committed.copy_from_slice(&self.trial);
+        if !self.active.is_empty() {
+            for &i in &self.active {
+                let points = self.points_of(i as usize);
+                self.committed[points.clone()].copy_from_slice(&self.trial[points]);
+            }
+            self.renew_base();
+        }
     }
 
     /// The history, point by point.
@@ -186,52 +223,64 @@ impl Zone {
     /// Puts a history back.
     pub fn restore(&mut self, history: &[PlasticState]) {
         self.committed.copy_from_slice(history);
+        self.trial.copy_from_slice(history);
+        self.renew_base();
     }
 
     /// History by element of the mesh.
     pub fn history_by_element(&self) -> impl Iterator<Item = (usize, &[PlasticState])> {
         self.elements
+            .list
             .iter()
             .enumerate()
-            .map(|(i, e)| (e.element, &self.committed[self.points_of(i)]))
+            .map(|(i, e)| (e.element as usize, &self.committed[self.points_of(i)]))
     }
 
     /// Initial loads of the committed plastic strains.
     pub fn initial_load(&self, mut out: Trailing) -> Trailing {
-        out.fill(0.0);
-        for (i, element) in self.elements.iter().enumerate() {
-            let elastic = &self.materials[element.body as usize].1;
-            let mut force = [0.0; MAX_FREEDOMS];
-            for (point, state) in element
-                .points
-                .iter()
-                .zip(&self.committed[self.points_of(i)])
-            {
-                if state.equivalent > 0.0 {
-                    point.add_force(&multiply(elastic, &state.strain), &mut force);
-                }
-            }
-            element.scatter(&force, &mut out);
-        }
+        out.copy_from(&self.base);
         out
     }
 
+    fn renew_base(&mut self) {
+        let (elements, materials, committed) = (&self.elements, &self.materials, &self.committed);
+        let stride = self.stride;
+        let sums = self.sums.start_sum(None);
+        for (i, packed) in elements.list.iter().enumerate() {
+            let states = &committed[i * stride..][..packed.n_points as usize];
+            if states.iter().all(|state| state.equivalent == 0.0) {
+                continue;
+            }
+            let elastic = &materials[packed.body as usize].1;
+            let mut stress = AtPoints::default();
+            for (stress, state) in stress.iter_mut().zip(states) {
+                *stress = multiply(elastic, &state.strain);
+            }
+            elements.scatter(i, &elements.forces(i, &stress), sums);
+        }
+        self.sums.sum_into(&mut self.base);
+    }
+
     fn points_of(&self, i: usize) -> std::ops::Range<usize> {
-        self.first_point[i]..self.first_point[i + 1]
+        let first = i * self.stride;
+        first..first + self.elements.list[i].n_points as usize
     }
 
     /// Takes over the history of elements that belong to another zone too.
     pub fn take_over(&mut self, other: &Zone) {
+        let (mine, theirs) = (&self.elements.list, &other.elements.list);
         let mut j = 0;
-        for i in 0..self.elements.len() {
-            while j < other.elements.len() && other.elements[j].element < self.elements[i].element {
+        for (i, packed) in mine.iter().enumerate() {
+            while j < theirs.len() && theirs[j].element < packed.element {
                 j += 1;
             }
-            if j < other.elements.len() && other.elements[j].element == self.elements[i].element {
+            if j < theirs.len() && theirs[j].element == packed.element {
                 let (to, from) = (self.points_of(i), other.points_of(j));
-                self.committed[to].copy_from_slice(&other.committed[from]);
+                self.committed[to.clone()].copy_from_slice(&other.committed[from.clone()]);
+                self.trial[to].copy_from_slice(&other.committed[from]);
             }
         }
+        self.renew_base();
     }
 
     /// Gauss points with plastic strain and the largest equivalent plastic strain.
@@ -243,15 +292,4 @@ impl Zone {
             )
         })
     }
-}
-
-/// Cuts an array into the pieces of the elements.
-fn split<'a, T>(mut values: &'a mut [T], first_point: &[usize]) -> Vec<&'a mut [T]> {
-    let mut out = Vec::with_capacity(first_point.len());
-    for pair in first_point.windows(2) {
-        let (head, tail) = values.split_at_mut(pair[1] - pair[0]);
-        out.push(head);
-        values = tail;
-    }
-    out
 }

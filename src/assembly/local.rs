@@ -20,6 +20,18 @@ pub fn local_element(model: &Model, element: usize) -> LocalElement {
 }
 
 impl LocalElement {
+    /// Gauss points of an element in global axes.
+    pub fn points_of(model: &Model, element: usize) -> Points {
+        let x = model.element_coordinates(element);
+        gauss_points(model.kind, model.mesh.shapes[element], &x)
+    }
+
+    /// The points of an element where stress is most accurate, in global axes.
+    pub fn samples_of(model: &Model, element: usize) -> Points {
+        let x = model.element_coordinates(element);
+        sampling(model.kind, model.mesh.shapes[element], &x)
+    }
+
     /// The element at the points where stress is most accurate.
     pub fn sampled(model: &Model, element: usize) -> Self {
         let x = model.element_coordinates(element);

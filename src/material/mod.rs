@@ -106,6 +106,14 @@ impl Material {
         }
     }
 
+    /// Whether a total strain lies within the yield surface of a history: [`Material::integrate`] then changes nothing.
+    pub fn stays_elastic(&self, elastic: &Matrix4, strain: &[f64; 4], old: &PlasticState) -> bool {
+        self.hardening.as_ref().is_none_or(|hardening| {
+            let trial = stress(elastic, strain, &old.strain);
+            von_mises(&trial) <= hardening.yield_stress(old.equivalent)
+        })
+    }
+
     /// Integrates the flow rule: total strain at the end of the increment, history at its begin.
     /// `elastic` is [`Material::elastic_matrix`], passed in because the caller has it at hand.
     ///

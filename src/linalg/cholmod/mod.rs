@@ -270,27 +270,66 @@ pub fn predict_with_method(
     Ok(prediction(&factor, name, matrix, &groups))
 }
 
+/// What CHOLMOD alone needs for a matrix.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unconstrained {
+    /// Figures of the analysis.
+    pub prediction: Prediction,
+    /// Seconds for ordering and symbolic analysis.
+    pub analyse_seconds: f64,
+    /// Seconds for the numerical factorisation.
+    pub factor_seconds: f64,
+    /// Seconds for a solve with one right-hand side.
+    pub solve_seconds: f64,
+}
+
 /// Analyses and factors `matrix` as CHOLMOD does by itself, without groups, and drops the factor: what the
 /// condensation is measured against.
 ///
 /// # Errors
 /// As [`super::condense`].
 pub fn factor_unconstrained(matrix: &SymmetricCsc) -> Result<Prediction> {
+    Ok(unconstrained(matrix, None)?.prediction)
+}
+
+/// As [`factor_unconstrained`], with one solve, timed.
+///
+/// # Errors
+/// As [`super::condense`]; `Internal` where the load has the wrong length.
+pub fn solve_unconstrained(matrix: &SymmetricCsc, load: &[f64]) -> Result<Unconstrained> {
+    check::length("load", load.len(), matrix.rows())?;
+    unconstrained(matrix, Some(load))
+}
+
+fn unconstrained(matrix: &SymmetricCsc, load: Option<&[f64]>) -> Result<Unconstrained> {
     let partition = Partition {
         n: matrix.rows(),
         ..Partition::default()
     };
     check::arguments(matrix, &partition, &[])?;
+    let mut start = std::time::Instant::now();
+    let mut lap = || std::mem::replace(&mut start, std::time::Instant::now()).elapsed().as_secs_f64();
     let mut common = Common::start()?;
     common.choose_ordering();
     let mut factor = Factor::analyze(common, &SymmetricView::pattern(matrix), None)?;
+    let analyse_seconds = lap();
     factor.factorize(&SymmetricView::with_values(matrix, matrix.data()))?;
-    Ok(prediction(
-        &factor,
-        "CHOLMOD's own",
-        matrix,
-        &Groups::new(&partition),
-    ))
+    let factor_seconds = lap();
+    if let Some(load) = load {
+        factor.solve(System::Whole, load)?;
+    }
+    let solve_seconds = lap();
+    Ok(Unconstrained {
+        prediction: prediction(
+            &factor,
+            "CHOLMOD's own",
+            matrix,
+            &Groups::new(&partition),
+        ),
+        analyse_seconds,
+        factor_seconds,
+        solve_seconds,
+    })
 }
 
 /// Ordering and symbolic analysis; the groups of the factor's columns are contiguous.

@@ -1,0 +1,320 @@
+//! A whole history against bare CHOLMOD: the cylinder on the half plane, loaded to 1.5 b* and unloaded, beside what
+//! CHOLMOD alone needs to analyse (in the order it chooses by default), factor and solve the same matrix once.
+//!
+//! Every measurement has a process of its own, so that peaks of memory do not mix: `run` is brinell from scene to
+//! written results, `matrix` writes the assembled matrix to a file, `cholmod` reads that file and does nothing else.
+//!
+//! `cargo bench --bench history` takes the sizes of [`SIZES`]; `-- 10k` or `-- 100k` or `-- 1M` one of them. The table
+//! goes to the terminal, the figures to `bench-results/history.json`.
+
+use brinell::analysis::Analysis;
+use brinell::linalg::cholmod::{blas_name, cholmod_version, solve_unconstrained};
+use brinell::linalg::{Backend, SymmetricCsc};
+use brinell::model::Model;
+use brinell::output::{self, RunHeader};
+use brinell::progress::Silent;
+use brinell::scene::Scene;
+use serde_json::{Value, json};
+use std::io::{BufReader, BufWriter, Read, Write};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Instant;
+
+type Failure = Box<dyn std::error::Error>;
+
+const SCENE: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/data/scenes/cylinder_on_half_plane.toml"
+);
+
+/// Name, and what is changed in the scene's mesh: elements over b* and growth of the element sizes outside the even
+/// region. The finer the contact, the more slowly sizes should grow: the discretisation errors stay balanced.
+const SIZES: [(&str, &[&str]); 4] = [
+    ("10k", &["resolution=8", "growth=1.25"]),
+    ("100k", &["resolution=32", "growth=1.08"]),
+    ("1M", &["resolution=64", "growth=1.02"]),
+    (
+        "1M, even finer far field",
+        &["resolution=32", "growth=1.015"],
+    ),
+];
+
+fn main() -> Result<(), Failure> {
+    let arguments: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|a| a != "--bench")
+        .collect();
+    match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
+        ["run", name, directory] => print(&run(name, Path::new(directory))?),
+        ["matrix", name, directory] => write_matrix(name, Path::new(directory)),
+        ["cholmod", directory] => print(&bare(Path::new(directory))?),
+        ref names => compare(names),
+    }
+}
+
+fn print(value: &Value) -> Result<(), Failure> {
+    println!("{value}");
+    Ok(())
+}
+
+fn scene(name: &str) -> Result<Scene, Failure> {
+    let (_, changes) = SIZES
+        .iter()
+        .find(|(size, _)| *size == name)
+        .ok_or_else(|| format!("no size `{name}`"))?;
+    let overrides: Vec<String> = changes
+        .iter()
+        .map(|change| format!("mesh.cylinder_on_half_plane.{change}"))
+        .collect();
+    let mut scene = Scene::load_with(Path::new(SCENE), &overrides)?;
+    // Fields of one state, as a user with a large model would ask for.
+    for target in &mut scene.program.targets {
+        target.fields = target.name.as_deref() == Some("1.5 b*");
+    }
+    Ok(scene)
+}
+
+/// brinell from scene to files.
+fn run(name: &str, directory: &Path) -> Result<Value, Failure> {
+    let start = Instant::now();
+    let scene = scene(name)?;
+    let model = Model::new(&scene)?;
+    let modelled = start.elapsed().as_secs_f64();
+    let mut analysis = Analysis::new(model, Backend::Cholmod)?;
+    let results = analysis.run(&mut Silent)?;
+    let analysed = start.elapsed().as_secs_f64();
+    let header = RunHeader {
+        scene_title: scene.title.clone(),
+        kind: "plane_strain".to_string(),
+        solver: "cholmod".to_string(),
+        bodies: analysis.model().mesh.bodies.clone(),
+        ..RunHeader::default()
+    };
+    output::write(
+        &directory.join("out"),
+        &header,
+        &analysis.model().mesh,
+        &results,
+    )?;
+    let total = start.elapsed().as_secs_f64();
+    let mut phases = vec![json!(["mesh and model", modelled])];
+    phases.extend(
+        results
+            .timings
+            .iter()
+            .map(|(phase, seconds)| json!([phase, seconds])),
+    );
+    phases.push(json!(["output", total - analysed]));
+    Ok(json!({
+        "seconds": total,
+        "processor_seconds": processor_seconds()?,
+        "peak_bytes": peak_memory()?,
+        "phases": phases,
+        "sizes": results.sizes,
+        "counts": results.counts,
+        "quality": results.quality,
+        "increments": results.history.len(),
+        "states": results.states.len(),
+        "incomplete": results.incomplete,
+    }))
+}
+
+/// The matrix that is factored, `K + D` on the contact freedoms of the body that contact alone holds: `n`, the number of
+/// entries, column pointers, rows, values.
+fn write_matrix(name: &str, directory: &Path) -> Result<(), Failure> {
+    let analysis = Analysis::new(Model::new(&scene(name)?)?, Backend::Cholmod)?;
+    let (model, matrix) = (analysis.model(), &analysis.system().stiffness);
+    let columns = matrix.proper_indptr();
+    let mut values = matrix.data().to_vec();
+    for (pair, floats) in model.pairs.iter().zip(&model.floating.of_pair) {
+        for (node, floats) in [pair.first, pair.second].into_iter().zip(floats) {
+            let freedom = model
+                .freedoms
+                .normal_freedom(node)
+                .ok_or("a contact freedom is held")?;
+            if *floats {
+                values[columns[freedom + 1] as usize - 1] *= 2.0;
+            }
+        }
+    }
+    let mut file = BufWriter::new(std::fs::File::create(directory.join("matrix"))?);
+    let integers = [matrix.cols() as i64, matrix.nnz() as i64];
+    for value in integers
+        .iter()
+        .chain(columns.iter())
+        .chain(matrix.indices())
+    {
+        file.write_all(&value.to_le_bytes())?;
+    }
+    for value in values {
+        file.write_all(&value.to_le_bytes())?;
+    }
+    Ok(file.flush()?)
+}
+
+/// CHOLMOD alone: analyse, factor, solve once.
+fn bare(directory: &Path) -> Result<Value, Failure> {
+    let mut file = BufReader::new(std::fs::File::open(directory.join("matrix"))?);
+    let mut word = || -> Result<[u8; 8], Failure> {
+        let mut bytes = [0; 8];
+        file.read_exact(&mut bytes)?;
+        Ok(bytes)
+    };
+    let n = i64::from_le_bytes(word()?) as usize;
+    let entries = i64::from_le_bytes(word()?) as usize;
+    let mut columns = Vec::with_capacity(n + 1);
+    for _ in 0..=n {
+        columns.push(i64::from_le_bytes(word()?));
+    }
+    let mut rows = Vec::with_capacity(entries);
+    for _ in 0..entries {
+        rows.push(i64::from_le_bytes(word()?));
+    }
+    let mut values = Vec::with_capacity(entries);
+    for _ in 0..entries {
+        values.push(f64::from_le_bytes(word()?));
+    }
+    let matrix = SymmetricCsc::new_csc((n, n), columns, rows, values);
+    let load = vec![1.0; n];
+    let before = processor_seconds()?;
+    let cost = solve_unconstrained(&matrix, &load)?;
+    Ok(json!({
+        "freedoms": n,
+        "entries": entries,
+        "analyse": cost.analyse_seconds,
+        "factor": cost.factor_seconds,
+        "solve": cost.solve_seconds,
+        "seconds": cost.analyse_seconds + cost.factor_seconds + cost.solve_seconds,
+        "processor_seconds": processor_seconds()? - before,
+        "factor_nonzeros": cost.prediction.factor_nonzeros,
+        "flops": cost.prediction.flops,
+        "peak_bytes": peak_memory()?,
+    }))
+}
+
+/// The largest resident memory of this process, as Linux counts it.
+fn peak_memory() -> Result<f64, Failure> {
+    let status = std::fs::read_to_string("/proc/self/status")?;
+    let kilobytes = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:"))
+        .and_then(|rest| {
+            rest.trim()
+                .trim_end_matches("kB")
+                .trim()
+                .parse::<f64>()
+                .ok()
+        })
+        .ok_or("/proc/self/status has no VmHWM")?;
+    Ok(1024.0 * kilobytes)
+}
+
+/// Processor time of this process in seconds, all threads together: what a busy machine does not change. Linux counts
+/// it in hundredths.
+fn processor_seconds() -> Result<f64, Failure> {
+    let stat = std::fs::read_to_string("/proc/self/stat")?;
+    // The name of the program, in parentheses, may contain spaces.
+    let fields = stat.rsplit(')').next().unwrap_or_default();
+    let ticks: Vec<f64> = fields
+        .split_whitespace()
+        .skip(11)
+        .take(2)
+        .flat_map(str::parse)
+        .collect();
+    Ok(ticks.iter().sum::<f64>() / 100.0)
+}
+
+fn child(arguments: &[&str]) -> Result<String, Failure> {
+    let output = Command::new(std::env::current_exe()?)
+        .args(arguments)
+        .stderr(std::process::Stdio::inherit())
+        .output()?;
+    if !output.status.success() {
+        return Err(format!("`{}` failed", arguments.join(" ")).into());
+    }
+    Ok(String::from_utf8(output.stdout)?)
+}
+
+fn compare(names: &[&str]) -> Result<(), Failure> {
+    println!("CHOLMOD {}, {}\n", cholmod_version(), blas_name());
+    let mut all = Vec::new();
+    for (name, changes) in SIZES {
+        if !names.is_empty() && !names.contains(&name) {
+            continue;
+        }
+        let directory = tempfile::tempdir()?;
+        let path = directory
+            .path()
+            .to_str()
+            .ok_or("a temporary directory with an odd name")?;
+        child(&["matrix", name, path])?;
+        let bare: Value = serde_json::from_str(&child(&["cholmod", path])?)?;
+        let run: Value = serde_json::from_str(&child(&["run", name, path])?)?;
+        report(name, changes, &bare, &run);
+        all.push(json!({"size": name, "mesh": changes, "cholmod": bare, "brinell": run}));
+    }
+    let results = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("bench-results");
+    std::fs::create_dir_all(&results)?;
+    let file = results.join("history.json");
+    let text = serde_json::to_string_pretty(&json!({
+        "cholmod_version": cholmod_version(),
+        "blas": blas_name(),
+        "processors": std::thread::available_parallelism()?.get(),
+        "sizes": all,
+    }))?;
+    std::fs::write(&file, text + "\n")?;
+    Ok(())
+}
+
+fn report(name: &str, changes: &[&str], bare: &Value, run: &Value) {
+    let number = |value: &Value, key: &str| value[key].as_f64().unwrap_or(f64::NAN);
+    let seconds = number(bare, "seconds");
+    let count = |group: &str, key: &str| run[group][key].as_u64().unwrap_or(0);
+    println!(
+        "{name} ({}): {} freedoms, {} elements, {} pairs, zone {} freedoms",
+        changes.join(", "),
+        count("sizes", "freedoms"),
+        count("sizes", "elements"),
+        count("sizes", "contact_pairs"),
+        count("sizes", "zone_freedoms"),
+    );
+    let row = |what: &str, value: f64| {
+        println!("  {what:34} {value:9.3} s {:7.2} x", value / seconds);
+    };
+    println!("  bare CHOLMOD");
+    for what in ["analyse", "factor", "solve"] {
+        row(what, number(bare, what));
+    }
+    println!("  brinell");
+    for phase in run["phases"].as_array().into_iter().flatten() {
+        row(
+            phase[0].as_str().unwrap_or("?"),
+            phase[1].as_f64().unwrap_or(f64::NAN),
+        );
+    }
+    row("total", number(run, "seconds"));
+    let (busy, bare_busy) = (
+        number(run, "processor_seconds"),
+        number(bare, "processor_seconds"),
+    );
+    println!(
+        "  processor time {busy:.2} s against {bare_busy:.2} s, {:.2} x",
+        busy / bare_busy
+    );
+    let (memory, bare_memory) = (number(run, "peak_bytes"), number(bare, "peak_bytes"));
+    println!(
+        "  peak memory: {:.0} MB against {:.0} MB, {:.2} x",
+        memory / 1e6,
+        bare_memory / 1e6,
+        memory / bare_memory
+    );
+    println!(
+        "  {} increments to {} states; {} factorisations, {} full and {} trailing solves, {} plastic iterations\n",
+        run["increments"],
+        run["states"],
+        count("counts", "factorizations"),
+        count("counts", "full_solves"),
+        count("counts", "trailing_solves"),
+        count("counts", "plastic_iterations"),
+    );
+}
