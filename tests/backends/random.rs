@@ -145,7 +145,7 @@ fn random_stacks_agree_or_are_refused_alike() {
     let (ran, flowed) = (Cell::new(0), Cell::new(0));
     // The same cases in every run.
     let config = ProptestConfig {
-        cases: 48,
+        cases: 24,
         failure_persistence: None,
         rng_seed: proptest::test_runner::RngSeed::Fixed(1),
         ..ProptestConfig::default()
@@ -156,6 +156,6 @@ fn random_stacks_agree_or_are_refused_alike() {
             flowed.set(flowed.get() + usize::from(results.history.iter().any(|r| r.plastic_points > 0)));
         }
     });
-    assert!(ran.get() >= 16, "only {} of 48 scenes ran", ran.get());
-    assert!(flowed.get() >= 4, "only {} scenes flowed", flowed.get());
+    assert!(ran.get() >= 8, "only {} of 24 scenes ran", ran.get());
+    assert!(flowed.get() >= 2, "only {} scenes flowed", flowed.get());
 }
