@@ -90,6 +90,8 @@ pub struct Engine<'m> {
     pub fresh: bool,
     /// Pairs that arrived at the border of their condition with the last event.
     pub border: Vec<usize>,
+    /// Elements outside the zone in which the last [`Engine::state`] found stress beyond yield.
+    pub beyond_yield_outside: Vec<usize>,
 }
 
 impl<'m> Engine<'m> {
@@ -146,6 +148,7 @@ impl<'m> Engine<'m> {
             },
             fresh: true,
             border: Vec::new(),
+            beyond_yield_outside: Vec::new(),
             gap,
             interference,
             sub,
