@@ -59,7 +59,7 @@ pub struct Stepper<'a> {
     pub stop: &'a dyn Fn() -> bool,
 }
 
-/// Accuracy with which a monitored quantity is hit, as a share of the increment.
+/// Accuracy with which a monitored quantity (of order 1) is hit, and relative accuracy of the place.
 pub(super) const MONITOR_ACCURACY: f64 = 1e-10;
 /// Cut factor after an increment that did not converge.
 const CUT: f64 = 0.25;
@@ -126,7 +126,7 @@ impl Engine<'_> {
                     let t = bracketed_root(
                         from,
                         to,
-                        MONITOR_ACCURACY * (to - from).abs().max(f64::MIN_POSITIVE),
+                        MONITOR_ACCURACY,
                         |t| {
                             piece.go_back(self, t);
                             sign * monitor(self)
@@ -442,17 +442,24 @@ impl Engine<'_> {
                 return sign * was;
             }
             saved.put_back(self);
-            match self.find_increment(end, t, SMALLEST_CUT * t, stepper) {
-                Ok((increment, _)) => {
-                    reported.residual = increment.residual;
-                    reported.iterations += increment.iterations;
-                    self.accept(end, increment, reported);
-                    last.set(t);
-                    sign * monitor(self)
-                }
-                Err(error) => {
-                    failure = Some(error);
-                    0.0
+            let goal = saved.at.towards(end, t);
+            // An increment may be cut short: the way to the goal then takes several.
+            loop {
+                match self.find_increment(&goal, 1.0, SMALLEST_CUT, stepper) {
+                    Ok((increment, _)) => {
+                        let arrived = increment.t >= 1.0;
+                        reported.residual = increment.residual;
+                        reported.iterations += increment.iterations;
+                        self.accept(&goal, increment, reported);
+                        if arrived {
+                            last.set(t);
+                            return sign * monitor(self);
+                        }
+                    }
+                    Err(error) => {
+                        failure = Some(error);
+                        return 0.0;
+                    }
                 }
             }
         };
@@ -473,34 +480,40 @@ pub fn stopped() -> Error {
 }
 
 /// A committed state to go back to.
-struct Saved {
+pub(super) struct Saved {
     at: LoadPoint,
     now: Equilibrium,
     open: Vec<bool>,
     border: Vec<usize>,
+    fresh: bool,
     history: Vec<PlasticState>,
 }
 
 impl Saved {
-    fn of(engine: &Engine) -> Self {
+    pub(super) fn of(engine: &Engine) -> Self {
         Saved {
             at: engine.at.clone(),
             now: engine.now.clone(),
             open: engine.tableau.open().to_vec(),
             border: engine.border.clone(),
+            fresh: engine.fresh,
             history: engine.zone.history().to_vec(),
         }
     }
 
-    fn put_back(&self, engine: &mut Engine) {
+    pub(super) fn put_back(&self, engine: &mut Engine) {
         engine.at = self.at.clone();
         engine.now = self.now.clone();
-        engine.fresh = true;
+        engine.fresh = self.fresh;
         engine.border = self.border.clone();
         engine.zone.restore(&self.history);
-        for k in 0..self.open.len() {
-            if engine.tableau.open()[k] != self.open[k] {
-                engine.tableau.flip(k);
+        // Closing first: a pair whose opening would free a motion can open once others are closed.
+        for closing in [true, false] {
+            for k in 0..self.open.len() {
+                let open = engine.tableau.open()[k];
+                if open != self.open[k] && open == closing {
+                    engine.tableau.flip(k);
+                }
             }
         }
     }

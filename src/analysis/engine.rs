@@ -66,6 +66,8 @@ pub struct Engine<'m> {
     pub zone: Zone,
     /// Where zone and contact freedoms are.
     pub places: Places,
+    /// Elements of the zone, ascending.
+    pub elements: Vec<usize>,
     /// Condensed loads at factor 1.
     loads: Vec<Trailing>,
     /// Forces `t` of the tied pairs for each load at factor 1.
@@ -90,6 +92,8 @@ pub struct Engine<'m> {
     pub border: Vec<usize>,
     /// Change of the load point over the piece of the last increment: tells loading from unloading.
     pub last_step: Vec<f64>,
+    /// Elements outside the zone in which the last [`Engine::state`] found stress beyond yield.
+    pub beyond_yield_outside: Vec<usize>,
 }
 
 impl<'m> Engine<'m> {
@@ -147,12 +151,14 @@ impl<'m> Engine<'m> {
             fresh: true,
             border: Vec::new(),
             last_step: vec![0.0; model.loads.len() + 1],
+            beyond_yield_outside: Vec::new(),
             gap,
             interference,
             sub,
             tableau,
             zone,
             places,
+            elements: elements.to_vec(),
         };
         for load in &system.loads {
             let condensed = engine.sub.condense(load)?;

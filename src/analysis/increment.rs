@@ -64,6 +64,8 @@ const PROGRESS: f64 = 0.7;
 const PATIENCE: usize = 15;
 /// A change of contact in this last share of a piece counts as its end: the target comes first.
 const AT_END: f64 = 1e-9;
+/// Share of the largest gap or force by which a pair may be beyond the border of its condition.
+const BORDER: f64 = 1e-8;
 /// A share of the increment below this means that a pair changes at once.
 const AT_ONCE: f64 = 1e-12;
 
@@ -151,6 +153,9 @@ impl Engine<'_> {
                 t == most
             };
             if residual <= settings.tolerance && arrived {
+                if follows && self.crosses_border(&state, gamma.max(BORDER), scale) {
+                    return Err(NoIncrement::NotConverged(residual));
+                }
                 let changes = if limit.share <= 1.0 + gamma {
                     limit.pairs
                 } else {
@@ -281,6 +286,19 @@ impl Engine<'_> {
             .enumerate()
             .map(|(k, open)| if *open { gap[k] } else { force[k] })
             .collect()
+    }
+
+    /// Whether a pair that began at the border of its condition ends beyond it. Its rate was right at the begin and turned
+    /// within the increment, where no step limit watches it: a shorter increment is called for.
+    fn crosses_border(&self, state: &Equilibrium, tolerance: f64, force_scale: f64) -> bool {
+        let largest_gap = state.gap.iter().fold(0.0f64, |m, g| m.max(*g));
+        self.border.iter().any(|&k| {
+            if self.tableau.open()[k] {
+                state.gap[k] < -tolerance * largest_gap
+            } else {
+                state.force[k] < -tolerance * force_scale
+            }
+        })
     }
 
     fn wrong_at_border(&self, rates: &Direction) -> Vec<usize> {

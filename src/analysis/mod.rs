@@ -29,6 +29,9 @@ mod yield_load;
 mod zone;
 mod zone_choice;
 
+#[cfg(test)]
+mod tests;
+
 pub use check::{Check, check};
 
 use crate::assembly::{System, assemble};

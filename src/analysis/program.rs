@@ -1,7 +1,7 @@
 //! The load program: first yield, then target after target.
 
-use super::drive::{Arrival, IncrementReport, Monitor, Stepper, stopped};
-use super::engine::{Engine, LoadPoint};
+use super::drive::{Arrival, IncrementReport, Monitor, Saved, Stepper, stopped};
+use super::engine::{Engine, Equilibrium, LoadPoint};
 use super::recovery::{Peak, Recovery};
 use super::zone_choice::{self, Choice};
 use super::{check, reference};
@@ -10,13 +10,15 @@ use crate::error::{Error, Result};
 use crate::linalg::Backend;
 use crate::model::Model;
 use crate::progress::{Flow, Observer};
-use crate::results::{HistoryRow, Quality, Results, Sizes, YieldPoint};
+use crate::results::{HistoryRow, Quality, Results, Sizes, State, YieldPoint};
 use crate::scene::{Direction, Target, Unit, YieldMethod};
 use std::cell::RefCell;
 use std::time::Instant;
 
 /// Doublings of the load in search of first yield or of a target.
 const DOUBLINGS: usize = 60;
+/// Choices of the zone that are tried in search of the place of first yield.
+const ZONE_ATTEMPTS: usize = 8;
 
 pub(super) fn run(
     model: &Model,
@@ -51,6 +53,8 @@ struct Run<'m, 'o> {
     plastic: bool,
     /// Load factor (program's unit) at first yield.
     yield_alpha: Option<f64>,
+    /// Load factors (program's unit) between which the virgin structure is known to stay elastic.
+    elastic_range: [f64; 2],
     /// Number of targets behind.
     done: usize,
     seconds: Seconds,
@@ -103,6 +107,7 @@ impl<'m, 'o> Run<'m, 'o> {
             results,
             plastic: false,
             yield_alpha: None,
+            elastic_range: [0.0; 2],
             done: 0,
             seconds: Seconds {
                 condensation: start.elapsed().as_secs_f64(),
@@ -118,12 +123,13 @@ impl<'m, 'o> Run<'m, 'o> {
     fn execute(&mut self, yield_only: bool) -> Result<()> {
         let program = &self.model().scene.program;
         self.preload()?;
-        if self.recovery.is_some()
-            && (yield_only || program.unit == Unit::Yield || self.largest_factor().is_some())
-        {
+        let required = yield_only
+            || program.unit == Unit::Yield
+            || program.targets.iter().any(|t| t.first_yield || t.half_width.is_some());
+        if self.recovery.is_some() && (required || self.largest_factor().is_some()) {
             self.observer.phase("yield load");
             let start = Instant::now();
-            self.find_yield(yield_only)?;
+            self.find_yield(required)?;
             self.seconds.yield_load = start.elapsed().as_secs_f64();
         }
         if yield_only {
@@ -139,14 +145,37 @@ impl<'m, 'o> Run<'m, 'o> {
         let targets = &self.model().scene.program.targets;
         let labels = self.model().scene.program.labels();
         for (index, target) in targets.iter().enumerate() {
-            self.reach(target, &labels[index])?;
+            let state = self.reach_with_right_zone(target, &labels[index])?;
             self.done = index + 1;
-            let start = Instant::now();
-            let state = self.engine.state(&labels[index], target.fields)?;
             self.results.states.push(state);
-            self.seconds.states += start.elapsed().as_secs_f64();
         }
         Ok(())
+    }
+
+    /// Reaches a target and takes its state. The guard layer only sees what grows out of the zone: where the state shows
+    /// stress beyond yield elsewhere, the zone is widened to there and the way to the target is gone again.
+    fn reach_with_right_zone(&mut self, target: &Target, label: &str) -> Result<State> {
+        for _ in 0..ZONE_ATTEMPTS {
+            let saved = Saved::of(&self.engine);
+            let (plastic, yield_alpha, first_yield) = (self.plastic, self.yield_alpha, self.results.first_yield);
+            let increments = self.results.history.len();
+            self.reach(target, label)?;
+            let start = Instant::now();
+            let state = self.engine.state(label, target.fields)?;
+            self.seconds.states += start.elapsed().as_secs_f64();
+            let missed = std::mem::take(&mut self.engine.beyond_yield_outside);
+            if missed.is_empty() {
+                return Ok(state);
+            }
+            saved.put_back(&mut self.engine);
+            (self.plastic, self.yield_alpha, self.results.first_yield) = (plastic, yield_alpha, first_yield);
+            self.results.history.truncate(increments);
+            let wider = zone_choice::including(self.model(), &self.choice, &missed);
+            self.rebuild(wider)?;
+        }
+        Err(Error::analysis(format!(
+            "target `{label}`: the material keeps yielding outside the zone that was chosen"
+        )))
     }
 
     /// Applies constant loads and interference, before the load factor leaves zero.
@@ -182,47 +211,78 @@ impl<'m, 'o> Run<'m, 'o> {
             .reduce(f64::max)
     }
 
-    /// Finds the yield load on the proportional path and comes back to the start.
+    /// Finds the yield load on the path of growing load factor and comes back to the start.
     fn find_yield(&mut self, required: bool) -> Result<()> {
-        if self.plastic {
-            return Ok(());
-        }
         let unit_is_yield = self.model().scene.program.unit == Unit::Yield;
-        let required = required || unit_is_yield;
+        if self.plastic {
+            return if unit_is_yield {
+                Err(Error::analysis(
+                    "`unit = \"yield\"`: the preload alone makes the material yield, so there is no yield load to count in; use `unit = \"load\"`",
+                ))
+            } else {
+                Ok(())
+            };
+        }
         let origin = (
             self.engine.at.clone(),
             self.engine.now.clone(),
             self.engine.tableau.open().to_vec(),
         );
-        let found = match self.model().scene.analysis.yield_load {
-            YieldMethod::Exact => self.exact_yield(required)?,
-            YieldMethod::Secant if required => {
-                let recovery = self
-                    .recovery
-                    .as_mut()
-                    .ok_or_else(|| Error::internal("no recovery"))?;
-                let (alpha, peak) = self.engine.secant_yield_load(recovery)?;
-                Some((alpha, peak))
+        for _ in 0..ZONE_ATTEMPTS {
+            let found = match self.model().scene.analysis.yield_load {
+                YieldMethod::Exact => self.exact_yield(required)?,
+                YieldMethod::Secant if required => {
+                    let recovery = self
+                        .recovery
+                        .as_mut()
+                        .ok_or_else(|| Error::internal("no recovery"))?;
+                    Some(self.engine.secant_yield_load(recovery)?)
+                }
+                YieldMethod::Secant => None,
+            };
+            let missed = match &found {
+                Some(_) => self.missed_outside()?,
+                None => None,
+            };
+            if missed.is_none() {
+                if let Some((alpha, peak)) = found {
+                    self.record_yield(peak)?;
+                    self.yield_alpha = Some(if unit_is_yield { 1.0 } else { alpha });
+                    if unit_is_yield {
+                        self.engine.unit = alpha;
+                    }
+                }
+                self.elastic_range[1] = match (self.yield_alpha, self.largest_factor()) {
+                    (Some(alpha), _) => alpha,
+                    (None, Some(largest)) if self.model().scene.analysis.yield_load == YieldMethod::Exact => largest,
+                    _ => 0.0,
+                };
             }
-            YieldMethod::Secant => None,
-        };
-        if let Some((alpha, peak)) = found {
-            self.record_yield(peak)?;
-            if unit_is_yield {
-                self.engine.unit = alpha;
-                self.yield_alpha = Some(1.0);
-            } else {
-                self.yield_alpha = Some(alpha);
+            self.come_back(&origin);
+            match missed {
+                None => return Ok(()),
+                Some(choice) => self.rebuild(choice)?,
             }
-            self.check_outside(&peak)?;
         }
-        let (at, now, open) = origin;
-        self.engine.now = now;
-        self.engine.tableau.reset(&open);
-        self.engine.at = at;
-        self.engine.fresh = true;
+        Err(Error::analysis(
+            "no yield load: the place of first yield keeps moving out of the zone that was searched",
+        ))
+    }
+
+    /// Puts an elastic state back, also after the zone was chosen anew.
+    fn come_back(&mut self, (at, now, open): &(LoadPoint, Equilibrium, Vec<bool>)) {
+        let engine = &mut self.engine;
+        engine.tableau.reset(open);
+        engine.at = at.clone();
+        engine.now.gap.clone_from(&now.gap);
+        engine.now.force.clone_from(&now.force);
+        engine.now.initial.fill(0.0);
+        engine.border.clear();
+        // Where nothing acts yet the displacements are zero; a body held by contact alone must not be moved to it.
+        engine.fresh = now.u.largest() == 0.0;
+        engine.now.u.fill(0.0);
+        engine.refresh();
         self.plastic = false;
-        Ok(())
     }
 
     /// First yield along the path of growing load factor, up to the largest the program asks for unless yield is required.
@@ -237,16 +297,20 @@ impl<'m, 'o> Run<'m, 'o> {
             None => self.first_load_estimate()?,
         };
         for _ in 0..DOUBLINGS {
-            let point = self.engine.point(end);
-            let mut quiet = |_: &mut Engine, _: &IncrementReport| Ok(true);
-            match self
-                .engine
-                .drive_elastic(&point, self.recovery.as_mut(), None, &mut quiet)?
-            {
-                Arrival::Yield(peak) => return Ok(Some((self.engine.at.alpha, peak))),
-                _ if limit.is_some() => return Ok(None),
-                _ => end *= 2.0,
+            for stop in self.stops(end) {
+                let point = self.engine.point(stop);
+                let mut quiet = |_: &mut Engine, _: &IncrementReport| Ok(true);
+                if let Arrival::Yield(peak) = self
+                    .engine
+                    .drive_elastic(&point, self.recovery.as_mut(), None, &mut quiet)?
+                {
+                    return Ok(Some((self.engine.at.alpha, peak)));
+                }
             }
+            if limit.is_some() {
+                return Ok(None);
+            }
+            end *= 2.0;
             if self.observer.stop_requested() {
                 return Err(stopped());
             }
@@ -293,30 +357,16 @@ impl<'m, 'o> Run<'m, 'o> {
         Ok(())
     }
 
-    /// At first yield nothing outside the zone may be beyond yield: else the zone missed the place.
-    fn check_outside(&mut self, peak: &Peak) -> Result<()> {
-        let _ = peak;
+    /// At first yield nothing outside the zone may be beyond yield: else the zone missed the place, and a better one is
+    /// returned.
+    fn missed_outside(&mut self) -> Result<Option<Choice>> {
         let u = self.engine.all_displacements()?;
         let ratios = zone_choice::stress_ratios(self.model(), &u, &self.engine.at.factors);
         let outside = (0..ratios.len())
             .filter(|e| self.choice.elements.binary_search(e).is_err())
             .map(|e| ratios[e])
             .fold(0.0, f64::max);
-        if outside > 1.0 {
-            let choice = zone_choice::predict(self.model(), &ratios);
-            self.rebuild(choice)?;
-            self.results.first_yield = None;
-            let origin = self.engine.point(0.0);
-            self.engine.at = origin;
-            let unit = std::mem::replace(&mut self.engine.unit, 1.0);
-            let found = self.exact_yield(true)?;
-            if let Some((alpha, peak)) = found {
-                self.record_yield(peak)?;
-                self.engine.unit = if unit == 1.0 { 1.0 } else { alpha };
-                self.yield_alpha = Some(if unit == 1.0 { alpha } else { 1.0 });
-            }
-        }
-        Ok(())
+        Ok((outside > 1.0).then(|| zone_choice::predict(self.model(), &ratios)))
     }
 
     /// Chooses the zone for the program's extreme loads from the elastic stress there.
@@ -478,8 +528,8 @@ impl<'m, 'o> Run<'m, 'o> {
         }
     }
 
-    /// Drives to a load factor along straight pieces between the kinks of the loads' histories.
-    fn drive_to_factor(&mut self, alpha: f64, monitor: Option<&Monitor>) -> Result<Arrival> {
+    /// Ends of the straight pieces from the current load factor to `alpha`: the kinks of the loads' histories in between.
+    fn stops(&self, alpha: f64) -> Vec<f64> {
         let from = self.engine.at.alpha;
         let mut stops: Vec<f64> = self
             .model()
@@ -495,16 +545,30 @@ impl<'m, 'o> Run<'m, 'o> {
         }
         stops.dedup();
         stops.push(alpha);
-        for stop in stops {
+        stops
+    }
+
+    /// Drives to a load factor along straight pieces between the kinks of the loads' histories. Wherever the path leaves what
+    /// the search for the yield load went through, it is watched for first yield.
+    fn drive_to_factor(&mut self, alpha: f64, monitor: Option<&Monitor>) -> Result<Arrival> {
+        for stop in self.stops(alpha) {
             let end = self.engine.point(stop);
-            match self.drive(&end, monitor, false)? {
-                Arrival::End => {
-                    if self.yield_alpha == Some(stop) {
-                        self.plastic = true;
+            loop {
+                let [low, high] = self.elastic_range;
+                let from = self.engine.at.alpha;
+                let known = from.min(stop) >= low && from.max(stop) <= high;
+                match self.drive(&end, monitor, !self.plastic && !known)? {
+                    Arrival::End => break,
+                    Arrival::Yield(peak) => {
+                        self.record_yield(peak)?;
+                        self.yield_alpha.get_or_insert(self.engine.at.alpha);
                     }
+                    Arrival::Stopped => return Err(stopped()),
+                    other => return Ok(other),
                 }
-                Arrival::Stopped => return Err(stopped()),
-                other => return Ok(other),
+            }
+            if self.yield_alpha == Some(stop) {
+                self.plastic = true;
             }
         }
         Ok(Arrival::End)
@@ -534,7 +598,8 @@ impl<'m, 'o> Run<'m, 'o> {
                     ))
                 })?;
             let goal = multiple * at_yield;
-            let monitor = move |engine: &mut Engine| engine.contact_figures().half_width - goal;
+            // Relative, so that the accuracy of the search does not depend on units.
+            let monitor = move |engine: &mut Engine| engine.contact_figures().half_width / goal - 1.0;
             let upward = self.engine.contact_figures().half_width < goal;
             return self.search(&monitor, upward, label);
         }
@@ -547,7 +612,7 @@ impl<'m, 'o> Run<'m, 'o> {
             })?;
             let direction = usize::from(goal.direction == Direction::Y);
             let value = goal.value;
-            let monitor = move |engine: &mut Engine| match engine.all_displacements() {
+            let distance = move |engine: &mut Engine| match engine.all_displacements() {
                 Ok(u) => {
                     let sum: f64 = nodes
                         .iter()
@@ -561,6 +626,11 @@ impl<'m, 'o> Run<'m, 'o> {
                     sum / nodes.len() as f64 - value
                 }
                 Err(_) => f64::NAN,
+            };
+            let scale = value.abs().max(distance(&mut self.engine).abs());
+            let monitor = move |engine: &mut Engine| {
+                let off = distance(engine);
+                if scale > 0.0 { off / scale } else { off }
             };
             let here = monitor(&mut self.engine);
             let ahead = {

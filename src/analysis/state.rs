@@ -11,6 +11,9 @@ use crate::results::{Fields, Quality, State};
 use crate::scene::History;
 use rayon::prelude::*;
 
+/// Share by which a stress must be beyond yield to count: the accuracy of the equilibrium iteration.
+const BEYOND: f64 = 1e-8;
+
 /// Stress figures and nodal forces of an element.
 struct ElementState {
     force: [f64; MAX_FREEDOMS],
@@ -29,6 +32,7 @@ impl Engine<'_> {
         let u = self.all_displacements()?;
         let backward_error = self.sub.backward_error();
         let elements = self.element_states(&u);
+        self.beyond_yield_outside = self.outside_beyond_yield(&elements);
         let figures = self.contact_figures();
         let residual_depth = self.residual_depth();
         let mut by_body = vec![0; self.model.mesh.bodies.len()];
@@ -143,6 +147,19 @@ impl Engine<'_> {
         Some(sum * self.at.factors[leading].signum() * model.symmetry)
     }
 
+    /// Elements that may yield, are not in the zone and carry more than the yield stress.
+    fn outside_beyond_yield(&self, elements: &[ElementState]) -> Vec<usize> {
+        let model = self.model;
+        (0..elements.len())
+            .filter(|&e| {
+                let body = model.mesh.element_body[e] as usize;
+                model.may_yield[body]
+                    && elements[e].von_mises > model.materials[body].yield_stress() * (1.0 + BEYOND)
+                    && self.elements.binary_search(&e).is_err()
+            })
+            .collect()
+    }
+
     /// Largest nodal force that the stresses leave unbalanced, over the largest nodal force of the run.
     fn out_of_balance(&mut self, elements: &[ElementState]) -> f64 {
         let model = self.model;
@@ -228,8 +245,8 @@ impl Engine<'_> {
     }
 }
 
-/// Begin and end of a patch in degrees about the centre of a circular surface: from its symmetry plane, or from
-/// its middle.
+/// Begin and end of a patch in degrees about the centre of a circular surface: from the symmetry plane at the surface's
+/// nearer end, or from its middle where there is none.
 fn contact_arc(model: &Model, contact: usize, [from, to]: [f64; 2]) -> Option<[f64; 2]> {
     let surface = &model.contacts[contact];
     let (center, _) = surface.circle?;
@@ -252,10 +269,20 @@ fn contact_arc(model: &Model, contact: usize, [from, to]: [f64; 2]) -> Option<[f
         }
     };
     let extent = ((angle_at(to) - angle_at(from) + 540.0).rem_euclid(360.0) - 180.0).abs();
-    let ends_surface = from <= pairs[0].arc || to >= pairs[pairs.len() - 1].arc;
-    Some(if ends_surface {
-        [0.0, extent]
-    } else {
-        [-0.5 * extent, 0.5 * extent]
-    })
+    let last = pairs.len() - 1;
+    if from <= pairs[0].arc || to >= pairs[last].arc {
+        return Some([0.0, extent]);
+    }
+    // A patch that has left the symmetry plane is still measured from there, the nearer one if both ends lie on one.
+    let on_symmetry = |k: usize| {
+        let nodes = [pairs[k].first, pairs[k].second];
+        nodes.iter().all(|&node| model.freedoms.slots[node][1] == Slot::Fixed)
+    };
+    let near_begin = from - pairs[0].arc <= pairs[last].arc - to;
+    let pole = if near_begin { 0 } else { last };
+    if !on_symmetry(pole) {
+        return Some([-0.5 * extent, 0.5 * extent]);
+    }
+    let off = |arc: f64| ((angle_at(arc) - angle_of(pole) + 540.0).rem_euclid(360.0) - 180.0).abs();
+    Some(if near_begin { [off(from), off(to)] } else { [off(to), off(from)] })
 }

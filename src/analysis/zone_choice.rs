@@ -83,12 +83,7 @@ pub fn first_guess(model: &Model) -> Choice {
     let candidates: Vec<bool> = (0..n).map(|e| may_yield(model, e)).collect();
     let count = candidates.iter().filter(|c| **c).count();
     if count <= SMALL || model.pairs.is_empty() {
-        let core = if count <= 40 * SMALL {
-            candidates
-        } else {
-            vec![false; n]
-        };
-        return Choice::from_marks(model, core, 0);
+        return Choice::from_marks(model, candidates, 0);
     }
     let boxes: Vec<([f64; 2], [f64; 2], f64)> = model
         .contacts
@@ -142,6 +137,19 @@ pub fn grown(model: &Model, old: &Choice) -> Choice {
         core[e] = true;
     }
     Choice::from_marks(model, widen(model, core, 2 * MARGIN), GUARD)
+}
+
+/// A zone that also holds the given elements and what lies around them.
+pub fn including(model: &Model, old: &Choice, elements: &[usize]) -> Choice {
+    let mut core = vec![false; model.mesh.n_elements()];
+    for &e in elements {
+        core[e] = true;
+    }
+    let mut core = widen(model, core, MARGIN);
+    for &e in &old.elements {
+        core[e] = true;
+    }
+    Choice::from_marks(model, core, GUARD)
 }
 
 /// Adds layers of neighbours that may yield (sharing a node, in any body).

@@ -136,19 +136,24 @@ impl Path {
     pub fn advance(&mut self, tableau: &Tableau, end: f64) -> PathEnd {
         let room = end - self.t;
         let mut step = room;
-        let mut first = false;
+        let mut first = None;
         for k in 0..tableau.len() {
             let (value, rate) = self.value_and_rate(tableau, k);
             if rate < 0.0 && value + step * rate < 0.0 {
                 step = value / -rate;
-                first = true;
+                first = Some(k);
             }
         }
-        self.t = if first { self.t + step } else { end };
+        self.t = if first.is_some() { self.t + step } else { end };
         self.state_at(tableau, self.t);
-        if !first || step >= room * (1.0 - 1e-14) {
+        if first.is_none() || step >= room * (1.0 - 1e-14) {
             self.t = end;
             return PathEnd::Target;
+        }
+        if let Some(k) = first {
+            // This pair is at its border by construction. Round-off that says otherwise would let the path stand still.
+            let value = if tableau.open()[k] { &mut self.gap[k] } else { &mut self.force[k] };
+            *value = 0.0;
         }
         let (zero_gap, zero_force) = (self.zero_gap(), self.zero_force());
         let changes = (0..tableau.len())

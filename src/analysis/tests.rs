@@ -1,0 +1,208 @@
+//! Runs whose answer is known in closed form, on paths that leave the usual one: no target that asks for first yield, loads
+//! that fall or turn, yielding far from the contact.
+
+use super::Analysis;
+use crate::linalg::Backend;
+use crate::model::Model;
+use crate::progress::Silent;
+use crate::results::Results;
+use crate::scene::Scene;
+
+fn run(text: &str) -> Results {
+    let scene = Scene::parse(text, "test").expect("scene");
+    let mut analysis = Analysis::new(Model::new(&scene).expect("model"), Backend::Dense).expect("analysis");
+    analysis.run(&mut Silent).expect("run")
+}
+
+const E: f64 = 1000.0;
+const Y: f64 = 10.0;
+
+/// A unit square in plane stress, held so that the stress is uniaxial.
+fn bar(material: &str, load: &str, rest: &str) -> String {
+    format!(
+        r#"
+kind = "plane_stress"
+[[mesh.parts]]
+body = "bar"
+block = {{ x = [0.0, 1.0], y = [0.0, 1.0], elements = [2, 2] }}
+[materials.metal]
+youngs_modulus = {E}
+poissons_ratio = 0.3
+yield_stress = {Y}
+{material}
+[bodies.bar]
+material = "metal"
+[[support]]
+on = "bar.left"
+fix = ["x"]
+[[support]]
+on = "bar.bottom"
+fix = ["y"]
+[[load]]
+on = "bar.right"
+{load}
+{rest}
+"#
+    )
+}
+
+/// Plastic strain of the bar at the last state, with the equilibrium of all states checked.
+fn plastic_strain(text: &str) -> f64 {
+    let results = run(text);
+    assert!(results.incomplete.is_none(), "{:?}", results.incomplete);
+    for state in &results.states {
+        assert!(state.quality.equilibrium <= 1e-8, "{}: {:e}", state.name, state.quality.equilibrium);
+    }
+    results.states[results.states.len() - 1].max_equivalent_plastic_strain
+}
+
+/// Pulled to 1.5 times the yield strain, perfectly plastic: half of the yield strain is plastic.
+const PULLED: &str = "displacement = { x = 0.015 }";
+
+fn assert_half_of_yield_strain(strain: f64) {
+    assert!((strain / (0.5 * Y / E) - 1.0).abs() < 1e-8, "plastic strain {strain}");
+}
+
+#[test]
+fn yields_on_the_way_to_a_displacement() {
+    let target = r#"[program]
+targets = [{ displacement = { on = "bar.right", direction = "x", value = 0.015 } }]"#;
+    assert_half_of_yield_strain(plastic_strain(&bar("", PULLED, target)));
+}
+
+#[test]
+fn yields_where_the_secant_was_not_asked_for_the_yield_load() {
+    let rest = "[analysis]\nyield_load = \"secant\"\n[program]\ntargets = [{ load_factor = 1.0 }]";
+    assert_half_of_yield_strain(plastic_strain(&bar("", PULLED, rest)));
+}
+
+#[test]
+fn yields_under_a_negative_load_factor() {
+    let rest = "[program]\ntargets = [{ load_factor = -1.0 }]";
+    assert_half_of_yield_strain(plastic_strain(&bar("", PULLED, rest)));
+}
+
+#[test]
+fn yields_under_a_load_that_turns() {
+    let load = format!("{PULLED}\nhistory = [[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]");
+    let rest = "[program]\ntargets = [{ load_factor = 2.0 }]";
+    assert_half_of_yield_strain(plastic_strain(&bar("", &load, rest)));
+}
+
+#[test]
+fn first_plastic_increment_is_in_equilibrium() {
+    let strain = plastic_strain(&bar(
+        "plastic_modulus = 100.0",
+        "traction = [12.0, 0.0]",
+        "[program]\ntargets = [{ load_factor = 1.0 }]",
+    ));
+    assert!((strain / (2.0 / 100.0) - 1.0).abs() < 1e-8, "plastic strain {strain}");
+}
+
+#[test]
+fn yield_target_in_units_of_the_load() {
+    let results = run(&bar(
+        "plastic_modulus = 100.0",
+        "traction = [5.0, 0.0]",
+        "[program]\ntargets = [{ yield = true }]",
+    ));
+    assert!((results.states[0].alpha - 2.0).abs() < 1e-10);
+}
+
+#[test]
+fn tiny_displacement_targets_are_hit_as_accurately_as_large_ones() {
+    for value in [1e-13, 1e-4] {
+        let rest = format!(
+            "[program]\ntargets = [{{ displacement = {{ on = \"bar.right\", direction = \"x\", value = {value:e} }} }}]"
+        );
+        let results = run(&bar("", "traction = [1.0, 0.0]", &rest));
+        assert!((results.states[0].approach / value - 1.0).abs() < 1e-9, "{}", results.states[0].approach);
+    }
+}
+
+/// Two blocks in contact, large enough for the zone to be a part of them, and far away a softer block that yields first.
+fn blocks_and_a_soft_one(targets: &str) -> String {
+    format!(
+        r#"
+kind = "plane_stress"
+[[mesh.parts]]
+body = "upper"
+block = {{ x = [0.0, 1.0], y = [0.0, 1.0], elements = [28, 28] }}
+[[mesh.parts]]
+body = "lower"
+block = {{ x = [0.0, 1.0], y = [-1.0, 0.0], elements = [28, 28] }}
+[[mesh.parts]]
+body = "soft"
+block = {{ x = [20.0, 21.0], y = [0.0, 1.0], elements = [4, 4] }}
+[materials.metal]
+youngs_modulus = {E}
+poissons_ratio = 0.3
+yield_stress = {Y}
+plastic_modulus = 100.0
+[materials.softer]
+youngs_modulus = {E}
+poissons_ratio = 0.3
+yield_stress = 1.0
+plastic_modulus = 100.0
+[bodies.upper]
+material = "metal"
+[bodies.lower]
+material = "metal"
+[bodies.soft]
+material = "softer"
+[[contact]]
+first = "upper.bottom"
+second = "lower.top"
+[[support]]
+on = "upper.left"
+fix = ["x"]
+[[support]]
+on = "lower.left"
+fix = ["x"]
+[[support]]
+on = "lower.bottom"
+fix = ["y"]
+[[support]]
+on = "soft.left"
+fix = ["x"]
+[[support]]
+on = "soft.bottom"
+fix = ["y"]
+[[load]]
+on = "upper.top"
+pressure = 1.0
+[[load]]
+on = "soft.top"
+pressure = 1.0
+[program]
+{targets}
+"#
+    )
+}
+
+fn sparse(text: &str) -> Results {
+    let scene = Scene::parse(text, "test").expect("scene");
+    let model = Model::new(&scene).expect("model");
+    let mut analysis = Analysis::new(model, Backend::default()).expect("analysis");
+    analysis.run(&mut Silent).expect("run")
+}
+
+#[test]
+fn first_yield_far_from_the_contact_is_found() {
+    let results = sparse(&blocks_and_a_soft_one("unit = \"yield\"\ntargets = [{ yield = true }, { load_factor = 2.0 }]"));
+    let first = results.first_yield.expect("yield");
+    assert!((first.alpha - 1.0).abs() < 1e-9, "{}", first.alpha);
+    assert_eq!(first.body, 2);
+    // Twice the yield stress of 1 over the plastic modulus of 100.
+    let strain = results.states[1].max_equivalent_plastic_strain;
+    assert!((strain - 0.01).abs() < 1e-9, "{strain}");
+}
+
+#[test]
+fn yielding_far_from_the_contact_is_noticed_without_a_yield_load() {
+    // Two blocks of height 1 compressed by 0.004: stress 2, twice the yield stress of the soft block under the same pressure.
+    let target = r#"targets = [{ displacement = { on = "upper.top", direction = "y", value = -0.004 } }]"#;
+    let state = &sparse(&blocks_and_a_soft_one(target)).states[0];
+    assert!((state.load - 2.0).abs() < 1e-8, "{}", state.load);
+    assert!((state.max_equivalent_plastic_strain - 0.01).abs() < 1e-9, "{}", state.max_equivalent_plastic_strain);
+}
