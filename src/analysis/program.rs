@@ -6,7 +6,7 @@ use super::recovery::{Peak, Recovery};
 use super::zone_choice::{self, Choice};
 use super::{check, reference};
 use crate::assembly::System;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::linalg::Backend;
 use crate::model::Model;
 use crate::progress::{Flow, Observer};
