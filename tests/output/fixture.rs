@@ -173,5 +173,6 @@ pub fn results(mesh: &Mesh) -> Results {
         }],
         warnings: vec!["tri3 elements lock where they yield".into()],
         incomplete: Some("stopped by the user".into()),
+        incomplete_kind: Some(brinell::ErrorKind::Stopped),
     }
 }

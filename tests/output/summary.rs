@@ -142,9 +142,9 @@ fn the_schema_refuses_missing_and_unknown_keys() {
     // Open objects, keyed by what the scene calls things.
     let open = ["/effects", "/timings", "/plastic_points_by_body"];
     objects.retain(|path| !open.iter().any(|end| path.ends_with(end)));
-    // The root, scene, an effect, counts, factor, quality, yield with its location, three states with quality
+    // The root, an effect, counts, factor, quality, yield with its location, three states with quality
     // (two with an arc), a reference.
-    assert_eq!(objects.len(), 1 + 1 + 1 + 1 + 1 + 1 + 2 + 3 + 3 + 2 + 1);
+    assert_eq!(objects.len(), 1 + 1 + 1 + 1 + 1 + 2 + 3 + 3 + 2 + 1);
     for path in objects {
         let object = valid.pointer(&path).unwrap().as_object().unwrap();
         for key in object.keys() {
