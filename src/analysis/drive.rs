@@ -123,15 +123,10 @@ impl Engine<'_> {
                 if is == 0.0 || (is > 0.0) != (was > 0.0) {
                     let (from, to) = (before, piece.t());
                     let sign = if is > was { 1.0 } else { -1.0 };
-                    let t = bracketed_root(
-                        from,
-                        to,
-                        MONITOR_ACCURACY,
-                        |t| {
-                            piece.go_back(self, t);
-                            sign * monitor(self)
-                        },
-                    );
+                    let t = bracketed_root(from, to, MONITOR_ACCURACY, |t| {
+                        piece.go_back(self, t);
+                        sign * monitor(self)
+                    });
                     piece.go_back(self, t);
                     self.refresh();
                     self.note(report, "target", solves)?;
@@ -531,7 +526,12 @@ impl Engine<'_> {
 impl LoadPoint {
     /// Change of all factors and of the interference on the way to `end`.
     pub(super) fn step_to(&self, end: &LoadPoint) -> Vec<f64> {
-        let mut step: Vec<f64> = end.factors.iter().zip(&self.factors).map(|(b, a)| b - a).collect();
+        let mut step: Vec<f64> = end
+            .factors
+            .iter()
+            .zip(&self.factors)
+            .map(|(b, a)| b - a)
+            .collect();
         step.push(end.interference - self.interference);
         step
     }

@@ -127,12 +127,20 @@ impl Engine<'_> {
         let mut solves = self.counts.trailing_solves;
         loop {
             let before = piece.t();
-            let saved = (self.at.clone(), self.now.gap.clone(), self.now.force.clone());
+            let saved = (
+                self.at.clone(),
+                self.now.gap.clone(),
+                self.now.force.clone(),
+            );
             let outcome = piece.advance(self, 1.0);
             let mut u = eliminated.clone();
             u.add(piece.t(), &change);
             let delta = self.delta(&self.at);
-            let slip: Vec<f64> = delta.iter().zip(&self.now.gap).map(|(d, g)| d - g).collect();
+            let slip: Vec<f64> = delta
+                .iter()
+                .zip(&self.now.gap)
+                .map(|(d, g)| d - g)
+                .collect();
             self.sub.recover(&mut u, &slip);
             self.counts.trailing_solves += 1;
             self.zone.set_factors(&self.at.factors);
@@ -176,7 +184,11 @@ impl Engine<'_> {
             let PathEnd::Event(changes) = outcome else {
                 self.at = end.clone();
                 let goes_on = report(self, &reported)?;
-                return Ok(Some(if goes_on { Arrival::End } else { Arrival::Stopped }));
+                return Ok(Some(if goes_on {
+                    Arrival::End
+                } else {
+                    Arrival::Stopped
+                }));
             };
             reported.event = describe(&changes);
             border = changes

@@ -347,7 +347,11 @@ impl Engine<'_> {
             }
             // Not a number: far too long.
             let share = slope / (slope - there);
-            length *= if share.is_finite() { share.clamp(0.01, 0.9) } else { 0.01 };
+            length *= if share.is_finite() {
+                share.clamp(0.01, 0.9)
+            } else {
+                0.01
+            };
         }
         None
     }

@@ -125,7 +125,10 @@ impl<'m, 'o> Run<'m, 'o> {
         self.preload()?;
         let required = yield_only
             || program.unit == Unit::Yield
-            || program.targets.iter().any(|t| t.first_yield || t.half_width.is_some());
+            || program
+                .targets
+                .iter()
+                .any(|t| t.first_yield || t.half_width.is_some());
         if self.recovery.is_some() && (required || self.largest_factor().is_some()) {
             self.observer.phase("yield load");
             let start = Instant::now();
@@ -157,7 +160,8 @@ impl<'m, 'o> Run<'m, 'o> {
     fn reach_with_right_zone(&mut self, target: &Target, label: &str) -> Result<State> {
         for _ in 0..ZONE_ATTEMPTS {
             let saved = Saved::of(&self.engine);
-            let (plastic, yield_alpha, first_yield) = (self.plastic, self.yield_alpha, self.results.first_yield);
+            let (plastic, yield_alpha, first_yield) =
+                (self.plastic, self.yield_alpha, self.results.first_yield);
             let increments = self.results.history.len();
             self.reach(target, label)?;
             let start = Instant::now();
@@ -168,7 +172,8 @@ impl<'m, 'o> Run<'m, 'o> {
                 return Ok(state);
             }
             saved.put_back(&mut self.engine);
-            (self.plastic, self.yield_alpha, self.results.first_yield) = (plastic, yield_alpha, first_yield);
+            (self.plastic, self.yield_alpha, self.results.first_yield) =
+                (plastic, yield_alpha, first_yield);
             self.results.history.truncate(increments);
             let wider = zone_choice::including(self.model(), &self.choice, &missed);
             self.rebuild(wider)?;
@@ -254,7 +259,11 @@ impl<'m, 'o> Run<'m, 'o> {
                 }
                 self.elastic_range[1] = match (self.yield_alpha, self.largest_factor()) {
                     (Some(alpha), _) => alpha,
-                    (None, Some(largest)) if self.model().scene.analysis.yield_load == YieldMethod::Exact => largest,
+                    (None, Some(largest))
+                        if self.model().scene.analysis.yield_load == YieldMethod::Exact =>
+                    {
+                        largest
+                    }
                     _ => 0.0,
                 };
             }
@@ -300,9 +309,9 @@ impl<'m, 'o> Run<'m, 'o> {
             for stop in self.stops(end) {
                 let point = self.engine.point(stop);
                 let mut quiet = |_: &mut Engine, _: &IncrementReport| Ok(true);
-                if let Arrival::Yield(peak) = self
-                    .engine
-                    .drive_elastic(&point, self.recovery.as_mut(), None, &mut quiet)?
+                if let Arrival::Yield(peak) =
+                    self.engine
+                        .drive_elastic(&point, self.recovery.as_mut(), None, &mut quiet)?
                 {
                     return Ok(Some((self.engine.at.alpha, peak)));
                 }
@@ -599,7 +608,8 @@ impl<'m, 'o> Run<'m, 'o> {
                 })?;
             let goal = multiple * at_yield;
             // Relative, so that the accuracy of the search does not depend on units.
-            let monitor = move |engine: &mut Engine| engine.contact_figures().half_width / goal - 1.0;
+            let monitor =
+                move |engine: &mut Engine| engine.contact_figures().half_width / goal - 1.0;
             let upward = self.engine.contact_figures().half_width < goal;
             return self.search(&monitor, upward, label);
         }

@@ -74,8 +74,9 @@ impl Recovery {
             let points = LocalElement::samples_of(model, e);
             positions.extend(points.iter().map(|p| p.position));
         }
-        let packed =
-            GatheredElements::new(model, elements, places, |e| LocalElement::samples_of(model, e));
+        let packed = GatheredElements::new(model, elements, places, |e| {
+            LocalElement::samples_of(model, e)
+        });
         let mut first = vec![0];
         let mut neighbours: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for (i, element) in packed.list.iter().enumerate() {
@@ -123,15 +124,24 @@ impl Recovery {
     pub fn peak(&mut self, model: &Model, samples: &Samples) -> Option<Peak> {
         let raw: Vec<f64> = (0..self.elements.list.len())
             .map(|i| {
-                let y = self.materials[self.elements.list[i].body as usize].0.yield_stress();
-                samples[self.first[i]..self.first[i + 1]].iter().map(|s| von_mises(s) / y).fold(0.0, f64::max)
+                let y = self.materials[self.elements.list[i].body as usize]
+                    .0
+                    .yield_stress();
+                samples[self.first[i]..self.first[i + 1]]
+                    .iter()
+                    .map(|s| von_mises(s) / y)
+                    .fold(0.0, f64::max)
             })
             .collect();
         let top = (0..raw.len()).max_by(|&a, &b| raw[a].total_cmp(&raw[b]))?;
         if raw[top] < FAR_BELOW {
             let location = self.positions[self.first[top]];
             let body = self.elements.list[top].body as usize;
-            return Some(Peak { ratio: raw[top], location, body });
+            return Some(Peak {
+                ratio: raw[top],
+                location,
+                body,
+            });
         }
         // A smooth field has its maximum in or beside an element whose sample is a local maximum.
         let mut best: Option<Peak> = None;
@@ -198,7 +208,11 @@ impl Recovery {
                 step *= 0.5;
             }
         }
-        Peak { ratio: best.0, location: best.2, body: self.elements.list[best.3 as usize].body as usize }
+        Peak {
+            ratio: best.0,
+            location: best.2,
+            body: self.elements.list[best.3 as usize].body as usize,
+        }
     }
 
     /// The reference point moved into the element. Quadrilaterals use `[-1, 1]^2`, triangles the same square folded onto
@@ -218,7 +232,13 @@ impl Recovery {
     }
 
     /// Recovered von Mises stress over yield stress at a reference point of an element, and where that is.
-    fn value_at(&self, model: &Model, i: u32, reference: [f64; 2], samples: &Samples) -> (f64, [f64; 2]) {
+    fn value_at(
+        &self,
+        model: &Model,
+        i: u32,
+        reference: [f64; 2],
+        samples: &Samples,
+    ) -> (f64, [f64; 2]) {
         let element = &self.elements.list[i as usize];
         let (n, _) = shape_functions(model.mesh.shapes[element.element as usize], reference);
         let x = model.element_coordinates(element.element as usize);
@@ -271,7 +291,13 @@ impl Recovery {
             .flat_map(|&m| self.first[m as usize]..self.first[m as usize + 1])
             .map(|sample| {
                 let at = self.positions[sample];
-                (sample as u32, [(at[0] - center[0]) / scale[0], (at[1] - center[1]) / scale[1]])
+                (
+                    sample as u32,
+                    [
+                        (at[0] - center[0]) / scale[0],
+                        (at[1] - center[1]) / scale[1],
+                    ],
+                )
             })
             .collect();
         Patch {

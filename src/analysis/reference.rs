@@ -136,7 +136,6 @@ fn hertz_point(model: &Model, results: &Results, radius: f64) -> Option<Vec<Refe
 
 fn disc_in_plate(model: &Model, results: &Results) -> Option<Vec<ReferenceRow>> {
     let first = results.first_yield?;
-    let state = results.states.first()?;
     let radius = model.contacts.first()?.circle?.1;
     let exact = DiscInPlate::new(radius).ok()?;
     let (nu, y) = moduli(model).map(|(_, nu, y)| (nu, y))?;
@@ -156,21 +155,30 @@ fn disc_in_plate(model: &Model, results: &Results) -> Option<Vec<ReferenceRow>> 
             table,
         ),
         row(
+            "yield.half_width",
+            radius * exact.half_angle(),
+            first.half_width,
+            Some(1.0),
+            table,
+        ),
+    ];
+    if let Some(state) = results.states.first().filter(|s| s.load == tension) {
+        rows.push(row(
             "states.0.pole_pressure",
             exact.pressure(0.0, tension),
             state.pole_pressure,
             None,
             table,
-        ),
-    ];
-    if let Some([_, to]) = state.contact_arc {
-        rows.push(row(
-            "states.0.contact_arc.to",
-            exact.half_angle().to_degrees(),
-            to,
-            Some(1.0),
-            table,
         ));
+        if let Some([_, to]) = state.contact_arc {
+            rows.push(row(
+                "states.0.contact_arc.to",
+                exact.half_angle().to_degrees(),
+                to,
+                Some(1.0),
+                table,
+            ));
+        }
     }
     Some(rows)
 }

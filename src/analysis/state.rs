@@ -54,7 +54,9 @@ impl Engine<'_> {
         Ok(State {
             name: name.to_string(),
             alpha: self.at.alpha,
-            load: self.reaction(&elements).unwrap_or_else(|| self.total_load_size()),
+            load: self
+                .reaction(&elements)
+                .unwrap_or_else(|| self.total_load_size()),
             contact_force: figures.force * self.model.symmetry,
             max_pressure: figures.max_pressure,
             pole_pressure: figures.pole_pressure,
@@ -126,8 +128,16 @@ impl Engine<'_> {
     /// them, along its displacement, of the whole.
     fn reaction(&self, elements: &[ElementState]) -> Option<f64> {
         let model = self.model;
-        let mut varying = model.loads.iter().enumerate().filter(|(_, l)| !matches!(l.history, History::Constant));
-        if varying.clone().any(|(_, l)| l.measures != Magnitude::Displacement) || !model.pairs.is_empty() {
+        let mut varying = model
+            .loads
+            .iter()
+            .enumerate()
+            .filter(|(_, l)| !matches!(l.history, History::Constant));
+        if varying
+            .clone()
+            .any(|(_, l)| l.measures != Magnitude::Displacement)
+            || !model.pairs.is_empty()
+        {
             return None;
         }
         let (leading, _) = varying.next()?;
@@ -276,7 +286,9 @@ fn contact_arc(model: &Model, contact: usize, [from, to]: [f64; 2]) -> Option<[f
     // A patch that has left the symmetry plane is still measured from there, the nearer one if both ends lie on one.
     let on_symmetry = |k: usize| {
         let nodes = [pairs[k].first, pairs[k].second];
-        nodes.iter().all(|&node| model.freedoms.slots[node][1] == Slot::Fixed)
+        nodes
+            .iter()
+            .all(|&node| model.freedoms.slots[node][1] == Slot::Fixed)
     };
     let near_begin = from - pairs[0].arc <= pairs[last].arc - to;
     let pole = if near_begin { 0 } else { last };
@@ -284,5 +296,9 @@ fn contact_arc(model: &Model, contact: usize, [from, to]: [f64; 2]) -> Option<[f
         return Some([-0.5 * extent, 0.5 * extent]);
     }
     let off = |arc: f64| ((angle_at(arc) - angle_of(pole) + 540.0).rem_euclid(360.0) - 180.0).abs();
-    Some(if near_begin { [off(from), off(to)] } else { [off(to), off(from)] })
+    Some(if near_begin {
+        [off(from), off(to)]
+    } else {
+        [off(to), off(from)]
+    })
 }

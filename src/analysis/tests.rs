@@ -10,7 +10,8 @@ use crate::scene::Scene;
 
 fn run(text: &str) -> Results {
     let scene = Scene::parse(text, "test").expect("scene");
-    let mut analysis = Analysis::new(Model::new(&scene).expect("model"), Backend::Dense).expect("analysis");
+    let mut analysis =
+        Analysis::new(Model::new(&scene).expect("model"), Backend::Dense).expect("analysis");
     analysis.run(&mut Silent).expect("run")
 }
 
@@ -51,7 +52,12 @@ fn plastic_strain(text: &str) -> f64 {
     let results = run(text);
     assert!(results.incomplete.is_none(), "{:?}", results.incomplete);
     for state in &results.states {
-        assert!(state.quality.equilibrium <= 1e-8, "{}: {:e}", state.name, state.quality.equilibrium);
+        assert!(
+            state.quality.equilibrium <= 1e-8,
+            "{}: {:e}",
+            state.name,
+            state.quality.equilibrium
+        );
     }
     results.states[results.states.len() - 1].max_equivalent_plastic_strain
 }
@@ -60,7 +66,10 @@ fn plastic_strain(text: &str) -> f64 {
 const PULLED: &str = "displacement = { x = 0.015 }";
 
 fn assert_half_of_yield_strain(strain: f64) {
-    assert!((strain / (0.5 * Y / E) - 1.0).abs() < 1e-8, "plastic strain {strain}");
+    assert!(
+        (strain / (0.5 * Y / E) - 1.0).abs() < 1e-8,
+        "plastic strain {strain}"
+    );
 }
 
 #[test]
@@ -96,7 +105,10 @@ fn first_plastic_increment_is_in_equilibrium() {
         "traction = [12.0, 0.0]",
         "[program]\ntargets = [{ load_factor = 1.0 }]",
     ));
-    assert!((strain / (2.0 / 100.0) - 1.0).abs() < 1e-8, "plastic strain {strain}");
+    assert!(
+        (strain / (2.0 / 100.0) - 1.0).abs() < 1e-8,
+        "plastic strain {strain}"
+    );
 }
 
 #[test]
@@ -116,7 +128,11 @@ fn tiny_displacement_targets_are_hit_as_accurately_as_large_ones() {
             "[program]\ntargets = [{{ displacement = {{ on = \"bar.right\", direction = \"x\", value = {value:e} }} }}]"
         );
         let results = run(&bar("", "traction = [1.0, 0.0]", &rest));
-        assert!((results.states[0].approach / value - 1.0).abs() < 1e-9, "{}", results.states[0].approach);
+        assert!(
+            (results.states[0].approach / value - 1.0).abs() < 1e-9,
+            "{}",
+            results.states[0].approach
+        );
     }
 }
 
@@ -189,7 +205,9 @@ fn sparse(text: &str) -> Results {
 
 #[test]
 fn first_yield_far_from_the_contact_is_found() {
-    let results = sparse(&blocks_and_a_soft_one("unit = \"yield\"\ntargets = [{ yield = true }, { load_factor = 2.0 }]"));
+    let results = sparse(&blocks_and_a_soft_one(
+        "unit = \"yield\"\ntargets = [{ yield = true }, { load_factor = 2.0 }]",
+    ));
     let first = results.first_yield.expect("yield");
     assert!((first.alpha - 1.0).abs() < 1e-9, "{}", first.alpha);
     assert_eq!(first.body, 2);
@@ -201,8 +219,13 @@ fn first_yield_far_from_the_contact_is_found() {
 #[test]
 fn yielding_far_from_the_contact_is_noticed_without_a_yield_load() {
     // Two blocks of height 1 compressed by 0.004: stress 2, twice the yield stress of the soft block under the same pressure.
-    let target = r#"targets = [{ displacement = { on = "upper.top", direction = "y", value = -0.004 } }]"#;
+    let target =
+        r#"targets = [{ displacement = { on = "upper.top", direction = "y", value = -0.004 } }]"#;
     let state = &sparse(&blocks_and_a_soft_one(target)).states[0];
     assert!((state.load - 2.0).abs() < 1e-8, "{}", state.load);
-    assert!((state.max_equivalent_plastic_strain - 0.01).abs() < 1e-9, "{}", state.max_equivalent_plastic_strain);
+    assert!(
+        (state.max_equivalent_plastic_strain - 0.01).abs() < 1e-9,
+        "{}",
+        state.max_equivalent_plastic_strain
+    );
 }

@@ -152,7 +152,11 @@ impl Path {
         }
         if let Some(k) = first {
             // This pair is at its border by construction. Round-off that says otherwise would let the path stand still.
-            let value = if tableau.open()[k] { &mut self.gap[k] } else { &mut self.force[k] };
+            let value = if tableau.open()[k] {
+                &mut self.gap[k]
+            } else {
+                &mut self.force[k]
+            };
             *value = 0.0;
         }
         let (zero_gap, zero_force) = (self.zero_gap(), self.zero_force());

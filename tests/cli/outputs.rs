@@ -243,16 +243,18 @@ fn the_limit_load_is_reported_as_collapse_with_what_was_held() {
     let output = folder.brinell("run", &["-q"]);
     let stderr = String::from_utf8(output.stderr.clone()).unwrap();
     assert_eq!(output.status.code(), Some(6), "{stderr}");
-    assert!(
-        stderr.contains("limit load: load factor"),
-        "{stderr}"
-    );
+    assert!(stderr.contains("limit load: load factor"), "{stderr}");
     assert!(
         stdout(&output).contains("INCOMPLETE: limit load"),
         "{output:?}"
     );
     let summary = folder.summary();
-    assert!(summary["incomplete"].as_str().unwrap().contains("limit load"));
+    assert!(
+        summary["incomplete"]
+            .as_str()
+            .unwrap()
+            .contains("limit load")
+    );
     assert_eq!(summary["states"].as_array().unwrap().len(), 3);
     let history = std::fs::read_to_string(folder.path("out/history.csv")).unwrap();
     let held: f64 = history

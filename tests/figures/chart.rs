@@ -28,7 +28,12 @@ pub struct Curve {
 
 impl Curve {
     pub fn new(label: &str, color: RGBColor, pen: Pen, points: Vec<(f64, f64)>) -> Curve {
-        Curve { label: label.to_string(), color, pen, points }
+        Curve {
+            label: label.to_string(),
+            color,
+            pen,
+            points,
+        }
     }
 }
 
@@ -73,17 +78,24 @@ impl Chart {
                 let (color, pen) = (curve.color, curve.pen);
                 let style = color.stroke_width(2);
                 let drawn = match pen {
-                    Pen::LineAndDots => chart.draw_series(LineSeries::new(curve.points.clone(), style))?,
-                    Pen::Dashes | Pen::DashesAndDots => {
-                        chart.draw_series(DashedLineSeries::new(curve.points.clone(), 7, 5, style))?
+                    Pen::LineAndDots => {
+                        chart.draw_series(LineSeries::new(curve.points.clone(), style))?
                     }
+                    Pen::Dashes | Pen::DashesAndDots => chart
+                        .draw_series(DashedLineSeries::new(curve.points.clone(), 7, 5, style))?,
                 };
                 if !curve.label.is_empty() {
                     drawn.label(curve.label).legend(move |at| {
-                        let line = |[from, to]: [i32; 2]| PathElement::new(vec![(from, 0), (to, 0)], style);
+                        let line = |[from, to]: [i32; 2]| {
+                            PathElement::new(vec![(from, 0), (to, 0)], style)
+                        };
                         let radius = if matches!(pen, Pen::Dashes) { 0 } else { 3 };
                         let [a, b, c] = strokes(pen);
-                        EmptyElement::at(at) + line(a) + line(b) + line(c) + Circle::new((14, 0), radius, color.filled())
+                        EmptyElement::at(at)
+                            + line(a)
+                            + line(b)
+                            + line(c)
+                            + Circle::new((14, 0), radius, color.filled())
                     });
                 }
                 if matches!(pen, Pen::LineAndDots | Pen::DashesAndDots) {
@@ -106,7 +118,10 @@ impl Chart {
 }
 
 fn dots(points: &[(f64, f64)], color: RGBColor) -> Vec<Circle<(f64, f64), i32>> {
-    points.iter().map(|&p| Circle::new(p, 3, color.filled())).collect()
+    points
+        .iter()
+        .map(|&p| Circle::new(p, 3, color.filled()))
+        .collect()
 }
 
 /// The strokes beside a curve's name, from and to.

@@ -42,20 +42,36 @@ fn history(run: &Run) -> Outcome<()> {
     let (tension, y) = (yield_tension(run)?, yield_stress(run)?);
     let states = &run.results.states;
     let up = |s: &State| (s.alpha, s.max_pressure / y);
-    let top = states.iter().position(|s| s.name == "up 2.0").ok_or("no state at 2")?;
+    let top = states
+        .iter()
+        .position(|s| s.name == "up 2.0")
+        .ok_or("no state at 2")?;
     let mut loading = vec![(0.0, 0.0)];
     loading.extend(states[..=top].iter().map(up));
     let elastic = vec![(0.0, 0.0), (2.2, exact.pressure(0.0, 2.2 * tension))];
     Chart {
         file: "fig_5_7_disc_pressure.svg",
         title: "Disc in a plate: largest contact pressure (paper, Fig 5.7)",
-        x: Axis { label: "load factor  S/S*", from: 0.0, to: 2.2 },
-        y: Axis { label: "largest contact pressure / yield stress", from: 0.0, to: 0.6 },
+        x: Axis {
+            label: "load factor  S/S*",
+            from: 0.0,
+            to: 2.2,
+        },
+        y: Axis {
+            label: "largest contact pressure / yield stress",
+            from: 0.0,
+            to: 0.6,
+        },
         legend: SeriesLabelPosition::UpperLeft,
         curves: vec![
             Curve::new("elastic, exact: 0.609 S", GREY, Pen::Dashes, elastic),
             Curve::new("loading", RED, Pen::LineAndDots, loading),
-            Curve::new("unloading", BLUE, Pen::DashesAndDots, states[top..].iter().map(up).collect()),
+            Curve::new(
+                "unloading",
+                BLUE,
+                Pen::DashesAndDots,
+                states[top..].iter().map(up).collect(),
+            ),
         ],
     }
     .write()
@@ -69,18 +85,35 @@ fn distribution(run: &Run) -> Outcome<()> {
         let mut points: Vec<(f64, f64)> = state
             .pairs
             .iter()
-            .map(|k| (k.position[0].atan2(k.position[1]).to_degrees(), k.pressure / y))
+            .map(|k| {
+                (
+                    k.position[0].atan2(k.position[1]).to_degrees(),
+                    k.pressure / y,
+                )
+            })
             .collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         let closed = |i: usize| points.get(i).is_some_and(|p| p.1 > 0.0);
         // The contact and the first open pair at either end.
-        (0..points.len()).filter(|&i| closed(i) || closed(i + 1) || (i > 0 && closed(i - 1))).map(|i| points[i]).collect()
+        (0..points.len())
+            .filter(|&i| closed(i) || closed(i + 1) || (i > 0 && closed(i - 1)))
+            .map(|i| points[i])
+            .collect()
     };
     let mut curves = Vec::new();
     for (alpha, color) in SHOWN.into_iter().zip([BLUE, GREEN, RED]) {
-        let name = if alpha == 1.0 { "yield".to_string() } else { format!("up {alpha:.1}") };
+        let name = if alpha == 1.0 {
+            "yield".to_string()
+        } else {
+            format!("up {alpha:.1}")
+        };
         let up = run.state(&name)?;
-        curves.push(Curve::new(&format!("loading {alpha:.1}"), color, Pen::LineAndDots, profile(up)));
+        curves.push(Curve::new(
+            &format!("loading {alpha:.1}"),
+            color,
+            Pen::LineAndDots,
+            profile(up),
+        ));
         if alpha < 2.0 {
             let down = run.state(&format!("down {alpha:.1}"))?;
             let label = format!("unloading {alpha:.1}");
@@ -88,13 +121,28 @@ fn distribution(run: &Run) -> Outcome<()> {
         }
     }
     let fine = (0..=100).map(|i| exact.half_angle() * f64::from(i) / 100.0);
-    let at_yield = fine.map(|t| (t.to_degrees(), exact.pressure(t, tension * y) / y)).collect();
-    curves.push(Curve::new("first yield, exact", GREY, Pen::Dashes, at_yield));
+    let at_yield = fine
+        .map(|t| (t.to_degrees(), exact.pressure(t, tension * y) / y))
+        .collect();
+    curves.push(Curve::new(
+        "first yield, exact",
+        GREY,
+        Pen::Dashes,
+        at_yield,
+    ));
     Chart {
         file: "fig_5_8_disc_pressure_distribution.svg",
         title: "Disc in a plate: contact pressure (paper, Fig 5.8)",
-        x: Axis { label: "angle from the pole, degrees", from: 0.0, to: 30.0 },
-        y: Axis { label: "contact pressure / yield stress", from: 0.0, to: 0.5 },
+        x: Axis {
+            label: "angle from the pole, degrees",
+            from: 0.0,
+            to: 30.0,
+        },
+        y: Axis {
+            label: "contact pressure / yield stress",
+            from: 0.0,
+            to: 0.5,
+        },
         legend: SeriesLabelPosition::UpperRight,
         curves,
     }

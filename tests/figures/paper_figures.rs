@@ -20,8 +20,13 @@ type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 fn main() -> Outcome<()> {
     let what: Vec<String> = std::env::args().skip(1).collect();
     let asked = |name: &str| what.is_empty() || what.iter().any(|w| w == name);
-    if let Some(unknown) = what.iter().find(|w| !["figures", "readings", "verification"].contains(&w.as_str())) {
-        return Err(format!("`{unknown}`: there are `figures`, `readings` and `verification`").into());
+    if let Some(unknown) = what
+        .iter()
+        .find(|w| !["figures", "readings", "verification"].contains(&w.as_str()))
+    {
+        return Err(
+            format!("`{unknown}`: there are `figures`, `readings` and `verification`").into(),
+        );
     }
     if asked("figures") {
         std::fs::create_dir_all(runs::data("figures"))?;

@@ -37,7 +37,12 @@ impl Answer {
     fn compute(ratio: f64, resolution: usize) -> Outcome<Answer> {
         let names = ["1", "2", "3"];
         let mut up = vec![first_yield()];
-        up.extend(LOADING.iter().zip(names).map(|(&alpha, name)| load_factor(alpha, name)));
+        up.extend(
+            LOADING
+                .iter()
+                .zip(names)
+                .map(|(&alpha, name)| load_factor(alpha, name)),
+        );
         up.push(half_width(TOP_WIDTH, "top"));
         let up = Run::of(runs::cylinder(Some(ratio), Some(resolution))?, up)?;
         let mut widths = [0.0; 3];
@@ -45,24 +50,43 @@ impl Answer {
             *width = up.state(name)?.half_width / up.yield_half_width;
         }
         let mut down = vec![first_yield(), load_factor(TOP, "top")];
-        down.extend(widths.iter().zip(names).rev().map(|(&width, name)| half_width(width, name)));
+        down.extend(
+            widths
+                .iter()
+                .zip(names)
+                .rev()
+                .map(|(&width, name)| half_width(width, name)),
+        );
         let run = Run::of(runs::cylinder(Some(ratio), Some(resolution))?, down)?;
         let mut back = [0.0; 3];
         for (alpha, name) in back.iter_mut().zip(names) {
             *alpha = run.state(name)?.alpha;
         }
-        Ok(Answer { widths, at_top_width: up.state("top")?.alpha, down: back })
+        Ok(Answer {
+            widths,
+            at_top_width: up.state("top")?.alpha,
+            down: back,
+        })
     }
 
     /// Hertz: b/b* = sqrt(alpha), up and down.
     fn elastic() -> Answer {
-        Answer { widths: LOADING.map(f64::sqrt), at_top_width: TOP_WIDTH * TOP_WIDTH, down: LOADING }
+        Answer {
+            widths: LOADING.map(f64::sqrt),
+            at_top_width: TOP_WIDTH * TOP_WIDTH,
+            down: LOADING,
+        }
     }
 
     /// Root mean square of the relative differences from the legend's four load factors.
     fn misfit(&self) -> f64 {
         let off = |computed: f64, legend: f64| (computed / legend - 1.0).powi(2);
-        let down: f64 = self.down.iter().zip(UNLOADING).map(|(c, l)| off(*c, l)).sum();
+        let down: f64 = self
+            .down
+            .iter()
+            .zip(UNLOADING)
+            .map(|(c, l)| off(*c, l))
+            .sum();
         (0.25 * (off(self.at_top_width, TOP) + down)).sqrt()
     }
 }
@@ -84,8 +108,16 @@ pub fn write() -> Outcome<()> {
         "rms_difference_from_legend",
     ])?;
     let mut row = |reading: &str, ratio: &str, resolution: &str, answer: &Answer| -> Outcome<()> {
-        let mut record = vec![reading.to_string(), ratio.to_string(), resolution.to_string()];
-        let numbers = answer.widths.iter().chain([&answer.at_top_width]).chain(&answer.down);
+        let mut record = vec![
+            reading.to_string(),
+            ratio.to_string(),
+            resolution.to_string(),
+        ];
+        let numbers = answer
+            .widths
+            .iter()
+            .chain([&answer.at_top_width])
+            .chain(&answer.down);
         record.extend(numbers.map(|v| format!("{v:.4}")));
         record.push(format!("{:.4}", answer.misfit()));
         println!("{}", record.join(", "));
@@ -94,7 +126,12 @@ pub fn write() -> Outcome<()> {
     for resolution in RESOLUTIONS {
         for (reading, ratio) in READINGS {
             let answer = Answer::compute(ratio, resolution)?;
-            row(reading, &format!("{ratio:.4}"), &resolution.to_string(), &answer)?;
+            row(
+                reading,
+                &format!("{ratio:.4}"),
+                &resolution.to_string(),
+                &answer,
+            )?;
         }
     }
     row("elastic", "", "exact", &Answer::elastic())?;

@@ -11,7 +11,9 @@ use std::path::PathBuf;
 
 /// A place under `data/`.
 pub fn data(path: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("data").join(path)
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+        .join("data")
+        .join(path)
 }
 
 pub fn scene(name: &str) -> Outcome<Scene> {
@@ -34,19 +36,33 @@ pub fn cylinder(plastic_modulus_over_e: Option<f64>, resolution: Option<usize>) 
 }
 
 pub fn first_yield() -> Target {
-    Target { first_yield: true, ..Target::default() }
+    Target {
+        first_yield: true,
+        ..Target::default()
+    }
 }
 
 pub fn load_factor(alpha: f64, name: &str) -> Target {
-    Target { load_factor: Some(alpha), name: Some(name.to_string()), ..Target::default() }
+    Target {
+        load_factor: Some(alpha),
+        name: Some(name.to_string()),
+        ..Target::default()
+    }
 }
 
 pub fn half_width(multiple: f64, name: &str) -> Target {
-    Target { half_width: Some(multiple), name: Some(name.to_string()), ..Target::default() }
+    Target {
+        half_width: Some(multiple),
+        name: Some(name.to_string()),
+        ..Target::default()
+    }
 }
 
 pub fn with_fields(target: Target) -> Target {
-    Target { fields: true, ..target }
+    Target {
+        fields: true,
+        ..target
+    }
 }
 
 /// A finished run.
@@ -67,7 +83,12 @@ impl Run {
             return Err(format!("{}: {why}", scene.title).into());
         }
         let first = results.first_yield.ok_or("no first yield")?;
-        Ok(Run { analysis, results, yield_pressure: first.max_pressure, yield_half_width: first.half_width })
+        Ok(Run {
+            analysis,
+            results,
+            yield_pressure: first.max_pressure,
+            yield_half_width: first.half_width,
+        })
     }
 
     pub fn state(&self, name: &str) -> Outcome<&State> {

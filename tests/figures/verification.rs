@@ -13,7 +13,10 @@ use std::fmt::Write;
 const CYLINDER: &str = "cylinder_on_half_plane.toml";
 const RESOLUTIONS: [usize; 4] = [4, 8, 16, 32];
 /// Scenes with another setting, beside the scene as it is.
-const VARIANTS: [(&str, &str); 2] = [("disc_in_plate.toml", "kind=plane_strain"), (CYLINDER, "analysis.yield_load=secant")];
+const VARIANTS: [(&str, &str); 2] = [
+    ("disc_in_plate.toml", "kind=plane_strain"),
+    (CYLINDER, "analysis.yield_load=secant"),
+];
 
 const HEAD: &str = "\
 # What was verified, against what
@@ -41,7 +44,10 @@ pub fn write() -> Outcome<()> {
 }
 
 fn load(file: &str, overrides: &[String]) -> Outcome<Scene> {
-    Ok(Scene::load_with(runs::data("scenes").join(file), overrides)?)
+    Ok(Scene::load_with(
+        runs::data("scenes").join(file),
+        overrides,
+    )?)
 }
 
 fn analysis(scene: &Scene) -> Outcome<Analysis> {
@@ -54,10 +60,20 @@ fn table_1(text: &mut String) -> Outcome<()> {
               | elements over b* | load P* | pressure p* | half width b* | depth z* |\n|---|---|---|---|---|\n\
               | paper, 1984 | 0.87 | 0.94 | 0.98 | 0.94 |\n";
     for resolution in RESOLUTIONS {
-        let scene = load(CYLINDER, &[format!("mesh.cylinder_on_half_plane.resolution={resolution}")])?;
+        let scene = load(
+            CYLINDER,
+            &[format!(
+                "mesh.cylinder_on_half_plane.resolution={resolution}"
+            )],
+        )?;
         let results = analysis(&scene)?.yield_load(&mut Silent)?;
         write!(text, "| {resolution} |")?;
-        for quantity in ["yield.load", "yield.max_pressure", "yield.half_width", "yield.location.y"] {
+        for quantity in [
+            "yield.load",
+            "yield.max_pressure",
+            "yield.half_width",
+            "yield.location.y",
+        ] {
             let row = results.reference.iter().find(|r| r.quantity == quantity);
             let row = row.ok_or_else(|| format!("no reference value for `{quantity}`"))?;
             write!(text, " {:.4} |", row.ratio)?;
@@ -113,7 +129,10 @@ fn append(text: &mut String, title: &str, command: &str, rows: &str) -> Outcome<
     if !title.is_empty() {
         write!(text, "\n## {title}\n")?;
     }
-    write!(text, "\n{command}\n\n| quantity | reference | computed | ratio | source |\n|---|---|---|---|---|\n{rows}")?;
+    write!(
+        text,
+        "\n{command}\n\n| quantity | reference | computed | ratio | source |\n|---|---|---|---|---|\n{rows}"
+    )?;
     Ok(())
 }
 
@@ -123,7 +142,15 @@ fn reference_rows(results: &Results) -> Outcome<String> {
         writeln!(rows, "| **ended early** | | | | {why} |")?;
     }
     for r in &results.reference {
-        writeln!(rows, "| {} | {} | {} | {:.5} | {} |", r.quantity, digits(r.reference), digits(r.computed), r.ratio, r.source)?;
+        writeln!(
+            rows,
+            "| {} | {} | {} | {:.5} | {} |",
+            r.quantity,
+            digits(r.reference),
+            digits(r.computed),
+            r.ratio,
+            r.source
+        )?;
     }
     Ok(rows)
 }
@@ -144,7 +171,11 @@ fn quality_row(out: &mut String, name: &str, results: &Results) -> Outcome<()> {
 
 /// Six significant digits.
 fn digits(value: f64) -> String {
-    let magnitude = if value == 0.0 { 0 } else { value.abs().log10().floor() as i32 };
+    let magnitude = if value == 0.0 {
+        0
+    } else {
+        value.abs().log10().floor() as i32
+    };
     if (-4..6).contains(&magnitude) {
         format!("{value:.*}", (5 - magnitude).max(0) as usize)
     } else {

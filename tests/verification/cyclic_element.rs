@@ -27,7 +27,10 @@ fn bar(strains: &[f64]) -> Vec<f64> {
 #[test]
 fn cycles_follow_the_hardening_curve() {
     let strains = [0.0008, 0.003, 0.0, -0.004, 0.002, 0.005, 0.0045];
-    let targets: Vec<String> = strains.iter().map(|s| format!("{{load_factor={s:?}}}")).collect();
+    let targets: Vec<String> = strains
+        .iter()
+        .map(|s| format!("{{load_factor={s:?}}}"))
+        .collect();
     for kind in ["plane_stress", "axisymmetric"] {
         let text = format!(
             r#"
@@ -61,9 +64,18 @@ targets = [{}]
         for (state, exact) in results.states.iter().zip(bar(&strains)) {
             let stress = &state.fields.as_ref().unwrap().stress;
             // Equilibrium is found to 1e-10 of the force; the worst stress is a tenth of the largest.
-            assert!((stress[1] - exact).abs() <= 1e-8 * 200.0, "{kind} {}: {} {exact}", state.name, stress[1]);
+            assert!(
+                (stress[1] - exact).abs() <= 1e-8 * 200.0,
+                "{kind} {}: {} {exact}",
+                state.name,
+                stress[1]
+            );
             assert!(stress[0].abs() <= 1e-8 * 200.0);
-            let area = if kind == "axisymmetric" { std::f64::consts::PI } else { 1.0 };
+            let area = if kind == "axisymmetric" {
+                std::f64::consts::PI
+            } else {
+                1.0
+            };
             close(state.load.abs(), exact.abs() * area, 1e-7);
         }
     }

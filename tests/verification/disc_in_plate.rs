@@ -32,11 +32,18 @@ fn table_two_converges_to_the_exact_values() {
         assert!(off <= 0.25 * spacing, "{resolution}: {off}");
         let at_yield = results.first_yield.unwrap();
         assert_eq!(at_yield.body, 1);
-        close(results.states[1].pole_pressure, exact.pressure(0.0, at_yield.load), 0.006 * 30.0 / resolution as f64);
+        close(
+            results.states[1].pole_pressure,
+            exact.pressure(0.0, at_yield.load),
+            0.006 * 30.0 / resolution as f64,
+        );
         errors.push((at_yield.load / yield_stress - 1.0).abs());
     }
     // Order about 1.6 (measured 0.13 %, 0.03 %), until the size of the plate (1e-4) shows.
-    assert!(errors[1] <= errors[0] / 2.0 && errors[2] <= 2e-4, "{errors:?}");
+    assert!(
+        errors[1] <= errors[0] / 2.0 && errors[2] <= 2e-4,
+        "{errors:?}"
+    );
 }
 
 #[test]
@@ -49,16 +56,26 @@ fn contact_angle_depends_on_nothing_but_geometry() {
     let steel = of(&[]);
     let reference = half_angle(&steel, 0);
     close(half_angle(&steel, 1), reference, 1e-9);
-    close(half_angle(&of(&["materials.steel.youngs_modulus=70000.0"]), 0), reference, 1e-9);
+    close(
+        half_angle(&of(&["materials.steel.youngs_modulus=70000.0"]), 0),
+        reference,
+        1e-9,
+    );
     // nu does not enter the continuum's angle; it does enter a mesh's error, a fraction of the node spacing of 1.5 degrees.
-    for other in [&["materials.steel.poissons_ratio=0.1"], &["kind=\"plane_strain\""]] {
+    for other in [
+        &["materials.steel.poissons_ratio=0.1"],
+        &["kind=\"plane_strain\""],
+    ] {
         assert!((half_angle(&of(other), 0) - reference).abs() < 0.05 * 1.5);
     }
 }
 
 #[test]
 fn plane_strain_yields_later() {
-    let exact = DiscInPlate::new(10.0).unwrap().yield_tension(Plane::Strain, 0.3, 500.0).unwrap();
+    let exact = DiscInPlate::new(10.0)
+        .unwrap()
+        .yield_tension(Plane::Strain, 0.3, 500.0)
+        .unwrap();
     close(exact, 0.3566 * 500.0, 2e-4);
     let results = elastic(&["kind=\"plane_strain\"", "mesh.disc_in_plate.resolution=60"]);
     close(results.first_yield.unwrap().load, exact, 1e-3);
@@ -67,9 +84,14 @@ fn plane_strain_yields_later() {
 #[test]
 fn size_of_the_plate_matters_less_than_the_mesh() {
     let load = |resolution: usize, far: f64| {
-        let overrides =
-            [format!("mesh.disc_in_plate.resolution={resolution}"), format!("mesh.disc_in_plate.far_radius={far:.1}")];
-        elastic(&[&overrides[0], &overrides[1]]).first_yield.unwrap().load
+        let overrides = [
+            format!("mesh.disc_in_plate.resolution={resolution}"),
+            format!("mesh.disc_in_plate.far_radius={far:.1}"),
+        ];
+        elastic(&[&overrides[0], &overrides[1]])
+            .first_yield
+            .unwrap()
+            .load
     };
     let coarse = load(60, 100.0);
     assert!((load(60, 200.0) - coarse).abs() < (load(120, 100.0) - coarse).abs());
@@ -77,7 +99,10 @@ fn size_of_the_plate_matters_less_than_the_mesh() {
 
 #[test]
 fn disc_stays_elastic_and_the_surfaces_part_on_the_way_down() {
-    let results = run(&scene("disc_in_plate", &["mesh.disc_in_plate.resolution=60"]));
+    let results = run(&scene(
+        "disc_in_plate",
+        &["mesh.disc_in_plate.resolution=60"],
+    ));
     let top = &results.states[4];
     assert_eq!(top.alpha, 2.0);
     for state in &results.states {

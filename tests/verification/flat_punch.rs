@@ -22,6 +22,9 @@ fn limit_load_converges_from_above() {
         // what is left after extrapolation is of second order, (h/a)^2 = 1/16 of the correction's size.
         let extrapolated = 2.0 * fine - coarse;
         assert!(fine < coarse && fine > 1.0, "{shape}: {coarse} {fine}");
-        assert!((extrapolated - 1.0).abs() < 0.01, "{shape}: {coarse} {fine} {extrapolated}");
+        assert!(
+            (extrapolated - 1.0).abs() < 0.01,
+            "{shape}: {coarse} {fine} {extrapolated}"
+        );
     }
 }

@@ -23,12 +23,17 @@ fn at(resolution: usize, far_size: f64) -> YieldPoint {
         format!("mesh.cylinder_on_half_plane.far_size={far_size:.1}"),
     ];
     let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
-    yield_load(&scene("cylinder_on_half_plane", &overrides)).first_yield.unwrap()
+    yield_load(&scene("cylinder_on_half_plane", &overrides))
+        .first_yield
+        .unwrap()
 }
 
 #[test]
 fn table_one_converges_to_the_exact_values() {
-    let by_mesh: Vec<[f64; 4]> = [4, 8, 16, 32].iter().map(|&n| ratios(&at(n, 20000.0))).collect();
+    let by_mesh: Vec<[f64; 4]> = [4, 8, 16, 32]
+        .iter()
+        .map(|&n| ratios(&at(n, 20000.0)))
+        .collect();
     let error = |mesh: usize, k: usize| (by_mesh[mesh][k] - 1.0).abs();
     for k in 0..4 {
         assert!(error(2, k) <= 0.01, "quantity {k} at 16: {by_mesh:?}");
@@ -37,7 +42,10 @@ fn table_one_converges_to_the_exact_values() {
     // Load and pressure begin with the mesh's error, of order h^2: 64 between 4 and 32 elements. They end at the
     // remainder of size (b/W) and curvature (b/R = 0.016, of which the load shows 0.08 %): a tenth and more is gone.
     for k in 0..2 {
-        assert!(error(3, k) <= 0.15 * error(0, k), "quantity {k}: {by_mesh:?}");
+        assert!(
+            error(3, k) <= 0.15 * error(0, k),
+            "quantity {k}: {by_mesh:?}"
+        );
     }
 }
 
@@ -48,7 +56,10 @@ fn size_of_the_bodies_matters_less_than_the_mesh() {
     for k in 0..2 {
         let mesh = (ratios(&coarse)[k] - ratios(&fine)[k]).abs();
         let size = (ratios(&coarse)[k] - ratios(&larger)[k]).abs();
-        assert!(size < mesh, "quantity {k}: size {size:.1e}, mesh {mesh:.1e}");
+        assert!(
+            size < mesh,
+            "quantity {k}: size {size:.1e}, mesh {mesh:.1e}"
+        );
     }
 }
 
@@ -62,8 +73,16 @@ fn pressure_and_width_grow_like_the_root_of_the_load() {
     for (state, alpha) in results.states.iter().zip([0.25f64, 0.5, 1.0]) {
         // At 0.25 eight elements lie over the half width: pressure 0.2 % low there (Table I at 8), width within a
         // tenth of an element, 1/80.
-        close(state.max_pressure / at_yield.max_pressure, alpha.sqrt(), 0.003);
-        close(state.half_width / at_yield.half_width, alpha.sqrt(), 0.1 / (16.0 * alpha.sqrt()));
+        close(
+            state.max_pressure / at_yield.max_pressure,
+            alpha.sqrt(),
+            0.003,
+        );
+        close(
+            state.half_width / at_yield.half_width,
+            alpha.sqrt(),
+            0.1 / (16.0 * alpha.sqrt()),
+        );
         assert_eq!(state.plastic_points, 0);
     }
 }

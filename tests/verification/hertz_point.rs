@@ -9,7 +9,9 @@ fn first_yield_converges_to_the_exact_values() {
     let (r, y, e) = (10.0, 500.0, 210000.0 / (2.0 * 0.91));
     let errors = |n: usize| {
         let resolution = format!("mesh.cylinder_on_half_plane.resolution={n}");
-        let point = yield_load(&scene("ball_on_half_space", &[&resolution])).first_yield.unwrap();
+        let point = yield_load(&scene("ball_on_half_space", &[&resolution]))
+            .first_yield
+            .unwrap();
         let a = std::f64::consts::FRAC_PI_2 * 1.6128 * y * r / e;
         [
             point.load / (21.68 * r * r * y * y * y / (e * e)) - 1.0,
@@ -23,6 +25,9 @@ fn first_yield_converges_to_the_exact_values() {
     for k in 0..4 {
         // The pole's pressure is the mean over its element, of order h: C about 0.15, the others of higher order.
         assert!(fine[k] <= 0.15 / 16.0, "{k}: {coarse:?} {fine:?}");
-        assert!(fine[k] <= coarse[k] / 1.4 || fine[k] <= 2e-3, "{k}: {coarse:?} {fine:?}");
+        assert!(
+            fine[k] <= coarse[k] / 1.4 || fine[k] <= 2e-3,
+            "{k}: {coarse:?} {fine:?}"
+        );
     }
 }

@@ -15,7 +15,10 @@ fn every_state_of_every_scene_is_in_balance() {
         }
         let name = path.file_stem().unwrap().to_str().unwrap().to_string();
         for state in &run(&scene(&name, &[])).states {
-            let (q, at) = (state.quality, format!("{name}, {}: {:?}", state.name, state.quality));
+            let (q, at) = (
+                state.quality,
+                format!("{name}, {}: {:?}", state.name, state.quality),
+            );
             assert!(q.backward_error <= 1e-13, "{at}");
             assert!(q.equilibrium <= 1e-8, "{at}");
             // Round-off of a solve with the condensed matrix, some 1e3 units in the last place.

@@ -8,7 +8,11 @@ use brinell::results::{Results, State};
 use brinell::scene::Scene;
 
 fn backend() -> Backend {
-    if cfg!(feature = "cholmod") { Backend::default() } else { Backend::Dense }
+    if cfg!(feature = "cholmod") {
+        Backend::default()
+    } else {
+        Backend::Dense
+    }
 }
 
 fn analysis(scene: &Scene) -> Analysis {
@@ -48,5 +52,8 @@ pub fn state<'a>(results: &'a Results, name: &str) -> &'a State {
 #[track_caller]
 pub fn close(value: f64, exact: f64, tolerance: f64) {
     let error = (value / exact - 1.0).abs();
-    assert!(error <= tolerance, "{value} against {exact}: off by {error:.3e}, more than {tolerance:.1e}");
+    assert!(
+        error <= tolerance,
+        "{value} against {exact}: off by {error:.3e}, more than {tolerance:.1e}"
+    );
 }

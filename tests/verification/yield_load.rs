@@ -7,9 +7,15 @@ use crate::run::{close, scene, yield_load};
 #[test]
 fn secant_and_path_agree() {
     for (name, overrides) in [
-        ("cylinder_on_half_plane", vec!["mesh.cylinder_on_half_plane.resolution=8"]),
+        (
+            "cylinder_on_half_plane",
+            vec!["mesh.cylinder_on_half_plane.resolution=8"],
+        ),
         ("disc_in_plate", vec!["mesh.disc_in_plate.resolution=60"]),
-        ("ball_on_half_space", vec!["mesh.cylinder_on_half_plane.resolution=8"]),
+        (
+            "ball_on_half_space",
+            vec!["mesh.cylinder_on_half_plane.resolution=8"],
+        ),
         ("thick_cylinder", vec![]),
     ] {
         let exact = yield_load(&scene(name, &overrides)).first_yield.unwrap();

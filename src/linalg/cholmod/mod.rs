@@ -308,7 +308,11 @@ fn unconstrained(matrix: &SymmetricCsc, load: Option<&[f64]>) -> Result<Unconstr
     };
     check::arguments(matrix, &partition, &[])?;
     let mut start = std::time::Instant::now();
-    let mut lap = || std::mem::replace(&mut start, std::time::Instant::now()).elapsed().as_secs_f64();
+    let mut lap = || {
+        std::mem::replace(&mut start, std::time::Instant::now())
+            .elapsed()
+            .as_secs_f64()
+    };
     let mut common = Common::start()?;
     common.choose_ordering();
     let mut factor = Factor::analyze(common, &SymmetricView::pattern(matrix), None)?;
@@ -320,12 +324,7 @@ fn unconstrained(matrix: &SymmetricCsc, load: Option<&[f64]>) -> Result<Unconstr
     }
     let solve_seconds = lap();
     Ok(Unconstrained {
-        prediction: prediction(
-            &factor,
-            "CHOLMOD's own",
-            matrix,
-            &Groups::new(&partition),
-        ),
+        prediction: prediction(&factor, "CHOLMOD's own", matrix, &Groups::new(&partition)),
         analyse_seconds,
         factor_seconds,
         solve_seconds,

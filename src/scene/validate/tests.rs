@@ -1,10 +1,10 @@
 //! One rule of validation per row: what is done to a good scene, and what the message must hold.
 
-use crate::shape::Shape;
 use crate::scene::{
     Direction, Displacement, DisplacementTarget, History, Kind, PlaneForce, Plastic, Reference,
     Ring, Scene, Target, Unit,
 };
+use crate::shape::Shape;
 
 /// The paper's first example: has every kind of entry that the rules are about.
 fn good() -> Scene {
