@@ -3,12 +3,12 @@
 //! | file | what | paper |
 //! |---|---|---|
 //! | `engine` | structure under load, response to loads and initial loads | 3.7, 4.1 to 4.6 |
-//! | `yield_load`, `recovery` | load at first yield, stress between the points | 3.11 to 3.14 |
+//! | `first_yield`, `yield_load`, `recovery` | load at first yield, stress between the points | 3.11 to 3.14 |
 //! | `elastic` | contact along an elastic path, from event to event | 3.9, 3.10 |
 //! | `increment`, `step_length` | one elastoplastic increment that ends at the next change of contact | 4.7 to 4.23 |
-//! | `zone`, `gather`, `zone_choice` | elements that may yield, initial loads, their choice and growth | 4.1 |
+//! | `zone`, `gather`, `zone_choice`, `zone_fit` | elements that may yield, initial loads, their choice and growth | 4.1 |
 //! | `tangent`, `acceleration` | acceleration of the plastic iteration | |
-//! | `drive`, `program` | from target to target, loading and unloading | 5.1, 5.2 |
+//! | `program`, `targets`, `drive`, `stepping` | from target to target, loading and unloading | 5.1, 5.2 |
 //! | `measure`, `state` | pressure, half width, dent, quality of a state | 5 |
 
 mod acceleration;
@@ -16,6 +16,7 @@ mod check;
 mod drive;
 mod elastic;
 mod engine;
+mod first_yield;
 mod gather;
 mod increment;
 mod measure;
@@ -24,10 +25,13 @@ mod recovery;
 mod reference;
 mod state;
 mod step_length;
+mod stepping;
 mod tangent;
+mod targets;
 mod yield_load;
 mod zone;
 mod zone_choice;
+mod zone_fit;
 
 #[cfg(test)]
 mod tests;

@@ -1,0 +1,174 @@
+//! First yield of the program: where it lies, and that the zone did not miss it.
+
+use super::drive::{Arrival, IncrementReport, stopped};
+use super::engine::{Engine, Equilibrium, LoadPoint};
+use super::program::{DOUBLINGS, Run, ZONE_ATTEMPTS};
+use super::recovery::Peak;
+use super::zone_choice::{self, Choice};
+use crate::error::{Error, Result};
+use crate::results::YieldPoint;
+use crate::scene::{Unit, YieldMethod};
+
+impl Run<'_, '_> {
+    /// Finds the yield load on the path of growing load factor and comes back to the start.
+    pub(super) fn find_yield(&mut self, required: bool) -> Result<()> {
+        let unit_is_yield = self.model().scene.program.unit == Unit::Yield;
+        if self.plastic {
+            return if unit_is_yield {
+                Err(Error::analysis(
+                    "`unit = \"yield\"`: the preload alone makes the material yield, so there is no yield load to count in; use `unit = \"load\"`",
+                ))
+            } else {
+                Ok(())
+            };
+        }
+        let origin = (
+            self.engine.at.clone(),
+            self.engine.now.clone(),
+            self.engine.tableau.open().to_vec(),
+        );
+        for _ in 0..ZONE_ATTEMPTS {
+            let found = match self.model().scene.analysis.yield_load {
+                YieldMethod::Exact => self.exact_yield(required)?,
+                YieldMethod::Secant if required => {
+                    let recovery = self
+                        .recovery
+                        .as_mut()
+                        .ok_or_else(|| Error::internal("no recovery"))?;
+                    Some(self.engine.secant_yield_load(recovery)?)
+                }
+                YieldMethod::Secant => None,
+            };
+            let missed = match &found {
+                Some(_) => self.missed_outside()?,
+                None => None,
+            };
+            if missed.is_none() {
+                if let Some((alpha, peak)) = found {
+                    self.record_yield(peak)?;
+                    self.yield_alpha = Some(if unit_is_yield { 1.0 } else { alpha });
+                    if unit_is_yield {
+                        self.engine.unit = alpha;
+                    }
+                }
+                self.elastic_range[1] = match (self.yield_alpha, self.largest_factor()) {
+                    (Some(alpha), _) => alpha,
+                    (None, Some(largest))
+                        if self.model().scene.analysis.yield_load == YieldMethod::Exact =>
+                    {
+                        largest
+                    }
+                    _ => 0.0,
+                };
+            }
+            self.come_back(&origin);
+            match missed {
+                None => return Ok(()),
+                Some(choice) => self.rebuild(choice)?,
+            }
+        }
+        Err(Error::analysis(
+            "no yield load: the place of first yield keeps moving out of the zone that was searched",
+        ))
+    }
+
+    /// Puts an elastic state back, also after the zone was chosen anew.
+    pub(super) fn come_back(&mut self, (at, now, open): &(LoadPoint, Equilibrium, Vec<bool>)) {
+        let engine = &mut self.engine;
+        engine.tableau.reset(open);
+        engine.at = at.clone();
+        engine.now.gap.clone_from(&now.gap);
+        engine.now.force.clone_from(&now.force);
+        engine.now.initial.fill(0.0);
+        engine.border.clear();
+        // Where nothing acts yet the displacements are zero; a body held by contact alone must not be moved to it.
+        engine.fresh = now.u.largest() == 0.0;
+        engine.now.u.fill(0.0);
+        engine.refresh();
+        self.plastic = false;
+    }
+
+    /// First yield along the path of growing load factor, up to the largest the program asks for unless yield is required.
+    pub(super) fn exact_yield(&mut self, required: bool) -> Result<Option<(f64, Peak)>> {
+        let limit = if required {
+            None
+        } else {
+            self.largest_factor()
+        };
+        let mut end = match limit {
+            Some(largest) => largest,
+            None => self.first_load_estimate()?,
+        };
+        for _ in 0..DOUBLINGS {
+            for stop in self.stops(end) {
+                let point = self.engine.point(stop);
+                let mut quiet = |_: &mut Engine, _: &IncrementReport| Ok(true);
+                if let Arrival::Yield(peak) =
+                    self.engine
+                        .drive_elastic(&point, self.recovery.as_mut(), None, &mut quiet)?
+                {
+                    return Ok(Some((self.engine.at.alpha, peak)));
+                }
+            }
+            if limit.is_some() {
+                return Ok(None);
+            }
+            end *= 2.0;
+            if self.observer.stop_requested() {
+                return Err(stopped());
+            }
+        }
+        Err(Error::analysis(format!(
+            "no yield load: the stress stays below yield up to load factor {end:.3e}; do the proportional loads press the bodies?"
+        )))
+    }
+
+    /// A load factor of the size of the yield load: one contact solve at factor 1.
+    pub(super) fn first_load_estimate(&mut self) -> Result<f64> {
+        let saved = (
+            self.engine.at.clone(),
+            self.engine.now.clone(),
+            self.engine.tableau.open().to_vec(),
+        );
+        let point = self.engine.point(1.0);
+        let estimate = match (self.engine.solve_contact_at(&point), self.recovery.as_mut()) {
+            (Ok(()), Some(recovery)) => self.engine.peak(recovery).map(|p| p.ratio),
+            _ => None,
+        };
+        self.engine.tableau.reset(&saved.2);
+        (self.engine.at, self.engine.now, self.engine.fresh) = (saved.0, saved.1, true);
+        // Stress grows at least like the cube root of the load (point contact): aim beyond, doubling goes on from there.
+        Ok(estimate
+            .filter(|r| r.is_finite() && *r > 0.0)
+            .map_or(1.0, |r| 1.2 / r.min(r * r)))
+    }
+
+    pub(super) fn record_yield(&mut self, peak: Peak) -> Result<()> {
+        self.plastic = true;
+        if self.results.first_yield.is_some() {
+            return Ok(());
+        }
+        let figures = self.engine.contact_figures();
+        self.results.first_yield = Some(YieldPoint {
+            alpha: self.engine.at.alpha,
+            load: self.engine.total_load_size(),
+            max_pressure: figures.max_pressure,
+            half_width: figures.half_width,
+            location: peak.location,
+            body: peak.body,
+        });
+        Ok(())
+    }
+
+    /// At first yield nothing outside the zone may be beyond yield: else the zone missed the place, and a better one is
+    /// returned.
+    pub(super) fn missed_outside(&mut self) -> Result<Option<Choice>> {
+        let u = self.engine.all_displacements()?;
+        let ratios = zone_choice::stress_ratios(self.model(), &u, &self.engine.at.factors);
+        let outside = (0..ratios.len())
+            .filter(|e| self.choice.elements.binary_search(e).is_err())
+            .map(|e| ratios[e])
+            .fold(0.0, f64::max);
+        Ok((outside > 1.0).then(|| zone_choice::predict(self.model(), &ratios)))
+    }
+}

@@ -1,0 +1,136 @@
+//! Finding an increment: statuses that come out wrong are mended, increments that do not converge cut.
+
+use super::drive::{Stepper, stopped};
+use super::engine::{Engine, LoadPoint};
+use super::increment::{EndsAt, Increment, NoIncrement};
+use crate::error::{Error, ErrorKind, Result};
+use crate::scene::Stepping;
+
+/// Cut factor after an increment that did not converge.
+const CUT: f64 = 0.25;
+/// Status corrections at one point of the path before they are taken to cycle.
+const MOST_CORRECTIONS: usize = 60;
+
+impl Engine<'_> {
+    /// An increment with statuses that are right at its begin (events) or at its end (steps).
+    /// Increments that do not converge are cut, down to the share `smallest`; returns whether any was.
+    pub(super) fn find_increment(
+        &mut self,
+        end: &LoadPoint,
+        left: f64,
+        smallest: f64,
+        stepper: Stepper,
+    ) -> Result<(Increment, bool)> {
+        let mut most = left;
+        let mut corrections = 0;
+        let mut seen: Vec<Vec<bool>> = Vec::new();
+        loop {
+            let outcome = match stepper.stepping {
+                Stepping::Events if corrections < MOST_CORRECTIONS => self.increment(
+                    end,
+                    most,
+                    EndsAt::NextChange {
+                        gamma: stepper.gamma,
+                    },
+                    stepper.settings,
+                    stepper.stop,
+                ),
+                Stepping::Events => self.solve_step(end, 1e-3 * most, stepper)?,
+                Stepping::Steps => self.solve_step(end, most, stepper)?,
+            };
+            match outcome {
+                Ok(increment) => return Ok((increment, most < left)),
+                Err(NoIncrement::WrongStatus(pairs)) => {
+                    corrections += 1;
+                    seen.push(self.tableau.open().to_vec());
+                    // All at once; one alone (the least index) once a set of statuses has come back.
+                    let repeated = seen[..seen.len() - 1].contains(&seen[seen.len() - 1]);
+                    for &k in pairs.iter().take(if repeated { 1 } else { pairs.len() }) {
+                        if self.tableau.flip(k) {
+                            self.counts.contact_changes += 1;
+                        }
+                        if !self.border.contains(&k) {
+                            self.border.push(k);
+                        }
+                    }
+                }
+                Err(NoIncrement::Stopped) => return Err(stopped()),
+                Err(NoIncrement::NotConverged(residual)) => {
+                    if CUT * most < smallest {
+                        return Err(Error::new(
+                            ErrorKind::Collapse,
+                            format!(
+                                "limit load: load factor {:.9} is the last that was held, at {:.9} no equilibrium was found \
+                                 (out-of-balance force {residual:.1e} of the largest force)",
+                                self.at.alpha,
+                                self.at.towards(end, most).alpha,
+                            ),
+                        ));
+                    }
+                    most *= CUT;
+                    // The points flow as in the state that failed: its tangent, often singular, must not predict the next.
+                    self.zone.assume_elastic();
+                }
+            }
+        }
+    }
+
+    /// A fixed increment, contact solved at its end: statuses that come out wrong are flipped, all at once while that
+    /// makes them fewer, else the least index alone (finite: Habetler and Kostreva 1978, doi:10.1137/0316011).
+    fn solve_step(
+        &mut self,
+        end: &LoadPoint,
+        most: f64,
+        stepper: Stepper,
+    ) -> Result<std::result::Result<Increment, NoIncrement>> {
+        let mut fewest = usize::MAX;
+        let mut patience = 6;
+        for _ in 0..10 * (self.now.gap.len() + 10) {
+            let increment = match self.increment(
+                end,
+                most,
+                EndsAt::EndOfPiece,
+                stepper.settings,
+                stepper.stop,
+            ) {
+                Ok(increment) => increment,
+                Err(error) => return Ok(Err(error)),
+            };
+            let (gap, force) = (&increment.state.gap, &increment.state.force);
+            let r_tol = 1e-9 * force.iter().fold(self.force_scale, |m, r| m.max(*r));
+            let g_tol = 1e-9 * gap.iter().fold(0.0f64, |m, g| m.max(*g));
+            let wrong: Vec<usize> = (0..gap.len())
+                .filter(|&k| {
+                    if self.tableau.open()[k] {
+                        gap[k] < -g_tol
+                    } else {
+                        force[k] < -r_tol
+                    }
+                })
+                .collect();
+            if wrong.is_empty() {
+                self.border.clear();
+                return Ok(Ok(Increment {
+                    changes: Vec::new(),
+                    ..increment
+                }));
+            }
+            if wrong.len() < fewest {
+                (fewest, patience) = (wrong.len(), 6);
+            } else {
+                patience -= i32::from(patience > 0);
+            }
+            let take = if patience > 0 { wrong.len() } else { 1 };
+            for &k in wrong.iter().take(take) {
+                if self.tableau.flip(k) {
+                    self.counts.contact_changes += 1;
+                }
+            }
+        }
+        Err(Error::analysis(format!(
+            "contact did not settle in the increment from load factor {:.6} to {:.6}: the statuses repeat",
+            self.at.alpha,
+            self.at.towards(end, most).alpha
+        )))
+    }
+}

@@ -1,0 +1,158 @@
+//! Targets: from the current load factor to the next state that the program asks for.
+
+use super::drive::{Arrival, Monitor, stopped};
+use super::engine::Engine;
+use super::program::{DOUBLINGS, Run};
+use crate::error::{Error, Result};
+use crate::scene::{Direction, Target};
+
+impl Run<'_, '_> {
+    /// Ends of the straight pieces from the current load factor to `alpha`: the kinks of the loads' histories in between.
+    pub(super) fn stops(&self, alpha: f64) -> Vec<f64> {
+        let from = self.engine.at.alpha;
+        let mut stops: Vec<f64> = self
+            .model()
+            .loads
+            .iter()
+            .flat_map(|l| l.kinks())
+            .chain(self.yield_alpha.filter(|_| !self.plastic))
+            .filter(|k| (*k - from) * (alpha - *k) > 0.0)
+            .collect();
+        stops.sort_by(|a, b| a.total_cmp(b));
+        if alpha < from {
+            stops.reverse();
+        }
+        stops.dedup();
+        stops.push(alpha);
+        stops
+    }
+
+    /// Drives to a load factor along straight pieces between the kinks of the loads' histories. Wherever the path leaves what
+    /// the search for the yield load went through, it is watched for first yield.
+    pub(super) fn drive_to_factor(
+        &mut self,
+        alpha: f64,
+        monitor: Option<&Monitor>,
+    ) -> Result<Arrival> {
+        for stop in self.stops(alpha) {
+            let end = self.engine.point(stop);
+            loop {
+                let [low, high] = self.elastic_range;
+                let from = self.engine.at.alpha;
+                let known = from.min(stop) >= low && from.max(stop) <= high;
+                match self.drive(&end, monitor, !self.plastic && !known)? {
+                    Arrival::End => break,
+                    Arrival::Yield(peak) => {
+                        self.record_yield(peak)?;
+                        self.yield_alpha.get_or_insert(self.engine.at.alpha);
+                    }
+                    Arrival::Stopped => return Err(stopped()),
+                    other => return Ok(other),
+                }
+            }
+            if self.yield_alpha == Some(stop) {
+                self.plastic = true;
+            }
+        }
+        Ok(Arrival::End)
+    }
+
+    pub(super) fn reach(&mut self, target: &Target, label: &str) -> Result<()> {
+        if target.first_yield {
+            let alpha = self.yield_alpha.ok_or_else(|| {
+                Error::analysis(format!("target `{label}`: no yield load was found before the program's largest load factor"))
+            })?;
+            self.drive_to_factor(alpha, None)?;
+            return Ok(());
+        }
+        if let Some(alpha) = target.load_factor {
+            self.drive_to_factor(alpha, None)?;
+            return Ok(());
+        }
+        if let Some(multiple) = target.half_width {
+            let at_yield = self
+                .results
+                .first_yield
+                .map(|y| y.half_width)
+                .filter(|b| *b > 0.0)
+                .ok_or_else(|| {
+                    Error::analysis(format!(
+                        "target `{label}`: the contact half width at yield is not known"
+                    ))
+                })?;
+            let goal = multiple * at_yield;
+            // Relative, so that the accuracy of the search does not depend on units.
+            let monitor =
+                move |engine: &mut Engine| engine.contact_figures().half_width / goal - 1.0;
+            let upward = self.engine.contact_figures().half_width < goal;
+            return self.search(&monitor, upward, label);
+        }
+        if let Some(goal) = &target.displacement {
+            let nodes = self.model().mesh.set_nodes(&goal.on).ok_or_else(|| {
+                Error::input(format!(
+                    "target `{label}`: the mesh has no set `{}`",
+                    goal.on
+                ))
+            })?;
+            let direction = usize::from(goal.direction == Direction::Y);
+            let value = goal.value;
+            let distance = move |engine: &mut Engine| match engine.all_displacements() {
+                Ok(u) => {
+                    let sum: f64 = nodes
+                        .iter()
+                        .map(|&n| {
+                            engine
+                                .model
+                                .freedoms
+                                .displacement(n, &u, &engine.at.factors)[direction]
+                        })
+                        .sum();
+                    sum / nodes.len() as f64 - value
+                }
+                Err(_) => f64::NAN,
+            };
+            let scale = value.abs().max(distance(&mut self.engine).abs());
+            let monitor = move |engine: &mut Engine| {
+                let off = distance(engine);
+                if scale > 0.0 { off / scale } else { off }
+            };
+            let here = monitor(&mut self.engine);
+            let ahead = {
+                let alpha = self.engine.at.alpha;
+                let probe = self.engine.point(alpha + 1e-3 * alpha.abs().max(1.0));
+                let saved = (self.engine.at.clone(), self.engine.now.clone());
+                let initial = self.engine.now.initial.clone();
+                self.engine.now = self.engine.respond(&probe, &initial);
+                self.engine.at = probe;
+                let value = monitor(&mut self.engine);
+                (self.engine.at, self.engine.now) = saved;
+                value
+            };
+            let upward = (ahead - here) * here <= 0.0;
+            return self.search(&monitor, upward, label);
+        }
+        Err(Error::input(format!("target `{label}` has no condition")))
+    }
+
+    /// Moves the load factor up (doubling) or down to zero until the monitored quantity vanishes.
+    pub(super) fn search(&mut self, monitor: &Monitor, upward: bool, label: &str) -> Result<()> {
+        let mut end = self.engine.at.alpha;
+        for _ in 0..DOUBLINGS {
+            end = match (upward, end > 0.0) {
+                (true, _) => 2.0 * end.max(0.5 * self.yield_alpha.unwrap_or(1.0)),
+                (false, true) => 0.0,
+                (false, false) => break,
+            };
+            match self.drive_to_factor(end, Some(monitor))? {
+                Arrival::Monitor => return Ok(()),
+                Arrival::End => {}
+                _ => return Err(stopped()),
+            }
+        }
+        let off = monitor(&mut self.engine);
+        Err(Error::analysis(format!(
+            "target `{label}` was never reached: the load factor went to {:.6} and the target quantity is still off by {off:.6e}",
+            self.engine.at.alpha
+        )))
+    }
+}
