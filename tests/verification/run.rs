@@ -33,6 +33,21 @@ pub fn run(scene: &Scene) -> Results {
     results
 }
 
+/// Mean radial displacement of a circular surface about the origin in the first state.
+pub fn radial_displacement(scene: &Scene, surface: &str) -> f64 {
+    let mut analysis = analysis(scene);
+    let results = analysis.run(&mut Silent).unwrap();
+    assert_eq!(results.incomplete, None);
+    let displacement = &results.states[0].fields.as_ref().unwrap().displacement;
+    let mesh = &analysis.model().mesh;
+    let nodes = mesh.set_nodes(surface).unwrap();
+    let radial = |&n: &usize| {
+        let x = mesh.point(n);
+        (x[0] * displacement[2 * n] + x[1] * displacement[2 * n + 1]) / x[0].hypot(x[1])
+    };
+    nodes.iter().map(radial).sum::<f64>() / nodes.len() as f64
+}
+
 /// Runs a scene that may end early.
 pub fn run_until_it_ends(scene: &Scene) -> Results {
     analysis(scene).run(&mut Silent).unwrap()

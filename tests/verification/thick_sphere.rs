@@ -2,7 +2,7 @@
 //!
 //! Source: R. Hill, The Mathematical Theory of Plasticity (1950), chapter V.
 
-use crate::run::{close, run, scene, state};
+use crate::run::{close, radial_displacement, scene, yield_load};
 use brinell::analytical::ThickSphere;
 
 #[test]
@@ -13,25 +13,17 @@ fn expands_by_hill_and_converges() {
             .displacement(200.0, 287.123)
             .unwrap();
         let error = |n: usize| {
-            let results = run(&scene(
+            let scene = scene(
                 "thick_sphere",
                 &[
                     &format!("materials.steel.poissons_ratio={nu}"),
                     &format!("mesh.parts.0.ring.elements=[{n},{n}]"),
+                    "program.targets=[{load_factor=287.123}]",
                 ],
-            ));
-            close(
-                results.first_yield.unwrap().alpha,
-                140.0,
-                0.3 / (n * n) as f64,
             );
-            let front = state(&results, "front at 150").fields.as_ref().unwrap();
-            let outer = front
-                .displacement
-                .chunks(2)
-                .map(|d| d[0].hypot(d[1]))
-                .fold(f64::INFINITY, f64::min);
-            (outer / exact - 1.0).abs()
+            // Stress at the bore is recovered from points inside: order h^2, C between 0.3 and 0.37 for 6 to 16 elements.
+            close(yield_load(&scene).first_yield.unwrap().alpha, 140.0, 0.4 / (n * n) as f64);
+            (radial_displacement(&scene, "sphere.outer") / exact - 1.0).abs()
         };
         let (coarse, fine) = (error(6), error(12));
         // The front, a kink of the strain, lies inside an element: at least first order, C about 0.05.
