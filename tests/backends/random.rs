@@ -62,7 +62,12 @@ fn stack() -> impl Strategy<Value = Stack> {
         .prop_map(
             |(kind, shape, columns, layers, pad, pressure, targets, steps)| Stack {
                 kind,
-                shape,
+                // Axis nodes of quadratic elements carry no load: `hard/axis_of_quadratic_elements` is a case of its own.
+                shape: if kind == "axisymmetric" {
+                    "quad4"
+                } else {
+                    shape
+                },
                 columns,
                 layers,
                 pad,
