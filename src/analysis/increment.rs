@@ -48,6 +48,8 @@ pub enum NoIncrement {
     WrongStatus(Vec<usize>),
     /// The iteration did not converge; the last relative residual.
     NotConverged(f64),
+    /// These pairs, at the border of their condition at the begin, end beyond it.
+    Crossed(Vec<usize>),
     /// The caller asked to stop.
     Stopped,
 }
@@ -153,8 +155,11 @@ impl Engine<'_> {
                 t == most
             };
             if residual <= settings.tolerance && arrived {
-                if follows && self.crosses_border(&state, gamma.max(BORDER), scale) {
-                    return Err(NoIncrement::NotConverged(residual));
+                if follows {
+                    let crossed = self.crosses_border(&state, gamma.max(BORDER), scale);
+                    if !crossed.is_empty() {
+                        return Err(NoIncrement::Crossed(crossed));
+                    }
                 }
                 let changes = if limit.share <= 1.0 + gamma {
                     limit.pairs
@@ -288,17 +293,22 @@ impl Engine<'_> {
             .collect()
     }
 
-    /// Whether a pair that began at the border of its condition ends beyond it. Its rate was right at the begin and turned
-    /// within the increment, where no step limit watches it: a shorter increment is called for.
-    fn crosses_border(&self, state: &Equilibrium, tolerance: f64, force_scale: f64) -> bool {
+    /// Pairs that began at the border of their condition and end beyond it: their rate was right at the begin and turned
+    /// within the increment, where no step limit watches it.
+    fn crosses_border(&self, state: &Equilibrium, tolerance: f64, force_scale: f64) -> Vec<usize> {
         let largest_gap = state.gap.iter().fold(0.0f64, |m, g| m.max(*g));
-        self.border.iter().any(|&k| {
+        let crosses = |k: usize| {
             if self.tableau.open()[k] {
                 state.gap[k] < -tolerance * largest_gap
             } else {
                 state.force[k] < -tolerance * force_scale
             }
-        })
+        };
+        self.border
+            .iter()
+            .copied()
+            .filter(|&k| crosses(k))
+            .collect()
     }
 
     fn wrong_at_border(&self, rates: &Direction) -> Vec<usize> {

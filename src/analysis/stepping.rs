@@ -11,6 +11,9 @@ const CUT: f64 = 0.25;
 /// Status corrections at one point of the path before they are taken to cycle.
 const MOST_CORRECTIONS: usize = 60;
 
+/// Cuts of an increment in which a pair goes back over the border it began at.
+const MOST_CROSSINGS: usize = 2;
+
 impl Engine<'_> {
     /// An increment with statuses that are right at its begin (events) or at its end (steps).
     /// Increments that do not converge are cut, down to the share `smallest`; returns whether any was.
@@ -23,6 +26,7 @@ impl Engine<'_> {
     ) -> Result<(Increment, bool)> {
         let mut most = left;
         let mut corrections = 0;
+        let mut crossings = 0;
         let mut seen: Vec<Vec<bool>> = Vec::new();
         loop {
             let outcome = match stepper.stepping {
@@ -40,7 +44,13 @@ impl Engine<'_> {
             };
             match outcome {
                 Ok(increment) => return Ok((increment, most < left)),
-                Err(NoIncrement::WrongStatus(pairs)) => {
+                // The rate of a pair at its border turned within the increment: a shorter one shows where, unless it turned at
+                // the very begin.
+                Err(NoIncrement::Crossed(_)) if crossings < MOST_CROSSINGS => {
+                    crossings += 1;
+                    most *= CUT;
+                }
+                Err(NoIncrement::WrongStatus(pairs) | NoIncrement::Crossed(pairs)) => {
                     corrections += 1;
                     seen.push(self.tableau.open().to_vec());
                     // All at once; one alone (the least index) once a set of statuses has come back.

@@ -30,7 +30,9 @@ fn nearly_incompressible_flow_converges_to_hill() {
                 "program.targets=[{load_factor=170.0}]",
             ],
         );
-        (radial_displacement(&scene, "tube.outer") / exact.displacement(200.0, 170.0).unwrap() - 1.0).abs()
+        (radial_displacement(&scene, "tube.outer") / exact.displacement(200.0, 170.0).unwrap()
+            - 1.0)
+            .abs()
     };
     let (coarse, fine) = (error(8), error(16));
     // The front is a kink inside an element: between first and second order. nu = 0.4999 is off by 2e-4 itself.
@@ -45,7 +47,10 @@ fn nearly_incompressible_flow_converges_to_hill() {
 fn collapse_is_bracketed_and_named() {
     let scene = scene(
         "thick_cylinder",
-        &["mesh.parts.0.ring.elements=[6,2]", "program.targets=[{load_factor=185.0},{load_factor=200.0}]"],
+        &[
+            "mesh.parts.0.ring.elements=[6,2]",
+            "program.targets=[{load_factor=185.0},{load_factor=200.0}]",
+        ],
     );
     let results = run_until_it_ends(&scene);
     assert_eq!(results.incomplete_kind, Some(ErrorKind::Collapse));

@@ -22,7 +22,11 @@ fn expands_by_hill_and_converges() {
                 ],
             );
             // Stress at the bore is recovered from points inside: order h^2, C between 0.3 and 0.37 for 6 to 16 elements.
-            close(yield_load(&scene).first_yield.unwrap().alpha, 140.0, 0.4 / (n * n) as f64);
+            close(
+                yield_load(&scene).first_yield.unwrap().alpha,
+                140.0,
+                0.4 / (n * n) as f64,
+            );
             (radial_displacement(&scene, "sphere.outer") / exact - 1.0).abs()
         };
         let (coarse, fine) = (error(6), error(12));
