@@ -178,10 +178,7 @@ fn files_have_at_most_500_lines() {
                 std::fs::read_to_string(&path).unwrap().lines().count(),
             )
         })
-        .filter(|(name, lines)| {
-            let _ = name;
-            *lines > 500
-        })
+        .filter(|(_, lines)| *lines > 500)
         .map(|(name, lines)| format!("{name}: {lines}"))
         .collect();
     assert!(long.is_empty(), "{long:#?}");

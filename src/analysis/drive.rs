@@ -196,10 +196,11 @@ impl Engine<'_> {
                 Stepping::Events => 1.0,
                 Stepping::Steps => 1.0 / (stepper.steps - done.min(stepper.steps - 1)) as f64,
             };
-            if self.zone.is_idle() && stepper.stepping == Stepping::Events {
-                if let Some(arrival) = self.follow_elastic(end, monitor, &mut watched, report)? {
-                    return Ok(arrival);
-                }
+            if self.zone.is_idle()
+                && stepper.stepping == Stepping::Events
+                && let Some(arrival) = self.follow_elastic(end, monitor, &mut watched, report)?
+            {
+                return Ok(arrival);
             }
             let distance = self.at.distance(end);
             let trusted = if trust < left * distance {
