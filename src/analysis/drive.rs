@@ -61,6 +61,9 @@ pub struct Stepper<'a> {
 
 /// Accuracy with which a monitored quantity (of order 1) is hit, and relative accuracy of the place.
 pub(super) const MONITOR_ACCURACY: f64 = 1e-10;
+/// Share of a piece of the load path below which what is left of it is round-off. Unloaded to zero, the last pair's force is
+/// that of the load and of the iteration's imbalance: where it vanishes means nothing there.
+const ARRIVED: f64 = 1e-9;
 /// Share of a piece of the load path below which increments are not cut: the load has passed the limit load, which is then
 /// known to this share.
 const SMALLEST_CUT: f64 = 1e-6;
@@ -188,7 +191,8 @@ impl Engine<'_> {
         }
         let mut done = 0usize;
         let mut watched = monitor.map(|m| m(self));
-        let smallest = SMALLEST_CUT * self.at.distance(end);
+        let whole = self.at.distance(end);
+        let smallest = SMALLEST_CUT * whole;
         // After an increment that did not converge the next ones are short, and grow again while they succeed.
         let mut trust = f64::INFINITY;
         loop {
@@ -228,8 +232,12 @@ impl Engine<'_> {
                 residual: increment.residual,
             };
             let full = increment.t >= left;
-            let at_end = increment.t >= 1.0;
+            let mut at_end = increment.t >= 1.0;
             self.accept(end, increment, &mut reported);
+            if !at_end && self.at.distance(end) <= ARRIVED * whole {
+                self.arrive(end);
+                at_end = true;
+            }
             if let (Some(monitor), Some(was)) = (monitor, watched) {
                 let is = monitor(self);
                 if is == 0.0 || (is > 0.0) != (was > 0.0) {
@@ -257,6 +265,15 @@ impl Engine<'_> {
             if at_end {
                 return Ok(Arrival::End);
             }
+        }
+    }
+
+    /// Goes the last bit to `end` with the statuses and plastic strains at hand.
+    fn arrive(&mut self, end: &LoadPoint) {
+        let initial = self.now.initial.clone();
+        self.now = self.respond(end, &initial);
+        for value in self.now.gap.iter_mut().chain(&mut self.now.force) {
+            *value = value.max(0.0);
         }
     }
 
