@@ -185,7 +185,7 @@ fn a_pair_without_area_is_refused_by_name() {
         env!("CARGO_MANIFEST_DIR"),
         "/data/scenes/hard/axis_of_quadratic_elements.toml"
     );
-    let scene = brinell::scene::Scene::load(file.as_ref()).unwrap();
+    let scene = brinell::scene::Scene::load(file).unwrap();
     let error = brinell::model::Model::new(&scene).unwrap_err();
     assert_eq!(error.kind(), brinell::ErrorKind::Unsupported);
     assert!(error.message().contains("on the axis"), "{error}");
