@@ -43,7 +43,10 @@ impl Engine<'_> {
                 Stepping::Steps => self.solve_step(end, most, stepper)?,
             };
             match outcome {
-                Ok(increment) => return Ok((increment, most < left)),
+                Ok(increment) => {
+                    self.refuse_free_motion(&increment)?;
+                    return Ok((increment, most < left));
+                }
                 // The rate of a pair at its border turned within the increment: a shorter one shows where, unless it turned at
                 // the very begin.
                 Err(NoIncrement::Crossed(_)) if crossings < MOST_CROSSINGS => {
@@ -82,6 +85,17 @@ impl Engine<'_> {
                     self.zone.assume_elastic();
                 }
             }
+        }
+    }
+
+    /// A pair that cannot open must not be in tension: the load would carry its body away.
+    fn refuse_free_motion(&self, increment: &Increment) -> Result<()> {
+        let force = &increment.state.force;
+        match (0..force.len())
+            .find(|&k| force[k] < -1e-6 * self.force_scale && self.tableau.would_free(k))
+        {
+            Some(k) => Err(self.unbounded(k, self.at.alpha)),
+            None => Ok(()),
         }
     }
 
