@@ -58,6 +58,7 @@ pub struct Engine<'m> {
     pub model: &'m Model,
     /// Stiffness and loads.
     pub system: &'m System,
+    backend: Backend,
     /// The condensed structure.
     pub sub: Substructure,
     /// Contact statuses.
@@ -110,27 +111,19 @@ impl<'m> Engine<'m> {
     ) -> Result<Self> {
         let freedoms = super::zone_choice::zone_freedoms(model, &elements);
         let sub = Substructure::new(model, system, freedoms, backend)?;
-        let places = Places::new(
-            model.freedoms.n,
-            &sub.partition.zone,
-            &sub.partition.contact,
-        );
+        let places = places(model, &sub);
         let zone = Zone::new(model, &elements, guard, &places);
-        let tableau = sub.tableau();
         let n = model.pairs.len();
         let gap: Vec<f64> = model.pairs.iter().map(|p| p.gap).collect();
         let interference: Vec<f64> = model.pairs.iter().map(|p| p.interference).collect();
-        let times = |v: &[f64]| -> Vec<f64> {
-            let product = tableau.matrix() * nalgebra::DVector::from_column_slice(v);
-            product.as_slice().to_vec()
-        };
-        let gap_forces = [times(&gap), times(&interference)];
         let mut engine = Engine {
             model,
             system,
+            backend,
+            tableau: sub.tableau(),
             loads: Vec::new(),
             load_forces: Vec::new(),
-            gap_forces,
+            gap_forces: [Vec::new(), Vec::new()],
             unit: 1.0,
             counts: Counts {
                 factorizations: 1,
@@ -155,23 +148,65 @@ impl<'m> Engine<'m> {
             gap,
             interference,
             sub,
-            tableau,
             zone,
             places,
-            elements: elements.to_vec(),
+            elements,
         };
-        for load in &system.loads {
-            let condensed = engine.sub.condense(load)?;
-            let mut forces = vec![0.0; n];
-            engine.sub.eliminate(&mut condensed.clone(), &mut forces);
-            engine.counts.full_solves += 1;
-            engine.counts.trailing_solves += 1;
-            engine.loads.push(condensed);
-            engine.load_forces.push(forces);
-        }
+        engine.condense_loads()?;
         let open: Vec<bool> = engine.gap.iter().map(|g| *g > 0.0).collect();
         engine.tableau.reset(&open);
         Ok(engine)
+    }
+
+    /// Changes the zone to the given elements, factoring the structure again only where it must. State, statuses and history
+    /// are kept.
+    ///
+    /// # Errors
+    /// Those of [`Substructure::new`].
+    pub fn set_zone(&mut self, elements: Vec<usize>, guard: &[bool]) -> Result<()> {
+        let freedoms = super::zone_choice::zone_freedoms(self.model, &elements);
+        if self
+            .sub
+            .set_zone(self.model, self.system, freedoms, self.backend)?
+        {
+            self.counts.factorizations += 1;
+            let open = self.tableau.open().to_vec();
+            self.tableau = self.sub.tableau();
+            self.tableau.reset(&open);
+        }
+        self.condense_loads()?;
+        self.places = places(self.model, &self.sub);
+        let mut zone = Zone::new(self.model, &elements, guard, &self.places);
+        zone.take_over(&self.zone);
+        zone.set_factors(&self.at.factors);
+        (self.zone, self.elements) = (zone, elements);
+        let initial = self.zone.initial_load(self.sub.zeros());
+        self.now = self.respond(&self.at.clone(), &initial);
+        self.fresh = true;
+        Ok(())
+    }
+
+    /// What loads and gaps at factor 1 do to zone and tied pairs.
+    fn condense_loads(&mut self) -> Result<()> {
+        let n = self.gap.len();
+        let system = self.system;
+        let times = |v: &[f64]| -> Vec<f64> {
+            let product = self.tableau.matrix() * nalgebra::DVector::from_column_slice(v);
+            product.as_slice().to_vec()
+        };
+        self.gap_forces = [times(&self.gap), times(&self.interference)];
+        self.loads.clear();
+        self.load_forces.clear();
+        for load in &system.loads {
+            let condensed = self.sub.condense(load)?;
+            let mut forces = vec![0.0; n];
+            self.sub.eliminate(&mut condensed.clone(), &mut forces);
+            self.counts.full_solves += 1;
+            self.counts.trailing_solves += 1;
+            self.loads.push(condensed);
+            self.load_forces.push(forces);
+        }
+        Ok(())
     }
 
     /// The load point at a load factor, preloads and interference fully applied.
@@ -318,4 +353,9 @@ impl<'m> Engine<'m> {
             ),
         )
     }
+}
+
+fn places(model: &Model, sub: &Substructure) -> Places {
+    let partition = &sub.partition;
+    Places::new(model.freedoms.n, &partition.zone, &partition.contact)
 }

@@ -64,7 +64,7 @@ impl Run<'_, '_> {
             self.come_back(&origin);
             match missed {
                 None => return Ok(()),
-                Some(choice) => self.rebuild(choice)?,
+                Some(choice) => self.set_zone(choice)?,
             }
         }
         Err(Error::analysis(

@@ -46,7 +46,6 @@ pub(super) struct Run<'m, 'o> {
     pub(super) engine: Engine<'m>,
     pub(super) recovery: Option<Recovery>,
     pub(super) choice: Choice,
-    pub(super) backend: Backend,
     pub(super) observer: &'o mut dyn Observer,
     pub(super) results: Results,
     /// Whether the material has yielded, so that increments are elastoplastic.
@@ -102,7 +101,6 @@ impl<'m, 'o> Run<'m, 'o> {
             engine,
             recovery,
             choice,
-            backend,
             observer,
             results,
             plastic: false,
@@ -176,7 +174,7 @@ impl<'m, 'o> Run<'m, 'o> {
                 (plastic, yield_alpha, first_yield);
             self.results.history.truncate(increments);
             let wider = zone_choice::including(self.model(), &self.choice, &missed);
-            self.rebuild(wider)?;
+            self.set_zone(wider)?;
         }
         Err(Error::analysis(format!(
             "target `{label}`: the material keeps yielding outside the zone that was chosen"
@@ -266,7 +264,7 @@ impl<'m, 'o> Run<'m, 'o> {
             match arrival? {
                 Arrival::ZoneTooSmall => {
                     let larger = zone_choice::grown(model, &self.choice);
-                    self.rebuild(larger)?;
+                    self.set_zone(larger)?;
                 }
                 other => return Ok(other),
             }

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 /// Elements of all bodies that may yield are the zone if their number is below this.
 const SMALL: usize = 1500;
 /// The first guess reaches this share of the contact surface's extent into the bodies.
-const REACH: f64 = 1.2;
+const REACH: f64 = 3.0;
 /// Elastic von Mises stress over yield stress above which an element is predicted to yield: stress redistributes.
 const PREDICTED: f64 = 0.85;
 /// Layers of elements put round the prediction.

@@ -1,6 +1,5 @@
 //! The zone of a run: fitted to the program's extreme loads, grown and moved where it must.
 
-use super::engine::Engine;
 use super::program::Run;
 use super::recovery::Recovery;
 use super::zone_choice::{self, Choice};
@@ -42,12 +41,11 @@ impl Run<'_, '_> {
         self.engine.tableau.reset(&saved.2);
         (self.engine.at, self.engine.now, self.engine.fresh) = (saved.0, saved.1, true);
         let wanted = zone_choice::predict(self.model(), &ratios);
-        // A smaller zone pays for its factorisation within a few increments; a missing part costs more.
-        if !self.choice.covers(&wanted)
-            || 5 * wanted.elements.len() < 3 * self.choice.elements.len()
-        {
-            self.rebuild(wanted)?;
+        if std::env::var_os("ZDEBUG").is_some() { eprintln!("guess {} wanted {} covers {}", self.choice.elements.len(), wanted.elements.len(), self.choice.covers(&wanted)); }
+        if wanted != self.choice {
+            self.set_zone(wanted)?;
         }
+        if std::env::var_os("ZDEBUG").is_some() { eprintln!("zone freedoms {} factorizations {}", self.engine.sub.partition.zone.len(), self.engine.counts.factorizations); }
         Ok(())
     }
 
@@ -68,43 +66,19 @@ impl Run<'_, '_> {
         }
     }
 
-    /// Factors the structure again with another zone; state and history are kept.
-    pub(super) fn rebuild(&mut self, choice: Choice) -> Result<()> {
+    /// Goes on with another zone; state and history are kept.
+    pub(super) fn set_zone(&mut self, choice: Choice) -> Result<()> {
         self.observer.phase("factorisation");
         let start = Instant::now();
-        // The old factor goes before the new one comes: two at once would be the peak of memory.
+        // The old one goes before the new one comes: memory.
         self.recovery = None;
-        self.engine.sub.release()?;
-        let old = &self.engine;
-        let mut engine = Engine::new(
-            self.model(),
-            old.system,
-            self.backend,
-            choice.elements.clone(),
-            &choice.guard,
-        )?;
-        engine.unit = old.unit;
-        engine.force_scale = old.force_scale;
-        let counts = engine.counts;
-        engine.counts = old.counts;
-        engine.counts.factorizations += counts.factorizations;
-        engine.counts.full_solves += counts.full_solves;
-        engine.counts.trailing_solves += counts.trailing_solves;
-        engine.tableau.reset(old.tableau.open());
-        engine.zone.take_over(&old.zone);
-        engine.border = old.border.clone();
-        engine.last_step = old.last_step.clone();
-        engine.at = old.at.clone();
-        let initial = engine.zone.initial_load(engine.sub.zeros());
-        let at = engine.at.clone();
-        engine.zone.set_factors(&at.factors);
-        engine.now = engine.respond(&at, &initial);
+        self.engine
+            .set_zone(choice.elements.clone(), &choice.guard)?;
         self.recovery = Some(Recovery::new(
             self.model(),
             &choice.elements,
-            &engine.places,
+            &self.engine.places,
         ));
-        self.engine = engine;
         self.choice = choice;
         self.seconds.condensation += start.elapsed().as_secs_f64();
         Ok(())

@@ -145,6 +145,11 @@ impl Condensed for DenseCondensed {
         &self.contact_stiffness
     }
 
+    fn choose_zone(&mut self, wanted: &[usize]) -> Result<Option<Vec<usize>>> {
+        let zone = &self.partition.zone;
+        Ok(check::contains(zone, wanted).then(|| zone.clone()))
+    }
+
     fn condense_load(&self, load: &[f64], zone: &mut [f64], contact: &mut [f64]) -> Result<()> {
         check::length("load", load.len(), self.partition.n)?;
         check::length("zone load", zone.len(), self.partition.zone.len())?;

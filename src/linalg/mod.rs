@@ -63,6 +63,14 @@ pub trait Condensed: Send + Sync {
     /// `C = S_cc - S_cz S_zz^-1 S_zc` of `K` (the shift taken off), `n_contact x n_contact`, symmetric.
     fn contact_stiffness(&self) -> &DMatrix<f64>;
 
+    /// Makes a part of the factored zone the zone: the freedoms `wanted` (ascending) and those that the backend
+    /// cannot do without. Returns the zone freedoms from now on, the order of all zone vectors, or `None` where one of those wanted was not
+    /// factored as zone. The rest of the zone joins the interior; it can come back.
+    ///
+    /// # Errors
+    /// `Analysis` where the memory does not suffice.
+    fn choose_zone(&mut self, wanted: &[usize]) -> Result<Option<Vec<usize>>>;
+
     /// Static condensation of a load on all freedoms (`n`) onto the trailing ones:
     /// `f_t = load_t - K_ti K_ii^-1 load_i`. Costs about one full solve.
     ///
