@@ -324,12 +324,15 @@ impl Engine<'_> {
         let sign = if was < 0.0 { 1.0 } else { -1.0 };
         let mut failure = None;
         let last = std::cell::Cell::new(-1.0);
+        // Trials lie close together: each is predicted from the one before.
+        let mut found = Some((self.at.clone(), self.now.clone()));
         let mut value_at = |t: f64| {
             if t <= 0.0 {
                 return sign * was;
             }
             saved.put_back(self);
             let goal = saved.at.towards(end, t);
+            self.ahead = found.take();
             // An increment may be cut short: the way to the goal then takes several.
             loop {
                 match self.find_increment(&goal, 1.0, SMALLEST_CUT, stepper) {
@@ -337,8 +340,10 @@ impl Engine<'_> {
                         let arrived = increment.t >= 1.0;
                         reported.residual = increment.residual;
                         reported.iterations += increment.iterations;
+                        let at_once = self.at == saved.at;
                         self.accept(&goal, increment, reported);
                         if arrived {
+                            found = at_once.then(|| (self.at.clone(), self.now.clone()));
                             last.set(t);
                             return sign * monitor(self);
                         }
@@ -434,7 +439,7 @@ impl LoadPoint {
     }
 
     /// Share of the way from here to `end` at which `between` lies.
-    fn share_of(&self, between: &LoadPoint, end: &LoadPoint) -> f64 {
+    pub(super) fn share_of(&self, between: &LoadPoint, end: &LoadPoint) -> f64 {
         if end.alpha != self.alpha {
             (between.alpha - self.alpha) / (end.alpha - self.alpha)
         } else {

@@ -93,6 +93,8 @@ pub struct Engine<'m> {
     pub border: Vec<usize>,
     /// Change of the load point over the piece of the last increment: tells loading from unloading.
     pub last_step: Vec<f64>,
+    /// A state on the way to which the next increment leads, found before: it predicts the increment.
+    pub ahead: Option<(LoadPoint, Equilibrium)>,
     /// Elements outside the zone in which the last [`Engine::state`] found stress beyond yield.
     pub beyond_yield_outside: Vec<usize>,
 }
@@ -144,6 +146,7 @@ impl<'m> Engine<'m> {
             fresh: true,
             border: Vec::new(),
             last_step: vec![0.0; model.loads.len() + 1],
+            ahead: None,
             beyond_yield_outside: Vec::new(),
             gap,
             interference,
