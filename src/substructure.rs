@@ -189,14 +189,22 @@ impl Substructure {
         self.condensed.cost()
     }
 
-    /// Static condensation of a load on all freedoms.
+    /// What of a load on all freedoms stays the same for whichever zone is chosen.
     ///
     /// # Errors
     /// Failure of the backend's solve.
-    pub fn condense(&self, load: &[f64]) -> Result<Trailing> {
+    pub fn reduce(&self, load: &[f64]) -> Result<Vec<f64>> {
+        self.condensed.reduce_load(load)
+    }
+
+    /// Static condensation of a reduced load.
+    ///
+    /// # Errors
+    /// None for a load that this structure reduced.
+    pub fn condense(&self, reduced: &[f64]) -> Result<Trailing> {
         let mut out = self.zeros();
         self.condensed
-            .condense_load(load, &mut out.zone, &mut out.contact)?;
+            .condense_load(reduced, &mut out.zone, &mut out.contact)?;
         Ok(out)
     }
 

@@ -9,6 +9,7 @@ use crate::linalg::Backend;
 use crate::model::Model;
 use crate::results::Counts;
 use crate::substructure::{Substructure, Trailing};
+use std::sync::Arc;
 
 /// A point of the load path: the factor of each load and the share of the interference that is applied.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,6 +53,16 @@ pub struct Equilibrium {
     pub force: Vec<f64>,
 }
 
+impl Equilibrium {
+    /// Takes over the values of another one of the same sizes.
+    pub fn copy_from(&mut self, other: &Equilibrium) {
+        self.initial.copy_from(&other.initial);
+        self.u.copy_from(&other.u);
+        self.gap.copy_from_slice(&other.gap);
+        self.force.copy_from_slice(&other.force);
+    }
+}
+
 /// The factored structure with its contact statuses, plastic zone and current state.
 pub struct Engine<'m> {
     /// The model.
@@ -68,7 +79,9 @@ pub struct Engine<'m> {
     /// Where zone and contact freedoms are.
     pub places: Places,
     /// Elements of the zone, ascending.
-    pub elements: Vec<usize>,
+    pub elements: Arc<[usize]>,
+    /// Loads at factor 1, reduced.
+    reduced_loads: Vec<Vec<f64>>,
     /// Condensed loads at factor 1.
     loads: Vec<Trailing>,
     /// Forces `t` of the tied pairs for each load at factor 1.
@@ -123,6 +136,7 @@ impl<'m> Engine<'m> {
             system,
             backend,
             tableau: sub.tableau(),
+            reduced_loads: Vec::new(),
             loads: Vec::new(),
             load_forces: Vec::new(),
             gap_forces: [Vec::new(), Vec::new()],
@@ -153,9 +167,9 @@ impl<'m> Engine<'m> {
             sub,
             zone,
             places,
-            elements,
+            elements: elements.into(),
         };
-        engine.condense_loads()?;
+        engine.reduce_loads()?;
         let open: Vec<bool> = engine.gap.iter().map(|g| *g > 0.0).collect();
         engine.tableau.reset(&open);
         Ok(engine)
@@ -175,40 +189,56 @@ impl<'m> Engine<'m> {
             self.counts.factorizations += 1;
             let open = self.tableau.open().to_vec();
             self.tableau = self.sub.tableau();
+            self.reduce_loads()?;
             self.tableau.reset(&open);
+        } else {
+            self.condense_loads()?;
         }
-        self.condense_loads()?;
         self.places = places(self.model, &self.sub);
         let mut zone = Zone::new(self.model, &elements, guard, &self.places);
-        zone.take_over(&self.zone);
+        zone.restore_of(&self.elements, self.zone.history());
         zone.set_factors(&self.at.factors);
-        (self.zone, self.elements) = (zone, elements);
+        (self.zone, self.elements) = (zone, elements.into());
         let initial = self.zone.initial_load(self.sub.zeros());
         self.now = self.respond(&self.at.clone(), &initial);
         self.fresh = true;
         Ok(())
     }
 
-    /// What loads and gaps at factor 1 do to zone and tied pairs.
-    fn condense_loads(&mut self) -> Result<()> {
-        let n = self.gap.len();
-        let system = self.system;
+    /// What loads and gaps at factor 1 do to tied pairs, after the structure was factored.
+    fn reduce_loads(&mut self) -> Result<()> {
         let times = |v: &[f64]| -> Vec<f64> {
             let product = self.tableau.matrix() * nalgebra::DVector::from_column_slice(v);
             product.as_slice().to_vec()
         };
         self.gap_forces = [times(&self.gap), times(&self.interference)];
-        self.loads.clear();
+        let reduced: Result<Vec<_>> = self
+            .system
+            .loads
+            .iter()
+            .map(|l| self.sub.reduce(l))
+            .collect();
+        self.reduced_loads = reduced?;
+        self.counts.full_solves += self.reduced_loads.len();
+        self.condense_loads()?;
         self.load_forces.clear();
-        for load in &system.loads {
-            let condensed = self.sub.condense(load)?;
-            let mut forces = vec![0.0; n];
-            self.sub.eliminate(&mut condensed.clone(), &mut forces);
-            self.counts.full_solves += 1;
+        for load in &self.loads {
+            let mut forces = vec![0.0; self.gap.len()];
+            self.sub.eliminate(&mut load.clone(), &mut forces);
             self.counts.trailing_solves += 1;
-            self.loads.push(condensed);
             self.load_forces.push(forces);
         }
+        Ok(())
+    }
+
+    /// What loads at factor 1 do to the zone, after it was chosen.
+    fn condense_loads(&mut self) -> Result<()> {
+        let condensed: Result<Vec<_>> = self
+            .reduced_loads
+            .iter()
+            .map(|l| self.sub.condense(l))
+            .collect();
+        self.loads = condensed?;
         Ok(())
     }
 

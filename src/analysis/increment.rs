@@ -9,6 +9,7 @@ use super::acceleration::Anderson;
 use super::engine::{Engine, Equilibrium, LoadPoint};
 use super::step_length::{StepLimit, step_limit};
 use super::tangent::Direction;
+use super::zone::Evaluation;
 use crate::scene::{PlasticIteration, Settings};
 use crate::substructure::Trailing;
 
@@ -127,6 +128,9 @@ impl Engine<'_> {
 
         let mut anderson = Anderson::default();
         let mut balance = self.sub.zeros();
+        // A line search ends with the evaluation that the next iteration begins with.
+        let mut known = None;
+        let mut trial = (state.clone(), self.sub.zeros());
         let mut iterations = 0;
         let mut last = 0.0f64;
         let mut best = (f64::INFINITY, 0);
@@ -137,11 +141,14 @@ impl Engine<'_> {
             _ => settings.max_iterations * CHEAP_ITERATIONS,
         };
         loop {
-            self.zone.set_factors(&start.towards(end, t).factors);
-            let evaluation = self.zone.evaluate(&state.u, &mut balance);
-            balance.add(-1.0, &state.initial);
+            let evaluation = match known.take() {
+                Some(evaluation) => evaluation,
+                None => {
+                    self.zone.set_factors(&start.towards(end, t).factors);
+                    self.out_of_balance_at(&state, &mut balance)
+                }
+            };
             iterations += 1;
-            self.counts.plastic_iterations += 1;
             let scale = state.force.iter().fold(self.force_scale, |m, r| m.max(*r));
             let residual = if scale > 0.0 {
                 balance.largest() / scale
@@ -207,9 +214,11 @@ impl Engine<'_> {
                         let goal = REST * settings.tolerance / residual;
                         let forcing = (residual / last).powi(2).max(goal).min(FORCING);
                         let newton = self.solve_tangent(&balance, forcing, 1.0 - damping);
-                        match self.line_search(&state, &newton, &balance) {
-                            Some(length) => {
+                        match self.line_search(&state, &newton, &balance, &mut trial) {
+                            Some((length, evaluation)) => {
                                 damping = next_damping(damping, length);
+                                std::mem::swap(&mut balance, &mut trial.1);
+                                known = Some(evaluation);
                                 (newton, length)
                             }
                             // The elastic stiffness bounds the tangent from above: the plain step always lowers the energy.
@@ -243,6 +252,7 @@ impl Engine<'_> {
                         reach * t
                     };
                     rescale(&mut state, &before, reach);
+                    known = None;
                     anderson.restart();
                 }
             }
@@ -368,29 +378,27 @@ impl Engine<'_> {
 
     /// Length along a Newton direction. The energy of the increment is convex and the out-of-balance force times the
     /// direction is the negative of its slope: while that has not turned, the energy has fallen all the way. A length
-    /// that overshoots is cut by the secant. `None` where the direction leads nowhere.
+    /// that overshoots is cut by the secant. `None` where the direction leads nowhere; else `trial` holds the state there and
+    /// the force out of balance.
     fn line_search(
         &mut self,
         state: &Equilibrium,
         direction: &Direction,
         balance: &Trailing,
-    ) -> Option<f64> {
+        (trial, out): &mut (Equilibrium, Trailing),
+    ) -> Option<(f64, Evaluation)> {
         let slope = balance.dot(&direction.u);
         if slope <= 0.0 || !slope.is_finite() {
             return None;
         }
         let mut length = 1.0;
-        let mut trial = state.clone();
-        let mut out = self.sub.zeros();
         for _ in 0..BACKTRACKS {
-            trial.clone_from(state);
-            advance(&mut trial, length, direction);
-            self.zone.evaluate(&trial.u, &mut out);
-            self.counts.plastic_iterations += 1;
-            out.add(-1.0, &trial.initial);
+            trial.copy_from(state);
+            advance(trial, length, direction);
+            let evaluation = self.out_of_balance_at(trial, out);
             let there = out.dot(&direction.u);
             if there >= -OVERSHOOT * slope {
-                return Some(length);
+                return Some((length, evaluation));
             }
             // Not a number: far too long.
             let share = slope / (slope - there);
@@ -401,6 +409,15 @@ impl Engine<'_> {
             };
         }
         None
+    }
+
+    /// The force that the stresses at `state` leave out of balance: what the plastic strains there would be as initial loads, less
+    /// the initial loads that the state is in equilibrium with.
+    fn out_of_balance_at(&mut self, state: &Equilibrium, balance: &mut Trailing) -> Evaluation {
+        let evaluation = self.zone.evaluate(&state.u, balance);
+        balance.add(-1.0, &state.initial);
+        self.counts.plastic_iterations += 1;
+        evaluation
     }
 }
 

@@ -151,6 +151,11 @@ impl CholmodCondensed {
         self.trailing.contact_stiffness(&self.shift)
     }
 
+    /// Number of interior freedoms as factored.
+    fn interior(&self) -> usize {
+        self.partition.n - self.partition.zone.len() - self.partition.contact.len()
+    }
+
     fn solver(&self) -> MutexGuard<'_, Solver> {
         self.solver.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -177,18 +182,26 @@ impl Condensed for CholmodCondensed {
     // L_ii L_ii' = K_ii,
     //     L_tt y_t = load_t - L_ti L_ii^-1 load_i = load_t - K_ti K_ii^-1 load_i = f_t:
     // the shift is in L_tt alone, which is divided by and multiplied back.
-    fn condense_load(&self, load: &[f64], zone: &mut [f64], contact: &mut [f64]) -> Result<()> {
+    fn reduce_load(&self, load: &[f64]) -> Result<Vec<f64>> {
         check::length("load", load.len(), self.partition.n)?;
-        check::length("zone load", zone.len(), self.zone.len())?;
-        check::length("contact load", contact.len(), self.partition.contact.len())?;
         let mut solver = self.solver();
         let solver = &mut *solver;
         for (value, &freedom) in solver.load.iter_mut().zip(solver.factor.permutation()) {
             *value = load[freedom as usize];
         }
         let y = solver.factor.solve(System::Lower, &solver.load)?;
-        let interior = self.partition.n - self.partition.zone.len() - self.partition.contact.len();
-        self.trailing.condensed_load(&y[interior..], zone, contact);
+        Ok(y[self.interior()..].to_vec())
+    }
+
+    fn condense_load(&self, reduced: &[f64], zone: &mut [f64], contact: &mut [f64]) -> Result<()> {
+        check::length(
+            "reduced load",
+            reduced.len(),
+            self.partition.n - self.interior(),
+        )?;
+        check::length("zone load", zone.len(), self.zone.len())?;
+        check::length("contact load", contact.len(), self.partition.contact.len())?;
+        self.trailing.condensed_load(reduced, zone, contact);
         Ok(())
     }
 
