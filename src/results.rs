@@ -212,17 +212,21 @@ pub struct Counts {
     pub contact_changes: usize,
 }
 
-/// How good a state is: all figures are relative and dimensionless.
+/// How good a state is: all figures are relative and dimensionless. Loads and displacements are measured against the largest of the
+/// run so far. Gaps are those of the displacements, contact forces those that the stresses leave over: both independent
+/// of the contact solve, neither clipped.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Quality {
-    /// Normwise backward error of the full solve.
+    /// Normwise backward error of the full solve: `|f - K u| / (|K| |u| + |f|)`, infinity norms.
     pub backward_error: f64,
-    /// Out-of-balance force of the stresses over the applied and contact forces.
+    /// Out-of-balance force of the stresses over the largest applied or contact force.
     pub equilibrium: f64,
-    /// Largest `gap * force` of a pair over (largest gap * largest force).
+    /// Largest `gap * force` of a pair over (largest gap or displacement * largest force).
     pub complementarity: f64,
     /// Largest penetration over the largest displacement.
     pub penetration: f64,
+    /// Largest tension of a pair over the largest force.
+    pub adhesion: f64,
 }
 
 /// A published or exact value beside the computed one.

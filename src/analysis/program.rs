@@ -294,6 +294,7 @@ impl<'m, 'o> Run<'m, 'o> {
                 equilibrium: w.equilibrium.max(s.quality.equilibrium),
                 complementarity: w.complementarity.max(s.quality.complementarity),
                 penetration: w.penetration.max(s.quality.penetration),
+                adhesion: w.adhesion.max(s.quality.adhesion),
             });
         for (name, seconds) in [
             ("factorisation and condensation", self.seconds.condensation),

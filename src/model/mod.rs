@@ -6,10 +6,11 @@
 mod freedoms;
 mod held;
 mod loads;
+mod motions;
 mod pairs;
 
 pub use freedoms::{Freedoms, Prescribed, Slot};
-pub use held::{FloatingBodies, Pin};
+pub use held::{FloatingBodies, Pin, RigidMotion};
 pub use loads::{LoadCase, Magnitude};
 pub use pairs::{ContactSurface, Pair};
 

@@ -72,6 +72,7 @@ pub fn results(mesh: &Mesh) -> Results {
         equilibrium: 2e-12,
         complementarity: 0.0,
         penetration: 3e-17,
+        adhesion: 4e-17,
     };
     let pressed = State {
         name: "b = 1.5 b*".into(),

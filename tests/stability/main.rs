@@ -5,6 +5,7 @@
 mod flow;
 mod held_by_contact;
 mod numbers;
+mod quality;
 #[path = "../running/mod.rs"]
 mod running;
 mod touching;
