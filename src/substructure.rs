@@ -175,6 +175,15 @@ impl Substructure {
         self.condensed.cost()
     }
 
+    /// Lower bound of the condition of the factored matrix, scaled to a unit diagonal: the largest loss of a pivot to cancellation.
+    ///
+    /// # Source
+    /// N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., section 10.3: with `a_jj = 1`, `1 / l_jj^2` is no more than
+    /// a diagonal entry of the inverse.
+    pub fn condition(&self) -> f64 {
+        1.0 / self.condensed.weakest_pivot().ratio
+    }
+
     /// What of a load on all freedoms stays the same for whichever zone is chosen.
     ///
     /// # Errors

@@ -7,11 +7,33 @@
 //! Figures are relative to the largest load and displacement of the run up to here, so that they keep their meaning
 //! where everything is unloaded.
 
+#[cfg(test)]
+mod tests;
+
 use super::engine::Engine;
 use super::state::ElementState;
 use crate::linalg::multiply;
-use crate::model::Slot;
-use crate::results::Quality;
+use crate::model::{Model, Slot};
+use crate::results::{Quality, Tolerances};
+
+/// Share of the largest force or displacement that an elastic state may be off: round-off times any condition that a state is worth
+/// having at.
+const ROUND_OFF: f64 = 1e-8;
+
+/// What the quality of a state of this model must keep: the tolerances that the scene asks for, with room for what
+/// is measured elsewhere than iterated, and round-off.
+pub(super) fn tolerances(model: &Model) -> Tolerances {
+    let settings = &model.scene.analysis;
+    // Between events a pair may be beyond its condition by gamma.
+    let forces = ROUND_OFF
+        .max(100.0 * settings.tolerance)
+        .max(10.0 * model.scene.program.gamma);
+    Tolerances {
+        backward_error: (16.0 * f64::EPSILON * model.freedoms.n as f64).max(1e-12),
+        equilibrium: forces,
+        contact: forces,
+    }
+}
 
 /// Displacements of all freedoms.
 pub(super) struct Displacements {

@@ -18,6 +18,7 @@ Exit codes:
     4  a body is not held: it can move freely
     5  the analysis failed: a solve did not converge or a target was not reached
     6  the load passed the limit load of the bodies
+    7  inaccurate: a state's quality misses its tolerance; the results are written, do not trust them
    70  internal error, please report
   130  stopped (Ctrl-C); what was computed so far is written";
 
@@ -154,6 +155,7 @@ mod tests {
             Unheld,
             Analysis,
             Collapse,
+            Inaccurate,
             Stopped,
             Internal,
         ] {

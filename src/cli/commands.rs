@@ -66,6 +66,10 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, act: Act) -> Result<(
     };
     print(&text)?;
     match &results.incomplete {
+        None if !results.inaccurate.is_empty() => Err(Error::new(
+            ErrorKind::Inaccurate,
+            results.inaccurate.join("\n"),
+        )),
         None => Ok(()),
         Some(why) => Err(Error::new(
             results.incomplete_kind.unwrap_or(ErrorKind::Analysis),

@@ -157,6 +157,8 @@ pub fn results(mesh: &Mesh) -> Results {
             contact_changes: 2,
         },
         quality,
+        condition: 1e4,
+        inaccurate: vec!["state `released` is inaccurate".into()],
         factor: brinell::linalg::Prediction {
             ordering: "CAMD",
             factor_nonzeros: 1234.0,

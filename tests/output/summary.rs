@@ -80,7 +80,9 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
             "ordering": "CAMD", "factor_nonzeros": 1234, "trailing_nonzeros": 99,
             "flops": 5e20, "memory_bytes": 65536
         },
+        "condition": 1e4,
         "quality": quality,
+        "inaccurate": ["state `released` is inaccurate"],
         "yield": {
             "alpha": 1.0, "load": 60.0, "max_pressure": 179.37, "half_width": 1.0,
             "location": {"x": 0.0, "y": -0.7, "body": "half_plane"}
