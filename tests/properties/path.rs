@@ -60,7 +60,7 @@ fn definite() -> impl Strategy<Value = (DMatrix<f64>, Vec<f64>, Vec<f64>)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
+    #![proptest_config(ProptestConfig::with_cases(10_000))]
 
     #[test]
     fn the_end_of_a_path_is_the_solution_there((t, start, end) in definite()) {
