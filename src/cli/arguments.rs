@@ -66,6 +66,10 @@ pub(super) enum Command {
     /// the time and memory of the factorisation, predicted from the pattern of the matrix.
     #[command(after_help = "Example: brinell check data/scenes/disc_in_plate.toml")]
     Check(CheckArguments),
+    /// Run hard cases on this machine and build: worst figure of each family, its bound, pass or fail
+    ///
+    /// Takes less than a minute. Exit code 7 where a family fails.
+    Selftest(super::selftest::SelftestArguments),
 }
 
 #[derive(Debug, Args)]

@@ -1,4 +1,4 @@
-//! The three commands: the one place where the command line calls the library.
+//! The commands: the one place where the command line calls the library.
 
 use super::arguments::{Arguments, Command, CommonArguments, RunArguments};
 use super::progress::Progress;
@@ -22,6 +22,7 @@ pub(super) fn execute(arguments: &Arguments) -> Result<()> {
         }
         Command::Yield(run) => analyse(run, run.out.clone(), Analysis::yield_load),
         Command::Check(check) => predict(&check.common),
+        Command::Selftest(selftest) => super::selftest::execute(selftest),
     }
 }
 

@@ -8,4 +8,5 @@ mod numbers;
 mod quality;
 #[path = "../running/mod.rs"]
 mod running;
+mod selftest;
 mod touching;
