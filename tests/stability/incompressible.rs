@@ -39,6 +39,19 @@ fn limit_loads_of_all_shapes_that_claim_not_to_lock() {
     }
 }
 
+/// Near the limit the tangent is almost singular: iterations stall, and codes accept what they have. At 99.9 % of the mesh's own limit load
+/// the state is in balance to the tolerance of the iteration, 1e-10, with room for where it is measured.
+#[test]
+fn just_below_the_limit_load_forces_balance() {
+    let own = limit("quad4", 0.4999).0.unwrap() * 2.0 * 240.0 / 3f64.sqrt() * 2f64.ln();
+    let target = format!("program.targets=[{{ load_factor = {:e} }}]", 0.999 * own);
+    let results = crate::running::run_file("hard/nearly_incompressible", &[&target]);
+    crate::running::healthy(&results);
+    let state = &results.states[0];
+    assert!(state.quality.equilibrium <= 1e-9, "{:?}", state.quality);
+    assert!(state.plastic_points > 0);
+}
+
 /// tri3 locks, and says so before the run: a warning that names it, and a limit load above that of quad4 on the same nodes.
 #[test]
 fn locking_is_reported() {

@@ -90,6 +90,26 @@ fn slivers_pass_the_patch_test_to_round_off() {
     }
 }
 
+/// Elements 1e6 times as wide as high, the condition grows to 1e12 and beyond: the solution is what it was, the figures say what was lost,
+/// and both stay within what condition times round-off allows.
+#[test]
+fn slivers_of_aspect_1e6_report_the_loss_of_accuracy() {
+    let height = 0.002;
+    let lower = format!("mesh.parts.0.block.y=[0.0,{height}]");
+    let upper = format!("mesh.parts.1.block.y=[{height},{}]", 2.0 * height);
+    let [flat, flatter] =
+        [vec![], vec![lower.as_str(), upper.as_str()]].map(|set| run_file("hard/slivers", &set));
+    for p in &flatter.states[0].pairs {
+        close("pressure", p.pressure, 10.0, 10.0, f64::EPSILON * 1e12);
+    }
+    // The aspect is 10 times as large, stiffnesses along and across differ by its square.
+    let grown = flatter.condition / flat.condition;
+    assert!((30.0..300.0).contains(&grown), "{grown}");
+    assert!(flatter.inaccurate.is_empty(), "{:?}", flatter.inaccurate);
+    let q = flatter.states[0].quality;
+    assert!(q.equilibrium <= f64::EPSILON * flatter.condition, "{q:?}");
+}
+
 /// A negative gap at no load: codes that start from "not penetrating" fail at once, others apply it in one step and bounce. Tension
 /// q on the rim takes just q off the pressure, for the elements too; the fit comes back.
 #[test]
