@@ -49,6 +49,8 @@ pub mod analysis;
 
 pub mod output;
 
+pub mod selftest;
+
 pub mod cli;
 
 pub use error::{Error, ErrorKind, Result};

@@ -9,7 +9,7 @@
 //! | `zone`, `gather`, `zone_choice`, `zone_fit` | elements that may yield, initial loads, their choice and growth | 4.1 |
 //! | `tangent`, `acceleration` | acceleration of the plastic iteration | |
 //! | `program`, `targets`, `drive`, `stepping` | from target to target, loading and unloading | 5.1, 5.2 |
-//! | `measure`, `state` | pressure, half width, dent, quality of a state | 5 |
+//! | `measure`, `state`, `quality` | pressure, half width, dent, quality of a state | 5 |
 
 mod acceleration;
 mod check;
@@ -21,6 +21,7 @@ mod gather;
 mod increment;
 mod measure;
 mod program;
+mod quality;
 mod recovery;
 mod reference;
 mod state;

@@ -18,6 +18,7 @@ Exit codes:
     4  a body is not held: it can move freely
     5  the analysis failed: a solve did not converge or a target was not reached
     6  the load passed the limit load of the bodies
+    7  inaccurate: a state's quality misses its tolerance; the results are written, do not trust them
    70  internal error, please report
   130  stopped (Ctrl-C); what was computed so far is written";
 
@@ -65,6 +66,10 @@ pub(super) enum Command {
     /// the time and memory of the factorisation, predicted from the pattern of the matrix.
     #[command(after_help = "Example: brinell check data/scenes/disc_in_plate.toml")]
     Check(CheckArguments),
+    /// Run hard cases on this machine and build: worst figure of each family, its bound, pass or fail
+    ///
+    /// Takes less than a minute. Exit code 7 where a family fails.
+    Selftest(super::selftest::SelftestArguments),
 }
 
 #[derive(Debug, Args)]
@@ -154,6 +159,7 @@ mod tests {
             Unheld,
             Analysis,
             Collapse,
+            Inaccurate,
             Stopped,
             Internal,
         ] {

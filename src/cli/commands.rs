@@ -1,4 +1,4 @@
-//! The three commands: the one place where the command line calls the library.
+//! The commands: the one place where the command line calls the library.
 
 use super::arguments::{Arguments, Command, CommonArguments, RunArguments};
 use super::progress::Progress;
@@ -22,6 +22,7 @@ pub(super) fn execute(arguments: &Arguments) -> Result<()> {
         }
         Command::Yield(run) => analyse(run, run.out.clone(), Analysis::yield_load),
         Command::Check(check) => predict(&check.common),
+        Command::Selftest(selftest) => super::selftest::execute(selftest),
     }
 }
 
@@ -66,6 +67,10 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, act: Act) -> Result<(
     };
     print(&text)?;
     match &results.incomplete {
+        None if !results.inaccurate.is_empty() => Err(Error::new(
+            ErrorKind::Inaccurate,
+            results.inaccurate.join("\n"),
+        )),
         None => Ok(()),
         Some(why) => Err(Error::new(
             results.incomplete_kind.unwrap_or(ErrorKind::Analysis),

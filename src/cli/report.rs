@@ -369,11 +369,12 @@ impl Report {
         self.labelled(
             "Quality",
             &format!(
-                "backward error {}, equilibrium {}, complementarity {}, penetration {}",
+                "backward error {}, equilibrium {}, complementarity {}, penetration {}, adhesion {}",
                 figure(quality.backward_error),
                 figure(quality.equilibrium),
                 figure(quality.complementarity),
-                figure(quality.penetration)
+                figure(quality.penetration),
+                figure(quality.adhesion)
             ),
         );
     }
