@@ -3,12 +3,12 @@
 use super::arguments::{Arguments, Command, CommonArguments, RunArguments};
 use super::progress::Progress;
 use super::{interrupt, print, report};
+use crate::accuracy::{self, Extent};
 use crate::analysis::{self, Analysis, Check};
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::Backend;
 use crate::model::Model;
 use crate::output::{self, RunHeader};
-use crate::results::Results;
 use crate::scene::{Kind, Scene};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -18,17 +18,15 @@ pub(super) fn execute(arguments: &Arguments) -> Result<()> {
     match &arguments.command {
         Command::Run(run) => {
             let out = (run.out.clone()).unwrap_or_else(|| run.common.scene.with_extension("out"));
-            analyse(run, Some(out), Analysis::run)
+            analyse(run, Some(out), Extent::Program)
         }
-        Command::Yield(run) => analyse(run, run.out.clone(), Analysis::yield_load),
+        Command::Yield(run) => analyse(run, run.out.clone(), Extent::Yield),
         Command::Check(check) => predict(&check.common),
     }
 }
 
-type Act = fn(&mut Analysis, &mut dyn crate::progress::Observer) -> Result<Results>;
-
 /// Scene, model, analysis, files, summary.
-fn analyse(arguments: &RunArguments, out: Option<PathBuf>, act: Act) -> Result<()> {
+fn analyse(arguments: &RunArguments, out: Option<PathBuf>, extent: Extent) -> Result<()> {
     let common = &arguments.common;
     let scene = prepare(common)?;
     if let Some(out) = &out {
@@ -44,7 +42,23 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, act: Act) -> Result<(
     let modelled = seconds();
     progress.start("assembly");
     let mut analysis = Analysis::new(model, common.solver.into())?;
-    let mut results = act(&mut analysis, &mut progress)?;
+    let mut results = match extent {
+        Extent::Program => analysis.run(&mut progress)?,
+        Extent::Yield => analysis.yield_load(&mut progress)?,
+    };
+    if !arguments.no_estimate {
+        let found = accuracy::estimate(
+            &scene,
+            common.solver.into(),
+            &results,
+            extent,
+            &mut progress,
+        );
+        results
+            .timings
+            .push(("error estimate".to_string(), found.seconds));
+        results.accuracy = Some(found);
+    }
     results
         .timings
         .insert(0, ("mesh and model".to_string(), modelled));

@@ -1,0 +1,7 @@
+//! What a run says about its own errors, against closed forms.
+
+#[path = "../running/mod.rs"]
+mod running;
+
+mod effectivity;
+mod indicator;
