@@ -7,6 +7,7 @@
 //! | `extrapolation` | the error of a value from those on coarser meshes |
 //! | `estimate` | discretisation, path and algebraic error of every quantity of a run |
 //! | `path` | the error of increments and tolerances |
+//! | `knobs`, `meter`, `study`, `verdict` | a study: what to turn, what it takes, the runs, what they say |
 //!
 //! Three errors stand beside each other:
 //!
@@ -21,11 +22,19 @@
 
 mod estimate;
 mod extrapolation;
+mod knobs;
+mod meter;
 mod path;
 mod quantities;
 mod refinement;
+mod study;
+mod verdict;
 
 pub use estimate::{Extent, estimate};
 pub use extrapolation::{Extrapolation, extrapolate};
+pub use knobs::{Knob, Setting, settings};
+pub use meter::{Forecast, Meter, Pace, Usage, available_memory, forecast};
 pub use quantities::{Quantity, quantities, value_of};
 pub use refinement::{Level, coarser, largest_order, refined};
+pub use study::{Plan, Study, StudyRun, study};
+pub use verdict::{Price, QuantityStudy, StudyReference, foremost, judge};

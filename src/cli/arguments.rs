@@ -1,5 +1,6 @@
 //! What the user may type.
 
+use super::study::StudyArguments;
 use crate::linalg::Backend;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -65,6 +66,15 @@ pub(super) enum Command {
     /// the time and memory of the factorisation, predicted from the pattern of the matrix.
     #[command(after_help = "Example: brinell check data/scenes/disc_in_plate.toml")]
     Check(CheckArguments),
+    /// Study what accuracy costs: errors against time over mesh, elements, increments, tolerances, algorithms
+    ///
+    /// Runs the scene with many settings, cheapest first, and writes accuracy.json, accuracy.csv and log-log plots of error over
+    /// time. Errors are measured against the closed form where the scene names one, else against the values extrapolated
+    /// from the finest meshes. Ctrl-C ends the study and keeps what it has.
+    #[command(
+        after_help = "Example: brinell accuracy data/scenes/thick_cylinder.toml --budget 60s"
+    )]
+    Accuracy(StudyArguments),
 }
 
 #[derive(Debug, Args)]

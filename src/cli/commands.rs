@@ -1,8 +1,8 @@
-//! The three commands: the one place where the command line calls the library.
+//! The commands: the one place where the command line calls the library.
 
 use super::arguments::{Arguments, Command, CommonArguments, RunArguments};
 use super::progress::Progress;
-use super::{interrupt, print, report};
+use super::{interrupt, print, report, study};
 use crate::accuracy::{self, Extent};
 use crate::analysis::{self, Analysis, Check};
 use crate::error::{Error, ErrorKind, Result};
@@ -22,6 +22,7 @@ pub(super) fn execute(arguments: &Arguments) -> Result<()> {
         }
         Command::Yield(run) => analyse(run, run.out.clone(), Extent::Yield),
         Command::Check(check) => predict(&check.common),
+        Command::Accuracy(arguments) => study::execute(arguments),
     }
 }
 
@@ -88,7 +89,12 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, extent: Extent) -> Re
     }
 }
 
-fn header(scene: &Scene, model: &Model, common: &CommonArguments, wall_seconds: f64) -> RunHeader {
+pub(super) fn header(
+    scene: &Scene,
+    model: &Model,
+    common: &CommonArguments,
+    wall_seconds: f64,
+) -> RunHeader {
     let kind = match scene.kind {
         Kind::PlaneStrain => "plane_strain",
         Kind::PlaneStress => "plane_stress",
@@ -116,7 +122,7 @@ fn predict(common: &CommonArguments) -> Result<()> {
     })
 }
 
-fn prepare(common: &CommonArguments) -> Result<Scene> {
+pub(super) fn prepare(common: &CommonArguments) -> Result<Scene> {
     let scene = Scene::load_with(&common.scene, &common.overrides)?;
     if let Some(threads) = common.threads {
         rayon::ThreadPoolBuilder::new()
@@ -129,7 +135,7 @@ fn prepare(common: &CommonArguments) -> Result<Scene> {
     Ok(scene)
 }
 
-fn json(value: &impl serde::Serialize) -> Result<String> {
+pub(super) fn json(value: &impl serde::Serialize) -> Result<String> {
     serde_json::to_string_pretty(value)
         .map(|text| text + "\n")
         .map_err(|cause| Error::internal("the summary is not plain data").because(cause))

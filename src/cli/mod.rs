@@ -1,4 +1,4 @@
-//! The command line: `brinell run`, `brinell yield`, `brinell check`.
+//! The command line: `brinell run`, `brinell yield`, `brinell check`, `brinell accuracy`.
 //!
 //! Only this module prints. What was computed goes to standard output, progress and errors to standard error, and
 //! the exit code says what kind of end it was ([`crate::ErrorKind::exit_code`]).
@@ -9,6 +9,7 @@ mod interrupt;
 mod number;
 mod progress;
 mod report;
+mod study;
 mod table;
 
 use crate::error::{Error, ErrorKind, Result};

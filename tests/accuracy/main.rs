@@ -5,3 +5,4 @@ mod running;
 
 mod effectivity;
 mod indicator;
+mod study;
