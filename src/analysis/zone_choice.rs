@@ -10,12 +10,13 @@ use crate::element::MAX_FREEDOMS;
 use crate::error::Result;
 use crate::material::{stress, von_mises};
 use crate::model::{Model, Slot};
+use crate::scene::Kind;
 use rayon::prelude::*;
 
 /// Elements of all bodies that may yield are the zone if their number is below this.
 const SMALL: usize = 1500;
 /// The first guess reaches this share of the contact surface's extent into the bodies.
-const REACH: f64 = 1.2;
+const REACH: f64 = 3.0;
 /// Elastic von Mises stress over yield stress above which an element is predicted to yield: stress redistributes.
 const PREDICTED: f64 = 0.85;
 /// Layers of elements put round the prediction.
@@ -38,16 +39,6 @@ impl Choice {
         let elements: Vec<usize> = (0..all.len()).filter(|&e| all[e]).collect();
         let guard = elements.iter().map(|&e| !core[e]).collect();
         Choice { elements, guard }
-    }
-
-    /// Whether every element of another choice that is not guard lies in this one, guard or not.
-    pub fn covers(&self, other: &Choice) -> bool {
-        other
-            .elements
-            .iter()
-            .zip(&other.guard)
-            .filter(|(_, guard)| !**guard)
-            .all(|(e, _)| self.elements.binary_search(e).is_ok_and(|i| !self.guard[i]))
     }
 }
 
@@ -128,6 +119,27 @@ pub fn predict(model: &Model, ratios: &[f64]) -> Choice {
         .map(|(e, r)| may_yield(model, e) && *r >= PREDICTED)
         .collect();
     Choice::from_marks(model, widen(model, hot, MARGIN), GUARD)
+}
+
+/// The zone while the load is a share of the one that `ratios` belong to, which all loads are proportional to, with
+/// the `old` one: below a contact stress falls with the load no slower than the pressure does, with its square root in line contact and
+/// its cube root in point contact.
+pub fn stage(model: &Model, ratios: &[f64], share: f64, old: &Choice) -> Choice {
+    let decline = match model.kind {
+        Kind::Axisymmetric => share.cbrt(),
+        Kind::PlaneStrain | Kind::PlaneStress => share.sqrt(),
+    };
+    let limit = PREDICTED / decline;
+    let hot: Vec<bool> = ratios
+        .iter()
+        .enumerate()
+        .map(|(e, r)| may_yield(model, e) && *r >= limit)
+        .collect();
+    let mut core = widen(model, hot, MARGIN);
+    for (&e, guard) in old.elements.iter().zip(&old.guard) {
+        core[e] |= !guard;
+    }
+    Choice::from_marks(model, core, GUARD)
 }
 
 /// A larger zone round the old one.
