@@ -18,7 +18,7 @@ const SMALL: usize = 1500;
 /// The first guess reaches this share of the contact surface's extent into the bodies.
 const REACH: f64 = 3.0;
 /// Elastic von Mises stress over yield stress above which an element is predicted to yield: stress redistributes.
-const PREDICTED: f64 = 0.85;
+const PREDICTED: f64 = 0.95;
 /// Layers of elements put round the prediction.
 const MARGIN: usize = 2;
 /// Layers of guard elements round those.

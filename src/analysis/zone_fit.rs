@@ -9,7 +9,7 @@ use std::time::Instant;
 
 /// Factor on the load from one stage of the zone to the next: what it saves in trailing solves against what a stage costs, a
 /// copy of the zone's part of the factor.
-const STAGE: f64 = 1.2;
+const STAGE: f64 = 1.1;
 
 /// How far yielding will spread, by the elastic stress at the program's extreme loads.
 pub(super) struct Spread {
