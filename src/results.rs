@@ -260,10 +260,25 @@ pub struct Accuracy {
     pub companions: Vec<Companion>,
     /// A row per reported quantity.
     pub quantities: Vec<QuantityError>,
+    /// What was demanded, chosen and reached, where the scene demands an accuracy.
+    pub demand: Option<Demand>,
     /// Seconds that the estimate took.
     pub seconds: f64,
     /// What the estimate could not do, and why.
     pub notes: Vec<String>,
+}
+
+/// A demanded accuracy and what became of it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Demand {
+    /// The largest relative error that was demanded.
+    pub accuracy: f64,
+    /// Whether every stated error is within it.
+    pub reached: bool,
+    /// The largest stated relative error of the quantities that govern.
+    pub stated: f64,
+    /// What was chosen, and why.
+    pub choices: Vec<String>,
 }
 
 /// How a discretisation error was estimated.
@@ -297,7 +312,7 @@ pub struct QuantityError {
     pub quantity: String,
     /// The computed value.
     pub value: f64,
-    /// The stated error: discretisation, path and algebraic error together.
+    /// The stated error: twice the discretisation error, path and algebraic error together.
     pub error: Option<f64>,
     /// The stated error over the largest size that the quantity has in the run.
     pub relative_error: Option<f64>,

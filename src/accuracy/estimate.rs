@@ -16,6 +16,11 @@ use std::time::Instant;
 /// disturbs by a share of the element.
 const LOWEST_ORDER: f64 = 1.0;
 
+/// The stated error takes the estimated discretisation error this many times, so that the true one lies below it in nine of
+/// ten cases (measured over 33 scenes and settings with closed forms, tests/accuracy/claim.rs). Between Roache's 1.25 for three
+/// meshes of a smooth solution and his 3 for two: contact edges are not smooth.
+pub const SAFETY: f64 = 2.0;
+
 /// How far a run went.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
@@ -116,7 +121,7 @@ pub fn estimate(
         };
         let algebraic = algebraic_error(results, &quantity.path) * quantity.scale;
         let path = path.of(&quantity.path);
-        let error = discretisation.map(|d| d + path.unwrap_or(0.0) + algebraic);
+        let error = discretisation.map(|d| SAFETY * d + path.unwrap_or(0.0) + algebraic);
         out.quantities.push(QuantityError {
             quantity: quantity.path.clone(),
             value: quantity.value,

@@ -10,6 +10,9 @@ use std::time::Instant;
 /// Clock ticks per second in which Linux tells processor time to programs (`USER_HZ`).
 const TICKS: f64 = 100.0;
 
+/// Processor times from here on are known to a fifth.
+const RESOLVED: f64 = 5.0 / TICKS;
+
 /// Measures wall time, processor time and memory between [`Meter::start`] and [`Meter::stop`].
 #[derive(Debug)]
 pub struct Meter {
@@ -28,6 +31,17 @@ pub struct Usage {
     /// Most memory resident during the run, that which the process held before included (the allocator returns large blocks
     /// at once, small ones late); `None` where the system does not let the mark be set back (Linux: `clear_refs`).
     pub peak_memory_bytes: Option<u64>,
+}
+
+impl Usage {
+    /// What the run takes when nothing disturbs it: wall time, or processor time where that is less, because the machine had
+    /// other things to do; too short a processor time is not resolved.
+    pub fn undisturbed_seconds(&self) -> f64 {
+        match self.cpu_seconds {
+            Some(cpu) if cpu >= RESOLVED => self.wall_seconds.min(cpu),
+            _ => self.wall_seconds,
+        }
+    }
 }
 
 impl Meter {

@@ -7,6 +7,7 @@
 //! | `extrapolation` | the error of a value from those on coarser meshes |
 //! | `estimate` | discretisation, path and algebraic error of every quantity of a run |
 //! | `path` | the error of increments and tolerances |
+//! | `demand` | the cheapest settings that reach a demanded accuracy |
 //! | `knobs`, `meter`, `study`, `verdict` | a study: what to turn, what it takes, the runs, what they say |
 //!
 //! Three errors stand beside each other:
@@ -16,10 +17,12 @@
 //!   the quantity itself: contact edges, yielding and the way there are in it. The energy norm of the recovered
 //!   stress error ([`crate::results::State::energy_error`], per element in the VTU files) says *where* the mesh is too coarse; it
 //!   stands in as a rough figure where a mesh from a file cannot be made coarser.
+//!   The stated error takes the estimate [`SAFETY`] times.
 //! - **path**: the coarsest of these meshes is run with twice the increments, and with other tolerances of the plastic iteration
 //!   and of contact events; see `path`.
 //! - **algebraic**: backward error, equilibrium and complementarity of the state, relative to the largest size of the quantity.
 
+mod demand;
 mod estimate;
 mod extrapolation;
 mod knobs;
@@ -30,7 +33,8 @@ mod refinement;
 mod study;
 mod verdict;
 
-pub use estimate::{Extent, estimate};
+pub use demand::{Reached, reach};
+pub use estimate::{Extent, SAFETY, estimate};
 pub use extrapolation::{Extrapolation, extrapolate};
 pub use knobs::{Knob, Setting, settings};
 pub use meter::{Forecast, Meter, Pace, Usage, available_memory, forecast};

@@ -10,7 +10,7 @@ use crate::scene::{Block, MeshSource, Part, Scene};
 
 /// Elements over the part of the mesh that governs the result (the contact, the thickness of a part) below which a mesh tells
 /// nothing about the next one.
-const FEWEST: f64 = 5.0;
+pub(super) const FEWEST: f64 = 5.0;
 /// Share of the quarter circle over which a disc in a plate stays in contact.
 const CONTACT_OF_QUARTER: f64 = 19.625 / 90.0;
 /// Most by which rounding to whole elements may distort a part of the mesh against the others.
@@ -147,7 +147,7 @@ pub fn largest_order(scene: &Scene) -> f64 {
 }
 
 /// Elements over what governs the result.
-fn governing_count(mesh: &MeshSource) -> Option<f64> {
+pub(super) fn governing_count(mesh: &MeshSource) -> Option<f64> {
     if let Some(p) = &mesh.cylinder_on_half_plane {
         Some(p.resolution as f64)
     } else if let Some(p) = &mesh.disc_in_plate {

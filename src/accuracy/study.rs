@@ -158,7 +158,7 @@ pub fn study(
             out.stopped = true;
             break;
         }
-        pace.learn(cost.seconds, usage.wall_seconds);
+        pace.learn(cost.seconds, usage.undisturbed_seconds());
         if let Ok(results) = &found
             && references.is_empty()
         {

@@ -270,8 +270,8 @@ fn pareto(runs: &[StudyRun], errors: &[Option<f64>]) -> Vec<usize> {
     order.sort_by(|&a, &b| {
         runs[a]
             .usage
-            .wall_seconds
-            .total_cmp(&runs[b].usage.wall_seconds)
+            .undisturbed_seconds()
+            .total_cmp(&runs[b].usage.undisturbed_seconds())
     });
     let mut best = f64::INFINITY;
     order.retain(|&i| {
@@ -299,8 +299,8 @@ fn cheapest(runs: &[StudyRun], errors: &[Option<f64>], accuracy: f64) -> Option<
         .min_by(|&a, &b| {
             runs[a]
                 .usage
-                .wall_seconds
-                .total_cmp(&runs[b].usage.wall_seconds)
+                .undisturbed_seconds()
+                .total_cmp(&runs[b].usage.undisturbed_seconds())
         })
 }
 
@@ -319,7 +319,7 @@ fn words(
             Some(format!(
                 "{} costs {} s: {}, {}",
                 percent(price.accuracy),
-                significant(run.usage.wall_seconds),
+                significant(run.usage.undisturbed_seconds()),
                 run.series,
                 run.value
             ))

@@ -109,6 +109,9 @@ pub(super) struct CommonArguments {
     /// Number of threads; by default as many as there are processors
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
+    /// Choose mesh and tolerances so that the stated errors stay within this, such as 1%; like the scene's key `accuracy`
+    #[arg(long, value_name = "PERCENT")]
+    pub accuracy: Option<String>,
     /// Print one JSON object (the content of summary.json) instead of tables
     #[arg(long)]
     pub json: bool,

@@ -9,6 +9,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::Backend;
 use crate::model::Model;
 use crate::output::{self, RunHeader};
+use crate::results::Results;
 use crate::scene::{Kind, Scene};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -38,31 +39,16 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, extent: Extent) -> Re
     let start = Instant::now();
     let seconds = || start.elapsed().as_secs_f64();
     let mut progress = Progress::new(arguments.quiet);
-    progress.start("mesh and model");
-    let model = Model::new(&scene)?;
-    let modelled = seconds();
-    progress.start("assembly");
-    let mut analysis = Analysis::new(model, common.solver.into())?;
-    let mut results = match extent {
-        Extent::Program => analysis.run(&mut progress)?,
-        Extent::Yield => analysis.yield_load(&mut progress)?,
+    let (scene, analysis, mut results) = match scene.accuracy {
+        Some(_) => {
+            let found = accuracy::reach(&scene, common.solver.into(), extent, &mut progress)?;
+            (found.scene, found.analysis, found.results)
+        }
+        None => {
+            let (analysis, results) = once(&scene, arguments, extent, &mut progress)?;
+            (scene, analysis, results)
+        }
     };
-    if !arguments.no_estimate {
-        let found = accuracy::estimate(
-            &scene,
-            common.solver.into(),
-            &results,
-            extent,
-            &mut progress,
-        );
-        results
-            .timings
-            .push(("error estimate".to_string(), found.seconds));
-        results.accuracy = Some(found);
-    }
-    results
-        .timings
-        .insert(0, ("mesh and model".to_string(), modelled));
     let model = analysis.model();
     let computed = seconds();
     let header = header(&scene, model, common, computed);
@@ -87,6 +73,37 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, extent: Extent) -> Re
             format!("the run ended before its program did: {why}"),
         )),
     }
+}
+
+/// Runs the scene as it stands, and estimates the errors.
+fn once(
+    scene: &Scene,
+    arguments: &RunArguments,
+    extent: Extent,
+    progress: &mut Progress,
+) -> Result<(Analysis, Results)> {
+    let backend = arguments.common.solver.into();
+    let start = Instant::now();
+    progress.start("mesh and model");
+    let model = Model::new(scene)?;
+    let modelled = start.elapsed().as_secs_f64();
+    progress.start("assembly");
+    let mut analysis = Analysis::new(model, backend)?;
+    let mut results = match extent {
+        Extent::Program => analysis.run(progress)?,
+        Extent::Yield => analysis.yield_load(progress)?,
+    };
+    if !arguments.no_estimate {
+        let found = accuracy::estimate(scene, backend, &results, extent, progress);
+        results
+            .timings
+            .push(("error estimate".to_string(), found.seconds));
+        results.accuracy = Some(found);
+    }
+    results
+        .timings
+        .insert(0, ("mesh and model".to_string(), modelled));
+    Ok((analysis, results))
 }
 
 pub(super) fn header(
@@ -123,7 +140,9 @@ fn predict(common: &CommonArguments) -> Result<()> {
 }
 
 pub(super) fn prepare(common: &CommonArguments) -> Result<Scene> {
-    let scene = Scene::load_with(&common.scene, &common.overrides)?;
+    let mut overrides = common.overrides.clone();
+    overrides.extend(common.accuracy.iter().map(|a| format!("accuracy={a}")));
+    let scene = Scene::load_with(&common.scene, &overrides)?;
     if let Some(threads) = common.threads {
         rayon::ThreadPoolBuilder::new()
             .num_threads(usize::from(threads))

@@ -32,6 +32,7 @@ mod work_precision;
 
 pub use study::{study_json, write_study};
 pub use summary::summary;
+pub use work_precision::plot;
 
 use crate::error::Result;
 use crate::mesh::Mesh;

@@ -30,11 +30,11 @@ pub(super) fn plotted(study: &Study) -> Vec<&QuantityStudy> {
     out
 }
 
-/// The plot of a quantity as SVG.
+/// The work-precision plot of a quantity of a study as SVG: the error of each run over its time.
 ///
 /// # Errors
 /// `Internal` where drawing fails.
-pub(super) fn plot(study: &Study, quantity: &QuantityStudy) -> Result<String> {
+pub fn plot(study: &Study, quantity: &QuantityStudy) -> Result<String> {
     let mut text = String::new();
     draw(study, quantity, &mut text)
         .map_err(|e| Error::internal(format!("plot of {}: {e}", quantity.quantity)))?;
@@ -51,11 +51,11 @@ fn curves<'s>(study: &'s Study, quantity: &QuantityStudy) -> Vec<(&'s str, bool,
             continue;
         };
         let is_mesh = matches!(run.knob, Knob::Resolution | Knob::Element);
-        let point = (run.usage.wall_seconds, error.max(FLOOR));
+        let point = (run.usage.undisturbed_seconds(), error.max(FLOOR));
         let at = if is_mesh {
             run.ratio
         } else {
-            run.usage.wall_seconds
+            run.usage.undisturbed_seconds()
         };
         match out.iter_mut().find(|c| c.0 == run.series) {
             Some(curve) => curve.2.push((at, point)),
@@ -101,7 +101,7 @@ fn draw(
         )?;
     chart
         .configure_mesh()
-        .x_desc("wall time [s]")
+        .x_desc("time [s] (wall, or processor where less)")
         .y_desc("relative error")
         .axis_desc_style((FONT, 16))
         .label_style((FONT, 13))
@@ -116,7 +116,7 @@ fn draw(
         .iter()
         .filter_map(|&i| {
             Some((
-                study.runs[i].usage.wall_seconds,
+                study.runs[i].usage.undisturbed_seconds(),
                 quantity.errors[i]?.max(FLOOR),
             ))
         })

@@ -28,18 +28,18 @@ pub fn estimated(scene: &Scene, extent: Extent) -> (Results, Accuracy) {
     (results, accuracy)
 }
 
-/// Stated over true error of a quantity.
+/// Estimated discretisation error over the true error of a quantity.
 fn effectivity(accuracy: &Accuracy, path: &str, exact: f64) -> f64 {
     let row = accuracy
         .quantities
         .iter()
         .find(|q| q.quantity == path)
         .unwrap();
-    row.error.unwrap() / (row.value - exact).abs()
+    row.discretisation.unwrap() / (row.value - exact).abs()
 }
 
 /// A contact scene with `n` elements over the contact, growing outside as a family of meshes does.
-fn hertz(name: &str, n: usize, far_size: f64) -> Scene {
+pub fn hertz(name: &str, n: usize, far_size: f64) -> Scene {
     let growth = 1.15f64.powf(16.0 / n as f64);
     running::load(
         name,

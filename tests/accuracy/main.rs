@@ -3,6 +3,8 @@
 #[path = "../running/mod.rs"]
 mod running;
 
+mod claim;
+mod demand;
 mod effectivity;
 mod indicator;
 mod study;

@@ -3,8 +3,8 @@
 use brinell::mesh::{Mesh, Shape};
 use brinell::output::RunHeader;
 use brinell::results::{
-    Accuracy, Companion, Counts, Effect, EstimateMethod, Fields, HistoryRow, PairState, Quality,
-    QuantityError, ReferenceRow, Results, Sizes, State, Status, YieldPoint,
+    Accuracy, Companion, Counts, Demand, Effect, EstimateMethod, Fields, HistoryRow, PairState,
+    Quality, QuantityError, ReferenceRow, Results, Sizes, State, Status, YieldPoint,
 };
 
 pub fn header() -> RunHeader {
@@ -191,6 +191,12 @@ pub fn results(mesh: &Mesh) -> Results {
                 algebraic: 0.01,
                 order: None,
             }],
+            demand: Some(Demand {
+                accuracy: 0.01,
+                reached: true,
+                stated: 0.005,
+                choices: vec!["resolution 16".into()],
+            }),
             seconds: 0.5,
             notes: vec!["a mesh failed".into()],
         }),

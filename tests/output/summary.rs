@@ -97,6 +97,9 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
                 "quantity": "yield.load", "value": 60.0, "error": 0.5, "relative_error": 0.005,
                 "discretisation": 0.4, "path": 0.09, "algebraic": 0.01, "order": null
             }],
+            "demand": {
+                "accuracy": 0.01, "reached": true, "stated": 0.005, "choices": ["resolution 16"]
+            },
             "seconds": 0.5,
             "notes": ["a mesh failed"]
         },
@@ -154,8 +157,8 @@ fn the_schema_refuses_missing_and_unknown_keys() {
     let open = ["/effects", "/timings", "/plastic_points_by_body"];
     objects.retain(|path| !open.iter().any(|end| path.ends_with(end)));
     // The root, an effect, counts, factor, quality, yield with its location, three states with quality
-    // (two with an arc), a reference, accuracy with a mesh and a quantity.
-    assert_eq!(objects.len(), 1 + 1 + 1 + 1 + 1 + 2 + 3 + 3 + 2 + 1 + 3);
+    // (two with an arc), a reference, accuracy with a mesh, a quantity and a demand.
+    assert_eq!(objects.len(), 1 + 1 + 1 + 1 + 1 + 2 + 3 + 3 + 2 + 1 + 4);
     for path in objects {
         let object = valid.pointer(&path).unwrap().as_object().unwrap();
         for key in object.keys() {

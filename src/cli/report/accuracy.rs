@@ -21,6 +21,19 @@ impl Report {
         if accuracy.method != EstimateMethod::None {
             self.stated_errors(accuracy);
         }
+        if let Some(demand) = &accuracy.demand {
+            let heading = format!(
+                "Demanded accuracy {} %: {}, the largest stated error is {} %",
+                significant(100.0 * demand.accuracy, 2),
+                if demand.reached {
+                    "reached"
+                } else {
+                    "NOT reached"
+                },
+                significant(100.0 * demand.stated, 2)
+            );
+            self.list(&heading, &demand.choices);
+        }
         self.list("Error estimate", &accuracy.notes);
     }
 
@@ -58,12 +71,12 @@ impl Report {
         }
         type Part = fn(&QuantityError) -> Option<f64>;
         let parts: [(&str, Part); 3] = [
-            ("of it, at most: mesh", |q| q.discretisation),
+            ("estimated, at most: mesh", |q| q.discretisation),
             ("path", |q| q.path),
             ("algebra", |q| Some(q.algebraic)),
         ];
         for (name, part) in parts {
-            let mut cells = vec![format!("{name:>20}")];
+            let mut cells = vec![format!("{name:>24}")];
             cells.extend(keys.iter().map(|(key, _)| {
                 let relative = prefixes.iter().filter_map(|p| {
                     let quantity = of(p, key)?;
@@ -86,7 +99,7 @@ impl Report {
         );
         self.lines(&match accuracy.method {
             EstimateMethod::CoarserMeshes => format!(
-                "  The mesh's part is extrapolated from runs with elements {} times as large.",
+                "  The mesh's part is extrapolated from runs with elements {} times as large; it counts twice.",
                 ratios.join(" and ")
             ),
             _ => "  The mesh's part is the energy norm of the stress error, a rough figure: this mesh cannot be made coarser. \
