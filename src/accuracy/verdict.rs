@@ -27,7 +27,8 @@ pub struct StudyReference {
     pub uncertainty: f64,
     /// The closed form's source, or how it was extrapolated.
     pub source: String,
-    /// The value extrapolated from the meshes, where the reference is a closed form: what the model itself converges to.
+    /// The value extrapolated from the meshes, where the reference is a closed form from which it differs by more than it is
+    /// uncertain: what the model itself converges to.
     pub limit: Option<f64>,
 }
 
@@ -155,7 +156,9 @@ fn reference(
             value: row.reference,
             uncertainty: 0.0,
             source: row.source.clone(),
-            limit: limit.map(|l| l.limit),
+            limit: limit
+                .filter(|l| (l.limit - row.reference).abs() > l.error)
+                .map(|l| l.limit),
         });
     }
     let limit = limit?;
@@ -338,16 +341,11 @@ fn words(
             percent(price.accuracy)
         ));
     }
-    if let Some((reference, limit)) = reference.and_then(|r| Some((r, r.limit?)))
-        && let Some(best) = errors.iter().flatten().copied().reduce(f64::min)
-    {
-        let apart = (limit / reference.value - 1.0).abs();
-        if apart > 2.0 * best || apart > 1e-3 {
-            out.push(format!(
-                "the meshes converge to a value that is {} off the closed form: finer ones are wasted below that",
-                percent(apart)
-            ));
-        }
+    if let Some((reference, limit)) = reference.and_then(|r| Some((r, r.limit?))) {
+        out.push(format!(
+            "the meshes converge to a value that is {} off the closed form: finer ones are wasted below that",
+            percent((limit / reference.value - 1.0).abs())
+        ));
     }
     if let Some(reference) = reference {
         out.extend(wasted(runs, path, reference));

@@ -43,31 +43,35 @@ pub fn plot(study: &Study, quantity: &QuantityStudy) -> Result<String> {
 
 type Point = (f64, f64);
 
+/// A curve of the plot.
+struct Curve<'s> {
+    name: &'s str,
+    /// Whether it is a series of meshes.
+    is_mesh: bool,
+    points: Vec<Point>,
+}
+
 /// Curves by series: those of meshes by element size (finest first), the others by time.
-fn curves<'s>(study: &'s Study, quantity: &QuantityStudy) -> Vec<(&'s str, bool, Vec<Point>)> {
-    let mut out: Vec<(&str, bool, Vec<(f64, Point)>)> = Vec::new();
-    for (run, error) in study.runs.iter().zip(&quantity.errors) {
+fn curves<'s>(study: &'s Study, quantity: &QuantityStudy) -> Vec<Curve<'s>> {
+    let mut order: Vec<usize> = (0..study.runs.len()).collect();
+    order.sort_by(|&a, &b| study.runs[a].ratio.total_cmp(&study.runs[b].ratio));
+    let mut out: Vec<Curve> = Vec::new();
+    for i in order {
+        let (run, error) = (&study.runs[i], quantity.errors[i]);
         let Some(error) = error.filter(|e| *e <= CEILING) else {
             continue;
         };
-        let is_mesh = matches!(run.knob, Knob::Resolution | Knob::Element);
         let point = (run.usage.undisturbed_seconds(), error.max(FLOOR));
-        let at = if is_mesh {
-            run.ratio
-        } else {
-            run.usage.undisturbed_seconds()
-        };
-        match out.iter_mut().find(|c| c.0 == run.series) {
-            Some(curve) => curve.2.push((at, point)),
-            None => out.push((&run.series, is_mesh, vec![(at, point)])),
+        match out.iter_mut().find(|c| c.name == run.series) {
+            Some(curve) => curve.points.push(point),
+            None => out.push(Curve {
+                name: &run.series,
+                is_mesh: matches!(run.knob, Knob::Resolution | Knob::Element),
+                points: vec![point],
+            }),
         }
     }
-    out.into_iter()
-        .map(|(name, is_mesh, mut points)| {
-            points.sort_by(|a, b| a.0.total_cmp(&b.0));
-            (name, is_mesh, points.into_iter().map(|p| p.1).collect())
-        })
-        .collect()
+    out
 }
 
 /// The range of some positive values, a decade's eighth wider on either side.
@@ -83,7 +87,7 @@ fn draw(
     text: &mut String,
 ) -> std::result::Result<(), Box<dyn std::error::Error>> {
     let curves = curves(study, quantity);
-    let points = || curves.iter().flat_map(|c| c.2.iter().copied());
+    let points = || curves.iter().flat_map(|c| c.points.iter().copied());
     if points().next().is_none() {
         return Err("no run has an error to draw".into());
     }
@@ -131,7 +135,12 @@ fn draw(
                 EmptyElement::at(at) + Rectangle::new([(0, -2), (24, 2)], grey.filled())
             });
     }
-    for (i, (name, is_mesh, points)) in curves.iter().enumerate() {
+    for (i, curve) in curves.iter().enumerate() {
+        let Curve {
+            name,
+            is_mesh,
+            points,
+        } = curve;
         let color = COLORS[i % COLORS.len()];
         let (width, radius) = if *is_mesh { (2, 4) } else { (1, 3) };
         // Runs with one knob turned are points round the scene's own: a line would suggest an order.

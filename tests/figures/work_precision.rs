@@ -45,15 +45,15 @@ const CASES: [Case; 6] = [
         overrides: &[],
         knobs: PATH,
         levels: 5,
-        budget: 150.0,
+        budget: 240.0,
         quantities: &[
             "yield.load",
             "states.1.5 b*.max_pressure",
             "states.unloaded.residual_depth",
         ],
         demands: &[],
-        remark: "Beyond yield the contact edge travels over flowing elements: pressure and dent converge with about the first \
-                 order, whatever the element.",
+        remark: "Beyond yield the contact edge travels over flowing elements: the dent converges with an order between one and \
+                 two, whatever the element. A target read off the state (1.5 b*) can be missed with the loosest tolerances.",
     },
     Case {
         name: "disc",
@@ -65,7 +65,7 @@ const CASES: [Case; 6] = [
         ],
         knobs: PATH,
         levels: 5,
-        budget: 120.0,
+        budget: 180.0,
         quantities: &[
             "yield.load",
             "yield.half_width",
@@ -84,7 +84,7 @@ const CASES: [Case; 6] = [
         ],
         knobs: MESH,
         levels: 6,
-        budget: 60.0,
+        budget: 120.0,
         quantities: &["yield.load", "yield.max_pressure", "yield.half_width"],
         demands: &[0.1, 0.03, 0.01, 0.003],
         remark: "Second order in load and pressure down to 1e-4, where the finite size of the bodies shows. The singular slope of the \
@@ -102,7 +102,7 @@ const CASES: [Case; 6] = [
         ],
         knobs: &[Knob::Resolution],
         levels: 6,
-        budget: 60.0,
+        budget: 120.0,
         quantities: &["yield.load", "yield.max_pressure", "yield.half_width"],
         demands: &[0.1, 0.03, 0.01],
         remark: "The largest pressure is that of the node on the axis, whose share of the surface is the least well known: order 1.4 \
@@ -115,7 +115,7 @@ const CASES: [Case; 6] = [
         overrides: &[],
         knobs: &Knob::ALL,
         levels: 6,
-        budget: 60.0,
+        budget: 120.0,
         quantities: &["yield.alpha", "states.alpha 190.approach"],
         demands: &[],
         remark: "Quadratic elements win by a factor. The displacement near collapse is governed by increments as much as by the mesh.",
@@ -127,7 +127,7 @@ const CASES: [Case; 6] = [
         overrides: &["mesh.parts.0.block.elements=[20, 20]"],
         knobs: &[Knob::Resolution, Knob::Tolerance, Knob::Stepping],
         levels: 5,
-        budget: 60.0,
+        budget: 120.0,
         quantities: &["states.flow.load"],
         demands: &[],
         remark: "The velocity jumps at the punch's edge: first order from above, whatever else is refined.",
@@ -151,12 +151,21 @@ fn data() -> PathBuf {
 
 fn main() -> Outcome<()> {
     let wanted: Vec<String> = std::env::args().skip(1).collect();
+    if wanted.is_empty() {
+        // A process each: the memory of one study's large runs is not held against the next one's small ones.
+        for case in &CASES {
+            let status = std::process::Command::new(std::env::current_exe()?)
+                .arg(case.name)
+                .status()?;
+            if !status.success() {
+                return Err(format!("{}: {status}", case.name).into());
+            }
+        }
+        return Ok(());
+    }
     let folder = data().join("accuracy");
     std::fs::create_dir_all(&folder)?;
-    for case in CASES
-        .iter()
-        .filter(|c| wanted.is_empty() || wanted.iter().any(|w| w == c.name))
-    {
+    for case in CASES.iter().filter(|c| wanted.iter().any(|w| w == c.name)) {
         eprintln!("{}", case.title);
         let overrides: Vec<String> = case.overrides.iter().map(|o| o.to_string()).collect();
         let path = data().join("scenes").join(format!("{}.toml", case.scene));
