@@ -47,6 +47,8 @@ pub mod progress;
 
 pub mod analysis;
 
+pub mod accuracy;
+
 pub mod output;
 
 pub mod selftest;

@@ -1,5 +1,6 @@
 //! What the user may type.
 
+use super::study::StudyArguments;
 use crate::linalg::Backend;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -70,6 +71,15 @@ pub(super) enum Command {
     ///
     /// Takes less than a minute. Exit code 7 where a family fails.
     Selftest(super::selftest::SelftestArguments),
+    /// Study what accuracy costs: errors against time over mesh, elements, increments, tolerances, algorithms
+    ///
+    /// Runs the scene with many settings, cheapest first, and writes accuracy.json, accuracy.csv and log-log plots of error over
+    /// time. Errors are measured against the closed form where the scene names one, else against the values extrapolated
+    /// from the finest meshes. Ctrl-C ends the study and keeps what it has.
+    #[command(
+        after_help = "Example: brinell accuracy data/scenes/thick_cylinder.toml --budget 60s"
+    )]
+    Accuracy(StudyArguments),
 }
 
 #[derive(Debug, Args)]
@@ -79,6 +89,9 @@ pub(super) struct RunArguments {
     /// Directory for the results; `run` takes SCENE with the ending .out if it is not given
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Do not estimate the errors: leaves out the runs on coarser meshes
+    #[arg(long)]
+    pub no_estimate: bool,
     /// No progress and no warnings, only results and errors
     #[arg(long, short)]
     pub quiet: bool,
@@ -101,6 +114,9 @@ pub(super) struct CommonArguments {
     /// Number of threads; by default as many as there are processors
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
+    /// Choose mesh and tolerances so that the stated errors stay within this, such as 1%; like the scene's key `accuracy`
+    #[arg(long, value_name = "PERCENT")]
+    pub accuracy: Option<String>,
     /// Print one JSON object (the content of summary.json) instead of tables
     #[arg(long)]
     pub json: bool,

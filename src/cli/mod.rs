@@ -1,4 +1,4 @@
-//! The command line: `brinell run`, `brinell yield`, `brinell check`, `brinell selftest`.
+//! The command line: `brinell run`, `yield`, `check`, `accuracy`, `selftest`.
 //!
 //! Only this module prints. What was computed goes to standard output, progress and errors to standard error, and
 //! the exit code says what kind of end it was ([`crate::ErrorKind::exit_code`]).
@@ -10,6 +10,7 @@ mod number;
 mod progress;
 mod report;
 mod selftest;
+mod study;
 mod table;
 
 use crate::error::{Error, ErrorKind, Result};

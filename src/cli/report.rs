@@ -32,6 +32,9 @@ pub(super) fn results(
         report.paragraph(&format!("INCOMPLETE: {why}"));
     }
     report.reference(&results.reference);
+    if let Some(accuracy) = &results.accuracy {
+        report.accuracy(accuracy);
+    }
     report.quality(&results.quality);
     report.cost(results, wall_seconds);
     report.list("Warnings", &results.warnings);
@@ -404,5 +407,6 @@ impl Report {
     }
 }
 
+mod accuracy;
 #[cfg(test)]
 mod tests;
