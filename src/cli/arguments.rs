@@ -74,6 +74,9 @@ pub(super) struct RunArguments {
     /// Directory for the results; `run` takes SCENE with the ending .out if it is not given
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Write no report.html and no figures
+    #[arg(long)]
+    pub no_report: bool,
     /// No progress and no warnings, only results and errors
     #[arg(long, short)]
     pub quiet: bool,

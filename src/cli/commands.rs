@@ -53,7 +53,11 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, act: Act) -> Result<(
     let header = header(&scene, model, common, computed);
     if let Some(out) = &out {
         progress.start("output");
-        output::write(out, &header, &model.mesh, &results)?;
+        if arguments.no_report {
+            output::write(out, &header, &model.mesh, &results)?;
+        } else {
+            output::write_with_report(out, &header, model, &results)?;
+        }
         results
             .timings
             .push(("output".to_string(), seconds() - computed));

@@ -6,12 +6,12 @@
 mod arguments;
 mod commands;
 mod interrupt;
-mod number;
 mod progress;
 mod report;
 mod table;
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::output::number;
 use arguments::Arguments;
 use clap::Parser;
 use std::error::Error as StdError;
