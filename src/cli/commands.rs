@@ -1,8 +1,8 @@
-//! The three commands: the one place where the command line calls the library.
+//! The commands that compute: the one place where the command line calls the analysis.
 
 use super::arguments::{Arguments, Command, CommonArguments, RunArguments};
 use super::progress::Progress;
-use super::{interrupt, print, report};
+use super::{completions, example, interrupt, new, print, report, schema, view};
 use crate::analysis::{self, Analysis, Check};
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::Backend;
@@ -22,6 +22,12 @@ pub(super) fn execute(arguments: &Arguments) -> Result<()> {
         }
         Command::Yield(run) => analyse(run, run.out.clone(), Analysis::yield_load),
         Command::Check(check) => predict(&check.common),
+        Command::Example(example) => example::run(example),
+        Command::New(new) => new::run(new),
+        Command::Schema(schema) => schema::run(schema),
+        Command::View(view) => view::run(view),
+        Command::Completions(completions) => completions::run(completions),
+        Command::Man => completions::man(),
     }
 }
 
@@ -38,7 +44,7 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, act: Act) -> Result<(
     interrupt::listen()?;
     let start = Instant::now();
     let seconds = || start.elapsed().as_secs_f64();
-    let mut progress = Progress::new(arguments.quiet);
+    let mut progress = Progress::new(arguments.quiet, arguments.progress);
     progress.start("mesh and model");
     let model = Model::new(&scene)?;
     let modelled = seconds();

@@ -1,14 +1,19 @@
-//! The command line: `brinell run`, `brinell yield`, `brinell check`.
+//! The command line: `brinell run`, `yield`, `check`, and what helps to write scenes and to look at results.
 //!
 //! Only this module prints. What was computed goes to standard output, progress and errors to standard error, and
 //! the exit code says what kind of end it was ([`crate::ErrorKind::exit_code`]).
 
 mod arguments;
 mod commands;
+mod completions;
+mod example;
 mod interrupt;
+mod new;
 mod progress;
 mod report;
+mod schema;
 mod table;
+mod view;
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::output::number;

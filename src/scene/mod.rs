@@ -20,6 +20,7 @@ mod overrides;
 mod program;
 mod read;
 mod reference;
+mod schema;
 mod units;
 mod unsupported;
 mod validate;
@@ -31,6 +32,7 @@ pub use program::{
     DisplacementTarget, PlasticIteration, Program, Settings, Stepping, Target, Unit, YieldMethod,
 };
 pub use reference::{NoParameters, RadiusOnly, Reference};
+pub use schema::schema;
 pub use units::Units;
 
 use schemars::JsonSchema;

@@ -66,7 +66,7 @@ impl Chart {
                 .margin_left(units(4.0))
                 .margin_bottom(units(4.0))
                 .x_label_area_size(units(46.0))
-                .y_label_area_size(units(68.0))
+                .y_label_area_size(units(78.0))
                 .build_cartesian_2d(x[0]..x[1], y[0]..y[1])
                 .map_err(failed)?;
             axes(&mut chart, [&self.labels[0], &self.labels[1]], true)?;

@@ -376,11 +376,21 @@ fn displacement(results: &Results, units: &Units) -> Option<Titled> {
 
 /// Largest plastic strain against the load factor.
 fn plastic_strain(results: &Results, units: &Units) -> Option<Titled> {
+    // A prescribed displacement without contact has a load at the states only.
+    let known = results.history.iter().all(|row| row.load.is_finite());
     let points: Vec<[f64; 2]> = results
         .history
         .iter()
-        .map(|row| [row.load, row.max_equivalent_plastic_strain])
+        .map(|row| {
+            let load = if known { row.load } else { row.alpha };
+            [load, row.max_equivalent_plastic_strain]
+        })
         .collect();
+    let label = if known {
+        load_label(units)
+    } else {
+        "load factor".to_string()
+    };
     if points.iter().all(|p| p[1] == 0.0) {
         return None;
     }
@@ -389,10 +399,7 @@ fn plastic_strain(results: &Results, units: &Units) -> Option<Titled> {
         title: "Largest equivalent plastic strain against load".to_string(),
         caption: "Every accepted increment of the load program, in its order.".to_string(),
         chart: Chart {
-            labels: [
-                load_label(units),
-                "largest equivalent plastic strain".to_string(),
-            ],
+            labels: [label, "largest equivalent plastic strain".to_string()],
             curves: vec![curve("", 0, Pen::Line, points)],
             from_zero: [true; 2],
             widened: 0.0,

@@ -181,9 +181,13 @@ fn story(header: &RunHeader, model: &Model, results: &Results, units: &Units) ->
     let contact = !model.pairs.is_empty();
     match &results.first_yield {
         Some(first) => {
+            // A prescribed displacement without contact has a load at the states only.
+            let load = match first.load.is_finite() {
+                true => format!("load of {}", quantity(first.load, units.load())),
+                false => format!("load factor of {}", round(first.alpha)),
+            };
             text.push_str(&format!(
-                "The material first yields at a load of {}, in {} at ({}, {})",
-                quantity(first.load, units.load()),
+                "The material first yields at a {load}, in {} at ({}, {})",
                 header.body(first.body),
                 significant(first.location[0], 3),
                 significant(first.location[1], 3)
@@ -275,7 +279,7 @@ fn cards(model: &Model, results: &Results, units: &Units) -> Markup {
     ));
     html! {
         dl.cards {
-            @for (name, value, unit) in cards.iter().filter(|card| card.1 > 0.0) {
+            @for (name, value, unit) in cards.iter().filter(|card| card.1 > 0.0 && card.1.is_finite()) {
                 div.card {
                     dt { (name) }
                     dd { (round(*value)) " " small { (unit) } }
@@ -315,7 +319,7 @@ fn pictures(all: &Figures) -> Markup {
         p.quiet { (all.about_pictures) }
         @if all.states_left_out > 0 {
             p.quiet {
-                (all.states_left_out) " more states are in the " code { ".vtu" } " files (ParaView: open " code { "fields.pvd" } ")."
+                (all.states_left_out) " more " (if all.states_left_out == 1 { "state is" } else { "states are" }) " in the " code { ".vtu" } " files (ParaView: open " code { "fields.pvd" } ")."
             }
         }
         @for (name, list) in &all.states {
