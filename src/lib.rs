@@ -41,6 +41,8 @@ pub mod contact;
 
 pub mod substructure;
 
+pub mod constrained;
+
 pub mod results;
 
 pub mod progress;

@@ -39,7 +39,7 @@ fn progress_is_a_json_object_per_line() {
     }
     assert!(last[1] > 0.0, "{last:?}");
     for other in ["plain", "bar"] {
-        let run = brinell(&["yield", &scene("contact_patch"), "--progress", other]);
+        let run = brinell(&["yield", &scene("thick_cylinder"), "--progress", other]);
         assert!(run.status.success(), "{other}");
     }
 }
