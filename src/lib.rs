@@ -51,6 +51,9 @@ pub mod analysis;
 
 pub mod output;
 
+#[cfg(feature = "capi")]
+pub mod capi;
+
 pub mod cli;
 
 pub use error::{Error, ErrorKind, Result};
