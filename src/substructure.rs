@@ -141,12 +141,30 @@ impl Substructure {
         })
     }
 
-    /// Gives the factor's memory back: from here on there is nothing left to solve with, the structure only waits to
-    /// be replaced.
+    /// Changes the zone: freedoms that were factored as zone are chosen among (the backend may keep more of them), for others the
+    /// structure is factored again. Returns whether it was.
     ///
     /// # Errors
-    /// None that can occur: one freedom of stiffness 1 is always definite.
-    pub fn release(&mut self) -> Result<()> {
+    /// Those of [`Substructure::new`].
+    pub fn set_zone(
+        &mut self,
+        model: &Model,
+        system: &System,
+        zone: Vec<usize>,
+        backend: Backend,
+    ) -> Result<bool> {
+        if let Some(zone) = self.condensed.choose_zone(&zone)? {
+            self.partition.zone = zone;
+            return Ok(false);
+        }
+        self.release()?;
+        *self = Substructure::new(model, system, zone, backend)?;
+        Ok(true)
+    }
+
+    /// Gives the factor's memory back before another comes: two at once would be the peak of memory. One freedom of
+    /// stiffness 1 takes its place.
+    fn release(&mut self) -> Result<()> {
         let one = linalg::SymmetricCsc::new_csc((1, 1), vec![0, 1], vec![0], vec![1.0]);
         let partition = Partition {
             n: 1,
@@ -171,14 +189,22 @@ impl Substructure {
         self.condensed.cost()
     }
 
-    /// Static condensation of a load on all freedoms.
+    /// What of a load on all freedoms stays the same for whichever zone is chosen.
     ///
     /// # Errors
     /// Failure of the backend's solve.
-    pub fn condense(&self, load: &[f64]) -> Result<Trailing> {
+    pub fn reduce(&self, load: &[f64]) -> Result<Vec<f64>> {
+        self.condensed.reduce_load(load)
+    }
+
+    /// Static condensation of a reduced load.
+    ///
+    /// # Errors
+    /// None for a load that this structure reduced.
+    pub fn condense(&self, reduced: &[f64]) -> Result<Trailing> {
         let mut out = self.zeros();
         self.condensed
-            .condense_load(load, &mut out.zone, &mut out.contact)?;
+            .condense_load(reduced, &mut out.zone, &mut out.contact)?;
         Ok(out)
     }
 

@@ -9,6 +9,8 @@ use crate::contact::{Change, PathEnd};
 use crate::error::{Error, ErrorKind, Result};
 use crate::material::PlasticState;
 use crate::scene::{Settings, Stepping};
+use std::cell::Cell;
+use std::sync::Arc;
 
 /// What the drive reports after each increment; false stops it.
 pub type OnIncrement<'a> = dyn FnMut(&mut Engine, &IncrementReport) -> Result<bool> + 'a;
@@ -42,6 +44,8 @@ pub enum Arrival {
     Stopped,
     /// A guard element flows: the zone must grow, the last increment was not taken.
     ZoneTooSmall,
+    /// The load factor has left the range that the zone was chosen for.
+    ZoneOutgrown,
 }
 
 /// How increments are taken.
@@ -53,8 +57,12 @@ pub struct Stepper<'a> {
     pub stepping: Stepping,
     /// Increments per piece where fixed.
     pub steps: usize,
+    /// How many of them have been taken.
+    pub taken: &'a Cell<usize>,
     /// Tolerance of events.
     pub gamma: f64,
+    /// Absolute load factor up to which the zone was chosen.
+    pub zone_until: f64,
     /// Asked between iterations: true stops the run at the last accepted increment.
     pub stop: &'a dyn Fn() -> bool,
 }
@@ -189,7 +197,6 @@ impl Engine<'_> {
         if self.turns_back(end) {
             self.zone.assume_elastic();
         }
-        let mut done = 0usize;
         let mut watched = monitor.map(|m| m(self));
         let whole = self.at.distance(end);
         let smallest = SMALLEST_CUT * whole;
@@ -198,7 +205,9 @@ impl Engine<'_> {
         loop {
             let left = match stepper.stepping {
                 Stepping::Events => 1.0,
-                Stepping::Steps => 1.0 / (stepper.steps - done.min(stepper.steps - 1)) as f64,
+                Stepping::Steps => {
+                    1.0 / stepper.steps.saturating_sub(stepper.taken.get()).max(1) as f64
+                }
             };
             if self.zone.is_idle()
                 && stepper.stepping == Stepping::Events
@@ -258,12 +267,15 @@ impl Engine<'_> {
             } else if reported.event.is_empty() {
                 reported.event = "step".to_string();
             }
-            done += usize::from(full);
+            stepper.taken.update(|taken| taken + usize::from(full));
             if !report(self, &reported)? {
                 return Ok(Arrival::Stopped);
             }
             if at_end {
                 return Ok(Arrival::End);
+            }
+            if self.at.alpha.abs() > stepper.zone_until {
+                return Ok(Arrival::ZoneOutgrown);
             }
         }
     }
@@ -324,12 +336,15 @@ impl Engine<'_> {
         let sign = if was < 0.0 { 1.0 } else { -1.0 };
         let mut failure = None;
         let last = std::cell::Cell::new(-1.0);
+        // Trials lie close together: each is predicted from the one before.
+        let mut found = Some((self.at.clone(), self.now.clone()));
         let mut value_at = |t: f64| {
             if t <= 0.0 {
                 return sign * was;
             }
             saved.put_back(self);
             let goal = saved.at.towards(end, t);
+            self.ahead = found.take();
             // An increment may be cut short: the way to the goal then takes several.
             loop {
                 match self.find_increment(&goal, 1.0, SMALLEST_CUT, stepper) {
@@ -337,8 +352,10 @@ impl Engine<'_> {
                         let arrived = increment.t >= 1.0;
                         reported.residual = increment.residual;
                         reported.iterations += increment.iterations;
+                        let at_once = self.at == saved.at;
                         self.accept(&goal, increment, reported);
                         if arrived {
+                            found = at_once.then(|| (self.at.clone(), self.now.clone()));
                             last.set(t);
                             return sign * monitor(self);
                         }
@@ -373,6 +390,8 @@ pub(super) struct Saved {
     open: Vec<bool>,
     border: Vec<usize>,
     fresh: bool,
+    /// Elements of the zone then, and their history.
+    elements: Arc<[usize]>,
     history: Vec<PlasticState>,
 }
 
@@ -384,16 +403,25 @@ impl Saved {
             open: engine.tableau.open().to_vec(),
             border: engine.border.clone(),
             fresh: engine.fresh,
+            elements: Arc::clone(&engine.elements),
             history: engine.zone.history().to_vec(),
         }
     }
 
     pub(super) fn put_back(&self, engine: &mut Engine) {
         engine.at = self.at.clone();
-        engine.now = self.now.clone();
-        engine.fresh = self.fresh;
         engine.border = self.border.clone();
-        engine.zone.restore(&self.history);
+        if Arc::ptr_eq(&self.elements, &engine.elements) {
+            engine.zone.restore(&self.history);
+            engine.now.copy_from(&self.now);
+            engine.fresh = self.fresh;
+        } else {
+            engine.zone.restore_of(&self.elements, &self.history);
+            engine.now.gap.copy_from_slice(&self.now.gap);
+            engine.now.force.copy_from_slice(&self.now.force);
+            engine.now.initial = engine.zone.initial_load(engine.sub.zeros());
+            engine.fresh = false;
+        }
         // Closing first: a pair whose opening would free a motion can open once others are closed.
         for closing in [true, false] {
             for k in 0..self.open.len() {
@@ -434,7 +462,7 @@ impl LoadPoint {
     }
 
     /// Share of the way from here to `end` at which `between` lies.
-    fn share_of(&self, between: &LoadPoint, end: &LoadPoint) -> f64 {
+    pub(super) fn share_of(&self, between: &LoadPoint, end: &LoadPoint) -> f64 {
         if end.alpha != self.alpha {
             (between.alpha - self.alpha) / (end.alpha - self.alpha)
         } else {

@@ -2,6 +2,7 @@
 
 use super::gather::Places;
 use super::zone::Zone;
+use super::zone_choice::zone_freedoms;
 use crate::assembly::System;
 use crate::contact::Tableau;
 use crate::error::{Error, Result};
@@ -9,6 +10,7 @@ use crate::linalg::Backend;
 use crate::model::Model;
 use crate::results::Counts;
 use crate::substructure::{Substructure, Trailing};
+use std::sync::Arc;
 
 /// A point of the load path: the factor of each load and the share of the interference that is applied.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,12 +54,23 @@ pub struct Equilibrium {
     pub force: Vec<f64>,
 }
 
+impl Equilibrium {
+    /// Takes over the values of another one of the same sizes.
+    pub fn copy_from(&mut self, other: &Equilibrium) {
+        self.initial.copy_from(&other.initial);
+        self.u.copy_from(&other.u);
+        self.gap.copy_from_slice(&other.gap);
+        self.force.copy_from_slice(&other.force);
+    }
+}
+
 /// The factored structure with its contact statuses, plastic zone and current state.
 pub struct Engine<'m> {
     /// The model.
     pub model: &'m Model,
     /// Stiffness and loads.
     pub system: &'m System,
+    backend: Backend,
     /// The condensed structure.
     pub sub: Substructure,
     /// Contact statuses.
@@ -67,7 +80,9 @@ pub struct Engine<'m> {
     /// Where zone and contact freedoms are.
     pub places: Places,
     /// Elements of the zone, ascending.
-    pub elements: Vec<usize>,
+    pub elements: Arc<[usize]>,
+    /// Loads at factor 1, reduced.
+    reduced_loads: Vec<Vec<f64>>,
     /// Condensed loads at factor 1.
     loads: Vec<Trailing>,
     /// Forces `t` of the tied pairs for each load at factor 1.
@@ -92,12 +107,15 @@ pub struct Engine<'m> {
     pub border: Vec<usize>,
     /// Change of the load point over the piece of the last increment: tells loading from unloading.
     pub last_step: Vec<f64>,
+    /// A state on the way to which the next increment leads, found before: it predicts the increment.
+    pub ahead: Option<(LoadPoint, Equilibrium)>,
     /// Elements outside the zone in which the last [`Engine::state`] found stress beyond yield.
     pub beyond_yield_outside: Vec<usize>,
 }
 
 impl<'m> Engine<'m> {
-    /// Factors the structure with a zone of the given elements (`guard` marks those that only watch).
+    /// Factors the structure so that zones may be chosen among the elements `within`, and chooses one of the given elements (`guard`
+    /// marks those that only watch).
     ///
     /// # Errors
     /// Those of [`Substructure::new`].
@@ -105,35 +123,33 @@ impl<'m> Engine<'m> {
         model: &'m Model,
         system: &'m System,
         backend: Backend,
+        within: &[usize],
         elements: Vec<usize>,
         guard: &[bool],
     ) -> Result<Self> {
-        let freedoms = super::zone_choice::zone_freedoms(model, &elements);
-        let sub = Substructure::new(model, system, freedoms, backend)?;
-        let places = Places::new(
-            model.freedoms.n,
-            &sub.partition.zone,
-            &sub.partition.contact,
-        );
+        let mut sub = Substructure::new(model, system, zone_freedoms(model, within), backend)?;
+        let mut factorizations = 1;
+        if elements != within {
+            let zone = zone_freedoms(model, &elements);
+            factorizations += usize::from(sub.set_zone(model, system, zone, backend)?);
+        }
+        let places = places(model, &sub);
         let zone = Zone::new(model, &elements, guard, &places);
-        let tableau = sub.tableau();
         let n = model.pairs.len();
         let gap: Vec<f64> = model.pairs.iter().map(|p| p.gap).collect();
         let interference: Vec<f64> = model.pairs.iter().map(|p| p.interference).collect();
-        let times = |v: &[f64]| -> Vec<f64> {
-            let product = tableau.matrix() * nalgebra::DVector::from_column_slice(v);
-            product.as_slice().to_vec()
-        };
-        let gap_forces = [times(&gap), times(&interference)];
         let mut engine = Engine {
             model,
             system,
+            backend,
+            tableau: sub.tableau(),
+            reduced_loads: Vec::new(),
             loads: Vec::new(),
             load_forces: Vec::new(),
-            gap_forces,
+            gap_forces: [Vec::new(), Vec::new()],
             unit: 1.0,
             counts: Counts {
-                factorizations: 1,
+                factorizations,
                 ..Counts::default()
             },
             force_scale: 0.0,
@@ -151,27 +167,86 @@ impl<'m> Engine<'m> {
             fresh: true,
             border: Vec::new(),
             last_step: vec![0.0; model.loads.len() + 1],
+            ahead: None,
             beyond_yield_outside: Vec::new(),
             gap,
             interference,
             sub,
-            tableau,
             zone,
             places,
-            elements: elements.to_vec(),
+            elements: elements.into(),
         };
-        for load in &system.loads {
-            let condensed = engine.sub.condense(load)?;
-            let mut forces = vec![0.0; n];
-            engine.sub.eliminate(&mut condensed.clone(), &mut forces);
-            engine.counts.full_solves += 1;
-            engine.counts.trailing_solves += 1;
-            engine.loads.push(condensed);
-            engine.load_forces.push(forces);
-        }
+        engine.reduce_loads()?;
         let open: Vec<bool> = engine.gap.iter().map(|g| *g > 0.0).collect();
         engine.tableau.reset(&open);
         Ok(engine)
+    }
+
+    /// Changes the zone to the given elements, factoring the structure again only where it must. State, statuses and history
+    /// are kept.
+    ///
+    /// # Errors
+    /// Those of [`Substructure::new`].
+    pub fn set_zone(&mut self, elements: Vec<usize>, guard: &[bool]) -> Result<()> {
+        let freedoms = zone_freedoms(self.model, &elements);
+        if self
+            .sub
+            .set_zone(self.model, self.system, freedoms, self.backend)?
+        {
+            self.counts.factorizations += 1;
+            let open = self.tableau.open().to_vec();
+            self.tableau = self.sub.tableau();
+            self.reduce_loads()?;
+            self.tableau.reset(&open);
+        } else {
+            self.condense_loads()?;
+        }
+        self.places = places(self.model, &self.sub);
+        let mut zone = Zone::new(self.model, &elements, guard, &self.places);
+        zone.restore_of(&self.elements, self.zone.history());
+        zone.set_factors(&self.at.factors);
+        (self.zone, self.elements) = (zone, elements.into());
+        let initial = self.zone.initial_load(self.sub.zeros());
+        self.now = self.respond(&self.at.clone(), &initial);
+        self.fresh = true;
+        Ok(())
+    }
+
+    /// What loads and gaps at factor 1 do to tied pairs, after the structure was factored.
+    fn reduce_loads(&mut self) -> Result<()> {
+        let times = |v: &[f64]| -> Vec<f64> {
+            let product = self.tableau.matrix() * nalgebra::DVector::from_column_slice(v);
+            product.as_slice().to_vec()
+        };
+        self.gap_forces = [times(&self.gap), times(&self.interference)];
+        let reduced: Result<Vec<_>> = self
+            .system
+            .loads
+            .iter()
+            .map(|l| self.sub.reduce(l))
+            .collect();
+        self.reduced_loads = reduced?;
+        self.counts.full_solves += self.reduced_loads.len();
+        self.condense_loads()?;
+        self.load_forces.clear();
+        for load in &self.loads {
+            let mut forces = vec![0.0; self.gap.len()];
+            self.sub.eliminate(&mut load.clone(), &mut forces);
+            self.counts.trailing_solves += 1;
+            self.load_forces.push(forces);
+        }
+        Ok(())
+    }
+
+    /// What loads at factor 1 do to the zone, after it was chosen.
+    fn condense_loads(&mut self) -> Result<()> {
+        let condensed: Result<Vec<_>> = self
+            .reduced_loads
+            .iter()
+            .map(|l| self.sub.condense(l))
+            .collect();
+        self.loads = condensed?;
+        Ok(())
     }
 
     /// The load point at a load factor, preloads and interference fully applied.
@@ -318,4 +393,9 @@ impl<'m> Engine<'m> {
             ),
         )
     }
+}
+
+fn places(model: &Model, sub: &Substructure) -> Places {
+    let partition = &sub.partition;
+    Places::new(model.freedoms.n, &partition.zone, &partition.contact)
 }

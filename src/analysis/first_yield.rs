@@ -31,10 +31,9 @@ impl Run<'_, '_> {
             let found = match self.model().scene.analysis.yield_load {
                 YieldMethod::Exact => self.exact_yield(required)?,
                 YieldMethod::Secant if required => {
-                    let recovery = self
-                        .recovery
-                        .as_mut()
-                        .ok_or_else(|| Error::internal("no recovery"))?;
+                    self.recovery();
+                    let recovery = self.recovery.as_mut();
+                    let recovery = recovery.ok_or_else(|| Error::internal("no recovery"))?;
                     Some(self.engine.secant_yield_load(recovery)?)
                 }
                 YieldMethod::Secant => None,
@@ -64,7 +63,7 @@ impl Run<'_, '_> {
             self.come_back(&origin);
             match missed {
                 None => return Ok(()),
-                Some(choice) => self.rebuild(choice)?,
+                Some(choice) => self.set_zone(choice)?,
             }
         }
         Err(Error::analysis(
@@ -99,6 +98,7 @@ impl Run<'_, '_> {
             Some(largest) => largest,
             None => self.first_load_estimate()?,
         };
+        self.recovery();
         for _ in 0..DOUBLINGS {
             for stop in self.stops(end) {
                 let point = self.engine.point(stop);
@@ -131,6 +131,7 @@ impl Run<'_, '_> {
             self.engine.tableau.open().to_vec(),
         );
         let point = self.engine.point(1.0);
+        self.recovery();
         let estimate = match (self.engine.solve_contact_at(&point), self.recovery.as_mut()) {
             (Ok(()), Some(recovery)) => self.engine.peak(recovery).map(|p| p.ratio),
             _ => None,

@@ -4,6 +4,7 @@ use super::drive::{Arrival, IncrementReport, Monitor, Saved, Stepper, stopped};
 use super::engine::{Engine, LoadPoint};
 use super::recovery::Recovery;
 use super::zone_choice::{self, Choice};
+use super::zone_fit::Spread;
 use super::{check, reference};
 use crate::assembly::System;
 use crate::error::{Error, Result};
@@ -12,7 +13,7 @@ use crate::model::Model;
 use crate::progress::{Flow, Observer};
 use crate::results::{HistoryRow, Quality, Results, Sizes, State};
 use crate::scene::{Target, Unit};
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::time::Instant;
 
 /// Doublings of the load in search of first yield or of a target.
@@ -44,9 +45,11 @@ pub(super) fn run(
 
 pub(super) struct Run<'m, 'o> {
     pub(super) engine: Engine<'m>,
+    /// Recovered stress over the zone at hand, once it was asked for.
     pub(super) recovery: Option<Recovery>,
     pub(super) choice: Choice,
-    pub(super) backend: Backend,
+    /// What the zone follows the load by.
+    pub(super) spread: Option<Spread>,
     pub(super) observer: &'o mut dyn Observer,
     pub(super) results: Results,
     /// Whether the material has yielded, so that increments are elastoplastic.
@@ -80,16 +83,16 @@ impl<'m, 'o> Run<'m, 'o> {
     ) -> Result<Self> {
         observer.phase("factorisation");
         let start = Instant::now();
-        let choice = zone_choice::first_guess(model);
+        let within = zone_choice::first_guess(model).elements;
+        let choice = zone_choice::place_of_first_yield(model);
         let engine = Engine::new(
             model,
             system,
             backend,
+            &within,
             choice.elements.clone(),
             &choice.guard,
         )?;
-        let recovery = (!choice.elements.is_empty())
-            .then(|| Recovery::new(model, &choice.elements, &engine.places));
         let mut results = Results {
             timings: timings.to_vec(),
             ..Results::default()
@@ -100,9 +103,9 @@ impl<'m, 'o> Run<'m, 'o> {
         }
         Ok(Run {
             engine,
-            recovery,
+            recovery: None,
             choice,
-            backend,
+            spread: None,
             observer,
             results,
             plastic: false,
@@ -129,7 +132,7 @@ impl<'m, 'o> Run<'m, 'o> {
                 .targets
                 .iter()
                 .any(|t| t.first_yield || t.half_width.is_some());
-        if self.recovery.is_some() && (required || self.largest_factor().is_some()) {
+        if !self.choice.elements.is_empty() && (required || self.largest_factor().is_some()) {
             self.observer.phase("yield load");
             let start = Instant::now();
             self.find_yield(required)?;
@@ -176,7 +179,7 @@ impl<'m, 'o> Run<'m, 'o> {
                 (plastic, yield_alpha, first_yield);
             self.results.history.truncate(increments);
             let wider = zone_choice::including(self.model(), &self.choice, &missed);
-            self.rebuild(wider)?;
+            self.set_zone(wider)?;
         }
         Err(Error::analysis(format!(
             "target `{label}`: the material keeps yielding outside the zone that was chosen"
@@ -226,7 +229,14 @@ impl<'m, 'o> Run<'m, 'o> {
         let model = self.model();
         let program = &model.scene.program;
         let fraction = self.done as f64 / program.targets.len().max(1) as f64;
+        let taken = Cell::new(0);
         loop {
+            let plastic = self.plastic && !self.choice.elements.is_empty();
+            if plastic {
+                self.follow_load()?;
+            } else if watch_yield {
+                self.recovery();
+            }
             let start = Instant::now();
             let results = &mut self.results;
             let observer = RefCell::new(&mut *self.observer);
@@ -235,7 +245,9 @@ impl<'m, 'o> Run<'m, 'o> {
                 settings: &model.scene.analysis,
                 stepping: program.stepping,
                 steps: program.steps,
+                taken: &taken,
                 gamma: program.gamma,
+                zone_until: self.spread.as_ref().map_or(f64::INFINITY, |s| s.until),
                 stop: &stop,
             };
             let mut report = |engine: &mut Engine, increment: &IncrementReport| {
@@ -244,7 +256,6 @@ impl<'m, 'o> Run<'m, 'o> {
                 results.history.push(row);
                 Ok(flow == Flow::Continue && !stop())
             };
-            let plastic = self.plastic && !self.choice.elements.is_empty();
             let arrival = if plastic {
                 self.engine
                     .drive_plastic(end, stepper, monitor, &mut report)
@@ -266,8 +277,9 @@ impl<'m, 'o> Run<'m, 'o> {
             match arrival? {
                 Arrival::ZoneTooSmall => {
                     let larger = zone_choice::grown(model, &self.choice);
-                    self.rebuild(larger)?;
+                    self.set_zone(larger)?;
                 }
+                Arrival::ZoneOutgrown => {}
                 other => return Ok(other),
             }
         }

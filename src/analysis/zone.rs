@@ -9,7 +9,7 @@
 
 use super::gather::{AtPoints, GatheredElements, Nodal, Places};
 use crate::assembly::LocalElement;
-use crate::element::MAX_FREEDOMS;
+use crate::element::{MAX_FREEDOMS, n_gauss_points};
 use crate::material::{Material, Matrix4, PlasticState, multiply};
 use crate::model::Model;
 use crate::substructure::Trailing;
@@ -61,12 +61,9 @@ impl Zone {
             LocalElement::points_of(model, e)
         });
         let n = elements.list.len();
-        let stride = elements
-            .list
-            .iter()
-            .map(|e| e.n_points as usize)
-            .max()
-            .unwrap_or(1);
+        // That of the mesh, not of these elements: histories pass from zone to zone.
+        let shapes = model.mesh.shapes.iter();
+        let stride = shapes.map(|s| n_gauss_points(*s)).max().unwrap_or(1);
         let (n_zone, n_contact) = places.sizes();
         Zone {
             forces: vec![[0.0; MAX_FREEDOMS]; n],
@@ -227,6 +224,22 @@ impl Zone {
         self.renew_base();
     }
 
+    /// Puts the history of a zone of other elements (ascending) back; elements that were not in it have none.
+    pub fn restore_of(&mut self, elements: &[usize], history: &[PlasticState]) {
+        for (i, packed) in self.elements.list.iter().enumerate() {
+            let states = &mut self.committed[i * self.stride..][..self.stride];
+            match elements.binary_search(&(packed.element as usize)) {
+                Ok(j) => states.copy_from_slice(&history[j * self.stride..][..self.stride]),
+                Err(_) => states.fill(PlasticState::default()),
+            }
+        }
+        self.trial.copy_from_slice(&self.committed);
+        self.flows.fill(false);
+        self.softening.fill([[0.0; 4]; 4]);
+        self.active.clear();
+        self.renew_base();
+    }
+
     /// History by element of the mesh.
     pub fn history_by_element(&self) -> impl Iterator<Item = (usize, &[PlasticState])> {
         self.elements
@@ -264,23 +277,6 @@ impl Zone {
     fn points_of(&self, i: usize) -> std::ops::Range<usize> {
         let first = i * self.stride;
         first..first + self.elements.list[i].n_points as usize
-    }
-
-    /// Takes over the history of elements that belong to another zone too.
-    pub fn take_over(&mut self, other: &Zone) {
-        let (mine, theirs) = (&self.elements.list, &other.elements.list);
-        let mut j = 0;
-        for (i, packed) in mine.iter().enumerate() {
-            while j < theirs.len() && theirs[j].element < packed.element {
-                j += 1;
-            }
-            if j < theirs.len() && theirs[j].element == packed.element {
-                let (to, from) = (self.points_of(i), other.points_of(j));
-                self.committed[to.clone()].copy_from_slice(&other.committed[from.clone()]);
-                self.trial[to].copy_from_slice(&other.committed[from]);
-            }
-        }
-        self.renew_base();
     }
 
     /// Gauss points with plastic strain and the largest equivalent plastic strain.

@@ -1,21 +1,34 @@
-//! The zone of a run: fitted to the program's extreme loads, grown and moved where it must.
+//! The zone of a run: fitted to the program's extreme loads, following the load, grown where it must.
 
-use super::engine::Engine;
 use super::program::Run;
 use super::recovery::Recovery;
 use super::zone_choice::{self, Choice};
 use crate::error::Result;
+use crate::scene::History;
 use std::time::Instant;
 
+/// Factor on the load from one stage of the zone to the next: what it saves in trailing solves against what a stage costs, a
+/// copy of the zone's part of the factor.
+const STAGE: f64 = 1.1;
+
+/// How far yielding will spread, by the elastic stress at the program's extreme loads.
+pub(super) struct Spread {
+    /// Elastic von Mises stress over yield stress of each element.
+    ratios: Vec<f64>,
+    /// The largest load factor.
+    highest: f64,
+    /// Load factor up to which the zone at hand was chosen.
+    pub(super) until: f64,
+}
+
 impl Run<'_, '_> {
-    /// Chooses the zone for the program's extreme loads from the elastic stress there.
+    /// Chooses the zone for the program's extreme loads from the elastic stress there. What was factored as zone usually holds
+    /// it; else this is the second factorisation, and the last.
     pub(super) fn fit_zone(&mut self) -> Result<()> {
-        if self.recovery.is_none()
-            || self.choice.guard.iter().all(|g| !g) && !self.choice.elements.is_empty()
-        {
+        if self.choice.guard.iter().all(|g| !g) {
             return Ok(());
         }
-        let Some(_) = self.yield_alpha else {
+        let Some(at_yield) = self.yield_alpha else {
             // Nothing yields: the elastic path needs no zone at all.
             return Ok(());
         };
@@ -25,7 +38,8 @@ impl Run<'_, '_> {
             self.engine.tableau.open().to_vec(),
         );
         let mut ratios = vec![0.0f64; self.model().mesh.n_elements()];
-        for alpha in self.extreme_factors() {
+        let extremes = self.extreme_factors(at_yield);
+        for &alpha in &extremes {
             let point = self.engine.point(alpha);
             if self.engine.solve_contact_at(&point).is_err() {
                 continue;
@@ -41,19 +55,43 @@ impl Run<'_, '_> {
         }
         self.engine.tableau.reset(&saved.2);
         (self.engine.at, self.engine.now, self.engine.fresh) = (saved.0, saved.1, true);
-        let wanted = zone_choice::predict(self.model(), &ratios);
-        // A smaller zone pays for its factorisation within a few increments; a missing part costs more.
-        if !self.choice.covers(&wanted)
-            || 5 * wanted.elements.len() < 3 * self.choice.elements.len()
+        self.set_zone(zone_choice::predict(self.model(), &ratios))?;
+        let model = self.model();
+        let proportional = |l: &crate::model::LoadCase| matches!(l.history, History::Proportional);
+        if model.loads.iter().all(proportional) && model.pairs.iter().all(|p| p.interference == 0.0)
         {
-            self.rebuild(wanted)?;
+            self.spread = Some(Spread {
+                ratios,
+                highest: extremes.iter().fold(0.0, |m, a| m.max(a.abs())),
+                until: 0.0,
+            });
         }
         Ok(())
     }
 
+    /// Lets the zone follow the load: while it is far below the program's largest, so is the zone.
+    pub(super) fn follow_load(&mut self) -> Result<()> {
+        let reached = self.engine.at.alpha.abs();
+        let Some(spread) = self.spread.as_mut().filter(|s| reached >= s.until) else {
+            return Ok(());
+        };
+        let nothing = Choice::default();
+        let old = if spread.until == 0.0 {
+            &nothing
+        } else {
+            &self.choice
+        };
+        spread.until = STAGE * reached;
+        if spread.until >= spread.highest {
+            spread.until = f64::INFINITY;
+        }
+        let share = (spread.until / spread.highest).min(1.0);
+        let next = zone_choice::stage(self.engine.model, &spread.ratios, share, old);
+        self.set_zone(next)
+    }
+
     /// Load factors between which the program moves; a target half width of m times that at yield stands for m^2.
-    pub(super) fn extreme_factors(&self) -> Vec<f64> {
-        let at_yield = self.yield_alpha.unwrap_or(1.0);
+    fn extreme_factors(&self, at_yield: f64) -> Vec<f64> {
         let mut all: Vec<f64> = Vec::new();
         for target in &self.model().scene.program.targets {
             all.extend(target.load_factor);
@@ -68,45 +106,29 @@ impl Run<'_, '_> {
         }
     }
 
-    /// Factors the structure again with another zone; state and history are kept.
-    pub(super) fn rebuild(&mut self, choice: Choice) -> Result<()> {
-        self.observer.phase("factorisation");
+    /// Goes on with another zone; state and history are kept.
+    pub(super) fn set_zone(&mut self, choice: Choice) -> Result<()> {
+        if choice == self.choice {
+            return Ok(());
+        }
         let start = Instant::now();
-        // The old factor goes before the new one comes: two at once would be the peak of memory.
         self.recovery = None;
-        self.engine.sub.release()?;
-        let old = &self.engine;
-        let mut engine = Engine::new(
-            self.model(),
-            old.system,
-            self.backend,
-            choice.elements.clone(),
-            &choice.guard,
-        )?;
-        engine.unit = old.unit;
-        engine.force_scale = old.force_scale;
-        let counts = engine.counts;
-        engine.counts = old.counts;
-        engine.counts.factorizations += counts.factorizations;
-        engine.counts.full_solves += counts.full_solves;
-        engine.counts.trailing_solves += counts.trailing_solves;
-        engine.tableau.reset(old.tableau.open());
-        engine.zone.take_over(&old.zone);
-        engine.border = old.border.clone();
-        engine.last_step = old.last_step.clone();
-        engine.at = old.at.clone();
-        let initial = engine.zone.initial_load(engine.sub.zeros());
-        let at = engine.at.clone();
-        engine.zone.set_factors(&at.factors);
-        engine.now = engine.respond(&at, &initial);
-        self.recovery = Some(Recovery::new(
-            self.model(),
-            &choice.elements,
-            &engine.places,
-        ));
-        self.engine = engine;
+        self.engine
+            .set_zone(choice.elements.clone(), &choice.guard)?;
         self.choice = choice;
         self.seconds.condensation += start.elapsed().as_secs_f64();
         Ok(())
+    }
+
+    /// Recovered stress over the zone at hand, if there is one.
+    pub(super) fn recovery(&mut self) -> Option<&mut Recovery> {
+        if self.choice.elements.is_empty() {
+            return None;
+        }
+        let (model, choice, places) = (self.engine.model, &self.choice, &self.engine.places);
+        Some(
+            self.recovery
+                .get_or_insert_with(|| Recovery::new(model, &choice.elements, places)),
+        )
     }
 }

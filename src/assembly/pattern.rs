@@ -3,6 +3,11 @@
 use crate::model::{Model, Slot};
 use rayon::prelude::*;
 
+/// Columns of the pattern that a thread takes at a time.
+const BLOCK: usize = 4096;
+/// Rows of a column that room is made for: those of bilinear elements.
+const ROWS_EXPECTED: usize = 10;
+
 /// Element freedoms and, for each freedom, the elements that hold it.
 #[derive(Debug, Clone)]
 pub struct Incidence {
@@ -68,32 +73,38 @@ impl Incidence {
     /// Column pointers and sorted rows of the upper triangle.
     pub fn pattern(&self) -> (Vec<i64>, Vec<i64>) {
         let n = self.starts.len() - 1;
-        let columns: Vec<Vec<i64>> = (0..n)
+        // Blocks of columns: their number, not the number of threads, decides what is computed together.
+        let blocks: Vec<(Vec<u32>, Vec<i64>)> = (0..n.div_ceil(BLOCK))
             .into_par_iter()
-            .with_min_len(1024)
-            .map(|j| {
-                let mut rows: Vec<i64> = self
-                    .elements(j)
-                    .iter()
-                    .flat_map(|&(e, _)| self.freedoms(e as usize))
-                    .copied()
-                    .filter(|&f| f >= 0 && f <= j as i64)
-                    .collect();
-                rows.sort_unstable();
-                rows.dedup();
-                rows
+            .map(|block| {
+                let columns = block * BLOCK..((block + 1) * BLOCK).min(n);
+                let mut lengths = Vec::with_capacity(columns.len());
+                let mut rows = Vec::with_capacity(ROWS_EXPECTED * columns.len());
+                let mut column = Vec::new();
+                for j in columns {
+                    column.clear();
+                    for &(e, _) in self.elements(j) {
+                        let freedoms = self.freedoms(e as usize).iter().copied();
+                        column.extend(freedoms.filter(|f| (0..=j as i64).contains(f)));
+                    }
+                    column.sort_unstable();
+                    column.dedup();
+                    lengths.push(column.len() as u32);
+                    rows.extend_from_slice(&column);
+                }
+                (lengths, rows)
             })
             .collect();
         let mut pointers = Vec::with_capacity(n + 1);
         pointers.push(0);
         let mut total = 0;
-        for column in &columns {
-            total += column.len() as i64;
+        for length in blocks.iter().flat_map(|(lengths, _)| lengths) {
+            total += i64::from(*length);
             pointers.push(total);
         }
         let mut rows = Vec::with_capacity(total as usize);
-        for column in columns {
-            rows.extend_from_slice(&column);
+        for (_, block) in blocks {
+            rows.extend_from_slice(&block);
         }
         (pointers, rows)
     }

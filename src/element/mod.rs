@@ -103,6 +103,11 @@ pub fn sampling_points(shape: Shape) -> &'static [([f64; 2], f64)] {
     }
 }
 
+/// Number of Gauss points of a shape.
+pub fn n_gauss_points(shape: Shape) -> usize {
+    rule(shape).len()
+}
+
 /// Strain-displacement matrices at the Gauss points.
 pub fn gauss_points(kind: Kind, shape: Shape, coordinates: &[[f64; 2]]) -> Points {
     let mut out = at_points(kind, shape, coordinates, rule(shape));

@@ -82,3 +82,8 @@ pub(super) fn length(what: &str, found: usize, expected: usize) -> Result<()> {
         "{found} values of {what} where {expected} are needed"
     )))
 }
+
+/// Whether each of `some` (ascending) is among `all` (ascending).
+pub(super) fn contains(all: &[usize], some: &[usize]) -> bool {
+    some.iter().all(|one| all.binary_search(one).is_ok())
+}

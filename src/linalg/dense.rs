@@ -145,8 +145,18 @@ impl Condensed for DenseCondensed {
         &self.contact_stiffness
     }
 
-    fn condense_load(&self, load: &[f64], zone: &mut [f64], contact: &mut [f64]) -> Result<()> {
+    fn choose_zone(&mut self, wanted: &[usize]) -> Result<Option<Vec<usize>>> {
+        let zone = &self.partition.zone;
+        Ok(check::contains(zone, wanted).then(|| zone.clone()))
+    }
+
+    fn reduce_load(&self, load: &[f64]) -> Result<Vec<f64>> {
         check::length("load", load.len(), self.partition.n)?;
+        Ok(load.to_vec())
+    }
+
+    fn condense_load(&self, load: &[f64], zone: &mut [f64], contact: &mut [f64]) -> Result<()> {
+        check::length("reduced load", load.len(), self.partition.n)?;
         check::length("zone load", zone.len(), self.partition.zone.len())?;
         check::length("contact load", contact.len(), self.partition.contact.len())?;
         let (f_z, f_c) = self.condensed(&DVector::from_column_slice(load));

@@ -63,12 +63,27 @@ pub trait Condensed: Send + Sync {
     /// `C = S_cc - S_cz S_zz^-1 S_zc` of `K` (the shift taken off), `n_contact x n_contact`, symmetric.
     fn contact_stiffness(&self) -> &DMatrix<f64>;
 
-    /// Static condensation of a load on all freedoms (`n`) onto the trailing ones:
-    /// `f_t = load_t - K_ti K_ii^-1 load_i`. Costs about one full solve.
+    /// Makes a part of the factored zone the zone: the freedoms `wanted` (ascending) and those that the backend
+    /// cannot do without. Returns the zone freedoms from now on, the order of all zone vectors, or `None` where one of those wanted was not
+    /// factored as zone. The rest of the zone joins the interior; it can come back.
+    ///
+    /// # Errors
+    /// `Analysis` where the memory does not suffice.
+    fn choose_zone(&mut self, wanted: &[usize]) -> Result<Option<Vec<usize>>>;
+
+    /// Reduces a load on all freedoms (`n`) to what [`Condensed::condense_load`] needs of it for whichever zone is chosen.
+    /// Costs about half a full solve.
     ///
     /// # Errors
     /// As [`Condensed::recover_all`].
-    fn condense_load(&self, load: &[f64], zone: &mut [f64], contact: &mut [f64]) -> Result<()>;
+    fn reduce_load(&self, load: &[f64]) -> Result<Vec<f64>>;
+
+    /// Static condensation of a reduced load onto zone and contact freedoms:
+    /// `f_t = load_t - K_ti K_ii^-1 load_i`. Costs the zone, not the mesh.
+    ///
+    /// # Errors
+    /// `Internal` where a vector has the wrong length.
+    fn condense_load(&self, reduced: &[f64], zone: &mut [f64], contact: &mut [f64]) -> Result<()>;
 
     /// Eliminates the zone: on entry (f_z, f_c); on return `contact` is `f_c - S_cz S_zz^-1 f_z` and
     /// `zone` holds what [`Condensed::recover_zone`] needs.

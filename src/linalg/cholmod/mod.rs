@@ -51,7 +51,10 @@ const REFINE_ABOVE: f64 = 4.0 * f64::EPSILON;
 
 /// A matrix factored by CHOLMOD and condensed.
 pub struct CholmodCondensed {
+    /// What was factored.
     partition: Partition,
+    /// The zone freedoms in use.
+    zone: Vec<usize>,
     shift: Vec<f64>,
     matrix: Matrix,
     trailing: Trailing,
@@ -123,10 +126,11 @@ impl CholmodCondensed {
             values[diagonal(freedom)] = matrix.data()[diagonal(freedom)];
         }
 
-        let trailing = Trailing::extract(&factor, &groups, partition)?;
+        let (trailing, zone) = Trailing::extract(&factor, &groups, partition, &partition.zone)?;
         Ok(CholmodCondensed {
             contact_stiffness: trailing.contact_stiffness(shift),
             trailing,
+            zone,
             matrix: Matrix::new(matrix, values),
             partition: partition.clone(),
             shift: shift.to_vec(),
@@ -147,6 +151,11 @@ impl CholmodCondensed {
         self.trailing.contact_stiffness(&self.shift)
     }
 
+    /// Number of interior freedoms as factored.
+    fn interior(&self) -> usize {
+        self.partition.n - self.partition.zone.len() - self.partition.contact.len()
+    }
+
     fn solver(&self) -> MutexGuard<'_, Solver> {
         self.solver.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -157,22 +166,42 @@ impl Condensed for CholmodCondensed {
         &self.contact_stiffness
     }
 
+    fn choose_zone(&mut self, wanted: &[usize]) -> Result<Option<Vec<usize>>> {
+        if !check::contains(&self.partition.zone, wanted) {
+            return Ok(None);
+        }
+        let solver = self.solver();
+        let groups = Groups::new(&self.partition);
+        let chosen = Trailing::extract(&solver.factor, &groups, &self.partition, wanted)?;
+        drop(solver);
+        (self.trailing, self.zone) = chosen;
+        Ok(Some(self.zone.clone()))
+    }
+
     // y = L^-1 P load has y_i = L_ii^-1 load_i and y_t = L_tt^-1 (load_t - L_ti y_i). Since L_ti L_ii' = K_ti and
     // L_ii L_ii' = K_ii,
     //     L_tt y_t = load_t - L_ti L_ii^-1 load_i = load_t - K_ti K_ii^-1 load_i = f_t:
     // the shift is in L_tt alone, which is divided by and multiplied back.
-    fn condense_load(&self, load: &[f64], zone: &mut [f64], contact: &mut [f64]) -> Result<()> {
+    fn reduce_load(&self, load: &[f64]) -> Result<Vec<f64>> {
         check::length("load", load.len(), self.partition.n)?;
-        check::length("zone load", zone.len(), self.partition.zone.len())?;
-        check::length("contact load", contact.len(), self.partition.contact.len())?;
         let mut solver = self.solver();
         let solver = &mut *solver;
         for (value, &freedom) in solver.load.iter_mut().zip(solver.factor.permutation()) {
             *value = load[freedom as usize];
         }
         let y = solver.factor.solve(System::Lower, &solver.load)?;
-        let interior = self.partition.n - self.trailing.len();
-        self.trailing.condensed_load(&y[interior..], zone, contact);
+        Ok(y[self.interior()..].to_vec())
+    }
+
+    fn condense_load(&self, reduced: &[f64], zone: &mut [f64], contact: &mut [f64]) -> Result<()> {
+        check::length(
+            "reduced load",
+            reduced.len(),
+            self.partition.n - self.interior(),
+        )?;
+        check::length("zone load", zone.len(), self.zone.len())?;
+        check::length("contact load", contact.len(), self.partition.contact.len())?;
+        self.trailing.condensed_load(reduced, zone, contact);
         Ok(())
     }
 

@@ -24,8 +24,9 @@ use suitesparse_sys as sys;
 /// |---|---|---|---|---|---|
 /// | quad4 | 181 k | 3,800 | 2,500 | 0.13 + 0.8 s | 0.5 + 1.3 s |
 /// | quad4 | 981 k | 8,500 | 6,100 | 1.2 + 5.4 s | 3.5 + 4.5 s |
+/// | quad4, graded | 1,559 k | 15,400 | 5,900 | | |
 /// | hex8 | 148 k | 263,000 | 87,000 | 0.5 + 40 s | 1.2 + 13 s |
-const TRY_DISSECTION_ABOVE: f64 = 20_000.0;
+const TRY_DISSECTION_ABOVE: f64 = 10_000.0;
 
 /// METIS draws from the random numbers of the C library, which all threads share: one caller at a
 /// time, so that the same matrix always gets the same order.

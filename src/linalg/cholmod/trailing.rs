@@ -9,8 +9,12 @@
 //! memory delivers `L_tt`. Columns of the same structure are kept as dense panels of at most
 //! [`PANEL_WIDTH`] columns: a lower triangle, then a rectangle whose rows are listed once, both stored as the kernels ([`panel`])
 //! read them.
+//!
+//! Of the zone only a part may be needed. A set of columns that holds with a column all rows of its structure (its
+//! ancestors in the elimination tree) may as well have been eliminated after all others: its block of `L` is the
+//! factor of the structure condensed onto it. So a zone shrinks, and grows back, without another factorisation.
 
-use super::factor::Factor;
+use super::factor::{Columns, Factor};
 use super::ordering::Groups;
 use super::panel;
 use crate::error::{Error, Result};
@@ -58,7 +62,9 @@ struct Work {
 #[derive(Debug)]
 pub(super) struct Trailing {
     n_zone: usize,
-    /// Place in the partition's zone of each zone column.
+    /// Trailing columns of the factor (0 is the first of the factored zone) that are kept, ascending.
+    kept: Vec<u32>,
+    /// Place in the kept zone of each zone column.
     zone: Vec<u32>,
     /// Place in the partition's contact list of each contact column.
     contact: Vec<u32>,
@@ -70,37 +76,64 @@ pub(super) struct Trailing {
 }
 
 impl Trailing {
-    /// Copies the trailing columns out of `factor`, whose groups are contiguous.
-    pub(super) fn extract(factor: &Factor, groups: &Groups, partition: &Partition) -> Result<Self> {
+    /// Copies the trailing columns out of `factor`, whose groups are contiguous: those of the contact freedoms, and of the
+    /// zone those that the freedoms `wanted` need. Returns the zone freedoms kept (ascending) with it.
+    pub(super) fn extract(
+        factor: &Factor,
+        groups: &Groups,
+        partition: &Partition,
+        wanted: &[usize],
+    ) -> Result<(Self, Vec<usize>)> {
         let [_, first_zone, first_contact, n] = groups.starts();
         let permutation = factor.permutation();
+        let columns = factor.columns();
+        let needed = needed(
+            &columns,
+            permutation,
+            first_zone..first_contact,
+            n,
+            partition,
+            wanted,
+        );
+        let kept: Vec<u32> = (0..needed.len() as u32)
+            .filter(|&j| needed[j as usize])
+            .collect();
+        let mut number = vec![u32::MAX; needed.len()];
+        for (new, &old) in kept.iter().enumerate() {
+            number[old as usize] = new as u32;
+        }
+        let n_zone = kept.partition_point(|&j| (j as usize) < first_contact - first_zone);
+        let freedom_of = |&j: &u32| permutation[first_zone + j as usize] as usize;
+        let mut zone: Vec<usize> = kept[..n_zone].iter().map(freedom_of).collect();
+        zone.sort_unstable();
         let mut place = vec![0u32; n];
-        for list in [&partition.zone, &partition.contact] {
+        for list in [&zone, &partition.contact] {
             for (k, &freedom) in list.iter().enumerate() {
                 place[freedom] = k as u32;
             }
         }
-        let places = |range: Range<usize>| -> Vec<u32> {
-            permutation[range]
-                .iter()
-                .map(|&freedom| place[freedom as usize])
-                .collect()
+        let places = |columns: &[u32]| -> Vec<u32> {
+            columns.iter().map(|j| place[freedom_of(j)]).collect()
         };
         let mut trailing = Trailing {
-            n_zone: first_contact - first_zone,
-            zone: places(first_zone..first_contact),
-            contact: places(first_contact..n),
+            n_zone,
+            zone: places(&kept[..n_zone]),
+            contact: places(&kept[n_zone..]),
             panels: Vec::new(),
             n_zone_panels: 0,
             rows: Vec::new(),
             values: Vec::new(),
             work: Mutex::new(Work {
-                vector: vec![0.0; n - first_zone],
+                vector: vec![0.0; kept.len()],
                 rows: Vec::new(),
             }),
+            kept,
         };
-        let columns = factor.columns();
-        let nonzeros = (first_zone..n).map(|j| columns.get(j).rows.len()).sum();
+        let nonzeros = trailing
+            .kept
+            .iter()
+            .map(|&j| columns.get(first_zone + j as usize).rows.len())
+            .sum();
         trailing
             .values
             .try_reserve_exact(nonzeros)
@@ -110,22 +143,24 @@ impl Trailing {
                 ))
                 .because(cause)
             })?;
-        trailing.copy_panels(&columns, first_zone, first_zone..first_contact);
+        trailing.copy_panels(&columns, &number, first_zone, first_zone..first_contact);
         trailing.n_zone_panels = trailing.panels.len();
-        trailing.copy_panels(&columns, first_zone, first_contact..n);
+        trailing.copy_panels(&columns, &number, first_zone, first_contact..n);
         let tallest = trailing.panels.iter().map(|p| p.rows.len()).max();
         trailing
             .work
             .get_mut()
             .unwrap_or_else(PoisonError::into_inner)
             .rows = vec![0.0; tallest.unwrap_or(0)];
-        Ok(trailing)
+        Ok((trailing, zone))
     }
 
-    /// Appends the panels of the columns `range` of the factor; `origin` is its first trailing column.
+    /// Appends the panels of those columns of the factor in `range` that have a `number` among the kept ones; `origin`
+    /// is the factor's first trailing column.
     fn copy_panels(
         &mut self,
-        columns: &super::factor::Columns,
+        columns: &Columns,
+        number: &[u32],
         origin: usize,
         range: Range<usize>,
     ) {
@@ -134,6 +169,10 @@ impl Trailing {
         let mut previous: &[i64] = &[];
         let mut listed = 0..0;
         while j < range.end {
+            if number[j - origin] == u32::MAX {
+                j += 1;
+                continue;
+            }
             let head = columns.get(j);
             let mut width = 1;
             while width < PANEL_WIDTH
@@ -154,7 +193,7 @@ impl Trailing {
             } else {
                 let start = self.rows.len();
                 self.rows
-                    .extend(below.iter().map(|&row| (row as usize - origin) as u32));
+                    .extend(below.iter().map(|&row| number[row as usize - origin]));
                 start..self.rows.len()
             };
             previous = below;
@@ -172,7 +211,7 @@ impl Trailing {
                 &mut self.values,
             );
             self.panels.push(Panel {
-                first: j - origin,
+                first: number[j - origin] as usize,
                 width,
                 rows,
                 values,
@@ -181,16 +220,13 @@ impl Trailing {
         }
     }
 
-    /// Number of trailing freedoms.
-    pub(super) fn len(&self) -> usize {
-        self.zone.len() + self.contact.len()
-    }
-
-    /// `f_t = L_tt y_t`, given in the order of the factor, returned in the partition's.
+    /// `f_t = L_tt y_t`, given for all trailing columns of the factor, returned for the kept ones in the partition's order.
     pub(super) fn condensed_load(&self, y: &[f64], zone: &mut [f64], contact: &mut [f64]) {
         let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
         let Work { vector, rows } = &mut *work;
-        vector.copy_from_slice(y);
+        for (value, &column) in vector.iter_mut().zip(&self.kept) {
+            *value = y[column as usize];
+        }
         // From the last panel to the first: what a panel reads has not been overwritten yet.
         for p in self.panels.iter().rev() {
             let list = &self.rows[p.rows.clone()];
@@ -219,6 +255,10 @@ impl Trailing {
             let list = &self.rows[p.rows.clone()];
             let sums = &mut rows[..list.len()];
             let (own, below) = vector[p.first..].split_at_mut(p.width);
+            // A load on a part of the zone (where the material flows) reaches only the panels above that part.
+            if own.iter().all(|value| *value == 0.0) {
+                continue;
+            }
             panel::solve_lower(&self.values[p.triangle()], own);
             panel::multiply(&self.values[p.rectangle()], own, sums);
             let offset = p.first + p.width;
@@ -306,6 +346,32 @@ impl Trailing {
         }
         stiffness
     }
+}
+
+/// Which trailing columns (numbered from the first of the zone) are needed: the wanted ones, what their structure names, and
+/// all contact columns.
+fn needed(
+    columns: &Columns,
+    permutation: &[i64],
+    zone: Range<usize>,
+    n: usize,
+    partition: &Partition,
+    wanted: &[usize],
+) -> Vec<bool> {
+    let mut is_wanted = vec![false; partition.n];
+    for &freedom in wanted {
+        is_wanted[freedom] = true;
+    }
+    let mut needed = vec![false; n - zone.start];
+    needed[zone.len()..].fill(true);
+    for j in zone.clone() {
+        if needed[j - zone.start] || is_wanted[permutation[j] as usize] {
+            for &row in columns.get(j).rows {
+                needed[row as usize - zone.start] = true;
+            }
+        }
+    }
+    needed
 }
 
 /// True where two row lists are equal; those of one supernode are the same memory.

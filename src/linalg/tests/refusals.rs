@@ -117,8 +117,11 @@ fn arguments_that_do_not_fit_are_refused() {
         let condensed = condense(backend, &k, &good, &[]).unwrap();
         let error = condensed.recover_all(&mut [0.0; 5], &[0.0; 2]).unwrap_err();
         assert!(error.message().contains("5 values of load"));
+        let error = condensed.reduce_load(&[0.0; 5]).unwrap_err();
+        assert!(error.message().contains("5 values of load"));
+        let reduced = condensed.reduce_load(&[0.0; 6]).unwrap();
         let error = condensed
-            .condense_load(&[0.0; 6], &mut [0.0; 2], &mut [0.0; 2])
+            .condense_load(&reduced, &mut [0.0; 2], &mut [0.0; 2])
             .unwrap_err();
         assert!(error.message().contains("2 values of zone load"));
     }
