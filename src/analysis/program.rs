@@ -230,12 +230,20 @@ impl<'m, 'o> Run<'m, 'o> {
         let program = &model.scene.program;
         let fraction = self.done as f64 / program.targets.len().max(1) as f64;
         let taken = Cell::new(0);
+        let mut watched = monitor.map(|m| m(&mut self.engine));
         loop {
             let plastic = self.plastic && !self.choice.elements.is_empty();
             if plastic {
                 self.follow_load()?;
             } else if watch_yield {
                 self.recovery();
+            }
+            if let (Some(monitor), Some(was)) = (monitor, watched) {
+                // Another zone puts the state in equilibrium anew, within the tolerance: that may be all that was missing.
+                let is = monitor(&mut self.engine);
+                if is != was && (is > 0.0) != (was > 0.0) {
+                    return Ok(Arrival::Monitor);
+                }
             }
             let start = Instant::now();
             let results = &mut self.results;
@@ -274,7 +282,9 @@ impl<'m, 'o> Run<'m, 'o> {
             } else {
                 self.seconds.contact += spent;
             }
-            match arrival? {
+            let arrival = arrival?;
+            watched = monitor.map(|m| m(&mut self.engine));
+            match arrival {
                 Arrival::ZoneTooSmall => {
                     let larger = zone_choice::grown(model, &self.choice);
                     self.set_zone(larger)?;
