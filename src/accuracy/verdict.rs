@@ -240,7 +240,7 @@ fn finished(
             run: cheapest(runs, &errors, accuracy),
         })
         .collect();
-    let words = words(runs, path, reference.as_ref(), &errors, &prices);
+    let words = words(runs, path, reference.as_ref(), &prices);
     QuantityStudy {
         quantity: path.to_string(),
         reference,
@@ -311,7 +311,6 @@ fn words(
     runs: &[StudyRun],
     path: &str,
     reference: Option<&StudyReference>,
-    errors: &[Option<f64>],
     prices: &[Price],
 ) -> Vec<String> {
     let percent = |e: f64| format!("{} %", significant(100.0 * e));
