@@ -41,6 +41,8 @@ pub mod contact;
 
 pub mod substructure;
 
+pub mod constrained;
+
 pub mod results;
 
 pub mod progress;
@@ -50,6 +52,11 @@ pub mod analysis;
 pub mod accuracy;
 
 pub mod output;
+
+pub mod selftest;
+
+#[cfg(feature = "capi")]
+pub mod capi;
 
 pub mod cli;
 

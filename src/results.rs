@@ -21,6 +21,11 @@ pub struct Results {
     pub counts: Counts,
     /// Worst figures over all states.
     pub quality: Quality,
+    /// Lower bound of the condition of the factored matrix, rows and columns scaled to a unit diagonal: the largest loss of a pivot to
+    /// cancellation. Relative errors of displacements may be this times round-off.
+    pub condition: f64,
+    /// States whose quality misses its tolerance, with the figure: these results are not to be trusted.
+    pub inaccurate: Vec<String>,
     /// What the factorisation cost.
     pub factor: crate::linalg::Prediction,
     /// Reference values beside computed ones.
@@ -221,17 +226,52 @@ pub struct Counts {
     pub contact_changes: usize,
 }
 
-/// How good a state is: all figures are relative and dimensionless.
+/// How good a state is: all figures are relative and dimensionless. Loads and displacements are measured against the largest of the
+/// run so far. Gaps are those of the displacements, contact forces those that the stresses leave over: both independent
+/// of the contact solve, neither clipped.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Quality {
-    /// Normwise backward error of the full solve.
+    /// Normwise backward error of the full solve: `|f - K u| / (|K| |u| + |f|)`, infinity norms.
     pub backward_error: f64,
-    /// Out-of-balance force of the stresses over the applied and contact forces.
+    /// Out-of-balance force of the stresses over the largest applied or contact force.
     pub equilibrium: f64,
-    /// Largest `gap * force` of a pair over (largest gap * largest force).
+    /// Largest `gap * force` of a pair over (largest gap or displacement * largest force).
     pub complementarity: f64,
     /// Largest penetration over the largest displacement.
     pub penetration: f64,
+    /// Largest tension of a pair over the largest force.
+    pub adhesion: f64,
+}
+
+/// What a state's quality may be before its result counts as inaccurate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerances {
+    /// Of [`Quality::backward_error`].
+    pub backward_error: f64,
+    /// Of [`Quality::equilibrium`].
+    pub equilibrium: f64,
+    /// Of [`Quality::complementarity`], [`Quality::penetration`] and [`Quality::adhesion`].
+    pub contact: f64,
+}
+
+impl Quality {
+    /// The figures that miss their tolerance (or are not numbers), each with its name, value and tolerance.
+    pub fn misses(&self, tolerances: &Tolerances) -> Vec<(&'static str, f64, f64)> {
+        [
+            (
+                "backward_error",
+                self.backward_error,
+                tolerances.backward_error,
+            ),
+            ("equilibrium", self.equilibrium, tolerances.equilibrium),
+            ("complementarity", self.complementarity, tolerances.contact),
+            ("penetration", self.penetration, tolerances.contact),
+            ("adhesion", self.adhesion, tolerances.contact),
+        ]
+        .into_iter()
+        .filter(|(_, value, most)| value.is_nan() || value > most)
+        .collect()
+    }
 }
 
 /// A published or exact value beside the computed one.

@@ -2,6 +2,7 @@
 
 use super::gather::Places;
 use super::zone::Zone;
+use super::zone_choice::zone_freedoms;
 use crate::assembly::System;
 use crate::contact::Tableau;
 use crate::error::{Error, Result};
@@ -96,6 +97,8 @@ pub struct Engine<'m> {
     pub counts: Counts,
     /// Largest nodal force seen (applied or contact): what residuals are measured against.
     pub force_scale: f64,
+    /// Largest displacement seen (of a state, or of the nodes of a pair against each other).
+    pub displacement_scale: f64,
     /// Current load point.
     pub at: LoadPoint,
     /// Current equilibrium; its displacements are valid where `fresh`.
@@ -113,7 +116,8 @@ pub struct Engine<'m> {
 }
 
 impl<'m> Engine<'m> {
-    /// Factors the structure with a zone of the given elements (`guard` marks those that only watch).
+    /// Factors the structure so that zones may be chosen among the elements `within`, and chooses one of the given elements (`guard`
+    /// marks those that only watch).
     ///
     /// # Errors
     /// Those of [`Substructure::new`].
@@ -121,11 +125,16 @@ impl<'m> Engine<'m> {
         model: &'m Model,
         system: &'m System,
         backend: Backend,
+        within: &[usize],
         elements: Vec<usize>,
         guard: &[bool],
     ) -> Result<Self> {
-        let freedoms = super::zone_choice::zone_freedoms(model, &elements);
-        let sub = Substructure::new(model, system, freedoms, backend)?;
+        let mut sub = Substructure::new(model, system, zone_freedoms(model, within), backend)?;
+        let mut factorizations = 1;
+        if elements != within {
+            let zone = zone_freedoms(model, &elements);
+            factorizations += usize::from(sub.set_zone(model, system, zone, backend)?);
+        }
         let places = places(model, &sub);
         let zone = Zone::new(model, &elements, guard, &places);
         let n = model.pairs.len();
@@ -142,10 +151,11 @@ impl<'m> Engine<'m> {
             gap_forces: [Vec::new(), Vec::new()],
             unit: 1.0,
             counts: Counts {
-                factorizations: 1,
+                factorizations,
                 ..Counts::default()
             },
             force_scale: 0.0,
+            displacement_scale: 0.0,
             at: LoadPoint {
                 alpha: 0.0,
                 factors: vec![0.0; model.loads.len()],
@@ -181,7 +191,7 @@ impl<'m> Engine<'m> {
     /// # Errors
     /// Those of [`Substructure::new`].
     pub fn set_zone(&mut self, elements: Vec<usize>, guard: &[bool]) -> Result<()> {
-        let freedoms = super::zone_choice::zone_freedoms(self.model, &elements);
+        let freedoms = zone_freedoms(self.model, &elements);
         if self
             .sub
             .set_zone(self.model, self.system, freedoms, self.backend)?
@@ -351,8 +361,22 @@ impl<'m> Engine<'m> {
         }
     }
 
-    /// Takes note of the forces at hand.
-    pub fn update_force_scale(&mut self) {
+    /// Relative displacement `u_second - u_first` of each pair.
+    pub fn slip(&self) -> Vec<f64> {
+        let delta = self.delta(&self.at);
+        delta
+            .iter()
+            .zip(&self.now.gap)
+            .map(|(d, g)| d - g)
+            .collect()
+    }
+
+    /// Takes note of the forces and displacements at hand.
+    pub fn update_scales(&mut self) {
+        self.displacement_scale = self
+            .slip()
+            .iter()
+            .fold(self.displacement_scale, |m, s| m.max(s.abs()));
         let applied = self.external(&self.at).largest();
         self.force_scale = self
             .now

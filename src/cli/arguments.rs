@@ -11,6 +11,8 @@ Examples:
   brinell run data/scenes/cylinder_on_half_plane.toml
   brinell run press.toml --out results --set materials.steel.yield_stress=400 --set program.steps=40
   brinell yield press.toml --json
+  brinell new ball-on-flat --radius 5 --load 300 > ball.toml
+  brinell view press.out
 
 Exit codes:
     0  done
@@ -19,6 +21,7 @@ Exit codes:
     4  a body is not held: it can move freely
     5  the analysis failed: a solve did not converge or a target was not reached
     6  the load passed the limit load of the bodies
+    7  inaccurate: a state's quality misses its tolerance; the results are written, do not trust them
    70  internal error, please report
   130  stopped (Ctrl-C); what was computed so far is written";
 
@@ -66,6 +69,10 @@ pub(super) enum Command {
     /// the time and memory of the factorisation, predicted from the pattern of the matrix.
     #[command(after_help = "Example: brinell check data/scenes/disc_in_plate.toml")]
     Check(CheckArguments),
+    /// Run hard cases on this machine and build: worst figure of each family, its bound, pass or fail
+    ///
+    /// Takes less than a minute. Exit code 7 where a family fails.
+    Selftest(super::selftest::SelftestArguments),
     /// Study what accuracy costs: errors against time over mesh, elements, increments, tolerances, algorithms
     ///
     /// Runs the scene with many settings, cheapest first, and writes accuracy.json, accuracy.csv and log-log plots of error over
@@ -75,6 +82,22 @@ pub(super) enum Command {
         after_help = "Example: brinell accuracy data/scenes/thick_cylinder.toml --budget 60s"
     )]
     Accuracy(StudyArguments),
+    /// Print a commented scene to start from, or list those there are
+    Example(super::example::ExampleArguments),
+    /// Write a commented scene for a common problem from a few numbers
+    New(super::new::NewArguments),
+    /// Print the JSON schema of scenes, for editors that complete and check
+    Schema(super::schema::SchemaArguments),
+    /// Look at the results in a directory: plots in the terminal, and where the report is
+    View(super::view::ViewArguments),
+    /// Print completions for a shell
+    #[command(
+        after_help = "Example: brinell completions bash > ~/.local/share/bash-completion/completions/brinell"
+    )]
+    Completions(super::completions::CompletionsArguments),
+    /// Print the manual page (roff)
+    #[command(after_help = "Example: brinell man | man -l -")]
+    Man,
 }
 
 #[derive(Debug, Args)]
@@ -87,6 +110,12 @@ pub(super) struct RunArguments {
     /// Do not estimate the errors: leaves out the runs on coarser meshes
     #[arg(long)]
     pub no_estimate: bool,
+    /// Write no report.html and no figures
+    #[arg(long)]
+    pub no_report: bool,
+    /// How progress is shown on standard error
+    #[arg(long, value_enum, value_name = "HOW", default_value_t)]
+    pub progress: Shown,
     /// No progress and no warnings, only results and errors
     #[arg(long, short)]
     pub quiet: bool,
@@ -117,6 +146,20 @@ pub(super) struct CommonArguments {
     pub json: bool,
     #[arg(long = "set", value_name = "KEY=VALUE", help = "Put a value over the scene's (see --help)", long_help = SET_HELP)]
     pub overrides: Vec<String>,
+}
+
+/// How progress is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(super) enum Shown {
+    /// A bar on a terminal, lines elsewhere
+    #[default]
+    Auto,
+    /// A bar with the time that is left
+    Bar,
+    /// A line per phase and every few seconds
+    Plain,
+    /// A JSON object per line: phases, increments, warnings
+    Json,
 }
 
 /// A backend by the name a user knows it by.
@@ -170,6 +213,7 @@ mod tests {
             Unheld,
             Analysis,
             Collapse,
+            Inaccurate,
             Stopped,
             Internal,
         ] {

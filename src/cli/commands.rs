@@ -1,8 +1,8 @@
-//! The commands: the one place where the command line calls the library.
+//! The commands that compute: the one place where the command line calls the analysis.
 
 use super::arguments::{Arguments, Command, CommonArguments, RunArguments};
 use super::progress::Progress;
-use super::{interrupt, print, report, study};
+use super::{completions, example, interrupt, new, print, report, schema, study, view};
 use crate::accuracy::{self, Extent};
 use crate::analysis::{self, Analysis, Check};
 use crate::error::{Error, ErrorKind, Result};
@@ -23,7 +23,14 @@ pub(super) fn execute(arguments: &Arguments) -> Result<()> {
         }
         Command::Yield(run) => analyse(run, run.out.clone(), Extent::Yield),
         Command::Check(check) => predict(&check.common),
+        Command::Selftest(selftest) => super::selftest::execute(selftest),
         Command::Accuracy(arguments) => study::execute(arguments),
+        Command::Example(example) => example::run(example),
+        Command::New(new) => new::run(new),
+        Command::Schema(schema) => schema::run(schema),
+        Command::View(view) => view::run(view),
+        Command::Completions(completions) => completions::run(completions),
+        Command::Man => completions::man(),
     }
 }
 
@@ -38,7 +45,7 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, extent: Extent) -> Re
     interrupt::listen()?;
     let start = Instant::now();
     let seconds = || start.elapsed().as_secs_f64();
-    let mut progress = Progress::new(arguments.quiet);
+    let mut progress = Progress::new(arguments.quiet, arguments.progress);
     let (scene, analysis, mut results) = match scene.accuracy {
         Some(_) => {
             let found = accuracy::reach(&scene, common.solver.into(), extent, &mut progress)?;
@@ -54,7 +61,11 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, extent: Extent) -> Re
     let header = header(&scene, model, common, computed);
     if let Some(out) = &out {
         progress.start("output");
-        output::write(out, &header, &model.mesh, &results)?;
+        if arguments.no_report {
+            output::write(out, &header, &model.mesh, &results)?;
+        } else {
+            output::write_with_report(out, &header, model, &results)?;
+        }
         results
             .timings
             .push(("output".to_string(), seconds() - computed));
@@ -67,6 +78,10 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, extent: Extent) -> Re
     };
     print(&text)?;
     match &results.incomplete {
+        None if !results.inaccurate.is_empty() => Err(Error::new(
+            ErrorKind::Inaccurate,
+            results.inaccurate.join("\n"),
+        )),
         None => Ok(()),
         Some(why) => Err(Error::new(
             results.incomplete_kind.unwrap_or(ErrorKind::Analysis),

@@ -41,8 +41,13 @@ pub(super) fn results(
     if let Some(out) = out {
         let with_fields = results.states.iter().any(|state| state.fields.is_some());
         report.paragraph(&format!(
-            "Results in {}: summary.json, history.csv, contact.csv{}",
+            "Results in {}: {}summary.json, history.csv, contact.csv{}",
             out.display(),
+            if out.join("report.html").exists() {
+                "report.html, "
+            } else {
+                ""
+            },
             if with_fields { ", fields.pvd" } else { "" }
         ));
     }
@@ -372,11 +377,12 @@ impl Report {
         self.labelled(
             "Quality",
             &format!(
-                "backward error {}, equilibrium {}, complementarity {}, penetration {}",
+                "backward error {}, equilibrium {}, complementarity {}, penetration {}, adhesion {}",
                 figure(quality.backward_error),
                 figure(quality.equilibrium),
                 figure(quality.complementarity),
-                figure(quality.penetration)
+                figure(quality.penetration),
+                figure(quality.adhesion)
             ),
         );
     }

@@ -1,6 +1,6 @@
 //! `brinell accuracy SCENE`: what the digits cost.
 
-use super::arguments::CommonArguments;
+use super::arguments::{CommonArguments, Shown};
 use super::commands::{header, json, prepare};
 use super::number::{bytes, seconds, significant};
 use super::progress::Progress;
@@ -71,7 +71,7 @@ pub(super) fn execute(arguments: &StudyArguments) -> Result<()> {
     output::check_directory(&out)?;
     interrupt::listen()?;
     let start = Instant::now();
-    let mut progress = Progress::new(arguments.quiet);
+    let mut progress = Progress::new(arguments.quiet, Shown::default());
     let found = study(&scene, common.solver.into(), &plan, &mut progress)?;
     let header = header(
         &scene,

@@ -1,6 +1,8 @@
 //! `accuracy = "1 %"`: how wrong the results may be.
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// A demanded relative accuracy, read from `"1 %"` or `"0.01"`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -28,6 +30,20 @@ impl AccuracyDemand {
     /// The largest stated error relative to the size of a quantity.
     pub fn relative(self) -> f64 {
         self.0
+    }
+}
+
+impl JsonSchema for AccuracyDemand {
+    fn schema_name() -> Cow<'static, str> {
+        "AccuracyDemand".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "Largest error of each quantity relative to its size, above 0 and up to 50 %: \"1 %\" or \"0.01\".",
+            "type": "string",
+            "pattern": "^\\s*[0-9.eE+-]+\\s*%?\\s*$",
+        })
     }
 }
 

@@ -73,6 +73,7 @@ pub fn results(mesh: &Mesh) -> Results {
         equilibrium: 2e-12,
         complementarity: 0.0,
         penetration: 3e-17,
+        adhesion: 4e-17,
     };
     let pressed = State {
         name: "b = 1.5 b*".into(),
@@ -159,6 +160,8 @@ pub fn results(mesh: &Mesh) -> Results {
             contact_changes: 2,
         },
         quality,
+        condition: 1e4,
+        inaccurate: vec!["state `released` is inaccurate".into()],
         factor: brinell::linalg::Prediction {
             ordering: "CAMD",
             factor_nonzeros: 1234.0,

@@ -41,7 +41,8 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
         assert_eq!(peak, Value::Null);
     }
     let quality = json!({
-        "backward_error": 1e-16, "equilibrium": 2e-12, "complementarity": 0.0, "penetration": 3e-17
+        "backward_error": 1e-16, "equilibrium": 2e-12, "complementarity": 0.0, "penetration": 3e-17,
+        "adhesion": 4e-17
     });
     let pressed = json!({
         "name": "b = 1.5 b*", "alpha": 2.0635, "load": 123.456, "contact_force": 123.4,
@@ -80,7 +81,9 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
             "ordering": "CAMD", "factor_nonzeros": 1234, "trailing_nonzeros": 99,
             "flops": 5e20, "memory_bytes": 65536
         },
+        "condition": 1e4,
         "quality": quality,
+        "inaccurate": ["state `released` is inaccurate"],
         "yield": {
             "alpha": 1.0, "load": 60.0, "max_pressure": 179.37, "half_width": 1.0,
             "location": {"x": 0.0, "y": -0.7, "body": "half_plane"}
