@@ -100,7 +100,8 @@ pub struct Setting {
 /// The settings of a study: `levels` meshes in a series, the finest twice as fine as the scene's. The other knobs are turned on the
 /// scene's own mesh.
 pub fn settings(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) -> Vec<Setting> {
-    let plastic = scene.any_can_yield();
+    // Up to first yield nothing flows: there is no iteration and no path to turn anything in.
+    let plastic = scene.any_can_yield() && scene.program.targets.iter().any(|t| !t.first_yield);
     let mut out = Vec::new();
     let own = element(scene);
     let name = |shape: Option<Shape>| shape.map_or("mesh", shape_name);

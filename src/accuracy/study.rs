@@ -99,6 +99,9 @@ pub fn study(
     let mut queue: Vec<(Setting, Forecast)> = Vec::new();
     let mut known: Vec<(f64, String, Forecast)> = Vec::new();
     for setting in settings(scene, backend, &plan.knobs, plan.levels) {
+        if observer.stop_requested() {
+            break;
+        }
         // Settings on one mesh have one forecast; the symbolic factorisation of a large one takes its time.
         let key = format!("{:?} {:?}", setting.scene.mesh, setting.backend);
         let found = match known.iter().find(|k| k.0 == setting.ratio && k.1 == key) {
@@ -119,6 +122,7 @@ pub fn study(
     let mut pace = Pace::default();
     let mut references: Vec<ReferenceRow> = Vec::new();
     let n = queue.len();
+    out.stopped = observer.stop_requested();
     for i in 0..n {
         let (setting, cost) = &queue[i];
         if observer.stop_requested() {
