@@ -22,6 +22,8 @@ pub enum ErrorKind {
     Analysis,
     /// The load passed the limit load; what was held before is in the message. Exit code 6.
     Collapse,
+    /// The run ended, but a state's quality misses its tolerance. Exit code 7.
+    Inaccurate,
     /// The caller or the user stopped the run. Exit code 130.
     Stopped,
     /// A fault of brinell itself. Exit code 70.
@@ -37,6 +39,7 @@ impl ErrorKind {
             ErrorKind::Unheld => 4,
             ErrorKind::Analysis => 5,
             ErrorKind::Collapse => 6,
+            ErrorKind::Inaccurate => 7,
             ErrorKind::Internal => 70,
             ErrorKind::Stopped => 130,
         }

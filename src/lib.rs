@@ -49,7 +49,11 @@ pub mod progress;
 
 pub mod analysis;
 
+pub mod accuracy;
+
 pub mod output;
+
+pub mod selftest;
 
 #[cfg(feature = "capi")]
 pub mod capi;

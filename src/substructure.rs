@@ -9,14 +9,18 @@
 //!     [ S_sv  S_ss ] [ s ] = [ f_2 - r   ]
 //! ```
 //!
-//! and eliminating `v` leaves `r = t - T s = q + T g` with the gap `g = delta - s`, `q = t - T delta`.
+//! and eliminating `v` leaves `r = t - T s = q + T g` with the gap `g = delta - s`, `q = t - T delta`. Where the second body is
+//! much the stiffer the two change places, and rigid motions of floating bodies are treated apart: see `tied`.
+
+mod tied;
 
 use crate::assembly::System;
 use crate::contact::Tableau;
 use crate::error::{Error, Result};
 use crate::linalg::{self, Backend, Condensed, NotDefinite, Partition};
-use crate::model::Model;
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use crate::model::{Model, RigidMotion};
+use nalgebra::{DMatrix, DVector};
+use tied::{Tied, Trace};
 
 /// A load (or displacement) on zone and contact freedoms: first nodes of all pairs, then second nodes.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -85,8 +89,7 @@ pub struct Substructure {
     pub partition: Partition,
     condensed: Box<dyn Condensed>,
     n_pairs: usize,
-    tied: Option<Cholesky<f64, Dyn>>,
-    coupling: DMatrix<f64>,
+    tied: Option<Tied>,
     contact_matrix: DMatrix<f64>,
 }
 
@@ -105,38 +108,21 @@ impl Substructure {
         let condensed = linalg::condense(backend, &system.stiffness, &partition, &shift)
             .map_err(|e| name_freedom(e, model))?;
         let n = model.pairs.len();
-        let s = condensed.contact_stiffness();
-        let (s11, s12) = (s.view((0, 0), (n, n)), s.view((0, n), (n, n)));
-        let (s21, s22) = (s.view((n, 0), (n, n)), s.view((n, n), (n, n)));
-        let tied_stiffness = s11 + s12 + s21 + s22;
-        let coupling = s12 + s22;
-        let mut contact_matrix = s22.into_owned();
-        let mut tied = None;
-        if n > 0 {
-            let factor = Cholesky::new(tied_stiffness).ok_or_else(|| {
-                Error::internal(
-                    "the bodies are not held even with all contact pairs closed: the condensed stiffness of the tied \
-                     structure is not positive definite",
-                )
-            })?;
-            let half = factor
-                .l_dirty()
-                .solve_lower_triangular(&coupling)
-                .ok_or_else(|| {
-                    Error::internal(
-                        "the condensed stiffness of the tied structure has a zero pivot",
-                    )
-                })?;
-            contact_matrix -= half.tr_mul(&half);
-            contact_matrix = 0.5 * (&contact_matrix + contact_matrix.transpose());
-            tied = Some(factor);
-        }
+        let (tied, contact_matrix) = if n > 0 {
+            let part: Vec<usize> = (0..2 * n)
+                .map(|i| model.floating.part_of_pair[i % n][i / n])
+                .collect();
+            let traces = traces(model, &partition);
+            let (tied, matrix) = Tied::new(condensed.contact_stiffness(), &traces, &part)?;
+            (Some(tied), matrix)
+        } else {
+            (None, DMatrix::zeros(0, 0))
+        };
         Ok(Substructure {
             partition,
             condensed,
             n_pairs: n,
             tied,
-            coupling,
             contact_matrix,
         })
     }
@@ -189,6 +175,15 @@ impl Substructure {
         self.condensed.cost()
     }
 
+    /// Lower bound of the condition of the factored matrix, scaled to a unit diagonal: the largest loss of a pivot to cancellation.
+    ///
+    /// # Source
+    /// N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., section 10.3: with `a_jj = 1`, `1 / l_jj^2` is no more than
+    /// a diagonal entry of the inverse.
+    pub fn condition(&self) -> f64 {
+        1.0 / self.condensed.weakest_pivot().ratio
+    }
+
     /// What of a load on all freedoms stays the same for whichever zone is chosen.
     ///
     /// # Errors
@@ -213,29 +208,15 @@ impl Substructure {
     pub fn eliminate(&self, load: &mut Trailing, forces: &mut [f64]) {
         self.condensed
             .eliminate_zone(&mut load.zone, &mut load.contact);
-        let Some(tied) = &self.tied else { return };
-        let n = self.n_pairs;
-        let mut v = DVector::from_fn(n, |k, _| load.contact[k] + load.contact[n + k]);
-        tied.solve_mut(&mut v);
-        for k in 0..n {
-            forces[k] = load.contact[n + k] - self.coupling.column(k).dot(&v);
-            load.contact[k] = v[k];
+        if let Some(tied) = &self.tied {
+            tied.eliminate(&mut load.contact, forces);
         }
     }
 
     /// Recovers the displacements for relative displacements `slip = delta - g` of the pairs (paper's u^2 - u^1).
     pub fn recover(&self, load: &mut Trailing, slip: &[f64]) {
         if let Some(tied) = &self.tied {
-            let n = self.n_pairs;
-            let mut change = DVector::zeros(n);
-            for (k, &s) in slip.iter().enumerate().filter(|(_, s)| **s != 0.0) {
-                change.axpy(s, &self.coupling.column(k), 1.0);
-            }
-            tied.solve_mut(&mut change);
-            for k in 0..n {
-                load.contact[k] -= change[k];
-                load.contact[n + k] = load.contact[k] + slip[k];
-            }
+            tied.recover(&mut load.contact, slip);
         }
         self.condensed.recover_zone(&mut load.zone, &load.contact);
     }
@@ -246,6 +227,29 @@ impl Substructure {
     /// Failure of the backend's solve.
     pub fn recover_all(&self, load: &mut [f64], contact: &[f64]) -> Result<()> {
         self.condensed.recover_all(load, contact)
+    }
+
+    /// All freedoms without the rigid motions of floating bodies, and the amplitude of each of these motions: strains of the first
+    /// are free of the cancellation that those of the sum suffer. `load` is on all freedoms and includes the contact forces,
+    /// `condensed` is the same without contact forces on zone and contact freedoms.
+    ///
+    /// # Errors
+    /// Failure of the backend's solve.
+    pub fn recover_deformation(
+        &self,
+        load: &mut [f64],
+        mut condensed: Trailing,
+        slip: &[f64],
+    ) -> Result<Vec<f64>> {
+        let Some(tied) = &self.tied else {
+            self.condensed.recover_all(load, &[])?;
+            return Ok(Vec::new());
+        };
+        let mut forces = vec![0.0; self.n_pairs];
+        self.eliminate(&mut condensed, &mut forces);
+        let split = tied.split(&condensed.contact, slip);
+        self.condensed.recover_all(load, &split.contact)?;
+        Ok(split.motions.as_slice().to_vec())
     }
 
     /// Backward error of the last [`Substructure::recover_all`].
@@ -271,6 +275,31 @@ fn contact_freedoms(model: &Model) -> Result<Vec<usize>> {
     let first = model.pairs.iter().map(|p| normal(p.first));
     let second = model.pairs.iter().map(|p| normal(p.second));
     first.chain(second).collect()
+}
+
+/// The rigid motions of floating bodies on the contact freedoms.
+fn traces(model: &Model, partition: &Partition) -> Vec<Trace> {
+    let values = |motion: &RigidMotion| {
+        DVector::from_iterator(
+            partition.contact.len(),
+            partition.contact.iter().map(|&freedom| {
+                let place = motion
+                    .values
+                    .binary_search_by_key(&(freedom as u32), |&(f, _)| f);
+                place.map_or(0.0, |at| motion.values[at].1)
+            }),
+        )
+    };
+    let n_motions = model.floating.motions.len();
+    let motions = model.floating.motions.iter();
+    motions
+        .enumerate()
+        .map(|(j, motion)| Trace {
+            part: motion.part,
+            values: values(motion),
+            of_motion: DVector::from_fn(n_motions, |i, _| f64::from(u8::from(i == j))),
+        })
+        .collect()
 }
 
 /// The stiffness's own diagonal on the contact freedoms of bodies that supports do not hold, zero elsewhere.

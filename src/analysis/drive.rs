@@ -166,6 +166,7 @@ impl Engine<'_> {
         event: &str,
         solves_before: usize,
     ) -> Result<bool> {
+        self.update_scales();
         let trailing_solves = self.counts.trailing_solves - solves_before;
         report(
             self,
@@ -189,7 +190,7 @@ impl Engine<'_> {
         report: &mut OnIncrement,
     ) -> Result<Arrival> {
         self.refresh();
-        self.update_force_scale();
+        self.update_scales();
         if self.force_scale == 0.0 {
             // Nothing acts yet: residuals are measured against what the end of the piece applies.
             self.force_scale = self.external(end).largest();
@@ -318,7 +319,7 @@ impl Engine<'_> {
         for value in self.now.gap.iter_mut().chain(&mut self.now.force) {
             *value = value.max(0.0);
         }
-        self.update_force_scale();
+        self.update_scales();
         reported.event = describe(&changes);
     }
 

@@ -155,7 +155,7 @@ impl Engine<'_> {
             std::mem::swap(&mut self.now.u, &mut u);
             self.fresh = true;
             self.last_step = start.step_to(end);
-            self.update_force_scale();
+            self.update_scales();
             balance.add(-1.0, &self.now.initial);
             let mut reported = IncrementReport {
                 event: "target".to_string(),

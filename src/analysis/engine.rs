@@ -97,6 +97,8 @@ pub struct Engine<'m> {
     pub counts: Counts,
     /// Largest nodal force seen (applied or contact): what residuals are measured against.
     pub force_scale: f64,
+    /// Largest displacement seen (of a state, or of the nodes of a pair against each other).
+    pub displacement_scale: f64,
     /// Current load point.
     pub at: LoadPoint,
     /// Current equilibrium; its displacements are valid where `fresh`.
@@ -153,6 +155,7 @@ impl<'m> Engine<'m> {
                 ..Counts::default()
             },
             force_scale: 0.0,
+            displacement_scale: 0.0,
             at: LoadPoint {
                 alpha: 0.0,
                 factors: vec![0.0; model.loads.len()],
@@ -358,8 +361,22 @@ impl<'m> Engine<'m> {
         }
     }
 
-    /// Takes note of the forces at hand.
-    pub fn update_force_scale(&mut self) {
+    /// Relative displacement `u_second - u_first` of each pair.
+    pub fn slip(&self) -> Vec<f64> {
+        let delta = self.delta(&self.at);
+        delta
+            .iter()
+            .zip(&self.now.gap)
+            .map(|(d, g)| d - g)
+            .collect()
+    }
+
+    /// Takes note of the forces and displacements at hand.
+    pub fn update_scales(&mut self) {
+        self.displacement_scale = self
+            .slip()
+            .iter()
+            .fold(self.displacement_scale, |m, s| m.max(s.abs()));
         let applied = self.external(&self.at).largest();
         self.force_scale = self
             .now

@@ -1,7 +1,7 @@
 //! What a user reads off a state: pressure, contact half width, contact arc, dent, approach.
 
 use super::engine::Engine;
-use crate::model::{Magnitude, Model};
+use crate::model::{AxisPoint, ContactSurface, Magnitude, Model};
 use crate::results::{PairState, Status};
 use std::borrow::Cow;
 
@@ -34,40 +34,38 @@ pub struct ContactFigures {
     pub contact: usize,
 }
 
-/// Pressure of each pair. Where a pair has no area (the axis of a quadratic axisymmetric mesh) the pressure is the even
-/// continuation of its neighbours'.
+/// Pressure of each pair.
 pub fn pressures(model: &Model, force: &[f64]) -> Vec<f64> {
-    let mut out: Vec<f64> = vec![0.0; force.len()];
-    for contact in &model.contacts {
-        let range = contact.range.clone();
-        let largest = model.pairs[range.clone()]
-            .iter()
-            .fold(0.0f64, |m, p| m.max(p.area));
-        let has_area = |k: usize| model.pairs[k].area > 1e-9 * largest;
-        for k in range.clone().filter(|&k| has_area(k)) {
-            out[k] = force[k] / model.pairs[k].area;
-        }
-        for k in range.clone().filter(|&k| !has_area(k)) {
-            let inward: [usize; 2] = if k == range.start {
-                [k + 1, k + 2]
-            } else {
-                [k.wrapping_sub(1), k.wrapping_sub(2)]
-            };
-            if inward.iter().all(|i| range.contains(i)) {
-                let at = |i: usize| (model.pairs[i].arc - model.pairs[k].arc).powi(2);
-                let (a, b) = (at(inward[0]), at(inward[1]));
-                out[k] = ((b * out[inward[0]] - a * out[inward[1]]) / (b - a)).max(0.0);
-            }
-        }
-    }
-    out
+    let pairs = model.pairs.iter();
+    pairs.zip(force).map(|(pair, r)| r / pair.area).collect()
 }
 
-/// Pairs with what they carry.
+/// The even continuation of a quantity of the pairs to the axis of revolution, where a contact reaches it without a pair there.
+fn on_axis(model: &Model, contact: &ContactSurface, values: &[f64]) -> Option<f64> {
+    let axis = contact.axis?;
+    let range = contact.range.clone();
+    let (near, next) = if axis.begins {
+        (range.start, range.start + 1)
+    } else {
+        (range.end.checked_sub(1)?, range.end.checked_sub(2)?)
+    };
+    if !range.contains(&next) {
+        return range.contains(&near).then(|| values[near]);
+    }
+    let squared = |k: usize| (model.pairs[k].arc - axis.arc).powi(2);
+    let (a, b) = (squared(near), squared(next));
+    Some((b * values[near] - a * values[next]) / (b - a))
+}
+
+/// Pairs with what they carry, and the points on the axis that are no pairs: these have no area and no force, and are numbered after
+/// the pairs.
 pub fn pair_states(model: &Model, gap: &[f64], force: &[f64], open: &[bool]) -> Vec<PairState> {
     let pressure = pressures(model, force);
-    (0..gap.len())
-        .map(|k| PairState {
+    let status = |open: bool| if open { Status::Open } else { Status::Closed };
+    let mut out = Vec::with_capacity(gap.len());
+    let mut number = gap.len();
+    for (index, contact) in model.contacts.iter().enumerate() {
+        out.extend(contact.range.clone().map(|k| PairState {
             pair: k,
             contact: model.pairs[k].contact,
             position: model.mesh.point(model.pairs[k].second),
@@ -75,20 +73,48 @@ pub fn pair_states(model: &Model, gap: &[f64], force: &[f64], open: &[bool]) -> 
             force: force[k],
             area: model.pairs[k].area,
             pressure: pressure[k],
-            status: if open[k] || force[k] <= 0.0 {
-                Status::Open
-            } else {
-                Status::Closed
+            status: status(open[k] || force[k] <= 0.0),
+        }));
+        let (Some(axis), Some(p)) = (contact.axis, on_axis(model, contact, &pressure)) else {
+            continue;
+        };
+        let apart = on_axis(model, contact, gap).unwrap_or(0.0);
+        let place = if axis.begins {
+            out.len() - contact.range.len()
+        } else {
+            out.len()
+        };
+        out.insert(
+            place,
+            PairState {
+                pair: number,
+                contact: index,
+                position: model.mesh.point(axis.node),
+                gap: if p > 0.0 { 0.0 } else { apart.max(0.0) },
+                force: 0.0,
+                area: 0.0,
+                pressure: p.max(0.0),
+                status: status(p <= 0.0),
             },
-        })
-        .collect()
+        );
+        number += 1;
+    }
+    out
 }
 
 /// Figures of the largest contact patch. `scale` is the largest force of the run.
 pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigures {
     let pressure = pressures(model, force);
+    let axis_pressures = model
+        .contacts
+        .iter()
+        .filter_map(|c| on_axis(model, c, &pressure));
     let mut out = ContactFigures {
-        max_pressure: pressure.iter().fold(0.0, |m, p| m.max(*p)),
+        max_pressure: pressure
+            .iter()
+            .copied()
+            .chain(axis_pressures)
+            .fold(0.0, f64::max),
         force: sum(force),
         ..ContactFigures::default()
     };
@@ -120,8 +146,8 @@ pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigur
                 };
                 let (at_begin, at_end) = (patch.is_symmetric(begin), patch.is_symmetric(k - 1));
                 let middle = match (at_begin, at_end) {
-                    (true, _) => model.pairs[begin].arc,
-                    (_, true) => model.pairs[k - 1].arc,
+                    (true, _) => patch.end_arc(begin),
+                    (_, true) => patch.end_arc(k - 1),
                     _ => 0.5 * (model.pairs[begin].arc + model.pairs[k - 1].arc),
                 };
                 let (from, to) = (patch.edge(begin, -1, middle), patch.edge(k - 1, 1, middle));
@@ -132,7 +158,17 @@ pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigur
                 } else {
                     0.5 * (to - from)
                 };
+                let at_axis = contact.axis.filter(|axis| {
+                    if axis.begins {
+                        begin == range.start
+                    } else {
+                        k == range.end
+                    }
+                });
                 out.pole_pressure = match (at_begin, at_end) {
+                    _ if at_axis.is_some() => {
+                        on_axis(model, contact, &pressure).unwrap_or(0.0).max(0.0)
+                    }
                     (true, _) => pressure[begin],
                     (_, true) => pressure[k - 1],
                     _ => patch.pressure_at(0.5 * (from + to)),
@@ -158,8 +194,28 @@ struct Patch<'a> {
 }
 
 impl Patch<'_> {
-    /// Whether a pair ends its surface on a symmetry plane (both nodes are held along the surface).
+    /// Where the surface ends beyond its last pair `k`: there, or on the axis.
+    fn end_arc(&self, k: usize) -> f64 {
+        self.axis_beside(k)
+            .map_or(self.model.pairs[k].arc, |axis| axis.arc)
+    }
+
+    /// The point on the axis that a pair is next to.
+    fn axis_beside(&self, k: usize) -> Option<AxisPoint> {
+        let axis = self.model.contacts[self.model.pairs[k].contact].axis?;
+        let next = if axis.begins {
+            k == self.range.start
+        } else {
+            k + 1 == self.range.end
+        };
+        next.then_some(axis)
+    }
+
+    /// Whether a pair ends its surface on a symmetry plane (both nodes are held along the surface) or beside the axis.
     fn is_symmetric(&self, k: usize) -> bool {
+        if self.axis_beside(k).is_some() {
+            return true;
+        }
         let pair = &self.model.pairs[k];
         (k == self.range.start || k + 1 == self.range.end)
             && [pair.first, pair.second]
@@ -177,7 +233,7 @@ impl Patch<'_> {
                 .filter(|i| self.range.contains(i))
         };
         let Some(beyond) = neighbour(last, way) else {
-            return arc(last);
+            return self.end_arc(last);
         };
         let inner: Vec<usize> = (EDGE_SKIP..EDGE_SKIP + EDGE_POINTS)
             .filter_map(|i| neighbour(last, -i * way))

@@ -9,7 +9,8 @@
 //! | `zone`, `gather`, `zone_choice`, `zone_fit` | elements that may yield, initial loads, their choice and growth | 4.1 |
 //! | `tangent`, `acceleration` | acceleration of the plastic iteration | |
 //! | `program`, `targets`, `drive`, `stepping` | from target to target, loading and unloading | 5.1, 5.2 |
-//! | `measure`, `state` | pressure, half width, dent, quality of a state | 5 |
+//! | `measure`, `state`, `quality` | pressure, half width, dent, quality of a state | 5 |
+//! | `indicator` | discretisation error of the stresses, element by element | |
 
 mod acceleration;
 mod check;
@@ -19,8 +20,10 @@ mod engine;
 mod first_yield;
 mod gather;
 mod increment;
+mod indicator;
 mod measure;
 mod program;
+mod quality;
 mod recovery;
 mod reference;
 mod state;

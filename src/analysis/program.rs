@@ -5,7 +5,7 @@ use super::engine::{Engine, LoadPoint};
 use super::recovery::Recovery;
 use super::zone_choice::{self, Choice};
 use super::zone_fit::Spread;
-use super::{check, reference};
+use super::{check, quality, reference};
 use crate::assembly::System;
 use crate::error::{Error, Result};
 use crate::linalg::Backend;
@@ -298,6 +298,19 @@ impl<'m, 'o> Run<'m, 'o> {
         };
         results.counts = self.engine.counts;
         results.factor = self.engine.sub.cost();
+        results.condition = self.engine.sub.condition();
+        let tolerances = quality::tolerances(model);
+        for state in &results.states {
+            for (figure, value, most) in state.quality.misses(&tolerances) {
+                let text = format!(
+                    "state `{}` is inaccurate: {figure} {value:.1e}, allowed {most:.1e} (condition at least {:.0e})",
+                    state.name, results.condition
+                );
+                self.observer.warning(&text);
+                results.warnings.push(text.clone());
+                results.inaccurate.push(text);
+            }
+        }
         results.quality = results
             .states
             .iter()
@@ -306,6 +319,7 @@ impl<'m, 'o> Run<'m, 'o> {
                 equilibrium: w.equilibrium.max(s.quality.equilibrium),
                 complementarity: w.complementarity.max(s.quality.complementarity),
                 penetration: w.penetration.max(s.quality.penetration),
+                adhesion: w.adhesion.max(s.quality.adhesion),
             });
         for (name, seconds) in [
             ("factorisation and condensation", self.seconds.condensation),

@@ -25,6 +25,10 @@ const CANDIDATE: f64 = 0.93;
 const FAR_BELOW: f64 = 0.85;
 /// Step at which the search for the maximum stops, in reference coordinates: the value is then right to its square.
 const FINEST: f64 = 2e-5;
+/// Stresses closer than this share are equal.
+const TIE: f64 = 1e-9;
+/// Share of the stress, times the square of a step in an element's reference coordinates, that is left to gain within that step.
+const CURVATURE: f64 = 0.1;
 /// Terms of the polynomials that are tried: cubic, quadratic, linear, constant.
 const TERMS: [usize; 4] = [10, 6, 3, 1];
 /// Layers of elements around an element that belong to its patch.
@@ -64,6 +68,15 @@ struct Patch {
     center: [f64; 2],
     scale: [f64; 2],
     samples: Vec<(u32, [f64; 2])>,
+}
+
+/// The highest point found in an element.
+#[derive(Clone, Copy)]
+struct Top {
+    value: f64,
+    reference: [f64; 2],
+    point: [f64; 2],
+    element: u32,
 }
 
 impl Recovery {
@@ -144,17 +157,17 @@ impl Recovery {
             });
         }
         // A smooth field has its maximum in or beside an element whose sample is a local maximum.
-        let mut best: Option<Peak> = None;
+        let mut peaks: Vec<Peak> = Vec::new();
         for i in (0..raw.len()).filter(|&i| raw[i] >= CANDIDATE * raw[top]) {
             let around = self.neighbours_of(model, i);
             if around.iter().all(|&j| raw[j as usize] <= raw[i]) {
-                let peak = self.climb(model, &around, samples);
-                if best.is_none_or(|b| peak.ratio > b.ratio) {
-                    best = Some(peak);
-                }
+                peaks.push(self.climb(model, &around, samples));
             }
         }
-        best
+        let ratio = peaks.iter().map(|p| p.ratio).reduce(f64::max)?;
+        // Like bodies yield together: the first is named, not that of the larger round-off.
+        let first = peaks.iter().find(|p| p.ratio >= ratio * (1.0 - TIE))?;
+        Some(Peak { ratio, ..*first })
     }
 
     /// Elements of the same body that share a node with element `i`, itself included.
@@ -173,46 +186,71 @@ impl Recovery {
         around
     }
 
-    /// The maximum over some elements: a grid in each, then smaller and smaller steps round the best point.
+    /// The maximum over some elements: a grid in each, then smaller and smaller steps round its best point. The recovered field is
+    /// smooth in an element but not across: following the best grid point of all alone would let round-off choose the element.
     fn climb(&mut self, model: &Model, elements: &[u32], samples: &Samples) -> Peak {
-        let mut best = (f64::NEG_INFINITY, [0.0; 2], [0.0; 2], elements[0]);
+        let mut tops: Vec<Top> = Vec::with_capacity(elements.len());
         for &i in elements {
             self.cache_patch(model, i);
-            for a in -2..=2 {
-                for b in -2..=2 {
-                    let reference = self.inside(model, i, [0.5 * f64::from(a), 0.5 * f64::from(b)]);
-                    let (value, point) = self.value_at(model, i, reference, samples);
-                    if value > best.0 {
-                        best = (value, reference, point, i);
-                    }
-                }
-            }
+            let mut top = Top {
+                value: f64::NEG_INFINITY,
+                reference: [0.0; 2],
+                point: [0.0; 2],
+                element: i,
+            };
+            self.look_around(model, samples, &mut top, 0.5, 2);
+            tops.push(top);
         }
         let mut step = 0.25;
         while step > FINEST {
-            let from = best;
-            for a in -1..=1 {
-                for b in -1..=1 {
-                    let moved = [
-                        from.1[0] + step * f64::from(a),
-                        from.1[1] + step * f64::from(b),
-                    ];
-                    let reference = self.inside(model, from.3, moved);
-                    let (value, point) = self.value_at(model, from.3, reference, samples);
-                    if value > best.0 {
-                        best = (value, reference, point, from.3);
-                    }
+            for top in &mut tops {
+                while self.look_around(model, samples, top, step, 1) {}
+            }
+            let highest = tops.iter().fold(f64::NEG_INFINITY, |m, t| m.max(t.value));
+            tops.retain(|t| t.value >= highest * (1.0 - CURVATURE * step * step));
+            step *= 0.5;
+        }
+        // The first of equals: elements are in ascending order.
+        let best = tops.iter().fold(
+            tops[0],
+            |best, t| if t.value > best.value { *t } else { best },
+        );
+        Peak {
+            ratio: best.value,
+            location: best.point,
+            body: self.elements.list[best.element as usize].body as usize,
+        }
+    }
+
+    /// Moves to the highest of the points `step` apart round the current one; whether any is higher.
+    fn look_around(
+        &self,
+        model: &Model,
+        samples: &Samples,
+        top: &mut Top,
+        step: f64,
+        steps: i32,
+    ) -> bool {
+        let from = *top;
+        for a in -steps..=steps {
+            for b in -steps..=steps {
+                let moved = [
+                    from.reference[0] + step * f64::from(a),
+                    from.reference[1] + step * f64::from(b),
+                ];
+                let reference = self.inside(model, top.element, moved);
+                let (value, point) = self.value_at(model, top.element, reference, samples);
+                if value > top.value {
+                    *top = Top {
+                        value,
+                        reference,
+                        point,
+                        element: top.element,
+                    };
                 }
             }
-            if best.1 == from.1 {
-                step *= 0.5;
-            }
         }
-        Peak {
-            ratio: best.0,
-            location: best.2,
-            body: self.elements.list[best.3 as usize].body as usize,
-        }
+        top.reference != from.reference
     }
 
     /// The reference point moved into the element. Quadrilaterals use `[-1, 1]^2`, triangles the same square folded onto

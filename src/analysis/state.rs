@@ -1,13 +1,14 @@
-//! The state at a target: fields on the whole mesh, figures and their quality.
+//! The state at a target: fields on the whole mesh and figures.
 
 use super::engine::Engine;
+use super::indicator::{Indicator, PointStresses, indicator};
 use super::measure::pair_states;
 use crate::assembly::local_element;
-use crate::element::MAX_FREEDOMS;
+use crate::element::{MAX_FREEDOMS, MAX_POINTS};
 use crate::error::Result;
 use crate::material::{PlasticState, stress, von_mises};
 use crate::model::{Magnitude, Model, Slot};
-use crate::results::{Fields, Quality, State};
+use crate::results::{Fields, State};
 use crate::scene::History;
 use rayon::prelude::*;
 
@@ -15,12 +16,17 @@ use rayon::prelude::*;
 const BEYOND: f64 = 1e-8;
 
 /// Stress figures and nodal forces of an element.
-struct ElementState {
-    force: [f64; MAX_FREEDOMS],
+pub(super) struct ElementState {
+    /// Forces on the element's freedoms.
+    pub(super) force: [f64; MAX_FREEDOMS],
     stress: [f64; 4],
     von_mises: f64,
     plastic_strain: f64,
     plastic_points: usize,
+    /// Volume of the Gauss points that have flowed.
+    plastic_volume: f64,
+    /// Stress at the Gauss points.
+    points: PointStresses,
 }
 
 impl Engine<'_> {
@@ -29,28 +35,24 @@ impl Engine<'_> {
     /// # Errors
     /// Failure of the backend's solve.
     pub fn state(&mut self, name: &str, with_fields: bool) -> Result<State> {
-        let u = self.all_displacements()?;
-        let backward_error = self.sub.backward_error();
-        let elements = self.element_states(&u);
+        let displacements = self.displacements()?;
+        let elements = self.element_states(displacements.deformation());
         self.beyond_yield_outside = self.outside_beyond_yield(&elements);
         let figures = self.contact_figures();
         let residual_depth = self.residual_depth();
         let mut by_body = vec![0; self.model.mesh.bodies.len()];
-        let mut largest = 0.0f64;
+        let (mut largest, mut plastic_volume) = (0.0f64, 0.0);
         for (e, element) in elements.iter().enumerate() {
+            plastic_volume += element.plastic_volume;
             by_body[self.model.mesh.element_body[e] as usize] += element.plastic_points;
             largest = largest.max(element.plastic_strain);
         }
-        let largest_displacement = u.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-        let quality = Quality {
-            backward_error,
-            equilibrium: self.out_of_balance(&elements),
-            complementarity: self.complementarity(),
-            penetration: self.penetration(&u, largest_displacement),
-        };
+        let quality = self.quality(&displacements, &elements);
+        let u = &displacements.total;
         let arc = figures
             .patch
             .and_then(|patch| contact_arc(self.model, figures.contact, patch));
+        let errors = with_fields.then(|| indicator(self.model, |e| &elements[e].points));
         Ok(State {
             name: name.to_string(),
             alpha: self.at.alpha,
@@ -66,14 +68,16 @@ impl Engine<'_> {
             plastic_points: by_body.iter().sum(),
             plastic_points_by_body: by_body,
             max_equivalent_plastic_strain: largest,
-            approach: self.approach(&u),
+            plastic_zone_size: plastic_volume * self.model.symmetry,
+            energy_error: errors.as_ref().map(|i| i.total),
+            approach: self.approach(u),
             pairs: pair_states(
                 self.model,
                 &self.now.gap,
                 &self.contact_forces(),
                 self.tableau.open(),
             ),
-            fields: with_fields.then(|| self.fields(&u, &elements)),
+            fields: errors.map(|errors| self.fields(u, &elements, errors)),
             quality,
         })
     }
@@ -101,6 +105,8 @@ impl Engine<'_> {
                     von_mises: 0.0,
                     plastic_strain: 0.0,
                     plastic_points: 0,
+                    plastic_volume: 0.0,
+                    points: [[0.0; 4]; MAX_POINTS],
                 };
                 let volume: f64 = local.points.iter().map(|p| p.weight).sum();
                 for (g, point) in local.points.iter().enumerate() {
@@ -117,7 +123,11 @@ impl Engine<'_> {
                     }
                     out.von_mises = out.von_mises.max(von_mises(&sigma));
                     out.plastic_strain = out.plastic_strain.max(past.equivalent);
-                    out.plastic_points += usize::from(past.equivalent > 0.0);
+                    out.points[g] = sigma;
+                    if past.equivalent > 0.0 {
+                        out.plastic_points += 1;
+                        out.plastic_volume += point.weight;
+                    }
                 }
                 out
             })
@@ -170,75 +180,7 @@ impl Engine<'_> {
             .collect()
     }
 
-    /// Largest nodal force that the stresses leave unbalanced, over the largest nodal force of the run.
-    fn out_of_balance(&mut self, elements: &[ElementState]) -> f64 {
-        let model = self.model;
-        let mut balance = vec![0.0; model.freedoms.n];
-        let mut applied = 0.0f64;
-        for (load, &factor) in model.loads.iter().zip(&self.at.factors) {
-            for &(f, force) in &load.forces {
-                balance[f] -= factor * force;
-            }
-        }
-        for b in &balance {
-            applied = applied.max(b.abs());
-        }
-        let n = self.now.force.len();
-        for (i, &f) in self.sub.partition.contact.iter().enumerate() {
-            let sign = if i < n { -1.0 } else { 1.0 };
-            balance[f] += sign * self.now.force[i % n];
-        }
-        let mut inner = 0.0f64;
-        for (e, element) in elements.iter().enumerate() {
-            for (i, &node) in model.mesh.nodes(e).iter().enumerate() {
-                for (d, slot) in model.freedoms.slots[node as usize].iter().enumerate() {
-                    let force = element.force[2 * i + d];
-                    match slot {
-                        Slot::Free(f) => balance[*f as usize] += force,
-                        // Reactions measure the load where displacements are prescribed.
-                        Slot::Prescribed(_) => inner = inner.max(force.abs()),
-                        Slot::Fixed => {}
-                    }
-                }
-            }
-        }
-        self.update_force_scale();
-        self.force_scale = self.force_scale.max(applied).max(inner);
-        let worst = balance.iter().fold(0.0f64, |m, b| m.max(b.abs()));
-        if self.force_scale > 0.0 {
-            worst / self.force_scale
-        } else {
-            worst
-        }
-    }
-
-    fn complementarity(&self) -> f64 {
-        let largest = |v: &[f64]| v.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-        let product = self
-            .now
-            .gap
-            .iter()
-            .zip(&self.now.force)
-            .map(|(g, r)| (g * r).abs())
-            .fold(0.0, f64::max);
-        let tension = self.now.force.iter().fold(0.0f64, |m, r| m.max(-r))
-            / self.force_scale.max(f64::MIN_POSITIVE);
-        let scale = largest(&self.now.gap) * largest(&self.now.force);
-        tension.max(if scale > 0.0 { product / scale } else { 0.0 })
-    }
-
-    /// Largest overlap of a pair, from the displacements of the full solve.
-    fn penetration(&self, u: &[f64], scale: f64) -> f64 {
-        let delta = self.delta(&self.at);
-        let n = delta.len();
-        let contact = &self.sub.partition.contact;
-        let worst = (0..n)
-            .map(|k| (u[contact[n + k]] - u[contact[k]]) - delta[k])
-            .fold(0.0f64, f64::max);
-        if scale > 0.0 { worst / scale } else { worst }
-    }
-
-    fn fields(&self, u: &[f64], elements: &[ElementState]) -> Fields {
+    fn fields(&self, u: &[f64], elements: &[ElementState], errors: Indicator) -> Fields {
         let model = self.model;
         Fields {
             displacement: (0..model.mesh.n_nodes())
@@ -251,6 +193,7 @@ impl Engine<'_> {
                 .iter()
                 .map(|e| u8::from(e.plastic_points > 0))
                 .collect(),
+            error: errors.by_element,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What the user may type.
 
+use super::study::StudyArguments;
 use crate::linalg::Backend;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -20,6 +21,7 @@ Exit codes:
     4  a body is not held: it can move freely
     5  the analysis failed: a solve did not converge or a target was not reached
     6  the load passed the limit load of the bodies
+    7  inaccurate: a state's quality misses its tolerance; the results are written, do not trust them
    70  internal error, please report
   130  stopped (Ctrl-C); what was computed so far is written";
 
@@ -67,6 +69,19 @@ pub(super) enum Command {
     /// the time and memory of the factorisation, predicted from the pattern of the matrix.
     #[command(after_help = "Example: brinell check data/scenes/disc_in_plate.toml")]
     Check(CheckArguments),
+    /// Run hard cases on this machine and build: worst figure of each family, its bound, pass or fail
+    ///
+    /// Takes less than a minute. Exit code 7 where a family fails.
+    Selftest(super::selftest::SelftestArguments),
+    /// Study what accuracy costs: errors against time over mesh, elements, increments, tolerances, algorithms
+    ///
+    /// Runs the scene with many settings, cheapest first, and writes accuracy.json, accuracy.csv and log-log plots of error over
+    /// time. Errors are measured against the closed form where the scene names one, else against the values extrapolated
+    /// from the finest meshes. Ctrl-C ends the study and keeps what it has.
+    #[command(
+        after_help = "Example: brinell accuracy data/scenes/thick_cylinder.toml --budget 60s"
+    )]
+    Accuracy(StudyArguments),
     /// Print a commented scene to start from, or list those there are
     Example(super::example::ExampleArguments),
     /// Write a commented scene for a common problem from a few numbers
@@ -92,6 +107,9 @@ pub(super) struct RunArguments {
     /// Directory for the results; `run` takes SCENE with the ending .out if it is not given
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Do not estimate the errors: leaves out the runs on coarser meshes
+    #[arg(long)]
+    pub no_estimate: bool,
     /// Write no report.html and no figures
     #[arg(long)]
     pub no_report: bool,
@@ -120,6 +138,9 @@ pub(super) struct CommonArguments {
     /// Number of threads; by default as many as there are processors
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
+    /// Choose mesh and tolerances so that the stated errors stay within this, such as 1%; like the scene's key `accuracy`
+    #[arg(long, value_name = "PERCENT")]
+    pub accuracy: Option<String>,
     /// Print one JSON object (the content of summary.json) instead of tables
     #[arg(long)]
     pub json: bool,
@@ -192,6 +213,7 @@ mod tests {
             Unheld,
             Analysis,
             Collapse,
+            Inaccurate,
             Stopped,
             Internal,
         ] {

@@ -1,4 +1,4 @@
-//! The command line: `brinell run`, `yield`, `check`, and what helps to write scenes and to look at results.
+//! The command line: runs and studies, and what helps to write scenes and to look at results.
 //!
 //! Only this module prints. What was computed goes to standard output, progress and errors to standard error, and
 //! the exit code says what kind of end it was ([`crate::ErrorKind::exit_code`]).
@@ -12,6 +12,8 @@ mod new;
 mod progress;
 mod report;
 mod schema;
+mod selftest;
+mod study;
 mod table;
 mod view;
 

@@ -32,6 +32,9 @@ pub(super) fn results(
         report.paragraph(&format!("INCOMPLETE: {why}"));
     }
     report.reference(&results.reference);
+    if let Some(accuracy) = &results.accuracy {
+        report.accuracy(accuracy);
+    }
     report.quality(&results.quality);
     report.cost(results, wall_seconds);
     report.list("Warnings", &results.warnings);
@@ -374,11 +377,12 @@ impl Report {
         self.labelled(
             "Quality",
             &format!(
-                "backward error {}, equilibrium {}, complementarity {}, penetration {}",
+                "backward error {}, equilibrium {}, complementarity {}, penetration {}, adhesion {}",
                 figure(quality.backward_error),
                 figure(quality.equilibrium),
                 figure(quality.complementarity),
-                figure(quality.penetration)
+                figure(quality.penetration),
+                figure(quality.adhesion)
             ),
         );
     }
@@ -408,5 +412,6 @@ impl Report {
     }
 }
 
+mod accuracy;
 #[cfg(test)]
 mod tests;

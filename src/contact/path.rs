@@ -82,18 +82,28 @@ impl Path {
         Ok(path)
     }
 
-    fn zero_gap(&self) -> f64 {
-        TIE * self.gap.iter().fold(self.gap_scale, |m, g| m.max(*g)) * 1e-2
-    }
-
-    fn zero_force(&self) -> f64 {
-        TIE * self.force.iter().fold(self.force_scale, |m, r| m.max(*r))
+    /// Gap and force that count as zero: a small share of the largest, at least their round-off. That is a share of what they are the
+    /// sum of: all forces may have been zero so far.
+    fn zero(&self, tableau: &Tableau) -> (f64, f64) {
+        let q: Vec<f64> = self
+            .start
+            .iter()
+            .zip(&self.rate)
+            .map(|(a, b)| a.abs() + self.t * b.abs())
+            .collect();
+        let round_off = tableau.force_tolerance(&q, &self.gap);
+        let gap = TIE * self.gap.iter().fold(self.gap_scale, |m, g| m.max(*g)) * 1e-2;
+        let force = TIE * self.force.iter().fold(self.force_scale, |m, r| m.max(*r));
+        (
+            gap.max(tableau.gap_tolerance(round_off)),
+            force.max(round_off),
+        )
     }
 
     /// Settles the statuses of pairs at the border by the complementarity problem of the rates, then computes all rates.
     fn settle(&mut self, tableau: &mut Tableau) -> Result<(), Unbounded> {
         let n = tableau.len();
-        let (zero_gap, zero_force) = (self.zero_gap(), self.zero_force());
+        let (zero_gap, zero_force) = self.zero(tableau);
         self.force_scale = self.force.iter().fold(self.force_scale, |m, r| m.max(*r));
         let border: Vec<usize> = (0..n)
             .filter(|&k| self.gap[k] <= zero_gap && self.force[k] <= zero_force)
@@ -123,6 +133,12 @@ impl Path {
             }
         }
         tableau.solve(&self.rate, &mut self.gap_rate, &mut self.force_rate);
+        // At the border a rate that leads beyond it is round-off, the complementarity problem has seen to that: taken at
+        // its word the path would stand still for ever.
+        for &k in &border {
+            self.gap_rate[k] = self.gap_rate[k].max(0.0);
+            self.force_rate[k] = self.force_rate[k].max(0.0);
+        }
         self.changes = before
             .iter()
             .zip(tableau.open())
@@ -164,7 +180,7 @@ impl Path {
             };
             *value = 0.0;
         }
-        let (zero_gap, zero_force) = (self.zero_gap(), self.zero_force());
+        let (zero_gap, zero_force) = self.zero(tableau);
         let changes = (0..tableau.len())
             .filter_map(|k| {
                 let (_, rate) = self.value_and_rate(tableau, k);

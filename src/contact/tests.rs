@@ -117,3 +117,24 @@ fn ties_open_together() {
     assert_eq!(path.advance(&tableau, 1.0), PathEnd::Target);
     assert!(path.gap.windows(2).all(|w| (w[0] - w[1]).abs() < 1e-15));
 }
+
+/// Pair 1 stays at the border of both its conditions along the whole path, up to round-off of either sign.
+#[test]
+fn a_pair_that_stays_at_the_border_does_not_hold_up_the_path() {
+    let t = DMatrix::from_column_slice(3, 3, &[1.0, 0.0, 0.0, 0.0, 6.0, 1.0, 0.0, 1.0, 3.0]);
+    for sign in [1.0, -1.0] {
+        let start = [0.0, sign, 3.0 * sign];
+        let rate: Vec<f64> = start.iter().map(|q| -2.0 * q).collect();
+        let mut tableau = Tableau::new(t.clone());
+        let (mut g, mut r) = (vec![0.0; 3], vec![0.0; 3]);
+        assert!(solve(&mut tableau, &start, &mut g, &mut r).is_ok());
+        let mut path = Path::new(&mut tableau, start.to_vec(), rate, g, r, 1.0).unwrap();
+        let mut events = 0;
+        while path.advance(&tableau, 1.0) != PathEnd::Target {
+            path.turn(&mut tableau).unwrap();
+            events += 1;
+            assert!(events <= 3);
+        }
+        check(&t, &start.map(|q| -q), &path.gap, &path.force);
+    }
+}

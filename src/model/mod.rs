@@ -6,12 +6,13 @@
 mod freedoms;
 mod held;
 mod loads;
+mod motions;
 mod pairs;
 
 pub use freedoms::{Freedoms, Prescribed, Slot};
-pub use held::{FloatingBodies, Pin};
+pub use held::{FloatingBodies, Pin, RigidMotion};
 pub use loads::{LoadCase, Magnitude};
-pub use pairs::{ContactSurface, Pair};
+pub use pairs::{AxisPoint, ContactSurface, Pair};
 
 use crate::analytical::{self, HertzLine, HertzPoint};
 use crate::error::{Error, Result};
@@ -73,9 +74,6 @@ impl Model {
             check_radii(&mesh)?;
         }
         let (mut pairs, contacts) = pairs::resolve(scene, &mesh)?;
-        if may_yield.contains(&true) {
-            refuse_pairs_without_force(&mesh, &pairs)?;
-        }
         let mut freedoms = Freedoms::new(scene, &mesh, &mut pairs)?;
         let loads = loads::resolve(scene, &mesh, &freedoms)?;
         let floating = held::resolve(kind, &mesh, &mut freedoms, &pairs, &loads, &mut warnings)?;
@@ -204,23 +202,6 @@ fn check_radii(mesh: &Mesh) -> Result<()> {
             mesh.node_label(node),
             mesh.point(node)[0]
         ))),
-        None => Ok(()),
-    }
-}
-
-/// On the axis of a quadratic axisymmetric mesh the consistent force of the axis node is exactly zero, whatever the
-/// pressure: open and closed are both right, and increments that end at changes of status would not end.
-fn refuse_pairs_without_force(mesh: &Mesh, pairs: &[Pair]) -> Result<()> {
-    let largest = pairs.iter().fold(0.0f64, |m, p| m.max(p.area));
-    match pairs.iter().find(|p| p.area <= 1e-9 * largest) {
-        Some(pair) => Err(Error::new(
-            crate::ErrorKind::Unsupported,
-            format!(
-                "node {} of a contact surface lies on the axis and belongs to quadratic elements: it can carry no contact force, \
-                 and elastoplastic contact there is not supported; use quad4 or tri3, or bodies with plastic = false",
-                mesh.node_label(pair.second)
-            ),
-        )),
         None => Ok(()),
     }
 }

@@ -8,7 +8,7 @@ use crate::element::facet_points;
 use crate::error::{Error, Result};
 use crate::mesh::surface::{normals, ordered_nodes};
 use crate::mesh::{Curve, Mesh, Surface};
-use crate::scene::{Contact, Scene};
+use crate::scene::{Contact, Kind, Scene};
 use std::collections::BTreeMap;
 
 /// A pair of nodes that may touch.
@@ -46,8 +46,26 @@ pub struct ContactSurface {
     pub circle: Option<([f64; 2], f64)>,
     /// Length of the longest facet, the resolution of positions.
     pub facet_length: f64,
+    /// The nodes on the axis of revolution that carry no force.
+    pub axis: Option<AxisPoint>,
 }
 
+/// Two nodes on the axis of revolution that belong to quadratic elements. Their consistent force is zero whatever the
+/// pressure, so the condition that they keep apart has no weight: they are no pair, and the pressure there is the even
+/// continuation of that beside it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AxisPoint {
+    /// Node of the second surface.
+    pub node: usize,
+    /// Distance along the second surface from its begin.
+    pub arc: f64,
+    /// Whether the surface begins on the axis (else it ends there).
+    pub begins: bool,
+}
+
+/// Share of its neighbour's area below which a node on the axis carries no force: 0 for quadratic elements but for curvature, 1/6 for
+/// linear ones.
+const NO_AREA: f64 = 0.02;
 /// Two nodes pair if their distance across the normal is below this share of a facet's length.
 const PAIRING: f64 = 1e-5;
 
@@ -181,6 +199,7 @@ fn resolve_contact(
             )));
         }
     }
+    let axis = take_axis_pair(mesh, scene, pairs, start);
     let circle = [second.curve, first.curve]
         .into_iter()
         .flatten()
@@ -195,7 +214,34 @@ fn resolve_contact(
         range: start..pairs.len(),
         circle,
         facet_length,
+        axis,
     })
+}
+
+/// Takes the pair on the axis that can carry no force out of the pairs from `start` on.
+fn take_axis_pair(
+    mesh: &Mesh,
+    scene: &Scene,
+    pairs: &mut Vec<Pair>,
+    start: usize,
+) -> Option<AxisPoint> {
+    let last = pairs.len().checked_sub(1).filter(|last| *last > start)?;
+    if scene.kind != Kind::Axisymmetric {
+        return None;
+    }
+    let radius = |k: usize| mesh.point(pairs[k].second)[0];
+    for (end, beside) in [(start, start + 1), (last, last - 1)] {
+        let on_axis = radius(end).abs() <= PAIRING * radius(beside).abs();
+        if on_axis && pairs[end].area <= NO_AREA * pairs[beside].area {
+            let pair = pairs.remove(end);
+            return Some(AxisPoint {
+                node: pair.second,
+                arc: pair.arc,
+                begins: end == start,
+            });
+        }
+    }
+    None
 }
 
 /// The node of `candidates` on the line through `x` along `normal`, the nearest if there are several.

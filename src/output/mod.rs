@@ -10,6 +10,15 @@
 //!     report_NAME.svg       its figures
 //! ```
 //!
+//!
+//! A study ([`write_study`]) leaves a directory of its own:
+//!
+//! ```text
+//! DIR/accuracy.json         every run with time, memory and errors; references, orders, prices   (study)
+//!     accuracy.csv          a row per run and quantity                                           (study)
+//!     QUANTITY.svg          error over time, both logarithmic                                    (work_precision)
+//! ```
+//!
 //! [`write()`] first writes a temporary directory beside DIR and then renames it into place
 //! (`atomic`). Keys of `summary.json` and columns of the tables keep their names once published.
 
@@ -19,11 +28,15 @@ mod fields;
 mod history;
 pub(crate) mod number;
 mod report;
+mod study;
 mod summary;
 mod table;
 mod vtu;
+mod work_precision;
 
+pub use study::{study_json, write_study};
 pub use summary::summary;
+pub use work_precision::plot;
 
 use crate::error::Result;
 use crate::mesh::Mesh;
@@ -39,6 +52,8 @@ pub const SUMMARY_SCHEMA: &str = include_str!("../../data/schema/summary.schema.
 
 /// The summary: its `brinell` key marks a directory as a result.
 const SUMMARY_FILE: &str = "summary.json";
+/// The study: marks a directory like the summary.
+const STUDY_FILE: &str = "accuracy.json";
 const HISTORY_FILE: &str = "history.csv";
 const CONTACT_FILE: &str = "contact.csv";
 const COLLECTION_FILE: &str = "fields.pvd";

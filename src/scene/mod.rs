@@ -10,6 +10,7 @@
 //!           key placed)               keys)    references)
 //! ```
 
+mod accuracy;
 mod boundary;
 mod complete;
 mod defaults;
@@ -25,6 +26,7 @@ mod units;
 mod unsupported;
 mod validate;
 
+pub use accuracy::AccuracyDemand;
 pub use boundary::{Contact, Direction, Displacement, History, Kirsch, Load, PlaneForce, Support};
 pub use geometry::{Block, CylinderOnHalfPlane, Disc, DiscInPlate, MeshSource, Part, Piece, Ring};
 pub use material::{Body, Material, Plastic};
@@ -76,6 +78,9 @@ pub struct Scene {
     /// How to compute: every value has a default that needs no thought.
     #[serde(default)]
     pub analysis: Settings,
+    /// How wrong the results may be: with this key mesh and tolerances are chosen by the program ([`AccuracyDemand`]).
+    #[serde(default)]
+    pub accuracy: Option<AccuracyDemand>,
     /// Published or exact values to put beside the computed ones.
     #[serde(default)]
     pub reference: Vec<Reference>,

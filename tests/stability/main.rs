@@ -2,9 +2,14 @@
 //!
 //! The scenes are in `data/scenes/hard`.
 
+mod cycles;
 mod flow;
 mod held_by_contact;
+mod incompressible;
 mod numbers;
+mod quality;
+mod receding;
 #[path = "../running/mod.rs"]
 mod running;
+mod selftest;
 mod touching;

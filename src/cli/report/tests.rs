@@ -75,6 +75,7 @@ fn full() -> Results {
             equilibrium: 3.2e-11,
             complementarity: 0.0,
             penetration: 0.0,
+            adhesion: 0.0,
         },
         factor: Prediction {
             ordering: "camd",

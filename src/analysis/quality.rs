@@ -1,0 +1,202 @@
+//! How good a state is.
+//!
+//! Nothing here takes the solver's word: gaps are those of the displacements, contact forces those that the stresses leave over on
+//! the contact nodes, neither of them clipped. A wrong status shows as tension or penetration, a wrong condensed matrix or
+//! factor as forces out of balance.
+//!
+//! Figures are relative to the largest load and displacement of the run up to here, so that they keep their meaning
+//! where everything is unloaded.
+
+#[cfg(test)]
+mod tests;
+
+use super::engine::Engine;
+use super::state::ElementState;
+use crate::linalg::multiply;
+use crate::model::{Model, Slot};
+use crate::results::{Quality, Tolerances};
+
+/// Share of the largest force or displacement that an elastic state may be off: round-off times any condition that a state is worth
+/// having at.
+const ROUND_OFF: f64 = 1e-8;
+
+/// What the quality of a state of this model must keep: the tolerances that the scene asks for, with room for what
+/// is measured elsewhere than iterated, and round-off.
+pub(super) fn tolerances(model: &Model) -> Tolerances {
+    let settings = &model.scene.analysis;
+    // Between events a pair may be beyond its condition by gamma.
+    let forces = ROUND_OFF
+        .max(100.0 * settings.tolerance)
+        .max(10.0 * model.scene.program.gamma);
+    Tolerances {
+        backward_error: (16.0 * f64::EPSILON * model.freedoms.n as f64).max(1e-12),
+        equilibrium: forces,
+        contact: forces,
+    }
+}
+
+/// Displacements of all freedoms.
+pub(super) struct Displacements {
+    /// The whole.
+    pub total: Vec<f64>,
+    /// Without the rigid motions of floating bodies; `None` where there are none.
+    deformation: Option<Vec<f64>>,
+}
+
+impl Displacements {
+    /// What strains are taken from.
+    pub(super) fn deformation(&self) -> &[f64] {
+        self.deformation.as_ref().unwrap_or(&self.total)
+    }
+}
+
+impl Engine<'_> {
+    /// Displacements of the current state. Costs one full solve.
+    ///
+    /// # Errors
+    /// Failure of the backend's solve.
+    pub(super) fn displacements(&mut self) -> crate::Result<Displacements> {
+        self.refresh();
+        let model = self.model;
+        let mut load = self.total_load();
+        let mut condensed = self.external(&self.at);
+        condensed.add(1.0, &self.now.initial);
+        let amplitudes = self
+            .sub
+            .recover_deformation(&mut load, condensed, &self.slip())?;
+        self.counts.full_solves += 1;
+        self.counts.trailing_solves += 1;
+        if amplitudes.iter().all(|a| *a == 0.0) {
+            return Ok(Displacements {
+                total: load,
+                deformation: None,
+            });
+        }
+        let mut total = load.clone();
+        for (motion, amplitude) in model.floating.motions.iter().zip(&amplitudes) {
+            for &(freedom, value) in &motion.values {
+                total[freedom as usize] += amplitude * value;
+            }
+        }
+        Ok(Displacements {
+            total,
+            deformation: Some(load),
+        })
+    }
+
+    /// Quality of the current state.
+    pub(super) fn quality(&mut self, u: &Displacements, elements: &[ElementState]) -> Quality {
+        let (internal, reaction) = self.internal_forces(elements);
+        let external = self.external_forces();
+        let applied = largest(&external);
+        self.update_scales();
+        self.force_scale = self.force_scale.max(applied).max(reaction);
+        self.displacement_scale = self.displacement_scale.max(largest(&u.total));
+        let out_of_balance: Vec<f64> = internal.iter().zip(&external).map(|(i, e)| i - e).collect();
+
+        let mut quality = Quality {
+            backward_error: self.backward_error(u.deformation()),
+            ..Quality::default()
+        };
+        let n = self.now.force.len();
+        let mut worst = 0.0f64;
+        let mut touched = vec![0.0; out_of_balance.len()];
+        for (i, &f) in self.sub.partition.contact.iter().enumerate() {
+            let sign = if i < n { 1.0 } else { -1.0 };
+            touched[f] = sign * self.now.force[i % n];
+        }
+        for (b, r) in out_of_balance.iter().zip(&touched) {
+            worst = worst.max((b - r).abs());
+        }
+        quality.equilibrium = ratio(worst, self.force_scale);
+
+        let delta = self.delta(&self.at);
+        let gap_scale = delta
+            .iter()
+            .fold(self.displacement_scale, |m, d| m.max(d.abs()));
+        let contact = &self.sub.partition.contact;
+        for k in 0..n {
+            let (first, second) = (contact[k], contact[n + k]);
+            let gap = delta[k] - (u.total[second] - u.total[first]);
+            let forces = [out_of_balance[first], -out_of_balance[second]];
+            quality.penetration = quality
+                .penetration
+                .max(ratio(-gap, self.displacement_scale));
+            for force in forces {
+                quality.adhesion = quality.adhesion.max(ratio(-force, self.force_scale));
+                let product = ratio(gap.abs(), gap_scale) * ratio(force.abs(), self.force_scale);
+                quality.complementarity = quality.complementarity.max(product);
+            }
+        }
+        quality
+    }
+
+    /// Forces of the stresses on the free freedoms, and the largest on a prescribed one.
+    fn internal_forces(&self, elements: &[ElementState]) -> (Vec<f64>, f64) {
+        let model = self.model;
+        let mut internal = vec![0.0; model.freedoms.n];
+        let mut reaction = 0.0f64;
+        for (e, element) in elements.iter().enumerate() {
+            for (i, &node) in model.mesh.nodes(e).iter().enumerate() {
+                for (d, slot) in model.freedoms.slots[node as usize].iter().enumerate() {
+                    let force = element.force[2 * i + d];
+                    match slot {
+                        Slot::Free(f) => internal[*f as usize] += force,
+                        // Reactions measure the load where displacements are prescribed.
+                        Slot::Prescribed(_) => reaction = reaction.max(force.abs()),
+                        Slot::Fixed => {}
+                    }
+                }
+            }
+        }
+        (internal, reaction)
+    }
+
+    fn external_forces(&self) -> Vec<f64> {
+        let mut external = vec![0.0; self.model.freedoms.n];
+        for (load, &factor) in self.model.loads.iter().zip(&self.at.factors) {
+            for &(f, force) in &load.forces {
+                external[f] += factor * force;
+            }
+        }
+        external
+    }
+
+    /// `|f - K u| / (|K| |u| + |f|)` in infinity norms, `u` and `f` the run's largest.
+    fn backward_error(&self, u: &[f64]) -> f64 {
+        let matrix = &self.system.stiffness;
+        let mut residual = vec![0.0; u.len()];
+        multiply(matrix, u, &mut residual);
+        let load = self.total_load();
+        for (r, f) in residual.iter_mut().zip(&load) {
+            *r -= f;
+        }
+        let mut rows = vec![0.0f64; u.len()];
+        for (j, column) in matrix.outer_iterator().enumerate() {
+            for (i, &a) in column.iter() {
+                rows[i] += a.abs();
+                if i != j {
+                    rows[j] += a.abs();
+                }
+            }
+        }
+        let scale = largest(&rows) * largest(u).max(self.displacement_scale)
+            + largest(&load).max(self.force_scale);
+        ratio(largest(&residual), scale)
+    }
+}
+
+/// Largest absolute value; NaN where there is one.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0f64, |m, v| {
+        if v.abs() > m || v.is_nan() {
+            v.abs()
+        } else {
+            m
+        }
+    })
+}
+
+fn ratio(value: f64, scale: f64) -> f64 {
+    if value == 0.0 { 0.0 } else { value / scale }
+}

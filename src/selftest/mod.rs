@@ -1,0 +1,185 @@
+//! The fast part of the stability suite, on the user's own machine and build: hard cases by family, the worst figure measured, its bound
+//! and where that comes from.
+//!
+//! | file | what |
+//! |---|---|
+//! | `contact` | floating and conforming bodies, ties, events, complementarity |
+//! | `numbers` | stiffness ratios, slivers, units, backends |
+//! | `flow` | incompressible flow, limit loads, cycles, the axis of quadratic elements |
+
+mod contact;
+mod flow;
+mod numbers;
+
+use crate::analysis::Analysis;
+use crate::error::{Error, Result};
+use crate::linalg::{self, Backend};
+use crate::model::Model;
+use crate::progress::{Observer, Silent};
+use crate::results::{Results, State};
+use crate::scene::Scene;
+
+/// What a family of hard cases came to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// The family.
+    pub family: &'static str,
+    /// What was measured.
+    pub figure: &'static str,
+    /// Number of cases.
+    pub cases: usize,
+    /// The worst figure; infinite where a case did not run.
+    pub worst: f64,
+    /// What it may be at most.
+    pub bound: f64,
+    /// Where the bound comes from.
+    pub source: &'static str,
+    /// The case that did not run, and why.
+    pub failure: Option<String>,
+}
+
+impl Row {
+    /// Whether the worst figure keeps the bound.
+    pub fn passed(&self) -> bool {
+        self.failure.is_none() && self.worst <= self.bound
+    }
+}
+
+/// A family: figure by figure, one for each case.
+struct Family {
+    name: &'static str,
+    figure: &'static str,
+    bound: f64,
+    source: &'static str,
+    cases: fn(&mut Cases) -> Result<()>,
+}
+
+/// Collects the figures of a family.
+#[derive(Default)]
+struct Cases {
+    count: usize,
+    worst: f64,
+}
+
+impl Cases {
+    /// A case came to `figure` (an error, zero at best).
+    fn add(&mut self, figure: f64) {
+        self.count += 1;
+        if figure.is_nan() || figure.abs() > self.worst {
+            self.worst = if figure.is_nan() {
+                f64::INFINITY
+            } else {
+                figure.abs()
+            };
+        }
+    }
+}
+
+/// Runs all families; `observer` is told each one's name as a phase, and may stop.
+pub fn run(observer: &mut dyn Observer) -> Vec<Row> {
+    let families = contact::FAMILIES
+        .iter()
+        .chain(numbers::FAMILIES)
+        .chain(flow::FAMILIES);
+    let mut rows = Vec::new();
+    for family in families {
+        if observer.stop_requested() {
+            break;
+        }
+        observer.phase(family.name);
+        let mut cases = Cases::default();
+        let outcome = (family.cases)(&mut cases);
+        rows.push(Row {
+            family: family.name,
+            figure: family.figure,
+            cases: cases.count,
+            worst: if outcome.is_ok() {
+                cases.worst
+            } else {
+                f64::INFINITY
+            },
+            bound: family.bound,
+            source: family.source,
+            failure: outcome.err().map(|e| e.message().to_string()),
+        });
+    }
+    rows
+}
+
+/// The rows as a page in Markdown, with the build that they were measured with.
+pub fn page(rows: &[Row]) -> String {
+    let mut text = format!(
+        "# Hard cases, measured\n\nWritten by `brinell selftest --markdown`: brinell {}, BLAS: {}. The whole suite is `cargo test --test \
+         stability --test properties --test invariance`; its scenes are in [data/scenes/hard](scenes/hard).\n\n\
+         | family | figure | cases | worst | bound | where the bound comes from | |\n|---|---|---|---|---|---|---|\n",
+        env!("CARGO_PKG_VERSION"),
+        linalg::blas_name()
+    );
+    for row in rows {
+        text += &format!(
+            "| {} | {} | {} | {:.1e} | {:.1e} | {} | {} |\n",
+            row.family,
+            row.figure,
+            row.cases,
+            row.worst,
+            row.bound,
+            row.source,
+            match &row.failure {
+                None if row.passed() => "pass".to_string(),
+                None => "FAIL".to_string(),
+                Some(why) => format!("FAIL: {why}"),
+            }
+        );
+    }
+    text
+}
+
+/// A scene of the suite.
+fn scene(text: &str) -> Result<Scene> {
+    Scene::parse(text, "selftest")
+}
+
+/// Runs a scene without fields; a limit load or another early end is left in the results.
+fn results(scene: &Scene) -> Result<Results> {
+    results_by(scene, Backend::default())
+}
+
+fn results_by(scene: &Scene, backend: Backend) -> Result<Results> {
+    let mut scene = scene.clone();
+    for target in &mut scene.program.targets {
+        target.fields = false;
+    }
+    Analysis::new(Model::new(&scene)?, backend)?.run(&mut Silent)
+}
+
+fn state<'r>(results: &'r Results, name: &str) -> Result<&'r State> {
+    let found = results.states.iter().find(|s| s.name == name);
+    found.ok_or_else(|| {
+        let why = results.incomplete.clone().unwrap_or_default();
+        Error::analysis(format!("state `{name}` was not reached: {why}"))
+    })
+}
+
+/// Largest difference of a figure of the pairs of two states, over the largest value of the first.
+fn difference(a: &State, b: &State, figure: fn(&crate::results::PairState) -> f64) -> f64 {
+    if a.pairs.len() != b.pairs.len() {
+        return f64::INFINITY;
+    }
+    let scale = a.pairs.iter().fold(0.0f64, |m, p| m.max(figure(p).abs()));
+    let pairs = a.pairs.iter().zip(&b.pairs);
+    pairs.fold(0.0f64, |m, (p, q)| m.max((figure(p) - figure(q)).abs())) / scale
+}
+
+/// The worst algebraic figure of all states.
+fn worst_quality(results: &Results) -> f64 {
+    let q = &results.quality;
+    [
+        q.backward_error,
+        q.equilibrium,
+        q.complementarity,
+        q.penetration,
+        q.adhesion,
+    ]
+    .into_iter()
+    .fold(0.0, |m, v| if v.is_nan() { f64::NAN } else { v.max(m) })
+}

@@ -1,0 +1,129 @@
+//! Numbers far apart: stiffness ratios, slivers, units; two backends.
+
+use super::{Cases, Family, difference, results, results_by, scene, worst_quality};
+use crate::error::Result;
+use crate::linalg::Backend;
+use crate::scene::Scene;
+
+pub(super) const FAMILIES: &[Family] = &[
+    Family {
+        name: "stiffness ratio 1 to 1e10",
+        figure: "contact force against the load, equilibrium",
+        bound: 1e-10,
+        source: "equilibrium does not know the ratio; n eps times the grading of the mesh",
+        cases: ratios,
+    },
+    Family {
+        name: "slivers of aspect 1e5",
+        figure: "uniform pressure",
+        bound: 1e10 * f64::EPSILON,
+        source: "condition 1e10 times eps",
+        cases: slivers,
+    },
+    Family {
+        name: "units and scales",
+        figure: "elastoplastic states under E, load by 1e+-12, lengths by 1e+-9",
+        bound: 1e-9,
+        source: "equivariance; forces balance to 1e-10 (analysis.tolerance)",
+        cases: scales,
+    },
+    Family {
+        name: "two backends",
+        figure: "forces of CHOLMOD against dense Cholesky",
+        bound: 1e-10,
+        source: "round-off times the condition",
+        cases: backends,
+    },
+];
+
+fn ratios(cases: &mut Cases) -> Result<()> {
+    let mut press = scene(include_str!("../../data/scenes/hard/stiffness_ratio.toml"))?;
+    for exponent in [0, 2, 4, 6, 8, 10] {
+        if let Some(hard) = press.materials.get_mut("hard") {
+            hard.youngs_modulus = 210_000.0 * 10f64.powi(exponent);
+        }
+        let run = results(&press)?;
+        for s in &run.states {
+            cases.add(s.contact_force / 500.0 - 1.0);
+            cases.add(worst_quality(&run));
+        }
+    }
+    Ok(())
+}
+
+fn slivers(cases: &mut Cases) -> Result<()> {
+    let run = results(&scene(include_str!("../../data/scenes/hard/slivers.toml"))?)?;
+    for p in run.states.iter().flat_map(|s| &s.pairs) {
+        cases.add(p.pressure / 10.0 - 1.0);
+    }
+    Ok(())
+}
+
+/// The scene with forces, lengths and stresses in other units.
+fn scaled(scene: &Scene, stress: f64, length: f64) -> Scene {
+    let mut out = scene.clone();
+    for material in out.materials.values_mut() {
+        material.youngs_modulus *= stress;
+        for value in [
+            &mut material.yield_stress,
+            &mut material.plastic_modulus,
+            &mut material.tangent_modulus,
+        ]
+        .into_iter()
+        .flatten()
+        {
+            *value *= stress;
+        }
+    }
+    if let Some(mesh) = &mut out.mesh.cylinder_on_half_plane {
+        mesh.radius *= length;
+    }
+    // Plane strain: forces are per unit of thickness.
+    for load in &mut out.load {
+        if let Some(force) = &mut load.plane_force {
+            force.total *= stress * length;
+        }
+    }
+    out
+}
+
+fn scales(cases: &mut Cases) -> Result<()> {
+    let base = scene(include_str!("../../data/scenes/hard/unload_reload.toml"))?;
+    let reference = results(&base)?;
+    for (stress, length) in [
+        (1e12, 1.0),
+        (1e-12, 1.0),
+        (1.0, 1e9),
+        (1.0, 1e-9),
+        (1e6, 1e-3),
+    ] {
+        let run = results(&scaled(&base, stress, length))?;
+        if run.states.len() != reference.states.len() {
+            cases.add(f64::NAN);
+        }
+        for (a, b) in reference.states.iter().zip(&run.states) {
+            cases.add(b.alpha / a.alpha - 1.0);
+            cases.add(b.max_pressure / stress / a.max_pressure - 1.0);
+            cases.add(b.half_width / length / a.half_width - 1.0);
+        }
+    }
+    Ok(())
+}
+
+fn backends(cases: &mut Cases) -> Result<()> {
+    for text in [
+        include_str!("../../data/scenes/hard/floating_body.toml"),
+        include_str!("../../data/scenes/hard/interference.toml"),
+        include_str!("../../data/scenes/hard/three_in_a_row.toml"),
+    ] {
+        let scene = scene(text)?;
+        let a = results_by(&scene, Backend::default())?;
+        let b = results_by(&scene, Backend::Dense)?;
+        for (a, b) in a.states.iter().zip(&b.states) {
+            if a.contact_force > 0.0 {
+                cases.add(difference(a, b, |p| p.force));
+            }
+        }
+    }
+    Ok(())
+}

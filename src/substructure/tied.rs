@@ -1,0 +1,351 @@
+//! The structure with all pairs tied, and the contact matrix, free of cancellation.
+//!
+//! Of the two nodes of a pair the stiffer one leads: `v` is its displacement, `s = u_follower - v` that of the softer one
+//! relative to it, and `s` is what is left after elimination. The other way round the contact matrix, no stiffer than
+//! the softer body, would be the difference of two matrices as large as the stiffer one.
+//!
+//! A floating body that is stiff beside what it rests on hardly deforms. Its rigid motions cost the soft stiffness alone, which the
+//! round-off of its own stiffness swamps. Those motions are known exactly (`R`, from the geometry), so they are unknowns in
+//! their own right:
+//!
+//! ```text
+//!     v = R a + Z w        Z: unit vectors of all pairs but as many as there are motions
+//!
+//!     [ Z'S Z  Z'S R ] [ w ]   [ Z' f ]
+//!     [ R'S Z  R'S R ] [ a ] = [ R' f ]      S_body r = 0 is put in exactly where r is a rigid motion of that body
+//! ```
+//!
+//! Cholesky's method does not care how rows are scaled: its error in each entry is a share of the geometric mean of the two
+//! diagonal entries.
+//!
+//! # Source
+//! C. Farhat, F.-X. Roux (1991), doi:10.1002/nme.1620320604 (floating subdomains and their rigid motions); A. van der Sluis (1969),
+//! doi:10.1007/BF02165096, and N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., theorem 10.5 (scaling).
+
+use crate::error::{Error, Result};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+/// A rigid motion on the contact freedoms: first nodes of all pairs, then second nodes.
+#[derive(Debug, Clone)]
+pub(super) struct Trace {
+    /// The part of the model that moves.
+    pub part: usize,
+    /// Displacement of each contact freedom.
+    pub values: DVector<f64>,
+    /// Amplitude of each rigid motion of the model that it stands for.
+    pub of_motion: DVector<f64>,
+}
+
+/// Displacements of the contact freedoms, rigid motions of floating bodies apart.
+pub(super) struct Split {
+    /// Without the rigid motions.
+    pub contact: Vec<f64>,
+    /// Amplitude of each rigid motion of the model.
+    pub motions: DVector<f64>,
+}
+
+/// The second node leads only where it is stiffer than the first by this factor: for like bodies the paper's choice stands.
+const STIFFER: f64 = 4.0;
+/// What is left of a motion, as a share of it, when that share is the round-off of taking the rest away.
+const ROUND_OFF: f64 = 1e-11;
+
+/// The tied structure.
+pub(super) struct Tied {
+    n: usize,
+    /// Contact freedom of each pair's stiffer node.
+    lead: Vec<usize>,
+    /// Contact freedom of each pair's softer node.
+    follow: Vec<usize>,
+    /// Slip `u_second - u_first` over `s`: 1 where the second node follows, else -1.
+    sign: Vec<f64>,
+    /// Pairs whose `w` is an unknown.
+    kept: Vec<usize>,
+    /// `n x motions`.
+    motions: DMatrix<f64>,
+    /// The motions on both nodes of each pair, without what is rigid in each part (`2n x motions`).
+    lifted: DMatrix<f64>,
+    /// What is rigid in them: amplitude of each trace (`traces x motions`).
+    rigid_share: DMatrix<f64>,
+    /// Orthonormal rigid traces of each part.
+    rigid: Vec<Trace>,
+    /// Part of each contact freedom.
+    part: Vec<usize>,
+    factor: Cholesky<f64, Dyn>,
+    /// `[Z R]' S_vs`, unknowns by followers.
+    coupling: DMatrix<f64>,
+}
+
+impl Tied {
+    /// The tied structure and the contact matrix `T` (force of each pair over slip of each pair, as in `r = t - T s`) for the
+    /// condensed stiffness (`2n x 2n`), the rigid motions of floating parts and the part of each contact freedom.
+    ///
+    /// # Errors
+    /// Internal, where the tied structure is not held.
+    pub(super) fn new(
+        stiffness: &DMatrix<f64>,
+        traces: &[Trace],
+        part: &[usize],
+    ) -> Result<(Self, DMatrix<f64>)> {
+        let n = stiffness.nrows() / 2;
+        let second_leads = |k: usize| stiffness[(n + k, n + k)] > STIFFER * stiffness[(k, k)];
+        let (lead, follow): (Vec<usize>, Vec<usize>) = (0..n)
+            .map(|k| {
+                if second_leads(k) {
+                    (n + k, k)
+                } else {
+                    (k, n + k)
+                }
+            })
+            .unzip();
+        let sign: Vec<f64> = follow
+            .iter()
+            .map(|&f| if f >= n { 1.0 } else { -1.0 })
+            .collect();
+
+        let rigid = orthonormal(traces);
+        let (motions, kept) = basis(&rigid, part, n);
+        // The motions on both nodes of each pair, and the forces they cost.
+        let mut lifted = DMatrix::from_fn(2 * n, motions.ncols(), |i, j| motions[(i % n, j)]);
+        let mut rigid_share = DMatrix::zeros(rigid.len(), motions.ncols());
+        for (mut column, mut share) in lifted.column_iter_mut().zip(rigid_share.column_iter_mut()) {
+            take_rigid(column.as_mut_slice(), share.as_mut_slice(), &rigid, part);
+        }
+        let forces = stiffness * &lifted;
+
+        let both = |i: usize, k: usize| stiffness[(i, k)] + stiffness[(n + i, k)];
+        let (n_w, n_a) = (kept.len(), motions.ncols());
+        let mut tied = DMatrix::zeros(n_w + n_a, n_w + n_a);
+        let mut coupling = DMatrix::zeros(n_w + n_a, n);
+        for (j, &k) in kept.iter().enumerate() {
+            for (i, &l) in kept.iter().enumerate().skip(j) {
+                tied[(i, j)] = both(l, k) + both(l, n + k);
+            }
+            for a in 0..n_a {
+                tied[(n_w + a, j)] = forces[(k, a)] + forces[(n + k, a)];
+            }
+        }
+        let energy = lifted.tr_mul(&forces);
+        tied.view_mut((n_w, n_w), (n_a, n_a)).copy_from(&energy);
+        for (j, &f) in follow.iter().enumerate() {
+            for (i, &l) in kept.iter().enumerate() {
+                coupling[(i, j)] = both(l, f);
+            }
+            for a in 0..n_a {
+                coupling[(n_w + a, j)] = forces[(f, a)];
+            }
+        }
+        let factor = Cholesky::new(tied).ok_or_else(|| {
+            Error::internal(
+                "the bodies are not held even with all contact pairs closed: the condensed stiffness of the tied structure is \
+                 not positive definite",
+            )
+        })?;
+        let half = factor
+            .l_dirty()
+            .solve_lower_triangular(&coupling)
+            .ok_or_else(|| {
+                Error::internal("the condensed stiffness of the tied structure has a zero pivot")
+            })?;
+        let softer = DMatrix::from_fn(n, n, |i, j| stiffness[(follow[i], follow[j])]);
+        let mut matrix = softer - half.tr_mul(&half);
+        for j in 0..n {
+            for i in j..n {
+                let value = sign[i] * sign[j] * 0.5 * (matrix[(i, j)] + matrix[(j, i)]);
+                matrix[(i, j)] = value;
+                matrix[(j, i)] = value;
+            }
+        }
+        let tied = Tied {
+            n,
+            lead,
+            follow,
+            sign,
+            kept,
+            motions,
+            lifted,
+            rigid_share,
+            rigid,
+            part: part.to_vec(),
+            factor,
+            coupling,
+        };
+        Ok((tied, matrix))
+    }
+
+    /// On entry forces on the contact freedoms; on return the first `n` of `contact` hold the unknowns of the tied
+    /// structure under them, and `forces` what each pair then carries.
+    pub(super) fn eliminate(&self, contact: &mut [f64], forces: &mut [f64]) {
+        let n = self.n;
+        let total = DVector::from_fn(n, |k, _| contact[k] + contact[n + k]);
+        let n_w = self.kept.len();
+        let mut unknowns = DVector::zeros(n_w + self.motions.ncols());
+        for (y, &k) in unknowns.iter_mut().zip(&self.kept) {
+            *y = total[k];
+        }
+        for (a, motion) in self.motions.column_iter().enumerate() {
+            unknowns[n_w + a] = motion.dot(&total);
+        }
+        self.factor.solve_mut(&mut unknowns);
+        for k in 0..n {
+            let carried = contact[self.follow[k]] - self.coupling.column(k).dot(&unknowns);
+            forces[k] = self.sign[k] * carried;
+        }
+        contact[..n].fill(0.0);
+        contact[..unknowns.len()].copy_from_slice(unknowns.as_slice());
+    }
+
+    /// Displacements for slips `u_second - u_first` of the pairs, of what [`Tied::eliminate`] left.
+    pub(super) fn recover(&self, contact: &mut [f64], slip: &[f64]) {
+        let unknowns = self.unknowns(contact, slip);
+        let v = self.spread(&unknowns);
+        for k in 0..self.n {
+            contact[self.lead[k]] = v[k];
+            contact[self.follow[k]] = v[k] + self.sign[k] * slip[k];
+        }
+    }
+
+    /// As [`Tied::recover`], with rigid motions apart: the deformation of a stiff body keeps its digits beside a motion that is
+    /// larger by orders.
+    pub(super) fn split(&self, contact: &[f64], slip: &[f64]) -> Split {
+        let unknowns = self.unknowns(contact, slip);
+        let (n, n_w) = (self.n, self.kept.len());
+        let amplitudes = unknowns.rows(n_w, self.motions.ncols());
+        let mut out = &self.lifted * amplitudes;
+        let mut share = &self.rigid_share * amplitudes;
+        for (&k, w) in self.kept.iter().zip(unknowns.iter()) {
+            out[k] += w;
+            out[n + k] += w;
+        }
+        for k in 0..n {
+            out[self.follow[k]] += self.sign[k] * slip[k];
+        }
+        take_rigid(
+            out.as_mut_slice(),
+            share.as_mut_slice(),
+            &self.rigid,
+            &self.part,
+        );
+        let n_motions = self.rigid.first().map_or(0, |t| t.of_motion.len());
+        let mut motions = DVector::zeros(n_motions);
+        for (trace, amplitude) in self.rigid.iter().zip(share.iter()) {
+            motions.axpy(*amplitude, &trace.of_motion, 1.0);
+        }
+        Split {
+            contact: out.as_slice().to_vec(),
+            motions,
+        }
+    }
+
+    /// `[w a]` for what [`Tied::eliminate`] left and slips of the pairs.
+    fn unknowns(&self, contact: &[f64], slip: &[f64]) -> DVector<f64> {
+        let mut change = DVector::zeros(self.coupling.nrows());
+        for (k, &s) in slip.iter().enumerate().filter(|(_, s)| **s != 0.0) {
+            change.axpy(self.sign[k] * s, &self.coupling.column(k), 1.0);
+        }
+        self.factor.solve_mut(&mut change);
+        DVector::from_column_slice(&contact[..change.len()]) - change
+    }
+
+    /// `v = R a + Z w`.
+    fn spread(&self, unknowns: &DVector<f64>) -> DVector<f64> {
+        let n_w = self.kept.len();
+        let mut v = &self.motions * unknowns.rows(n_w, self.motions.ncols());
+        for (&k, w) in self.kept.iter().zip(unknowns.iter()) {
+            v[k] += w;
+        }
+        v
+    }
+}
+
+/// The traces of each part made orthonormal; motions that leave no trace on the contact freedoms are left out.
+fn orthonormal(traces: &[Trace]) -> Vec<Trace> {
+    let mut out: Vec<Trace> = Vec::new();
+    for trace in traces {
+        let size = trace.values.norm();
+        let mut next = trace.clone();
+        // Twice is enough: B. N. Parlett, The Symmetric Eigenvalue Problem (1980), section 6.9.
+        for _ in 0..2 {
+            for other in out.iter().filter(|o| o.part == trace.part) {
+                let along = other.values.dot(&next.values);
+                next.values.axpy(-along, &other.values, 1.0);
+                next.of_motion.axpy(-along, &other.of_motion, 1.0);
+            }
+        }
+        let left = next.values.norm();
+        if left > ROUND_OFF * size {
+            next.values /= left;
+            next.of_motion /= left;
+            out.push(next);
+        }
+    }
+    out
+}
+
+/// Motions of the tied pairs (`n x motions`, independent ones) and the pairs that remain unknowns beside them: Gaussian elimination
+/// with complete pivoting picks for each motion the pair that tells it best from the others.
+fn basis(rigid: &[Trace], part: &[usize], n: usize) -> (DMatrix<f64>, Vec<usize>) {
+    let on_pair = |trace: &Trace, k: usize| {
+        let sides = [k, n + k].map(|i| (part[i] == trace.part).then_some(trace.values[i]));
+        match sides {
+            [Some(a), Some(b)] => 0.5 * (a + b),
+            [a, b] => a.or(b).unwrap_or(0.0),
+        }
+    };
+    let all = DMatrix::from_fn(n, rigid.len(), |k, j| on_pair(&rigid[j], k));
+    let mut rest = all.clone();
+    let scale = all.amax();
+    let mut pivots: Vec<(usize, usize)> = Vec::new();
+    while pivots.len() < rigid.len().min(n) {
+        let (row, column) = rest.iamax_full();
+        if rest[(row, column)].abs() <= 1e-9 * scale {
+            break;
+        }
+        pivots.push((row, column));
+        let pivot = rest.column(column) / rest[(row, column)];
+        for j in 0..rest.ncols() {
+            let share = rest[(row, j)];
+            rest.column_mut(j).axpy(-share, &pivot, 1.0);
+        }
+    }
+    let mut columns: Vec<usize> = pivots.iter().map(|p| p.1).collect();
+    columns.sort_unstable();
+    let kept = (0..n)
+        .filter(|k| pivots.iter().all(|(row, _)| row != k))
+        .collect();
+    (all.select_columns(&columns), kept)
+}
+
+/// Takes the rigid motions of each part out of a displacement of all contact freedoms and adds their amplitudes to `share`. What
+/// is rigid to round-off leaves nothing: it costs nothing, exactly.
+fn take_rigid(column: &mut [f64], share: &mut [f64], rigid: &[Trace], part: &[usize]) {
+    let mut parts: Vec<usize> = rigid.iter().map(|t| t.part).collect();
+    parts.dedup();
+    for own in parts {
+        let size = |column: &[f64]| {
+            let values = column.iter().zip(part).filter(|(_, p)| **p == own);
+            values.map(|(v, _)| v * v).sum::<f64>().sqrt()
+        };
+        let before = size(column);
+        for _ in 0..2 {
+            for (trace, amplitude) in rigid.iter().zip(share.iter_mut()) {
+                if trace.part != own {
+                    continue;
+                }
+                // A trace is zero on the freedoms of other parts.
+                let values = trace.values.as_slice();
+                let along: f64 = values.iter().zip(&*column).map(|(a, b)| a * b).sum();
+                for (c, v) in column.iter_mut().zip(values) {
+                    *c -= along * v;
+                }
+                *amplitude += along;
+            }
+        }
+        if size(column) <= ROUND_OFF * before {
+            for (c, p) in column.iter_mut().zip(part) {
+                if *p == own {
+                    *c = 0.0;
+                }
+            }
+        }
+    }
+}

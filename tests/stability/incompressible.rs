@@ -1,0 +1,68 @@
+//! Plastic flow that keeps its volume, in all element shapes.
+
+use crate::running::load;
+use brinell::ErrorKind;
+use brinell::analysis::Analysis;
+use brinell::linalg::Backend;
+use brinell::model::Model;
+use brinell::progress::Silent;
+
+/// Limit pressure of the tube over Hill's, and the warnings; `None` where no collapse was found up to 200 (1.04 of the limit).
+fn limit(shape: &str, nu: f64) -> (Option<f64>, Vec<String>) {
+    let set = [
+        format!("mesh.parts.0.element={shape}"),
+        format!("materials.steel.poissons_ratio={nu}"),
+    ];
+    let scene = load("hard/nearly_incompressible", &[&set[0], &set[1]]);
+    let model = Model::new(&scene).unwrap();
+    let results = Analysis::new(model, Backend::default())
+        .unwrap()
+        .run(&mut Silent)
+        .unwrap();
+    let exact = 2.0 * 240.0 / 3f64.sqrt() * 2f64.ln();
+    let collapsed = results.incomplete_kind == Some(ErrorKind::Collapse);
+    let last = results.history.last().unwrap().alpha;
+    (collapsed.then_some(last / exact), results.warnings)
+}
+
+/// Flow is isochoric: elements with as many constraints as freedoms cannot flow, their limit load is too high or does not exist. Hill's is
+/// exact for nu = 1/2, and for any nu at the limit, where the elastic part has no say; linear elements, 12 over the wall, are off by h^2.
+#[test]
+fn limit_loads_of_all_shapes_that_claim_not_to_lock() {
+    for shape in ["quad4", "quad8", "tri6"] {
+        for nu in [0.3, 0.49, 0.4999] {
+            let (limit, warnings) = limit(shape, nu);
+            let limit = limit.unwrap_or(f64::INFINITY);
+            assert!((limit - 1.0).abs() < 0.01, "{shape}, nu {nu}: {limit}");
+            assert!(warnings.iter().all(|w| !w.contains("lock")), "{warnings:?}");
+        }
+    }
+}
+
+/// Near the limit the tangent is almost singular: iterations stall, and codes accept what they have. At 99.9 % of the mesh's own limit load
+/// the state is in balance to the tolerance of the iteration, 1e-10, with room for where it is measured.
+#[test]
+fn just_below_the_limit_load_forces_balance() {
+    let own = limit("quad4", 0.4999).0.unwrap() * 2.0 * 240.0 / 3f64.sqrt() * 2f64.ln();
+    let target = format!("program.targets=[{{ load_factor = {:e} }}]", 0.999 * own);
+    let results = crate::running::run_file("hard/nearly_incompressible", &[&target]);
+    crate::running::healthy(&results);
+    let state = &results.states[0];
+    assert!(state.quality.equilibrium <= 1e-9, "{:?}", state.quality);
+    assert!(state.plastic_points > 0);
+}
+
+/// tri3 locks, and says so before the run: a warning that names it, and a limit load above that of quad4 on the same nodes.
+#[test]
+fn locking_is_reported() {
+    let (tri3, warnings) = limit("tri3", 0.4999);
+    assert!(
+        warnings
+            .iter()
+            .any(|w| w.contains("tri3") && w.contains("locks")),
+        "{warnings:?}"
+    );
+    let (quad4, _) = limit("quad4", 0.4999);
+    let (tri3, quad4) = (tri3.unwrap_or(f64::INFINITY), quad4.unwrap());
+    assert!(tri3 > quad4 && tri3 > 1.0, "{tri3} {quad4}");
+}
