@@ -58,14 +58,14 @@ run: setup ## Run a scene (SCENE=..., ARGS=...)
 # the few heavy crates costs less than it saves. Without CHOLMOD the dense backend must do the same job:
 # a fast subset shows that this build works too.
 test: lint ## Format, lints, documentation and all tests
-	@cargo test
+	@cargo test --features capi
 	cargo test --no-default-features --lib --bins --test cli
 
 lint: setup ## Format, clippy and documentation, warnings are errors
 	@cargo fmt --check
-	cargo clippy --all-targets -- -D warnings
+	cargo clippy --features capi --all-targets -- -D warnings
 	cargo clippy --no-default-features --all-targets -- -D warnings
-	RUSTDOCFLAGS="-D warnings" cargo doc --no-deps --quiet
+	RUSTDOCFLAGS="-D warnings" cargo doc --features capi --no-deps --quiet
 
 bench: setup ## Measure
 	@cargo bench

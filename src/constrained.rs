@@ -348,8 +348,9 @@ impl ConstrainedStructure {
 
     fn condense(&self, load: &[f64]) -> Result<DVector<f64>> {
         let mut out = DVector::zeros(self.contact.len());
+        let reduced = self.condensed.reduce_load(load)?;
         self.condensed
-            .condense_load(load, &mut [], out.as_mut_slice())?;
+            .condense_load(&reduced, &mut [], out.as_mut_slice())?;
         Ok(out)
     }
 
