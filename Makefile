@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .ONESHELL:
 .DEFAULT_GOAL := help
-.PHONY: help setup cargo build run test lint bench clean
+.PHONY: help setup cargo build run test lint bench install clean
 
 # What the CHOLMOD backend is built on: SuiteSparse, a fast BLAS, and libclang for bindgen.
 PACKAGES := libsuitesparse-dev libopenblas-dev libclang-dev
@@ -69,6 +69,24 @@ lint: setup ## Format, clippy and documentation, warnings are errors
 
 bench: setup ## Measure
 	@cargo bench
+
+# The libraries are built for `install` alone: they would slow down every other build.
+PREFIX ?= /usr/local
+PROFILE ?= release
+FEATURES ?= --features capi
+VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -1)
+TARGET = $(or $(CARGO_TARGET_DIR),target)/$(if $(filter dev,$(PROFILE)),debug,$(PROFILE))
+
+install: setup ## Install the C library, header and pkg-config file (PREFIX=...)
+	@cargo rustc --lib --profile $(PROFILE) $(FEATURES) --crate-type cdylib,staticlib -- \
+	    -C link-arg=-Wl,-soname,libbrinell.so.0
+	install -d "$(PREFIX)/lib/pkgconfig" "$(PREFIX)/include"
+	install -m 644 ffi/include/brinell.h "$(PREFIX)/include/"
+	install -m 644 "$(TARGET)/libbrinell.a" "$(PREFIX)/lib/"
+	install -m 755 "$(TARGET)/libbrinell.so" "$(PREFIX)/lib/libbrinell.so.$(VERSION)"
+	ln -sf "libbrinell.so.$(VERSION)" "$(PREFIX)/lib/libbrinell.so.0"
+	ln -sf libbrinell.so.0 "$(PREFIX)/lib/libbrinell.so"
+	sed -e 's|@PREFIX@|$(abspath $(PREFIX))|' -e 's|@VERSION@|$(VERSION)|' ffi/brinell.pc.in > "$(PREFIX)/lib/pkgconfig/brinell.pc"
 
 clean: ## Remove what was built
 	@cargo clean

@@ -41,15 +41,22 @@ pub mod contact;
 
 pub mod substructure;
 
+pub mod constrained;
+
 pub mod results;
 
 pub mod progress;
 
 pub mod analysis;
 
+pub mod accuracy;
+
 pub mod output;
 
 pub mod selftest;
+
+#[cfg(feature = "capi")]
+pub mod capi;
 
 pub mod cli;
 

@@ -30,6 +30,8 @@ pub struct Results {
     pub factor: crate::linalg::Prediction,
     /// Reference values beside computed ones.
     pub reference: Vec<ReferenceRow>,
+    /// How wrong each figure may be, where it was estimated (by `accuracy::estimate`).
+    pub accuracy: Option<Accuracy>,
     /// Things the user should know.
     pub warnings: Vec<String>,
     /// Set where the run ended before the program did: why.
@@ -115,6 +117,10 @@ pub struct State {
     pub plastic_points_by_body: Vec<usize>,
     /// Largest equivalent plastic strain.
     pub max_equivalent_plastic_strain: f64,
+    /// Area (axisymmetric: volume) of the whole whose Gauss points have plastic strain.
+    pub plastic_zone_size: f64,
+    /// Estimated energy norm of the stress error over that of the stress (Zienkiewicz-Zhu); known where fields are.
+    pub energy_error: Option<f64>,
     /// Relative approach of the bodies: mean displacement of the loaded surface in the load's direction.
     pub approach: f64,
     /// Each contact pair.
@@ -169,6 +175,9 @@ pub struct Fields {
     pub plastic_strain: Vec<f64>,
     /// `n_elements`: 1 where a Gauss point has yielded.
     pub yielded: Vec<u8>,
+    /// `n_elements` estimated discretisation error of the stress (Zienkiewicz-Zhu): its energy norm over the element, over the
+    /// energy norm of the stress of the whole model. The square root of the sum of squares is [`State::energy_error`].
+    pub error: Vec<f64>,
 }
 
 /// A row of `history.csv`: one accepted increment.
@@ -280,4 +289,79 @@ pub struct ReferenceRow {
     pub published_ratio: Option<f64>,
     /// Book, paper, equation.
     pub source: String,
+}
+
+/// How wrong the figures of a run may be.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Accuracy {
+    /// How the discretisation error was estimated.
+    pub method: EstimateMethod,
+    /// The coarser meshes that were run for it, finest first.
+    pub companions: Vec<Companion>,
+    /// A row per reported quantity.
+    pub quantities: Vec<QuantityError>,
+    /// What was demanded, chosen and reached, where the scene demands an accuracy.
+    pub demand: Option<Demand>,
+    /// Seconds that the estimate took.
+    pub seconds: f64,
+    /// What the estimate could not do, and why.
+    pub notes: Vec<String>,
+}
+
+/// A demanded accuracy and what became of it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Demand {
+    /// The largest relative error that was demanded.
+    pub accuracy: f64,
+    /// Whether every stated error is within it.
+    pub reached: bool,
+    /// The largest stated relative error of the quantities that govern.
+    pub stated: f64,
+    /// What was chosen, and why.
+    pub choices: Vec<String>,
+}
+
+/// How a discretisation error was estimated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum EstimateMethod {
+    /// The same scene on coarser meshes of the same family; the error is extrapolated.
+    CoarserMeshes,
+    /// The energy norm of the recovered stress error: a rough figure, for meshes that cannot be made coarser.
+    EnergyNorm,
+    /// Not at all.
+    #[default]
+    None,
+}
+
+/// A coarser mesh of the same family.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Companion {
+    /// Its element size over that of the run.
+    pub ratio: f64,
+    /// Its freedoms.
+    pub freedoms: usize,
+    /// Seconds that its run took.
+    pub seconds: f64,
+}
+
+/// A reported quantity with its estimated errors, all absolute, in its own unit, and not negative.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct QuantityError {
+    /// Its path in `summary.json`; states by name: `states.NAME.KEY`.
+    pub quantity: String,
+    /// The computed value.
+    pub value: f64,
+    /// The stated error: twice the discretisation error, path and algebraic error together.
+    pub error: Option<f64>,
+    /// The stated error over the largest size that the quantity has in the run.
+    pub relative_error: Option<f64>,
+    /// Estimated discretisation error.
+    pub discretisation: Option<f64>,
+    /// Estimated error of the path: increments, plastic iteration and event tolerance.
+    pub path: Option<f64>,
+    /// Estimated error of the algebra: backward error, equilibrium, complementarity.
+    pub algebraic: f64,
+    /// Order of convergence in the element size that the meshes show, within the range that is believed.
+    pub order: Option<f64>,
 }

@@ -1,10 +1,11 @@
 //! Element shapes: node order and facets.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The shape of an element. Nodes run counter-clockwise, corners first, then mid-side nodes
 /// starting with the one between corners 0 and 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Shape {
     /// Linear triangle.

@@ -9,6 +9,7 @@ use crate::contact::{Change, PathEnd};
 use crate::error::{Error, ErrorKind, Result};
 use crate::material::PlasticState;
 use crate::scene::{Settings, Stepping};
+use std::cell::Cell;
 use std::sync::Arc;
 
 /// What the drive reports after each increment; false stops it.
@@ -56,6 +57,8 @@ pub struct Stepper<'a> {
     pub stepping: Stepping,
     /// Increments per piece where fixed.
     pub steps: usize,
+    /// How many of them have been taken.
+    pub taken: &'a Cell<usize>,
     /// Tolerance of events.
     pub gamma: f64,
     /// Absolute load factor up to which the zone was chosen.
@@ -195,7 +198,6 @@ impl Engine<'_> {
         if self.turns_back(end) {
             self.zone.assume_elastic();
         }
-        let mut done = 0usize;
         let mut watched = monitor.map(|m| m(self));
         let whole = self.at.distance(end);
         let smallest = SMALLEST_CUT * whole;
@@ -204,7 +206,9 @@ impl Engine<'_> {
         loop {
             let left = match stepper.stepping {
                 Stepping::Events => 1.0,
-                Stepping::Steps => 1.0 / (stepper.steps - done.min(stepper.steps - 1)) as f64,
+                Stepping::Steps => {
+                    1.0 / stepper.steps.saturating_sub(stepper.taken.get()).max(1) as f64
+                }
             };
             if self.zone.is_idle()
                 && stepper.stepping == Stepping::Events
@@ -264,7 +268,7 @@ impl Engine<'_> {
             } else if reported.event.is_empty() {
                 reported.event = "step".to_string();
             }
-            done += usize::from(full);
+            stepper.taken.update(|taken| taken + usize::from(full));
             if !report(self, &reported)? {
                 return Ok(Arrival::Stopped);
             }

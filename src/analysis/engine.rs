@@ -2,6 +2,7 @@
 
 use super::gather::Places;
 use super::zone::Zone;
+use super::zone_choice::zone_freedoms;
 use crate::assembly::System;
 use crate::contact::Tableau;
 use crate::error::{Error, Result};
@@ -115,7 +116,8 @@ pub struct Engine<'m> {
 }
 
 impl<'m> Engine<'m> {
-    /// Factors the structure with a zone of the given elements (`guard` marks those that only watch).
+    /// Factors the structure so that zones may be chosen among the elements `within`, and chooses one of the given elements (`guard`
+    /// marks those that only watch).
     ///
     /// # Errors
     /// Those of [`Substructure::new`].
@@ -123,11 +125,16 @@ impl<'m> Engine<'m> {
         model: &'m Model,
         system: &'m System,
         backend: Backend,
+        within: &[usize],
         elements: Vec<usize>,
         guard: &[bool],
     ) -> Result<Self> {
-        let freedoms = super::zone_choice::zone_freedoms(model, &elements);
-        let sub = Substructure::new(model, system, freedoms, backend)?;
+        let mut sub = Substructure::new(model, system, zone_freedoms(model, within), backend)?;
+        let mut factorizations = 1;
+        if elements != within {
+            let zone = zone_freedoms(model, &elements);
+            factorizations += usize::from(sub.set_zone(model, system, zone, backend)?);
+        }
         let places = places(model, &sub);
         let zone = Zone::new(model, &elements, guard, &places);
         let n = model.pairs.len();
@@ -144,7 +151,7 @@ impl<'m> Engine<'m> {
             gap_forces: [Vec::new(), Vec::new()],
             unit: 1.0,
             counts: Counts {
-                factorizations: 1,
+                factorizations,
                 ..Counts::default()
             },
             force_scale: 0.0,
@@ -184,7 +191,7 @@ impl<'m> Engine<'m> {
     /// # Errors
     /// Those of [`Substructure::new`].
     pub fn set_zone(&mut self, elements: Vec<usize>, guard: &[bool]) -> Result<()> {
-        let freedoms = super::zone_choice::zone_freedoms(self.model, &elements);
+        let freedoms = zone_freedoms(self.model, &elements);
         if self
             .sub
             .set_zone(self.model, self.system, freedoms, self.backend)?

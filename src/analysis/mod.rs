@@ -10,6 +10,7 @@
 //! | `tangent`, `acceleration` | acceleration of the plastic iteration | |
 //! | `program`, `targets`, `drive`, `stepping` | from target to target, loading and unloading | 5.1, 5.2 |
 //! | `measure`, `state`, `quality` | pressure, half width, dent, quality of a state | 5 |
+//! | `indicator` | discretisation error of the stresses, element by element | |
 
 mod acceleration;
 mod check;
@@ -19,6 +20,7 @@ mod engine;
 mod first_yield;
 mod gather;
 mod increment;
+mod indicator;
 mod measure;
 mod program;
 mod quality;

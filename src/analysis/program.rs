@@ -13,7 +13,7 @@ use crate::model::Model;
 use crate::progress::{Flow, Observer};
 use crate::results::{HistoryRow, Quality, Results, Sizes, State};
 use crate::scene::{Target, Unit};
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::time::Instant;
 
 /// Doublings of the load in search of first yield or of a target.
@@ -83,11 +83,13 @@ impl<'m, 'o> Run<'m, 'o> {
     ) -> Result<Self> {
         observer.phase("factorisation");
         let start = Instant::now();
-        let choice = zone_choice::first_guess(model);
+        let within = zone_choice::first_guess(model).elements;
+        let choice = zone_choice::place_of_first_yield(model);
         let engine = Engine::new(
             model,
             system,
             backend,
+            &within,
             choice.elements.clone(),
             &choice.guard,
         )?;
@@ -227,6 +229,7 @@ impl<'m, 'o> Run<'m, 'o> {
         let model = self.model();
         let program = &model.scene.program;
         let fraction = self.done as f64 / program.targets.len().max(1) as f64;
+        let taken = Cell::new(0);
         loop {
             let plastic = self.plastic && !self.choice.elements.is_empty();
             if plastic {
@@ -242,6 +245,7 @@ impl<'m, 'o> Run<'m, 'o> {
                 settings: &model.scene.analysis,
                 stepping: program.stepping,
                 steps: program.steps,
+                taken: &taken,
                 gamma: program.gamma,
                 zone_until: self.spread.as_ref().map_or(f64::INFINITY, |s| s.until),
                 stop: &stop,

@@ -1,9 +1,10 @@
 //! The state at a target: fields on the whole mesh and figures.
 
 use super::engine::Engine;
+use super::indicator::{Indicator, PointStresses, indicator};
 use super::measure::pair_states;
 use crate::assembly::local_element;
-use crate::element::MAX_FREEDOMS;
+use crate::element::{MAX_FREEDOMS, MAX_POINTS};
 use crate::error::Result;
 use crate::material::{PlasticState, stress, von_mises};
 use crate::model::{Magnitude, Model, Slot};
@@ -22,6 +23,10 @@ pub(super) struct ElementState {
     von_mises: f64,
     plastic_strain: f64,
     plastic_points: usize,
+    /// Volume of the Gauss points that have flowed.
+    plastic_volume: f64,
+    /// Stress at the Gauss points.
+    points: PointStresses,
 }
 
 impl Engine<'_> {
@@ -36,8 +41,9 @@ impl Engine<'_> {
         let figures = self.contact_figures();
         let residual_depth = self.residual_depth();
         let mut by_body = vec![0; self.model.mesh.bodies.len()];
-        let mut largest = 0.0f64;
+        let (mut largest, mut plastic_volume) = (0.0f64, 0.0);
         for (e, element) in elements.iter().enumerate() {
+            plastic_volume += element.plastic_volume;
             by_body[self.model.mesh.element_body[e] as usize] += element.plastic_points;
             largest = largest.max(element.plastic_strain);
         }
@@ -46,6 +52,7 @@ impl Engine<'_> {
         let arc = figures
             .patch
             .and_then(|patch| contact_arc(self.model, figures.contact, patch));
+        let errors = with_fields.then(|| indicator(self.model, |e| &elements[e].points));
         Ok(State {
             name: name.to_string(),
             alpha: self.at.alpha,
@@ -61,6 +68,8 @@ impl Engine<'_> {
             plastic_points: by_body.iter().sum(),
             plastic_points_by_body: by_body,
             max_equivalent_plastic_strain: largest,
+            plastic_zone_size: plastic_volume * self.model.symmetry,
+            energy_error: errors.as_ref().map(|i| i.total),
             approach: self.approach(u),
             pairs: pair_states(
                 self.model,
@@ -68,7 +77,7 @@ impl Engine<'_> {
                 &self.contact_forces(),
                 self.tableau.open(),
             ),
-            fields: with_fields.then(|| self.fields(u, &elements)),
+            fields: errors.map(|errors| self.fields(u, &elements, errors)),
             quality,
         })
     }
@@ -96,6 +105,8 @@ impl Engine<'_> {
                     von_mises: 0.0,
                     plastic_strain: 0.0,
                     plastic_points: 0,
+                    plastic_volume: 0.0,
+                    points: [[0.0; 4]; MAX_POINTS],
                 };
                 let volume: f64 = local.points.iter().map(|p| p.weight).sum();
                 for (g, point) in local.points.iter().enumerate() {
@@ -112,7 +123,11 @@ impl Engine<'_> {
                     }
                     out.von_mises = out.von_mises.max(von_mises(&sigma));
                     out.plastic_strain = out.plastic_strain.max(past.equivalent);
-                    out.plastic_points += usize::from(past.equivalent > 0.0);
+                    out.points[g] = sigma;
+                    if past.equivalent > 0.0 {
+                        out.plastic_points += 1;
+                        out.plastic_volume += point.weight;
+                    }
                 }
                 out
             })
@@ -165,7 +180,7 @@ impl Engine<'_> {
             .collect()
     }
 
-    fn fields(&self, u: &[f64], elements: &[ElementState]) -> Fields {
+    fn fields(&self, u: &[f64], elements: &[ElementState], errors: Indicator) -> Fields {
         let model = self.model;
         Fields {
             displacement: (0..model.mesh.n_nodes())
@@ -178,6 +193,7 @@ impl Engine<'_> {
                 .iter()
                 .map(|e| u8::from(e.plastic_points > 0))
                 .collect(),
+            error: errors.by_element,
         }
     }
 }

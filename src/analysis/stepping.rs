@@ -107,12 +107,14 @@ impl Engine<'_> {
         most: f64,
         stepper: Stepper,
     ) -> Result<std::result::Result<Increment, NoIncrement>> {
+        // The end of the increment is the end of a piece of its own: a pair that closes has no gap there, whatever gap it had.
+        let goal = self.at.towards(end, most);
         let mut fewest = usize::MAX;
         let mut patience = 6;
         for _ in 0..10 * (self.now.gap.len() + 10) {
             let increment = match self.increment(
-                end,
-                most,
+                &goal,
+                1.0,
                 EndsAt::EndOfPiece,
                 stepper.settings,
                 stepper.stop,
@@ -135,6 +137,7 @@ impl Engine<'_> {
             if wrong.is_empty() {
                 self.border.clear();
                 return Ok(Ok(Increment {
+                    t: most,
                     changes: Vec::new(),
                     ..increment
                 }));

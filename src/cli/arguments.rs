@@ -1,5 +1,6 @@
 //! What the user may type.
 
+use super::study::StudyArguments;
 use crate::linalg::Backend;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -10,6 +11,8 @@ Examples:
   brinell run data/scenes/cylinder_on_half_plane.toml
   brinell run press.toml --out results --set materials.steel.yield_stress=400 --set program.steps=40
   brinell yield press.toml --json
+  brinell new ball-on-flat --radius 5 --load 300 > ball.toml
+  brinell view press.out
 
 Exit codes:
     0  done
@@ -70,6 +73,31 @@ pub(super) enum Command {
     ///
     /// Takes less than a minute. Exit code 7 where a family fails.
     Selftest(super::selftest::SelftestArguments),
+    /// Study what accuracy costs: errors against time over mesh, elements, increments, tolerances, algorithms
+    ///
+    /// Runs the scene with many settings, cheapest first, and writes accuracy.json, accuracy.csv and log-log plots of error over
+    /// time. Errors are measured against the closed form where the scene names one, else against the values extrapolated
+    /// from the finest meshes. Ctrl-C ends the study and keeps what it has.
+    #[command(
+        after_help = "Example: brinell accuracy data/scenes/thick_cylinder.toml --budget 60s"
+    )]
+    Accuracy(StudyArguments),
+    /// Print a commented scene to start from, or list those there are
+    Example(super::example::ExampleArguments),
+    /// Write a commented scene for a common problem from a few numbers
+    New(super::new::NewArguments),
+    /// Print the JSON schema of scenes, for editors that complete and check
+    Schema(super::schema::SchemaArguments),
+    /// Look at the results in a directory: plots in the terminal, and where the report is
+    View(super::view::ViewArguments),
+    /// Print completions for a shell
+    #[command(
+        after_help = "Example: brinell completions bash > ~/.local/share/bash-completion/completions/brinell"
+    )]
+    Completions(super::completions::CompletionsArguments),
+    /// Print the manual page (roff)
+    #[command(after_help = "Example: brinell man | man -l -")]
+    Man,
 }
 
 #[derive(Debug, Args)]
@@ -79,6 +107,15 @@ pub(super) struct RunArguments {
     /// Directory for the results; `run` takes SCENE with the ending .out if it is not given
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Do not estimate the errors: leaves out the runs on coarser meshes
+    #[arg(long)]
+    pub no_estimate: bool,
+    /// Write no report.html and no figures
+    #[arg(long)]
+    pub no_report: bool,
+    /// How progress is shown on standard error
+    #[arg(long, value_enum, value_name = "HOW", default_value_t)]
+    pub progress: Shown,
     /// No progress and no warnings, only results and errors
     #[arg(long, short)]
     pub quiet: bool,
@@ -101,11 +138,28 @@ pub(super) struct CommonArguments {
     /// Number of threads; by default as many as there are processors
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
+    /// Choose mesh and tolerances so that the stated errors stay within this, such as 1%; like the scene's key `accuracy`
+    #[arg(long, value_name = "PERCENT")]
+    pub accuracy: Option<String>,
     /// Print one JSON object (the content of summary.json) instead of tables
     #[arg(long)]
     pub json: bool,
     #[arg(long = "set", value_name = "KEY=VALUE", help = "Put a value over the scene's (see --help)", long_help = SET_HELP)]
     pub overrides: Vec<String>,
+}
+
+/// How progress is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(super) enum Shown {
+    /// A bar on a terminal, lines elsewhere
+    #[default]
+    Auto,
+    /// A bar with the time that is left
+    Bar,
+    /// A line per phase and every few seconds
+    Plain,
+    /// A JSON object per line: phases, increments, warnings
+    Json,
 }
 
 /// A backend by the name a user knows it by.

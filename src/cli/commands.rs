@@ -1,8 +1,9 @@
-//! The commands: the one place where the command line calls the library.
+//! The commands that compute: the one place where the command line calls the analysis.
 
 use super::arguments::{Arguments, Command, CommonArguments, RunArguments};
 use super::progress::Progress;
-use super::{interrupt, print, report};
+use super::{completions, example, interrupt, new, print, report, schema, study, view};
+use crate::accuracy::{self, Extent};
 use crate::analysis::{self, Analysis, Check};
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::Backend;
@@ -18,18 +19,23 @@ pub(super) fn execute(arguments: &Arguments) -> Result<()> {
     match &arguments.command {
         Command::Run(run) => {
             let out = (run.out.clone()).unwrap_or_else(|| run.common.scene.with_extension("out"));
-            analyse(run, Some(out), Analysis::run)
+            analyse(run, Some(out), Extent::Program)
         }
-        Command::Yield(run) => analyse(run, run.out.clone(), Analysis::yield_load),
+        Command::Yield(run) => analyse(run, run.out.clone(), Extent::Yield),
         Command::Check(check) => predict(&check.common),
         Command::Selftest(selftest) => super::selftest::execute(selftest),
+        Command::Accuracy(arguments) => study::execute(arguments),
+        Command::Example(example) => example::run(example),
+        Command::New(new) => new::run(new),
+        Command::Schema(schema) => schema::run(schema),
+        Command::View(view) => view::run(view),
+        Command::Completions(completions) => completions::run(completions),
+        Command::Man => completions::man(),
     }
 }
 
-type Act = fn(&mut Analysis, &mut dyn crate::progress::Observer) -> Result<Results>;
-
 /// Scene, model, analysis, files, summary.
-fn analyse(arguments: &RunArguments, out: Option<PathBuf>, act: Act) -> Result<()> {
+fn analyse(arguments: &RunArguments, out: Option<PathBuf>, extent: Extent) -> Result<()> {
     let common = &arguments.common;
     let scene = prepare(common)?;
     if let Some(out) = &out {
@@ -39,22 +45,27 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, act: Act) -> Result<(
     interrupt::listen()?;
     let start = Instant::now();
     let seconds = || start.elapsed().as_secs_f64();
-    let mut progress = Progress::new(arguments.quiet);
-    progress.start("mesh and model");
-    let model = Model::new(&scene)?;
-    let modelled = seconds();
-    progress.start("assembly");
-    let mut analysis = Analysis::new(model, common.solver.into())?;
-    let mut results = act(&mut analysis, &mut progress)?;
-    results
-        .timings
-        .insert(0, ("mesh and model".to_string(), modelled));
+    let mut progress = Progress::new(arguments.quiet, arguments.progress);
+    let (scene, analysis, mut results) = match scene.accuracy {
+        Some(_) => {
+            let found = accuracy::reach(&scene, common.solver.into(), extent, &mut progress)?;
+            (found.scene, found.analysis, found.results)
+        }
+        None => {
+            let (analysis, results) = once(&scene, arguments, extent, &mut progress)?;
+            (scene, analysis, results)
+        }
+    };
     let model = analysis.model();
     let computed = seconds();
     let header = header(&scene, model, common, computed);
     if let Some(out) = &out {
         progress.start("output");
-        output::write(out, &header, &model.mesh, &results)?;
+        if arguments.no_report {
+            output::write(out, &header, &model.mesh, &results)?;
+        } else {
+            output::write_with_report(out, &header, model, &results)?;
+        }
         results
             .timings
             .push(("output".to_string(), seconds() - computed));
@@ -79,7 +90,43 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, act: Act) -> Result<(
     }
 }
 
-fn header(scene: &Scene, model: &Model, common: &CommonArguments, wall_seconds: f64) -> RunHeader {
+/// Runs the scene as it stands, and estimates the errors.
+fn once(
+    scene: &Scene,
+    arguments: &RunArguments,
+    extent: Extent,
+    progress: &mut Progress,
+) -> Result<(Analysis, Results)> {
+    let backend = arguments.common.solver.into();
+    let start = Instant::now();
+    progress.start("mesh and model");
+    let model = Model::new(scene)?;
+    let modelled = start.elapsed().as_secs_f64();
+    progress.start("assembly");
+    let mut analysis = Analysis::new(model, backend)?;
+    let mut results = match extent {
+        Extent::Program => analysis.run(progress)?,
+        Extent::Yield => analysis.yield_load(progress)?,
+    };
+    if !arguments.no_estimate {
+        let found = accuracy::estimate(scene, backend, &results, extent, progress);
+        results
+            .timings
+            .push(("error estimate".to_string(), found.seconds));
+        results.accuracy = Some(found);
+    }
+    results
+        .timings
+        .insert(0, ("mesh and model".to_string(), modelled));
+    Ok((analysis, results))
+}
+
+pub(super) fn header(
+    scene: &Scene,
+    model: &Model,
+    common: &CommonArguments,
+    wall_seconds: f64,
+) -> RunHeader {
     let kind = match scene.kind {
         Kind::PlaneStrain => "plane_strain",
         Kind::PlaneStress => "plane_stress",
@@ -107,8 +154,10 @@ fn predict(common: &CommonArguments) -> Result<()> {
     })
 }
 
-fn prepare(common: &CommonArguments) -> Result<Scene> {
-    let scene = Scene::load_with(&common.scene, &common.overrides)?;
+pub(super) fn prepare(common: &CommonArguments) -> Result<Scene> {
+    let mut overrides = common.overrides.clone();
+    overrides.extend(common.accuracy.iter().map(|a| format!("accuracy={a}")));
+    let scene = Scene::load_with(&common.scene, &overrides)?;
     if let Some(threads) = common.threads {
         rayon::ThreadPoolBuilder::new()
             .num_threads(usize::from(threads))
@@ -120,7 +169,7 @@ fn prepare(common: &CommonArguments) -> Result<Scene> {
     Ok(scene)
 }
 
-fn json(value: &impl serde::Serialize) -> Result<String> {
+pub(super) fn json(value: &impl serde::Serialize) -> Result<String> {
     serde_json::to_string_pretty(value)
         .map(|text| text + "\n")
         .map_err(|cause| Error::internal("the summary is not plain data").because(cause))

@@ -1,18 +1,24 @@
-//! The command line: `brinell run`, `brinell yield`, `brinell check`, `brinell selftest`.
+//! The command line: runs and studies, and what helps to write scenes and to look at results.
 //!
 //! Only this module prints. What was computed goes to standard output, progress and errors to standard error, and
 //! the exit code says what kind of end it was ([`crate::ErrorKind::exit_code`]).
 
 mod arguments;
 mod commands;
+mod completions;
+mod example;
 mod interrupt;
-mod number;
+mod new;
 mod progress;
 mod report;
+mod schema;
 mod selftest;
+mod study;
 mod table;
+mod view;
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::output::number;
 use arguments::Arguments;
 use clap::Parser;
 use std::error::Error as StdError;

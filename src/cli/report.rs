@@ -32,14 +32,22 @@ pub(super) fn results(
         report.paragraph(&format!("INCOMPLETE: {why}"));
     }
     report.reference(&results.reference);
+    if let Some(accuracy) = &results.accuracy {
+        report.accuracy(accuracy);
+    }
     report.quality(&results.quality);
     report.cost(results, wall_seconds);
     report.list("Warnings", &results.warnings);
     if let Some(out) = out {
         let with_fields = results.states.iter().any(|state| state.fields.is_some());
         report.paragraph(&format!(
-            "Results in {}: summary.json, history.csv, contact.csv{}",
+            "Results in {}: {}summary.json, history.csv, contact.csv{}",
             out.display(),
+            if out.join("report.html").exists() {
+                "report.html, "
+            } else {
+                ""
+            },
             if with_fields { ", fields.pvd" } else { "" }
         ));
     }
@@ -404,5 +412,6 @@ impl Report {
     }
 }
 
+mod accuracy;
 #[cfg(test)]
 mod tests;

@@ -1,5 +1,6 @@
 //! `brinell selftest`.
 
+use super::arguments::Shown;
 use super::progress::Progress;
 use super::table::{Column::*, Table};
 use super::{interrupt, print};
@@ -21,7 +22,7 @@ pub(super) struct SelftestArguments {
 /// Runs the hard cases and prints what came of each family.
 pub(super) fn execute(arguments: &SelftestArguments) -> Result<()> {
     interrupt::listen()?;
-    let mut progress = Progress::new(arguments.quiet);
+    let mut progress = Progress::new(arguments.quiet, Shown::default());
     let rows = selftest::run(&mut progress);
     progress.finish();
     let text = if arguments.markdown {

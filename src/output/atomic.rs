@@ -9,7 +9,7 @@
 //! was and the temporaries are gone. Between the two renames of a replacement DIR is absent for an
 //! instant: a process killed just there leaves both results, whole, beside it.
 
-use super::SUMMARY_FILE;
+use super::{STUDY_FILE, SUMMARY_FILE};
 use crate::error::{Error, Result};
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
@@ -221,12 +221,14 @@ fn check_replaceable(target: &Path) -> Result<()> {
     )))
 }
 
-/// Whether a directory holds a summary of brinell.
+/// Whether a directory holds a summary or a study of brinell.
 fn is_result(dir: &Path) -> bool {
-    fs::read(dir.join(SUMMARY_FILE))
-        .ok()
-        .and_then(|text| serde_json::from_slice::<serde_json::Value>(&text).ok())
-        .is_some_and(|summary| summary.get("brinell").is_some())
+    [SUMMARY_FILE, STUDY_FILE].iter().any(|name| {
+        fs::read(dir.join(name))
+            .ok()
+            .and_then(|text| serde_json::from_slice::<serde_json::Value>(&text).ok())
+            .is_some_and(|summary| summary.get("brinell").is_some())
+    })
 }
 
 /// Moves the entries of one directory whose names are `chosen` into another.

@@ -8,6 +8,7 @@
 //! | `von_mises` | cells | Float64 | 1 |
 //! | `equivalent_plastic_strain` | cells | Float64 | 1 |
 //! | `yielded` | cells | UInt8 | 1 |
+//! | `discretisation_error` | cells | Float64 | 1, see [`Fields::error`] |
 //! | `body` | cells | Int32 | 1 |
 
 use super::atomic::Staging;
@@ -87,6 +88,7 @@ fn grid<'a>(header: &RunHeader, mesh: &'a Mesh, fields: &'a Fields) -> Grid<'a> 
                 Values::Float64(&fields.plastic_strain),
             ),
             DataArray::new("yielded", Values::UInt8(&fields.yielded)),
+            DataArray::new("discretisation_error", Values::Float64(&fields.error)),
             DataArray::new("body", Values::Int32(&mesh.element_body)),
         ],
     }
@@ -103,6 +105,7 @@ fn check(mesh: &Mesh, fields: &Fields) -> Result<()> {
         ("von Mises stress", fields.von_mises.len(), elements),
         ("plastic strain", fields.plastic_strain.len(), elements),
         ("yield flag", fields.yielded.len(), elements),
+        ("discretisation error", fields.error.len(), elements),
     ];
     for (what, found, expected) in lengths {
         if found != expected {

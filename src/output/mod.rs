@@ -6,6 +6,17 @@
 //!     contact.csv           a row per state and contact pair          (contact)
 //!     fields.pvd            the states with fields, as a time series  (fields)
 //!     state_01_NAME.vtu     mesh and fields of one state              (fields, vtu)
+//!     report.html           the run to look at                        (report)
+//!     report_NAME.svg       its figures
+//! ```
+//!
+//!
+//! A study ([`write_study`]) leaves a directory of its own:
+//!
+//! ```text
+//! DIR/accuracy.json         every run with time, memory and errors; references, orders, prices   (study)
+//!     accuracy.csv          a row per run and quantity                                           (study)
+//!     QUANTITY.svg          error over time, both logarithmic                                    (work_precision)
 //! ```
 //!
 //! [`write()`] first writes a temporary directory beside DIR and then renames it into place
@@ -15,14 +26,21 @@ mod atomic;
 mod contact;
 mod fields;
 mod history;
+pub(crate) mod number;
+mod report;
+mod study;
 mod summary;
 mod table;
 mod vtu;
+mod work_precision;
 
+pub use study::{study_json, write_study};
 pub use summary::summary;
+pub use work_precision::plot;
 
 use crate::error::Result;
 use crate::mesh::Mesh;
+use crate::model::Model;
 use crate::results::Results;
 use atomic::Staging;
 use std::ffi::OsStr;
@@ -34,6 +52,8 @@ pub const SUMMARY_SCHEMA: &str = include_str!("../../data/schema/summary.schema.
 
 /// The summary: its `brinell` key marks a directory as a result.
 const SUMMARY_FILE: &str = "summary.json";
+/// The study: marks a directory like the summary.
+const STUDY_FILE: &str = "accuracy.json";
 const HISTORY_FILE: &str = "history.csv";
 const CONTACT_FILE: &str = "contact.csv";
 const COLLECTION_FILE: &str = "fields.pvd";
@@ -78,14 +98,41 @@ impl RunHeader {
 /// it was and nothing is left beside it.
 pub fn write(dir: &Path, header: &RunHeader, mesh: &Mesh, results: &Results) -> Result<()> {
     let staging = Staging::new(dir)?;
+    write_tables_and_fields(&staging, header, mesh, results)?;
+    staging.publish(is_result_file)
+}
+
+/// As [`write()`], with `report.html`, the figures of the report as SVG files, and the scene as it was run.
+///
+/// # Errors
+/// As [`write()`]; `Internal` where a figure cannot be drawn.
+pub fn write_with_report(
+    dir: &Path,
+    header: &RunHeader,
+    model: &Model,
+    results: &Results,
+) -> Result<()> {
+    let staging = Staging::new(dir)?;
+    write_tables_and_fields(&staging, header, &model.mesh, results)?;
+    for (name, text) in report::files(header, model, results)? {
+        staging.file(&name, |out| out.write_all(text.as_bytes()))?;
+    }
+    staging.publish(is_result_file)
+}
+
+fn write_tables_and_fields(
+    staging: &Staging,
+    header: &RunHeader,
+    mesh: &Mesh,
+    results: &Results,
+) -> Result<()> {
     staging.file(HISTORY_FILE, |out| history::write(out, &results.history))?;
     staging.file(CONTACT_FILE, |out| contact::write(out, &results.states))?;
-    fields::write(&staging, header, mesh, &results.states)?;
+    fields::write(staging, header, mesh, &results.states)?;
     staging.file(SUMMARY_FILE, |out| {
         serde_json::to_writer_pretty(&mut *out, &summary(header, results))?;
         out.write_all(b"\n")
-    })?;
-    staging.publish(is_result_file)
+    })
 }
 
 /// Checks that [`write()`] will be able to write `dir`, so that a long run does not end with a refusal. Leaves
@@ -101,7 +148,15 @@ pub fn check_directory(dir: &Path) -> Result<()> {
 /// result is replaced).
 fn is_result_file(name: &OsStr) -> bool {
     name.to_str().is_some_and(|name| {
-        [SUMMARY_FILE, HISTORY_FILE, CONTACT_FILE, COLLECTION_FILE].contains(&name)
+        [
+            SUMMARY_FILE,
+            HISTORY_FILE,
+            CONTACT_FILE,
+            COLLECTION_FILE,
+            report::REPORT_FILE,
+        ]
+        .contains(&name)
             || (name.starts_with(fields::FILE_PREFIX) && name.ends_with(fields::FILE_SUFFIX))
+            || (name.starts_with(report::FIGURE_PREFIX) && name.ends_with(report::FIGURE_SUFFIX))
     })
 }

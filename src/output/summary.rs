@@ -37,6 +37,7 @@ pub fn summary(header: &RunHeader, results: &Results) -> Value {
         "yield": results.first_yield.map(|point| first_yield(header, &point)),
         "states": states.map(|(i, s)| state(header, i, n_states, s)).collect::<Vec<_>>(),
         "reference": results.reference.iter().map(reference).collect::<Vec<_>>(),
+        "accuracy": results.accuracy,
         "warnings": results.warnings,
         "incomplete": results.incomplete,
     })
@@ -133,6 +134,8 @@ fn state(header: &RunHeader, index: usize, n_states: usize, state: &State) -> Va
         "plastic_points": state.plastic_points,
         "plastic_points_by_body": by_body,
         "max_equivalent_plastic_strain": state.max_equivalent_plastic_strain,
+        "plastic_zone_size": state.plastic_zone_size,
+        "energy_error": state.energy_error,
         "quality": state.quality,
         "fields": file.map(|_| fields::file_name(index, n_states, &state.name)),
     })

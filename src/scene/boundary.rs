@@ -1,11 +1,12 @@
 //! Contact, supports and loads.
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserializer, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 use std::fmt;
 
 /// Two surfaces that may touch, without friction. Their nodes must pair.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
     /// Surface of the first body.
@@ -22,7 +23,7 @@ pub struct Contact {
 }
 
 /// A support.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Support {
     /// Node set or surface.
@@ -34,7 +35,7 @@ pub struct Support {
 }
 
 /// A coordinate direction; axisymmetric: x is r, y is z.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Direction {
     /// x (r).
@@ -54,7 +55,7 @@ impl Direction {
 }
 
 /// A load: exactly one of the kinds, with its own history.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
     /// Name, for messages.
@@ -80,7 +81,7 @@ pub struct Load {
 }
 
 /// Remote tensions of a plate with a hole at the origin.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Kirsch {
     /// Remote stress along x.
@@ -93,7 +94,7 @@ pub struct Kirsch {
 }
 
 /// Prescribed displacement components.
-#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Displacement {
     /// Along x (r).
@@ -103,7 +104,7 @@ pub struct Displacement {
 }
 
 /// A total force on a surface held plane.
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlaneForce {
     /// Direction.
@@ -122,6 +123,21 @@ pub enum History {
     Constant,
     /// `[[alpha, factor], ...]`: piecewise linear in alpha, flat outside; the value at 0 is a preload.
     Table(Vec<[f64; 2]>),
+}
+
+impl JsonSchema for History {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "History".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let table = generator.subschema_for::<Vec<[f64; 2]>>();
+        json_schema!({
+            "description": "How a load depends on the load factor: `\"proportional\"` (the default), `\"constant\"` (a preload), or \
+                            a table of [load factor, multiple], piecewise linear.",
+            "anyOf": [{ "enum": ["proportional", "constant"] }, table],
+        })
+    }
 }
 
 impl Serialize for History {

@@ -1,11 +1,12 @@
 //! Where the mesh comes from: a generator with its parameters, or a file.
 
 use crate::shape::Shape;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// Where the mesh comes from: exactly one key.
-#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MeshSource {
     /// Curved indenter on a block (paper 5.1); axisymmetric: ball on half space.
@@ -33,7 +34,7 @@ pub struct MeshSource {
 ///
 /// The cylinder follows the circle over the candidates and levels off beyond: the model is that of Hertz, two half
 /// planes which differ from flat near the contact only. See [`crate::mesh::generate::cylinder_on_half_plane`].
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CylinderOnHalfPlane {
     /// Radius of the cylinder or ball.
@@ -64,7 +65,7 @@ pub struct CylinderOnHalfPlane {
 /// `disc` and `plate`; surfaces `disc.contact`, `plate.contact` (the hole), `plate.far`,
 /// `disc.symmetry_x`, `plate.symmetry_x` (on x = 0), `disc.symmetry_y`, `plate.symmetry_y` (on y = 0); node sets
 /// `disc.pole`, `plate.pole` (on the y axis, where the contact stays) and `disc.center`.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DiscInPlate {
     /// Radius of the hole and the disc.
@@ -88,7 +89,7 @@ pub struct DiscInPlate {
 /// A block, ring sector or disc sector: one body. Surfaces are `BODY.left`, `.right`, `.bottom`,
 /// `.top` for a block; `.inner`, `.outer`, `.start`, `.end` for a ring sector; `.outer`, `.start`, `.end` for a disc sector.
 /// The corners of a block are node sets `BODY.bottom_left`, `BODY.bottom_right`, `BODY.top_left`, `BODY.top_right`.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
     /// Name of the body.
@@ -105,7 +106,7 @@ pub struct Part {
 }
 
 /// A rectangle `[x0, x1] x [y0, y1]`.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Block {
     /// From, to.
@@ -123,7 +124,7 @@ pub struct Block {
 }
 
 /// A named piece of a block's side.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Piece {
     /// Name; the surface is `BODY.NAME`.
@@ -137,7 +138,7 @@ pub struct Piece {
 }
 
 /// A ring sector.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Ring {
     /// Centre.
@@ -156,7 +157,7 @@ pub struct Ring {
 }
 
 /// A disc or a sector of 90 or 180 degrees of one.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Disc {
     /// Centre.

@@ -1,11 +1,12 @@
 //! What the bodies are made of.
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserializer, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 use std::fmt;
 
 /// A material: linear elastic, and von Mises plastic where a yield stress is given.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
     /// E > 0.
@@ -38,7 +39,7 @@ impl Material {
 }
 
 /// What a body is made of and whether it may yield.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Body {
     /// Name of the material.
@@ -58,6 +59,19 @@ pub enum Plastic {
     Yes,
     /// No: treated as elastic whatever its stress.
     No,
+}
+
+impl JsonSchema for Plastic {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "Plastic".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "May a body yield? `\"auto\"` (the default): if its material can and the loads make it.",
+            "enum": [true, false, "auto"],
+        })
+    }
 }
 
 impl Serialize for Plastic {

@@ -10,6 +10,7 @@
 //!           key placed)               keys)    references)
 //! ```
 
+mod accuracy;
 mod boundary;
 mod complete;
 mod defaults;
@@ -20,9 +21,12 @@ mod overrides;
 mod program;
 mod read;
 mod reference;
+mod schema;
+mod units;
 mod unsupported;
 mod validate;
 
+pub use accuracy::AccuracyDemand;
 pub use boundary::{Contact, Direction, Displacement, History, Kirsch, Load, PlaneForce, Support};
 pub use geometry::{Block, CylinderOnHalfPlane, Disc, DiscInPlate, MeshSource, Part, Piece, Ring};
 pub use material::{Body, Material, Plastic};
@@ -30,13 +34,16 @@ pub use program::{
     DisplacementTarget, PlasticIteration, Program, Settings, Stepping, Target, Unit, YieldMethod,
 };
 pub use reference::{NoParameters, RadiusOnly, Reference};
+pub use schema::schema;
+pub use units::Units;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// A whole scene.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// One line for humans.
@@ -44,6 +51,8 @@ pub struct Scene {
     pub title: String,
     /// Plane strain, plane stress or axisymmetric.
     pub kind: Kind,
+    /// Names of the scene's units, for reports: nothing is converted.
+    pub units: Option<Units>,
     /// How many copies of the model make the whole: 1 (the default) where all of it is meshed, 2 for a half model, 4 for a
     /// quarter. Total forces (`force`, `plane_force`) in the scene, and loads and contact forces in the results, are those of the
     /// whole; the model carries its share of them.
@@ -69,6 +78,9 @@ pub struct Scene {
     /// How to compute: every value has a default that needs no thought.
     #[serde(default)]
     pub analysis: Settings,
+    /// How wrong the results may be: with this key mesh and tolerances are chosen by the program ([`AccuracyDemand`]).
+    #[serde(default)]
+    pub accuracy: Option<AccuracyDemand>,
     /// Published or exact values to put beside the computed ones.
     #[serde(default)]
     pub reference: Vec<Reference>,
@@ -78,7 +90,7 @@ pub struct Scene {
 }
 
 /// The two-dimensional idealisation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// No strain out of the plane; forces per unit thickness.

@@ -1,11 +1,12 @@
 //! The load program and how it is computed.
 
 use super::Direction;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
 /// The load program.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Program {
     /// What a load factor of 1 means.
@@ -25,7 +26,7 @@ pub struct Program {
 }
 
 /// What a load factor of 1 means.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Unit {
     /// The loads as given in the scene.
@@ -36,7 +37,7 @@ pub enum Unit {
 }
 
 /// How increments are chosen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Stepping {
     /// Each increment ends at the next change of contact (paper 4.10 to 4.23).
@@ -47,7 +48,7 @@ pub enum Stepping {
 }
 
 /// A target: exactly one of the conditions.
-#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Target {
     /// Name of the state.
@@ -120,7 +121,7 @@ impl Program {
 }
 
 /// A target displacement: the mean over a set reaches a value.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DisplacementTarget {
     /// Node set or surface.
@@ -132,7 +133,7 @@ pub struct DisplacementTarget {
 }
 
 /// How to compute.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
     /// Yield load: the exact path or the paper's secant (3.14).
@@ -157,7 +158,7 @@ impl Default for Settings {
 }
 
 /// How the yield load is found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum YieldMethod {
     /// Along the piecewise linear path.
@@ -168,7 +169,7 @@ pub enum YieldMethod {
 }
 
 /// How the plastic iteration runs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum PlasticIteration {
     /// Newton with the consistent tangent, solved by conjugate gradients on the factored elastic stiffness.

@@ -4,6 +4,8 @@ mod interruption;
 mod mutations;
 mod outputs;
 mod refusals;
+mod scene_help;
+mod watching;
 
 use std::path::PathBuf;
 use std::process::{Command, Output};

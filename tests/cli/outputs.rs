@@ -269,3 +269,85 @@ fn the_limit_load_is_reported_as_collapse_with_what_was_held() {
     // Exact collapse of the wall is 2k ln(b/a) = 192.09 (Hill, chapter V); two elements through the wall are coarse.
     assert!((held / 192.09 - 1.0).abs() < 0.02, "{held}");
 }
+
+/// `brinell accuracy`: three kinds of files, and the words on standard output.
+#[test]
+fn a_study_leaves_its_data_and_plots() {
+    let root = tempfile::tempdir().unwrap();
+    let out = root.path().join("study");
+    let scene = format!(
+        "{}/data/scenes/thick_cylinder.toml",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
+        .args([
+            "accuracy",
+            &scene,
+            "--quiet",
+            "--levels",
+            "3",
+            "--knobs",
+            "resolution,gamma",
+            "--out",
+        ])
+        .arg(&out)
+        .args(["--set", "mesh.parts.0.ring.elements=[8,8]"])
+        .args(["--set", "program.targets=[{ yield = true }]"])
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(
+        output.status.success(),
+        "{text}{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    assert!(
+        text.contains("Prices") && text.contains(" costs "),
+        "{text}"
+    );
+    let json: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(out.join("accuracy.json")).unwrap()).unwrap();
+    let runs = json["runs"].as_array().unwrap();
+    assert!(
+        runs.len() >= 3
+            && runs
+                .iter()
+                .all(|r| r["wall_seconds"].as_f64().unwrap() > 0.0)
+    );
+    let mut table = csv::Reader::from_path(out.join("accuracy.csv")).unwrap();
+    let quantity = table
+        .headers()
+        .unwrap()
+        .iter()
+        .position(|h| h == "quantity")
+        .unwrap();
+    let rows: Vec<csv::StringRecord> = table.records().map(Result::unwrap).collect();
+    assert_eq!(
+        rows.iter().filter(|r| &r[quantity] == "yield.load").count(),
+        runs.len()
+    );
+    let plot = std::fs::read_to_string(out.join("yield_load.svg")).unwrap();
+    assert!(
+        roxmltree::Document::parse(&plot)
+            .unwrap()
+            .descendants()
+            .any(|n| n.has_tag_name("polyline"))
+    );
+    // A second study replaces the first, another directory in use is left alone.
+    let refused = root.path().join("notes");
+    std::fs::create_dir(&refused).unwrap();
+    std::fs::write(refused.join("mine.txt"), "mine").unwrap();
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
+        .args(["accuracy", &scene, "--quiet", "--knobs", "mesh"])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("unknown knob `mesh`"));
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
+        .args(["accuracy", &scene, "--quiet", "--out"])
+        .arg(&refused)
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(refused.join("mine.txt").exists());
+}

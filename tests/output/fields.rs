@@ -37,6 +37,7 @@ fn grid_and_fields_read_back_bit_exactly() {
             grid.arrays.keys().collect::<Vec<_>>(),
             [
                 "CellData/body",
+                "CellData/discretisation_error",
                 "CellData/equivalent_plastic_strain",
                 "CellData/stress",
                 "CellData/von_mises",
@@ -57,6 +58,10 @@ fn grid_and_fields_read_back_bit_exactly() {
         let plastic = bits(&fields.plastic_strain);
         assert_eq!(doubles("CellData/equivalent_plastic_strain"), plastic);
         assert_eq!(grid.array("CellData/yielded").u8s(), fields.yielded);
+        assert_eq!(
+            doubles("CellData/discretisation_error"),
+            bits(&fields.error)
+        );
         assert_eq!(grid.array("CellData/body").i32s(), [0, 0, 1, 1]);
 
         assert_eq!(

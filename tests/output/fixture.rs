@@ -3,8 +3,8 @@
 use brinell::mesh::{Mesh, Shape};
 use brinell::output::RunHeader;
 use brinell::results::{
-    Counts, Effect, Fields, HistoryRow, PairState, Quality, ReferenceRow, Results, Sizes, State,
-    Status, YieldPoint,
+    Accuracy, Companion, Counts, Demand, Effect, EstimateMethod, Fields, HistoryRow, PairState,
+    Quality, QuantityError, ReferenceRow, Results, Sizes, State, Status, YieldPoint,
 };
 
 pub fn header() -> RunHeader {
@@ -50,6 +50,7 @@ pub fn fields(mesh: &Mesh, seed: f64) -> Fields {
         von_mises: values(elements, 0.5),
         plastic_strain: values(elements, 0.7),
         yielded: (0..elements).map(|i| (i % 2) as u8).collect(),
+        error: values(elements, 0.9),
     }
 }
 
@@ -87,6 +88,8 @@ pub fn results(mesh: &Mesh) -> Results {
         plastic_points: 7,
         plastic_points_by_body: vec![3, 4],
         max_equivalent_plastic_strain: 0.02,
+        plastic_zone_size: 0.004,
+        energy_error: Some(0.05),
         approach: 0.3,
         pairs: vec![pair(0, Status::Closed), pair(1, Status::Open)],
         fields: Some(fields(mesh, 1.0)),
@@ -174,6 +177,32 @@ pub fn results(mesh: &Mesh) -> Results {
             published_ratio: None,
             source: "Johnson, Contact Mechanics, p. 155".into(),
         }],
+        accuracy: Some(Accuracy {
+            method: EstimateMethod::CoarserMeshes,
+            companions: vec![Companion {
+                ratio: 2.0,
+                freedoms: 9,
+                seconds: 0.25,
+            }],
+            quantities: vec![QuantityError {
+                quantity: "yield.load".into(),
+                value: 60.0,
+                error: Some(0.5),
+                relative_error: Some(0.005),
+                discretisation: Some(0.4),
+                path: Some(0.09),
+                algebraic: 0.01,
+                order: None,
+            }],
+            demand: Some(Demand {
+                accuracy: 0.01,
+                reached: true,
+                stated: 0.005,
+                choices: vec!["resolution 16".into()],
+            }),
+            seconds: 0.5,
+            notes: vec!["a mesh failed".into()],
+        }),
         warnings: vec!["tri3 elements lock where they yield".into()],
         incomplete: Some("stopped by the user".into()),
         incomplete_kind: Some(brinell::ErrorKind::Stopped),

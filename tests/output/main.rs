@@ -4,6 +4,7 @@ mod directory;
 mod fields;
 mod fixture;
 mod python;
+mod report;
 mod summary;
 mod tables;
 mod vtu;

@@ -49,7 +49,8 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
         "closed_pairs": 1, "max_pressure": 300.0, "pole_pressure": 299.0, "half_width": 1.5,
         "contact_arc": {"from": -19.625, "to": 19.625}, "residual_depth": 0.01, "approach": 0.3,
         "plastic_points": 7, "plastic_points_by_body": {"cylinder": 3, "half_plane": 4},
-        "max_equivalent_plastic_strain": 0.02, "quality": quality,
+        "max_equivalent_plastic_strain": 0.02, "plastic_zone_size": 0.004, "energy_error": 0.05,
+        "quality": quality,
         "fields": "state_01_b___1.5_b_.vtu"
     });
     let mut between = pressed.clone();
@@ -92,6 +93,19 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
             "quantity": "yield.load", "reference": 61.0, "computed": 60.0, "ratio": 60.0 / 61.0,
             "published_ratio": null, "source": "Johnson, Contact Mechanics, p. 155"
         }],
+        "accuracy": {
+            "method": "coarser_meshes",
+            "companions": [{"ratio": 2.0, "freedoms": 9, "seconds": 0.25}],
+            "quantities": [{
+                "quantity": "yield.load", "value": 60.0, "error": 0.5, "relative_error": 0.005,
+                "discretisation": 0.4, "path": 0.09, "algebraic": 0.01, "order": null
+            }],
+            "demand": {
+                "accuracy": 0.01, "reached": true, "stated": 0.005, "choices": ["resolution 16"]
+            },
+            "seconds": 0.5,
+            "notes": ["a mesh failed"]
+        },
         "warnings": ["tri3 elements lock where they yield"],
         "incomplete": "stopped by the user"
     });
@@ -146,8 +160,8 @@ fn the_schema_refuses_missing_and_unknown_keys() {
     let open = ["/effects", "/timings", "/plastic_points_by_body"];
     objects.retain(|path| !open.iter().any(|end| path.ends_with(end)));
     // The root, an effect, counts, factor, quality, yield with its location, three states with quality
-    // (two with an arc), a reference.
-    assert_eq!(objects.len(), 1 + 1 + 1 + 1 + 1 + 2 + 3 + 3 + 2 + 1);
+    // (two with an arc), a reference, accuracy with a mesh, a quantity and a demand.
+    assert_eq!(objects.len(), 1 + 1 + 1 + 1 + 1 + 2 + 3 + 3 + 2 + 1 + 4);
     for path in objects {
         let object = valid.pointer(&path).unwrap().as_object().unwrap();
         for key in object.keys() {
@@ -167,6 +181,8 @@ fn the_schema_refuses_missing_and_unknown_keys() {
         ("/yield/load", json!("60")),
         ("/states/0/fields", json!("../up.vtu")),
         ("/quality/equilibrium", json!(-1.0)),
+        ("/accuracy/method", json!("guess")),
+        ("/accuracy/quantities/0/error", json!(-0.5)),
         ("/timings/total", json!(-1.0)),
     ] {
         let mut damaged = valid.clone();

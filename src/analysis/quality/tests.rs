@@ -60,7 +60,8 @@ fn quality(
     tamper: impl Fn(&mut Engine),
     after: impl Fn(&mut Engine),
 ) -> Quality {
-    let mut engine = Engine::new(model, used, Backend::default(), Vec::new(), &[]).expect("engine");
+    let mut engine =
+        Engine::new(model, used, Backend::default(), &[], Vec::new(), &[]).expect("engine");
     engine.system = system;
     tamper(&mut engine);
     let end = engine.point(1.0);

@@ -255,6 +255,10 @@ impl Trailing {
             let list = &self.rows[p.rows.clone()];
             let sums = &mut rows[..list.len()];
             let (own, below) = vector[p.first..].split_at_mut(p.width);
+            // A load on a part of the zone (where the material flows) reaches only the panels above that part.
+            if own.iter().all(|value| *value == 0.0) {
+                continue;
+            }
             panel::solve_lower(&self.values[p.triangle()], own);
             panel::multiply(&self.values[p.rectangle()], own, sums);
             let offset = p.first + p.width;

@@ -288,6 +288,30 @@ fn every_partition_gives_the_plain_solution() {
     }
 }
 
+/// A zone that shrinks and grows back within the factored one condenses like one that was factored so.
+#[test]
+fn a_zone_is_chosen_among_the_factored_one() {
+    let matrix = laplacian(120, 3, 0.1, 3);
+    let whole = partition(120, 0.5, 0.1, 4);
+    for backend in backends() {
+        let mut condensed = condense(backend, &matrix, &whole, &[]).unwrap();
+        for stride in [3, 1, 7, 2] {
+            let wanted: Vec<usize> = whole.zone.iter().copied().step_by(stride).collect();
+            let zone = condensed.choose_zone(&wanted).unwrap().unwrap();
+            assert!(zone.is_sorted() && check::contains(&zone, &wanted));
+            assert!(check::contains(&whole.zone, &zone));
+            let chosen = Partition {
+                zone,
+                ..whole.clone()
+            };
+            let sample = Sample::new(matrix.clone(), chosen, vec![]);
+            assert_condensation_is_the_plain_solve(&sample, condensed.as_ref());
+        }
+        let outside = (0..120).find(|f| whole.zone.binary_search(f).is_err());
+        assert_eq!(condensed.choose_zone(&[outside.unwrap()]).unwrap(), None);
+    }
+}
+
 #[test]
 fn a_body_held_by_contact_alone_has_a_singular_contact_stiffness() {
     let grid = Grid::<2>::new([9, 6], Support::Guides);

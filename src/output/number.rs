@@ -1,7 +1,7 @@
 //! Numbers for readers.
 
 /// `value` with `digits` significant digits: plain between 1e-4 and 1e7, else with an exponent.
-pub(super) fn significant(value: f64, digits: usize) -> String {
+pub(crate) fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".to_string();
     }
@@ -24,12 +24,12 @@ pub(super) fn significant(value: f64, digits: usize) -> String {
 }
 
 /// Six significant digits: what the tables show.
-pub(super) fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     significant(value, 6)
 }
 
 /// Bytes in the unit that fits.
-pub(super) fn bytes(count: f64) -> String {
+pub(crate) fn bytes(count: f64) -> String {
     let mut value = count;
     for unit in ["B", "kB", "MB", "GB"] {
         if value < 999.5 {
@@ -49,7 +49,7 @@ fn significant_integer(value: f64) -> String {
 }
 
 /// Seconds, to the millisecond where that matters.
-pub(super) fn seconds(value: f64) -> String {
+pub(crate) fn seconds(value: f64) -> String {
     if value >= 100.0 {
         format!("{value:.0} s")
     } else if value >= 10.0 {

@@ -1,0 +1,183 @@
+//! What a run takes from the machine, and what it will take.
+
+use crate::analysis::check;
+use crate::error::Result;
+use crate::linalg::{Backend, Prediction};
+use crate::model::Model;
+use crate::scene::Scene;
+use std::time::Instant;
+
+/// Clock ticks per second in which Linux tells processor time to programs (`USER_HZ`).
+const TICKS: f64 = 100.0;
+
+/// Processor times from here on are known to a fifth.
+const RESOLVED: f64 = 5.0 / TICKS;
+
+/// Measures wall time, processor time and memory between [`Meter::start`] and [`Meter::stop`].
+#[derive(Debug)]
+pub struct Meter {
+    start: Instant,
+    processor: Option<f64>,
+    reset: bool,
+}
+
+/// What was measured.
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
+pub struct Usage {
+    /// Wall time in seconds.
+    pub wall_seconds: f64,
+    /// Processor time of all threads of this process in seconds, in steps of 10 ms; `None` where the system does not tell.
+    pub cpu_seconds: Option<f64>,
+    /// Most memory resident during the run, that which the process held before included (the allocator returns large blocks
+    /// at once, small ones late); `None` where the system does not let the mark be set back (Linux: `clear_refs`).
+    pub peak_memory_bytes: Option<u64>,
+}
+
+impl Usage {
+    /// What the run takes when nothing disturbs it: wall time, or processor time where that is less, because the machine had
+    /// other things to do; too short a processor time is not resolved.
+    pub fn undisturbed_seconds(&self) -> f64 {
+        match self.cpu_seconds {
+            Some(cpu) if cpu >= RESOLVED => self.wall_seconds.min(cpu),
+            _ => self.wall_seconds,
+        }
+    }
+}
+
+impl Meter {
+    /// Begins to measure.
+    pub fn start() -> Self {
+        Meter {
+            reset: std::fs::write("/proc/self/clear_refs", "5").is_ok(),
+            processor: processor_seconds(),
+            start: Instant::now(),
+        }
+    }
+
+    /// Ends.
+    pub fn stop(self) -> Usage {
+        Usage {
+            wall_seconds: self.start.elapsed().as_secs_f64(),
+            cpu_seconds: processor_seconds()
+                .zip(self.processor)
+                .map(|(end, start)| end - start),
+            peak_memory_bytes: peak_memory().filter(|_| self.reset),
+        }
+    }
+}
+
+/// Processor time of the process, user and system.
+fn processor_seconds() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/self/stat").ok()?;
+    // The name in parentheses may hold blanks; what follows it does not. utime and stime are fields 14 and 15.
+    let (_, fields) = text.rsplit_once(')')?;
+    let fields: Vec<&str> = fields.split_whitespace().collect();
+    let ticks = |i: usize| fields.get(i)?.parse::<f64>().ok();
+    Some((ticks(11)? + ticks(12)?) / TICKS)
+}
+
+fn peak_memory() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;
+    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    kibibytes.checked_mul(1024)
+}
+
+/// Memory that the machine can still give; `None` where the system does not tell.
+pub fn available_memory() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = text.lines().find_map(|l| l.strip_prefix("MemAvailable:"))?;
+    let kibibytes: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(1024.0 * kibibytes)
+}
+
+/// What a run will cost, from the symbolic factorisation of its matrix.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Forecast {
+    /// The factorisation.
+    pub factor: Prediction,
+    /// Seconds at a typical speed; what this machine and this scene make of it is learnt from finished runs ([`Pace`]).
+    pub seconds: f64,
+}
+
+/// Forecasts a run; nothing is factored.
+///
+/// # Errors
+/// Those of the model, and limits of the backend.
+pub fn forecast(scene: &Scene, backend: Backend) -> Result<Forecast> {
+    let check = check(&Model::new(scene)?, backend)?;
+    Ok(Forecast {
+        factor: check.prediction,
+        seconds: check.predicted_seconds,
+    })
+}
+
+/// How long runs take beside their forecasts: `time = a forecast^b`, fitted to the finished ones. The power differs from 1
+/// where increments, which grow in number with the resolution too, cost more than the factorisation.
+#[derive(Debug, Clone, Default)]
+pub struct Pace {
+    finished: Vec<(f64, f64)>,
+}
+
+/// Powers that are believed.
+const POWERS: [f64; 2] = [0.5, 2.0];
+
+impl Pace {
+    /// Takes note of a finished run.
+    pub fn learn(&mut self, forecast: f64, seconds: f64) {
+        if forecast > 0.0 && seconds > 0.0 {
+            self.finished.push((forecast.ln(), seconds.ln()));
+        }
+    }
+
+    /// Seconds that a run of this forecast will take.
+    pub fn seconds(&self, forecast: f64) -> f64 {
+        if self.finished.is_empty() || forecast <= 0.0 {
+            return forecast;
+        }
+        let n = self.finished.len() as f64;
+        let mean = |f: &dyn Fn(&(f64, f64)) -> f64| self.finished.iter().map(f).sum::<f64>() / n;
+        let (mx, my) = (mean(&|p| p.0), mean(&|p| p.1));
+        let variance = mean(&|p| (p.0 - mx).powi(2));
+        // Runs of one size say nothing of the power.
+        let power = match variance > 0.1 {
+            true => (mean(&|p| (p.0 - mx) * (p.1 - my)) / variance).clamp(POWERS[0], POWERS[1]),
+            false => 1.0,
+        };
+        (my + power * (forecast.ln() - mx)).exp()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pace_follows_the_finished_runs() {
+        let mut pace = Pace::default();
+        assert_eq!(pace.seconds(3.0), 3.0);
+        pace.learn(1.0, 5.0);
+        assert!((pace.seconds(2.0) - 10.0).abs() < 1e-12);
+        pace.learn(10.0, 5.0 * 10f64.powf(1.5));
+        assert!((pace.seconds(100.0) / (5.0 * 1000.0) - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_meter_sees_work_and_memory() {
+        let meter = Meter::start();
+        let block = vec![1u8; 64 << 20];
+        let mut sum = 0u64;
+        while meter.start.elapsed().as_secs_f64() < 0.1 {
+            sum = block.iter().fold(sum, |s, b| s.wrapping_add(u64::from(*b)));
+        }
+        assert!(sum > 0);
+        let usage = meter.stop();
+        assert!(usage.wall_seconds >= 0.1);
+        if cfg!(target_os = "linux") {
+            assert!(usage.cpu_seconds.unwrap() > 0.0);
+        }
+        if let Some(peak) = usage.peak_memory_bytes {
+            assert!(peak >= 64 << 20, "{peak}");
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! The quantities that a run reports, by their paths in `summary.json`.
+
+use crate::results::Results;
+
+/// A reported quantity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quantity {
+    /// `yield.KEY` or `states.NAME.KEY`.
+    pub path: String,
+    /// Its value.
+    pub value: f64,
+    /// The largest size that a quantity of this KEY has in the run: what its error is measured against.
+    pub scale: f64,
+    /// Whether a demanded accuracy holds for it. The plastic zone's size is counted in whole Gauss points and does not.
+    pub governs: bool,
+}
+
+/// All reported quantities of a run: yield load, maximum pressure, half width, residual depth, approach and size of the plastic
+/// zone, as far as the scene has contact and yields.
+pub fn quantities(results: &Results) -> Vec<Quantity> {
+    let contact = results.sizes.contact_pairs > 0;
+    let plastic = results.states.iter().any(|s| s.plastic_points > 0);
+    let mut out: Vec<(&'static str, Quantity)> = Vec::new();
+    let mut add = |key: &'static str, prefix: &str, value: f64, when: bool| {
+        if when && value.is_finite() {
+            let quantity = Quantity {
+                path: format!("{prefix}.{key}"),
+                value,
+                scale: 0.0,
+                governs: key != "plastic_zone_size",
+            };
+            out.push((key, quantity));
+        }
+    };
+    if let Some(first) = &results.first_yield {
+        add("load", "yield", first.load, true);
+        add("max_pressure", "yield", first.max_pressure, contact);
+        add("half_width", "yield", first.half_width, contact);
+    }
+    for state in &results.states {
+        let prefix = format!("states.{}", state.name);
+        add("load", &prefix, state.load, true);
+        add("max_pressure", &prefix, state.max_pressure, contact);
+        add("half_width", &prefix, state.half_width, contact);
+        add("approach", &prefix, state.approach, true);
+        add(
+            "residual_depth",
+            &prefix,
+            state.residual_depth,
+            contact && plastic,
+        );
+        add(
+            "plastic_zone_size",
+            &prefix,
+            state.plastic_zone_size,
+            plastic,
+        );
+    }
+    let scales: Vec<f64> = out
+        .iter()
+        .map(|(key, _)| {
+            let same = out.iter().filter(|(other, _)| other == key);
+            same.fold(0.0f64, |m, (_, q)| m.max(q.value.abs()))
+        })
+        .collect();
+    out.into_iter()
+        .zip(scales)
+        .map(|((_, quantity), scale)| Quantity { scale, ..quantity })
+        .collect()
+}
+
+/// The value of a quantity by its path.
+pub fn value_of(quantities: &[Quantity], path: &str) -> Option<f64> {
+    quantities.iter().find(|q| q.path == path).map(|q| q.value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::results::{State, YieldPoint};
+
+    #[test]
+    fn quantities_follow_what_the_scene_has() {
+        let mut results = Results {
+            first_yield: Some(YieldPoint {
+                alpha: 1.0,
+                load: 5.0,
+                max_pressure: 2.0,
+                half_width: 0.1,
+                location: [0.0; 2],
+                body: 0,
+            }),
+            states: vec![State {
+                name: "pressed".into(),
+                load: -10.0,
+                max_pressure: f64::NAN,
+                ..State::default()
+            }],
+            ..Results::default()
+        };
+        let paths =
+            |r: &Results| -> Vec<String> { quantities(r).into_iter().map(|q| q.path).collect() };
+        assert_eq!(
+            paths(&results),
+            [
+                "yield.load",
+                "states.pressed.load",
+                "states.pressed.approach"
+            ]
+        );
+        let all = quantities(&results);
+        assert_eq!((all[0].value, all[0].scale), (5.0, 10.0));
+        results.sizes.contact_pairs = 3;
+        results.states[0].plastic_points = 1;
+        // A pressure that is not a number is no quantity.
+        assert_eq!(quantities(&results).len(), 3 + 5);
+        assert_eq!(
+            value_of(&quantities(&results), "yield.half_width"),
+            Some(0.1)
+        );
+        assert!(
+            !quantities(&results)
+                .iter()
+                .any(|q| q.governs && q.path.ends_with("zone_size"))
+        );
+    }
+}

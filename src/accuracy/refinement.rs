@@ -1,0 +1,275 @@
+//! The same scene on a finer or coarser mesh of the same family.
+//!
+//! In a family every element size, also where elements grow with the distance, is multiplied by the same ratio `h`: a
+//! growth `g` from element to element becomes `g^h`. With a fixed growth only the evenly meshed part would refine and
+//! the error would level off at that of the growing part.
+
+use crate::error::Result;
+use crate::mesh::{Shape, generate};
+use crate::scene::{Block, MeshSource, Part, Scene};
+
+/// Elements over the part of the mesh that governs the result (the contact, the thickness of a part) below which a mesh tells
+/// nothing about the next one.
+pub(super) const FEWEST: f64 = 5.0;
+/// Share of the quarter circle over which a disc in a plate stays in contact.
+const CONTACT_OF_QUARTER: f64 = 19.625 / 90.0;
+/// Most by which rounding to whole elements may distort a part of the mesh against the others.
+const DISTORTION: f64 = 0.2;
+/// Least change of the element size that makes another level of it.
+const LEAST_CHANGE: f64 = 1.15;
+/// Distance between a piece's end and a node, in elements, up to which they coincide.
+const ON_NODE: f64 = 1e-6;
+/// Element sizes of the coarser meshes over that of the run, most wanted first: where the run is fine enough, the first pair
+/// costs a quarter of it at most; else the second keeps the coarse meshes fine enough to tell something.
+const FAR: [f64; 6] = [
+    1.0 / 2.0,
+    3.0 / 8.0,
+    1.0 / 4.0,
+    2.0 / 3.0,
+    3.0 / 4.0,
+    1.0 / 3.0,
+];
+const NEAR: [f64; 6] = [
+    2.0 / 3.0,
+    1.0 / 2.0,
+    3.0 / 4.0,
+    5.0 / 8.0,
+    3.0 / 8.0,
+    1.0 / 4.0,
+];
+
+/// A scene with another mesh of its family.
+#[derive(Debug, Clone)]
+pub struct Level {
+    /// The scene.
+    pub scene: Scene,
+    /// Element size over that of the scene it was made from.
+    pub ratio: f64,
+}
+
+/// The scene with `factor` times as many elements along each line, rounded to what the generator can make; `None` where the
+/// mesh comes from a file or has no such member (a piece of a block that would end between nodes).
+pub fn refined(scene: &Scene, factor: f64) -> Option<Level> {
+    let mut out = scene.clone();
+    let count = |n: usize, step: usize| -> usize {
+        let steps = (n as f64 * factor / step as f64).round().max(1.0);
+        steps.min(1e9) as usize * step
+    };
+    let ratio = if let Some(p) = &mut out.mesh.cylinder_on_half_plane {
+        let n = count(p.resolution, 1);
+        let ratio = p.resolution as f64 / n as f64;
+        p.resolution = n;
+        p.growth = p.growth.powf(ratio);
+        ratio
+    } else if let Some(p) = &mut out.mesh.disc_in_plate {
+        let n = count(p.resolution, 2);
+        let ratio = p.resolution as f64 / n as f64;
+        p.resolution = n;
+        p.growth = p.growth.powf(ratio);
+        ratio
+    } else if let Some(parts) = &mut out.mesh.parts {
+        let mut ratios = Vec::new();
+        for part in parts.iter_mut() {
+            for (n, step) in counts_of(part) {
+                let new = count(*n, step);
+                ratios.push((*n as f64 / new as f64, *n));
+                *n = new;
+            }
+        }
+        let (ratio, _) = ratios.iter().max_by_key(|r| r.1)?;
+        if ratios
+            .iter()
+            .any(|r| (r.0 / ratio - 1.0).abs() > DISTORTION)
+        {
+            return None;
+        }
+        if parts
+            .iter()
+            .filter_map(|p| p.block.as_ref())
+            .any(|b| !pieces_end_on_nodes(b))
+        {
+            return None;
+        }
+        *ratio
+    } else {
+        return None;
+    };
+    Some(Level { scene: out, ratio })
+}
+
+/// The two meshes from which the error of the scene's own is extrapolated, finer one first; fewer where the family has not
+/// that many.
+pub fn coarser(scene: &Scene) -> Vec<Level> {
+    let wanted = match governing_count(&scene.mesh) {
+        Some(n) if n * FAR[1] >= FEWEST => FAR,
+        Some(_) => NEAR,
+        None => return Vec::new(),
+    };
+    let mut levels: Vec<Level> = Vec::new();
+    for factor in wanted {
+        let Some(level) = refined(scene, factor) else {
+            continue;
+        };
+        let differs = |other: f64| level.ratio.max(other) / level.ratio.min(other) >= LEAST_CHANGE;
+        if level.ratio > 1.0
+            && differs(1.0)
+            && levels.iter().all(|l| differs(l.ratio))
+            && can_be_made(&level.scene).is_ok()
+        {
+            levels.push(level);
+        }
+        if levels.len() == 2 {
+            break;
+        }
+    }
+    levels.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
+    levels
+}
+
+/// Largest order of convergence that is believed for the quantities of a scene: twice the degree of the elements (what
+/// functionals of smooth solutions reach) but not more than 3, which the extrapolation of rounded meshes cannot tell from less.
+pub fn largest_order(scene: &Scene) -> f64 {
+    let quadratic = |shape: Shape| shape.n_nodes() > shape.n_corners();
+    let mesh = &scene.mesh;
+    let all = mesh
+        .cylinder_on_half_plane
+        .as_ref()
+        .is_some_and(|p| quadratic(p.element))
+        || mesh
+            .disc_in_plate
+            .as_ref()
+            .is_some_and(|p| quadratic(p.element))
+        || mesh
+            .parts
+            .as_ref()
+            .is_some_and(|p| p.iter().all(|p| quadratic(p.element)));
+    if all { 3.0 } else { 2.0 }
+}
+
+/// Elements over what governs the result.
+pub(super) fn governing_count(mesh: &MeshSource) -> Option<f64> {
+    if let Some(p) = &mesh.cylinder_on_half_plane {
+        Some(p.resolution as f64)
+    } else if let Some(p) = &mesh.disc_in_plate {
+        Some(p.resolution as f64 * CONTACT_OF_QUARTER)
+    } else {
+        let parts = mesh.parts.clone()?;
+        let counts = parts.into_iter().flat_map(|mut part| {
+            let counts: Vec<usize> = counts_of(&mut part).into_iter().map(|c| *c.0).collect();
+            counts
+        });
+        counts.max().map(|n| n as f64)
+    }
+}
+
+/// The element counts of a part, each with the number it must be a multiple of.
+fn counts_of(part: &mut Part) -> Vec<(&mut usize, usize)> {
+    let mut out = Vec::new();
+    if let Some(block) = &mut part.block {
+        out.extend(block.elements.iter_mut().map(|n| (n, 1)));
+    }
+    if let Some(ring) = &mut part.ring {
+        out.extend(ring.elements.iter_mut().map(|n| (n, 1)));
+    }
+    if let Some(disc) = &mut part.disc {
+        out.push((&mut disc.elements, 2));
+    }
+    out
+}
+
+/// Whether every piece of the block's sides begins and ends at a node: else it would be longer or shorter than in the scene.
+fn pieces_end_on_nodes(block: &Block) -> bool {
+    block.pieces.iter().all(|piece| {
+        let axis = usize::from(matches!(piece.side.as_str(), "left" | "right"));
+        let [from, to] = if axis == 0 { block.x } else { block.y };
+        let n = block.elements[axis] as f64;
+        block.bias[axis] == 1.0
+            && [piece.from, piece.to].iter().all(|end| {
+                let at = (end - from) / (to - from) * n;
+                (at - at.round()).abs() < ON_NODE
+            })
+    })
+}
+
+/// Whether the generator makes the mesh: a family ends where it refuses. The contact half width, which scales the mesh of a
+/// cylinder on a half plane, does not matter for that.
+fn can_be_made(scene: &Scene) -> Result<()> {
+    let radius = scene
+        .mesh
+        .cylinder_on_half_plane
+        .as_ref()
+        .map_or(1.0, |p| p.radius);
+    generate::from_source(&scene.mesh, None, |p| Ok(1e-3 * radius / p.fine_width)).map(drop)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scene(mesh: &str) -> Scene {
+        let text = format!(
+            "kind = \"plane_strain\"\n{mesh}\n[materials.m]\nyoungs_modulus = 1.0\npoissons_ratio = 0.3\n\
+             [bodies]\nb = {{ material = \"m\" }}\n[[load]]\non = \"b.top\"\npressure = 1.0\n\
+             [program]\ntargets = [{{ load_factor = 1.0 }}]\n"
+        );
+        Scene::parse(&text, "test.toml").unwrap()
+    }
+
+    /// The paper's cylinder.
+    fn cylinder(resolution: usize, growth: f64) -> Scene {
+        let text = include_str!("../../data/scenes/cylinder_on_half_plane.toml");
+        let mut scene = Scene::parse(text, "scene.toml").unwrap();
+        let p = scene.mesh.cylinder_on_half_plane.as_mut().unwrap();
+        (p.resolution, p.growth) = (resolution, growth);
+        scene
+    }
+
+    #[test]
+    fn a_level_refines_every_element_by_the_same_ratio() {
+        let scene = cylinder(16, 1.21);
+        let level = refined(&scene, 2.0).unwrap();
+        let p = level.scene.mesh.cylinder_on_half_plane.unwrap();
+        assert_eq!((p.resolution, level.ratio), (32, 0.5));
+        assert!((p.growth - 1.1).abs() < 1e-15);
+        let ratios: Vec<f64> = coarser(&scene).iter().map(|l| l.ratio).collect();
+        assert_eq!(ratios, [2.0, 16.0 / 6.0]);
+    }
+
+    #[test]
+    fn a_coarse_run_is_compared_with_near_meshes() {
+        let scene = cylinder(8, 1.15);
+        let counts: Vec<usize> = coarser(&scene)
+            .iter()
+            .map(|l| {
+                l.scene
+                    .mesh
+                    .cylinder_on_half_plane
+                    .as_ref()
+                    .unwrap()
+                    .resolution
+            })
+            .collect();
+        assert_eq!(counts, [5, 4]);
+    }
+
+    #[test]
+    fn a_piece_of_a_block_keeps_its_length() {
+        let block = "[[mesh.parts]]\nbody = \"b\"\nblock = { x = [0.0, 5.0], y = [0.0, 1.0], elements = [40, 40], \
+                     pieces = [{ name = \"p\", side = \"top\", from = 0.0, to = 1.0 }] }";
+        let scene = scene(block);
+        assert!(refined(&scene, 0.5).is_some());
+        assert!(
+            refined(&scene, 0.4).is_none(),
+            "16 elements over 5 leave no node at 1"
+        );
+        let counts: Vec<f64> = coarser(&scene).iter().map(|l| l.ratio).collect();
+        assert_eq!(counts, [2.0, 40.0 / 15.0]);
+    }
+
+    #[test]
+    fn rounding_may_not_distort_the_mesh() {
+        let ring =
+            "[[mesh.parts]]\nbody = \"b\"\nring = { radius = [1.0, 2.0], elements = [1, 16] }";
+        assert!(refined(&scene(ring), 0.5).is_none());
+    }
+}

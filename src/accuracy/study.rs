@@ -1,0 +1,218 @@
+//! The study: many settings of one scene, each run and measured, cheapest first.
+
+use super::estimate::{Extent, run};
+use super::knobs::{Knob, Setting, settings};
+use super::meter::{Forecast, Meter, Pace, Usage, forecast};
+use super::quantities::quantities;
+use super::verdict::{QuantityStudy, judge};
+use crate::error::Result;
+use crate::linalg::Backend;
+use crate::progress::Observer;
+use crate::results::{Counts, ReferenceRow, Results};
+use crate::scene::Scene;
+use serde::Serialize;
+use std::time::Instant;
+
+/// Runs after which the remaining time is told: fewer say little of the machine and the scene.
+const TRUSTED: usize = 4;
+
+/// What to study.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// The knobs to turn.
+    pub knobs: Vec<Knob>,
+    /// Meshes in a series.
+    pub levels: usize,
+    /// Seconds that the study may take; runs that would not fit are left out.
+    pub budget: Option<f64>,
+}
+
+impl Default for Plan {
+    fn default() -> Self {
+        Plan {
+            knobs: Knob::ALL.to_vec(),
+            levels: 6,
+            budget: None,
+        }
+    }
+}
+
+/// A setting with what came out and what it took.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StudyRun {
+    /// The curve it belongs to.
+    pub series: String,
+    /// What was turned.
+    pub knob: Knob,
+    /// To what.
+    pub value: String,
+    /// Element size over that of the scene.
+    pub ratio: f64,
+    /// Why there are no values, where the run failed.
+    pub failed: Option<String>,
+    /// Freedoms.
+    pub freedoms: usize,
+    /// Increments.
+    pub increments: usize,
+    /// Floating point operations of a factorisation, nonzeros of the factor and of its trailing columns.
+    pub factor: [f64; 3],
+    /// Machine-independent cost.
+    pub counts: Counts,
+    /// Time and memory.
+    pub usage: Usage,
+    /// Wall seconds by phase.
+    pub phases: Vec<(String, f64)>,
+    /// Quantities by path.
+    pub values: Vec<(String, f64)>,
+}
+
+/// A whole study.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Study {
+    /// The runs, in the order in which they were made.
+    pub runs: Vec<StudyRun>,
+    /// Each quantity: reference, errors, orders, prices.
+    pub quantities: Vec<QuantityStudy>,
+    /// What was left out, and why.
+    pub left_out: Vec<String>,
+    /// Seconds that the study took.
+    pub seconds: f64,
+    /// Whether it was stopped before its end.
+    pub stopped: bool,
+}
+
+/// Studies a scene. Runs that fail are kept with the reason. When the observer asks to stop, or the budget is spent, the study is
+/// judged by what it has.
+///
+/// # Errors
+/// Where the scene itself makes no model.
+pub fn study(
+    scene: &Scene,
+    backend: Backend,
+    plan: &Plan,
+    observer: &mut dyn Observer,
+) -> Result<Study> {
+    let start = Instant::now();
+    let mut out = Study::default();
+    observer.phase("study: predicting the cost of each setting");
+    forecast(scene, backend)?;
+    let mut queue: Vec<(Setting, Forecast)> = Vec::new();
+    let mut known: Vec<(f64, String, Forecast)> = Vec::new();
+    for setting in settings(scene, backend, &plan.knobs, plan.levels) {
+        // Settings on one mesh have one forecast; the symbolic factorisation of a large one takes its time.
+        let key = format!("{:?} {:?}", setting.scene.mesh, setting.backend);
+        let found = match known.iter().find(|k| k.0 == setting.ratio && k.1 == key) {
+            Some(known) => Ok(known.2),
+            None => forecast(&setting.scene, setting.backend),
+        };
+        match found {
+            Ok(forecast) => {
+                known.push((setting.ratio, key, forecast));
+                queue.push((setting, forecast));
+            }
+            Err(error) => out
+                .left_out
+                .push(format!("{}, {}: {error}", setting.series, setting.value)),
+        }
+    }
+    queue.sort_by(|a, b| a.1.seconds.total_cmp(&b.1.seconds));
+    let mut pace = Pace::default();
+    let mut references: Vec<ReferenceRow> = Vec::new();
+    let n = queue.len();
+    for i in 0..n {
+        let (setting, cost) = &queue[i];
+        if observer.stop_requested() {
+            out.stopped = true;
+            break;
+        }
+        let expected = pace.seconds(cost.seconds);
+        let spent = start.elapsed().as_secs_f64();
+        if let Some(budget) = plan.budget
+            && !out.runs.is_empty()
+            && spent + expected > budget
+        {
+            out.left_out.push(format!(
+                "{}, {}: about {expected:.1} s, beyond the budget of {budget} s",
+                setting.series, setting.value
+            ));
+            continue;
+        }
+        let left: f64 = queue[i..]
+            .iter()
+            .map(|(_, c)| pace.seconds(c.seconds))
+            .sum();
+        let left = match out.runs.len() < TRUSTED {
+            true => String::new(),
+            false => format!("; about {left:.0} s left"),
+        };
+        observer.phase(&format!(
+            "run {} of {n}: {}, {}{left}",
+            i + 1,
+            setting.series,
+            setting.value
+        ));
+        let meter = Meter::start();
+        let found = run(&setting.scene, setting.backend, Extent::Program, observer);
+        let usage = meter.stop();
+        if observer.stop_requested() {
+            out.stopped = true;
+            break;
+        }
+        pace.learn(cost.seconds, usage.undisturbed_seconds());
+        if let Ok(results) = &found
+            && references.is_empty()
+        {
+            references.clone_from(&results.reference);
+        }
+        out.runs.push(record(setting, cost, usage, found));
+    }
+    out.quantities = judge(&out.runs, &references, scene);
+    out.seconds = start.elapsed().as_secs_f64();
+    Ok(out)
+}
+
+fn record(setting: &Setting, cost: &Forecast, usage: Usage, found: Result<Results>) -> StudyRun {
+    let mut out = StudyRun {
+        series: setting.series.clone(),
+        knob: setting.knob,
+        value: setting.value.clone(),
+        ratio: setting.ratio,
+        failed: None,
+        freedoms: 0,
+        increments: 0,
+        factor: [
+            cost.factor.flops,
+            cost.factor.factor_nonzeros,
+            cost.factor.trailing_nonzeros,
+        ],
+        counts: Counts::default(),
+        usage,
+        phases: Vec::new(),
+        values: Vec::new(),
+    };
+    match found {
+        Err(error) => out.failed = Some(error.to_string()),
+        Ok(results) => {
+            out.freedoms = results.sizes.freedoms;
+            out.increments = results.history.len();
+            let factor = &results.factor;
+            out.factor = [
+                factor.flops,
+                factor.factor_nonzeros,
+                factor.trailing_nonzeros,
+            ];
+            out.counts = results.counts;
+            out.values = quantities(&results)
+                .into_iter()
+                .map(|q| (q.path, q.value))
+                .collect();
+            for row in &results.reference {
+                if out.values.iter().all(|v| v.0 != row.quantity) {
+                    out.values.push((row.quantity.clone(), row.computed));
+                }
+            }
+            out.phases = results.timings;
+        }
+    }
+    out
+}

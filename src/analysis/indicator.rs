@@ -1,0 +1,374 @@
+//! How much the stresses of an element differ from a smoother, more accurate field: where the mesh is too coarse.
+//!
+//! Around each element a polynomial of the degree of its displacements is fitted, by least squares, to the stresses at
+//! the superconvergent points of the element and of those that share a node with it. The recovered `sigma*` converges
+//! faster than `sigma_h`, so that their difference in the energy norm estimates the error of `sigma_h`:
+//!
+//! ```text
+//!     eta_e^2 = integral over e of (sigma* - sigma_h) : C (sigma* - sigma_h),     C the elastic compliance
+//!     eta^2   = sum eta_e^2 / (sum of integral sigma_h : C sigma_h + sum eta_e^2)
+//! ```
+//!
+//! # Source
+//! O. C. Zienkiewicz, J. Z. Zhu, The superconvergent patch recovery and a posteriori error estimates, parts 1 and 2,
+//! Int. J. Numer. Meth. Engng 33 (1992) 1331-1382, doi:10.1002/nme.1620330702.
+
+use crate::assembly::LocalElement;
+use crate::element::{MAX_POINTS, shape_functions};
+use crate::material::Material;
+use crate::model::Model;
+use crate::scene::Kind;
+use nalgebra::SMatrix;
+use rayon::prelude::*;
+
+/// Stress `[xx, yy, zz, xy]` at the Gauss points of an element.
+pub(super) type PointStresses = [[f64; 4]; MAX_POINTS];
+
+/// Terms of a polynomial of degree 2.
+const MOST_TERMS: usize = 6;
+/// Smallest pivot of the scaled normal equations that counts as determined: the square root of what round-off leaves.
+const DETERMINED: f64 = 1e-7;
+
+/// Energy of the estimated stress error and of the stress itself, element by element.
+pub(super) struct Indicator {
+    /// `eta_e`, relative to the energy norm of the whole: the sum of their squares is the square of [`Indicator::total`].
+    pub by_element: Vec<f64>,
+    /// `eta`: estimated energy norm of the error over that of the solution, 0 to 1.
+    pub total: f64,
+}
+
+/// The indicator of a stress field: `stress` gives the Gauss points of an element.
+pub(super) fn indicator<'s>(
+    model: &Model,
+    stress: impl Fn(usize) -> &'s PointStresses + Sync,
+) -> Indicator {
+    let neighbours = Neighbours::new(model);
+    let samples: Vec<Samples> = (0..model.mesh.n_elements())
+        .into_par_iter()
+        .with_min_len(256)
+        .map(|e| Samples::new(model, e, stress(e)))
+        .collect();
+    let energies: Vec<[f64; 2]> = (0..model.mesh.n_elements())
+        .into_par_iter()
+        .with_min_len(64)
+        .map_init(Vec::new, |patch, e| {
+            neighbours.patch(model, e, patch);
+            energies(model, e, stress(e), patch, &samples)
+        })
+        .collect();
+    let sum = |i: usize| energies.iter().fold(0.0, |sum, e| sum + e[i]);
+    let (error, whole) = (sum(0), sum(0) + sum(1));
+    let share = |part: f64| {
+        if whole > 0.0 {
+            (part / whole).sqrt()
+        } else {
+            0.0
+        }
+    };
+    Indicator {
+        by_element: energies.iter().map(|e| share(e[0])).collect(),
+        total: share(error),
+    }
+}
+
+/// Elements at each node.
+struct Neighbours {
+    first: Vec<usize>,
+    elements: Vec<u32>,
+}
+
+impl Neighbours {
+    fn new(model: &Model) -> Self {
+        let mesh = &model.mesh;
+        let mut first = vec![0; mesh.n_nodes() + 1];
+        for &node in &mesh.connectivity {
+            first[node as usize + 1] += 1;
+        }
+        for node in 0..mesh.n_nodes() {
+            first[node + 1] += first[node];
+        }
+        let mut next = first.clone();
+        let mut elements = vec![0; mesh.connectivity.len()];
+        for e in 0..mesh.n_elements() {
+            for &node in mesh.nodes(e) {
+                elements[next[node as usize]] = e as u32;
+                next[node as usize] += 1;
+            }
+        }
+        Neighbours { first, elements }
+    }
+
+    /// The elements that share a node with `e`, itself included, ascending.
+    fn patch(&self, model: &Model, e: usize, patch: &mut Vec<u32>) {
+        patch.clear();
+        for &node in model.mesh.nodes(e) {
+            let node = node as usize;
+            patch.extend_from_slice(&self.elements[self.first[node]..self.first[node + 1]]);
+        }
+        patch.sort_unstable();
+        patch.dedup();
+    }
+}
+
+/// Stresses of an element at its superconvergent points.
+struct Samples {
+    n: usize,
+    positions: [[f64; 2]; MAX_POINTS],
+    stresses: PointStresses,
+}
+
+impl Samples {
+    /// The centre of a linear element carries its mean, the Gauss points of a quadratic one are superconvergent themselves.
+    fn new(model: &Model, e: usize, stress: &PointStresses) -> Self {
+        let points = LocalElement::points_of(model, e);
+        let mut out = Samples {
+            n: points.len(),
+            positions: [[0.0; 2]; MAX_POINTS],
+            stresses: *stress,
+        };
+        for (position, point) in out.positions.iter_mut().zip(points.iter()) {
+            *position = point.position;
+        }
+        if degree(model, e) == 1 {
+            let (mut at, mut mean, mut volume) = ([0.0; 2], [0.0; 4], 0.0);
+            for (point, stress) in points.iter().zip(stress) {
+                volume += point.weight;
+                for d in 0..2 {
+                    at[d] += point.weight * point.position[d];
+                }
+                for c in 0..4 {
+                    mean[c] += point.weight * stress[c];
+                }
+            }
+            out.n = 1;
+            out.positions[0] = at.map(|x| x / volume);
+            out.stresses[0] = mean.map(|s| s / volume);
+        }
+        out
+    }
+}
+
+/// Degree of the displacements of an element.
+fn degree(model: &Model, e: usize) -> usize {
+    let shape = model.mesh.shapes[e];
+    if shape.n_nodes() == shape.n_corners() {
+        1
+    } else {
+        2
+    }
+}
+
+/// Reference coordinates and weights: 3 x 3 Gauss points.
+const QUADRILATERAL: [([f64; 2], f64); 9] = {
+    const G: f64 = 0.774_596_669_241_483_4;
+    const A: f64 = 25.0 / 81.0;
+    const B: f64 = 40.0 / 81.0;
+    [
+        ([-G, -G], A),
+        ([0.0, -G], B),
+        ([G, -G], A),
+        ([-G, 0.0], B),
+        ([0.0, 0.0], 64.0 / 81.0),
+        ([G, 0.0], B),
+        ([-G, G], A),
+        ([0.0, G], B),
+        ([G, G], A),
+    ]
+};
+/// Reference coordinates and weights: six points, degree 4 (D. A. Dunavant, Int. J. Numer. Meth. Engng 21 (1985) 1129-1148,
+/// doi:10.1002/nme.1620210612).
+const TRIANGLE: [([f64; 2], f64); 6] = {
+    const A: f64 = 0.445_948_490_915_965;
+    const B: f64 = 0.091_576_213_509_771;
+    const WA: f64 = 0.111_690_794_839_005_5;
+    const WB: f64 = 0.054_975_871_827_661;
+    [
+        ([A, A], WA),
+        ([1.0 - 2.0 * A, A], WA),
+        ([A, 1.0 - 2.0 * A], WA),
+        ([B, B], WB),
+        ([1.0 - 2.0 * B, B], WB),
+        ([B, 1.0 - 2.0 * B], WB),
+    ]
+};
+
+/// A point of the quadrature: where, its weight, and `sigma_h` there.
+type Point = ([f64; 2], f64, [f64; 4]);
+
+/// Calls `visit` for each point at which the stresses are compared. Quadratic elements have their stress at the Gauss points,
+/// where it is superconvergent and its error all but vanishes: between them it is the polynomial through them.
+fn quadrature(model: &Model, e: usize, stress: &PointStresses, mut visit: impl FnMut(Point)) {
+    if degree(model, e) == 1 {
+        let points = LocalElement::points_of(model, e);
+        for (point, stress) in points.iter().zip(stress) {
+            visit((point.position, point.weight, *stress));
+        }
+        return;
+    }
+    let shape = model.mesh.shapes[e];
+    let coordinates = model.element_coordinates(e);
+    let triangle = shape.n_corners() == 3;
+    let rule: &[([f64; 2], f64)] = if triangle { &TRIANGLE } else { &QUADRILATERAL };
+    for &(reference, weight) in rule {
+        let (values, gradients) = shape_functions(shape, reference);
+        let (mut x, mut jacobian) = ([0.0; 2], [[0.0; 2]; 2]);
+        for (i, c) in coordinates.iter().enumerate().take(shape.n_nodes()) {
+            for d in 0..2 {
+                x[d] += values[i] * c[d];
+                jacobian[0][d] += gradients[i][0] * c[d];
+                jacobian[1][d] += gradients[i][1] * c[d];
+            }
+        }
+        let determinant = jacobian[0][0] * jacobian[1][1] - jacobian[0][1] * jacobian[1][0];
+        let around = match model.kind {
+            Kind::Axisymmetric => 2.0 * std::f64::consts::PI * x[0],
+            _ => 1.0,
+        };
+        let [a, b] = reference;
+        let shares = if triangle {
+            let (b, c) = (2.0 * a - 1.0 / 3.0, 2.0 * b - 1.0 / 3.0);
+            [1.0 - b - c, b, c, 0.0]
+        } else {
+            let (a, b) = (3f64.sqrt() * a, 3f64.sqrt() * b);
+            [
+                (1.0 - a) * (1.0 - b),
+                (1.0 + a) * (1.0 - b),
+                (1.0 + a) * (1.0 + b),
+                (1.0 - a) * (1.0 + b),
+            ]
+            .map(|n| 0.25 * n)
+        };
+        let between =
+            std::array::from_fn(|c| (0..MAX_POINTS).map(|g| shares[g] * stress[g][c]).sum());
+        visit((x, weight * determinant * around, between));
+    }
+}
+
+/// Energies of `sigma* - sigma_h` and of `sigma_h` over element `e`.
+fn energies(
+    model: &Model,
+    e: usize,
+    stress: &PointStresses,
+    patch: &[u32],
+    samples: &[Samples],
+) -> [f64; 2] {
+    let material = &model.materials[model.mesh.element_body[e] as usize];
+    let frame = Frame::new(model, e);
+    let most = if degree(model, e) == 1 { 3 } else { MOST_TERMS };
+    // A patch that does not determine the polynomial (a single element, a row of them) takes a lower degree.
+    let fit = [most, 3, 1]
+        .into_iter()
+        .find_map(|n| fit(&frame, patch, samples, n));
+    let mut out = [0.0; 2];
+    quadrature(model, e, stress, |(position, weight, computed)| {
+        let recovered = match &fit {
+            Some((n, coefficients)) => {
+                let terms = frame.terms(position);
+                std::array::from_fn(|c| (0..*n).map(|a| terms[a] * coefficients[(a, c)]).sum())
+            }
+            None => computed,
+        };
+        let difference: [f64; 4] = std::array::from_fn(|c| recovered[c] - computed[c]);
+        out[0] += weight * compliance_energy(material, &difference);
+        out[1] += weight * compliance_energy(material, &computed);
+    });
+    out
+}
+
+/// `sigma : C sigma = ((1 + nu) sigma : sigma - nu tr(sigma)^2) / E`.
+fn compliance_energy(material: &Material, [xx, yy, zz, xy]: &[f64; 4]) -> f64 {
+    let nu = material.poissons_ratio;
+    let trace = xx + yy + zz;
+    let square = xx * xx + yy * yy + zz * zz + 2.0 * xy * xy;
+    ((1.0 + nu) * square - nu * trace * trace) / material.youngs_modulus
+}
+
+/// Coordinates about an element, of order 1 in its patch.
+struct Frame {
+    center: [f64; 2],
+    scale: [f64; 2],
+}
+
+impl Frame {
+    fn new(model: &Model, e: usize) -> Self {
+        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for &node in model.mesh.nodes(e) {
+            let x = model.mesh.point(node as usize);
+            for d in 0..2 {
+                low[d] = low[d].min(x[d]);
+                high[d] = high[d].max(x[d]);
+            }
+        }
+        Frame {
+            center: std::array::from_fn(|d| 0.5 * (low[d] + high[d])),
+            scale: std::array::from_fn(|d| high[d] - low[d]),
+        }
+    }
+
+    fn terms(&self, at: [f64; 2]) -> [f64; MOST_TERMS] {
+        let [x, y]: [f64; 2] = std::array::from_fn(|d| (at[d] - self.center[d]) / self.scale[d]);
+        [1.0, x, y, x * x, x * y, y * y]
+    }
+}
+
+/// Weight of a sample at `(x, y)` in element sizes from the centre: the nearer ones count more, else a field that turns within
+/// the patch (stresses round a hole) is smoothed away.
+fn weight(x: f64, y: f64) -> f64 {
+    1.0 / (1.0 + (x * x + y * y).powi(2))
+}
+
+/// Coefficients of the weighted least-squares polynomial with `n` terms, `n x 4`; `None` where the samples do not determine it.
+fn fit(
+    frame: &Frame,
+    patch: &[u32],
+    samples: &[Samples],
+    n: usize,
+) -> Option<(usize, SMatrix<f64, MOST_TERMS, 4>)> {
+    let mut gram = SMatrix::<f64, MOST_TERMS, MOST_TERMS>::zeros();
+    let mut right = SMatrix::<f64, MOST_TERMS, 4>::zeros();
+    let mut used = 0;
+    for &member in patch {
+        let sample = &samples[member as usize];
+        for (position, stress) in sample.positions.iter().zip(&sample.stresses).take(sample.n) {
+            used += 1;
+            let terms = frame.terms(*position);
+            let weight = weight(terms[1], terms[2]);
+            for a in 0..n {
+                for b in 0..n {
+                    gram[(a, b)] += weight * terms[a] * terms[b];
+                }
+                for c in 0..4 {
+                    right[(a, c)] += weight * terms[a] * stress[c];
+                }
+            }
+        }
+    }
+    // As many samples as terms would be interpolated, noise and all.
+    if used <= n && n > 1 {
+        return None;
+    }
+    let scaling: [f64; MOST_TERMS] = std::array::from_fn(|i| {
+        if i < n {
+            1.0 / gram[(i, i)].sqrt()
+        } else {
+            1.0
+        }
+    });
+    // Terms that are left out are held at zero by a unit diagonal.
+    let scaled = SMatrix::<f64, MOST_TERMS, MOST_TERMS>::from_fn(|i, j| match i.max(j) < n {
+        true => gram[(i, j)] * scaling[i] * scaling[j],
+        false => f64::from(u8::from(i == j)),
+    });
+    let factor = scaled.cholesky()?;
+    if (0..n).any(|i| factor.l_dirty()[(i, i)] < DETERMINED) {
+        return None;
+    }
+    for (i, mut row) in right.row_iter_mut().enumerate() {
+        row *= scaling[i];
+    }
+    factor.solve_mut(&mut right);
+    for (i, mut row) in right.row_iter_mut().enumerate() {
+        row *= scaling[i];
+    }
+    Some((n, right))
+}

@@ -1,0 +1,141 @@
+//! Running a scene.
+
+use super::border::{BRINELL_OK, SizePrefixed, guarded, hand_out, note, shared, status};
+use super::options::{backend, brinell_options};
+use super::results::brinell_results;
+use super::scene::brinell_scene;
+use crate::analysis::Analysis;
+use crate::error::{Error, ErrorKind};
+use crate::model::Model;
+use crate::output::RunHeader;
+use crate::progress::{Flow, Observer};
+use crate::results::HistoryRow;
+use crate::scene::Kind;
+use std::ffi::{CString, c_char, c_void};
+use std::time::Instant;
+
+/// An accepted increment.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct brinell_increment {
+    /// sizeof(brinell_increment) of the library.
+    pub size: usize,
+    /// Number, from 1.
+    pub number: u64,
+    /// Load factor at its end, in the program's unit.
+    pub alpha: f64,
+    /// Total load.
+    pub load: f64,
+    /// Largest contact pressure.
+    pub max_pressure: f64,
+    /// Contact half width.
+    pub half_width: f64,
+    /// Sum of the contact forces.
+    pub contact_force: f64,
+    /// Pairs that are closed.
+    pub closed_pairs: u64,
+    /// Gauss points with plastic strain.
+    pub plastic_points: u64,
+    /// Largest equivalent plastic strain.
+    pub max_equivalent_plastic_strain: f64,
+    /// Share of the load program that lies behind.
+    pub fraction: f64,
+    /// What ended it, such as "closes: pair 12". Valid during the call only.
+    pub event: *const c_char,
+}
+
+// SAFETY: repr(C), begins with its size, numbers and a pointer.
+unsafe impl SizePrefixed for brinell_increment {
+    const NAME: &'static str = "brinell_increment";
+}
+
+/// Called in the calling thread after each accepted increment; anything but 0 stops the run there.
+pub type brinell_callback =
+    Option<unsafe extern "C" fn(increment: *const brinell_increment, user: *mut c_void) -> i32>;
+
+/// Passes increments on to a callback.
+struct Caller {
+    callback: brinell_callback,
+    user: *mut c_void,
+}
+
+// SAFETY: an analysis calls its observer in the thread that runs it, which is the one that gave the pointer.
+unsafe impl Send for Caller {}
+
+impl Observer for Caller {
+    fn increment(&mut self, row: &HistoryRow, fraction: f64) -> Flow {
+        let Some(callback) = self.callback else {
+            return Flow::Continue;
+        };
+        let event = CString::new(row.event.replace('\0', " ")).unwrap_or_default();
+        let increment = brinell_increment {
+            size: size_of::<brinell_increment>(),
+            number: row.increment as u64,
+            alpha: row.alpha,
+            load: row.load,
+            max_pressure: row.max_pressure,
+            half_width: row.half_width,
+            contact_force: row.contact_force,
+            closed_pairs: row.closed_pairs as u64,
+            plastic_points: row.plastic_points as u64,
+            max_equivalent_plastic_strain: row.max_equivalent_plastic_strain,
+            fraction,
+            event: event.as_ptr(),
+        };
+        // SAFETY: the callback and its pointer are the caller's; the structure lives during the call.
+        match unsafe { callback(&raw const increment, self.user) } {
+            0 => Flow::Continue,
+            _ => Flow::Stop,
+        }
+    }
+}
+
+/// Runs a scene's load program. `callback` (NULL for none) is called after each increment with `user`.
+///
+/// A run that was stopped, collapsed or failed after increments were accepted returns BRINELL_STOPPED, BRINELL_COLLAPSE or
+/// BRINELL_ANALYSIS *and* results: what was computed before. After any other failure `*out` is NULL.
+///
+/// # Safety
+/// `scene` is a living scene, `options` NULL or as long as it says, `out` may be written to; `callback` does not unwind.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn brinell_run(
+    scene: *const brinell_scene,
+    options: *const brinell_options,
+    callback: brinell_callback,
+    user: *mut c_void,
+    out: *mut *mut brinell_results,
+) -> i32 {
+    let mut ended = BRINELL_OK;
+    let done = guarded(|| {
+        // SAFETY: the caller vouches for every pointer.
+        unsafe {
+            *super::border::exclusive(out, "the place for the results")? = std::ptr::null_mut();
+            let scene = &shared(scene, "the scene")?.scene;
+            let backend = backend(options)?;
+            let start = Instant::now();
+            let mut analysis = Analysis::new(Model::new(scene)?, backend)?;
+            let results = analysis.run(&mut Caller { callback, user })?;
+            let model = analysis.model();
+            let kind = match scene.kind {
+                Kind::PlaneStrain => "plane_strain",
+                Kind::PlaneStress => "plane_stress",
+                Kind::Axisymmetric => "axisymmetric",
+            };
+            let header = RunHeader {
+                scene_title: scene.title.clone(),
+                scene_file: scene.file.as_ref().map(|file| file.display().to_string()),
+                kind: kind.to_string(),
+                solver: backend.name().to_string(),
+                wall_seconds: start.elapsed().as_secs_f64(),
+                bodies: model.mesh.bodies.clone(),
+            };
+            if let Some(why) = &results.incomplete {
+                let kind = results.incomplete_kind.unwrap_or(ErrorKind::Analysis);
+                ended = status(kind);
+                note(&Error::new(kind, why.clone()));
+            }
+            hand_out(out, brinell_results::new(results, model.clone(), header))
+        }
+    });
+    if done == BRINELL_OK { ended } else { done }
+}

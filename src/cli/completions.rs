@@ -1,0 +1,47 @@
+//! `brinell completions` and `brinell man`: from the same definitions as the help.
+
+use super::arguments::Arguments;
+use super::print;
+use crate::error::{Error, Result};
+use clap::{Args, CommandFactory};
+use clap_complete::Shell;
+
+/// What `brinell completions` takes.
+#[derive(Debug, Args)]
+pub(super) struct CompletionsArguments {
+    /// The shell
+    #[arg(value_enum)]
+    pub shell: Shell,
+}
+
+/// Prints completions.
+pub(super) fn run(arguments: &CompletionsArguments) -> Result<()> {
+    let mut text = Vec::new();
+    clap_complete::generate(
+        arguments.shell,
+        &mut Arguments::command(),
+        "brinell",
+        &mut text,
+    );
+    print(&String::from_utf8_lossy(&text))
+}
+
+/// Prints the manual page: the program, then each command.
+pub(super) fn man() -> Result<()> {
+    let failed = |cause| Error::internal("the manual page cannot be made").because(cause);
+    let mut command = Arguments::command();
+    command.build();
+    let mut text = Vec::new();
+    clap_mangen::Man::new(command.clone())
+        .render(&mut text)
+        .map_err(failed)?;
+    for command in command.get_subcommands().filter(|c| c.get_name() != "help") {
+        let man = clap_mangen::Man::new(command.clone());
+        let heading = format!(".SH \"COMMAND {}\"\n", command.get_name().to_uppercase());
+        text.extend(heading.into_bytes());
+        man.render_synopsis_section(&mut text).map_err(failed)?;
+        man.render_description_section(&mut text).map_err(failed)?;
+        man.render_options_section(&mut text).map_err(failed)?;
+    }
+    print(&String::from_utf8_lossy(&text))
+}

@@ -1,0 +1,92 @@
+//! `brinell example`: the commented scenes of the project, built in.
+
+use super::print;
+use super::table::{Column, Table};
+use crate::error::{Error, Result};
+use clap::Args;
+
+/// What `brinell example` takes.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: brinell example ball_on_half_space > ball.toml && brinell run ball.toml"
+)]
+pub(super) struct ExampleArguments {
+    /// Name of the example; without it the examples are listed
+    #[arg(value_name = "NAME")]
+    pub name: Option<String>,
+}
+
+/// Name and text.
+type Example = (&'static str, &'static str);
+
+macro_rules! examples {
+    ($($name:literal),* $(,)?) => {
+        &[$(($name, include_str!(concat!("../../data/scenes/", $name, ".toml")))),*]
+    };
+}
+
+/// All scenes of `data/scenes` that need no other file.
+const EXAMPLES: &[Example] = examples![
+    "ball_on_half_space",
+    "contact_patch",
+    "cylinder_on_half_plane",
+    "disc_in_plate",
+    "flat_punch",
+    "shrink_fit",
+    "thick_cylinder",
+    "thick_sphere",
+    "three_bodies",
+];
+
+/// Prints an example or the list.
+pub(super) fn run(arguments: &ExampleArguments) -> Result<()> {
+    let Some(name) = &arguments.name else {
+        let mut table = Table::new(&[(Column::Text, "example"), (Column::Text, "what")]);
+        for (name, text) in EXAMPLES {
+            table.row([name.to_string(), title(text).to_string()]);
+        }
+        return print(&table.render());
+    };
+    match EXAMPLES.iter().find(|(known, _)| known == name) {
+        Some((_, text)) => print(text),
+        None => {
+            let known: Vec<&str> = EXAMPLES.iter().map(|(name, _)| *name).collect();
+            Err(Error::input(format!(
+                "there is no example `{name}`; there are {}",
+                known.join(", ")
+            )))
+        }
+    }
+}
+
+/// The scene's title.
+fn title(text: &str) -> &str {
+    let line = text.lines().find_map(|l| l.strip_prefix("title = \""));
+    line.and_then(|rest| rest.strip_suffix('"'))
+        .unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    #[test]
+    fn every_scene_that_stands_alone_is_an_example_and_reads() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/data/scenes");
+        let mut names: Vec<String> = std::fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+            .filter(|path| path.extension().is_some_and(|e| e == "toml"))
+            .filter(|path| !std::fs::read_to_string(path).unwrap().contains("\nfile = "))
+            .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        let known: Vec<&str> = EXAMPLES.iter().map(|(name, _)| *name).collect();
+        assert_eq!(known, names);
+        for (name, text) in EXAMPLES {
+            let scene = Scene::parse(text, name).unwrap();
+            assert_eq!(scene.title, title(text), "{name}");
+        }
+    }
+}

@@ -1,0 +1,396 @@
+//! `brinell new`: a commented scene for a common problem from a few numbers. What a scene needs beyond them (how far the fine
+//! mesh reaches, which states to write) is set from the closed forms.
+
+use super::number::significant;
+use super::print;
+use crate::analytical::{HertzLine, HertzPoint, Plane, ShrinkFit, ThickCylinder, contact_modulus};
+use crate::error::{Error, ErrorKind, Result};
+use crate::scene::Scene;
+use clap::{Args, Subcommand};
+use std::io::Write;
+use std::path::PathBuf;
+
+/// What `brinell new` takes.
+#[derive(Debug, Args)]
+pub(super) struct NewArguments {
+    #[command(subcommand)]
+    pub problem: Problem,
+    /// File for the scene; without it the scene is printed
+    #[arg(long, short, global = true, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+}
+
+/// The problems. Units are N, mm and MPa.
+#[derive(Debug, Subcommand)]
+pub(super) enum Problem {
+    /// A ball is pressed on a flat and let go (axisymmetric)
+    BallOnFlat(Pressed),
+    /// A roller is pressed on a flat and let go (plane strain; the load is per mm of length)
+    RollerOnFlat(Pressed),
+    /// A shaft that is too thick for its bore: an interference fit (plane stress)
+    ShaftInBore(Fit),
+    /// A flat rigid punch goes into a block (plane strain)
+    Punch(Punch),
+}
+
+/// What bodies are made of.
+#[derive(Debug, Args)]
+pub(super) struct Steel {
+    /// Young's modulus [MPa]
+    #[arg(long, value_name = "E", default_value_t = 210_000.0)]
+    pub youngs_modulus: f64,
+    /// Poisson's ratio
+    #[arg(long, value_name = "NU", default_value_t = 0.3)]
+    pub poissons_ratio: f64,
+    /// Yield stress [MPa]
+    #[arg(long, value_name = "Y", default_value_t = 500.0)]
+    pub yield_stress: f64,
+    /// Plastic modulus, d(yield stress)/d(plastic strain) [MPa]; 0 is perfectly plastic
+    #[arg(long, value_name = "H", default_value_t = 2000.0)]
+    pub plastic_modulus: f64,
+}
+
+/// A round body on a flat.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: brinell new ball-on-flat --radius 5 --load 300 --out ball.toml && brinell run ball.toml"
+)]
+pub(super) struct Pressed {
+    /// Radius [mm]
+    #[arg(long, value_name = "R", default_value_t = 10.0)]
+    pub radius: f64,
+    /// Largest load [N; roller: N/mm]; by default three times the load at first yield
+    #[arg(long, value_name = "P")]
+    pub load: Option<f64>,
+    /// Elements over the contact half width at first yield
+    #[arg(long, value_name = "N", default_value_t = 12)]
+    pub resolution: usize,
+    #[command(flatten)]
+    pub steel: Steel,
+}
+
+/// A shaft in a bore.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: brinell new shaft-in-bore --radius 25 --outer-radius 60 --interference 0.04"
+)]
+pub(super) struct Fit {
+    /// Radius of the shaft and the bore [mm]
+    #[arg(long, value_name = "A", default_value_t = 50.0)]
+    pub radius: f64,
+    /// Outer radius of the ring [mm]; by default twice the bore's
+    #[arg(long, value_name = "B")]
+    pub outer_radius: Option<f64>,
+    /// How much thicker the shaft's radius is [mm]
+    #[arg(long, value_name = "D", default_value_t = 0.05)]
+    pub interference: f64,
+    /// Elements over a quarter circle (even)
+    #[arg(long, value_name = "N", default_value_t = 24)]
+    pub resolution: usize,
+    #[command(flatten)]
+    pub steel: Steel,
+}
+
+/// A punch.
+#[derive(Debug, Args)]
+#[command(after_help = "Example: brinell new punch --half-width 2 --depth 0.05")]
+pub(super) struct Punch {
+    /// Half width of the punch [mm]
+    #[arg(long, value_name = "A", default_value_t = 1.0)]
+    pub half_width: f64,
+    /// How deep it is pressed [mm]; by default a fiftieth of its half width
+    #[arg(long, value_name = "D")]
+    pub depth: Option<f64>,
+    /// Elements over the half width
+    #[arg(long, value_name = "N", default_value_t = 8)]
+    pub resolution: usize,
+    #[command(flatten)]
+    pub steel: Steel,
+}
+
+/// Writes the scene of a problem.
+pub(super) fn run(arguments: &NewArguments) -> Result<()> {
+    let text = match &arguments.problem {
+        Problem::BallOnFlat(pressed) => pressed_scene(pressed, true)?,
+        Problem::RollerOnFlat(pressed) => pressed_scene(pressed, false)?,
+        Problem::ShaftInBore(fit) => fit_scene(fit)?,
+        Problem::Punch(punch) => punch_scene(punch),
+    };
+    // What the flags say wrong is said before anything is written.
+    Scene::parse(&text, "the new scene")?;
+    let Some(path) = &arguments.out else {
+        return print(&text);
+    };
+    let written =
+        std::fs::File::create_new(path).and_then(|mut file| file.write_all(text.as_bytes()));
+    match written {
+        Err(cause) if cause.kind() == std::io::ErrorKind::AlreadyExists => Err(Error::new(
+            ErrorKind::Io,
+            format!(
+                "{} exists and is left as it is: choose another name",
+                path.display()
+            ),
+        )),
+        Err(cause) => Err(Error::io("write", path, cause)),
+        Ok(()) => print(&format!(
+            "{0} written; run it with: brinell run {0}\n",
+            path.display()
+        )),
+    }
+}
+
+/// A number as TOML has it: with a point or an exponent.
+fn toml(value: f64) -> String {
+    let text = format!("{value:?}");
+    match text.parse::<f64>() {
+        Ok(_) => text,
+        // Rust's infinities are not TOML's; reading the scene refuses both.
+        Err(_) => "nan".to_string(),
+    }
+}
+
+/// The material, and the bodies that are made of it.
+fn material(steel: &Steel, bodies: &[&str]) -> String {
+    let mut text = format!(
+        "[materials.steel]
+youngs_modulus = {}
+poissons_ratio = {}
+yield_stress = {}             # without it the material is elastic
+plastic_modulus = {}          # slope of yield stress over plastic strain; or tangent_modulus, or hardening_table
+",
+        toml(steel.youngs_modulus),
+        toml(steel.poissons_ratio),
+        toml(steel.yield_stress),
+        toml(steel.plastic_modulus),
+    );
+    for body in bodies {
+        text.push_str(&format!(
+            "\n[bodies.{body}]\nmaterial = \"steel\"           # plastic = false keeps a body elastic\n"
+        ));
+    }
+    text
+}
+
+const HEAD: &str = "# Made by `brinell new`; every value may be changed. Check it with `brinell check`, run it with `brinell run`.
+# Units N, mm, MPa: brinell converts nothing, any consistent ones will do.
+";
+const UNITS: &str =
+    "units = { length = \"mm\", force = \"N\", stress = \"MPa\" }   # names for the report";
+
+fn pressed_scene(pressed: &Pressed, ball: bool) -> Result<String> {
+    let steel = &pressed.steel;
+    let modulus = contact_modulus(
+        steel.youngs_modulus,
+        steel.poissons_ratio,
+        steel.youngs_modulus,
+        steel.poissons_ratio,
+    );
+    let (nu, y) = (steel.poissons_ratio, steel.yield_stress);
+    let (yield_load, widths): (f64, Box<dyn Fn(f64) -> f64>) = if ball {
+        let hertz = HertzPoint::new(pressed.radius, modulus)?;
+        let widths = move |load| hertz.contact_radius(load);
+        (hertz.yield_load(nu, y), Box::new(widths))
+    } else {
+        let hertz = HertzLine::new(pressed.radius, modulus)?;
+        (
+            hertz.yield_load(nu, y),
+            Box::new(move |load| hertz.half_width(load)),
+        )
+    };
+    let load = pressed.load.unwrap_or_else(|| {
+        // Two digits are enough for a load that nobody gave.
+        let digits = 10f64.powf((3.0 * yield_load).log10().floor() - 1.0);
+        (3.0 * yield_load / digits).ceil() * digits
+    });
+    let reach = widths(load) / widths(yield_load);
+    // Flowing material makes the contact wider than Hertz says, and the zone grows with it.
+    let fine_width = (1.4 * reach).max(2.0);
+    let fine_depth = (1.1 * reach).max(1.5);
+    let (shape, kind, per) = match ball {
+        true => ("Ball", "axisymmetric", "N over the full circle"),
+        false => ("Roller", "plane_strain", "N per mm of length"),
+    };
+    let first = match load > yield_load {
+        true => "    { yield = true },                    # first yield\n",
+        false => "",
+    };
+    let symmetry = match ball {
+        true => "".to_string(),
+        false => "symmetry = 2                 # half model, x >= 0: loads and results are those of the whole\n".to_string(),
+    };
+    let far = match ball {
+        true => {
+            "far_size = 200.0             # size of the bodies, in half widths: they stand for infinite ones\n"
+        }
+        false => "",
+    };
+    let material = material(steel, &["cylinder", "half_plane"]);
+    Ok(format!(
+        "{HEAD}#
+# By Hertz the material first yields at a load of {yields} {per}.
+title = \"{shape} on a flat\"
+kind = \"{kind}\"
+{UNITS}
+{symmetry}
+# The generator's names are `cylinder` for the upper body and `half_plane` for the lower one, whatever they stand for.
+[mesh.cylinder_on_half_plane]
+radius = {radius}
+resolution = {resolution}              # elements over the contact half width at first yield: 8 coarse, 16 fine
+fine_width = {fine_width}            # how far the fine mesh reaches, in half widths at first yield
+fine_depth = {fine_depth}
+{far}
+{material}
+[[contact]]
+first = \"cylinder.contact\"
+second = \"half_plane.contact\"
+
+# Symmetry: nothing crosses the line x = 0.
+[[support]]
+on = \"cylinder.symmetry\"
+fix = [\"x\"]
+
+[[support]]
+on = \"half_plane.symmetry\"
+fix = [\"x\"]
+
+[[support]]
+on = \"half_plane.bottom\"
+fix = [\"y\"]
+
+[[load]]
+name = \"press\"
+on = \"cylinder.top\"
+plane_force = {{ direction = \"y\", total = {total} }}   # {per}; the surface stays plane
+
+# Pressed to the full load, then let go: what stays is the dent.
+[program]
+targets = [
+{first}    {{ name = \"pressed\", load_factor = 1.0 }},
+    {{ name = \"unloaded\", load_factor = 0.0 }},
+]
+",
+        yields = significant(yield_load, 4),
+        radius = toml(pressed.radius),
+        resolution = pressed.resolution,
+        fine_width = significant(fine_width, 3),
+        fine_depth = significant(fine_depth, 3),
+        total = toml(-load),
+    ))
+}
+
+fn fit_scene(fit: &Fit) -> Result<String> {
+    let outer = fit.outer_radius.unwrap_or(2.0 * fit.radius);
+    let (young, poisson) = (fit.steel.youngs_modulus, fit.steel.poissons_ratio);
+    let ring = ThickCylinder::new(fit.radius, outer, young, poisson, Plane::Stress)?;
+    let elastic = ShrinkFit::new(fit.interference, ring, 0.0, young, poisson)?;
+    let material = material(&fit.steel, &["shaft", "ring"]);
+    Ok(format!(
+        "{HEAD}#
+# Elastic, the pressure is {pressure} MPa; the ring first yields at an interference of {first} mm.
+title = \"Shaft in a bore, interference fit\"
+kind = \"plane_stress\"
+{UNITS}
+
+# Quarter model. Nodes must pair: the disc has `elements` over its quarter circle, the ring the same number along its angle.
+[[mesh.parts]]
+body = \"shaft\"
+disc = {{ radius = {radius}, elements = {n} }}
+
+[[mesh.parts]]
+body = \"ring\"
+ring = {{ radius = [{radius}, {outer}], elements = [{n}, {n}] }}
+
+{material}
+[[contact]]
+first = \"shaft.outer\"
+second = \"ring.inner\"
+interference = {interference}          # how much thicker the shaft's radius is: applied before the load program
+
+# Symmetry: nothing crosses the lines x = 0 and y = 0.
+[[support]]
+on = \"shaft.start\"
+fix = [\"y\"]
+
+[[support]]
+on = \"shaft.end\"
+fix = [\"x\"]
+
+[[support]]
+on = \"ring.start\"
+fix = [\"y\"]
+
+[[support]]
+on = \"ring.end\"
+fix = [\"x\"]
+
+# No load: the state asked for is that of the fit alone.
+[program]
+targets = [{{ name = \"fitted\", load_factor = 0.0 }}]
+",
+        pressure = significant(elastic.pressure(), 4),
+        first = significant(elastic.ring_yield_interference(fit.steel.yield_stress), 4),
+        radius = toml(fit.radius),
+        outer = toml(outer),
+        n = fit.resolution,
+        interference = toml(fit.interference),
+    ))
+}
+
+fn punch_scene(punch: &Punch) -> String {
+    let a = punch.half_width;
+    let depth = punch.depth.unwrap_or(0.02 * a);
+    let limit = (2.0 + std::f64::consts::PI) * punch.steel.yield_stress / 3f64.sqrt() * 2.0 * a;
+    let n = 5 * punch.resolution;
+    let material = material(&punch.steel, &["block"]);
+    format!(
+        "{HEAD}#
+# A perfectly plastic block carries 2a (2 + pi) Y/sqrt(3) = {limit} N per mm (Prandtl 1920); elements give a little more.
+title = \"Flat punch on a block\"
+kind = \"plane_strain\"
+{UNITS}
+symmetry = 2                 # half model, x >= 0: loads and results are those of the whole
+
+# The punch itself needs no mesh: it is a prescribed displacement of a piece of the block's top, free to slide.
+[[mesh.parts]]
+body = \"block\"
+
+[mesh.parts.block]
+x = [0.0, {far}]
+y = [-{far}, 0.0]
+elements = [{n}, {n}]
+pieces = [{{ name = \"punch\", side = \"top\", from = 0.0, to = {a} }}]
+
+{material}
+[[support]]
+on = \"block.left\"            # symmetry
+fix = [\"x\"]
+
+[[support]]
+on = \"block.right\"           # held in: a free side gives way
+fix = [\"x\"]
+
+[[support]]
+on = \"block.bottom\"
+fix = [\"x\", \"y\"]
+
+[[load]]
+name = \"punch\"
+on = \"block.punch\"
+displacement = {{ y = {depth} }}
+
+# Fixed steps: without contact there is no event to step to.
+[program]
+stepping = \"steps\"
+steps = 10
+targets = [
+    {{ load_factor = 0.25 }},
+    {{ load_factor = 0.5 }},
+    {{ name = \"pressed\", load_factor = 1.0 }},   # not back to 0: a prescribed displacement would pull
+]
+",
+        limit = significant(limit, 4),
+        far = toml(5.0 * a),
+        a = toml(a),
+        depth = toml(-depth),
+    )
+}

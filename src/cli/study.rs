@@ -1,0 +1,197 @@
+//! `brinell accuracy SCENE`: what the digits cost.
+
+use super::arguments::{CommonArguments, Shown};
+use super::commands::{header, json, prepare};
+use super::number::{bytes, seconds, significant};
+use super::progress::Progress;
+use super::table::{Column::*, Table, WIDTH, wrap};
+use super::{interrupt, print};
+use crate::accuracy::{Knob, Plan, QuantityStudy, Study, foremost, study};
+use crate::error::{Error, ErrorKind, Result};
+use crate::model::Model;
+use crate::output;
+use clap::Args;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Arguments of `brinell accuracy`.
+#[derive(Debug, Args)]
+pub(super) struct StudyArguments {
+    #[command(flatten)]
+    pub common: CommonArguments,
+    /// Directory for accuracy.json, accuracy.csv and the plots; SCENE with the ending .accuracy if it is not given
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Time that the study may take, such as 60s or 10min; runs that would not fit are left out
+    #[arg(long, value_name = "TIME", value_parser = duration)]
+    pub budget: Option<f64>,
+    /// Meshes in a series: the finest has twice as many elements along a line as the scene, the next each 1/sqrt(2) of that
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u16).range(2..=12))]
+    pub levels: u16,
+    /// What to turn, separated by commas: resolution, element, stepping, tolerance, gamma, algorithm, backend; default all
+    #[arg(long, value_name = "KNOBS", value_delimiter = ',')]
+    pub knobs: Vec<String>,
+    /// No progress, only results and errors
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// `60`, `60s`, `2min`, `1h` in seconds.
+fn duration(text: &str) -> std::result::Result<f64, String> {
+    let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+    let unit = match &text[digits.len()..] {
+        "" | "s" => 1.0,
+        "min" | "m" => 60.0,
+        "h" => 3600.0,
+        other => return Err(format!("unknown unit `{other}`; give s, min or h")),
+    };
+    match digits.trim().parse::<f64>() {
+        Ok(value) if value > 0.0 && value.is_finite() => Ok(value * unit),
+        _ => Err("give a positive time, such as 60s".to_string()),
+    }
+}
+
+/// Runs the study, writes it and says what it found.
+pub(super) fn execute(arguments: &StudyArguments) -> Result<()> {
+    let common = &arguments.common;
+    let scene = prepare(common)?;
+    let mut plan = Plan {
+        levels: usize::from(arguments.levels),
+        budget: arguments.budget,
+        ..Plan::default()
+    };
+    if !arguments.knobs.is_empty() {
+        plan.knobs = arguments
+            .knobs
+            .iter()
+            .map(|k| Knob::from_name(k))
+            .collect::<Result<_>>()?;
+    }
+    let out = (arguments.out.clone()).unwrap_or_else(|| common.scene.with_extension("accuracy"));
+    output::check_directory(&out)?;
+    interrupt::listen()?;
+    let start = Instant::now();
+    let mut progress = Progress::new(arguments.quiet, Shown::default());
+    let found = study(&scene, common.solver.into(), &plan, &mut progress)?;
+    let header = header(
+        &scene,
+        &Model::new(&scene)?,
+        common,
+        start.elapsed().as_secs_f64(),
+    );
+    progress.start("output");
+    output::write_study(&out, &header, &found)?;
+    progress.finish();
+    let text = match common.json {
+        true => json(&output::study_json(&header, &found))?,
+        false => report(&found, &out),
+    };
+    print(&text)?;
+    match found.stopped {
+        false => Ok(()),
+        true => Err(Error::new(
+            ErrorKind::Stopped,
+            format!(
+                "the study was stopped after {} runs; they are kept",
+                found.runs.len()
+            ),
+        )),
+    }
+}
+
+fn report(study: &Study, out: &Path) -> String {
+    let mut text = String::from("Runs\n");
+    let mut table = Table::new(&[
+        (Text, "series"),
+        (Text, "setting"),
+        (Number, "freedoms"),
+        (Number, "time"),
+        (Number, "memory"),
+        (Number, "plastic\niterations"),
+        (Number, "worst\nerror [%]"),
+    ]);
+    let all = study.quantities.first();
+    for (i, run) in study.runs.iter().enumerate() {
+        let error = all.and_then(|q| q.errors[i]);
+        table.row([
+            run.series.clone(),
+            match &run.failed {
+                None => run.value.clone(),
+                Some(why) => format!("{}: {why}", run.value),
+            },
+            run.freedoms.to_string(),
+            seconds(run.usage.wall_seconds),
+            run.usage
+                .peak_memory_bytes
+                .map_or("-".to_string(), |b| bytes(b as f64)),
+            run.counts.plastic_iterations.to_string(),
+            error.map_or("-".to_string(), |e| significant(100.0 * e, 3)),
+        ]);
+    }
+    text.push_str(&table.render());
+    text.push_str("\nPrices\n");
+    for quantity in foremost(&study.quantities) {
+        prices(quantity, &mut text);
+    }
+    if !study.left_out.is_empty() {
+        text.push_str("\nLeft out\n");
+        for item in &study.left_out {
+            bullet(item, &mut text);
+        }
+    }
+    text.push_str(&format!(
+        "\nStudy in {}: accuracy.json, accuracy.csv, a plot per quantity ({})\n",
+        out.display(),
+        seconds(study.seconds)
+    ));
+    text
+}
+
+fn prices(quantity: &QuantityStudy, text: &mut String) {
+    let orders: Vec<String> = quantity
+        .orders
+        .iter()
+        .map(|(series, order)| format!("{series} {}", significant(*order, 2)))
+        .collect();
+    let reference = match &quantity.reference {
+        None => "the worst of all quantities".to_string(),
+        Some(r) if r.uncertainty == 0.0 => format!("{} ({})", significant(r.value, 6), r.source),
+        Some(r) => format!(
+            "{} +- {} ({})",
+            significant(r.value, 6),
+            significant(r.uncertainty, 2),
+            r.source
+        ),
+    };
+    text.push_str(&format!("  {}\n", quantity.quantity));
+    bullet(&format!("reference: {reference}"), text);
+    if !orders.is_empty() {
+        bullet(&format!("observed orders: {}", orders.join(", ")), text);
+    }
+    for words in &quantity.words {
+        bullet(words, text);
+    }
+}
+
+fn bullet(item: &str, text: &mut String) {
+    for (i, line) in wrap(item, WIDTH - 6).iter().enumerate() {
+        let mark = if i == 0 { "    - " } else { "      " };
+        text.push_str(&format!("{mark}{line}\n"));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn durations_have_units() {
+        assert_eq!(duration("60"), Ok(60.0));
+        assert_eq!(duration("90s"), Ok(90.0));
+        assert_eq!(duration("1.5min"), Ok(90.0));
+        assert_eq!(duration("2h"), Ok(7200.0));
+        for wrong in ["", "s", "-3s", "3 weeks", "infs", "0s"] {
+            assert!(duration(wrong).is_err(), "{wrong}");
+        }
+    }
+}

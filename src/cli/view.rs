@@ -1,0 +1,232 @@
+//! `brinell view`: the main figures of a result directory in the terminal.
+
+use super::number::{number, significant};
+use super::print;
+use crate::error::{Error, Result};
+use clap::Args;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// What `brinell view` takes.
+#[derive(Debug, Args)]
+#[command(after_help = "Example: brinell view data/scenes/cylinder_on_half_plane.out")]
+pub(super) struct ViewArguments {
+    /// A directory that `brinell run` wrote
+    #[arg(value_name = "DIR")]
+    pub dir: PathBuf,
+    /// Columns of the plots
+    #[arg(long, value_name = "N", default_value_t = 72, value_parser = clap::value_parser!(u16).range(20..=400))]
+    pub width: u16,
+}
+
+/// Prints what a result directory holds, as far as a terminal shows it.
+pub(super) fn run(arguments: &ViewArguments) -> Result<()> {
+    let dir = &arguments.dir;
+    let summary = summary(dir)?;
+    let mut text = headlines(&summary);
+    let history = Table::read(&dir.join("history.csv"))?;
+    // Where a displacement is prescribed without contact the history has no load.
+    let load = history.column("load")?;
+    let (load, against) = match load.iter().any(|l| l.is_finite()) {
+        true => (load, "load"),
+        false => (history.column("alpha")?, "load factor"),
+    };
+    let columns = usize::from(arguments.width);
+    for (name, title) in [
+        ("max_pressure", "Maximum contact pressure"),
+        ("half_width", "Contact half width"),
+        (
+            "max_equivalent_plastic_strain",
+            "Largest equivalent plastic strain",
+        ),
+    ] {
+        let values = history.column(name)?;
+        let points: Vec<[f64; 2]> = load.iter().zip(&values).map(|(x, y)| [*x, *y]).collect();
+        if values.iter().any(|v| *v > 0.0) {
+            text.push_str(&format!(
+                "\n{title} against {against}\n{}",
+                plot(&points, columns)
+            ));
+        }
+    }
+    text.push_str(&match dir.join("report.html") {
+        report if report.exists() => format!("\nReport: {}\n", report.display()),
+        _ => "\nThere is no report.html here: the run was made with --no-report\n".to_string(),
+    });
+    print(&text)
+}
+
+fn summary(dir: &Path) -> Result<Value> {
+    let path = dir.join("summary.json");
+    let text = std::fs::read_to_string(&path).map_err(|cause| {
+        Error::io("read the results", &path, cause)
+            .within("no directory of results that brinell wrote")
+    })?;
+    let summary: Value = serde_json::from_str(&text).map_err(|cause| {
+        Error::input(format!("{}: not valid JSON", path.display())).because(cause)
+    })?;
+    if summary["brinell"].is_string() {
+        Ok(summary)
+    } else {
+        Err(Error::input(format!(
+            "{}: not a summary of brinell (it has no key `brinell`)",
+            path.display()
+        )))
+    }
+}
+
+fn headlines(summary: &Value) -> String {
+    let say = |value: &Value| value.as_f64().map_or("-".to_string(), number);
+    let mut text = format!("{}\n", summary["scene"].as_str().unwrap_or("Untitled"));
+    if let Some(why) = summary["incomplete"].as_str() {
+        text.push_str(&format!("INCOMPLETE: {why}\n"));
+    }
+    let contact = summary["contact_pairs"] != 0;
+    let first = &summary["yield"];
+    if first.is_object() {
+        text.push_str(&match first["load"].is_null() {
+            true => format!("First yield at load factor {}", say(&first["alpha"])),
+            false => format!("First yield at load {}", say(&first["load"])),
+        });
+        if contact {
+            text.push_str(&format!(
+                ", pressure {}, half width {}",
+                say(&first["max_pressure"]),
+                say(&first["half_width"])
+            ));
+        }
+        text.push('\n');
+    }
+    for state in summary["states"].as_array().into_iter().flatten() {
+        text.push_str(&format!(
+            "  {:24} load {}",
+            state["name"].as_str().unwrap_or(""),
+            say(&state["load"])
+        ));
+        if contact {
+            text.push_str(&format!(
+                ", pressure {}, half width {}, residual depth {}",
+                say(&state["max_pressure"]),
+                say(&state["half_width"]),
+                say(&state["residual_depth"])
+            ));
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// A CSV file by columns.
+struct Table {
+    path: PathBuf,
+    head: csv::StringRecord,
+    rows: Vec<csv::StringRecord>,
+}
+
+impl Table {
+    fn read(path: &Path) -> Result<Self> {
+        let damaged = |cause: csv::Error| {
+            Error::input(format!("{}: cannot be read as CSV", path.display())).because(cause)
+        };
+        let mut reader = csv::Reader::from_path(path).map_err(damaged)?;
+        Ok(Table {
+            head: reader.headers().map_err(damaged)?.clone(),
+            rows: reader
+                .records()
+                .collect::<std::result::Result<_, _>>()
+                .map_err(damaged)?,
+            path: path.to_path_buf(),
+        })
+    }
+
+    /// The numbers of a column; an empty cell is not a number.
+    fn column(&self, name: &str) -> Result<Vec<f64>> {
+        let place = self.head.iter().position(|n| n == name).ok_or_else(|| {
+            Error::input(format!(
+                "{}: there is no column `{name}`",
+                self.path.display()
+            ))
+        })?;
+        let cell = |row: &csv::StringRecord| row.get(place).and_then(|c| c.parse().ok());
+        Ok(self
+            .rows
+            .iter()
+            .map(|row| cell(row).unwrap_or(f64::NAN))
+            .collect())
+    }
+}
+
+/// Lines of a plot without axes.
+const LINES: usize = 12;
+
+/// Points joined by lines, with 2 x 4 dots in each character (Unicode braille).
+fn plot(points: &[[f64; 2]], columns: usize) -> String {
+    let largest = |k: usize| {
+        let finite = points.iter().map(|p| p[k]).filter(|v| v.is_finite());
+        finite.fold(0.0, f64::max)
+    };
+    let top = [largest(0), largest(1)].map(|v| if v > 0.0 { v } else { 1.0 });
+    let label = 11;
+    let width = columns.saturating_sub(label + 2).max(8);
+    let mut cells = vec![0u8; width * LINES];
+    let mut dot = |x: f64, y: f64| {
+        if !(x >= 0.0 && y >= 0.0) {
+            return;
+        }
+        let right = ((x * (2 * width - 1) as f64).round() as usize).min(2 * width - 1);
+        let down = ((1.0 - y.min(1.0)) * (4 * LINES - 1) as f64).round() as usize;
+        // Dots 1 2 3 7 of a braille character run down its left, 4 5 6 8 down its right.
+        const BITS: [[u8; 2]; 4] = [[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]];
+        cells[down / 4 * width + right / 2] |= BITS[down % 4][right % 2];
+    };
+    for pair in points.windows(2) {
+        let [p, q] = [pair[0], pair[1]].map(|p| [p[0] / top[0], p[1] / top[1]]);
+        let steps = 4 * (width + LINES);
+        for step in 0..=steps {
+            let share = step as f64 / steps as f64;
+            dot(p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1]));
+        }
+    }
+    let mut text = String::new();
+    for (line, row) in cells.chunks(width).enumerate() {
+        let at = match line {
+            0 => significant(top[1], 4),
+            l if l + 1 == LINES => "0".to_string(),
+            _ => String::new(),
+        };
+        let row: String = row
+            .iter()
+            .filter_map(|&bits| char::from_u32(0x2800 + u32::from(bits)))
+            .collect();
+        text.push_str(&format!("{at:>label$} │{row}\n"));
+    }
+    let end = significant(top[0], 4);
+    text.push_str(&format!("{:>label$} └{}\n", "", "─".repeat(width)));
+    let room = width.saturating_sub(end.len() + 1);
+    text.push_str(&format!("{:>label$}  0{:room$}{end}\n", "", ""));
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rising_line_goes_from_corner_to_corner() {
+        let text = plot(&[[0.0, 0.0], [2.0, 5.0]], 40);
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines.len(), LINES + 2);
+        assert!(lines[0].contains("5.000 │") && lines[0].trim_end().ends_with(|c| c > '\u{2800}'));
+        let bottom = lines[LINES - 1].split('│').nth(1).unwrap();
+        assert!(bottom.starts_with(|c| c > '\u{2800}'), "{bottom}");
+        assert!(lines[LINES + 1].ends_with("2.000"));
+        assert!(lines.iter().all(|l| l.chars().count() <= 40));
+    }
+
+    #[test]
+    fn what_is_no_number_is_left_out() {
+        let text = plot(&[[f64::NAN, 1.0], [1.0, f64::INFINITY], [0.0, 0.0]], 20);
+        assert!(text.lines().count() == LINES + 2);
+        assert!(plot(&[], 30).lines().count() == LINES + 2);
+    }
+}

@@ -1,0 +1,455 @@
+//! A stiffness matrix with contact rows, for programs that have their own elements: condense, solve contact, follow the load from
+//! event to event.
+//!
+//! Given the symmetric positive (semi)definite stiffness `K`, rows `B` and gaps `delta`,
+//!
+//! ```text
+//!     K u = f - B' r,     g = delta - B u >= 0,     r >= 0,     g . r = 0
+//! ```
+//!
+//! A row is any linear combination of freedoms: the relative normal displacement of two nodes, or of a node and a point
+//! between others. The freedoms that occur in rows are the contact freedoms `c`; `K` is condensed on them to `C`. On
+//! the rows, `B u_c = delta - g` holds exactly, so that `M = C + B' S B` may stand for `C` (`S` a diagonal of the size
+//! of `C`'s own): it is definite also where a body is held by contact alone. With `A = B M^-1 B'`
+//!
+//! ```text
+//!     r = q + T g,    T = A^-1 - S,    q = A^-1 B M^-1 f_c - T delta
+//! ```
+//!
+//! is the problem of [`crate::contact`]. Plastic strains are loads like any others: `f + sum of B_e' D eps_p` over elements.
+
+use crate::contact::{self, Change, Path, PathEnd, Tableau, Unbounded};
+use crate::error::{Error, ErrorKind, Result};
+use crate::linalg::{self, Backend, Condensed, NotDefinite, Partition, SymmetricCsc};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use std::collections::BTreeMap;
+
+/// Share of `S` below which a diagonal entry of `T = A^-1 - S` is round-off of the subtraction.
+const CANCELLED: f64 = 1e-12;
+
+/// A sparse stiffness with contact rows, factored and condensed once.
+pub struct ConstrainedStructure {
+    n: usize,
+    condensed: Box<dyn Condensed>,
+    /// Contact freedoms, ascending.
+    contact: Vec<usize>,
+    /// `n_rows x n_contact`.
+    rows: DMatrix<f64>,
+    gaps: DVector<f64>,
+    /// Diagonal of S.
+    shift: DVector<f64>,
+    /// Factor of M.
+    held: Cholesky<f64, Dyn>,
+    /// A^-1.
+    inverse: DMatrix<f64>,
+    tableau: Tableau,
+    state: State,
+    way: Option<Way>,
+}
+
+/// Loads, gaps and forces.
+#[derive(Clone)]
+struct State {
+    load: Vec<f64>,
+    /// The load condensed on the contact freedoms.
+    condensed: DVector<f64>,
+    gap: Vec<f64>,
+    force: Vec<f64>,
+}
+
+/// A piece of the load path.
+struct Way {
+    path: Path,
+    start: State,
+    rate: Vec<f64>,
+    condensed_rate: DVector<f64>,
+    /// Whether the path stands at an event whose statuses are still to be settled.
+    at_event: bool,
+}
+
+/// Where [`ConstrainedStructure::step`] stopped.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Event {
+    /// Position on the piece: the load is `start + t rate`.
+    pub t: f64,
+    /// The changes of contact there; empty at the end of the piece.
+    pub changes: Vec<Change>,
+}
+
+impl ConstrainedStructure {
+    /// Factors `stiffness` (upper triangle) and condenses it on the freedoms of `rows`. Each row lists (freedom,
+    /// coefficient) of `B`; `gaps` holds `delta`, one value for each row. The state is that without load.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] where sizes, freedoms or values do not fit, or where rows depend on each other;
+    /// [`ErrorKind::Unheld`] naming the freedom where the structure is not held even with all rows closed; backend limits.
+    pub fn new(
+        backend: Backend,
+        stiffness: &SymmetricCsc,
+        rows: &[Vec<(usize, f64)>],
+        gaps: &[f64],
+    ) -> Result<Self> {
+        let n = stiffness.cols();
+        check(n, rows, gaps)?;
+        let mut place: BTreeMap<usize, usize> =
+            rows.iter().flatten().map(|&(f, _)| (f, 0)).collect();
+        for (i, at) in place.values_mut().enumerate() {
+            *at = i;
+        }
+        let partition = Partition {
+            n,
+            zone: Vec::new(),
+            contact: place.keys().copied().collect(),
+        };
+        let condensed = condense(backend, stiffness, &partition)?;
+        let mut b = DMatrix::zeros(rows.len(), partition.contact.len());
+        for (i, row) in rows.iter().enumerate() {
+            for (freedom, coefficient) in row {
+                b[(i, place[freedom])] += coefficient;
+            }
+        }
+        let c = condensed.contact_stiffness();
+        let size = c.diagonal().amax();
+        let shift = DVector::from_fn(rows.len(), |i, _| {
+            let b = b.row(i);
+            // Stiffness of the row's own freedoms: what `S` must be comparable with.
+            let own: f64 = b.iter().enumerate().map(|(k, v)| v * v * c[(k, k)]).sum();
+            let norm = b.norm_squared();
+            if own > 1e-9 * size * norm {
+                own / (norm * norm)
+            } else {
+                size / norm
+            }
+        });
+        let mut m = c.clone_owned();
+        for i in 0..rows.len() {
+            m += b.row(i).transpose() * b.row(i) * shift[i];
+        }
+        let unheld = || {
+            Error::new(
+                ErrorKind::Unheld,
+                "the structure is not held even with all contact rows closed: its condensed stiffness is not positive definite",
+            )
+        };
+        let held = Cholesky::new(m).ok_or_else(unheld)?;
+        let half = held
+            .l_dirty()
+            .solve_lower_triangular(&b.transpose())
+            .ok_or_else(unheld)?;
+        let dependent = || {
+            Error::input(
+                "the contact rows depend on each other: each must restrict a motion that the others leave free",
+            )
+        };
+        let inverse = match rows.len() {
+            0 => DMatrix::zeros(0, 0),
+            _ => Cholesky::new(half.tr_mul(&half))
+                .ok_or_else(dependent)?
+                .inverse(),
+        };
+        let mut matrix = inverse.clone();
+        for i in 0..rows.len() {
+            matrix[(i, i)] -= shift[i];
+        }
+        let mut matrix = 0.5 * (&matrix + matrix.transpose());
+        for i in 0..rows.len() {
+            // Where nothing but this row holds a body, T is zero: the difference of equals leaves round-off.
+            if matrix[(i, i)] <= CANCELLED * shift[i] {
+                matrix.row_mut(i).fill(0.0);
+                matrix.column_mut(i).fill(0.0);
+            }
+        }
+        let mut structure = ConstrainedStructure {
+            n,
+            state: State {
+                load: vec![0.0; n],
+                condensed: DVector::zeros(partition.contact.len()),
+                gap: gaps.to_vec(),
+                force: vec![0.0; rows.len()],
+            },
+            contact: partition.contact,
+            condensed,
+            rows: b,
+            gaps: DVector::from_column_slice(gaps),
+            shift,
+            held,
+            inverse,
+            tableau: Tableau::new(matrix),
+            way: None,
+        };
+        structure.solve(&vec![0.0; n])?;
+        Ok(structure)
+    }
+
+    /// Number of freedoms.
+    pub fn n_freedoms(&self) -> usize {
+        self.n
+    }
+
+    /// Number of contact rows.
+    pub fn n_rows(&self) -> usize {
+        self.gaps.len()
+    }
+
+    /// The contact freedoms, ascending: rows and columns of [`ConstrainedStructure::condensed_stiffness`].
+    pub fn contact_freedoms(&self) -> &[usize] {
+        &self.contact
+    }
+
+    /// `C = K_cc - K_ci K_ii^-1 K_ic`, `n_contact x n_contact`, symmetric, column-major.
+    pub fn condensed_stiffness(&self) -> &DMatrix<f64> {
+        self.condensed.contact_stiffness()
+    }
+
+    /// `T`, `n_rows x n_rows`, symmetric: forces of the rows per gap.
+    pub fn contact_matrix(&self) -> &DMatrix<f64> {
+        self.tableau.matrix()
+    }
+
+    /// Solves contact under the load `f` (all freedoms), from the statuses at hand.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] where the load has the wrong length or holds a number that is not finite;
+    /// [`ErrorKind::Unheld`] naming the row where the load pushes a body away from every contact.
+    pub fn solve(&mut self, load: &[f64]) -> Result<()> {
+        self.check_load(load)?;
+        let condensed = self.condense(load)?;
+        let q = self.forces_if_tied(&condensed, 1.0);
+        let (mut gap, mut force) = (vec![0.0; q.len()], vec![0.0; q.len()]);
+        contact::solve(&mut self.tableau, q.as_slice(), &mut gap, &mut force)
+            .map_err(pushed_away)?;
+        self.state = State {
+            load: load.to_vec(),
+            condensed,
+            gap,
+            force,
+        };
+        self.way = None;
+        Ok(())
+    }
+
+    /// Starts a piece of the load path: from the state at hand the load goes on as `f + t rate`, `t` from 0.
+    ///
+    /// # Errors
+    /// As [`ConstrainedStructure::solve`].
+    pub fn start(&mut self, rate: &[f64]) -> Result<()> {
+        self.check_load(rate)?;
+        let condensed_rate = self.condense(rate)?;
+        let begin = self.forces_if_tied(&self.state.condensed, 1.0);
+        let change = self.forces_if_tied(&condensed_rate, 0.0);
+        let scale = self.gaps.iter().fold(0.0f64, |m, g| m.max(g.abs()));
+        let path = Path::new(
+            &mut self.tableau,
+            begin.as_slice().to_vec(),
+            change.as_slice().to_vec(),
+            self.state.gap.clone(),
+            self.state.force.clone(),
+            scale,
+        )
+        .map_err(pushed_away)?;
+        self.way = Some(Way {
+            path,
+            start: self.state.clone(),
+            rate: rate.to_vec(),
+            condensed_rate,
+            at_event: false,
+        });
+        Ok(())
+    }
+
+    /// Goes on to `t = end` or to the next change of contact, whichever comes first.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] where no piece was started or `end` lies behind; [`ErrorKind::Unheld`] naming the row where the
+    /// load pushes a body away from every contact.
+    pub fn step(&mut self, end: f64) -> Result<Event> {
+        let Some(way) = &mut self.way else {
+            return Err(Error::input("no piece of the load path was started"));
+        };
+        if end.is_nan() || end < way.path.t {
+            return Err(Error::input(format!(
+                "the end {end} of the step lies behind t = {}",
+                way.path.t
+            )));
+        }
+        if way.at_event {
+            way.path.turn(&mut self.tableau).map_err(pushed_away)?;
+            way.at_event = false;
+        }
+        let outcome = way.path.advance(&self.tableau, end);
+        let t = way.path.t;
+        let changes = match outcome {
+            PathEnd::Target => Vec::new(),
+            PathEnd::Event(changes) => {
+                way.at_event = true;
+                changes
+            }
+        };
+        for ((load, start), rate) in self
+            .state
+            .load
+            .iter_mut()
+            .zip(&way.start.load)
+            .zip(&way.rate)
+        {
+            *load = start + t * rate;
+        }
+        self.state.condensed = &way.start.condensed + t * &way.condensed_rate;
+        self.state.gap.copy_from_slice(&way.path.gap);
+        self.state.force.copy_from_slice(&way.path.force);
+        Ok(Event { t, changes })
+    }
+
+    /// Gaps of the rows, >= 0.
+    pub fn gaps(&self) -> &[f64] {
+        &self.state.gap
+    }
+
+    /// Forces of the rows, >= 0, compressive.
+    pub fn forces(&self) -> &[f64] {
+        &self.state.force
+    }
+
+    /// Which rows are open.
+    pub fn open(&self) -> &[bool] {
+        self.tableau.open()
+    }
+
+    /// Displacements of all freedoms (`n`) in the state at hand. Costs one full solve.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] where `out` has the wrong length; failure of the backend's solve.
+    pub fn displacements(&self, out: &mut [f64]) -> Result<()> {
+        if out.len() != self.n {
+            return Err(Error::input(format!(
+                "{} values were given for the displacements of {} freedoms",
+                out.len(),
+                self.n
+            )));
+        }
+        let force = DVector::from_column_slice(&self.state.force);
+        let gap = DVector::from_column_slice(&self.state.gap);
+        let pushed = self.rows.tr_mul(&force);
+        let tied = self.shift.component_mul(&(&self.gaps - gap));
+        let contact = self
+            .held
+            .solve(&(&self.state.condensed + self.rows.tr_mul(&tied) - &pushed));
+        out.copy_from_slice(&self.state.load);
+        for (&freedom, force) in self.contact.iter().zip(pushed.iter()) {
+            out[freedom] -= force;
+        }
+        self.condensed.recover_all(out, contact.as_slice())
+    }
+
+    /// `|K u - f + B' r| / (|K| |u| + |f|)` of the last [`ConstrainedStructure::displacements`].
+    pub fn backward_error(&self) -> f64 {
+        self.condensed.backward_error()
+    }
+
+    fn condense(&self, load: &[f64]) -> Result<DVector<f64>> {
+        let mut out = DVector::zeros(self.contact.len());
+        self.condensed
+            .condense_load(load, &mut [], out.as_mut_slice())?;
+        Ok(out)
+    }
+
+    /// `q` for a condensed load and `share` of the gaps.
+    fn forces_if_tied(&self, condensed: &DVector<f64>, share: f64) -> DVector<f64> {
+        let free = &self.rows * self.held.solve(condensed);
+        &self.inverse * free - self.tableau.matrix() * &self.gaps * share
+    }
+
+    fn check_load(&self, load: &[f64]) -> Result<()> {
+        if load.len() != self.n {
+            return Err(Error::input(format!(
+                "a load of {} values was given for {} freedoms",
+                load.len(),
+                self.n
+            )));
+        }
+        match load.iter().position(|v| !v.is_finite()) {
+            Some(at) => Err(Error::input(format!(
+                "the load on freedom {at} is {}",
+                load[at]
+            ))),
+            None => Ok(()),
+        }
+    }
+}
+
+fn check(n: usize, rows: &[Vec<(usize, f64)>], gaps: &[f64]) -> Result<()> {
+    if rows.len() != gaps.len() {
+        return Err(Error::input(format!(
+            "{} contact rows have {} gaps: one each is needed",
+            rows.len(),
+            gaps.len()
+        )));
+    }
+    for (i, row) in rows.iter().enumerate() {
+        if let Some((freedom, _)) = row.iter().find(|(freedom, _)| *freedom >= n) {
+            return Err(Error::input(format!(
+                "contact row {i} names freedom {freedom} of a matrix with {n}"
+            )));
+        }
+        if row.iter().any(|(_, c)| !c.is_finite()) || !gaps[i].is_finite() {
+            return Err(Error::input(format!(
+                "contact row {i} has a coefficient or a gap that is not finite"
+            )));
+        }
+        if row.iter().all(|(_, c)| *c == 0.0) {
+            return Err(Error::input(format!("contact row {i} is zero")));
+        }
+    }
+    Ok(())
+}
+
+/// Condenses; where the matrix alone is not definite once more with its own diagonal added on the contact freedoms and taken off
+/// again.
+fn condense(
+    backend: Backend,
+    stiffness: &SymmetricCsc,
+    partition: &Partition,
+) -> Result<Box<dyn Condensed>> {
+    let freedom = |error: &Error| {
+        let cause = std::error::Error::source(error)?;
+        Some(cause.downcast_ref::<NotDefinite>()?.freedom)
+    };
+    match linalg::condense(backend, stiffness, partition, &[]) {
+        Err(error) if freedom(&error).is_some() && !partition.contact.is_empty() => {}
+        Err(error) => return Err(named(error, freedom)),
+        done => return done,
+    }
+    let largest = stiffness.data().iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    let diagonal = |&f: &usize| stiffness.get(f, f).copied().unwrap_or(0.0);
+    let shift: Vec<f64> = partition
+        .contact
+        .iter()
+        .map(diagonal)
+        .map(|d| if d > 0.0 { d } else { largest })
+        .collect();
+    linalg::condense(backend, stiffness, partition, &shift).map_err(|e| named(e, freedom))
+}
+
+fn named(error: Error, freedom: impl Fn(&Error) -> Option<usize>) -> Error {
+    match freedom(&error) {
+        Some(freedom) => Error::new(
+            ErrorKind::Unheld,
+            format!("the stiffness is not positive definite at freedom {freedom}: a part of the structure is not held"),
+        )
+        .because(error),
+        None => error,
+    }
+}
+
+fn pushed_away(cause: Unbounded) -> Error {
+    Error::new(
+        ErrorKind::Unheld,
+        format!(
+            "the load pushes a part of the structure away from every contact: nothing stops row {} from opening",
+            cause.pair
+        ),
+    )
+}
+
+#[cfg(test)]
+mod tests;

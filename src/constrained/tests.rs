@@ -1,0 +1,186 @@
+use super::*;
+
+/// Upper triangle of a chain of unit springs between `n` freedoms, those of `held` tied to the ground by another.
+fn chain(n: usize, held: &[usize]) -> SymmetricCsc {
+    let mut triplets = sprs::TriMatI::<f64, i64>::new((n, n));
+    for i in 0..n {
+        let mut own = f64::from(u8::from(held.contains(&i)));
+        own += f64::from(u8::from(i > 0)) + f64::from(u8::from(i + 1 < n));
+        triplets.add_triplet(i, i, own);
+        if i > 0 {
+            triplets.add_triplet(i - 1, i, -1.0);
+        }
+    }
+    triplets.to_csc()
+}
+
+fn backends() -> Vec<Backend> {
+    let mut out = vec![Backend::Dense];
+    if cfg!(feature = "cholmod") {
+        out.push(Backend::Cholmod);
+    }
+    out
+}
+
+const CLOSE: f64 = 1e-12;
+
+fn close(a: f64, b: f64) {
+    assert!(
+        (a - b).abs() <= CLOSE * a.abs().max(b.abs()).max(1.0),
+        "{a} {b}"
+    );
+}
+
+/// A bar of three springs held at one end, a wall at the other at distance 1: it is touched at load 1/3 per... the end moves
+/// by 3 f under an end load f.
+#[test]
+fn a_bar_touches_a_wall_at_the_load_that_closes_its_gap() {
+    for backend in backends() {
+        let k = chain(3, &[0]);
+        let mut bar = ConstrainedStructure::new(backend, &k, &[vec![(2, 1.0)]], &[1.0]).unwrap();
+        close(bar.gaps()[0], 1.0);
+        // C of the end alone: three springs in a row.
+        close(bar.condensed_stiffness()[(0, 0)], 1.0 / 3.0);
+        close(bar.contact_matrix()[(0, 0)], 1.0 / 3.0);
+        bar.start(&[0.0, 0.0, 1.0]).unwrap();
+        let event = bar.step(2.0).unwrap();
+        close(event.t, 1.0 / 3.0);
+        assert_eq!(event.changes, [Change::Closes(0)]);
+        let event = bar.step(2.0).unwrap();
+        assert!(event.changes.is_empty());
+        // What the gap did not take is the wall's force.
+        close(bar.forces()[0], 2.0 - 1.0 / 3.0);
+        let mut u = [0.0; 3];
+        bar.displacements(&mut u).unwrap();
+        for (u, expected) in u.iter().zip([1.0 / 3.0, 2.0 / 3.0, 1.0]) {
+            close(*u, expected);
+        }
+        assert!(bar.backward_error() < 1e-14);
+        // The same at once.
+        bar.solve(&[0.0, 0.0, 2.0]).unwrap();
+        close(bar.forces()[0], 2.0 - 1.0 / 3.0);
+        assert_eq!(bar.open(), [false]);
+    }
+}
+
+/// Two bars of which the second is held by contact alone: K is singular.
+#[test]
+fn a_body_held_by_contact_alone_is_pushed_but_not_pulled() {
+    for backend in backends() {
+        // Freedoms 0..2 are held at 0, freedoms 3..5 float.
+        let mut k = sprs::TriMatI::<f64, i64>::new((6, 6));
+        for (value, (row, column)) in chain(3, &[0]).iter() {
+            k.add_triplet(row as usize, column as usize, *value);
+        }
+        for (value, (row, column)) in chain(3, &[]).iter() {
+            k.add_triplet(3 + row as usize, 3 + column as usize, *value);
+        }
+        let k: SymmetricCsc = k.to_csc();
+        // g = u_3 - u_2 + 0.5 >= 0.
+        let rows = [vec![(2, 1.0), (3, -1.0)]];
+        let mut bars = ConstrainedStructure::new(backend, &k, &rows, &[0.5]).unwrap();
+        bars.solve(&[0.0, 0.0, 0.0, 0.0, 0.0, -2.0]).unwrap();
+        close(bars.forces()[0], 2.0);
+        let mut u = [0.0; 6];
+        bars.displacements(&mut u).unwrap();
+        for (u, expected) in u.iter().zip([-2.0, -4.0, -6.0, -6.5, -8.5, -10.5]) {
+            close(*u, expected);
+        }
+        let error = bars.solve(&[0.0, 0.0, 0.0, 0.0, 0.0, 1.0]).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::Unheld, "{error}");
+        assert!(error.message().contains("row 0"));
+    }
+}
+
+/// Rows with weights (a node between two others) against the optimality conditions, whatever the load.
+#[test]
+fn random_structures_fulfil_all_conditions() {
+    let mut seed = 7u64;
+    let mut random = || {
+        seed = seed
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (seed >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+    };
+    for round in 0..20 {
+        let n = 12;
+        let k = chain(n, &[0, n - 1]);
+        let rows: Vec<Vec<(usize, f64)>> = (0..4)
+            .map(|i| {
+                let share = random() + 0.5;
+                vec![(3 * i, 1.0), (3 * i + 1, -share), (3 * i + 2, share - 1.0)]
+            })
+            .collect();
+        let gaps: Vec<f64> = (0..4).map(|_| 0.2 * random()).collect();
+        for backend in backends() {
+            let mut structure = ConstrainedStructure::new(backend, &k, &rows, &gaps).unwrap();
+            let load: Vec<f64> = (0..n).map(|_| random()).collect();
+            structure.start(&load).unwrap();
+            let mut events = 0;
+            while !structure.step(1.0).unwrap().changes.is_empty() {
+                events += 1;
+                assert!(events < 50, "round {round}");
+            }
+            let along = structure.forces().to_vec();
+            let mut u = vec![0.0; n];
+            structure.displacements(&mut u).unwrap();
+            let (g, r) = (structure.gaps().to_vec(), structure.forces().to_vec());
+            let mut residual = vec![0.0; n];
+            linalg::multiply(&k, &u, &mut residual);
+            for i in 0..n {
+                residual[i] -= load[i];
+            }
+            for (i, row) in rows.iter().enumerate() {
+                assert!(
+                    g[i] >= 0.0 && r[i] >= 0.0 && g[i] * r[i] == 0.0,
+                    "round {round}"
+                );
+                let moved: f64 = row.iter().map(|(f, c)| c * u[*f]).sum();
+                close(gaps[i] - moved, g[i]);
+                for (f, c) in row {
+                    residual[*f] += c * r[i];
+                }
+            }
+            assert!(residual.iter().all(|v| v.abs() < 1e-12), "{residual:?}");
+            // The end of the path is the solution for the end's load.
+            structure.solve(&load).unwrap();
+            for (a, b) in along.iter().zip(structure.forces()) {
+                close(*a, *b);
+            }
+        }
+    }
+}
+
+#[test]
+fn what_does_not_fit_is_refused_by_name() {
+    let k = chain(3, &[0]);
+    let new = |rows: &[Vec<(usize, f64)>], gaps: &[f64]| {
+        ConstrainedStructure::new(Backend::Dense, &k, rows, gaps)
+            .err()
+            .unwrap()
+    };
+    for (error, word) in [
+        (new(&[vec![(3, 1.0)]], &[0.0]), "freedom 3"),
+        (new(&[vec![(2, 1.0)]], &[]), "0 gaps"),
+        (new(&[vec![(2, 0.0)]], &[0.0]), "row 0 is zero"),
+        (new(&[vec![(2, 1.0)]], &[f64::NAN]), "not finite"),
+        (
+            new(&[vec![(2, 1.0)], vec![(2, 2.0)]], &[0.0, 0.0]),
+            "depend",
+        ),
+    ] {
+        assert_eq!(error.kind(), ErrorKind::Input);
+        assert!(error.message().contains(word), "{error}");
+    }
+    let free = chain(3, &[]);
+    let error = ConstrainedStructure::new(Backend::Dense, &free, &[], &[])
+        .err()
+        .unwrap();
+    assert_eq!(error.kind(), ErrorKind::Unheld);
+    let mut bar = ConstrainedStructure::new(Backend::Dense, &k, &[vec![(2, 1.0)]], &[1.0]).unwrap();
+    assert!(bar.solve(&[0.0]).is_err() && bar.solve(&[f64::NAN; 3]).is_err());
+    assert!(bar.step(1.0).is_err());
+    bar.start(&[0.0; 3]).unwrap();
+    assert!(bar.step(-1.0).is_err() && bar.step(f64::NAN).is_err());
+    assert!(bar.displacements(&mut [0.0]).is_err());
+}

@@ -1,0 +1,275 @@
+//! A drawing: SVG text made by the plotting library, with images laid under it.
+//!
+//! The library places everything on whole units. Drawings are therefore made [`FINE`] times as large as they are shown,
+//! which puts lines to a quarter of a pixel.
+
+use super::theme::{self, FAINT, INK, PAPER};
+use crate::error::{Error, Result};
+use crate::output::number::significant;
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+/// Units of a drawing per pixel that it is meant to be shown at.
+pub(super) const FINE: u32 = 4;
+/// Letters in pixels.
+const LETTERS: f64 = 13.0;
+const FONT: &str = "system-ui, -apple-system, Segoe UI, Roboto, Helvetica, Arial, sans-serif";
+
+/// The area that the plotting library draws on.
+pub(super) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+
+/// A finished drawing.
+pub(super) struct Drawing {
+    /// Everything between the opening and the closing tag.
+    content: String,
+    width: u32,
+    height: u32,
+}
+
+/// A place in a drawing: from the left, from the top, width and height, in pixels as shown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
+    /// From the left.
+    pub x: f64,
+    /// From the top.
+    pub y: f64,
+    /// Width.
+    pub width: f64,
+    /// Height.
+    pub height: f64,
+}
+
+impl Drawing {
+    /// Draws on an area of `width` by `height` pixels.
+    ///
+    /// # Errors
+    /// `Internal` where the plotting library fails.
+    pub(super) fn new(
+        [width, height]: [u32; 2],
+        draw: impl FnOnce(&Area) -> Result<()>,
+    ) -> Result<Self> {
+        let mut text = String::new();
+        {
+            let size = (width * FINE, height * FINE);
+            let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
+            draw(&root)?;
+            root.present().map_err(failed)?;
+        }
+        let begin = text.find('>').map_or(0, |at| at + 1);
+        let end = text.rfind("</svg>").unwrap_or(text.len());
+        let content = compact(text.get(begin..end).unwrap_or(""));
+        Ok(Drawing {
+            content,
+            width,
+            height,
+        })
+    }
+
+    /// Puts an image under what is drawn.
+    pub(super) fn underlay(&mut self, place: Place, url: &str) {
+        let fine = f64::from(FINE);
+        let image = format!(
+            "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" href=\"{url}\"/>\n",
+            fine * place.x,
+            fine * place.y,
+            fine * place.width,
+            fine * place.height
+        );
+        self.content.insert_str(0, &image);
+    }
+
+    /// The text of a file of its own: fixed colours on a ground of their own.
+    pub(super) fn file(&self) -> String {
+        let ground = format!(
+            "<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n",
+            theme::hex(PAPER)
+        );
+        let size = format!(" width=\"{}\" height=\"{}\"", self.width, self.height);
+        format!("{}{ground}{}</svg>\n", self.tag(&size), self.content)
+    }
+
+    /// The text for the page: colours by name, as wide as there is room. `label` says to those who do not see it what it shows.
+    pub(super) fn inline(&self, label: &str) -> String {
+        let label = label
+            .replace('&', "&amp;")
+            .replace('<', "&lt;")
+            .replace('"', "&quot;");
+        let told = format!(" role=\"img\" aria-label=\"{label}\"");
+        format!("{}{}</svg>", self.tag(&told), theme::themed(&self.content))
+    }
+
+    fn tag(&self, attributes: &str) -> String {
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\"{attributes}>\n",
+            self.width * FINE,
+            self.height * FINE
+        )
+    }
+}
+
+/// The library's text without what it repeats: full opacity, empty lines.
+fn compact(text: &str) -> String {
+    text.replace(" opacity=\"1\"", "")
+        .replace(" stroke-width=\"1\"", "")
+        .replace(" dx=\"0\" dy=\"0\"", "")
+}
+
+/// An error of the plotting library.
+pub(super) fn failed(cause: impl std::error::Error + Send + Sync + 'static) -> Error {
+    Error::internal("a figure of the report cannot be drawn").because(cause)
+}
+
+/// Letters of the usual size.
+pub(super) fn letters(color: RGBColor) -> TextStyle<'static> {
+    (FONT, LETTERS * f64::from(FINE)).into_font().color(&color)
+}
+
+/// A line `width` pixels wide.
+pub(super) fn stroke(color: RGBColor, width: f64) -> ShapeStyle {
+    color.stroke_width((width * f64::from(FINE)).round() as u32)
+}
+
+/// Pixels in units of the drawing.
+pub(super) fn units(pixels: f64) -> i32 {
+    (pixels * f64::from(FINE)).round() as i32
+}
+
+/// Writes `text` with its `anchor` at a place in pixels.
+///
+/// # Errors
+/// `Internal` where the plotting library fails.
+pub(super) fn write(
+    area: &Area,
+    text: &str,
+    at: [f64; 2],
+    anchor: (HPos, VPos),
+    color: RGBColor,
+) -> Result<()> {
+    let style = letters(color).pos(Pos::new(anchor.0, anchor.1));
+    area.draw_text(text, &style, (units(at[0]), units(at[1])))
+        .map_err(failed)
+}
+
+/// Draws a chart's axes, ticks and grid.
+///
+/// # Errors
+/// `Internal` where the plotting library fails.
+pub(super) fn axes<'a>(
+    chart: &mut ChartContext<
+        'a,
+        SVGBackend<'a>,
+        Cartesian2d<plotters::coord::types::RangedCoordf64, plotters::coord::types::RangedCoordf64>,
+    >,
+    labels: [&str; 2],
+    grid: bool,
+) -> Result<()> {
+    // What round-off leaves of a zero is small beside the other ticks.
+    let extent = |range: std::ops::Range<f64>| 1e-9 * (range.end - range.start).abs();
+    let small = [extent(chart.x_range()), extent(chart.y_range())];
+    let text = |value: f64, small: f64| tick(if value.abs() < small { 0.0 } else { value });
+    let formatters = small.map(|small| move |value: &f64| text(*value, small));
+    let mut mesh = chart.configure_mesh();
+    if !grid {
+        mesh.disable_mesh();
+    }
+    mesh.x_desc(labels[0])
+        .y_desc(labels[1])
+        .x_labels(6)
+        .y_labels(6)
+        .x_label_formatter(&formatters[0])
+        .y_label_formatter(&formatters[1])
+        .axis_desc_style(letters(INK))
+        .label_style(letters(INK))
+        .axis_style(stroke(INK, 1.0))
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(ShapeStyle {
+            color: FAINT.mix(0.3),
+            filled: false,
+            stroke_width: FINE,
+        })
+        .set_all_tick_mark_size(units(4.0))
+        .draw()
+        .map_err(failed)
+}
+
+/// A number at a tick: as short as it can be said.
+pub(super) fn tick(value: f64) -> String {
+    let text = significant(value, 5);
+    let (digits, exponent) = match text.split_once('e') {
+        Some((digits, exponent)) => (digits, format!("e{exponent}")),
+        None => (text.as_str(), String::new()),
+    };
+    let digits = if digits.contains('.') {
+        digits.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        digits
+    };
+    format!("{}{exponent}", digits.replace('-', "\u{2212}"))
+}
+
+/// Steps of 1, 2, 2.5 or 5 times a power of ten: the finest that covers `extent` with at most `most` of them.
+pub(super) fn nice_step(extent: f64, most: usize) -> f64 {
+    let rough = (extent / most as f64).max(f64::MIN_POSITIVE);
+    let power = 10f64.powf(rough.log10().floor());
+    [1.0, 2.0, 2.5, 5.0, 10.0]
+        .into_iter()
+        .map(|m| m * power)
+        .find(|step| *step >= rough * (1.0 - 1e-9))
+        .unwrap_or(10.0 * power)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_short() {
+        for (value, text) in [
+            (0.0, "0"),
+            (-0.0, "0"),
+            (0.5, "0.5"),
+            (-1250.0, "−1250"),
+            (100.0, "100"),
+            (2.5e-6, "2.5e\u{2212}6"),
+            (1e8, "1e8"),
+        ] {
+            let expected = text.replace("e\u{2212}", "e-");
+            assert_eq!(tick(value), expected, "{value}");
+        }
+    }
+
+    #[test]
+    fn steps_are_nice_and_suffice() {
+        for extent in [1e-9, 0.37, 1.0, 7.3, 1250.0] {
+            let step = nice_step(extent, 10);
+            assert!(step * 10.0 >= extent * (1.0 - 1e-9) && step * 4.0 <= extent * 1.0001);
+        }
+    }
+
+    #[test]
+    fn a_drawing_is_well_formed_in_both_forms() {
+        let mut drawing = Drawing::new([200, 100], |area| {
+            write(
+                area,
+                "p < q & \"r\"",
+                [10.0, 10.0],
+                (HPos::Left, VPos::Top),
+                INK,
+            )
+        })
+        .unwrap();
+        let place = Place {
+            x: 1.0,
+            y: 2.0,
+            width: 3.0,
+            height: 4.0,
+        };
+        drawing.underlay(place, "data:,");
+        for text in [drawing.file(), drawing.inline("a & \"b\" <c>")] {
+            roxmltree::Document::parse(&text).unwrap();
+        }
+        assert!(drawing.inline("").contains("var(--ink)"));
+        assert!(!drawing.file().contains("var("));
+    }
+}

@@ -1,0 +1,221 @@
+//! `report.html`: a run to look at, and its figures as files of their own.
+//!
+//! One page without scripts that needs no network, to be read on a screen, a phone and paper.
+//!
+//! | file | what |
+//! |---|---|
+//! | `page`, `tables` | the page |
+//! | `curves`, `chart` | charts: which, and how they are drawn |
+//! | `fields`, `sketch` | pictures of states; the scene drawn |
+//! | `picture`, `raster`, `window` | elements as pixels under axes; what is shown |
+//! | `drawing`, `theme`, `units` | SVG text, colours for light and dark, names of units |
+//!
+//! What a picture costs is set by its pixels: a mesh of a million freedoms adds a pass over its elements.
+
+mod chart;
+mod curves;
+mod drawing;
+mod fields;
+mod page;
+mod picture;
+mod raster;
+mod sketch;
+mod tables;
+mod theme;
+mod units;
+mod window;
+
+use super::RunHeader;
+use super::number::significant;
+use crate::error::Result;
+use crate::model::Model;
+use crate::results::{Results, State};
+use drawing::Drawing;
+use fields::{Gallery, Quantity};
+use page::{Figure, Figures};
+use rayon::prelude::*;
+use units::Units;
+
+/// The page.
+pub(super) const REPORT_FILE: &str = "report.html";
+/// How the name of a figure's file begins.
+pub(super) const FIGURE_PREFIX: &str = "report_";
+/// How the name of a figure's file ends.
+pub(super) const FIGURE_SUFFIX: &str = ".svg";
+/// Most states whose pictures the page shows.
+const MOST_STATES: usize = 4;
+
+/// Names and contents of the report's files, the page last.
+///
+/// # Errors
+/// `Internal` where a figure cannot be drawn.
+pub(super) fn files(
+    header: &RunHeader,
+    model: &Model,
+    results: &Results,
+) -> Result<Vec<(String, String)>> {
+    let units = Units::of(model);
+    let mut out = Vec::new();
+    let mut figures = Figures::default();
+    let mut keep = |name: &str, drawing: &Drawing, title: &str, caption: &str| {
+        out.push((
+            format!("{FIGURE_PREFIX}{name}{FIGURE_SUFFIX}"),
+            drawing.file(),
+        ));
+        Figure {
+            title: title.to_string(),
+            caption: caption.to_string(),
+            svg: drawing.inline(if title.is_empty() { caption } else { title }),
+        }
+    };
+    for (name, drawing, title, caption) in scene(model, results, &units)? {
+        figures.scene.push(keep(name, &drawing, title, &caption));
+    }
+    let charts = curves::charts(model, results, &units);
+    let drawn: Vec<Drawing> = charts
+        .par_iter()
+        .map(|titled| titled.chart.draw())
+        .collect::<Result<_>>()?;
+    for (titled, drawing) in charts.iter().zip(&drawn) {
+        figures
+            .charts
+            .push(keep(&titled.name, drawing, &titled.title, &titled.caption));
+    }
+    let pictures = pictures(model, results, &units, &mut figures)?;
+    for (index, list) in pictures {
+        let state = &results.states[index];
+        let shown = list.iter().map(|(quantity, drawing, own)| {
+            let (name, title) = words(*quantity);
+            let own = if *own {
+                " Colours on a scale of their own."
+            } else {
+                ""
+            };
+            let caption = format!("{title}, {}{own}", about(state, *quantity, &units));
+            keep(
+                &format!("state_{:02}_{name}", index + 1),
+                drawing,
+                "",
+                &caption,
+            )
+        });
+        let shown = shown.collect();
+        figures.states.push((state.name.clone(), shown));
+    }
+    out.push((
+        REPORT_FILE.to_string(),
+        page::page(header, model, results, &units, &figures),
+    ));
+    Ok(out)
+}
+
+type Sketched = (&'static str, Drawing, &'static str, String);
+
+/// The scene: all of it, and the surroundings of the contact with the mesh.
+fn scene(model: &Model, results: &Results, units: &Units) -> Result<Vec<Sketched>> {
+    let mut out = Vec::new();
+    let Some(whole) = window::whole(model, [false; 2]) else {
+        return Ok(out);
+    };
+    let near = window::near_contact(model, results, [false; 2])
+        .filter(|near| !model.pairs.is_empty() && near.size()[0] < 0.6 * whole.size()[0]);
+    let (drawing, meshed) = sketch::draw(model, units, whole, near.is_none())?;
+    let mesh = if meshed { " and its mesh" } else { "" };
+    let caption = format!("As given in the scene{mesh}, without load.");
+    out.push(("scene", drawing, "The whole model", caption));
+    if let Some(near) = near {
+        let (drawing, meshed) = sketch::draw(model, units, near, true)?;
+        let caption = match meshed {
+            true => "With the mesh, without load.",
+            false => "Without load; the mesh is too fine to be drawn.",
+        };
+        out.push((
+            "contact_region",
+            drawing,
+            "Near the contact",
+            caption.to_string(),
+        ));
+    }
+    Ok(out)
+}
+
+type Pictured = (usize, Vec<(Quantity, Drawing, bool)>);
+
+/// The pictures of the states shown.
+fn pictures(
+    model: &Model,
+    results: &Results,
+    units: &Units,
+    figures: &mut Figures,
+) -> Result<Vec<Pictured>> {
+    let mirror = window::mirrors(model);
+    let Some(window) = window::near_contact(model, results, mirror) else {
+        return Ok(Vec::new());
+    };
+    let shown = fields::chosen(&results.states, MOST_STATES, |s| s.fields.is_some());
+    let with_fields = results.states.iter().filter(|s| s.fields.is_some()).count();
+    figures.states_left_out = with_fields - shown.len();
+    let states: Vec<&State> = shown.iter().map(|&i| &results.states[i]).collect();
+    let gallery = Gallery::new(model, units, window, mirror, &states);
+    figures.about_pictures = format!(
+        "The deformed contour, displacements at true scale{}. Scales of colour are the same for all states where nothing else is said.",
+        match mirror {
+            [false, false] => "",
+            [true, true] => "; mirrored at both planes of symmetry",
+            _ => "; mirrored at the plane or axis of symmetry",
+        }
+    );
+    let mut quantities = vec![Quantity::VonMises, Quantity::Pressure];
+    if gallery.has_plastic_zone() {
+        quantities.push(Quantity::PlasticZone);
+    }
+    let tasks: Vec<(usize, Quantity)> = shown
+        .iter()
+        .flat_map(|&state| quantities.iter().map(move |&q| (state, q)))
+        .collect();
+    let drawn: Vec<Option<(Drawing, bool)>> = tasks
+        .par_iter()
+        .map(|&(state, quantity)| {
+            let fields = results.states[state].fields.as_ref();
+            fields.map(|f| gallery.draw(quantity, f)).transpose()
+        })
+        .collect::<Result<_>>()?;
+    let mut out: Vec<Pictured> = shown.iter().map(|&state| (state, Vec::new())).collect();
+    for ((state, quantity), drawing) in tasks.into_iter().zip(drawn) {
+        if let (Some(entry), Some((drawing, own))) =
+            (out.iter_mut().find(|e| e.0 == state), drawing)
+        {
+            entry.1.push((quantity, drawing, own));
+        }
+    }
+    Ok(out)
+}
+
+/// Name for the file and words for the reader.
+fn words(quantity: Quantity) -> (&'static str, &'static str) {
+    match quantity {
+        Quantity::VonMises => ("von_mises", "Von Mises stress"),
+        Quantity::Pressure => (
+            "pressure",
+            "Hydrostatic pressure \u{2212}(\u{3c3}\u{2081}+\u{3c3}\u{2082}+\u{3c3}\u{2083})/3 (red: compression)",
+        ),
+        Quantity::PlasticZone => (
+            "plastic_zone",
+            "Plastic zone: equivalent plastic strain where the material has yielded",
+        ),
+    }
+}
+
+/// The load of a state, and how much of it has yielded.
+fn about(state: &State, quantity: Quantity, units: &Units) -> String {
+    let load = format!("load {} {}", significant(state.load, 4), units.load());
+    let load = load.trim_end().to_string();
+    match quantity {
+        Quantity::PlasticZone if state.plastic_points == 0 => format!("{load}: none yet."),
+        Quantity::PlasticZone => format!(
+            "{load}: up to {}.",
+            significant(state.max_equivalent_plastic_strain, 3)
+        ),
+        _ => format!("{load}."),
+    }
+}

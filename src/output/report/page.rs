@@ -1,0 +1,363 @@
+//! The page: sections in the order in which a reader asks.
+
+use super::tables;
+use super::theme;
+use super::units::Units;
+use crate::model::Model;
+use crate::output::RunHeader;
+use crate::output::number::{number, seconds, significant};
+use crate::results::{Results, State};
+use crate::scene::{Kind, Unit};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+
+const STYLE: &str = include_str!("report.css");
+
+/// A drawing in its place on the page.
+pub(super) struct Figure {
+    /// Heading; empty: none.
+    pub title: String,
+    /// What is seen.
+    pub caption: String,
+    /// The drawing, as it stands in the page.
+    pub svg: String,
+}
+
+/// The figures of a report, by section.
+#[derive(Default)]
+pub(super) struct Figures {
+    /// The scene drawn.
+    pub scene: Vec<Figure>,
+    /// Charts.
+    pub charts: Vec<Figure>,
+    /// For each state shown its name and pictures.
+    pub states: Vec<(String, Vec<Figure>)>,
+    /// How many states with fields are not shown.
+    pub states_left_out: usize,
+    /// What is said about the pictures.
+    pub about_pictures: String,
+}
+
+/// The whole page.
+pub(super) fn page(
+    header: &RunHeader,
+    model: &Model,
+    results: &Results,
+    units: &Units,
+    figures: &Figures,
+) -> String {
+    let title = title(header);
+    let sections = [
+        (
+            "scene",
+            "Scene",
+            tables::scene(model, units, &figures.scene),
+        ),
+        ("load", "Along the load", charts(&figures.charts)),
+        ("states", "States", tables::states(model, results, units)),
+        ("pictures", "Stress and plastic zone", pictures(figures)),
+        ("reference", "Reference values", tables::reference(results)),
+        ("effects", "What was simulated", tables::effects(results)),
+        (
+            "quality",
+            "How good the numbers are",
+            tables::quality(results),
+        ),
+        ("cost", "Time and size", tables::cost(header, results)),
+    ];
+    let sections: Vec<_> = sections
+        .into_iter()
+        .filter(|(_, _, content)| !content.0.is_empty())
+        .collect();
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="color-scheme" content="light dark";
+                meta name="generator" content=(concat!("brinell ", env!("CARGO_PKG_VERSION")));
+                // Without an icon of its own a browser would ask for one.
+                link rel="icon" href="data:,";
+                title { (title) " \u{2013} brinell" }
+                style { (PreEscaped(theme::variables())) (PreEscaped(STYLE)) }
+            }
+            body {
+                header {
+                    h1 { (title) }
+                    p.quiet { (subtitle(header, model)) }
+                    @if let Some(why) = &results.incomplete {
+                        div.note.bad { b { "Incomplete. " } (why) }
+                    }
+                    p.lead { (story(header, model, results, units)) }
+                    (cards(model, results, units))
+                    nav aria-label="Sections" {
+                        @for (id, heading, _) in &sections { a href={ "#" (id) } { (heading) } }
+                    }
+                }
+                main {
+                    @for warning in &results.warnings { div.note { (warning) } }
+                    @for (id, heading, content) in &sections {
+                        section id=(id) {
+                            h2 { (heading) }
+                            (content)
+                        }
+                    }
+                }
+                footer { (files(results)) }
+            }
+        }
+    }
+    .into_string()
+}
+
+fn title(header: &RunHeader) -> String {
+    match (&header.scene_title, &header.scene_file) {
+        (title, _) if !title.is_empty() => title.clone(),
+        (_, Some(file)) => file.clone(),
+        _ => "Untitled scene".to_string(),
+    }
+}
+
+fn subtitle(header: &RunHeader, model: &Model) -> String {
+    let kind = match model.kind {
+        Kind::PlaneStrain => "Plane strain",
+        Kind::PlaneStress => "Plane stress",
+        Kind::Axisymmetric => "Axisymmetric",
+    };
+    let copies = match model.scene.symmetry {
+        2 => ", half model (loads are those of the whole)",
+        4 => ", quarter model (loads are those of the whole)",
+        _ => "",
+    };
+    let file = header
+        .scene_file
+        .as_ref()
+        .map_or(String::new(), |file| format!(" \u{b7} {file}"));
+    let units = match &model.scene.units {
+        Some(units) => format!(
+            " \u{b7} units {}, {}, {}",
+            units.force, units.length, units.stress
+        ),
+        None => " \u{b7} numbers in the scene\u{2019}s own consistent units".to_string(),
+    };
+    format!("{kind}{copies}{units}{file}")
+}
+
+/// Four digits; small and large numbers with a power of ten.
+fn round(value: f64) -> String {
+    if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
+        let text = format!("{value:.3e}");
+        if let Some((digits, exponent)) = text.split_once('e') {
+            let exponent: String = exponent.chars().map(superscript).collect();
+            return format!("{digits}\u{b7}10{exponent}");
+        }
+    }
+    significant(value, 4)
+}
+
+fn superscript(digit: char) -> char {
+    match digit {
+        '-' => '\u{207b}',
+        '1' => '\u{b9}',
+        '2' => '\u{b2}',
+        '3' => '\u{b3}',
+        '0'..='9' => char::from_u32(u32::from(digit) - u32::from('0') + 0x2070).unwrap_or(digit),
+        other => other,
+    }
+}
+
+/// A number with its unit.
+fn quantity(value: f64, unit: &str) -> String {
+    if unit.is_empty() {
+        round(value)
+    } else {
+        format!("{}\u{a0}{unit}", round(value))
+    }
+}
+
+/// The run in a few sentences.
+fn story(header: &RunHeader, model: &Model, results: &Results, units: &Units) -> String {
+    let mut text = String::new();
+    let contact = !model.pairs.is_empty();
+    match &results.first_yield {
+        Some(first) => {
+            // A prescribed displacement without contact has a load at the states only.
+            let load = match first.load.is_finite() {
+                true => format!("load of {}", quantity(first.load, units.load())),
+                false => format!("load factor of {}", round(first.alpha)),
+            };
+            text.push_str(&format!(
+                "The material first yields at a {load}, in {} at ({}, {})",
+                header.body(first.body),
+                significant(first.location[0], 3),
+                significant(first.location[1], 3)
+            ));
+            if contact {
+                text.push_str(&format!(
+                    ", under a maximum contact pressure of {} and a half width of {}",
+                    quantity(first.max_pressure, units.stress()),
+                    quantity(first.half_width, units.length())
+                ));
+            }
+            text.push_str(". ");
+        }
+        None => text.push_str("The material does not yield. "),
+    }
+    let highest = |a: &&State, b: &&State| a.load.total_cmp(&b.load);
+    if let Some(top) = results.states.iter().max_by(highest) {
+        let plastic = top.max_equivalent_plastic_strain;
+        text.push_str(&format!(
+            "The largest load of a state is {}{}",
+            quantity(top.load, units.load()),
+            if contact {
+                format!(
+                    ", with a maximum pressure of {}",
+                    quantity(top.max_pressure, units.stress())
+                )
+            } else {
+                String::new()
+            }
+        ));
+        if plastic > 0.0 {
+            text.push_str(&format!(
+                " and an equivalent plastic strain of up to {} %",
+                significant(100.0 * plastic, 3)
+            ));
+        }
+        text.push_str(". ");
+    }
+    if let Some(last) = results.states.last().filter(|s| s.residual_depth > 0.0) {
+        text.push_str(&format!(
+            "Without load a dent {} deep stays.",
+            quantity(last.residual_depth, units.length())
+        ));
+    }
+    text
+}
+
+fn cards(model: &Model, results: &Results, units: &Units) -> Markup {
+    let contact = !model.pairs.is_empty();
+    let mut cards: Vec<(&str, f64, &str)> = Vec::new();
+    if let Some(first) = &results.first_yield {
+        cards.push(("Yield load", first.load, units.load()));
+        if contact {
+            cards.push((
+                "Pressure at first yield",
+                first.max_pressure,
+                units.stress(),
+            ));
+            cards.push((
+                "Half width at first yield",
+                first.half_width,
+                units.length(),
+            ));
+        }
+    }
+    let largest = |value: fn(&State) -> f64| results.states.iter().map(value).fold(0.0, f64::max);
+    cards.push(("Largest load", largest(|s| s.load), units.load()));
+    if contact {
+        cards.push((
+            "Largest pressure",
+            largest(|s| s.max_pressure),
+            units.stress(),
+        ));
+        cards.push((
+            "Largest half width",
+            largest(|s| s.half_width),
+            units.length(),
+        ));
+    }
+    cards.push((
+        "Residual depth",
+        largest(|s| s.residual_depth),
+        units.length(),
+    ));
+    cards.push((
+        "Largest plastic strain",
+        100.0 * largest(|s| s.max_equivalent_plastic_strain),
+        "%",
+    ));
+    html! {
+        dl.cards {
+            @for (name, value, unit) in cards.iter().filter(|card| card.1 > 0.0 && card.1.is_finite()) {
+                div.card {
+                    dt { (name) }
+                    dd { (round(*value)) " " small { (unit) } }
+                }
+            }
+        }
+    }
+}
+
+/// Figures beside each other.
+pub(super) fn figures(list: &[Figure], class: &str) -> Markup {
+    html! {
+        div class=(class) {
+            @for figure in list {
+                figure {
+                    @if !figure.title.is_empty() { h3 { (figure.title) } }
+                    (PreEscaped(&figure.svg))
+                    @if !figure.caption.is_empty() { figcaption { (figure.caption) } }
+                }
+            }
+        }
+    }
+}
+
+fn charts(list: &[Figure]) -> Markup {
+    if list.is_empty() {
+        return PreEscaped(String::new());
+    }
+    figures(list, "figures")
+}
+
+fn pictures(all: &Figures) -> Markup {
+    if all.states.is_empty() {
+        return PreEscaped(String::new());
+    }
+    html! {
+        p.quiet { (all.about_pictures) }
+        @if all.states_left_out > 0 {
+            p.quiet {
+                (all.states_left_out) " more " (if all.states_left_out == 1 { "state is" } else { "states are" }) " in the " code { ".vtu" } " files (ParaView: open " code { "fields.pvd" } ")."
+            }
+        }
+        @for (name, list) in &all.states {
+            h3 { "State \u{201c}" (name) "\u{201d}" }
+            (figures(list, "figures three"))
+        }
+    }
+}
+
+fn files(results: &Results) -> Markup {
+    let fields = results.states.iter().any(|s| s.fields.is_some());
+    html! {
+        p {
+            "Beside this page: " a href="summary.json" { "summary.json" } " (all figures), "
+            a href="history.csv" { "history.csv" } " (a row per increment), "
+            a href="contact.csv" { "contact.csv" } " (a row per state and contact pair)"
+            @if fields { ", " a href="fields.pvd" { "fields.pvd" } " (fields for ParaView)" }
+            ", the figures as " code { "report_*.svg" } "."
+        }
+        p { "Written by brinell " (env!("CARGO_PKG_VERSION")) ". Small strains, no friction; after N. Endahl, Finite Element Analysis of \
+             Elastoplastic Contact Problems Without Friction." }
+    }
+}
+
+/// What a load factor means, for the head of a column.
+pub(super) fn factor(unit: Unit) -> &'static str {
+    match unit {
+        Unit::Load => "load factor",
+        Unit::Yield => "load / yield load",
+    }
+}
+
+/// Six digits, as in the terminal's tables.
+pub(super) fn digits(value: f64) -> String {
+    number(value)
+}
+
+/// Seconds.
+pub(super) fn time(value: f64) -> String {
+    seconds(value)
+}

@@ -1,0 +1,386 @@
+//! Pictures of the mesh: elements painted in their place under axes of one scale.
+
+use super::drawing::{Drawing, FINE, Place, axes, failed, nice_step, stroke, tick, units, write};
+use super::raster::{Palette, Raster, Spot};
+use super::theme::{INK, Scale};
+use super::window::Window;
+use crate::error::Result;
+use crate::mesh::Mesh;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, VPos};
+
+/// Room for axes and colours, in pixels.
+const LEFT: u32 = 66;
+const RIGHT: u32 = 82;
+const TOP: u32 = 12;
+const BOTTOM: u32 = 46;
+/// Pixels of the image per pixel shown: sharp on paper and on fine screens.
+const SHARP: f64 = 2.5;
+
+/// A picture in the making.
+pub(super) struct Picture<'a> {
+    mesh: &'a Mesh,
+    /// The displacements, where the deformed mesh is shown.
+    displacement: Option<&'a [f64]>,
+    window: Window,
+    mirror: [bool; 2],
+    /// Pixels across without axes and colours.
+    across: u32,
+    /// Room for colours.
+    right: u32,
+    /// The pixels.
+    pub raster: Raster,
+    /// Their colours.
+    pub palette: Palette,
+}
+
+impl<'a> Picture<'a> {
+    /// An empty picture of what lies in a window, with its mirror images. Three fit beside each other on a screen.
+    pub(super) fn new(
+        mesh: &'a Mesh,
+        displacement: Option<&'a [f64]>,
+        window: Window,
+        mirror: [bool; 2],
+    ) -> Self {
+        Self::wide(mesh, displacement, window, mirror, 292, RIGHT)
+    }
+
+    /// An empty picture, larger, without a scale of colours.
+    pub(super) fn large(mesh: &'a Mesh, window: Window) -> Self {
+        Self::wide(mesh, None, window, [false; 2], 430, 20)
+    }
+
+    fn wide(
+        mesh: &'a Mesh,
+        displacement: Option<&'a [f64]>,
+        window: Window,
+        mirror: [bool; 2],
+        across: u32,
+        right: u32,
+    ) -> Self {
+        let [w, h] = window.size();
+        let down = (f64::from(across) * h / w).round();
+        Picture {
+            across,
+            right,
+            mesh,
+            displacement,
+            window,
+            mirror,
+            raster: Raster::new(
+                (SHARP * f64::from(across)) as usize,
+                (SHARP * down) as usize,
+            ),
+            palette: Palette::new(),
+        }
+    }
+
+    /// Where a node is shown in the plane.
+    pub(super) fn node(&self, node: usize) -> [f64; 2] {
+        let [x, y] = self.mesh.point(node);
+        match self.displacement {
+            Some(u) => [x + u[2 * node], y + u[2 * node + 1]],
+            None => [x, y],
+        }
+    }
+
+    /// Elements that reach into the window or whose mirror image does.
+    pub(super) fn visible(&self) -> Vec<usize> {
+        let mut corners = [[0.0; 2]; 4];
+        (0..self.mesh.n_elements())
+            .filter(|&element| {
+                let n = self.mesh.shapes[element].n_corners();
+                for (corner, &node) in corners.iter_mut().zip(self.mesh.nodes(element)).take(n) {
+                    *corner = self.node(node as usize);
+                }
+                self.signs().any(|sign| {
+                    let image = corners.map(|p| [sign[0] * p[0], sign[1] * p[1]]);
+                    self.window.sees(&image[..n])
+                })
+            })
+            .collect()
+    }
+
+    /// The model and its mirror images, as factors on the coordinates.
+    fn signs(&self) -> impl Iterator<Item = [f64; 2]> + use<> {
+        let mirror = self.mirror;
+        [[1.0, 1.0], [-1.0, 1.0], [1.0, -1.0], [-1.0, -1.0]]
+            .into_iter()
+            .filter(move |s| (s[0] > 0.0 || mirror[0]) && (s[1] > 0.0 || mirror[1]))
+    }
+
+    /// A point of the plane in the image.
+    fn spot(&self, point: [f64; 2]) -> Spot {
+        let [w, h] = self.window.size();
+        [
+            (point[0] - self.window.low[0]) / w * self.raster.width as f64,
+            (self.window.high[1] - point[1]) / h * self.raster.height as f64,
+        ]
+    }
+
+    /// A point of the plane in the drawing, in pixels as shown.
+    pub(super) fn place_of(&self, point: [f64; 2]) -> [f64; 2] {
+        let at = self.spot(point);
+        [
+            f64::from(LEFT) + at[0] / SHARP,
+            f64::from(TOP) + at[1] / SHARP,
+        ]
+    }
+
+    /// Paints an element and its mirror images: `values` at its nodes round its border (corners and mid-side nodes in
+    /// turn) and in its middle become colours.
+    pub(super) fn element(
+        &mut self,
+        element: usize,
+        part: u16,
+        at_node: impl Fn(usize) -> f64,
+        middle: f64,
+        color: impl Fn(f64) -> u8,
+    ) {
+        let (ring, n) = ring(self.mesh, element);
+        let points = ring.map(|node| self.node(node));
+        let mut center = [0.0; 2];
+        for p in &points[..n] {
+            center = [center[0] + p[0] / n as f64, center[1] + p[1] / n as f64];
+        }
+        for sign in self.signs() {
+            let image = |p: [f64; 2]| self.spot([sign[0] * p[0], sign[1] * p[1]]);
+            let (spots, c) = (points.map(image), image(center));
+            for i in 0..n {
+                let j = (i + 1) % n;
+                let (a, b) = (at_node(ring[i]), at_node(ring[j]));
+                let corners = [spots[i], spots[j], c];
+                self.raster.triangle(corners, part, |w| {
+                    color(w[0] * a + w[1] * b + w[2] * middle)
+                });
+            }
+        }
+    }
+
+    /// Draws the sides of elements. Of those that are smaller than a few pixels only a grey would be seen: false, and nothing drawn.
+    pub(super) fn sides(&mut self, elements: &[usize], color: u8) -> bool {
+        let [w, h] = self.window.size();
+        let pixels = (self.raster.width * self.raster.height) as f64;
+        let area: f64 = elements.iter().map(|&e| self.area_inside(e)).sum();
+        let shown = pixels * area / (w * h) / elements.len().max(1) as f64;
+        if shown < 16.0 * SHARP * SHARP {
+            return false;
+        }
+        for &element in elements {
+            let (ring, n) = ring(self.mesh, element);
+            for i in 0..n {
+                let (p, q) = (self.node(ring[i]), self.node(ring[(i + 1) % n]));
+                for sign in self.signs() {
+                    let image = |p: [f64; 2]| self.spot([sign[0] * p[0], sign[1] * p[1]]);
+                    self.raster.line(image(p), image(q), color);
+                }
+            }
+        }
+        true
+    }
+
+    /// Area of an element's bounding box inside the window.
+    fn area_inside(&self, element: usize) -> f64 {
+        let mut low = [f64::INFINITY; 2];
+        let mut high = [f64::NEG_INFINITY; 2];
+        for &node in self.mesh.nodes(element) {
+            let p = self.node(node as usize);
+            for k in 0..2 {
+                low[k] = low[k].min(p[k].max(self.window.low[k]));
+                high[k] = high[k].max(p[k].min(self.window.high[k]));
+            }
+        }
+        (high[0] - low[0]).max(0.0) * (high[1] - low[1]).max(0.0)
+    }
+
+    /// The drawing: the image under axes, a scale of colours where there is one, and what `over` draws on top.
+    ///
+    /// # Errors
+    /// `Internal` where the plotting library or the image encoder fails.
+    pub(super) fn finish(
+        &self,
+        labels: [&str; 2],
+        bands: Option<&Bands>,
+        over: impl FnOnce(&super::drawing::Area) -> Result<()>,
+    ) -> Result<Drawing> {
+        let width = f64::from(self.across);
+        let height = self.raster.height as f64 / SHARP;
+        let total = TOP + BOTTOM + height.ceil() as u32;
+        let mut drawing = Drawing::new([LEFT + self.across + self.right, total], |area| {
+            let bare = area.margin(
+                TOP * FINE,
+                (f64::from(total - TOP) - height) as u32 * FINE - BOTTOM * FINE,
+                0,
+                self.right * FINE,
+            );
+            let mut chart = ChartBuilder::on(&bare)
+                .x_label_area_size(BOTTOM * FINE)
+                .y_label_area_size(LEFT * FINE)
+                .build_cartesian_2d(
+                    self.window.low[0]..self.window.high[0],
+                    self.window.low[1]..self.window.high[1],
+                )
+                .map_err(failed)?;
+            axes(&mut chart, labels, false)?;
+            if let Some(bands) = bands {
+                bands.draw(area, [f64::from(LEFT) + width, f64::from(TOP)], height)?;
+            }
+            over(area)
+        })?;
+        let place = Place {
+            x: f64::from(LEFT),
+            y: f64::from(TOP),
+            width,
+            height,
+        };
+        drawing.underlay(place, &self.raster.data_url(&self.palette)?);
+        Ok(drawing)
+    }
+}
+
+/// The nodes round an element, corners and mid-side nodes in turn, and how many they are.
+fn ring(mesh: &Mesh, element: usize) -> ([usize; 8], usize) {
+    let nodes = mesh.nodes(element);
+    let corners = mesh.shapes[element].n_corners();
+    let mut out = [0; 8];
+    if !mesh.shapes[element].is_quadratic() {
+        for (o, &node) in out.iter_mut().zip(nodes) {
+            *o = node as usize;
+        }
+        return (out, corners);
+    }
+    for i in 0..corners {
+        out[2 * i] = nodes[i] as usize;
+        out[2 * i + 1] = nodes[corners + i] as usize;
+    }
+    (out, 2 * corners)
+}
+
+/// Bands of equal colour between nice numbers.
+pub(super) struct Bands {
+    low: f64,
+    step: f64,
+    count: usize,
+    scale: Scale,
+    /// What the numbers are.
+    unit: String,
+    first_color: u8,
+}
+
+impl Bands {
+    /// Bands that cover `values`; colours go into `palette`.
+    pub(super) fn new(values: [f64; 2], scale: Scale, unit: &str, palette: &mut Palette) -> Self {
+        let [low, high] = values;
+        let extent = if high > low {
+            high - low
+        } else {
+            1.0_f64.max(high.abs())
+        };
+        let step = nice_step(extent, 14);
+        let low = (low / step + 1e-9).floor() * step;
+        let count = ((high - low) / step - 1e-9).ceil().clamp(1.0, 24.0) as usize;
+        let mut bands = Bands {
+            low,
+            step,
+            count,
+            scale,
+            unit: unit.to_string(),
+            first_color: 0,
+        };
+        let indices: Vec<u8> = (0..count)
+            .map(|band| palette.add(bands.color(band), 1.0))
+            .collect();
+        bands.first_color = indices.first().copied().unwrap_or(0);
+        bands
+    }
+
+    fn color(&self, band: usize) -> RGBColor {
+        let middle = self.low + (band as f64 + 0.5) * self.step;
+        let last = 0.5 * self.step;
+        let high = self.low + self.count as f64 * self.step;
+        match self.scale {
+            Scale::Diverging => self.scale.color(middle, self.low, high),
+            _ => self.scale.color(middle, self.low + last, high - last),
+        }
+    }
+
+    /// The palette's index for a value.
+    pub(super) fn index(&self, value: f64) -> u8 {
+        let band = ((value - self.low) / self.step).max(0.0) as usize;
+        self.first_color + band.min(self.count - 1) as u8
+    }
+
+    /// A column of the colours with the numbers between them, from `at` down.
+    fn draw(&self, area: &super::drawing::Area, at: [f64; 2], height: f64) -> Result<()> {
+        let (left, right) = (at[0] + 14.0, at[0] + 28.0);
+        let line = 18.0;
+        let (top, bottom) = (at[1] + line, at[1] + height);
+        write(
+            area,
+            &self.unit,
+            [left - 4.0, at[1] - 4.0],
+            (HPos::Left, VPos::Top),
+            INK,
+        )?;
+        let band = (bottom - top) / self.count as f64;
+        // Numbers that would touch are left out.
+        let every = (line / band).ceil().max(1.0) as usize;
+        for i in 0..=self.count {
+            let y = bottom - i as f64 * band;
+            if i < self.count {
+                let corners = [(units(left), units(y - band)), (units(right), units(y))];
+                area.draw(&Rectangle::new(corners, self.color(i).filled()))
+                    .map_err(failed)?;
+            }
+            if i % every == 0 {
+                let value = self.low + i as f64 * self.step;
+                let value = if value.abs() < 1e-9 * self.step {
+                    0.0
+                } else {
+                    value
+                };
+                write(
+                    area,
+                    &tick(value),
+                    [right + 5.0, y],
+                    (HPos::Left, VPos::Center),
+                    INK,
+                )?;
+            }
+        }
+        let frame = [(units(left), units(top)), (units(right), units(bottom))];
+        area.draw(&Rectangle::new(frame, stroke(INK, 0.75)))
+            .map_err(failed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bands_cover_all_values_between_nice_numbers() {
+        for values in [
+            [0.0, 1.0],
+            [-3.7, 911.3],
+            [5.0, 5.0],
+            [0.0, 0.0],
+            [1e-7, 3e-7],
+        ] {
+            let mut palette = Palette::new();
+            let bands = Bands::new(values, Scale::Rising, "MPa", &mut palette);
+            assert!(
+                bands.count >= 1 && bands.count <= 16,
+                "{values:?}: {}",
+                bands.count
+            );
+            let high = bands.low + bands.count as f64 * bands.step;
+            let round_off = 1e-8 * bands.step;
+            assert!(bands.low <= values[0] + round_off, "{values:?}");
+            assert!(high >= values[1] - round_off, "{values:?}");
+            assert_eq!(bands.index(values[0]), 1);
+            assert_eq!(bands.index(f64::INFINITY), bands.count as u8);
+            assert_eq!(bands.index(f64::NAN), 1);
+        }
+    }
+}

@@ -1,0 +1,306 @@
+//! The scene drawn: bodies, supports, loads, contact, and the mesh.
+
+use super::drawing::{Area, Drawing, failed, stroke, units};
+use super::picture::Picture;
+use super::theme::CURVES;
+use super::units::Units;
+use super::window::Window;
+use crate::error::Result;
+use crate::mesh::surface::{normals, ordered_nodes};
+use crate::model::{Magnitude, Model};
+use crate::scene::{Direction, Support};
+use plotters::prelude::*;
+
+/// Colours of the bodies, in turn.
+pub(super) const BODIES: [RGBColor; 6] = [
+    RGBColor(0x5b, 0x8d, 0xbf),
+    RGBColor(0x8f, 0xa8, 0x6b),
+    RGBColor(0xb9, 0x8a, 0x62),
+    RGBColor(0x8d, 0x7f, 0xb5),
+    RGBColor(0x5f, 0xa8, 0xa3),
+    RGBColor(0xb0, 0x7a, 0x96),
+];
+/// Opacity of the bodies.
+const FILL: f64 = 0.5;
+/// Colours of contact, supports and loads.
+pub(super) const CONTACT: RGBColor = CURVES[1];
+pub(super) const SUPPORT: RGBColor = CURVES[2];
+pub(super) const LOAD: RGBColor = CURVES[4];
+/// Most signs along a set.
+const MOST_SIGNS: usize = 7;
+/// Sizes of signs in pixels.
+const TRIANGLE: f64 = 10.0;
+const ARROW: f64 = 26.0;
+const HEAD: f64 = 7.0;
+
+/// Draws what lies in a window, undeformed; with `mesh` the sides of the elements too. The flag says whether
+/// they were coarse enough to be drawn.
+///
+/// # Errors
+/// `Internal` where it cannot be drawn.
+pub(super) fn draw(
+    model: &Model,
+    units: &Units,
+    window: Window,
+    mesh: bool,
+) -> Result<(Drawing, bool)> {
+    let mut picture = Picture::large(&model.mesh, window);
+    let fills: Vec<u8> = BODIES
+        .iter()
+        .map(|&color| picture.palette.add(color, FILL))
+        .collect();
+    let ink = picture.palette.add(RGBColor(0x5a, 0x64, 0x70), 1.0);
+    let side = picture.palette.add(RGBColor(0x6a, 0x74, 0x80), 0.55);
+    let visible = picture.visible();
+    for &element in &visible {
+        let body = model.mesh.element_body[element] as usize;
+        let fill = fills[body % fills.len()];
+        picture.element(element, body as u16 + 1, |_| 0.0, 0.0, |_| fill);
+    }
+    let meshed = mesh && picture.sides(&visible, side);
+    picture.raster.outline(1, ink);
+    let signs = Signs::new(model, &picture, window);
+    let labels = units.axes(model.kind);
+    let drawing = picture.finish([&labels[0], &labels[1]], None, |area| signs.draw(area))?;
+    Ok((drawing, meshed))
+}
+
+/// What is drawn on the bodies.
+struct Signs<'a> {
+    model: &'a Model,
+    picture: &'a Picture<'a>,
+    window: Window,
+    /// Body of each node, and the middle of each body.
+    body: Vec<u32>,
+    middles: Vec<[f64; 2]>,
+}
+
+impl<'a> Signs<'a> {
+    fn new(model: &'a Model, picture: &'a Picture<'a>, window: Window) -> Self {
+        let mesh = &model.mesh;
+        let mut body = vec![0; mesh.n_nodes()];
+        let mut boxes = vec![[[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]; mesh.bodies.len()];
+        for element in 0..mesh.n_elements() {
+            let owner = mesh.element_body[element];
+            for &node in mesh.nodes(element) {
+                body[node as usize] = owner;
+                let p = mesh.point(node as usize);
+                let [low, high] = &mut boxes[owner as usize];
+                for k in 0..2 {
+                    low[k] = low[k].min(p[k]);
+                    high[k] = high[k].max(p[k]);
+                }
+            }
+        }
+        let middles = boxes
+            .iter()
+            .map(|[low, high]| [0, 1].map(|k| 0.5 * (low[k] + high[k])))
+            .collect();
+        Signs {
+            model,
+            picture,
+            window,
+            body,
+            middles,
+        }
+    }
+
+    fn draw(&self, area: &Area) -> Result<()> {
+        for contact in &self.model.contacts {
+            for name in &contact.names {
+                self.line(area, name)?;
+            }
+        }
+        for support in &self.model.scene.support {
+            self.support(area, support)?;
+        }
+        for (index, load) in self.model.loads.iter().enumerate() {
+            let on = &self.model.scene.load[index].on;
+            let pressure = self.model.scene.load[index].pressure;
+            let nodes = self.spread(on);
+            let pulled = nodes
+                .iter()
+                .filter(|&&node| self.is_outward(node, load.direction))
+                .count();
+            // Arrows of one direction lie on one side, also where the surface is along them.
+            let outward = 2 * pulled > nodes.len();
+            for node in nodes {
+                let direction = match (pressure, self.model.mesh.surfaces.get(on)) {
+                    (Some(p), Some(surface)) => normals(&self.model.mesh, surface, &[node])
+                        .first()
+                        .map_or(load.direction, |n| [-p.signum() * n[0], -p.signum() * n[1]]),
+                    _ => load.direction,
+                };
+                let outward = match pressure {
+                    Some(_) => self.is_outward(node, direction),
+                    None => outward,
+                };
+                self.arrow(area, node, direction, outward, load.measures)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn is_shown(&self, node: usize) -> bool {
+        self.window.sees(&[self.model.mesh.point(node)])
+    }
+
+    /// The nodes of a set in order, as far as they have one.
+    fn nodes(&self, name: &str) -> Vec<usize> {
+        let mesh = &self.model.mesh;
+        mesh.surfaces
+            .get(name)
+            .and_then(|surface| ordered_nodes(mesh, surface).ok())
+            .or_else(|| mesh.set_nodes(name))
+            .unwrap_or_default()
+    }
+
+    /// Some of the visible nodes of a set, evenly along it.
+    fn spread(&self, name: &str) -> Vec<usize> {
+        let mut nodes = self.nodes(name);
+        nodes.retain(|&node| self.is_shown(node));
+        let (Some(&first), Some(&last)) = (nodes.first(), nodes.last()) else {
+            return Vec::new();
+        };
+        let mesh = &self.model.mesh;
+        let mut arc = 0.0;
+        let mut arcs = vec![0.0];
+        for pair in nodes.windows(2) {
+            let (p, q) = (mesh.point(pair[0]), mesh.point(pair[1]));
+            arc += (q[0] - p[0]).hypot(q[1] - p[1]);
+            arcs.push(arc);
+        }
+        let shown = |node: usize| self.picture.place_of(mesh.point(node));
+        let (a, b) = (shown(first), shown(last));
+        // Signs need room: one for about each forty pixels.
+        let [left, right] =
+            [self.window.low, self.window.high].map(|p| self.picture.place_of(p)[0]);
+        let pixels = arc / self.window.size()[0] * (right - left);
+        let pixels = pixels.max((b[0] - a[0]).hypot(b[1] - a[1]));
+        let count = ((pixels / 40.0) as usize + 1)
+            .min(MOST_SIGNS)
+            .min(nodes.len());
+        let mut out: Vec<usize> = (0..count)
+            .map(|i| {
+                let share = match count {
+                    1 => 0.5,
+                    _ => i as f64 / (count - 1) as f64,
+                };
+                let place = arcs.partition_point(|s| *s < share * arc);
+                nodes[place.min(nodes.len() - 1)]
+            })
+            .collect();
+        out.dedup();
+        out
+    }
+
+    /// A contact surface.
+    fn line(&self, area: &Area, name: &str) -> Result<()> {
+        let nodes = self.nodes(name);
+        let mut piece: Vec<(i32, i32)> = Vec::new();
+        let mut pieces = Vec::new();
+        for node in nodes {
+            if self.is_shown(node) {
+                let [x, y] = self.picture.place_of(self.model.mesh.point(node));
+                let at = (units(x), units(y));
+                // A point for every two pixels is enough.
+                let far = piece
+                    .last()
+                    .is_none_or(|p| (p.0 - at.0).abs() + (p.1 - at.1).abs() > units(2.0));
+                if far {
+                    piece.push(at);
+                }
+            } else if !piece.is_empty() {
+                pieces.push(std::mem::take(&mut piece));
+            }
+        }
+        pieces.push(piece);
+        for piece in pieces.into_iter().filter(|piece| piece.len() > 1) {
+            area.draw(&PathElement::new(piece, stroke(CONTACT, 3.0)))
+                .map_err(failed)?;
+        }
+        Ok(())
+    }
+
+    /// Whether a direction at a node points out of its body.
+    fn is_outward(&self, node: usize, direction: [f64; 2]) -> bool {
+        let p = self.model.mesh.point(node);
+        let middle = self.middles[self.body[node] as usize];
+        (p[0] - middle[0]) * direction[0] + (p[1] - middle[1]) * direction[1] > 0.0
+    }
+
+    /// Triangles with their tips at the held nodes, filled where both directions are held.
+    fn support(&self, area: &Area, support: &Support) -> Result<()> {
+        let (sin, cos) = support.angle.unwrap_or(0.0).to_radians().sin_cos();
+        for node in self.spread(&support.on) {
+            for &direction in &support.fix {
+                let mut d = match direction {
+                    Direction::X => [cos, sin],
+                    Direction::Y => [-sin, cos],
+                };
+                if !self.is_outward(node, d) {
+                    d = [-d[0], -d[1]];
+                }
+                let tip = self.picture.place_of(self.model.mesh.point(node));
+                // Down in a drawing is -y.
+                let at = |along: f64, across: f64| {
+                    (
+                        units(tip[0] + along * d[0] - across * d[1]),
+                        units(tip[1] - along * d[1] - across * d[0]),
+                    )
+                };
+                let corners = vec![at(0.0, 0.0), at(TRIANGLE, -5.5), at(TRIANGLE, 5.5)];
+                let line = stroke(SUPPORT, 1.5);
+                if support.fix.len() > 1 {
+                    area.draw(&Polygon::new(corners, SUPPORT.filled()))
+                        .map_err(failed)?;
+                } else {
+                    let closed = [&corners[..], &corners[..1]].concat();
+                    area.draw(&PathElement::new(closed, line)).map_err(failed)?;
+                    let ground = vec![at(TRIANGLE + 3.0, -7.0), at(TRIANGLE + 3.0, 7.0)];
+                    area.draw(&PathElement::new(ground, line)).map_err(failed)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// An arrow whose tip or end is at a node, on the outer side. A prescribed displacement has an open head.
+    fn arrow(
+        &self,
+        area: &Area,
+        node: usize,
+        d: [f64; 2],
+        outward: bool,
+        measures: Magnitude,
+    ) -> Result<()> {
+        if d == [0.0; 2] {
+            return Ok(());
+        }
+        let foot = self.picture.place_of(self.model.mesh.point(node));
+        let (from, to) = if outward {
+            (2.0, ARROW + 2.0)
+        } else {
+            (-ARROW - 2.0, -2.0)
+        };
+        let at = |along: f64, across: f64| {
+            (
+                units(foot[0] + along * d[0] - across * d[1]),
+                units(foot[1] - along * d[1] - across * d[0]),
+            )
+        };
+        let line = stroke(LOAD, 1.75);
+        area.draw(&PathElement::new(
+            vec![at(from, 0.0), at(to - 2.0, 0.0)],
+            line,
+        ))
+        .map_err(failed)?;
+        let head = vec![at(to - HEAD, -4.0), at(to, 0.0), at(to - HEAD, 4.0)];
+        if measures == Magnitude::Displacement {
+            area.draw(&PathElement::new(head, line)).map_err(failed)
+        } else {
+            area.draw(&Polygon::new(head, LOAD.filled()))
+                .map_err(failed)
+        }
+    }
+}

@@ -1,0 +1,454 @@
+//! The tables of the page.
+
+use super::page::{Figure, digits, factor, figures, time};
+use super::sketch::{BODIES, CONTACT, LOAD, SUPPORT};
+use super::theme::hex;
+use super::units::{Units, labelled};
+use crate::model::Model;
+use crate::output::RunHeader;
+use crate::output::number::{bytes, significant};
+use crate::results::{Results, State};
+use crate::scene::{Direction, History, Load};
+use maud::{Markup, PreEscaped, html};
+use plotters::style::RGBColor;
+
+/// A table that may be wider than the page. Columns that hold numbers are flush right.
+fn table(head: &[(bool, String)], rows: &[Vec<Markup>]) -> Markup {
+    html! {
+        div.wide tabindex="0" {
+            table {
+                thead { tr { @for (is_number, name) in head { th class=[is_number.then_some("n")] scope="col" { (name) } } } }
+                tbody {
+                    @for row in rows {
+                        tr {
+                            @for (index, (cell, (is_number, _))) in row.iter().zip(head).enumerate() {
+                                @if index == 0 { th scope="row" { (cell) } }
+                                @else { td class=[is_number.then_some("n")] { (cell) } }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn text(name: &str) -> (bool, String) {
+    (false, name.to_string())
+}
+
+fn numbers(name: impl Into<String>) -> (bool, String) {
+    (true, name.into())
+}
+
+fn plain(text: impl AsRef<str>) -> Markup {
+    html! { (text.as_ref()) }
+}
+
+fn swatch(color: RGBColor, name: &str) -> Markup {
+    html! { i.swatch style={ "background:" (hex(color)) } {} (name) }
+}
+
+/// What the scene is made of, beside its drawing.
+pub(super) fn scene(model: &Model, units: &Units, drawn: &[Figure]) -> Markup {
+    html! {
+        (figures(drawn, "figures"))
+        h3 { "Bodies" }
+        (bodies(model, units))
+        h3 { "Contact, supports, loads" }
+        (conditions(model, units))
+    }
+}
+
+fn bodies(model: &Model, units: &Units) -> Markup {
+    let stress = units.stress();
+    let head = [
+        text("body"),
+        text("material"),
+        numbers(labelled("E", stress)),
+        numbers("\u{3bd}"),
+        numbers(labelled("yield stress", stress)),
+        text("hardening"),
+    ];
+    let rows: Vec<Vec<Markup>> = (0..model.mesh.bodies.len())
+        .filter_map(|index| {
+            let name = &model.mesh.bodies[index];
+            let body = model.scene.bodies.get(name)?;
+            let material = model.scene.materials.get(&body.material)?;
+            let yields = material.yield_stress.filter(|_| model.may_yield[index]);
+            let hardening = match (yields, material.plastic_modulus_resolved()) {
+                (None, _) => "elastic".to_string(),
+                (_, Some(0.0)) => "none (perfectly plastic)".to_string(),
+                (_, Some(h)) => {
+                    format!("linear, H = {}", with_unit(h, stress))
+                }
+                (_, None) => "table".to_string(),
+            };
+            Some(vec![
+                swatch(BODIES[index % BODIES.len()], name),
+                plain(&body.material),
+                plain(short(material.youngs_modulus)),
+                plain(short(material.poissons_ratio)),
+                plain(yields.map_or("\u{2013}".to_string(), short)),
+                plain(hardening),
+            ])
+        })
+        .collect();
+    table(&head, &rows)
+}
+
+/// A number of the input: as it was given, as far as six digits say it.
+fn short(value: f64) -> String {
+    let text = significant(value, 6);
+    if text.contains('.') && !text.contains('e') {
+        text.trim_end_matches('0').trim_end_matches('.').to_string()
+    } else {
+        text
+    }
+}
+
+fn conditions(model: &Model, units: &Units) -> Markup {
+    let scene = &model.scene;
+    let mut rows: Vec<Vec<Markup>> = Vec::new();
+    for (contact, surface) in scene.contact.iter().zip(&model.contacts) {
+        let mut what = format!("{} pairs of nodes, without friction", surface.range.len());
+        if contact.interference != 0.0 {
+            what.push_str(&format!(
+                ", interference {}",
+                with_unit(contact.interference, units.length())
+            ));
+        }
+        if let Some(gap) = contact.gap {
+            what.push_str(&format!(", initial gap {}", with_unit(gap, units.length())));
+        }
+        let on = format!("{} on {}", contact.first, contact.second);
+        rows.push(vec![swatch(CONTACT, "contact"), plain(on), plain(what)]);
+    }
+    for support in &scene.support {
+        let fixed: Vec<&str> = support.fix.iter().map(|d| axis(model, *d)).collect();
+        let turned = support.angle.map_or(String::new(), |a| {
+            format!(", axes turned by {}\u{b0}", short(a))
+        });
+        let what = format!("{} held{turned}", fixed.join(" and "));
+        rows.push(vec![
+            swatch(SUPPORT, "support"),
+            plain(&support.on),
+            plain(what),
+        ]);
+    }
+    for load in &scene.load {
+        let what = describe(model, load, units);
+        rows.push(vec![swatch(LOAD, "load"), plain(&load.on), plain(what)]);
+    }
+    table(&[text(""), text("on"), text("what")], &rows)
+}
+
+fn axis(model: &Model, direction: Direction) -> &'static str {
+    match (model.kind, direction) {
+        (crate::scene::Kind::Axisymmetric, Direction::X) => "r",
+        (crate::scene::Kind::Axisymmetric, Direction::Y) => "z",
+        (_, direction) => direction.name(),
+    }
+}
+
+fn with_unit(value: f64, unit: &str) -> String {
+    format!("{} {unit}", short(value)).trim_end().to_string()
+}
+
+fn describe(model: &Model, load: &Load, units: &Units) -> String {
+    let vector = |v: [f64; 2]| format!("({}, {})", short(v[0]), short(v[1]));
+    let mut what = if let Some(force) = load.force {
+        format!("force {}", vector(force))
+    } else if let Some(pressure) = load.pressure {
+        format!("pressure {}", with_unit(pressure, units.stress()))
+    } else if let Some(traction) = load.traction {
+        format!("traction {} {}", vector(traction), units.stress())
+    } else if let Some(kirsch) = load.kirsch {
+        format!(
+            "traction of a plate with a hole under remote tensions {}",
+            vector([kirsch.stress_x, kirsch.stress_y])
+        )
+    } else if let Some(d) = load.displacement {
+        let parts = [(d.x, Direction::X), (d.y, Direction::Y)];
+        let parts: Vec<String> = parts
+            .into_iter()
+            .filter_map(|(value, direction)| {
+                value.map(|v| {
+                    format!(
+                        "{} = {}",
+                        axis(model, direction),
+                        with_unit(v, units.length())
+                    )
+                })
+            })
+            .collect();
+        format!("displacement {}", parts.join(", "))
+    } else if let Some(plane) = load.plane_force {
+        format!(
+            "force {} along {}, the surface held plane",
+            short(plane.total),
+            axis(model, plane.direction)
+        )
+    } else {
+        String::new()
+    };
+    match &load.history {
+        History::Proportional => {}
+        History::Constant => what.push_str(", constant (preload)"),
+        History::Table(rows) => {
+            let rows: Vec<String> = rows.iter().map(|r| vector(*r)).collect();
+            what.push_str(&format!(
+                ", times a table of (load factor, multiple): {}",
+                rows.join(" ")
+            ));
+        }
+    }
+    if load.name.is_empty() {
+        what
+    } else {
+        format!("{}: {what}", load.name)
+    }
+}
+
+/// The states, with the columns that tell something in this scene.
+pub(super) fn states(model: &Model, results: &Results, units: &Units) -> Markup {
+    type Cell = fn(&State) -> String;
+    let states = &results.states;
+    if states.is_empty() {
+        return PreEscaped(String::new());
+    }
+    let any = |value: fn(&State) -> f64| states.iter().any(|s| value(s) != 0.0);
+    let contact = !model.pairs.is_empty();
+    let plastic = any(|s| s.plastic_points as f64);
+    let mut columns: Vec<(bool, String, Cell)> = vec![
+        (true, factor(model.scene.program.unit).to_string(), |s| {
+            digits(s.alpha)
+        }),
+        (true, labelled("load", units.load()), |s| digits(s.load)),
+    ];
+    let (length, stress) = (units.length(), units.stress());
+    if contact {
+        // Where the load is the contact force one column says it.
+        if states
+            .iter()
+            .any(|s| digits(s.load) != digits(s.contact_force))
+        {
+            let name = labelled("contact force", units.load());
+            columns.push((true, name, |s| digits(s.contact_force)));
+        }
+        columns.push((true, labelled("max. pressure", stress), |s| {
+            digits(s.max_pressure)
+        }));
+        columns.push((true, labelled("half width", length), |s| {
+            digits(s.half_width)
+        }));
+        if states.iter().any(|s| s.contact_arc.is_some()) {
+            columns.push((true, "contact arc [\u{b0}]".to_string(), |s| {
+                s.contact_arc
+                    .map_or("\u{2013}".to_string(), |[a, b]| format!("{a:.2} to {b:.2}"))
+            }));
+        }
+    }
+    if any(|s| s.approach) {
+        let name = if contact { "approach" } else { "displacement" };
+        columns.push((true, labelled(name, length), |s| significant(s.approach, 5)));
+    }
+    if contact && plastic {
+        columns.push((true, labelled("residual depth", length), |s| {
+            significant(s.residual_depth, 5)
+        }));
+    }
+    if plastic {
+        columns.push((true, "plastic points".to_string(), |s| {
+            s.plastic_points.to_string()
+        }));
+        columns.push((true, "largest plastic strain".to_string(), |s| {
+            significant(s.max_equivalent_plastic_strain, 5)
+        }));
+    }
+    let mut head = vec![text("state")];
+    head.extend(columns.iter().map(|c| (c.0, c.1.clone())));
+    let rows: Vec<Vec<Markup>> = states
+        .iter()
+        .map(|state| {
+            let mut row = vec![plain(&state.name)];
+            row.extend(columns.iter().map(|c| plain((c.2)(state))));
+            row
+        })
+        .collect();
+    html! {
+        p.quiet { "A load factor is " (super::curves::factor_unit(model.scene.program.unit)) "." }
+        (table(&head, &rows))
+    }
+}
+
+/// Reference values beside computed ones.
+pub(super) fn reference(results: &Results) -> Markup {
+    if results.reference.is_empty() {
+        return PreEscaped(String::new());
+    }
+    let published = results
+        .reference
+        .iter()
+        .any(|r| r.published_ratio.is_some());
+    let mut head = vec![
+        text("quantity"),
+        numbers("reference"),
+        numbers("computed"),
+        numbers("computed / reference"),
+        numbers("difference"),
+    ];
+    if published {
+        head.push(numbers("ratio of the paper"));
+    }
+    head.push(text("source"));
+    let rows: Vec<Vec<Markup>> = results
+        .reference
+        .iter()
+        .map(|row| {
+            let mut cells = vec![
+                html! { code { (row.quantity) } },
+                plain(digits(row.reference)),
+                plain(digits(row.computed)),
+                plain(digits(row.ratio)),
+                plain(format!("{:+.2} %", 100.0 * (row.ratio - 1.0))),
+            ];
+            if published {
+                cells.push(plain(
+                    row.published_ratio
+                        .map_or("\u{2013}".to_string(), |r| r.to_string()),
+                ));
+            }
+            cells.push(plain(&row.source));
+            cells
+        })
+        .collect();
+    table(&head, &rows)
+}
+
+/// The ledger of effects.
+pub(super) fn effects(results: &Results) -> Markup {
+    if results.effects.is_empty() {
+        return PreEscaped(String::new());
+    }
+    html! {
+        div.wide tabindex="0" {
+            table {
+                thead { tr {
+                    th scope="col" { "effect" } th scope="col" { "" } th scope="col" { "why" }
+                    th.n scope="col" { "time" } th.n scope="col" { "memory" }
+                } }
+                tbody {
+                    @for effect in &results.effects {
+                        tr class=[(!effect.on).then_some("off")] {
+                            th scope="row" { (effect.name) }
+                            td { @if effect.on { b { "on" } } @else { "off" } }
+                            td.why { (effect.why) }
+                            td.n { @if effect.on && effect.seconds > 0.0 { (time(effect.seconds)) } }
+                            td.n { @if effect.on && effect.memory_bytes > 0 { (bytes(effect.memory_bytes as f64)) } }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The figures of quality: the worst of the run, then each state's.
+pub(super) fn quality(results: &Results) -> Markup {
+    let head = [
+        text("state"),
+        numbers("backward error"),
+        numbers("equilibrium"),
+        numbers("complementarity"),
+        numbers("penetration"),
+    ];
+    let row = |name: &str, q: &crate::results::Quality| -> Vec<Markup> {
+        let mut cells = vec![plain(name)];
+        let figures = [
+            q.backward_error,
+            q.equilibrium,
+            q.complementarity,
+            q.penetration,
+        ];
+        cells.extend(figures.map(|v| plain(significant(v, 2))));
+        cells
+    };
+    let mut rows = vec![row("worst of all", &results.quality)];
+    rows.extend(results.states.iter().map(|s| row(&s.name, &s.quality)));
+    html! {
+        p.quiet {
+            "Relative and without dimension; 1e-16 is round-off. Backward error of the full solve; out-of-balance force of the \
+             stresses over the forces that act; gap times force of a pair; penetration over the largest displacement. These say \
+             how well the equations were solved, not how fine the mesh is."
+        }
+        (table(&head, &rows))
+    }
+}
+
+/// Time by phase, sizes, counts.
+pub(super) fn cost(header: &RunHeader, results: &Results) -> Markup {
+    let total = header.wall_seconds;
+    let phases: Vec<&(String, f64)> = results.timings.iter().filter(|(_, t)| *t > 0.0).collect();
+    let longest = phases.iter().map(|(_, t)| *t).fold(0.0, f64::max);
+    let sizes = &results.sizes;
+    let counts = &results.counts;
+    let figures = [
+        ("elements", sizes.elements),
+        ("nodes", sizes.nodes),
+        ("freedoms", sizes.freedoms),
+        ("contact pairs", sizes.contact_pairs),
+        ("freedoms of the plastic zone", sizes.zone_freedoms),
+        ("increments", results.history.len()),
+        ("factorisations", counts.factorizations),
+        ("solves with the trailing block", counts.trailing_solves),
+        ("full solves", counts.full_solves),
+        ("plastic iterations", counts.plastic_iterations),
+        ("changes of contact", counts.contact_changes),
+    ];
+    html! {
+        div.wide tabindex="0" {
+            table {
+                thead { tr { th scope="col" { "phase" } th.n scope="col" { "time" } th.n scope="col" { "share" } th.bar scope="col" {} } }
+                tbody {
+                    @for (phase, t) in &phases {
+                        tr {
+                            th scope="row" { (phase) }
+                            td.n { (time(*t)) }
+                            td.n { (format!("{:.0} %", 100.0 * t / total.max(*t))) }
+                            td.bar { i style={ "width:" (format!("{:.1}", 100.0 * t / longest)) "%" } {} }
+                        }
+                    }
+                    tr { th scope="row" { b { "all" } } td.n { b { (time(total)) } } td {} td {} }
+                }
+            }
+        }
+        div.wide tabindex="0" {
+            table {
+                tbody {
+                    @for (name, count) in figures.iter().filter(|f| f.1 > 0) {
+                        tr { th scope="row" { (name) } td.n { (grouped(*count)) } }
+                    }
+                    @if results.factor.factor_nonzeros > 0.0 {
+                        tr { th scope="row" { "nonzeros of the factor (order " (results.factor.ordering) ")" } td.n { (grouped(results.factor.factor_nonzeros as usize)) } }
+                        tr { th scope="row" { "memory of the factor" } td.n { (bytes(results.factor.memory_bytes)) } }
+                    }
+                    tr { th scope="row" { "solver" } td.n { (header.solver) } }
+                }
+            }
+        }
+    }
+}
+
+/// A count with thin spaces between thousands.
+fn grouped(count: usize) -> String {
+    let digits = count.to_string();
+    let mut out = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            out.push('\u{202f}');
+        }
+        out.push(digit);
+    }
+    out
+}

@@ -1,0 +1,169 @@
+//! The part of the plane that a picture shows.
+
+use crate::model::Model;
+use crate::results::{Results, Status};
+use crate::scene::{Direction, Kind};
+
+/// A rectangle of the plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Window {
+    /// Smallest x and y.
+    pub low: [f64; 2],
+    /// Largest x and y.
+    pub high: [f64; 2],
+}
+
+/// How far a picture of the contact reaches, in half widths of what is or was closed.
+const REACH: [f64; 2] = [2.4, 2.0];
+/// Room round what a picture shows, as a share of its size.
+const ROOM: f64 = 0.03;
+/// Room round the drawing of the whole model: for arrows and supports.
+const WIDE_ROOM: f64 = 0.1;
+/// Smallest and largest height over width.
+const SHAPE: [f64; 2] = [0.55, 1.1];
+
+impl Window {
+    /// The smallest window round some points; `None` without points.
+    fn round(points: impl Iterator<Item = [f64; 2]>) -> Option<Self> {
+        points.fold(None, |window: Option<Window>, p| {
+            let mut window = window.unwrap_or(Window { low: p, high: p });
+            for k in 0..2 {
+                window.low[k] = window.low[k].min(p[k]);
+                window.high[k] = window.high[k].max(p[k]);
+            }
+            Some(window)
+        })
+    }
+
+    /// Width and height.
+    pub(super) fn size(&self) -> [f64; 2] {
+        [0, 1].map(|k| self.high[k] - self.low[k])
+    }
+
+    /// Whether a box of some points may be seen.
+    pub(super) fn sees(&self, points: &[[f64; 2]]) -> bool {
+        (0..2).all(|k| {
+            points.iter().any(|p| p[k] >= self.low[k])
+                && points.iter().any(|p| p[k] <= self.high[k])
+        })
+    }
+
+    /// With its mirror images.
+    fn mirrored(mut self, mirror: [bool; 2]) -> Self {
+        for k in 0..2 {
+            if mirror[k] {
+                let far = self.low[k].abs().max(self.high[k].abs());
+                (self.low[k], self.high[k]) = (-far, far);
+            }
+        }
+        self
+    }
+
+    /// Room on all sides, and neither a slit nor a tower: the shorter side grows.
+    fn framed(mut self, room: f64) -> Self {
+        let [w, h] = self.size();
+        let least = w.max(h).max(f64::MIN_POSITIVE);
+        let width = (w + 2.0 * room * least).max(h / SHAPE[1]);
+        let height = (h + 2.0 * room * least).max(width * SHAPE[0]);
+        let width = width.max(height / SHAPE[1]);
+        for (k, size) in [width, height].into_iter().enumerate() {
+            let middle = 0.5 * (self.low[k] + self.high[k]);
+            (self.low[k], self.high[k]) = (middle - 0.5 * size, middle + 0.5 * size);
+        }
+        self
+    }
+}
+
+/// In which axes the model is a half of what it stands for: x (mirror at x = 0), y.
+///
+/// A support that only holds x, all of whose nodes lie on x = 0 with the model on one side, is a plane of symmetry; so
+/// is the axis of an axisymmetric model that reaches it.
+pub(super) fn mirrors(model: &Model) -> [bool; 2] {
+    let mesh = &model.mesh;
+    let Some(all) = Window::round((0..mesh.n_nodes()).map(|n| mesh.point(n))) else {
+        return [false; 2];
+    };
+    let small = 1e-9 * all.size()[0].max(all.size()[1]);
+    let one_sided = [0, 1].map(|k| all.low[k].abs() <= small || all.high[k].abs() <= small);
+    let held = [Direction::X, Direction::Y].map(|direction| {
+        model.scene.support.iter().any(|support| {
+            let k = usize::from(direction == Direction::Y);
+            support.fix == [direction]
+                && support.angle.is_none_or(|a| a == 0.0)
+                && mesh.set_nodes(&support.on).is_some_and(|nodes| {
+                    nodes.len() > 1 && nodes.iter().all(|&n| mesh.point(n)[k].abs() <= small)
+                })
+        })
+    });
+    let axis = model.kind == Kind::Axisymmetric;
+    [one_sided[0] && (held[0] || axis), one_sided[1] && held[1]]
+}
+
+/// The whole mesh.
+pub(super) fn whole(model: &Model, mirror: [bool; 2]) -> Option<Window> {
+    let mesh = &model.mesh;
+    let all = Window::round((0..mesh.n_nodes()).map(|n| mesh.point(n)))?;
+    Some(all.mirrored(mirror).framed(WIDE_ROOM))
+}
+
+/// The surroundings of what is closed in any state, or the whole mesh where there is no contact.
+pub(super) fn near_contact(model: &Model, results: &Results, mirror: [bool; 2]) -> Option<Window> {
+    let mesh = &model.mesh;
+    let all = Window::round((0..mesh.n_nodes()).map(|n| mesh.point(n)))?.mirrored(mirror);
+    let pairs = results.states.iter().flat_map(|state| &state.pairs);
+    let closed = pairs
+        .filter(|pair| pair.status == Status::Closed)
+        .map(|pair| pair.position);
+    let candidates = model.pairs.iter().map(|pair| mesh.point(pair.second));
+    let Some(patch) = Window::round(closed).or_else(|| Window::round(candidates)) else {
+        return Some(all.framed(ROOM));
+    };
+    let patch = patch.mirrored(mirror);
+    let facet = model
+        .contacts
+        .iter()
+        .fold(0.0f64, |m, c| m.max(c.facet_length));
+    let [w, h] = patch.size();
+    let size = (0.5 * w.max(h)).max(3.0 * facet);
+    let mut window = patch;
+    for k in 0..2 {
+        let middle = 0.5 * (patch.low[k] + patch.high[k]);
+        window.low[k] = (middle - REACH[k] * size).max(all.low[k]);
+        window.high[k] = (middle + REACH[k] * size).min(all.high[k]);
+    }
+    Some(window.framed(ROOM))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_has_room_and_is_neither_slit_nor_tower() {
+        for high in [[10.0, 0.1], [0.1, 10.0], [1.0, 1.0]] {
+            let window = Window {
+                low: [0.0; 2],
+                high,
+            }
+            .framed(ROOM);
+            let [w, h] = window.size();
+            assert!(w > high[0] && h > high[1], "{window:?}");
+            let shape = h / w;
+            let round_off = 1e-12;
+            assert!(
+                shape >= SHAPE[0] - round_off && shape <= SHAPE[1] + round_off,
+                "{window:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_window_sees_what_crosses_it() {
+        let window = Window {
+            low: [0.0; 2],
+            high: [1.0; 2],
+        };
+        assert!(window.sees(&[[-1.0, -1.0], [2.0, 2.0]]));
+        assert!(!window.sees(&[[1.5, 0.0], [2.0, 1.0]]));
+    }
+}

@@ -1,0 +1,173 @@
+//! Work-precision plots: the error of each run over its time, both logarithmic.
+
+use crate::accuracy::{Knob, QuantityStudy, Study, foremost};
+use crate::error::{Error, Result};
+use plotters::prelude::*;
+use plotters::series::DashedLineSeries;
+
+const FONT: &str = "Helvetica, Arial, sans-serif";
+const SIZE: (u32, u32) = (820, 540);
+/// Colours of the series, told apart by readers who do not see all (P. Wong, Nature Methods 8 (2011) 441,
+/// doi:10.1038/nmeth.1618).
+const COLORS: [RGBColor; 7] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(230, 159, 0),
+    RGBColor(86, 180, 233),
+    RGBColor(90, 90, 90),
+];
+/// Errors below this are drawn there: round-off.
+const FLOOR: f64 = 1e-9;
+/// Largest error that is drawn.
+const CEILING: f64 = 10.0;
+
+/// The quantities that get a plot.
+pub(super) fn plotted(study: &Study) -> Vec<&QuantityStudy> {
+    let mut out = foremost(&study.quantities);
+    out.retain(|q| q.errors.iter().flatten().any(|e| *e <= CEILING));
+    out
+}
+
+/// The work-precision plot of a quantity of a study as SVG: the error of each run over its time.
+///
+/// # Errors
+/// `Internal` where drawing fails.
+pub fn plot(study: &Study, quantity: &QuantityStudy) -> Result<String> {
+    let mut text = String::new();
+    draw(study, quantity, &mut text)
+        .map_err(|e| Error::internal(format!("plot of {}: {e}", quantity.quantity)))?;
+    Ok(text)
+}
+
+type Point = (f64, f64);
+
+/// A curve of the plot.
+struct Curve<'s> {
+    name: &'s str,
+    /// Whether it is a series of meshes.
+    is_mesh: bool,
+    points: Vec<Point>,
+}
+
+/// Curves by series: those of meshes by element size (finest first), the others by time.
+fn curves<'s>(study: &'s Study, quantity: &QuantityStudy) -> Vec<Curve<'s>> {
+    let mut order: Vec<usize> = (0..study.runs.len()).collect();
+    order.sort_by(|&a, &b| study.runs[a].ratio.total_cmp(&study.runs[b].ratio));
+    let mut out: Vec<Curve> = Vec::new();
+    for i in order {
+        let (run, error) = (&study.runs[i], quantity.errors[i]);
+        let Some(error) = error.filter(|e| *e <= CEILING) else {
+            continue;
+        };
+        let point = (run.usage.undisturbed_seconds(), error.max(FLOOR));
+        match out.iter_mut().find(|c| c.name == run.series) {
+            Some(curve) => curve.points.push(point),
+            None => out.push(Curve {
+                name: &run.series,
+                is_mesh: matches!(run.knob, Knob::Resolution | Knob::Element),
+                points: vec![point],
+            }),
+        }
+    }
+    out
+}
+
+/// The range of some positive values, a decade's eighth wider on either side.
+fn range(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
+    let (low, high) = values.fold((f64::INFINITY, 0.0f64), |(l, h), v| (l.min(v), h.max(v)));
+    let wider = 10f64.powf(0.125);
+    low / wider..(high * wider).max(low * wider * wider)
+}
+
+fn draw(
+    study: &Study,
+    quantity: &QuantityStudy,
+    text: &mut String,
+) -> std::result::Result<(), Box<dyn std::error::Error>> {
+    let curves = curves(study, quantity);
+    let points = || curves.iter().flat_map(|c| c.points.iter().copied());
+    if points().next().is_none() {
+        return Err("no run has an error to draw".into());
+    }
+    let root = SVGBackend::with_string(text, SIZE).into_drawing_area();
+    root.fill(&WHITE)?;
+    let mut chart = ChartBuilder::on(&root)
+        .caption(&quantity.quantity, (FONT, 18).into_font().color(&BLACK))
+        .margin(14)
+        .margin_right(24)
+        .x_label_area_size(48)
+        .y_label_area_size(76)
+        .build_cartesian_2d(
+            range(points().map(|p| p.0)).log_scale(),
+            range(points().map(|p| p.1)).log_scale(),
+        )?;
+    chart
+        .configure_mesh()
+        .x_desc("time [s] (wall, or processor where less)")
+        .y_desc("relative error")
+        .axis_desc_style((FONT, 16))
+        .label_style((FONT, 13))
+        .x_label_formatter(&|v| format!("{v}"))
+        .y_label_formatter(&|v| format!("{v:.0e}"))
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(BLACK.mix(0.12))
+        .draw()?;
+    // A front of one run is a point that its own curve shows.
+    let front: Vec<Point> = quantity
+        .pareto
+        .iter()
+        .filter_map(|&i| {
+            Some((
+                study.runs[i].usage.undisturbed_seconds(),
+                quantity.errors[i]?.max(FLOOR),
+            ))
+        })
+        .filter(|p| p.1 <= CEILING)
+        .collect();
+    if front.len() > 1 {
+        let grey = RGBColor(150, 150, 150);
+        chart
+            .draw_series(DashedLineSeries::new(front, 6, 5, grey.stroke_width(5)))?
+            .label("Pareto front")
+            .legend(move |at| {
+                EmptyElement::at(at) + Rectangle::new([(0, -2), (24, 2)], grey.filled())
+            });
+    }
+    for (i, curve) in curves.iter().enumerate() {
+        let Curve {
+            name,
+            is_mesh,
+            points,
+        } = curve;
+        let color = COLORS[i % COLORS.len()];
+        let (width, radius) = if *is_mesh { (2, 4) } else { (1, 3) };
+        // Runs with one knob turned are points round the scene's own: a line would suggest an order.
+        if *is_mesh {
+            chart.draw_series(LineSeries::new(points.clone(), color.stroke_width(width)))?;
+        }
+        let style = if *is_mesh {
+            color.filled()
+        } else {
+            color.stroke_width(2)
+        };
+        chart
+            .draw_series(points.iter().map(|&p| Circle::new(p, radius, style)))?
+            .label(*name)
+            .legend(move |at| EmptyElement::at(at) + Circle::new((12, 0), radius, style));
+    }
+    chart
+        .configure_series_labels()
+        .position(SeriesLabelPosition::UpperRight)
+        .margin(10)
+        .legend_area_size(30)
+        .label_font((FONT, 13))
+        .background_style(WHITE.mix(0.85))
+        .border_style(BLACK.mix(0.25))
+        .draw()?;
+    root.present()?;
+    drop(chart);
+    drop(root);
+    Ok(())
+}

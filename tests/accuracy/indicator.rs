@@ -1,0 +1,156 @@
+//! The energy norm of the recovered stress error against that of the exact one, on an elastic thick cylinder.
+
+use crate::running;
+use brinell::analytical::{Plane, ThickCylinder};
+use brinell::element::{gauss_points, shape_functions};
+use brinell::material::multiply;
+use brinell::mesh::Shape;
+use brinell::model::Model;
+use brinell::scene::Scene;
+
+const PRESSURE: f64 = 10.0;
+
+fn scene(shape: &str, n: usize) -> Scene {
+    let mut scene = running::load(
+        "thick_cylinder",
+        &[
+            &format!("mesh.parts.0.element={shape}"),
+            &format!("mesh.parts.0.ring.elements=[{n},{n}]"),
+            &format!("program.targets=[{{ load_factor = {PRESSURE:.1} }}]"),
+        ],
+    );
+    scene.reference.clear();
+    scene
+}
+
+/// Cells along a side of a quadratic element in which the exact error is integrated by the midpoint rule.
+const CELLS: usize = 8;
+
+/// Points at which the stress of an element is compared with the exact one: position, weight, computed stress. Linear elements at
+/// their Gauss points; quadratic ones all over, where the stress is the polynomial through the Gauss points.
+fn points(model: &Model, e: usize, displacement: &[f64]) -> Vec<([f64; 2], f64, [f64; 4])> {
+    let elastic = model.materials[0].elastic_matrix();
+    let (shape, x) = (model.mesh.shapes[e], model.element_coordinates(e));
+    let nodes = model.mesh.nodes(e);
+    let local: Vec<f64> = nodes
+        .iter()
+        .flat_map(|&n| {
+            [
+                displacement[2 * n as usize],
+                displacement[2 * n as usize + 1],
+            ]
+        })
+        .collect();
+    let gauss: Vec<_> = gauss_points(model.kind, shape, &x)
+        .iter()
+        .map(|p| (p.position, p.weight, multiply(&elastic, &p.strain(&local))))
+        .collect();
+    if shape.n_nodes() == shape.n_corners() {
+        return gauss;
+    }
+    let mut out = Vec::new();
+    for i in 0..CELLS {
+        for j in 0..CELLS {
+            let unit = [i, j].map(|k| (k as f64 + 0.5) / CELLS as f64);
+            // The unit square onto the reference element; the triangle by Duffy's map.
+            let (at, area, shares) = if shape.n_corners() == 4 {
+                let at = unit.map(|u| 2.0 * u - 1.0);
+                let [a, b] = at.map(|v| v * 3f64.sqrt());
+                let n = [
+                    (1.0 - a) * (1.0 - b),
+                    (1.0 + a) * (1.0 - b),
+                    (1.0 + a) * (1.0 + b),
+                    (1.0 - a) * (1.0 + b),
+                ];
+                (at, 4.0, n.map(|n| n / 4.0).to_vec())
+            } else {
+                let at = [unit[0] * (1.0 - unit[1]), unit[1]];
+                let [b, c] = at.map(|v| 2.0 * v - 1.0 / 3.0);
+                (at, 1.0 - unit[1], vec![1.0 - b - c, b, c])
+            };
+            let (values, gradients) = shape_functions(shape, at);
+            let sum = |f: &dyn Fn(usize) -> f64| (0..shape.n_nodes()).map(f).sum::<f64>();
+            let position = [sum(&|k| values[k] * x[k][0]), sum(&|k| values[k] * x[k][1])];
+            let jacobian: [[f64; 2]; 2] = std::array::from_fn(|a| {
+                std::array::from_fn(|d| sum(&|k| gradients[k][a] * x[k][d]))
+            });
+            let determinant = jacobian[0][0] * jacobian[1][1] - jacobian[0][1] * jacobian[1][0];
+            let stress =
+                std::array::from_fn(|c| shares.iter().zip(&gauss).map(|(n, g)| n * g.2[c]).sum());
+            out.push((
+                position,
+                area * determinant / (CELLS * CELLS) as f64,
+                stress,
+            ));
+        }
+    }
+    out
+}
+
+/// `||sigma_h - sigma||` over `||sigma_h||` in the energy norm.
+fn exact_error(scene: &Scene, displacement: &[f64]) -> f64 {
+    let model = Model::new(scene).unwrap();
+    let (e, nu) = (
+        model.materials[0].youngs_modulus,
+        model.materials[0].poissons_ratio,
+    );
+    let exact = ThickCylinder::new(100.0, 200.0, e, nu, Plane::Strain).unwrap();
+    let energy = |s: &[f64; 4]| {
+        let trace = s[0] + s[1] + s[2];
+        let square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2.0 * s[3] * s[3];
+        ((1.0 + nu) * square - nu * trace * trace) / e
+    };
+    let (mut error, mut whole) = (0.0, 0.0);
+    for element in 0..model.mesh.n_elements() {
+        for ([x, y], weight, computed) in points(&model, element, displacement) {
+            let (c, s) = (x / x.hypot(y), y / x.hypot(y));
+            let [radial, hoop, axial] = exact.stress(x.hypot(y), PRESSURE, 0.0);
+            let expected = [
+                radial * c * c + hoop * s * s,
+                radial * s * s + hoop * c * c,
+                axial,
+                (radial - hoop) * s * c,
+            ];
+            let difference: [f64; 4] = std::array::from_fn(|i| computed[i] - expected[i]);
+            error += weight * energy(&difference);
+            whole += weight * energy(&computed);
+        }
+    }
+    (error / whole).sqrt()
+}
+
+#[test]
+fn the_estimate_is_close_to_the_exact_error_and_falls_with_its_order() {
+    for (shape, order) in [
+        (Shape::Quad4, 1),
+        (Shape::Quad8, 2),
+        (Shape::Tri3, 1),
+        (Shape::Tri6, 2),
+    ] {
+        let name = format!("{shape:?}").to_lowercase();
+        let mut estimates = Vec::new();
+        // With 4 elements over 90 degrees a quadratic fit over three of them is no match for stresses that turn twice as far.
+        for n in [8, 16, 32] {
+            let scene = scene(&name, n);
+            let results = running::run(&scene);
+            let state = &results.states[0];
+            let fields = state.fields.as_ref().unwrap();
+            let estimate = state.energy_error.unwrap();
+            let sum: f64 = fields.error.iter().map(|e| e * e).sum();
+            running::close("sum of squares", sum.sqrt(), estimate, estimate, 1e-12);
+            let effectivity = estimate / exact_error(&scene, &fields.displacement);
+            println!("{name} {n}: estimate {estimate:.2e}, effectivity {effectivity:.2}");
+            assert!(
+                (0.5..=2.0).contains(&effectivity),
+                "{name} {n}: {effectivity}"
+            );
+            estimates.push(estimate);
+        }
+        let observed = (estimates[1] / estimates[2]).log2();
+        // Theory: the degree; the last halving shows it to a fifth.
+        assert!(
+            (observed - f64::from(order)).abs() < 0.2,
+            "{name}: order {observed}"
+        );
+    }
+}

@@ -1,0 +1,10 @@
+//! What a run says about its own errors, against closed forms.
+
+#[path = "../running/mod.rs"]
+mod running;
+
+mod claim;
+mod demand;
+mod effectivity;
+mod indicator;
+mod study;

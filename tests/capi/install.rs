@@ -1,0 +1,179 @@
+//! Programs in C and C++ against the installed library print what the Rust program prints, also under valgrind.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn is_installed(program: &str) -> bool {
+    Command::new(program)
+        .arg("--version")
+        .output()
+        .is_ok_and(|o| o.status.success())
+}
+
+fn done(command: &mut Command) -> Output {
+    let output = command
+        .output()
+        .unwrap_or_else(|e| panic!("{command:?}: {e}"));
+    assert!(
+        output.status.success(),
+        "{command:?}\n{}\n{}",
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr)
+    );
+    output
+}
+
+fn words(output: &Output) -> Vec<String> {
+    let text = String::from_utf8_lossy(&output.stdout);
+    text.split_whitespace().map(String::from).collect()
+}
+
+/// Features of this build, for the nested one.
+fn features() -> &'static str {
+    if cfg!(feature = "cholmod") {
+        "--features capi"
+    } else {
+        "--no-default-features --features capi"
+    }
+}
+
+#[test]
+fn programs_against_the_installed_library_print_the_same_digits() {
+    for program in ["make", "cc", "c++", "pkg-config"] {
+        if !is_installed(program) {
+            println!("skipped: there is no {program} on this machine");
+            return;
+        }
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let prefix = folder.path().join("installed");
+    done(
+        Command::new("make")
+            .current_dir(root())
+            .args(["install", "PROFILE=dev"])
+            .arg(format!("PREFIX={}", prefix.display()))
+            .arg(format!("FEATURES={}", features())),
+    );
+    let lib = prefix.join("lib");
+    for file in [
+        "libbrinell.so",
+        "libbrinell.so.0",
+        "libbrinell.a",
+        "pkgconfig/brinell.pc",
+    ] {
+        assert!(lib.join(file).exists(), "{file}");
+    }
+    // A small scene: valgrind takes fifty times as long.
+    let scene = folder.path().join("scene.toml");
+    done(
+        Command::new(env!("CARGO_BIN_EXE_brinell"))
+            .args(["new", "ball-on-flat", "--resolution", "4", "--out"])
+            .arg(&scene),
+    );
+
+    let package = |flags: &[&str]| -> Vec<String> {
+        let mut command = Command::new("pkg-config");
+        command
+            .env("PKG_CONFIG_PATH", lib.join("pkgconfig"))
+            .args(flags)
+            .arg("brinell");
+        words(&done(&mut command))
+    };
+    let build = |compiler: &str, flags: &[&str], source: &str, libraries: &[String]| -> PathBuf {
+        let out = folder.path().join(format!("{source}.{}", libraries.len()));
+        let mut command = Command::new(compiler);
+        command
+            .args(flags)
+            .args(["-Wall", "-Wextra", "-Werror", "-O1", "-g", "-pthread", "-o"])
+            .arg(&out);
+        command
+            .arg(root().join("ffi/examples").join(source))
+            .args(package(&["--cflags"]))
+            .args(libraries);
+        done(&mut command);
+        out
+    };
+    let shared = package(&["--libs"]);
+    let c = build("cc", &["-std=c11"], "indentation.c", &shared);
+    let cpp = build("c++", &["-std=c++17"], "indentation.cpp", &shared);
+    let run = |program: &Path| -> String {
+        let output = done(
+            Command::new(program)
+                .arg(&scene)
+                .env("LD_LIBRARY_PATH", &lib),
+        );
+        assert!(
+            output.stderr.is_empty(),
+            "the library prints: {}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let printed = run(&c);
+    let lines: Vec<&str> = printed.lines().collect();
+    assert_eq!(lines[0], lines[1], "two threads");
+    assert!(
+        lines[2].starts_with("stopped with status 130 after 3 increments"),
+        "{printed}"
+    );
+    assert!(
+        printed.contains("refused with status 2: scene:1:"),
+        "{printed}"
+    );
+    assert!(
+        printed.contains("row 0 closes at t = 3.33333333333333"),
+        "{printed}"
+    );
+    assert_eq!(printed, run(&cpp));
+
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo
+        .current_dir(root())
+        .args(["run", "-q", "--example", "indentation"]);
+    if !cfg!(feature = "cholmod") {
+        cargo.arg("--no-default-features");
+    }
+    let rust = done(cargo.arg("--").arg(&scene));
+    assert_eq!(printed, String::from_utf8(rust.stdout).unwrap());
+
+    // The archive: all of the library inside the program.
+    let mut inside = vec![lib.join("libbrinell.a").display().to_string()];
+    inside.extend(
+        package(&["--static", "--libs-only-l"])
+            .into_iter()
+            .filter(|l| {
+                l != "-lbrinell"
+                    && (cfg!(feature = "cholmod")
+                        || !["-lcholmod", "-lklu", "-lcamd", "-lsuitesparseconfig"]
+                            .contains(&l.as_str()))
+            }),
+    );
+    assert_eq!(
+        printed,
+        run(&build("cc", &["-std=c11"], "indentation.c", &inside))
+    );
+
+    if is_installed("valgrind") {
+        let memory = [
+            "-q",
+            "--error-exitcode=9",
+            "--leak-check=full",
+            "--errors-for-leak-kinds=definite",
+        ];
+        done(
+            Command::new("valgrind")
+                .args(memory)
+                .arg(&c)
+                .arg(&scene)
+                .env("LD_LIBRARY_PATH", &lib)
+                // One thread of BLAS: valgrind runs one at a time anyway.
+                .env("OPENBLAS_NUM_THREADS", "1"),
+        );
+    } else {
+        println!("skipped: there is no valgrind on this machine");
+    }
+}

@@ -1,0 +1,250 @@
+//! What helps to write a scene: schema, examples, new scenes, completions, manual page.
+
+use super::{brinell, scene, stdout};
+use brinell::scene::Scene;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn printed_schema() -> Value {
+    let output = brinell(&["schema"]);
+    assert!(output.status.success());
+    serde_json::from_str(&stdout(&output)).unwrap()
+}
+
+/// All scenes of the repository.
+fn scenes() -> Vec<PathBuf> {
+    ["data/scenes", "data/scenes/hard"]
+        .iter()
+        .flat_map(|folder| std::fs::read_dir(root().join(folder)).unwrap())
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
+        .collect()
+}
+
+fn document(path: &Path) -> Value {
+    let text = std::fs::read_to_string(path).unwrap();
+    serde_json::to_value(text.parse::<toml::Table>().unwrap()).unwrap()
+}
+
+#[test]
+fn the_schema_in_the_repository_is_the_one_that_is_printed() {
+    let path = root().join("data/schema/scene.schema.json");
+    let kept = std::fs::read_to_string(&path).unwrap_or_default();
+    let printed = stdout(&brinell(&["schema"]));
+    assert!(
+        kept == printed,
+        "data/schema/scene.schema.json is not what the program says; write it anew: brinell schema > data/schema/scene.schema.json"
+    );
+    assert_eq!(
+        stdout(&brinell(&["schema", "--summary"])),
+        brinell::output::SUMMARY_SCHEMA
+    );
+}
+
+#[test]
+fn every_scene_obeys_the_schema_as_written_and_as_read() {
+    let schema = jsonschema::validator_for(&printed_schema()).unwrap();
+    let scenes = scenes();
+    assert!(scenes.len() > 20, "{scenes:?}");
+    for path in scenes {
+        if let Err(error) = schema.validate(&document(&path)) {
+            panic!("{}: {error} at {}", path.display(), error.instance_path());
+        }
+        // With every key that the file leaves out: histories, plasticity, program, settings.
+        let whole = serde_json::to_value(Scene::load(&path).unwrap()).unwrap();
+        if let Err(error) = schema.validate(&whole) {
+            panic!("{}: {error} at {}", path.display(), error.instance_path());
+        }
+    }
+}
+
+#[test]
+fn the_schema_refuses_what_the_program_refuses() {
+    let schema = jsonschema::validator_for(&printed_schema()).unwrap();
+    let good = document(Path::new(&scene("three_bodies")));
+    assert!(schema.is_valid(&good));
+    let changes: [(&str, Value); 8] = [
+        ("/kind", "plane_stretch".into()),
+        ("/materials/steel/youngs_modulus", "stiff".into()),
+        ("/bodies/base/plastic", "perhaps".into()),
+        ("/load/0/history", "sometimes".into()),
+        ("/support/0/fix/0", "z".into()),
+        ("/mesh/parts/0/block/elements", serde_json::json!([1])),
+        ("/program/targets", Value::Null),
+        ("/title", 3.into()),
+    ];
+    for (place, value) in changes {
+        let mut bad = good.clone();
+        *bad.pointer_mut(place).unwrap() = value;
+        assert!(!schema.is_valid(&bad), "{place}");
+    }
+    for table in ["", "/mesh", "/materials/steel", "/contact/0", "/program"] {
+        let mut bad = good.clone();
+        let keys = bad.pointer_mut(table).unwrap().as_object_mut().unwrap();
+        keys.insert("frction".into(), 0.1.into());
+        assert!(!schema.is_valid(&bad), "{table}");
+    }
+}
+
+#[test]
+fn an_example_is_printed_as_it_stands_in_the_repository() {
+    let list = stdout(&brinell(&["example"]));
+    for name in ["ball_on_half_space", "disc_in_plate", "three_bodies"] {
+        assert!(list.contains(name), "{list}");
+        let printed = stdout(&brinell(&["example", name]));
+        assert_eq!(printed, std::fs::read_to_string(scene(name)).unwrap());
+    }
+    let unknown = brinell(&["example", "nothing"]);
+    assert_eq!(unknown.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&unknown.stderr).contains("thick_sphere"));
+}
+
+/// Makes a scene, runs it and returns its summary.
+fn made_and_run(folder: &Path, arguments: &[&str]) -> Value {
+    let scene = folder.join(format!("{}.toml", arguments[0]));
+    let scene = scene.to_str().unwrap();
+    let made = brinell(&[&["new"], arguments, &["--out", scene]].concat());
+    assert!(
+        made.status.success(),
+        "{}",
+        String::from_utf8_lossy(&made.stderr)
+    );
+    let text = std::fs::read_to_string(scene).unwrap();
+    assert!(
+        text.lines().filter(|l| l.contains('#')).count() >= 6,
+        "few comments:\n{text}"
+    );
+    let run = brinell(&["run", "-q", "--no-report", "--json", scene]);
+    assert!(
+        run.status.success(),
+        "{arguments:?}: {}",
+        String::from_utf8_lossy(&run.stderr)
+    );
+    serde_json::from_str(&stdout(&run)).unwrap()
+}
+
+#[test]
+fn new_scenes_run_and_give_what_their_comments_say() {
+    let folder = tempfile::tempdir().unwrap();
+    let near = |value: &Value, expected: f64, share: f64| {
+        let value = value.as_f64().unwrap();
+        assert!(
+            (value / expected - 1.0).abs() < share,
+            "{value} against {expected}"
+        );
+    };
+
+    // Hertz, point contact: the mesh of 8 elements is right to about h/a squared.
+    let ball = made_and_run(
+        folder.path(),
+        &[
+            "ball-on-flat",
+            "--radius",
+            "5",
+            "--load",
+            "20",
+            "--resolution",
+            "8",
+        ],
+    );
+    let modulus = brinell::analytical::contact_modulus(210e3, 0.3, 210e3, 0.3);
+    let hertz = brinell::analytical::HertzPoint::new(5.0, modulus).unwrap();
+    near(
+        &ball["yield"]["load"],
+        hertz.yield_load(0.3, 500.0),
+        1.0 / 64.0,
+    );
+    near(&ball["states"][1]["load"], 20.0, 1e-9);
+    assert!(ball["states"][2]["residual_depth"].as_f64() > Some(0.0));
+
+    // Line contact, elastic: below the yield load no dent stays and no yield is asked for.
+    let roller = made_and_run(
+        folder.path(),
+        &["roller-on-flat", "--load", "150", "--resolution", "8"],
+    );
+    let hertz = brinell::analytical::HertzLine::new(10.0, modulus).unwrap();
+    assert_eq!(roller["states"].as_array().unwrap().len(), 2);
+    near(
+        &roller["states"][0]["max_pressure"],
+        hertz.max_pressure(150.0),
+        1.0 / 64.0,
+    );
+    assert_eq!(roller["states"][1]["residual_depth"], 0.0);
+
+    // Lame: p = E d (b^2 - a^2)/(2 a b^2) for one material.
+    let fit = made_and_run(
+        folder.path(),
+        &["shaft-in-bore", "--radius", "25", "--interference", "0.02"],
+    );
+    let pressure = 210e3 * 0.02 * (50.0f64.powi(2) - 625.0) / (2.0 * 25.0 * 50.0f64.powi(2));
+    near(&fit["states"][0]["max_pressure"], pressure, 0.01);
+
+    // Between Prandtl's load and a tenth above it: elements of an eighth of the half width.
+    let punch = made_and_run(
+        folder.path(),
+        &["punch", "--plastic-modulus", "0", "--depth", "0.06"],
+    );
+    let prandtl = (2.0 + std::f64::consts::PI) * 500.0 / 3f64.sqrt() * 2.0;
+    let load = punch["states"][2]["load"].as_f64().unwrap() / prandtl;
+    assert!((1.0..1.1).contains(&load), "{load}");
+}
+
+#[test]
+fn a_new_scene_overwrites_nothing_and_refuses_nonsense() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    std::fs::write(&path, "mine").unwrap();
+    let refused = brinell(&["new", "punch", "--out", path.to_str().unwrap()]);
+    assert_eq!(refused.status.code(), Some(3));
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "mine");
+    for arguments in [
+        ["ball-on-flat", "--radius", "-1"],
+        ["roller-on-flat", "--poissons-ratio", "0.7"],
+        ["shaft-in-bore", "--outer-radius", "10"],
+        ["punch", "--half-width", "inf"],
+        ["ball-on-flat", "--load", "NaN"],
+    ] {
+        let refused = brinell(&[&["new"], &arguments[..]].concat());
+        assert_eq!(
+            refused.status.code(),
+            Some(2),
+            "{arguments:?}: {}",
+            stdout(&refused)
+        );
+        assert!(refused.stdout.is_empty(), "{arguments:?}");
+    }
+}
+
+#[test]
+fn completions_and_manual_know_every_command() {
+    let help = stdout(&brinell(&["--help"]));
+    let commands: Vec<&str> = help
+        .lines()
+        .skip_while(|l| !l.starts_with("Commands:"))
+        .skip(1)
+        .take_while(|l| !l.trim().is_empty())
+        .filter(|l| l.starts_with("  ") && !l.starts_with("    "))
+        .filter_map(|l| l.split_whitespace().next())
+        .filter(|name| *name != "help")
+        .collect();
+    assert!(commands.len() >= 9, "{commands:?}");
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let text = stdout(&brinell(&["completions", shell]));
+        for command in &commands {
+            assert!(text.contains(command), "{shell}: {command}");
+        }
+        assert!(text.contains("solver"), "{shell}");
+    }
+    let manual = stdout(&brinell(&["man"]));
+    assert!(manual.contains(".TH brinell 1"));
+    for command in &commands {
+        assert!(
+            manual.contains(&format!("COMMAND {}", command.to_uppercase())),
+            "{command}"
+        );
+    }
+}

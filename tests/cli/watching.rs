@@ -1,0 +1,73 @@
+//! Looking at a run: progress as JSON lines, results in the terminal.
+
+use super::{brinell, scene, stdout};
+use serde_json::Value;
+
+#[test]
+fn progress_is_a_json_object_per_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let run = brinell(&[
+        "run",
+        &scene("three_bodies"),
+        "--progress",
+        "json",
+        "--out",
+        out.to_str().unwrap(),
+    ]);
+    assert!(run.status.success());
+    let text = String::from_utf8(run.stderr).unwrap();
+    let events: Vec<Value> = text
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap_or_else(|e| panic!("{e}: {line}")))
+        .collect();
+    let of = |name: &str| -> Vec<&Value> { events.iter().filter(|e| e["event"] == name).collect() };
+    assert!(of("phase").iter().any(|e| e["name"] == "assembly"));
+    let increments = of("increment");
+    let history = std::fs::read_to_string(out.join("history.csv")).unwrap();
+    assert_eq!(increments.len(), history.lines().count() - 1);
+    let mut last = [0.0, 0.0];
+    for event in &increments {
+        let now = ["seconds", "fraction"].map(|key| event[key].as_f64().unwrap());
+        assert!(
+            now[0] >= last[0] && now[1] >= last[1] && now[1] <= 1.0 + 1e-12,
+            "{event}"
+        );
+        assert!(event["row"]["event"].is_string());
+        assert!(event["seconds_left"].is_null() || event["seconds_left"].as_f64() >= Some(0.0));
+        last = now;
+    }
+    assert!(last[1] > 0.0, "{last:?}");
+    for other in ["plain", "bar"] {
+        let run = brinell(&["yield", &scene("thick_cylinder"), "--progress", other]);
+        assert!(run.status.success(), "{other}");
+    }
+}
+
+#[test]
+fn results_are_shown_in_the_terminal() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let out = out.to_str().unwrap();
+    let run = brinell(&["run", "-q", &scene("three_bodies"), "--out", out]);
+    assert!(run.status.success());
+    let shown = brinell(&["view", out, "--width", "60"]);
+    assert!(shown.status.success());
+    let text = stdout(&shown);
+    for word in [
+        "Shim between two blocks",
+        "First yield",
+        "Maximum contact pressure",
+        "report.html",
+    ] {
+        assert!(text.contains(word), "{word}:\n{text}");
+    }
+    let dots = text.lines().filter(|l| l.contains('│')).collect::<Vec<_>>();
+    assert!(
+        dots.len() >= 24 && dots.iter().all(|l| l.chars().count() <= 60),
+        "{text}"
+    );
+    let nothing = brinell(&["view", folder.path().to_str().unwrap()]);
+    assert_eq!(nothing.status.code(), Some(3));
+    assert!(String::from_utf8_lossy(&nothing.stderr).contains("summary.json"));
+}

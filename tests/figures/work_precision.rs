@@ -1,0 +1,347 @@
+//! The page of data/accuracy: what each digit costs, for the paper's applications and cases with known answers. Run with
+//! `cargo run --release --example work_precision [-- SCENE]...` (names below; all without any).
+
+use brinell::accuracy::{Extent, Knob, Plan, QuantityStudy, Study, reach, study};
+use brinell::linalg::Backend;
+use brinell::output;
+use brinell::progress::Observer;
+use brinell::scene::{AccuracyDemand, Scene};
+use std::error::Error;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+type Outcome<T> = Result<T, Box<dyn Error>>;
+
+/// A section of the page.
+struct Case {
+    name: &'static str,
+    title: &'static str,
+    scene: &'static str,
+    overrides: &'static [&'static str],
+    knobs: &'static [Knob],
+    levels: usize,
+    budget: f64,
+    quantities: &'static [&'static str],
+    /// Whether `accuracy = x` is tried on the yield load, and for which x.
+    demands: &'static [f64],
+    remark: &'static str,
+}
+
+const PATH: &[Knob] = &[
+    Knob::Resolution,
+    Knob::Element,
+    Knob::Tolerance,
+    Knob::Gamma,
+    Knob::Stepping,
+    Knob::Algorithm,
+];
+const MESH: &[Knob] = &[Knob::Resolution, Knob::Element];
+
+const CASES: [Case; 6] = [
+    Case {
+        name: "cylinder",
+        title: "Cylinder on a half plane, loading and unloading (the paper's 5.1)",
+        scene: "cylinder_on_half_plane",
+        overrides: &[],
+        knobs: PATH,
+        levels: 5,
+        budget: 240.0,
+        quantities: &[
+            "yield.load",
+            "states.1.5 b*.max_pressure",
+            "states.unloaded.residual_depth",
+        ],
+        demands: &[],
+        remark: "Beyond yield the contact edge travels over flowing elements: the dent converges with an order between one and \
+                 two, whatever the element. A target read off the state (1.5 b*) can be missed with the loosest tolerances.",
+    },
+    Case {
+        name: "disc",
+        title: "Disc in a plate (the paper's 5.2)",
+        scene: "disc_in_plate",
+        overrides: &[
+            "mesh.disc_in_plate.resolution=44",
+            "mesh.disc_in_plate.growth=1.10",
+        ],
+        knobs: PATH,
+        levels: 5,
+        budget: 180.0,
+        quantities: &[
+            "yield.load",
+            "yield.half_width",
+            "states.alpha 2.max_pressure",
+        ],
+        demands: &[],
+        remark: "The half width is read off a contact that ends inside an element, so that its error is a share of one: first order.",
+    },
+    Case {
+        name: "hertz_line",
+        title: "Hertz line contact, first yield",
+        scene: "cylinder_on_half_plane",
+        overrides: &[
+            "program.targets=[{ yield = true }]",
+            "materials.steel.yield_stress=50.0",
+        ],
+        knobs: MESH,
+        levels: 6,
+        budget: 120.0,
+        quantities: &["yield.load", "yield.max_pressure", "yield.half_width"],
+        demands: &[0.1, 0.03, 0.01, 0.003],
+        remark: "Second order in load and pressure down to 1e-4, where the finite size of the bodies shows. The singular slope of the \
+                 pressure at the contact edge (a square root) keeps quadratic elements from a higher one.",
+    },
+    Case {
+        name: "hertz_point",
+        title: "Hertz point contact, first yield",
+        scene: "ball_on_half_space",
+        overrides: &[
+            "program.targets=[{ yield = true }]",
+            "materials.steel.yield_stress=50.0",
+            "mesh.cylinder_on_half_plane.resolution=16",
+            "mesh.cylinder_on_half_plane.far_size=2000.0",
+        ],
+        knobs: &[Knob::Resolution],
+        levels: 6,
+        budget: 120.0,
+        quantities: &["yield.load", "yield.max_pressure", "yield.half_width"],
+        demands: &[0.1, 0.03, 0.01],
+        remark: "The largest pressure is that of the node on the axis, whose share of the surface is the least well known: order 1.4 \
+                 only, and the price of every digit of this scene.",
+    },
+    Case {
+        name: "thick_cylinder",
+        title: "Thick cylinder, perfectly plastic",
+        scene: "thick_cylinder",
+        overrides: &[],
+        knobs: &Knob::ALL,
+        levels: 6,
+        budget: 120.0,
+        quantities: &["yield.alpha", "states.alpha 190.approach"],
+        demands: &[],
+        remark: "Quadratic elements win by a factor. The displacement near collapse is governed by increments as much as by the mesh.",
+    },
+    Case {
+        name: "flat_punch",
+        title: "Flat punch, limit load",
+        scene: "flat_punch",
+        overrides: &["mesh.parts.0.block.elements=[20, 20]"],
+        knobs: &[Knob::Resolution, Knob::Tolerance, Knob::Stepping],
+        levels: 5,
+        budget: 120.0,
+        quantities: &["states.flow.load"],
+        demands: &[],
+        remark: "The velocity jumps at the punch's edge: first order from above, whatever else is refined.",
+    },
+];
+
+/// Tells phases on standard error.
+struct Told;
+
+impl Observer for Told {
+    fn phase(&mut self, name: &str) {
+        if name.starts_with("run ") {
+            eprintln!("{name}");
+        }
+    }
+}
+
+fn data() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("data")
+}
+
+fn main() -> Outcome<()> {
+    let wanted: Vec<String> = std::env::args().skip(1).collect();
+    if wanted.is_empty() {
+        // A process each: the memory of one study's large runs is not held against the next one's small ones.
+        for case in &CASES {
+            let status = std::process::Command::new(std::env::current_exe()?)
+                .arg(case.name)
+                .status()?;
+            if !status.success() {
+                return Err(format!("{}: {status}", case.name).into());
+            }
+        }
+        return Ok(());
+    }
+    let folder = data().join("accuracy");
+    std::fs::create_dir_all(&folder)?;
+    for case in CASES.iter().filter(|c| wanted.iter().any(|w| w == c.name)) {
+        eprintln!("{}", case.title);
+        let overrides: Vec<String> = case.overrides.iter().map(|o| o.to_string()).collect();
+        let path = data().join("scenes").join(format!("{}.toml", case.scene));
+        let scene = Scene::load_with(path, &overrides)?;
+        let plan = Plan {
+            knobs: case.knobs.to_vec(),
+            levels: case.levels,
+            budget: Some(case.budget),
+        };
+        let found = study(&scene, Backend::default(), &plan, &mut Told)?;
+        let mut text = section(case, &found)?;
+        for name in case.quantities {
+            let quantity = quantity(&found, name)?;
+            std::fs::write(
+                folder.join(plot_file(case, name)),
+                output::plot(&found, quantity)?,
+            )?;
+        }
+        demands(case, &scene, &found, &mut text)?;
+        std::fs::write(folder.join(format!("{}.md", case.name)), text)?;
+    }
+    Ok(())
+}
+
+fn quantity<'s>(study: &'s Study, name: &str) -> Outcome<&'s QuantityStudy> {
+    let found = study.quantities.iter().find(|q| q.quantity == name);
+    Ok(found.ok_or_else(|| format!("no quantity {name}"))?)
+}
+
+fn plot_file(case: &Case, quantity: &str) -> String {
+    let name: String = quantity
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
+        .collect();
+    format!("{}_{name}.svg", case.name)
+}
+
+fn section(case: &Case, study: &Study) -> Outcome<String> {
+    let mut text = String::new();
+    writeln!(text, "# {}\n", case.title)?;
+    let sets: String = case
+        .overrides
+        .iter()
+        .map(|o| format!(" --set '{o}'"))
+        .collect();
+    let knobs: Vec<&str> = case.knobs.iter().map(|k| k.name()).collect();
+    writeln!(
+        text,
+        "`brinell accuracy data/scenes/{}.toml --levels {} --budget {}s --knobs {}{sets}`\n",
+        case.scene,
+        case.levels,
+        case.budget,
+        knobs.join(",")
+    )?;
+    writeln!(text, "{}\n", case.remark)?;
+    for name in case.quantities {
+        let quantity = quantity(study, name)?;
+        writeln!(text, "## {name}\n\n![{name}]({})\n", plot_file(case, name))?;
+        if let Some(reference) = &quantity.reference {
+            writeln!(
+                text,
+                "- reference {:.6}, uncertain by {:.1e}: {}",
+                reference.value, reference.uncertainty, reference.source
+            )?;
+        }
+        let orders: Vec<String> = quantity
+            .orders
+            .iter()
+            .map(|(s, o)| format!("{s} {o:.1}"))
+            .collect();
+        writeln!(text, "- observed orders: {}", orders.join("; "))?;
+        for words in &quantity.words {
+            writeln!(text, "- {words}")?;
+        }
+        writeln!(text)?;
+    }
+    let heads: Vec<&str> = case
+        .quantities
+        .iter()
+        .map(|q| q.rsplit('.').next().unwrap_or(q))
+        .collect();
+    writeln!(
+        text,
+        "## Runs\n\n| series | setting | freedoms | time [s] | memory [MB] | factor [flops] | trailing solves | plastic iterations | {} |",
+        heads
+            .iter()
+            .map(|h| format!("error of {h}"))
+            .collect::<Vec<_>>()
+            .join(" | ")
+    )?;
+    writeln!(text, "|{}", "---|".repeat(8 + heads.len()))?;
+    for (i, run) in study.runs.iter().enumerate() {
+        let mut errors = String::new();
+        for name in case.quantities {
+            let error = quantity(study, name)?.errors[i];
+            write!(
+                errors,
+                " {} |",
+                error.map_or("-".into(), |e| format!("{e:.1e}"))
+            )?;
+        }
+        writeln!(
+            text,
+            "| {} | {}{} | {} | {:.2} | {} | {:.1e} | {} | {} |{errors}",
+            run.series,
+            run.value,
+            run.failed
+                .as_ref()
+                .map_or(String::new(), |why| format!(": {why}")),
+            run.freedoms,
+            run.usage.undisturbed_seconds(),
+            run.usage
+                .peak_memory_bytes
+                .map_or("-".into(), |b| (b / 1_000_000).to_string()),
+            run.factor[0],
+            run.counts.trailing_solves,
+            run.counts.plastic_iterations
+        )?;
+    }
+    writeln!(text)?;
+    for left in &study.left_out {
+        writeln!(text, "Left out: {left}")?;
+    }
+    Ok(text)
+}
+
+/// `accuracy = x` beside the cheapest run of the study that reaches x in truth.
+fn demands(case: &Case, scene: &Scene, study: &Study, text: &mut String) -> Outcome<()> {
+    if case.demands.is_empty() {
+        return Ok(());
+    }
+    writeln!(
+        text,
+        "## accuracy = x, to first yield\n\n| demanded | stated | true, at most | mesh | time with all trials and estimates [s] | \
+         cheapest run of the study that is as accurate [s] |\n|---|---|---|---|---|---|"
+    )?;
+    for &demand in case.demands {
+        let mut scene = scene.clone();
+        scene.accuracy = Some(AccuracyDemand::new(demand)?);
+        let meter = brinell::accuracy::Meter::start();
+        let found = reach(&scene, Backend::default(), Extent::Yield, &mut Told)?;
+        let seconds = meter.stop().undisturbed_seconds();
+        let stated = found
+            .results
+            .accuracy
+            .as_ref()
+            .and_then(|a| a.demand.as_ref())
+            .map_or(f64::NAN, |d| d.stated);
+        let rows = found
+            .results
+            .reference
+            .iter()
+            .filter(|r| r.quantity != "yield.location.y");
+        let actual = rows.map(|r| (r.ratio - 1.0).abs()).fold(0.0, f64::max);
+        let mesh = found
+            .scene
+            .mesh
+            .cylinder_on_half_plane
+            .as_ref()
+            .map_or(0, |p| p.resolution);
+        let cheapest = (0..study.runs.len())
+            .filter(|&i| {
+                case.quantities.iter().all(|q| {
+                    quantity(study, q).is_ok_and(|q| q.errors[i].is_some_and(|e| e <= demand))
+                })
+            })
+            .map(|i| study.runs[i].usage.undisturbed_seconds())
+            .reduce(f64::min);
+        writeln!(
+            text,
+            "| {} % | {:.2} % | {:.2} % | resolution {mesh} | {seconds:.2} | {} |",
+            100.0 * demand,
+            100.0 * stated,
+            100.0 * actual,
+            cheapest.map_or("-".into(), |s| format!("{s:.2}"))
+        )?;
+    }
+    Ok(())
+}

@@ -1,0 +1,353 @@
+//! `report.html` and its figures: complete, self-contained, well formed, the same from run to run; in a browser, where there is
+//! one, without errors and no wider than the screen.
+
+use serde_json::Value;
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Scenes of every kind, small: contact, none, axisymmetric, elastic, interference, several bodies, quadratic elements.
+const SCENES: [(&str, &[&str]); 6] = [
+    (
+        "cylinder_on_half_plane",
+        &["mesh.cylinder_on_half_plane.resolution=4"],
+    ),
+    (
+        "ball_on_half_space",
+        &["mesh.cylinder_on_half_plane.resolution=4"],
+    ),
+    ("disc_in_plate", &["mesh.disc_in_plate.resolution=30"]),
+    ("thick_cylinder", &[]),
+    ("three_bodies", &[]),
+    ("contact_patch", &[]),
+];
+
+fn run(scene: &str, overrides: &[&str], out: &Path) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    command.args(["run", "-q", "--out"]).arg(out);
+    command.arg(root.join(format!("data/scenes/{scene}.toml")));
+    for value in overrides {
+        command.args(["--set", value]);
+    }
+    let run = command.output().unwrap();
+    let text = String::from_utf8_lossy(&run.stderr);
+    assert!(run.status.success(), "{scene}: {text}");
+}
+
+fn figures(dir: &Path) -> BTreeMap<String, String> {
+    std::fs::read_dir(dir)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|e| e == "svg"))
+        .map(|path| {
+            let name = path.file_name().unwrap().to_string_lossy().into_owned();
+            (name, std::fs::read_to_string(path).unwrap())
+        })
+        .collect()
+}
+
+/// The drawings inside a page.
+fn drawings(page: &str) -> Vec<&str> {
+    page.match_indices("<svg ")
+        .map(|(at, _)| &page[at..at + page[at..].find("</svg>").unwrap() + "</svg>".len()])
+        .collect()
+}
+
+/// Values of an attribute.
+fn attributes<'p>(page: &'p str, name: &str) -> Vec<&'p str> {
+    let key = format!(" {name}=\"");
+    page.match_indices(&key)
+        .map(|(at, _)| page[at + key.len()..].split('"').next().unwrap())
+        .collect()
+}
+
+#[test]
+fn every_kind_of_scene_has_a_self_contained_well_formed_report() {
+    let temporary = tempfile::tempdir().unwrap();
+    for (scene, overrides) in SCENES {
+        let dir = temporary.path().join(scene);
+        run(scene, overrides, &dir);
+        let page = std::fs::read_to_string(dir.join("report.html")).unwrap();
+        let summary = std::fs::read_to_string(dir.join("summary.json")).unwrap();
+        let summary: Value = serde_json::from_str(&summary).unwrap();
+
+        // Nothing is fetched: addresses are anchors, files beside the page, or data.
+        for address in attributes(&page, "href")
+            .into_iter()
+            .chain(attributes(&page, "src"))
+        {
+            let inside = address.starts_with('#') || address.starts_with("data:");
+            assert!(inside || dir.join(address).exists(), "{scene}: {address}");
+        }
+        for word in ["<script", "@import", "url(", "javascript:"] {
+            assert!(!page.contains(word), "{scene}: {word}");
+        }
+
+        // Every colour by name is defined, every anchor is there once.
+        let defined: BTreeSet<&str> = page
+            .split("--")
+            .skip(1)
+            .filter_map(|t| t.split_once(':'))
+            .map(|(n, _)| n)
+            .collect();
+        for used in page.split("var(--").skip(1) {
+            let used = used.split(')').next().unwrap();
+            assert!(defined.contains(used), "{scene}: {used}");
+        }
+        let ids = attributes(&page, "id");
+        let unique: BTreeSet<&&str> = ids.iter().collect();
+        assert_eq!(ids.len(), unique.len(), "{scene}: {ids:?}");
+        for anchor in attributes(&page, "href")
+            .into_iter()
+            .filter_map(|a| a.strip_prefix('#'))
+        {
+            assert!(ids.contains(&anchor), "{scene}: #{anchor}");
+        }
+
+        // As many figures in the page as files, all of them XML; images are PNG.
+        let files = figures(&dir);
+        let inline = drawings(&page);
+        assert_eq!(files.len(), inline.len(), "{scene}");
+        assert!(files.len() >= 4, "{scene}: {:?}", files.keys());
+        for (name, text) in &files {
+            assert!(name.starts_with("report_"), "{scene}: {name}");
+            let xml =
+                roxmltree::Document::parse(text).unwrap_or_else(|e| panic!("{scene} {name}: {e}"));
+            assert!(!text.contains("var("), "{scene} {name}");
+            for image in xml.descendants().filter(|n| n.has_tag_name("image")) {
+                let address = image.attribute("href").unwrap();
+                assert!(address.starts_with("data:image/png;base64,iVBORw0KGgo"));
+            }
+            let values = xml.descendants().flat_map(|n| n.attributes());
+            for value in values.filter(|a| a.name() != "href") {
+                let lost = value.value().contains("NaN") || value.value().contains("inf");
+                assert!(!lost, "{scene} {name}: {value:?}");
+            }
+        }
+        for text in inline {
+            let xml = roxmltree::Document::parse(text).unwrap_or_else(|e| panic!("{scene}: {e}"));
+            assert!(
+                xml.root_element()
+                    .attribute("aria-label")
+                    .is_some_and(|l| !l.is_empty())
+            );
+        }
+
+        // What the summary says stands in the page.
+        for state in summary["states"].as_array().unwrap() {
+            assert!(
+                page.contains(state["name"].as_str().unwrap()),
+                "{scene}: {state}"
+            );
+        }
+        for effect in summary["effects"].as_object().unwrap().keys() {
+            assert!(page.contains(effect.as_str()), "{scene}: {effect}");
+        }
+        for row in summary["reference"].as_array().unwrap() {
+            assert!(page.contains(row["quantity"].as_str().unwrap()), "{scene}");
+        }
+        assert_eq!(
+            page.contains("Contact pressure at the states"),
+            summary["contact_pairs"] != 0,
+            "{scene}"
+        );
+        assert_eq!(
+            page.contains("Yield load"),
+            !summary["yield"].is_null(),
+            "{scene}"
+        );
+        assert_eq!(
+            files.keys().any(|n| n.contains("plastic_zone")),
+            summary["states"]
+                .as_array()
+                .unwrap()
+                .iter()
+                .any(|s| s["plastic_points"] != 0),
+            "{scene}"
+        );
+    }
+}
+
+/// No time, place or order of threads in a figure.
+#[test]
+fn figures_are_the_same_for_any_number_of_threads() {
+    let temporary = tempfile::tempdir().unwrap();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut runs = Vec::new();
+    for threads in ["1", "3"] {
+        let dir = temporary.path().join(threads);
+        let run = Command::new(env!("CARGO_BIN_EXE_brinell"))
+            .args(["run", "-q", "--threads", threads, "--out"])
+            .arg(&dir)
+            .arg(root.join("data/scenes/three_bodies.toml"))
+            .output()
+            .unwrap();
+        assert!(run.status.success());
+        runs.push(figures(&dir));
+    }
+    assert!(runs[0] == runs[1]);
+}
+
+#[test]
+fn a_report_can_be_left_out_and_goes_with_its_result() {
+    let temporary = tempfile::tempdir().unwrap();
+    let dir = temporary.path().join("out");
+    run("contact_patch", &[], &dir);
+    assert!(dir.join("report.html").exists() && dir.join("report_scene.svg").exists());
+    std::fs::write(dir.join("mine.svg"), "mine").unwrap();
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes/contact_patch.toml");
+    let again = Command::new(env!("CARGO_BIN_EXE_brinell"))
+        .args(["run", "-q", "--no-report", "--out"])
+        .args([&dir, &scene])
+        .output()
+        .unwrap();
+    assert!(again.status.success());
+    assert!(!dir.join("report.html").exists() && !dir.join("report_scene.svg").exists());
+    assert!(dir.join("mine.svg").exists() && dir.join("summary.json").exists());
+}
+
+/// What stands in a scene is text on the page, whatever it looks like.
+#[test]
+fn names_are_escaped() {
+    let temporary = tempfile::tempdir().unwrap();
+    let dir = temporary.path().join("out");
+    let title = "title=<b>\"bold\" & 'risky'</b><script>alert(1)</script>";
+    run(
+        "contact_patch",
+        &[
+            title,
+            "program.targets=[{ load_factor = 1.0, name = \"<i>&\\\"\" }]",
+        ],
+        &dir,
+    );
+    let page = std::fs::read_to_string(dir.join("report.html")).unwrap();
+    assert!(!page.contains("<script") && !page.contains("<i>&"));
+    assert!(page.contains("&lt;script&gt;"));
+    for text in figures(&dir)
+        .values()
+        .map(String::as_str)
+        .chain(drawings(&page))
+    {
+        roxmltree::Document::parse(text).unwrap();
+    }
+}
+
+/// Chromium under one of its names.
+fn browser() -> Option<PathBuf> {
+    let names = [
+        "chromium",
+        "chromium-browser",
+        "google-chrome",
+        "google-chrome-stable",
+    ];
+    let folders = std::env::var_os("PATH")?;
+    std::env::split_paths(&folders)
+        .flat_map(|folder| names.map(|name| folder.join(name)))
+        .find(|path| path.is_file())
+}
+
+/// Puts the page into frames as wide as a phone and a screen and measures it there.
+fn measuring_page(page: &str) -> String {
+    let escaped = page.replace('&', "&amp;").replace('"', "&quot;");
+    let script = r#"
+window.addEventListener('load', () => {
+  const found = [];
+  for (const frame of document.querySelectorAll('iframe')) {
+    const page = frame.contentDocument, root = page.documentElement;
+    const wide = [...page.querySelectorAll('main *, header *, footer *')].filter(e =>
+      !e.parentElement.closest('.wide') && !(e.closest('svg') && e.tagName != 'svg') && e.getBoundingClientRect().right > frame.clientWidth + 0.5);
+    const style = frame.contentWindow.getComputedStyle(page.body);
+    found.push({
+      width: frame.clientWidth, scroll: root.scrollWidth, wide: wide.map(e => e.tagName + '.' + e.className),
+      height: root.scrollHeight, figures: [...page.querySelectorAll('svg')].filter(s => s.getBoundingClientRect().height > 100).length,
+      images: [...page.querySelectorAll('image')].filter(i => i.getBoundingClientRect().width > 100).length,
+      ink: style.color, paper: style.backgroundColor,
+    });
+  }
+  document.body.textContent = 'MEASURED' + JSON.stringify(found) + 'END';
+});"#;
+    let frame = |width: u32| {
+        format!(
+            "<iframe style=\"width:{width}px;height:900px;border:0\" srcdoc=\"{escaped}\"></iframe>"
+        )
+    };
+    format!(
+        "<!DOCTYPE html><html><head><script>{script}</script></head><body>{}{}</body></html>",
+        frame(360),
+        frame(1280)
+    )
+}
+
+/// Sum of the channels of `rgb(r, g, b)`.
+fn brightness(color: &Value) -> u32 {
+    let text = color.as_str().unwrap();
+    text.split(|c: char| !c.is_ascii_digit())
+        .filter_map(|n| n.parse::<u32>().ok())
+        .take(3)
+        .sum()
+}
+
+#[test]
+fn a_browser_shows_it_without_errors_at_phone_and_screen_width_in_light_and_dark() {
+    let Some(browser) = browser() else {
+        println!("skipped: no chromium on this machine");
+        return;
+    };
+    let temporary = tempfile::tempdir().unwrap();
+    for (scene, overrides) in &SCENES[1..4] {
+        let dir = temporary.path().join(scene);
+        run(scene, overrides, &dir);
+        let page = std::fs::read_to_string(dir.join("report.html")).unwrap();
+        let n_figures = drawings(&page).len();
+        let measuring = dir.join("measure.html");
+        std::fs::write(&measuring, measuring_page(&page)).unwrap();
+        for (scheme, dark) in [("1", false), ("0", true)] {
+            let profile = temporary.path().join("profile");
+            let shown = Command::new(&browser)
+                .args([
+                    "--headless",
+                    "--no-sandbox",
+                    "--disable-gpu",
+                    "--enable-logging=stderr",
+                    "--virtual-time-budget=5000",
+                ])
+                .args([
+                    format!("--user-data-dir={}", profile.display()),
+                    format!("--blink-settings=preferredColorScheme={scheme}"),
+                ])
+                .args(["--window-size=1700,1000", "--dump-dom"])
+                .arg(format!("file://{}", measuring.display()))
+                .output()
+                .unwrap();
+            let dom = String::from_utf8_lossy(&shown.stdout);
+            let errors = String::from_utf8_lossy(&shown.stderr);
+            let console: Vec<&str> = errors.lines().filter(|l| l.contains("CONSOLE")).collect();
+            assert!(console.is_empty(), "{scene}: {console:?}");
+            // The script itself stands in the page, before what it found.
+            let found = dom
+                .rsplit("MEASURED")
+                .next()
+                .and_then(|t| t.split("END").next());
+            let Some(found) = found.filter(|_| dom.matches("MEASURED").count() > 1) else {
+                println!(
+                    "skipped: {} did not render the page: {errors}",
+                    browser.display()
+                );
+                return;
+            };
+            let found: Value = serde_json::from_str(&found.replace("&quot;", "\"")).unwrap();
+            for frame in found.as_array().unwrap() {
+                assert!(
+                    frame["scroll"].as_u64() <= frame["width"].as_u64(),
+                    "{scene}: {frame}"
+                );
+                assert_eq!(frame["wide"], Value::Array(vec![]), "{scene}: {frame}");
+                assert_eq!(frame["figures"], n_figures, "{scene}: {frame}");
+                let (ink, paper) = (brightness(&frame["ink"]), brightness(&frame["paper"]));
+                assert_eq!(ink > paper, dark, "{scene}: {frame}");
+                assert!(ink.abs_diff(paper) > 400, "{scene}: {frame}");
+            }
+        }
+    }
+}
