@@ -165,6 +165,17 @@ impl Substructure {
         Tableau::new(self.contact_matrix.clone())
     }
 
+    /// Forces `T s` of relative displacements `s` of the pairs.
+    pub fn slip_forces(&self, slip: &[f64]) -> Vec<f64> {
+        match &self.tied {
+            Some(tied) => {
+                let forces = &self.contact_matrix * tied.without_rigid(slip);
+                forces.as_slice().to_vec()
+            }
+            None => Vec::new(),
+        }
+    }
+
     /// A zero vector on zone and contact freedoms.
     pub fn zeros(&self) -> Trailing {
         Trailing::zeros(self.partition.zone.len(), self.partition.contact.len())

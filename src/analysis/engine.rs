@@ -217,11 +217,7 @@ impl<'m> Engine<'m> {
 
     /// What loads and gaps at factor 1 do to tied pairs, after the structure was factored.
     fn reduce_loads(&mut self) -> Result<()> {
-        let times = |v: &[f64]| -> Vec<f64> {
-            let product = self.tableau.matrix() * nalgebra::DVector::from_column_slice(v);
-            product.as_slice().to_vec()
-        };
-        self.gap_forces = [times(&self.gap), times(&self.interference)];
+        self.gap_forces = [&self.gap, &self.interference].map(|v| self.sub.slip_forces(v));
         let reduced: Result<Vec<_>> = self
             .system
             .loads

@@ -204,6 +204,35 @@ impl Tied {
         }
     }
 
+    /// A relative displacement of the pairs without what rigid motions of floating bodies contribute to it. They cost nothing: forces of
+    /// a gap that is large beside the deformation are those of the rest, and do not drown in its round-off.
+    pub(super) fn without_rigid(&self, slip: &[f64]) -> DVector<f64> {
+        let n = self.n;
+        let mut basis: Vec<DVector<f64>> = Vec::new();
+        for trace in &self.rigid {
+            let mut next = DVector::from_fn(n, |k, _| trace.values[n + k] - trace.values[k]);
+            let size = next.norm();
+            for _ in 0..2 {
+                for other in &basis {
+                    let along = other.dot(&next);
+                    next.axpy(-along, other, 1.0);
+                }
+            }
+            let left = next.norm();
+            if left > 1e-6 * size {
+                basis.push(next / left);
+            }
+        }
+        let mut rest = DVector::from_column_slice(slip);
+        for _ in 0..2 {
+            for motion in &basis {
+                let along = motion.dot(&rest);
+                rest.axpy(-along, motion, 1.0);
+            }
+        }
+        rest
+    }
+
     /// As [`Tied::recover`], with rigid motions apart: the deformation of a stiff body keeps its digits beside a motion that is
     /// larger by orders.
     pub(super) fn split(&self, contact: &[f64], slip: &[f64]) -> Split {

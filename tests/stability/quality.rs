@@ -1,6 +1,6 @@
 //! Loss of accuracy is noticed: figures of quality mean something in every state.
 
-use crate::running::{run_file, state};
+use crate::running::{close, run_file, state};
 
 /// Relative to what little is left after unloading, round-off looks like an error of 100 %, and users learn to overlook the
 /// figure. Relative to the largest load and displacement of the run, an unloaded state is as good as a loaded one.
@@ -23,4 +23,42 @@ fn an_unloaded_floating_state_is_as_good_as_a_loaded_one() {
             assert!(value <= bound, "{name}, {figure}: {value:e} > {bound:e}");
         }
     }
+}
+
+/// A body falls through a gap: its rigid motion costs nothing, so the contact force knows nothing of the gap. Codes that take it from
+/// stiffness times displacement lose a digit for each factor of ten.
+#[test]
+fn the_contact_force_does_not_know_the_gap() {
+    for gap in ["1e-6", "1.0", "1e4", "1e8"] {
+        let results = run_file("hard/floating_body", &[&format!("contact.0.gap={gap}")]);
+        for (s, force) in results.states.iter().zip([20.0, 5.0, 20.0]) {
+            close("force", s.contact_force, force, force, 1e-12);
+        }
+    }
+}
+
+/// The stresses are another matter: a displacement that is 1e12 times the deformation holds four digits of it. No result with a bad residual
+/// looks like a good one: a warning, `inaccurate` in the summary, and an exit code of its own; with a small gap none of that.
+#[test]
+fn lost_accuracy_has_a_warning_and_an_exit_code() {
+    let folder = std::env::temp_dir().join(format!("brinell-inaccurate-{}", std::process::id()));
+    for (gap, code) in [("0.01", 0), ("1e8", 7)] {
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
+            .args(["run", "-q", "--json", "--set"])
+            .arg(format!("contact.0.gap={gap}"))
+            .arg("--out")
+            .arg(&folder)
+            .arg(crate::running::scene_file("hard/floating_body"))
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(code), "{output:?}");
+        let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let inaccurate = summary["inaccurate"].as_array().unwrap();
+        let warnings = summary["warnings"].as_array().unwrap();
+        assert_eq!(inaccurate.is_empty(), code == 0, "{inaccurate:?}");
+        assert!(inaccurate.iter().all(|i| warnings.contains(i)));
+        let told = String::from_utf8_lossy(&output.stderr).contains("equilibrium");
+        assert_eq!(told, code != 0);
+    }
+    std::fs::remove_dir_all(folder).unwrap();
 }
