@@ -107,3 +107,26 @@ fn gamma_bounds_the_error_of_elastoplastic_states() {
         healthy(&cylinder(&[&format!("program.gamma={gamma}")]));
     }
 }
+
+/// A loose iteration leaves states that move by the tolerance when the zone is chosen anew. A target crossed by that alone is reached all
+/// the same; it was missed once, and the load driven up for ever.
+#[test]
+fn a_loose_tolerance_does_not_miss_the_target() {
+    for (tolerance, resolution) in [(1e-3, 16), (1e-4, 8)] {
+        let results = run(&load(
+            "cylinder_on_half_plane",
+            &[
+                &format!("analysis.tolerance={tolerance:e}"),
+                &format!("mesh.cylinder_on_half_plane.resolution={resolution}"),
+                "program.targets=[{ yield = true }, { half_width = 1.5 }]",
+            ],
+        ));
+        let [at_yield, wide] = &results.states[..] else {
+            panic!("{:?}", results.incomplete);
+        };
+        // Where a pair closes the extrapolated edge jumps, by half an element at most: the target may lie in the jump.
+        let ratio = wide.half_width / at_yield.half_width;
+        let element = 1.0 / f64::from(resolution);
+        assert!((ratio - 1.5).abs() <= 0.5 * element, "{ratio}");
+    }
+}

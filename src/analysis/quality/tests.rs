@@ -148,6 +148,11 @@ fn a_flipped_status_is_caught() {
                 *value = value.max(0.0);
             }
         };
+        // The dense backend takes the contact displacements as given: there the forces do not fit them.
+        let figure = match Backend::default() {
+            Backend::Cholmod => figure,
+            Backend::Dense => "equilibrium",
+        };
         caught(
             &model,
             quality(&model, &system, &system, nothing, flip),
