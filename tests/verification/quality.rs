@@ -2,32 +2,38 @@
 //!
 //! Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 7.1 (backward error).
 
-use crate::run::{run, scene};
+use crate::run::{run_as_far_as_it_goes, scene};
 
 #[test]
 fn every_state_of_every_scene_is_in_balance() {
-    let folder = format!("{}/data/scenes", env!("CARGO_MANIFEST_DIR"));
     let mut count = 0;
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_none_or(|e| e != "toml") {
-            continue;
-        }
-        let name = path.file_stem().unwrap().to_str().unwrap().to_string();
-        for state in &run(&scene(&name, &[])).states {
+    for name in names("").into_iter().chain(names("hard/")) {
+        for state in &run_as_far_as_it_goes(&scene(&name, &[])).states {
             let (q, at) = (
                 state.quality,
                 format!("{name}, {}: {:?}", state.name, state.quality),
             );
             assert!(q.backward_error <= 1e-13, "{at}");
             assert!(q.equilibrium <= 1e-8, "{at}");
-            // Round-off of a solve with the condensed matrix, some 1e3 units in the last place.
-            assert!(q.penetration <= 1e-12, "{at}");
+            // Round-off of a solve with the condensed matrix, times its condition: 1e4 where one pair alone is in contact.
+            assert!(q.penetration <= 1e-11, "{at}");
             // Forces are those that the stresses leave over: as good as equilibrium.
             assert!(q.complementarity <= 1e-8, "{at}");
             assert!(q.adhesion <= 1e-8, "{at}");
             count += 1;
         }
     }
-    assert!(count > 30);
+    assert!(count > 60, "{count}");
+}
+
+/// The scenes of a folder of `data/scenes`.
+fn names(folder: &str) -> Vec<String> {
+    let path = format!("{}/data/scenes/{folder}", env!("CARGO_MANIFEST_DIR"));
+    let entries = std::fs::read_dir(path).unwrap();
+    let files = entries.map(|entry| entry.unwrap().path());
+    let scenes = files.filter(|file| file.extension().is_some_and(|e| e == "toml"));
+    let stem = |file: std::path::PathBuf| file.file_stem().unwrap().to_str().unwrap().to_string();
+    scenes
+        .map(|file| format!("{folder}{}", stem(file)))
+        .collect()
 }

@@ -26,9 +26,14 @@ pub fn scene(name: &str, overrides: &[&str]) -> Scene {
     Scene::load_with(path, &overrides).unwrap()
 }
 
+/// Runs a scene's program as far as it goes: to its end, or to the limit load.
+pub fn run_as_far_as_it_goes(scene: &Scene) -> Results {
+    analysis(scene).run(&mut Silent).unwrap()
+}
+
 /// Runs a scene's whole program, which it must reach the end of.
 pub fn run(scene: &Scene) -> Results {
-    let results = analysis(scene).run(&mut Silent).unwrap();
+    let results = run_as_far_as_it_goes(scene);
     assert_eq!(results.incomplete, None);
     results
 }

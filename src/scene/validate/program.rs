@@ -1,7 +1,7 @@
 //! The load program, the settings and the reference values.
 
 use super::Checks;
-use crate::scene::{Kind, Scene, Target, Unit};
+use crate::scene::{History, Kind, Scene, Target, Unit};
 use std::collections::BTreeSet;
 
 impl Checks {
@@ -20,6 +20,14 @@ impl Checks {
         );
         if program.unit == Unit::Yield {
             self.needs_yield("program.unit", "\"yield\"", scene);
+            for (index, load) in scene.load.iter().enumerate() {
+                self.require(
+                    !matches!(load.history, History::Table(_)),
+                    format!("load.{index}.history"),
+                    "is a table over the load factor, but `unit = \"yield\"` counts in the yield load, which the table itself \
+                     would change; use `unit = \"load\"`",
+                );
+            }
         }
         let mut names = BTreeSet::new();
         for (index, target) in program.targets.iter().enumerate() {

@@ -427,6 +427,10 @@ fn programs_settings_and_references() {
                 "program.unit: \"yield\", but no load changes with the load factor",
             ),
             (
+                |s| s.load[0].history = History::Table(vec![[0.0, 0.0], [1.0, 1.0]]),
+                "load.0.history: is a table over the load factor, but `unit = \"yield\"`",
+            ),
+            (
                 |s| {
                     s.program.unit = Unit::Load;
                     s.load[0].history = History::Constant;
