@@ -1,9 +1,9 @@
 //! Hill's thick cylinder: elastic-perfectly plastic under internal pressure.
 
-use super::bracketing::root;
 use super::domain::{nested_radii, positive};
+use super::plastic_wall::{plastic_front, refuse_reverse_yield};
 use super::{Plane, ThickCylinder};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::Result;
 
 /// Elastic-perfectly plastic thick cylinder in plane strain, von Mises, exact for `nu = 1/2`.
 ///
@@ -69,28 +69,13 @@ impl ElastoplasticCylinder {
     /// Radius of the plastic front under `pressure`; the inner radius while all is elastic.
     ///
     /// # Errors
-    /// Where the pressure is negative or not a number ([`ErrorKind::Input`]) or above collapse
-    /// ([`ErrorKind::Collapse`]).
+    /// Where the pressure is negative or not a number ([`Input`](crate::ErrorKind::Input)) or above collapse
+    /// ([`Collapse`](crate::ErrorKind::Collapse)).
     pub fn plastic_front(&self, pressure: f64) -> Result<f64> {
-        let collapse = self.collapse_pressure();
-        if pressure > collapse {
-            return Err(Error::new(
-                ErrorKind::Collapse,
-                format!(
-                    "elastoplastic cylinder: pressure {pressure} exceeds the collapse pressure {collapse}"
-                ),
-            ));
-        }
-        if pressure.is_nan() || pressure < 0.0 {
-            return Err(Error::input(format!(
-                "elastoplastic cylinder: pressure {pressure} must not be negative"
-            )));
-        }
-        if pressure <= self.yield_pressure() {
-            return Ok(self.inner_radius);
-        }
-        let excess = |front| self.pressure(front) - pressure;
-        Ok(root(excess, self.inner_radius, self.outer_radius))
+        let wall = [self.inner_radius, self.outer_radius];
+        plastic_front("elastoplastic cylinder", pressure, wall, |front| {
+            self.pressure(front)
+        })
     }
 
     /// Stresses `[s_rr, s_tt (hoop), s_zz]` at the radius `r` in `[a, b]` under `pressure`.
@@ -133,12 +118,7 @@ impl ElastoplasticCylinder {
     /// the bore then yields again in unloading.
     pub fn residual_stress(&self, r: f64, pressure: f64) -> Result<[f64; 3]> {
         let loaded = self.stress(r, pressure)?;
-        let limit = 2.0 * self.yield_pressure();
-        if pressure > limit {
-            return Err(Error::input(format!(
-                "elastoplastic cylinder: after the pressure {pressure} unloading yields again; the closed form ends at {limit}"
-            )));
-        }
+        refuse_reverse_yield("elastoplastic cylinder", pressure, self.yield_pressure())?;
         let relief = self.elastic().stress(r, pressure, 0.0);
         Ok([0, 1, 2].map(|i| loaded[i] - relief[i]))
     }
@@ -162,6 +142,7 @@ impl ElastoplasticCylinder {
 mod tests {
     use super::super::{quadrature::integrate, von_mises};
     use super::*;
+    use crate::ErrorKind;
 
     fn cylinder() -> ElastoplasticCylinder {
         ElastoplasticCylinder::new(100.0, 200.0, 210e3, 240.0).unwrap()

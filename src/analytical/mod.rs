@@ -35,6 +35,7 @@ mod hertz_point;
 mod kirsch;
 mod pin_in_hole;
 mod plane;
+mod plastic_wall;
 mod quadrature;
 mod shrink_fit;
 mod thick_cylinder;

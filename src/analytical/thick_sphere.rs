@@ -1,8 +1,8 @@
 //! Hill's thick sphere: elastic-perfectly plastic under internal pressure, exact for any Poisson ratio.
 
-use super::bracketing::root;
 use super::domain::{nested_radii, poisson as check_poisson, positive};
-use crate::error::{Error, ErrorKind, Result};
+use super::plastic_wall::{plastic_front, refuse_reverse_yield};
+use crate::error::Result;
 
 /// Thick-walled sphere under internal pressure, elastic or elastic-perfectly plastic.
 ///
@@ -72,28 +72,11 @@ impl ThickSphere {
     /// Radius of the plastic front under `pressure`; the inner radius while all is elastic.
     ///
     /// # Errors
-    /// Where the pressure is negative or not a number ([`ErrorKind::Input`]) or above collapse
-    /// ([`ErrorKind::Collapse`]).
+    /// Where the pressure is negative or not a number ([`Input`](crate::ErrorKind::Input)) or above collapse
+    /// ([`Collapse`](crate::ErrorKind::Collapse)).
     pub fn plastic_front(&self, pressure: f64) -> Result<f64> {
-        let collapse = self.collapse_pressure();
-        if pressure > collapse {
-            return Err(Error::new(
-                ErrorKind::Collapse,
-                format!(
-                    "thick sphere: pressure {pressure} exceeds the collapse pressure {collapse}"
-                ),
-            ));
-        }
-        if pressure.is_nan() || pressure < 0.0 {
-            return Err(Error::input(format!(
-                "thick sphere: pressure {pressure} must not be negative"
-            )));
-        }
-        if pressure <= self.yield_pressure() {
-            return Ok(self.inner_radius);
-        }
-        let excess = |front| self.pressure(front) - pressure;
-        Ok(root(excess, self.inner_radius, self.outer_radius))
+        let wall = [self.inner_radius, self.outer_radius];
+        plastic_front("thick sphere", pressure, wall, |front| self.pressure(front))
     }
 
     /// Stresses `[s_rr, s_tt]` (both hoop directions alike) at the radius `r` in `[a, b]` under `pressure`.
@@ -135,12 +118,7 @@ impl ThickSphere {
     /// the bore then yields again in unloading.
     pub fn residual_stress(&self, r: f64, pressure: f64) -> Result<[f64; 2]> {
         let loaded = self.stress(r, pressure)?;
-        let limit = 2.0 * self.yield_pressure();
-        if pressure > limit {
-            return Err(Error::input(format!(
-                "thick sphere: after the pressure {pressure} unloading yields again; the closed form ends at {limit}"
-            )));
-        }
+        refuse_reverse_yield("thick sphere", pressure, self.yield_pressure())?;
         let relief = self.outer_stress(r, self.strength(pressure, self.inner_radius));
         Ok([loaded[0] - relief[0], loaded[1] - relief[1]])
     }
@@ -175,6 +153,7 @@ impl ThickSphere {
 mod tests {
     use super::super::quadrature::integrate;
     use super::*;
+    use crate::ErrorKind;
 
     fn sphere() -> ThickSphere {
         ThickSphere::new(100.0, 200.0, 210e3, 0.3, 240.0).unwrap()
