@@ -35,6 +35,9 @@
 // The load passed the limit load.
 #define BRINELL_COLLAPSE 6
 
+// The run is complete, but a state's quality misses its tolerance.
+#define BRINELL_INACCURATE 7
+
 // A fault of brinell itself.
 #define BRINELL_INTERNAL 70
 
@@ -287,7 +290,8 @@ void brinell_scene_free(struct brinell_scene *scene);
 // Runs a scene's load program. `callback` (NULL for none) is called after each increment with `user`.
 //
 // A run that was stopped, collapsed or failed after increments were accepted returns BRINELL_STOPPED, BRINELL_COLLAPSE or
-// BRINELL_ANALYSIS *and* results: what was computed before. After any other failure `*out` is NULL.
+// BRINELL_ANALYSIS *and* results: what was computed before; a complete one with a state whose quality misses its tolerance
+// returns BRINELL_INACCURATE and results. After any other failure `*out` is NULL.
 int32_t brinell_run(const struct brinell_scene *scene,
                     const struct brinell_options *options,
                     brinell_callback callback,

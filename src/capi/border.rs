@@ -18,6 +18,8 @@ pub const BRINELL_UNHELD: i32 = 4;
 pub const BRINELL_ANALYSIS: i32 = 5;
 /// The load passed the limit load.
 pub const BRINELL_COLLAPSE: i32 = 6;
+/// The run is complete, but a state's quality misses its tolerance.
+pub const BRINELL_INACCURATE: i32 = 7;
 /// A fault of brinell itself.
 pub const BRINELL_INTERNAL: i32 = 70;
 /// The callback stopped the run.

@@ -1,6 +1,8 @@
 //! Running a scene.
 
-use super::border::{BRINELL_OK, SizePrefixed, guarded, hand_out, note, shared, status};
+use super::border::{
+    BRINELL_INACCURATE, BRINELL_OK, SizePrefixed, guarded, hand_out, note, shared, status,
+};
 use super::options::{backend, brinell_options};
 use super::results::brinell_results;
 use super::scene::brinell_scene;
@@ -93,7 +95,8 @@ impl Observer for Caller {
 /// Runs a scene's load program. `callback` (NULL for none) is called after each increment with `user`.
 ///
 /// A run that was stopped, collapsed or failed after increments were accepted returns BRINELL_STOPPED, BRINELL_COLLAPSE or
-/// BRINELL_ANALYSIS *and* results: what was computed before. After any other failure `*out` is NULL.
+/// BRINELL_ANALYSIS *and* results: what was computed before; a complete one with a state whose quality misses its tolerance
+/// returns BRINELL_INACCURATE and results. After any other failure `*out` is NULL.
 ///
 /// # Safety
 /// `scene` is a living scene, `options` NULL or as long as it says, `out` may be written to; `callback` does not unwind.
@@ -133,6 +136,12 @@ pub unsafe extern "C" fn brinell_run(
                 let kind = results.incomplete_kind.unwrap_or(ErrorKind::Analysis);
                 ended = status(kind);
                 note(&Error::new(kind, why.clone()));
+            } else if !results.inaccurate.is_empty() {
+                ended = BRINELL_INACCURATE;
+                note(&Error::new(
+                    ErrorKind::Inaccurate,
+                    results.inaccurate.join("\n"),
+                ));
             }
             hand_out(out, brinell_results::new(results, model.clone(), header))
         }

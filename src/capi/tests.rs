@@ -52,6 +52,31 @@ fn null_and_nonsense_are_refused_with_a_message() {
     }
 }
 
+/// As the program's exit code 7: results there are, and they say that they are not to be trusted.
+#[test]
+fn lost_accuracy_has_a_status() {
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/data/scenes/hard/floating_body.toml"
+    );
+    let path = CString::new(path).unwrap();
+    for (gap, expected) in [("0.01", BRINELL_OK), ("1e8", BRINELL_INACCURATE)] {
+        let set = CString::new(format!("contact.0.gap={gap}")).unwrap();
+        let (mut scene, mut results) = (null_mut(), null_mut());
+        // SAFETY: texts and places live through the calls, handles are freed once.
+        unsafe {
+            let loaded = brinell_scene_load(path.as_ptr(), [set.as_ptr()].as_ptr(), 1, &mut scene);
+            assert_eq!(loaded, BRINELL_OK, "{}", message());
+            let status = brinell_run(scene, null(), None, null_mut(), &mut results);
+            assert_eq!(status, expected, "gap {gap}");
+            assert!(!results.is_null());
+            brinell_results_free(results);
+            brinell_scene_free(scene);
+        }
+    }
+    assert!(message().contains("equilibrium"), "{}", message());
+}
+
 #[test]
 fn a_structure_of_another_size_is_older_newer_or_refused() {
     let mut options = brinell_options {
