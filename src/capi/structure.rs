@@ -267,6 +267,30 @@ pub unsafe extern "C" fn brinell_structure_condensed(
     })
 }
 
+/// Hands `n` values to a structure; the changes of the last step are over.
+///
+/// # Safety
+/// `structure` is a living handle, `values` has `n` values.
+unsafe fn under(
+    structure: *mut brinell_structure,
+    values: *const f64,
+    n: usize,
+    what: &str,
+    act: impl FnOnce(&mut ConstrainedStructure, &[f64]) -> Result<()>,
+) -> i32 {
+    guarded(|| {
+        // SAFETY: the caller vouches for every pointer.
+        let (s, values) = unsafe {
+            (
+                exclusive(structure, "the structure")?,
+                slice(values, n, what)?,
+            )
+        };
+        s.changes.clear();
+        act(&mut s.structure, values)
+    })
+}
+
 /// Solves contact under a load on all freedoms (plastic loads among them).
 ///
 /// # Safety
@@ -277,17 +301,8 @@ pub unsafe extern "C" fn brinell_structure_solve(
     load: *const f64,
     n: usize,
 ) -> i32 {
-    guarded(|| {
-        // SAFETY: the caller vouches for every pointer.
-        let (s, load) = unsafe {
-            (
-                exclusive(structure, "the structure")?,
-                slice(load, n, "load")?,
-            )
-        };
-        s.changes.clear();
-        s.structure.solve(load)
-    })
+    // SAFETY: as vouched for by the caller.
+    unsafe { under(structure, load, n, "load", ConstrainedStructure::solve) }
 }
 
 /// Starts a piece of the load path: from the state at hand the load goes on as load + t rate, t from 0.
@@ -300,17 +315,8 @@ pub unsafe extern "C" fn brinell_structure_start(
     rate: *const f64,
     n: usize,
 ) -> i32 {
-    guarded(|| {
-        // SAFETY: the caller vouches for every pointer.
-        let (s, rate) = unsafe {
-            (
-                exclusive(structure, "the structure")?,
-                slice(rate, n, "rate")?,
-            )
-        };
-        s.changes.clear();
-        s.structure.start(rate)
-    })
+    // SAFETY: as vouched for by the caller.
+    unsafe { under(structure, rate, n, "rate", ConstrainedStructure::start) }
 }
 
 /// Goes on to `end` or to the next change of contact: `t` is where, `n_changes` how many rows change there, 0 at the end.
