@@ -452,5 +452,6 @@ fn pushed_away(cause: Unbounded) -> Error {
     )
 }
 
+mod refined;
 #[cfg(test)]
 mod tests;

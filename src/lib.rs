@@ -47,6 +47,8 @@ pub mod results;
 
 pub mod progress;
 
+pub mod checkpoint;
+
 pub mod analysis;
 
 pub mod accuracy;

@@ -1,6 +1,6 @@
 //! What an analysis computed: states, history, quality and cost, free of any solver's types.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Everything a run leaves behind.
 #[derive(Debug, Clone, Default)]
@@ -24,6 +24,9 @@ pub struct Results {
     /// Lower bound of the condition of the factored matrix, rows and columns scaled to a unit diagonal: the largest loss of a pivot to
     /// cancellation. Relative errors of displacements may be this times round-off.
     pub condition: f64,
+    /// Estimated condition of the same matrix, usually right to a factor of three: where the scene asks for it (`analysis.condition`), a state is
+    /// inaccurate, or the lower bound is beyond 1e10. It takes about six full solves.
+    pub condition_estimate: Option<f64>,
     /// States whose quality misses its tolerance, with the figure: these results are not to be trusted.
     pub inaccurate: Vec<String>,
     /// What the factorisation cost.
@@ -34,6 +37,8 @@ pub struct Results {
     pub accuracy: Option<Accuracy>,
     /// Things the user should know.
     pub warnings: Vec<String>,
+    /// How often the run was stopped or killed and went on from a checkpoint.
+    pub resumed: usize,
     /// Set where the run ended before the program did: why.
     pub incomplete: Option<String>,
     /// Set with [`Results::incomplete`]: the kind that decides the exit code (stopped, collapse, analysis).
@@ -73,7 +78,7 @@ pub struct Effect {
 }
 
 /// First yield.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct YieldPoint {
     /// Factor on the scene's proportional loads at which the material first yields.
     pub alpha: f64,
@@ -90,7 +95,7 @@ pub struct YieldPoint {
 }
 
 /// The state at a target.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct State {
     /// Name, from the scene or made from the target.
     pub name: String,
@@ -132,7 +137,7 @@ pub struct State {
 }
 
 /// A contact pair's state.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PairState {
     /// Pair index.
     pub pair: usize,
@@ -153,7 +158,7 @@ pub struct PairState {
 }
 
 /// Status of a contact pair.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
     /// The surfaces are apart (or touch without force).
@@ -163,7 +168,7 @@ pub enum Status {
 }
 
 /// Fields on the whole mesh.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Fields {
     /// `n_nodes x 2` displacements in global axes.
     pub displacement: Vec<f64>,
@@ -181,7 +186,7 @@ pub struct Fields {
 }
 
 /// A row of `history.csv`: one accepted increment.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct HistoryRow {
     /// Number, from 1.
     pub increment: usize,
@@ -212,7 +217,7 @@ pub struct HistoryRow {
 }
 
 /// Machine-independent cost of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Counts {
     /// Numerical factorisations of the sparse stiffness.
     pub factorizations: usize,
@@ -229,10 +234,13 @@ pub struct Counts {
 /// How good a state is: all figures are relative and dimensionless. Loads and displacements are measured against the largest of the
 /// run so far. Gaps are those of the displacements, contact forces those that the stresses leave over: both independent
 /// of the contact solve, neither clipped.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Quality {
     /// Normwise backward error of the full solve: `|f - K u| / (|K| |u| + |f|)`, infinity norms.
     pub backward_error: f64,
+    /// Componentwise backward error: the largest of a row's `|f - K u|` over its `|K| |u| + |f|`. It has no tolerance of its own: what it shows
+    /// beside the normwise one are freedoms on which next to nothing acts.
+    pub componentwise_error: f64,
     /// Out-of-balance force of the stresses over the largest applied or contact force.
     pub equilibrium: f64,
     /// Largest `gap * force` of a pair over (largest gap or displacement * largest force).

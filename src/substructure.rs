@@ -23,7 +23,7 @@ use nalgebra::{DMatrix, DVector};
 use tied::{Tied, Trace};
 
 /// A load (or displacement) on zone and contact freedoms: first nodes of all pairs, then second nodes.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Trailing {
     /// On the zone freedoms.
     pub zone: Vec<f64>,
@@ -230,6 +230,20 @@ impl Substructure {
             tied.recover(&mut load.contact, slip);
         }
         self.condensed.recover_zone(&mut load.zone, &load.contact);
+    }
+
+    /// Estimated condition of the factored matrix ([`linalg::condition`]). Costs about six full solves.
+    ///
+    /// # Errors
+    /// Failure of the backend's solve.
+    pub fn condition_estimate(&self, model: &Model, system: &System) -> Result<f64> {
+        let shift = shift(model, system, &self.partition);
+        linalg::condition(
+            &*self.condensed,
+            &system.stiffness,
+            &self.partition.contact,
+            &shift,
+        )
     }
 
     /// All freedoms, for a load on all of them that includes the contact forces, and the contact displacements.

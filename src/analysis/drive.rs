@@ -1,19 +1,16 @@
 //! Moving along the load path: increments, elastic or elastoplastic, until a point, a measured value or first yield.
 
 use super::elastic::{ElasticPiece, describe};
-use super::engine::{Engine, Equilibrium, LoadPoint};
+use super::engine::{Engine, LoadPoint};
 use super::increment::Increment;
+use super::place::{Leg, PlasticLeg, Watcher};
 use super::recovery::{Peak, Recovery};
+use super::saved::Saved;
 use super::yield_load::{bracketed_root, yield_share};
 use crate::contact::{Change, PathEnd};
 use crate::error::{Error, ErrorKind, Result};
-use crate::material::PlasticState;
 use crate::scene::{Settings, Stepping};
 use std::cell::Cell;
-use std::sync::Arc;
-
-/// What the drive reports after each increment; false stops it.
-pub type OnIncrement<'a> = dyn FnMut(&mut Engine, &IncrementReport) -> Result<bool> + 'a;
 
 /// An accepted increment.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -77,7 +74,7 @@ const ARRIVED: f64 = 1e-9;
 const SMALLEST_CUT: f64 = 1e-6;
 
 impl Engine<'_> {
-    /// Elastic drive: contact changes alone. With `recovery` it stops at first yield.
+    /// Elastic drive: contact changes alone. With `recovery` it stops at first yield. With `leg` it goes on from there.
     ///
     /// # Errors
     /// A load that drives a body away from every contact.
@@ -86,15 +83,21 @@ impl Engine<'_> {
         end: &LoadPoint,
         mut recovery: Option<&mut Recovery>,
         monitor: Option<&Monitor>,
-        report: &mut OnIncrement,
+        leg: Option<Leg>,
+        watcher: &mut dyn Watcher,
     ) -> Result<Arrival> {
+        let resumed = match leg {
+            Some(Leg::Elastic { piece, watched }) => Some((*piece, watched)),
+            _ => None,
+        };
         let mut samples = match &mut recovery {
             Some(recovery) => {
                 self.refresh();
                 let samples = recovery.sample(&self.now.u, &self.at.factors);
-                if let Some(peak) = recovery
-                    .peak(self.model, &samples)
-                    .filter(|p| p.ratio > 1.0)
+                if resumed.is_none()
+                    && let Some(peak) = recovery
+                        .peak(self.model, &samples)
+                        .filter(|p| p.ratio > 1.0)
                 {
                     return Ok(Arrival::Yield(peak));
                 }
@@ -102,8 +105,13 @@ impl Engine<'_> {
             }
             None => None,
         };
-        let mut watched = monitor.map(|m| m(self));
-        let mut piece = ElasticPiece::new(self, end)?;
+        let (mut piece, mut watched) = match resumed {
+            Some(resumed) => resumed,
+            None => {
+                let watched = monitor.map(|m| m(self));
+                (ElasticPiece::new(self, end)?, watched)
+            }
+        };
         loop {
             let solves = self.counts.trailing_solves;
             let before = piece.t();
@@ -119,7 +127,7 @@ impl Engine<'_> {
                     piece.go_back(self, before + share * (piece.t() - before));
                     self.refresh();
                     if let Some(peak) = peak {
-                        self.note(report, "yield", solves)?;
+                        self.note(watcher, "yield", solves)?;
                         return Ok(Arrival::Yield(peak));
                     }
                 }
@@ -136,7 +144,7 @@ impl Engine<'_> {
                     });
                     piece.go_back(self, t);
                     self.refresh();
-                    self.note(report, "target", solves)?;
+                    self.note(watcher, "target", solves)?;
                     return Ok(Arrival::Monitor);
                 }
                 watched = Some(is);
@@ -144,17 +152,22 @@ impl Engine<'_> {
             match outcome {
                 PathEnd::Target => {
                     self.at = end.clone();
-                    return Ok(if self.note(report, "target", solves)? {
+                    return Ok(if self.note(watcher, "target", solves)? {
                         Arrival::End
                     } else {
                         Arrival::Stopped
                     });
                 }
                 PathEnd::Event(changes) => {
-                    if !self.note(report, &describe(&changes), solves)? {
+                    let goes_on = self.note(watcher, &describe(&changes), solves)?;
+                    piece.turn(self)?;
+                    watcher.resumable(self, &|| Leg::Elastic {
+                        piece: Box::new(piece.clone()),
+                        watched,
+                    })?;
+                    if !goes_on {
                         return Ok(Arrival::Stopped);
                     }
-                    piece.turn(self)?;
                 }
             }
         }
@@ -162,13 +175,13 @@ impl Engine<'_> {
 
     fn note(
         &mut self,
-        report: &mut OnIncrement,
+        watcher: &mut dyn Watcher,
         event: &str,
         solves_before: usize,
     ) -> Result<bool> {
         self.update_scales();
         let trailing_solves = self.counts.trailing_solves - solves_before;
-        report(
+        watcher.increment(
             self,
             &IncrementReport {
                 event: event.to_string(),
@@ -178,7 +191,7 @@ impl Engine<'_> {
         )
     }
 
-    /// Elastoplastic drive to `end`.
+    /// Elastoplastic drive to `end`. With `leg` it goes on from there.
     ///
     /// # Errors
     /// [`ErrorKind::Collapse`] with the load factor that was held; statuses that cycle.
@@ -187,38 +200,33 @@ impl Engine<'_> {
         end: &LoadPoint,
         stepper: Stepper,
         monitor: Option<&Monitor>,
-        report: &mut OnIncrement,
+        leg: Option<Leg>,
+        watcher: &mut dyn Watcher,
     ) -> Result<Arrival> {
-        self.refresh();
-        self.update_scales();
-        if self.force_scale == 0.0 {
-            // Nothing acts yet: residuals are measured against what the end of the piece applies.
-            self.force_scale = self.external(end).largest();
-        }
-        if self.turns_back(end) {
-            self.zone.assume_elastic();
-        }
-        let mut watched = monitor.map(|m| m(self));
-        let whole = self.at.distance(end);
-        let smallest = SMALLEST_CUT * whole;
-        // After an increment that did not converge the next ones are short, and grow again while they succeed.
-        let mut trust = f64::INFINITY;
+        let mut leg = match leg {
+            Some(Leg::Plastic(leg)) => leg,
+            _ => self.begin_plastic(end, monitor),
+        };
+        let smallest = SMALLEST_CUT * leg.whole;
         loop {
+            if leg.following.is_none() && self.at.alpha.abs() > stepper.zone_until {
+                return Ok(Arrival::ZoneOutgrown);
+            }
             let left = match stepper.stepping {
                 Stepping::Events => 1.0,
                 Stepping::Steps => {
                     1.0 / stepper.steps.saturating_sub(stepper.taken.get()).max(1) as f64
                 }
             };
-            if self.zone.is_idle()
+            if (leg.following.is_some() || self.zone.is_idle())
                 && stepper.stepping == Stepping::Events
-                && let Some(arrival) = self.follow_elastic(end, monitor, &mut watched, report)?
+                && let Some(arrival) = self.follow_elastic(end, monitor, &mut leg, watcher)?
             {
                 return Ok(arrival);
             }
             let distance = self.at.distance(end);
-            let trusted = if trust < left * distance {
-                trust / distance
+            let trusted = if leg.trust < left * distance {
+                leg.trust / distance
             } else {
                 left
             };
@@ -226,9 +234,9 @@ impl Engine<'_> {
             let solves = self.counts.trailing_solves;
             let (increment, cut) =
                 self.find_increment(end, trusted, smallest / distance, stepper)?;
-            trust = match (cut, trusted < left) {
+            leg.trust = match (cut, trusted < left) {
                 (true, _) => increment.t * distance,
-                (false, true) => 2.0 * trust,
+                (false, true) => 2.0 * leg.trust,
                 (false, false) => f64::INFINITY,
             };
             if increment.guard_flows > 0 {
@@ -244,20 +252,20 @@ impl Engine<'_> {
             let full = increment.t >= left;
             let mut at_end = increment.t >= 1.0;
             self.accept(end, increment, &mut reported);
-            if !at_end && self.at.distance(end) <= ARRIVED * whole {
+            if !at_end && self.at.distance(end) <= ARRIVED * leg.whole {
                 self.arrive(end);
                 at_end = true;
             }
-            if let (Some(monitor), Some(was)) = (monitor, watched) {
+            if let (Some(monitor), Some(was)) = (monitor, leg.watched) {
                 let is = monitor(self);
                 if is == 0.0 || (is > 0.0) != (was > 0.0) {
                     self.hit(end, &saved, stepper, monitor, was, &mut reported)?;
                     reported.trailing_solves = self.counts.trailing_solves - solves;
                     reported.event = "target".to_string();
-                    report(self, &reported)?;
+                    watcher.increment(self, &reported)?;
                     return Ok(Arrival::Monitor);
                 }
-                watched = Some(is);
+                leg.watched = Some(is);
             }
             reported.trailing_solves = self.counts.trailing_solves - solves;
             if at_end {
@@ -269,15 +277,36 @@ impl Engine<'_> {
                 reported.event = "step".to_string();
             }
             stepper.taken.update(|taken| taken + usize::from(full));
-            if !report(self, &reported)? {
-                return Ok(Arrival::Stopped);
-            }
-            if at_end {
+            let goes_on = watcher.increment(self, &reported)?;
+            if goes_on && at_end {
                 return Ok(Arrival::End);
             }
-            if self.at.alpha.abs() > stepper.zone_until {
-                return Ok(Arrival::ZoneOutgrown);
+            if !at_end {
+                watcher.resumable(self, &|| Leg::Plastic(leg.clone()))?;
             }
+            if !goes_on {
+                return Ok(Arrival::Stopped);
+            }
+        }
+    }
+
+    /// What an elastoplastic drive begins with.
+    fn begin_plastic(&mut self, end: &LoadPoint, monitor: Option<&Monitor>) -> PlasticLeg {
+        self.refresh();
+        self.update_scales();
+        if self.force_scale == 0.0 {
+            // Nothing acts yet: residuals are measured against what the end of the piece applies.
+            self.force_scale = self.external(end).largest();
+        }
+        if self.turns_back(end) {
+            self.zone.assume_elastic();
+        }
+        PlasticLeg {
+            watched: monitor.map(|m| m(self)),
+            whole: self.at.distance(end),
+            // After an increment that did not converge the next ones are short, and grow again while they succeed.
+            trust: f64::INFINITY,
+            following: None,
         }
     }
 
@@ -384,90 +413,11 @@ pub fn stopped() -> Error {
     Error::new(ErrorKind::Stopped, "stopped by the user")
 }
 
-/// A committed state to go back to.
-pub(super) struct Saved {
-    at: LoadPoint,
-    now: Equilibrium,
-    open: Vec<bool>,
-    border: Vec<usize>,
-    fresh: bool,
-    /// Elements of the zone then, and their history.
-    elements: Arc<[usize]>,
-    history: Vec<PlasticState>,
-}
-
-impl Saved {
-    pub(super) fn of(engine: &Engine) -> Self {
-        Saved {
-            at: engine.at.clone(),
-            now: engine.now.clone(),
-            open: engine.tableau.open().to_vec(),
-            border: engine.border.clone(),
-            fresh: engine.fresh,
-            elements: Arc::clone(&engine.elements),
-            history: engine.zone.history().to_vec(),
-        }
-    }
-
-    pub(super) fn put_back(&self, engine: &mut Engine) {
-        engine.at = self.at.clone();
-        engine.border = self.border.clone();
-        if Arc::ptr_eq(&self.elements, &engine.elements) {
-            engine.zone.restore(&self.history);
-            engine.now.copy_from(&self.now);
-            engine.fresh = self.fresh;
-        } else {
-            engine.zone.restore_of(&self.elements, &self.history);
-            engine.now.gap.copy_from_slice(&self.now.gap);
-            engine.now.force.copy_from_slice(&self.now.force);
-            engine.now.initial = engine.zone.initial_load(engine.sub.zeros());
-            engine.fresh = false;
-        }
-        // Closing first: a pair whose opening would free a motion can open once others are closed.
-        for closing in [true, false] {
-            for k in 0..self.open.len() {
-                let open = engine.tableau.open()[k];
-                if open != self.open[k] && open == closing {
-                    engine.tableau.flip(k);
-                }
-            }
-        }
-    }
-}
-
 impl Engine<'_> {
     /// Whether the way to `end` leads back against the last increment: then the material unloads elastically at first.
     fn turns_back(&self, end: &LoadPoint) -> bool {
         let step = self.at.step_to(end);
         let along: f64 = step.iter().zip(&self.last_step).map(|(a, b)| a * b).sum();
         along <= 0.0
-    }
-}
-
-impl LoadPoint {
-    /// Change of all factors and of the interference on the way to `end`.
-    pub(super) fn step_to(&self, end: &LoadPoint) -> Vec<f64> {
-        let mut step: Vec<f64> = end
-            .factors
-            .iter()
-            .zip(&self.factors)
-            .map(|(b, a)| b - a)
-            .collect();
-        step.push(end.interference - self.interference);
-        step
-    }
-
-    /// Largest change of a factor on the way to `end`.
-    fn distance(&self, end: &LoadPoint) -> f64 {
-        self.step_to(end).iter().fold(0.0, |m, d| m.max(d.abs()))
-    }
-
-    /// Share of the way from here to `end` at which `between` lies.
-    pub(super) fn share_of(&self, between: &LoadPoint, end: &LoadPoint) -> f64 {
-        if end.alpha != self.alpha {
-            (between.alpha - self.alpha) / (end.alpha - self.alpha)
-        } else {
-            (between.interference - self.interference) / (end.interference - self.interference)
-        }
     }
 }

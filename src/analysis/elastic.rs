@@ -1,12 +1,15 @@
 //! Elastic pieces of the load path: contact alone changes, from event to event, on the dense matrix only.
 
-use super::drive::{Arrival, IncrementReport, MONITOR_ACCURACY, Monitor, OnIncrement};
+use super::drive::{Arrival, IncrementReport, MONITOR_ACCURACY, Monitor};
 use super::engine::{Engine, LoadPoint};
+use super::place::{Leg, PlasticLeg, Watcher};
 use super::yield_load::bracketed_root;
 use crate::contact::{self, Change, Path, PathEnd};
 use crate::error::Result;
+use serde::{Deserialize, Serialize};
 
 /// Follows contact along a straight piece of the load path with the plastic strains frozen.
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct ElasticPiece {
     start: LoadPoint,
     end: LoadPoint,
@@ -84,6 +87,20 @@ impl ElasticPiece {
     }
 }
 
+/// Where [`Engine::follow_elastic`] is between two events.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Following {
+    /// Where it began.
+    start: LoadPoint,
+    piece: ElasticPiece,
+    /// Pairs of the last event.
+    border: Vec<usize>,
+    /// Statuses beyond it.
+    open: Vec<bool>,
+    /// Trailing solves that were reported.
+    solves: usize,
+}
+
 impl Engine<'_> {
     /// Follows unloading (or reloading) on the dense contact matrix for as long as no point flows, event by event; `None`
     /// where the next stretch flows, with the last event before it as current state.
@@ -94,24 +111,31 @@ impl Engine<'_> {
     /// factor and von Mises' stress is a convex function of them, so where both ends of a stretch lie within the yield
     /// surface all of it does.
     ///
+    /// With [`PlasticLeg::following`] it goes on from there.
+    ///
     /// # Errors
-    /// Those of the report.
+    /// Those of the watcher.
     pub fn follow_elastic(
         &mut self,
         end: &LoadPoint,
         monitor: Option<&Monitor>,
-        watched: &mut Option<f64>,
-        report: &mut OnIncrement,
+        leg: &mut PlasticLeg,
+        watcher: &mut dyn Watcher,
     ) -> Result<Option<Arrival>> {
-        if self.now.force.iter().all(|r| *r == 0.0) {
-            return Ok(None);
-        }
-        self.refresh();
-        let start = self.at.clone();
-        let mut border = self.border.clone();
-        let mut open = self.tableau.open().to_vec();
-        let Ok(mut piece) = ElasticPiece::new(self, end) else {
-            self.set_statuses(&open, border);
+        let resumed = leg.following.take();
+        let solves = resumed.as_ref().map(|following| following.solves);
+        let begun = match resumed {
+            Some(following) => Some(*following),
+            None => self.begin_following(end),
+        };
+        let Some(Following {
+            start,
+            mut piece,
+            mut border,
+            mut open,
+            ..
+        }) = begun
+        else {
             return Ok(None);
         };
         let n = self.now.gap.len();
@@ -122,9 +146,15 @@ impl Engine<'_> {
         eliminated.add(1.0, &self.now.initial);
         self.sub.eliminate(&mut eliminated, &mut forces);
         self.sub.eliminate(&mut change, &mut forces);
-        self.counts.trailing_solves += 2;
         let mut balance = self.sub.zeros();
-        let mut solves = self.counts.trailing_solves;
+        // One that goes on has counted the two before.
+        let mut solves = match solves {
+            Some(solves) => solves,
+            None => {
+                self.counts.trailing_solves += 2;
+                self.counts.trailing_solves
+            }
+        };
         loop {
             let before = piece.t();
             let saved = (
@@ -164,7 +194,7 @@ impl Engine<'_> {
                 residual: balance.largest() / self.force_scale.max(f64::MIN_POSITIVE),
             };
             solves = self.counts.trailing_solves;
-            if let (Some(monitor), Some(was)) = (monitor, *watched) {
+            if let (Some(monitor), Some(was)) = (monitor, leg.watched) {
                 let is = monitor(self);
                 if is == 0.0 || (is > 0.0) != (was > 0.0) {
                     let (from, to) = (before, piece.t());
@@ -176,14 +206,14 @@ impl Engine<'_> {
                     });
                     piece.go_back(self, t);
                     self.refresh();
-                    report(self, &reported)?;
+                    watcher.increment(self, &reported)?;
                     return Ok(Some(Arrival::Monitor));
                 }
-                *watched = Some(is);
+                leg.watched = Some(is);
             }
             let PathEnd::Event(changes) = outcome else {
                 self.at = end.clone();
-                let goes_on = report(self, &reported)?;
+                let goes_on = watcher.increment(self, &reported)?;
                 return Ok(Some(if goes_on {
                     Arrival::End
                 } else {
@@ -201,14 +231,50 @@ impl Engine<'_> {
             if piece.turn(self).is_err() {
                 // No rates beyond this event: elastoplastic increments find out why.
                 self.set_statuses(&before_turn, border);
-                report(self, &reported)?;
+                watcher.increment(self, &reported)?;
                 return Ok(None);
             }
             open = self.tableau.open().to_vec();
-            if !report(self, &reported)? {
+            let goes_on = watcher.increment(self, &reported)?;
+            watcher.resumable(self, &|| {
+                let following = Following {
+                    start: start.clone(),
+                    piece: piece.clone(),
+                    border: border.clone(),
+                    open: open.clone(),
+                    solves,
+                };
+                Leg::Plastic(PlasticLeg {
+                    following: Some(Box::new(following)),
+                    ..*leg
+                })
+            })?;
+            if !goes_on {
                 return Ok(Some(Arrival::Stopped));
             }
         }
+    }
+
+    /// The begin of a stretch on which nothing flows, if there can be one.
+    fn begin_following(&mut self, end: &LoadPoint) -> Option<Following> {
+        if self.now.force.iter().all(|r| *r == 0.0) {
+            return None;
+        }
+        self.refresh();
+        let start = self.at.clone();
+        let border = self.border.clone();
+        let open = self.tableau.open().to_vec();
+        let Ok(piece) = ElasticPiece::new(self, end) else {
+            self.set_statuses(&open, border);
+            return None;
+        };
+        Some(Following {
+            start,
+            piece,
+            border,
+            open,
+            solves: 0,
+        })
     }
 
     fn set_statuses(&mut self, open: &[bool], border: Vec<usize>) {

@@ -13,7 +13,7 @@ use crate::substructure::{Substructure, Trailing};
 use std::sync::Arc;
 
 /// A point of the load path: the factor of each load and the share of the interference that is applied.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct LoadPoint {
     /// Load factor in the program's unit.
     pub alpha: f64,
@@ -71,6 +71,8 @@ pub struct Engine<'m> {
     /// Stiffness and loads.
     pub system: &'m System,
     backend: Backend,
+    /// Elements whose freedoms were factored as zone.
+    pub(super) factored: Arc<[usize]>,
     /// The condensed structure.
     pub sub: Substructure,
     /// Contact statuses.
@@ -82,11 +84,11 @@ pub struct Engine<'m> {
     /// Elements of the zone, ascending.
     pub elements: Arc<[usize]>,
     /// Loads at factor 1, reduced.
-    reduced_loads: Vec<Vec<f64>>,
+    pub(super) reduced_loads: Vec<Vec<f64>>,
     /// Condensed loads at factor 1.
     loads: Vec<Trailing>,
     /// Forces `t` of the tied pairs for each load at factor 1.
-    load_forces: Vec<Vec<f64>>,
+    pub(super) load_forces: Vec<Vec<f64>>,
     gap: Vec<f64>,
     interference: Vec<f64>,
     /// `T gap` and `T interference`.
@@ -130,10 +132,14 @@ impl<'m> Engine<'m> {
         guard: &[bool],
     ) -> Result<Self> {
         let mut sub = Substructure::new(model, system, zone_freedoms(model, within), backend)?;
+        let mut factored: Arc<[usize]> = within.into();
         let mut factorizations = 1;
         if elements != within {
             let zone = zone_freedoms(model, &elements);
-            factorizations += usize::from(sub.set_zone(model, system, zone, backend)?);
+            if sub.set_zone(model, system, zone, backend)? {
+                factorizations += 1;
+                factored = elements.as_slice().into();
+            }
         }
         let places = places(model, &sub);
         let zone = Zone::new(model, &elements, guard, &places);
@@ -144,6 +150,7 @@ impl<'m> Engine<'m> {
             model,
             system,
             backend,
+            factored,
             tableau: sub.tableau(),
             reduced_loads: Vec::new(),
             loads: Vec::new(),
@@ -197,6 +204,7 @@ impl<'m> Engine<'m> {
             .set_zone(self.model, self.system, freedoms, self.backend)?
         {
             self.counts.factorizations += 1;
+            self.factored = elements.as_slice().into();
             let open = self.tableau.open().to_vec();
             self.tableau = self.sub.tableau();
             self.reduce_loads()?;

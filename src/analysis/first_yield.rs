@@ -103,10 +103,13 @@ impl Run<'_, '_> {
             for stop in self.stops(end) {
                 let point = self.engine.point(stop);
                 let mut quiet = |_: &mut Engine, _: &IncrementReport| Ok(true);
-                if let Arrival::Yield(peak) =
-                    self.engine
-                        .drive_elastic(&point, self.recovery.as_mut(), None, &mut quiet)?
-                {
+                if let Arrival::Yield(peak) = self.engine.drive_elastic(
+                    &point,
+                    self.recovery.as_mut(),
+                    None,
+                    None,
+                    &mut quiet,
+                )? {
                     return Ok(Some((self.engine.at.alpha, peak)));
                 }
             }

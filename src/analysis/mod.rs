@@ -9,6 +9,7 @@
 //! | `zone`, `gather`, `zone_choice`, `zone_fit` | elements that may yield, initial loads, their choice and growth | 4.1 |
 //! | `tangent`, `acceleration` | acceleration of the plastic iteration | |
 //! | `program`, `targets`, `drive`, `stepping` | from target to target, loading and unloading | 5.1, 5.2 |
+//! | `keeper`, `resume`, `place`, `record`, `saved`, `packed` | checkpoints, and going on from them | |
 //! | `measure`, `state`, `quality` | pressure, half width, dent, quality of a state | 5 |
 //! | `indicator` | discretisation error of the stresses, element by element | |
 
@@ -21,11 +22,17 @@ mod first_yield;
 mod gather;
 mod increment;
 mod indicator;
+mod keeper;
 mod measure;
+mod packed;
+mod place;
 mod program;
 mod quality;
+mod record;
 mod recovery;
 mod reference;
+mod resume;
+mod saved;
 mod state;
 mod step_length;
 mod stepping;
@@ -42,6 +49,7 @@ mod tests;
 pub use check::{Check, check};
 
 use crate::assembly::{System, assemble};
+use crate::checkpoint::{Checkpoints, Identity, Store};
 use crate::error::Result;
 use crate::linalg::Backend;
 use crate::model::Model;
@@ -98,6 +106,59 @@ impl Analysis {
             observer,
             false,
         )
+    }
+
+    /// As [`Analysis::run`], and writes checkpoints on the way: should the process be killed, [`Analysis::resume`] goes on from the last.
+    /// The results are those of [`Analysis::run`] to the last bit. A checkpoint that is there already is replaced by the first.
+    ///
+    /// # Errors
+    /// As [`Analysis::run`]; `Input` where another run is writing there; `Io` where the first checkpoint cannot be written
+    /// (a later one that cannot be ends the run like any other failure).
+    pub fn run_with_checkpoints(
+        &mut self,
+        checkpoints: &Checkpoints,
+        observer: &mut dyn Observer,
+    ) -> Result<Results> {
+        let store = self.store(checkpoints)?;
+        let every = checkpoints.interval();
+        let run = program::Run::new(
+            &self.model,
+            &self.system,
+            self.backend,
+            &self.timings,
+            observer,
+        )?;
+        program::complete(run.keeping(store, every), false)
+    }
+
+    /// Goes on from the last checkpoint and writes further ones. The results are those of a run that was never stopped, to the
+    /// last bit where the factorisation is the same to the last bit (else [`Results::warnings`] says so); `timings` add up. Counts
+    /// are those of the one run, the factorisations done again left out.
+    ///
+    /// # Errors
+    /// As [`Analysis::run_with_checkpoints`]; `Input` where the checkpoint is damaged, of another version, or of another scene,
+    /// mesh or backend, naming what differs; `Io` where there is none.
+    pub fn resume(
+        &mut self,
+        checkpoints: &Checkpoints,
+        observer: &mut dyn Observer,
+    ) -> Result<Results> {
+        let store = self.store(checkpoints)?;
+        let run = program::Run::resume(
+            &self.model,
+            &self.system,
+            self.backend,
+            &self.timings,
+            observer,
+            store,
+            checkpoints.interval(),
+        )?;
+        program::complete(run, false)
+    }
+
+    fn store(&self, checkpoints: &Checkpoints) -> Result<Store> {
+        let identity = Identity::new(&self.model.scene, &self.model.mesh, self.backend)?;
+        Store::open(checkpoints, identity)
     }
 
     /// The yield load only.

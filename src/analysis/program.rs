@@ -1,7 +1,9 @@
 //! The load program: first yield, then target after target.
 
-use super::drive::{Arrival, IncrementReport, Monitor, Saved, Stepper, stopped};
+use super::drive::{Arrival, Monitor, Stepper, stopped};
 use super::engine::{Engine, LoadPoint};
+use super::keeper::{Keeper, Recorder, Standing, Start};
+use super::place::Place;
 use super::recovery::Recovery;
 use super::zone_choice::{self, Choice};
 use super::zone_fit::Spread;
@@ -10,14 +12,17 @@ use crate::assembly::System;
 use crate::error::{Error, Result};
 use crate::linalg::Backend;
 use crate::model::Model;
-use crate::progress::{Flow, Observer};
-use crate::results::{HistoryRow, Quality, Results, Sizes, State};
+use crate::progress::Observer;
+use crate::results::{Quality, Results, Sizes, State};
 use crate::scene::{Target, Unit};
+use serde::{Deserialize, Serialize};
 use std::cell::{Cell, RefCell};
 use std::time::Instant;
 
 /// Doublings of the load in search of first yield or of a target.
 pub(super) const DOUBLINGS: usize = 60;
+/// Lower bound of the condition from which it is estimated without being asked for: six digits of a displacement may be left.
+const DOUBTFUL: f64 = 1e10;
 /// Choices of the zone that are tried in search of the place of first yield.
 pub(super) const ZONE_ATTEMPTS: usize = 8;
 
@@ -29,7 +34,12 @@ pub(super) fn run(
     observer: &mut dyn Observer,
     yield_only: bool,
 ) -> Result<Results> {
-    let mut run = Run::new(model, system, backend, timings, observer)?;
+    let run = Run::new(model, system, backend, timings, observer)?;
+    complete(run, yield_only)
+}
+
+/// Runs to the end, or as far as it goes.
+pub(super) fn complete(mut run: Run, yield_only: bool) -> Result<Results> {
     let outcome = run.execute(yield_only);
     let mut results = run.finish();
     match outcome {
@@ -61,10 +71,18 @@ pub(super) struct Run<'m, 'o> {
     /// Number of targets behind.
     pub(super) done: usize,
     pub(super) seconds: Seconds,
+    /// Where the way to the target at hand began: to be gone again with a wider zone.
+    pub(super) start: Option<Start>,
+    /// Where the run is on its way.
+    pub(super) place: Place,
+    /// Where it was when it was killed, as far as that is still ahead.
+    pub(super) resumed: Option<Place>,
+    /// Writes checkpoints.
+    pub(super) keeper: Option<Keeper>,
 }
 
 /// Seconds by effect.
-#[derive(Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct Seconds {
     pub(super) contact: f64,
     pub(super) plasticity: f64,
@@ -116,6 +134,10 @@ impl<'m, 'o> Run<'m, 'o> {
                 condensation: start.elapsed().as_secs_f64(),
                 ..Seconds::default()
             },
+            start: None,
+            place: Place::default(),
+            resumed: None,
+            keeper: None,
         })
     }
 
@@ -124,8 +146,30 @@ impl<'m, 'o> Run<'m, 'o> {
     }
 
     pub(super) fn execute(&mut self, yield_only: bool) -> Result<()> {
+        if self.resumed.as_ref().is_none_or(|place| place.preload) {
+            self.place.preload = true;
+            self.preload()?;
+            self.place = Place::default();
+            self.resumed = None;
+            if !self.prepare(yield_only)? {
+                return Ok(());
+            }
+        }
+        self.observer.phase("load program");
+        let targets = &self.model().scene.program.targets;
+        let labels = self.model().scene.program.labels();
+        for index in self.done..targets.len() {
+            let state = self.reach_with_right_zone(&targets[index], &labels[index])?;
+            self.done = index + 1;
+            self.results.states.push(state);
+            self.keep_target();
+        }
+        Ok(())
+    }
+
+    /// First yield and the zone for the program; false where no more is wanted.
+    fn prepare(&mut self, yield_only: bool) -> Result<bool> {
         let program = &self.model().scene.program;
-        self.preload()?;
         let required = yield_only
             || program.unit == Unit::Yield
             || program
@@ -140,44 +184,41 @@ impl<'m, 'o> Run<'m, 'o> {
         }
         if yield_only {
             return match self.results.first_yield {
-                Some(_) => Ok(()),
+                Some(_) => Ok(false),
                 None => Err(Error::analysis(
                     "no yield load: no body that may yield (material with a yield stress, plastic not false) yields",
                 )),
             };
         }
         self.fit_zone()?;
-        self.observer.phase("load program");
-        let targets = &self.model().scene.program.targets;
-        let labels = self.model().scene.program.labels();
-        for (index, target) in targets.iter().enumerate() {
-            let state = self.reach_with_right_zone(target, &labels[index])?;
-            self.done = index + 1;
-            self.results.states.push(state);
-        }
-        Ok(())
+        Ok(true)
     }
 
     /// Reaches a target and takes its state. The guard layer only sees what grows out of the zone: where the state shows
     /// stress beyond yield elsewhere, the zone is widened to there and the way to the target is gone again.
     pub(super) fn reach_with_right_zone(&mut self, target: &Target, label: &str) -> Result<State> {
-        for _ in 0..ZONE_ATTEMPTS {
-            let saved = Saved::of(&self.engine);
-            let (plastic, yield_alpha, first_yield) =
-                (self.plastic, self.yield_alpha, self.results.first_yield);
-            let increments = self.results.history.len();
+        let begun = self.resumed.as_ref().map_or(0, |place| place.attempt);
+        for attempt in begun..ZONE_ATTEMPTS {
+            if self.start.is_none() {
+                self.set_start();
+            }
+            self.place.attempt = attempt;
             self.reach(target, label)?;
+            self.place = Place::default();
+            self.resumed = None;
             let start = Instant::now();
             let state = self.engine.state(label, target.fields)?;
             self.seconds.states += start.elapsed().as_secs_f64();
             let missed = std::mem::take(&mut self.engine.beyond_yield_outside);
+            let start = self.start.take();
             if missed.is_empty() {
                 return Ok(state);
             }
-            saved.put_back(&mut self.engine);
+            let start = start.ok_or_else(|| Error::internal("the way to a target has no begin"))?;
+            start.saved.put_back(&mut self.engine);
             (self.plastic, self.yield_alpha, self.results.first_yield) =
-                (plastic, yield_alpha, first_yield);
-            self.results.history.truncate(increments);
+                (start.plastic, start.yield_alpha, start.first_yield);
+            self.results.history.truncate(start.increments);
             let wider = zone_choice::including(self.model(), &self.choice, &missed);
             self.set_zone(wider)?;
         }
@@ -196,7 +237,9 @@ impl<'m, 'o> Run<'m, 'o> {
             return Ok(());
         }
         self.observer.phase("preload");
-        match self.drive(&end, None, true)? {
+        let resumed = self.resumed.as_ref().and_then(|place| place.drive.as_ref());
+        let watch_yield = resumed.is_none_or(|drive| drive.watch_yield);
+        match self.drive(&end, None, watch_yield)? {
             Arrival::Yield(peak) => {
                 self.record_yield(peak)?;
                 self.drive(&end, None, false)?;
@@ -229,13 +272,18 @@ impl<'m, 'o> Run<'m, 'o> {
         let model = self.model();
         let program = &model.scene.program;
         let fraction = self.done as f64 / program.targets.len().max(1) as f64;
-        let taken = Cell::new(0);
-        let mut watched = monitor.map(|m| m(&mut self.engine));
+        let resumed = self.resumed.as_mut().and_then(|place| place.drive.take());
+        let taken = Cell::new(resumed.as_ref().map_or(0, |drive| drive.taken));
+        let mut leg = resumed.map(|drive| drive.leg);
+        let mut watched = match leg {
+            Some(_) => None,
+            None => monitor.map(|m| m(&mut self.engine)),
+        };
         loop {
             let plastic = self.plastic && !self.choice.elements.is_empty();
-            if plastic {
+            if plastic && leg.is_none() {
                 self.follow_load()?;
-            } else if watch_yield {
+            } else if !plastic && watch_yield {
                 self.recovery();
             }
             if let (Some(monitor), Some(was)) = (monitor, watched) {
@@ -246,7 +294,6 @@ impl<'m, 'o> Run<'m, 'o> {
                 }
             }
             let start = Instant::now();
-            let results = &mut self.results;
             let observer = RefCell::new(&mut *self.observer);
             let stop = || observer.borrow().stop_requested();
             let stepper = Stepper {
@@ -258,15 +305,29 @@ impl<'m, 'o> Run<'m, 'o> {
                 zone_until: self.spread.as_ref().map_or(f64::INFINITY, |s| s.until),
                 stop: &stop,
             };
-            let mut report = |engine: &mut Engine, increment: &IncrementReport| {
-                let row = row(engine, increment, results.history.len() + 1);
-                let flow = observer.borrow_mut().increment(&row, fraction);
-                results.history.push(row);
-                Ok(flow == Flow::Continue && !stop())
+            let mut recorder = Recorder {
+                results: &mut self.results,
+                observer: &observer,
+                fraction,
+                keeper: self.keeper.as_mut(),
+                standing: Standing {
+                    guard: &self.choice.guard,
+                    spread: self.spread.as_ref(),
+                    plastic: self.plastic,
+                    yield_alpha: self.yield_alpha,
+                    elastic_range: self.elastic_range,
+                    done: self.done,
+                    seconds: self.seconds,
+                    start: self.start.as_ref(),
+                },
+                place: &self.place,
+                watch_yield,
+                taken: &taken,
+                since: start,
             };
             let arrival = if plastic {
                 self.engine
-                    .drive_plastic(end, stepper, monitor, &mut report)
+                    .drive_plastic(end, stepper, monitor, leg.take(), &mut recorder)
             } else {
                 let recovery = if watch_yield {
                     self.recovery.as_mut()
@@ -274,7 +335,7 @@ impl<'m, 'o> Run<'m, 'o> {
                     None
                 };
                 self.engine
-                    .drive_elastic(end, recovery, monitor, &mut report)
+                    .drive_elastic(end, recovery, monitor, leg.take(), &mut recorder)
             };
             let spent = start.elapsed().as_secs_f64();
             if plastic {
@@ -321,11 +382,23 @@ impl<'m, 'o> Run<'m, 'o> {
                 results.inaccurate.push(text);
             }
         }
+        if model.scene.analysis.condition
+            || !results.inaccurate.is_empty()
+            || results.condition > DOUBTFUL
+        {
+            // A figure beside the results: a solve that fails leaves it out.
+            let estimate = self
+                .engine
+                .sub
+                .condition_estimate(model, self.engine.system);
+            results.condition_estimate = estimate.ok();
+        }
         results.quality = results
             .states
             .iter()
             .fold(Quality::default(), |w, s| Quality {
                 backward_error: w.backward_error.max(s.quality.backward_error),
+                componentwise_error: w.componentwise_error.max(s.quality.componentwise_error),
                 equilibrium: w.equilibrium.max(s.quality.equilibrium),
                 complementarity: w.complementarity.max(s.quality.complementarity),
                 penetration: w.penetration.max(s.quality.penetration),
@@ -356,25 +429,5 @@ impl<'m, 'o> Run<'m, 'o> {
         }
         results.reference = reference::rows(model, &results);
         results
-    }
-}
-
-fn row(engine: &Engine, report: &IncrementReport, increment: usize) -> HistoryRow {
-    let figures = engine.contact_figures();
-    let (plastic_points, strain) = engine.zone.extent();
-    HistoryRow {
-        increment,
-        alpha: engine.at.alpha,
-        load: engine.total_load_size(),
-        max_pressure: figures.max_pressure,
-        half_width: figures.half_width,
-        contact_force: figures.force * engine.model.symmetry,
-        closed_pairs: engine.closed_pairs(),
-        plastic_points,
-        max_equivalent_plastic_strain: strain,
-        iterations: report.iterations,
-        trailing_solves: report.trailing_solves,
-        residual: report.residual,
-        event: report.event.clone(),
     }
 }

@@ -20,6 +20,15 @@ use crate::results::{Quality, Tolerances};
 /// having at.
 const ROUND_OFF: f64 = 1e-8;
 
+/// Times n eps: the share of its stiffness times the largest displacement below which a row's own forces are round-off.
+///
+/// # Source
+/// M. Arioli, J. W. Demmel, I. S. Duff (1989), doi:10.1137/0610013.
+const SMALL_ROW: f64 = 1000.0;
+
+/// What no setting of the scene makes acceptable: a thousandth of the largest force on the wrong side.
+const LOOSEST: f64 = 1e-3;
+
 /// What the quality of a state of this model must keep: the tolerances that the scene asks for, with room for what
 /// is measured elsewhere than iterated, and round-off.
 pub(super) fn tolerances(model: &Model) -> Tolerances {
@@ -27,7 +36,8 @@ pub(super) fn tolerances(model: &Model) -> Tolerances {
     // Between events a pair may be beyond its condition by gamma.
     let forces = ROUND_OFF
         .max(100.0 * settings.tolerance)
-        .max(10.0 * model.scene.program.gamma);
+        .max(10.0 * model.scene.program.gamma)
+        .min(LOOSEST);
     Tolerances {
         backward_error: (16.0 * f64::EPSILON * model.freedoms.n as f64).max(1e-12),
         equilibrium: forces,
@@ -94,8 +104,10 @@ impl Engine<'_> {
         self.displacement_scale = self.displacement_scale.max(largest(&u.total));
         let out_of_balance: Vec<f64> = internal.iter().zip(&external).map(|(i, e)| i - e).collect();
 
+        let [backward_error, componentwise_error] = self.backward_errors(u.deformation());
         let mut quality = Quality {
-            backward_error: self.backward_error(u.deformation()),
+            backward_error,
+            componentwise_error,
             ..Quality::default()
         };
         let n = self.now.force.len();
@@ -162,8 +174,9 @@ impl Engine<'_> {
         external
     }
 
-    /// `|f - K u| / (|K| |u| + |f|)` in infinity norms, `u` and `f` the run's largest.
-    fn backward_error(&self, u: &[f64]) -> f64 {
+    /// `|f - K u| / (|K| |u| + |f|)` in infinity norms, `u` and `f` the run's largest; and the largest of a row against that row's own
+    /// sum of absolute values (against its own stiffness where nothing acts and next to nothing moves).
+    fn backward_errors(&self, u: &[f64]) -> [f64; 2] {
         let matrix = &self.system.stiffness;
         let mut residual = vec![0.0; u.len()];
         multiply(matrix, u, &mut residual);
@@ -171,18 +184,31 @@ impl Engine<'_> {
         for (r, f) in residual.iter_mut().zip(&load) {
             *r -= f;
         }
-        let mut rows = vec![0.0f64; u.len()];
+        let (mut rows, mut sums) = (vec![0.0f64; u.len()], vec![0.0f64; u.len()]);
         for (j, column) in matrix.outer_iterator().enumerate() {
             for (i, &a) in column.iter() {
-                rows[i] += a.abs();
+                let a = a.abs();
+                rows[i] += a;
+                sums[i] += a * u[j].abs();
                 if i != j {
-                    rows[j] += a.abs();
+                    rows[j] += a;
+                    sums[j] += a * u[i].abs();
                 }
             }
         }
-        let scale = largest(&rows) * largest(u).max(self.displacement_scale)
-            + largest(&load).max(self.force_scale);
-        ratio(largest(&residual), scale)
+        let most = largest(u).max(self.displacement_scale);
+        let scale = largest(&rows) * most + largest(&load).max(self.force_scale);
+        let tiny = SMALL_ROW * u.len() as f64 * f64::EPSILON;
+        let by_row = (0..u.len()).map(|i| {
+            let own = sums[i] + load[i].abs();
+            let whole = rows[i] * most;
+            ratio(
+                residual[i],
+                if own > tiny * whole { own } else { own + whole },
+            )
+        });
+        let by_row: Vec<f64> = by_row.collect();
+        [ratio(largest(&residual), scale), largest(&by_row)]
     }
 }
 

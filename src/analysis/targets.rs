@@ -2,6 +2,7 @@
 
 use super::drive::{Arrival, Monitor, stopped};
 use super::engine::Engine;
+use super::place::Search;
 use super::program::{DOUBLINGS, Run};
 use crate::error::{Error, Result};
 use crate::scene::{Direction, Target};
@@ -34,13 +35,23 @@ impl Run<'_, '_> {
         alpha: f64,
         monitor: Option<&Monitor>,
     ) -> Result<Arrival> {
-        for stop in self.stops(alpha) {
+        // A run that goes on has the stops of its begin.
+        let left = self
+            .resumed
+            .as_mut()
+            .map(|place| std::mem::take(&mut place.stops));
+        let stops = left.filter(|stops| !stops.is_empty());
+        let stops = stops.unwrap_or_else(|| self.stops(alpha));
+        for (i, &stop) in stops.iter().enumerate() {
+            self.place.stops = stops[i..].to_vec();
             let end = self.engine.point(stop);
             loop {
                 let [low, high] = self.elastic_range;
                 let from = self.engine.at.alpha;
                 let known = from.min(stop) >= low && from.max(stop) <= high;
-                match self.drive(&end, monitor, !self.plastic && !known)? {
+                let resumed = self.resumed.as_ref().and_then(|place| place.drive.as_ref());
+                let watch_yield = resumed.map_or(!self.plastic && !known, |d| d.watch_yield);
+                match self.drive(&end, monitor, watch_yield)? {
                     Arrival::End => break,
                     Arrival::Yield(peak) => {
                         self.record_yield(peak)?;
@@ -85,7 +96,7 @@ impl Run<'_, '_> {
             let monitor =
                 move |engine: &mut Engine| engine.contact_figures().half_width / goal - 1.0;
             let upward = self.engine.contact_figures().half_width < goal;
-            return self.search(&monitor, upward, label);
+            return self.search(&monitor, upward, 1.0, label);
         }
         if let Some(goal) = &target.displacement {
             let nodes = self.model().mesh.set_nodes(&goal.on).ok_or_else(|| {
@@ -111,11 +122,18 @@ impl Run<'_, '_> {
                 }
                 Err(_) => f64::NAN,
             };
-            let scale = value.abs().max(distance(&mut self.engine).abs());
+            let resumed = self.resumed.as_ref().and_then(|place| place.search);
+            let scale = match resumed {
+                Some(search) => search.scale,
+                None => value.abs().max(distance(&mut self.engine).abs()),
+            };
             let monitor = move |engine: &mut Engine| {
                 let off = distance(engine);
                 if scale > 0.0 { off / scale } else { off }
             };
+            if let Some(search) = resumed {
+                return self.search(&monitor, search.upward, scale, label);
+            }
             let here = monitor(&mut self.engine);
             let ahead = {
                 let alpha = self.engine.at.alpha;
@@ -129,21 +147,40 @@ impl Run<'_, '_> {
                 value
             };
             let upward = (ahead - here) * here <= 0.0;
-            return self.search(&monitor, upward, label);
+            return self.search(&monitor, upward, scale, label);
         }
         Err(Error::input(format!("target `{label}` has no condition")))
     }
 
-    /// Moves the load factor up (doubling) or down to zero until the monitored quantity vanishes.
-    pub(super) fn search(&mut self, monitor: &Monitor, upward: bool, label: &str) -> Result<()> {
-        let mut end = self.engine.at.alpha;
-        for _ in 0..DOUBLINGS {
-            end = match (upward, end > 0.0) {
-                (true, _) => 2.0 * end.max(0.5 * self.yield_alpha.unwrap_or(1.0)),
-                (false, true) => 0.0,
-                (false, false) => break,
-            };
-            match self.drive_to_factor(end, Some(monitor))? {
+    /// Moves the load factor up (doubling) or down to zero until the monitored quantity, measured against `scale`, vanishes.
+    pub(super) fn search(
+        &mut self,
+        monitor: &Monitor,
+        upward: bool,
+        scale: f64,
+        label: &str,
+    ) -> Result<()> {
+        let resumed = self.resumed.as_mut().and_then(|place| place.search.take());
+        // One that goes on is on the way to the end that it had.
+        let mut under_way = resumed.is_some();
+        let mut search = resumed.unwrap_or(Search {
+            end: self.engine.at.alpha,
+            rounds: 0,
+            upward,
+            scale,
+        });
+        while search.rounds < DOUBLINGS {
+            if !under_way {
+                search.end = match (search.upward, search.end > 0.0) {
+                    (true, _) => 2.0 * search.end.max(0.5 * self.yield_alpha.unwrap_or(1.0)),
+                    (false, true) => 0.0,
+                    (false, false) => break,
+                };
+            }
+            under_way = false;
+            self.place.search = Some(search);
+            search.rounds += 1;
+            match self.drive_to_factor(search.end, Some(monitor))? {
                 Arrival::Monitor => return Ok(()),
                 Arrival::End => {}
                 _ => return Err(stopped()),

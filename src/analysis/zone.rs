@@ -7,6 +7,10 @@
 //! `J` are the paper's initial loads (4.1); the plastic strains depend on the committed history and on the
 //! total strain at the end of the increment only, so within an increment they are a function of `u`.
 
+mod record;
+
+pub(super) use record::ZoneRecord;
+
 use super::gather::{AtPoints, GatheredElements, Nodal, Places};
 use crate::assembly::LocalElement;
 use crate::element::{MAX_FREEDOMS, n_gauss_points};

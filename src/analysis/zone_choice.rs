@@ -21,7 +21,7 @@ const REACH: f64 = 1.2;
 /// loaded to 1.5 b*: 2.0 is too small, and the factorisation takes no more operations with 5 than with 1.2.
 const SPREAD: f64 = 3.0;
 /// Elastic von Mises stress over yield stress above which an element is predicted to yield: stress redistributes.
-const PREDICTED: f64 = 0.95;
+pub(super) const PREDICTED: f64 = 0.95;
 /// Layers of elements put round the prediction.
 const MARGIN: usize = 2;
 /// Layers of guard elements round those.

@@ -14,9 +14,9 @@ const STAGE: f64 = 1.1;
 /// How far yielding will spread, by the elastic stress at the program's extreme loads.
 pub(super) struct Spread {
     /// Elastic von Mises stress over yield stress of each element.
-    ratios: Vec<f64>,
+    pub(super) ratios: Vec<f64>,
     /// The largest load factor.
-    highest: f64,
+    pub(super) highest: f64,
     /// Load factor up to which the zone at hand was chosen.
     pub(super) until: f64,
 }

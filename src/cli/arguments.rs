@@ -9,6 +9,7 @@ const AFTER_HELP: &str = "\
 Examples:
   brinell check data/scenes/cylinder_on_half_plane.toml
   brinell run data/scenes/cylinder_on_half_plane.toml
+  brinell run long.toml --checkpoint=10 --resume
   brinell run press.toml --out results --set materials.steel.yield_stress=400 --set program.steps=40
   brinell yield press.toml --json
   brinell new ball-on-flat --radius 5 --load 300 > ball.toml
@@ -54,7 +55,7 @@ pub(super) enum Command {
     /// with .vtu files (for ParaView) to the output directory, and prints a summary.
     /// Ctrl-C ends the run after the current increment and writes what there is; a second one ends it at once.
     #[command(after_help = "Example: brinell run data/scenes/disc_in_plate.toml --out disc")]
-    Run(RunArguments),
+    Run(ProgramArguments),
     /// Compute the yield load only: the load at which the material first yields
     ///
     /// Elastic, hence fast: no plastic increment is computed. Writes files only with --out.
@@ -98,6 +99,14 @@ pub(super) enum Command {
     /// Print the manual page (roff)
     #[command(after_help = "Example: brinell man | man -l -")]
     Man,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ProgramArguments {
+    #[command(flatten)]
+    pub run: RunArguments,
+    #[command(flatten)]
+    pub restart: super::restart::RestartArguments,
 }
 
 #[derive(Debug, Args)]
@@ -225,9 +234,10 @@ mod tests {
     fn options_are_understood() {
         let line = "brinell run a.toml --solver dense --threads 2 --set a=1 --set b=2 -q --json";
         let arguments = Arguments::try_parse_from(line.split(' ')).unwrap();
-        let Command::Run(run) = arguments.command else {
+        let Command::Run(ProgramArguments { run, restart }) = arguments.command else {
             panic!("not a run: {arguments:?}");
         };
+        assert!(restart.checkpoint.is_none() && !restart.resume);
         assert_eq!(Backend::from(run.common.solver), Backend::Dense);
         assert_eq!(run.common.threads, Some(2));
         assert_eq!(run.common.overrides, ["a=1", "b=2"]);

@@ -2,9 +2,11 @@
 
 use super::arguments::{Arguments, Command, CommonArguments, RunArguments};
 use super::progress::Progress;
+use super::restart::{self, RestartArguments};
 use super::{completions, example, interrupt, new, print, report, schema, study, view};
 use crate::accuracy::{self, Extent};
 use crate::analysis::{self, Analysis, Check};
+use crate::checkpoint::Checkpoints;
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::Backend;
 use crate::model::Model;
@@ -17,11 +19,12 @@ use std::time::Instant;
 /// Does what the user asked for.
 pub(super) fn execute(arguments: &Arguments) -> Result<()> {
     match &arguments.command {
-        Command::Run(run) => {
+        Command::Run(program) => {
+            let run = &program.run;
             let out = (run.out.clone()).unwrap_or_else(|| run.common.scene.with_extension("out"));
-            analyse(run, Some(out), Extent::Program)
+            analyse(run, Some(&program.restart), Some(out), Extent::Program)
         }
-        Command::Yield(run) => analyse(run, run.out.clone(), Extent::Yield),
+        Command::Yield(run) => analyse(run, None, run.out.clone(), Extent::Yield),
         Command::Check(check) => predict(&check.common),
         Command::Selftest(selftest) => super::selftest::execute(selftest),
         Command::Accuracy(arguments) => study::execute(arguments),
@@ -35,12 +38,22 @@ pub(super) fn execute(arguments: &Arguments) -> Result<()> {
 }
 
 /// Scene, model, analysis, files, summary.
-fn analyse(arguments: &RunArguments, out: Option<PathBuf>, extent: Extent) -> Result<()> {
+fn analyse(
+    arguments: &RunArguments,
+    restart: Option<&RestartArguments>,
+    out: Option<PathBuf>,
+    extent: Extent,
+) -> Result<()> {
     let common = &arguments.common;
     let scene = prepare(common)?;
     if let Some(out) = &out {
         // A directory that cannot be written is better found before an hour's run than after it.
         output::check_directory(out)?;
+    }
+    let places = restart.zip(out.as_deref());
+    let restart = places.and_then(|(restart, out)| Some((restart, restart.checkpoints(out)?)));
+    if restart.is_some() && scene.accuracy.is_some() {
+        return Err(restart::not_with_accuracy());
     }
     interrupt::listen()?;
     let start = Instant::now();
@@ -52,7 +65,8 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, extent: Extent) -> Re
             (found.scene, found.analysis, found.results)
         }
         None => {
-            let (analysis, results) = once(&scene, arguments, extent, &mut progress)?;
+            let (analysis, results) =
+                once(&scene, arguments, restart.as_ref(), extent, &mut progress)?;
             (scene, analysis, results)
         }
     };
@@ -71,6 +85,9 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, extent: Extent) -> Re
             .push(("output".to_string(), seconds() - computed));
     }
     progress.finish();
+    if let Some((_, checkpoints)) = &restart {
+        restart::settle(checkpoints, &results)?;
+    }
     let text = if common.json {
         json(&output::summary(&header, &results))?
     } else {
@@ -94,6 +111,7 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, extent: Extent) -> Re
 fn once(
     scene: &Scene,
     arguments: &RunArguments,
+    restart: Option<&(&RestartArguments, Checkpoints)>,
     extent: Extent,
     progress: &mut Progress,
 ) -> Result<(Analysis, Results)> {
@@ -104,9 +122,12 @@ fn once(
     let modelled = start.elapsed().as_secs_f64();
     progress.start("assembly");
     let mut analysis = Analysis::new(model, backend)?;
-    let mut results = match extent {
-        Extent::Program => analysis.run(progress)?,
-        Extent::Yield => analysis.yield_load(progress)?,
+    let mut results = match (extent, restart) {
+        (Extent::Program, None) => analysis.run(progress)?,
+        (Extent::Program, Some((restart, checkpoints))) => {
+            restart.run(&mut analysis, checkpoints, progress)?
+        }
+        (Extent::Yield, _) => analysis.yield_load(progress)?,
     };
     if !arguments.no_estimate {
         let found = accuracy::estimate(scene, backend, &results, extent, progress);

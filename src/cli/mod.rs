@@ -11,6 +11,7 @@ mod interrupt;
 mod new;
 mod progress;
 mod report;
+mod restart;
 mod schema;
 mod selftest;
 mod study;

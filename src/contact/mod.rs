@@ -20,7 +20,7 @@ mod tableau;
 
 pub use complementarity::{Certificate, Unbounded, solve};
 pub use path::{Change, Path, PathEnd};
-pub use tableau::Tableau;
+pub use tableau::{Tableau, TableauRecord};
 
 #[cfg(test)]
 mod tests;

@@ -10,6 +10,7 @@
 use super::Tableau;
 use super::complementarity::{Unbounded, solve};
 use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
 
 /// A change of contact.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -33,7 +34,7 @@ pub enum PathEnd {
 const TIE: f64 = 1e-10;
 
 /// Gaps and forces on a piece of the load path.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Path {
     start: Vec<f64>,
     rate: Vec<f64>,

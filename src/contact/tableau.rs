@@ -1,6 +1,7 @@
 //! The contact matrix with a set of pairs opened: a principal pivotal transform.
 
 use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
 
 /// Share of the original diagonal below which a pivot counts as zero: opening the pair would free a rigid motion.
 const SINGULAR: f64 = 1e-11;
@@ -16,8 +17,17 @@ pub struct Tableau {
     matrix: DMatrix<f64>,
     swept: DMatrix<f64>,
     open: Vec<bool>,
-    pivots: usize,
+    way: TableauRecord,
     column: Vec<f64>,
+}
+
+/// How the swept matrix came about: the same pivots in the same order give it again, bit for bit.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct TableauRecord {
+    /// Statuses when it was last built from the original matrix.
+    base: Vec<bool>,
+    /// Pairs whose status was changed since, in order.
+    flips: Vec<u32>,
 }
 
 impl Tableau {
@@ -28,7 +38,10 @@ impl Tableau {
             swept: matrix.clone(),
             matrix,
             open: vec![false; n],
-            pivots: 0,
+            way: TableauRecord {
+                base: vec![false; n],
+                flips: Vec::new(),
+            },
             column: vec![0.0; n],
         }
     }
@@ -70,8 +83,8 @@ impl Tableau {
         }
         self.sweep(k);
         self.open[k] = !self.open[k];
-        self.pivots += 1;
-        if self.pivots >= REBUILD {
+        self.way.flips.push(k as u32);
+        if self.way.flips.len() >= REBUILD {
             let open = self.open.clone();
             self.reset(&open);
         }
@@ -82,13 +95,32 @@ impl Tableau {
     pub fn reset(&mut self, open: &[bool]) {
         self.swept.copy_from(&self.matrix);
         self.open.fill(false);
-        self.pivots = 0;
+        self.way.flips.clear();
         for k in 0..self.len() {
             if open[k] && !self.would_free(k) {
                 self.sweep(k);
                 self.open[k] = true;
             }
         }
+        self.way.base.copy_from_slice(&self.open);
+    }
+
+    /// How this tableau came about.
+    pub fn record(&self) -> &TableauRecord {
+        &self.way
+    }
+
+    /// Repeats what a tableau of the same matrix went through; false (and the tableau of no use) where the record is of another one.
+    pub fn replay(&mut self, record: &TableauRecord) -> bool {
+        if record.base.len() != self.len() || record.flips.len() >= REBUILD {
+            return false;
+        }
+        self.reset(&record.base);
+        self.open == record.base
+            && record
+                .flips
+                .iter()
+                .all(|&k| (k as usize) < self.open.len() && self.flip(k as usize))
     }
 
     fn sweep(&mut self, k: usize) {

@@ -20,9 +20,14 @@
 mod check;
 #[cfg(feature = "cholmod")]
 pub mod cholmod;
+mod condition;
 pub mod dense;
+mod refinement;
 #[cfg(test)]
 mod tests;
+
+pub use condition::condition;
+pub use refinement::{Refinement, componentwise_backward_error, refine, residual};
 
 use crate::error::{Error, Result};
 use nalgebra::DMatrix;

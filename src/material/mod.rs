@@ -11,6 +11,7 @@ mod radial_return;
 pub use hardening::Hardening;
 
 use crate::scene::{self, Kind};
+use serde::{Deserialize, Serialize};
 
 /// A symmetric 4 x 4 matrix acting on strain vectors, row by row.
 pub type Matrix4 = [[f64; 4]; 4];
@@ -31,7 +32,7 @@ pub struct Material {
 }
 
 /// Plastic history at a Gauss point.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct PlasticState {
     /// Plastic strain `[xx, yy, zz, xy]`, trace 0.
     pub strain: [f64; 4],

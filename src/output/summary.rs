@@ -32,6 +32,7 @@ pub fn summary(header: &RunHeader, results: &Results) -> Value {
         "counts": results.counts,
         "factor": factor(&results.factor),
         "condition": results.condition,
+        "condition_estimate": results.condition_estimate,
         "quality": results.quality,
         "inaccurate": results.inaccurate,
         "yield": results.first_yield.map(|point| first_yield(header, &point)),
@@ -39,6 +40,7 @@ pub fn summary(header: &RunHeader, results: &Results) -> Value {
         "reference": results.reference.iter().map(reference).collect::<Vec<_>>(),
         "accuracy": results.accuracy,
         "warnings": results.warnings,
+        "resumed": results.resumed,
         "incomplete": results.incomplete,
     })
 }

@@ -144,6 +144,8 @@ pub struct Settings {
     pub tolerance: f64,
     /// Most plastic iterations per increment.
     pub max_iterations: usize,
+    /// Estimate the condition of the factored matrix, which takes about six full solves; done anyway where accuracy is in doubt.
+    pub condition: bool,
 }
 
 impl Default for Settings {
@@ -153,6 +155,7 @@ impl Default for Settings {
             plastic_iteration: PlasticIteration::Newton,
             tolerance: 1e-10,
             max_iterations: 200,
+            condition: false,
         }
     }
 }

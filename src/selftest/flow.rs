@@ -27,6 +27,13 @@ pub(super) const FAMILIES: &[Family] = &[
         cases: cycles,
     },
     Family {
+        name: "ratchetting and shakedown",
+        figure: "plastic strain of a cycle, perfectly plastic; of the 200th cycle, hardening",
+        bound: 1e-8,
+        source: "closed forms; forces balance to 1e-10, twice a cycle",
+        cases: ratchet,
+    },
+    Family {
         name: "axis of quadratic elements",
         figure: "uniform pressure under plastic flow",
         bound: 1e-8,
@@ -85,6 +92,39 @@ fn cycles(cases: &mut Cases) -> Result<()> {
         state(&run, "second")?,
         |p| p.force,
     ));
+    Ok(())
+}
+
+/// A constant tension s along y, the strain along x cycled by +-e: at yield the stress along x is `s/2 +- q`, `q^2 = Y^2 - 3/4 s^2`, and the flow
+/// rule gives an equivalent plastic strain of `Y/q (2 e - 2 q/E)` in each half cycle. With hardening Y grows until `q = E e`.
+fn ratchet(cases: &mut Cases) -> Result<()> {
+    let (modulus, yield_stress, tension, amplitude) = (2e5f64, 200.0f64, 100.0f64, 0.003);
+    let mut sheet = scene(include_str!("../../data/scenes/hard/ratchet.toml"))?;
+    let run = results(&sheet)?;
+    let q = (yield_stress.powi(2) - 0.75 * tension.powi(2)).sqrt();
+    let half = yield_stress / q * (2.0 * amplitude - 2.0 * q / modulus);
+    for pair in run.states.windows(2) {
+        let grown = pair[1].max_equivalent_plastic_strain - pair[0].max_equivalent_plastic_strain;
+        cases.add(grown / half - 1.0);
+    }
+    for material in sheet.materials.values_mut() {
+        material.plastic_modulus = Some(5000.0);
+    }
+    let cycle = sheet.program.targets.split_off(4);
+    for k in 3..=200 {
+        for target in &cycle {
+            let mut target = target.clone();
+            target.name = target.name.map(|name| format!("{name} of {k}"));
+            sheet.program.targets.push(target);
+        }
+    }
+    let run = results(&sheet)?;
+    let at_rest = ((modulus * amplitude).powi(2) + 0.75 * tension.powi(2)).sqrt();
+    let last = run.states.last().map(|s| s.max_equivalent_plastic_strain);
+    let reached = last.map_or(f64::NAN, |strain| {
+        strain * 5000.0 / (at_rest - yield_stress)
+    });
+    cases.add(reached - 1.0);
     Ok(())
 }
 

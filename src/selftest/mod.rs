@@ -5,11 +5,13 @@
 //! |---|---|
 //! | `contact` | floating and conforming bodies, ties, events, complementarity |
 //! | `numbers` | stiffness ratios, slivers, units, backends |
-//! | `flow` | incompressible flow, limit loads, cycles, the axis of quadratic elements |
+//! | `flow` | incompressible flow, limit loads, cycles, ratchetting, the axis of quadratic elements |
+//! | `restart` | going on from checkpoints |
 
 mod contact;
 mod flow;
 mod numbers;
+mod restart;
 
 use crate::analysis::Analysis;
 use crate::error::{Error, Result};
@@ -80,7 +82,8 @@ pub fn run(observer: &mut dyn Observer) -> Vec<Row> {
     let families = contact::FAMILIES
         .iter()
         .chain(numbers::FAMILIES)
-        .chain(flow::FAMILIES);
+        .chain(flow::FAMILIES)
+        .chain(restart::FAMILIES);
     let mut rows = Vec::new();
     for family in families {
         if observer.stop_requested() {

@@ -70,6 +70,7 @@ pub fn pair(pair: usize, status: Status) -> PairState {
 pub fn results(mesh: &Mesh) -> Results {
     let quality = Quality {
         backward_error: 1e-16,
+        componentwise_error: 2e-16,
         equilibrium: 2e-12,
         complementarity: 0.0,
         penetration: 3e-17,
@@ -161,6 +162,7 @@ pub fn results(mesh: &Mesh) -> Results {
         },
         quality,
         condition: 1e4,
+        condition_estimate: Some(3e4),
         inaccurate: vec!["state `released` is inaccurate".into()],
         factor: brinell::linalg::Prediction {
             ordering: "CAMD",
@@ -204,6 +206,7 @@ pub fn results(mesh: &Mesh) -> Results {
             notes: vec!["a mesh failed".into()],
         }),
         warnings: vec!["tri3 elements lock where they yield".into()],
+        resumed: 2,
         incomplete: Some("stopped by the user".into()),
         incomplete_kind: Some(brinell::ErrorKind::Stopped),
     }

@@ -41,7 +41,7 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
         assert_eq!(peak, Value::Null);
     }
     let quality = json!({
-        "backward_error": 1e-16, "equilibrium": 2e-12, "complementarity": 0.0, "penetration": 3e-17,
+        "backward_error": 1e-16, "componentwise_error": 2e-16, "equilibrium": 2e-12, "complementarity": 0.0, "penetration": 3e-17,
         "adhesion": 4e-17
     });
     let pressed = json!({
@@ -82,6 +82,7 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
             "flops": 5e20, "memory_bytes": 65536
         },
         "condition": 1e4,
+        "condition_estimate": 3e4,
         "quality": quality,
         "inaccurate": ["state `released` is inaccurate"],
         "yield": {
@@ -107,6 +108,7 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
             "notes": ["a mesh failed"]
         },
         "warnings": ["tri3 elements lock where they yield"],
+        "resumed": 2,
         "incomplete": "stopped by the user"
     });
     assert_eq!(value, expected);

@@ -2,10 +2,12 @@
 //!
 //! The scenes are in `data/scenes/hard`.
 
+mod checkpoint;
 mod cycles;
 mod flow;
 mod held_by_contact;
 mod incompressible;
+mod killed;
 mod numbers;
 mod quality;
 mod receding;

@@ -78,6 +78,31 @@ fn row_of_blocks(moduli: [f64; 3], swap: bool) -> String {
             [program]\ntargets = [{ load_factor = 1.0 }]\n"
 }
 
+/// Coordinates over nine orders of magnitude, areas over eighteen: absolute tolerances for "the same place", "touching" or "no force" fit
+/// at most one end. Closed form (Lame), for pin and plate alike and one 1e4 times as stiff; the bound is that of the mesh, quadratic elements an eighth
+/// of a right angle wide, whose pressure is of order h^2 (0.04) times a small constant. The fit is uniform to round-off.
+#[test]
+fn bodies_a_millionth_and_a_thousand_long_in_one_scene() {
+    let e = 210_000.0;
+    for [pin, plate] in [[e, e], [e, 1e4 * e], [1e4 * e, e]] {
+        let moduli = [
+            format!("materials.pin.youngs_modulus={pin:?}"),
+            format!("materials.plate.youngs_modulus={plate:?}"),
+        ];
+        let results = run_file("hard/body_sizes", &[&moduli[0], &moduli[1]]);
+        assert!(results.inaccurate.is_empty(), "{:?}", results.inaccurate);
+        let s = state(&results, "fitted");
+        let exact = 1e-3 / ((5.0 / 3.0 - 0.3) / pin + 1.3 / plate);
+        for p in &s.pairs {
+            assert_eq!(p.status, brinell::results::Status::Closed);
+            close("pressure", p.pressure, exact, exact, 0.01);
+        }
+        let q = &s.quality;
+        assert!(q.equilibrium <= 1e-10 && q.adhesion <= 1e-10, "{q:?}");
+        assert!(q.componentwise_error <= 1e-12, "{q:?}");
+    }
+}
+
 /// The condition of the stiffness grows with the square of the aspect, 1e10: iterative solvers stall and pivots look like zero. Uniform
 /// pressure is in the space of the elements: what is left is round-off times that condition.
 #[test]

@@ -62,3 +62,43 @@ fn lost_accuracy_has_a_warning_and_an_exit_code() {
     }
     std::fs::remove_dir_all(folder).unwrap();
 }
+
+/// Whoever loosens the iteration to one in twenty must not be told that one in twenty is good: figures have a tolerance that no setting moves.
+#[test]
+fn a_loose_iteration_does_not_loosen_what_counts_as_good() {
+    let plain = "analysis.plastic_iteration=plain";
+    let loose = run_file("hard/unload_reload", &[plain, "analysis.tolerance=0.05"]);
+    assert!(loose.quality.equilibrium > 1e-3, "{:?}", loose.quality);
+    assert!(!loose.inaccurate.is_empty());
+    assert!(
+        loose
+            .inaccurate
+            .iter()
+            .all(|i| i.contains("allowed 1.0e-3")),
+        "{:?}",
+        loose.inaccurate
+    );
+    let tight = run_file("hard/unload_reload", &[plain, "analysis.tolerance=1e-9"]);
+    assert!(tight.inaccurate.is_empty(), "{:?}", tight.inaccurate);
+}
+
+/// The condition of the factored matrix is estimated where the user asks for it and where accuracy is in doubt, and not paid for elsewhere.
+#[test]
+fn the_condition_is_estimated_where_it_matters() {
+    let usual = run_file("hard/three_in_a_row", &[]);
+    assert_eq!(usual.condition_estimate, None);
+    let asked = run_file("hard/three_in_a_row", &["analysis.condition=true"]);
+    let estimate = asked.condition_estimate.unwrap();
+    assert!(
+        estimate >= asked.condition && estimate < 1e8,
+        "{estimate:e} {:e}",
+        asked.condition
+    );
+    // Two bodies float, and a row of slivers is worse by the square of their aspect.
+    let slivers = run_file("hard/slivers", &["analysis.condition=true"])
+        .condition_estimate
+        .unwrap();
+    assert!(slivers > 1e3 * estimate, "{slivers:e} {estimate:e}");
+    let doubtful = run_file("hard/floating_body", &["contact.0.gap=1e8"]);
+    assert!(!doubtful.inaccurate.is_empty() && doubtful.condition_estimate.is_some());
+}

@@ -66,7 +66,7 @@ fn quality(
     tamper(&mut engine);
     let end = engine.point(1.0);
     let mut report = |_: &mut Engine, _: &IncrementReport| Ok(true);
-    let arrival = engine.drive_elastic(&end, None, None, &mut report);
+    let arrival = engine.drive_elastic(&end, None, None, None, &mut report);
     assert_eq!(arrival.expect("drive"), Arrival::End);
     after(&mut engine);
     engine.state("end", false).expect("state").quality

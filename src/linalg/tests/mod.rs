@@ -1,6 +1,7 @@
 //! What every backend must do, and the tools to test it with.
 
 // The tests of CHOLMOD use more of it.
+mod accuracy;
 #[cfg_attr(not(feature = "cholmod"), allow(dead_code))]
 pub(super) mod matrices;
 mod refusals;

@@ -1,0 +1,355 @@
+//! Checkpoints of a run: when they are written, and what is in them.
+//!
+//! Writing one changes nothing in the run, so that results do not depend on whether and how often that is done.
+
+use super::drive::IncrementReport;
+use super::engine::Engine;
+use super::packed::Ascending;
+use super::place::{DrivePlace, Leg, Place, Watcher};
+use super::program::{Run, Seconds};
+use super::record::{EngineRecord, SavedRecord};
+use super::saved::Saved;
+use super::zone_choice::PREDICTED;
+use super::zone_fit::Spread;
+use crate::checkpoint::{PartId, Store};
+use crate::error::Result;
+use crate::progress::{Flow, Observer};
+use crate::results::{HistoryRow, Results, YieldPoint};
+use serde::{Deserialize, Serialize};
+use std::cell::{Cell, RefCell};
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Where the way to a target begins.
+pub(super) struct Start {
+    pub(super) saved: Saved,
+    pub(super) plastic: bool,
+    pub(super) yield_alpha: Option<f64>,
+    pub(super) first_yield: Option<YieldPoint>,
+    /// Increments behind.
+    pub(super) increments: usize,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct StartRecord {
+    pub(super) saved: SavedRecord,
+    pub(super) plastic: bool,
+    pub(super) yield_alpha: Option<f64>,
+    pub(super) first_yield: Option<YieldPoint>,
+    pub(super) increments: usize,
+}
+
+/// The elastic stress that the zone follows the load by: of the elements that it can matter for.
+#[derive(Serialize, Deserialize)]
+pub(super) struct SpreadRecord {
+    pub(super) elements: Ascending,
+    pub(super) ratios: Vec<f64>,
+}
+
+/// A run between two increments.
+#[derive(Serialize, Deserialize)]
+pub(super) struct RunRecord {
+    pub(super) place: Place,
+    pub(super) engine: EngineRecord,
+    /// The part with the elastic stress, the largest load factor and the one up to which the zone was chosen.
+    pub(super) spread: Option<(PartId, f64, f64)>,
+    pub(super) plastic: bool,
+    pub(super) yield_alpha: Option<f64>,
+    pub(super) elastic_range: [f64; 2],
+    pub(super) done: usize,
+    pub(super) seconds: Seconds,
+    pub(super) first_yield: Option<YieldPoint>,
+    pub(super) resumed: usize,
+    /// States and the rows up to the last of them.
+    pub(super) states: Vec<PartId>,
+    /// The rows since.
+    pub(super) history: Vec<HistoryRow>,
+    /// Where the way to the target at hand began, and whether the zone was the one at hand.
+    pub(super) start: Option<(PartId, bool)>,
+}
+
+/// What a checkpoint holds beside engine, results and place.
+pub(super) struct Standing<'r> {
+    pub(super) guard: &'r [bool],
+    pub(super) spread: Option<&'r Spread>,
+    pub(super) plastic: bool,
+    pub(super) yield_alpha: Option<f64>,
+    pub(super) elastic_range: [f64; 2],
+    pub(super) done: usize,
+    pub(super) seconds: Seconds,
+    pub(super) start: Option<&'r Start>,
+}
+
+/// Writes checkpoints.
+pub(super) struct Keeper {
+    store: Store,
+    every: usize,
+    /// Increments since the last one.
+    since: usize,
+    /// The user has asked the run to stop: one more is due.
+    stopping: bool,
+    /// Parts with the states that have been written, and how many states and rows that are.
+    pub(super) states: Vec<PartId>,
+    pub(super) n_states: usize,
+    pub(super) n_rows: usize,
+    /// Rows up to the last state.
+    pub(super) rows_of_states: usize,
+    pub(super) spread: Option<PartId>,
+    pub(super) start: Option<PartId>,
+    /// Fingerprint of the factor, and after how many factorisations.
+    fingerprint: Option<(usize, u128)>,
+    failed: bool,
+}
+
+impl Keeper {
+    pub(super) fn new(store: Store, every: usize) -> Self {
+        Keeper {
+            store,
+            every,
+            since: 0,
+            stopping: false,
+            states: Vec::new(),
+            n_states: 0,
+            n_rows: 0,
+            rows_of_states: 0,
+            spread: None,
+            start: None,
+            fingerprint: None,
+            failed: false,
+        }
+    }
+
+    fn is_due(&self) -> bool {
+        self.since >= self.every || (self.stopping && self.since > 0)
+    }
+
+    fn write(
+        &mut self,
+        engine: &Engine,
+        results: &Results,
+        standing: &Standing,
+        place: Place,
+    ) -> Result<()> {
+        if results.states.len() > self.n_states {
+            let rows = self.n_rows..self.rows_of_states;
+            let part = (&results.states[self.n_states..], &results.history[rows]);
+            self.states.push(self.store.add(&part)?);
+            self.n_states = results.states.len();
+            self.n_rows = self.rows_of_states;
+        }
+        let spread = match (standing.spread, self.spread) {
+            (Some(spread), None) => {
+                let hot = |e: &usize| spread.ratios[*e] >= PREDICTED;
+                let elements: Vec<usize> = (0..spread.ratios.len()).filter(hot).collect();
+                let part = self.store.add(&SpreadRecord {
+                    ratios: elements.iter().map(|&e| spread.ratios[e]).collect(),
+                    elements: Ascending::new(elements),
+                })?;
+                self.spread = Some(part);
+                Some((part, spread.highest, spread.until))
+            }
+            (Some(spread), Some(part)) => Some((part, spread.highest, spread.until)),
+            (None, _) => None,
+        };
+        let start = match (standing.start, self.start) {
+            (Some(start), None) => Some((start, self.store.add(&start.record())?)),
+            (Some(start), Some(part)) => Some((start, part)),
+            (None, _) => None,
+        };
+        self.start = start.map(|(_, part)| part);
+        let fingerprint = match self.fingerprint {
+            Some((factorizations, hash)) if factorizations == engine.counts.factorizations => hash,
+            _ => engine.fingerprint(),
+        };
+        self.fingerprint = Some((engine.counts.factorizations, fingerprint));
+        let record = RunRecord {
+            place,
+            engine: engine.record(standing.guard, fingerprint),
+            spread,
+            plastic: standing.plastic,
+            yield_alpha: standing.yield_alpha,
+            elastic_range: standing.elastic_range,
+            done: standing.done,
+            seconds: standing.seconds,
+            first_yield: results.first_yield,
+            resumed: results.resumed,
+            states: self.states.clone(),
+            history: results.history[self.n_rows..].to_vec(),
+            start: start.map(|(start, part)| (part, start.saved.is_of_zone(engine))),
+        };
+        let mut in_use = self.states.clone();
+        in_use.extend(self.spread);
+        in_use.extend(self.start);
+        self.store.write(&record, &in_use)?;
+        self.since = 0;
+        Ok(())
+    }
+}
+
+impl Start {
+    fn record(&self) -> StartRecord {
+        StartRecord {
+            saved: self.saved.record(),
+            plastic: self.plastic,
+            yield_alpha: self.yield_alpha,
+            first_yield: self.first_yield,
+            increments: self.increments,
+        }
+    }
+}
+
+/// Makes a row of each increment, and a checkpoint of every so manieth.
+pub(super) struct Recorder<'r, 'o> {
+    pub(super) results: &'r mut Results,
+    pub(super) observer: &'r RefCell<&'r mut (dyn Observer + 'o)>,
+    pub(super) fraction: f64,
+    pub(super) keeper: Option<&'r mut Keeper>,
+    pub(super) standing: Standing<'r>,
+    pub(super) place: &'r Place,
+    pub(super) watch_yield: bool,
+    pub(super) taken: &'r Cell<usize>,
+    /// When the drive began.
+    pub(super) since: Instant,
+}
+
+impl Watcher for Recorder<'_, '_> {
+    fn increment(&mut self, engine: &mut Engine, report: &IncrementReport) -> Result<bool> {
+        let row = row(engine, report, self.results.history.len() + 1);
+        let mut observer = self.observer.borrow_mut();
+        let flow = observer.increment(&row, self.fraction);
+        self.results.history.push(row);
+        let goes_on = flow == Flow::Continue && !observer.stop_requested();
+        if let Some(keeper) = &mut self.keeper {
+            keeper.since += 1;
+            keeper.stopping = !goes_on;
+        }
+        Ok(goes_on)
+    }
+
+    fn resumable(&mut self, engine: &Engine, leg: &dyn Fn() -> Leg) -> Result<()> {
+        let Some(keeper) = self.keeper.as_mut().filter(|keeper| keeper.is_due()) else {
+            return Ok(());
+        };
+        let place = Place {
+            drive: Some(DrivePlace {
+                watch_yield: self.watch_yield,
+                taken: self.taken.get(),
+                leg: leg(),
+            }),
+            ..self.place.clone()
+        };
+        let before = self.standing.seconds;
+        let spent = self.since.elapsed().as_secs_f64();
+        match place.drive.as_ref().map(|drive| &drive.leg) {
+            Some(Leg::Plastic(_)) => self.standing.seconds.plasticity += spent,
+            _ => self.standing.seconds.contact += spent,
+        }
+        let outcome = keeper.write(engine, self.results, &self.standing, place);
+        self.standing.seconds = before;
+        note_failure(
+            keeper,
+            outcome,
+            &mut **self.observer.borrow_mut(),
+            self.results,
+        );
+        Ok(())
+    }
+}
+
+/// A run does not end because a checkpoint cannot be written: its results are worth more. It says so, once.
+fn note_failure(
+    keeper: &mut Keeper,
+    outcome: Result<()>,
+    observer: &mut dyn Observer,
+    results: &mut Results,
+) {
+    match outcome {
+        Ok(()) => keeper.failed = false,
+        Err(error) if !keeper.failed => {
+            keeper.failed = true;
+            let cause = std::error::Error::source(&error).map(|c| format!(": {c}"));
+            let text = format!(
+                "no checkpoint: {error}{}; the run goes on",
+                cause.unwrap_or_default()
+            );
+            observer.warning(&text);
+            results.warnings.push(text);
+        }
+        Err(_) => {}
+    }
+}
+
+impl Run<'_, '_> {
+    /// This run, writing a checkpoint at every `every`-th increment.
+    pub(super) fn keeping(self, store: Store, every: usize) -> Self {
+        Run {
+            keeper: Some(Keeper::new(store, every)),
+            ..self
+        }
+    }
+
+    /// Takes note of where the way to a target begins.
+    pub(super) fn set_start(&mut self) {
+        self.start = Some(Start {
+            saved: Saved::of(&self.engine),
+            plastic: self.plastic,
+            yield_alpha: self.yield_alpha,
+            first_yield: self.results.first_yield,
+            increments: self.results.history.len(),
+        });
+        if let Some(keeper) = &mut self.keeper {
+            keeper.start = None;
+        }
+    }
+
+    /// A target was reached: its state is kept, at once where a checkpoint is due.
+    pub(super) fn keep_target(&mut self) {
+        let Some(keeper) = &mut self.keeper else {
+            return;
+        };
+        keeper.rows_of_states = self.results.history.len();
+        if !keeper.is_due() {
+            return;
+        }
+        let standing = Standing {
+            guard: &self.choice.guard,
+            spread: self.spread.as_ref(),
+            plastic: self.plastic,
+            yield_alpha: self.yield_alpha,
+            elastic_range: self.elastic_range,
+            done: self.done,
+            seconds: self.seconds,
+            start: None,
+        };
+        let outcome = keeper.write(&self.engine, &self.results, &standing, Place::default());
+        note_failure(keeper, outcome, &mut *self.observer, &mut self.results);
+    }
+}
+
+impl Saved {
+    /// Whether the zone was the one that the engine has.
+    fn is_of_zone(&self, engine: &Engine) -> bool {
+        Arc::ptr_eq(&self.elements, &engine.elements)
+    }
+}
+
+/// The row of an accepted increment.
+fn row(engine: &Engine, report: &IncrementReport, increment: usize) -> HistoryRow {
+    let figures = engine.contact_figures();
+    let (plastic_points, strain) = engine.zone.extent();
+    HistoryRow {
+        increment,
+        alpha: engine.at.alpha,
+        load: engine.total_load_size(),
+        max_pressure: figures.max_pressure,
+        half_width: figures.half_width,
+        contact_force: figures.force * engine.model.symmetry,
+        closed_pairs: engine.closed_pairs(),
+        plastic_points,
+        max_equivalent_plastic_strain: strain,
+        iterations: report.iterations,
+        trailing_solves: report.trailing_solves,
+        residual: report.residual,
+        event: report.event.clone(),
+    }
+}

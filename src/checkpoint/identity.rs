@@ -1,0 +1,161 @@
+//! What a checkpoint belongs to: nothing that the results depend on may have changed.
+
+use crate::error::{Error, Result};
+use crate::linalg::Backend;
+use crate::mesh::{Curve, Mesh};
+use crate::scene::Scene;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use xxhash_rust::xxh3::Xxh3;
+
+/// Scene, mesh and backend of a run. The version of brinell stands in front of each file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Identity {
+    /// The scene with its overrides, as JSON.
+    scene: String,
+    /// Hash of the mesh: a scene may name a file, whose content may have changed.
+    mesh: u128,
+    backend: String,
+}
+
+impl Identity {
+    /// That of a run.
+    ///
+    /// # Errors
+    /// Internal, where the scene is not plain data.
+    pub fn new(scene: &Scene, mesh: &Mesh, backend: Backend) -> Result<Self> {
+        let scene = serde_json::to_string(scene)
+            .map_err(|cause| Error::internal("the scene is not plain data").because(cause))?;
+        Ok(Identity {
+            scene,
+            mesh: hash(mesh),
+            backend: backend.name().to_string(),
+        })
+    }
+
+    /// Nothing where a checkpoint of `self` may go on as `now`; else what differs.
+    pub(super) fn difference(&self, now: &Identity) -> Option<String> {
+        if self.scene != now.scene {
+            let parse = |text: &str| serde_json::from_str::<Value>(text).unwrap_or_default();
+            let (then, now) = (parse(&self.scene), parse(&now.scene));
+            let found = first_difference("", &then, &now);
+            return Some(found.map_or_else(
+                || "the scene differs".to_string(),
+                |(key, then, now)| format!("the scene's `{key}` was {then} and is {now}"),
+            ));
+        }
+        if self.mesh != now.mesh {
+            return Some("the mesh differs, the scene being the same: its file has changed".into());
+        }
+        if self.backend != now.backend {
+            return Some(format!(
+                "the solver was `{}` and is `{}`",
+                self.backend, now.backend
+            ));
+        }
+        None
+    }
+}
+
+/// Key path and both values of the first leaf that differs.
+fn first_difference(path: &str, then: &Value, now: &Value) -> Option<(String, String, String)> {
+    let below = |key: &str| match path {
+        "" => key.to_string(),
+        path => format!("{path}.{key}"),
+    };
+    match (then, now) {
+        (Value::Object(a), Value::Object(b)) => {
+            let keys = a.keys().chain(b.keys().filter(|key| !a.contains_key(*key)));
+            keys.into_iter().find_map(|key| {
+                let nothing = Value::Null;
+                let side =
+                    |map: &serde_json::Map<String, Value>| map.get(key).unwrap_or(&nothing).clone();
+                first_difference(&below(key), &side(a), &side(b))
+            })
+        }
+        (Value::Array(a), Value::Array(b)) if a.len() == b.len() => {
+            let items = a.iter().zip(b).enumerate();
+            items
+                .into_iter()
+                .find_map(|(i, (a, b))| first_difference(&below(&i.to_string()), a, b))
+        }
+        (Value::Array(a), Value::Array(b)) => Some((
+            path.to_string(),
+            format!("a list of {}", a.len()),
+            format!("one of {}", b.len()),
+        )),
+        (a, b) if a == b => None,
+        (a, b) => Some((path.to_string(), a.to_string(), b.to_string())),
+    }
+}
+
+/// Everything of the mesh that a result may depend on.
+fn hash(mesh: &Mesh) -> u128 {
+    let mut hash = Xxh3::new();
+    let mut number = |n: u64| hash.update(&n.to_le_bytes());
+    number(mesh.dimension as u64);
+    number(mesh.coordinates.len() as u64);
+    mesh.coordinates.iter().for_each(|x| number(x.to_bits()));
+    mesh.offsets.iter().for_each(|&at| number(at as u64));
+    mesh.connectivity.iter().for_each(|&n| number(u64::from(n)));
+    mesh.element_body.iter().for_each(|&b| number(u64::from(b)));
+    mesh.shapes.iter().for_each(|&s| number(s as u64));
+    for (name, nodes) in &mesh.node_sets {
+        name.bytes().for_each(|b| number(u64::from(b)));
+        number(nodes.len() as u64);
+        nodes.iter().for_each(|&n| number(n as u64));
+    }
+    for (name, surface) in &mesh.surfaces {
+        name.bytes().for_each(|b| number(u64::from(b)));
+        number(surface.facets.len() as u64);
+        for facet in &surface.facets {
+            number(facet.element as u64);
+            number(facet.local as u64);
+        }
+        match &surface.curve {
+            None => number(0),
+            Some(Curve::Line { normal }) => normal.iter().for_each(|x| number(x.to_bits())),
+            Some(Curve::Circle {
+                center,
+                radius,
+                outward,
+            }) => {
+                center.iter().for_each(|x| number(x.to_bits()));
+                number(radius.to_bits());
+                number(u64::from(*outward));
+            }
+        }
+    }
+    for body in &mesh.bodies {
+        body.bytes().for_each(|b| number(u64::from(b)));
+        number(body.len() as u64);
+    }
+    hash.digest128()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn the_first_difference_is_named_by_its_key() {
+        let then = json!({ "a": { "b": [1, { "c": 2.5 }] }, "d": "x" });
+        let mut now = then.clone();
+        assert_eq!(first_difference("", &then, &now), None);
+        now["a"]["b"][1]["c"] = json!(2.6);
+        let found = first_difference("", &then, &now).unwrap();
+        assert_eq!(found, ("a.b.1.c".into(), "2.5".into(), "2.6".into()));
+        now = json!({ "a": { "b": [1] }, "d": "x" });
+        let (key, then_has, now_has) = first_difference("", &then, &now).unwrap();
+        assert_eq!(key, "a.b");
+        assert_eq!(
+            (then_has.as_str(), now_has.as_str()),
+            ("a list of 2", "one of 1")
+        );
+        now = then.clone();
+        now["e"] = json!(true);
+        let found = first_difference("", &then, &now).unwrap();
+        assert_eq!(found, ("e".into(), "null".into(), "true".into()));
+    }
+}

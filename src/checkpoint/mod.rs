@@ -1,0 +1,87 @@
+//! Checkpoints: what a run leaves on disk so that it can go on after it was killed.
+//!
+//! ```text
+//! DIR/checkpoint      the last accepted increment, and which parts belong to it
+//!     part-NNNNNN     what does not change any more: states that were reached, where the way to a target began
+//!     lock            held by the run that writes here
+//! ```
+//!
+//! `checkpoint` is written beside its place, synchronised and renamed over its predecessor: at every moment there is a whole one. Parts are
+//! written before the first checkpoint that names them and deleted after the first that does not.
+//!
+//! A run that goes on does what it would have done, bit for bit, in the same build on the same machine: with CHOLMOD that needs the same BLAS
+//! with the same number of its threads (the run says so where the factor differs). Each file carries a hash of its content; the
+//! checkpoint carries what it belongs to ([`Identity`]), and is refused with the first difference by name where that is not
+//! what is to be run.
+
+mod file;
+mod identity;
+mod store;
+
+pub use identity::Identity;
+pub(crate) use store::{PartId, Store};
+
+use crate::error::{Error, Result};
+use std::path::{Path, PathBuf};
+
+/// Where a run leaves checkpoints, and how often.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Checkpoints {
+    dir: PathBuf,
+    every: usize,
+}
+
+impl Checkpoints {
+    /// Checkpoints in the directory `dir`, one at each accepted increment.
+    pub fn new(dir: impl Into<PathBuf>) -> Self {
+        Checkpoints {
+            dir: dir.into(),
+            every: 1,
+        }
+    }
+
+    /// One at every `increments`-th accepted increment (0 counts as 1). The results do not depend on it.
+    pub fn every(self, increments: usize) -> Self {
+        Checkpoints {
+            every: increments.max(1),
+            ..self
+        }
+    }
+
+    /// The directory.
+    pub fn dir(&self) -> &Path {
+        &self.dir
+    }
+
+    /// Accepted increments from one checkpoint to the next.
+    pub fn interval(&self) -> usize {
+        self.every
+    }
+
+    /// Whether there is one to go on from.
+    pub fn exist(&self) -> bool {
+        self.dir.join(store::CHECKPOINT).is_file()
+    }
+
+    /// Deletes the checkpoints, and the directory unless it holds something else.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::Io`] naming the file that could not be deleted.
+    pub fn remove(&self) -> Result<()> {
+        let failed = |path: &Path, cause| Error::io("delete", path, cause);
+        let entries = match std::fs::read_dir(&self.dir) {
+            Ok(entries) => entries,
+            Err(cause) if cause.kind() == std::io::ErrorKind::NotFound => return Ok(()),
+            Err(cause) => return Err(failed(&self.dir, cause)),
+        };
+        for entry in entries {
+            let entry = entry.map_err(|cause| failed(&self.dir, cause))?;
+            if store::is_ours(&entry.file_name()) {
+                std::fs::remove_file(entry.path()).map_err(|cause| failed(&entry.path(), cause))?;
+            }
+        }
+        // Fails where the user has put something there: then it stays.
+        let _ = std::fs::remove_dir(&self.dir);
+        Ok(())
+    }
+}

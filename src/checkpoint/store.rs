@@ -1,0 +1,177 @@
+//! The directory of a run's checkpoints.
+
+use super::{Checkpoints, Identity, file};
+use crate::error::{Error, Result};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use std::collections::BTreeSet;
+use std::ffi::OsStr;
+use std::fs::{self, File, TryLockError};
+use std::path::{Path, PathBuf};
+
+/// The file that the rest hangs on.
+pub(super) const CHECKPOINT: &str = "checkpoint";
+const LOCK: &str = "lock";
+const PART: &str = "part-";
+
+/// A part by its number, with what guards its content.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct PartId {
+    number: u32,
+    length: u64,
+    hash: u128,
+}
+
+/// The checkpoints of the run at hand. No other run can open them meanwhile.
+#[derive(Debug)]
+pub(crate) struct Store {
+    dir: PathBuf,
+    identity: Identity,
+    /// Parts in the directory.
+    parts: BTreeSet<u32>,
+    next: u32,
+    /// Given back by the system when the run ends, however it ends.
+    _lock: File,
+}
+
+impl Store {
+    /// Opens the directory, which is made where it is absent. What is in it stays until the first [`Store::write`].
+    ///
+    /// # Errors
+    /// `Input` where another run is writing there, `Io`.
+    pub(crate) fn open(checkpoints: &Checkpoints, identity: Identity) -> Result<Self> {
+        let dir = checkpoints.dir.clone();
+        let failed = |path: &Path, cause| Error::io("write", path, cause);
+        fs::create_dir_all(&dir).map_err(|cause| failed(&dir, cause))?;
+        let path = dir.join(LOCK);
+        let lock = File::create(&path).map_err(|cause| failed(&path, cause))?;
+        match lock.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                return Err(Error::input(format!(
+                    "{}: another run is writing checkpoints there: wait for its end, or choose another directory for the results (--out)",
+                    dir.display()
+                )));
+            }
+            Err(TryLockError::Error(cause)) => return Err(failed(&path, cause)),
+        }
+        let mut parts = BTreeSet::new();
+        for entry in fs::read_dir(&dir).map_err(|cause| Error::io("read", &dir, cause))? {
+            let entry = entry.map_err(|cause| Error::io("read", &dir, cause))?;
+            parts.extend(number_of(&entry.file_name()));
+        }
+        Ok(Store {
+            identity,
+            next: parts.last().map_or(1, |last| last + 1),
+            parts,
+            _lock: lock,
+            dir,
+        })
+    }
+
+    /// The checkpoint.
+    ///
+    /// # Errors
+    /// `Input` where it is damaged or of another run, with the difference; `Io`.
+    pub(crate) fn read<T: DeserializeOwned>(&self) -> Result<T> {
+        let path = self.dir.join(CHECKPOINT);
+        // The identity first: what follows it is read once it is known to be meant.
+        let ((identity, content), ..): ((Identity, Vec<u8>), u64, u128) = file::read(&path)?;
+        if let Some(difference) = identity.difference(&self.identity) {
+            return Err(Error::input(format!(
+                "{}: the checkpoint is of another run: {difference}; undo the change, or run without --resume to begin anew",
+                path.display()
+            )));
+        }
+        decode(&path, &content)
+    }
+
+    /// Writes a part.
+    ///
+    /// # Errors
+    /// `Io`.
+    pub(crate) fn add<T: Serialize>(&mut self, value: &T) -> Result<PartId> {
+        let number = self.next;
+        let (length, hash) = file::write(&self.part(number), value)?;
+        self.next += 1;
+        self.parts.insert(number);
+        Ok(PartId {
+            number,
+            length,
+            hash,
+        })
+    }
+
+    /// A part that the checkpoint names.
+    ///
+    /// # Errors
+    /// `Input` where it is damaged or not the one that is meant, `Io`.
+    pub(crate) fn part_of<T: DeserializeOwned>(&self, id: PartId) -> Result<T> {
+        let path = self.part(id.number);
+        let (value, length, hash) = file::read(&path)?;
+        if (length, hash) != (id.length, id.hash) {
+            return Err(Error::input(format!(
+                "{}: the checkpoint is damaged (this part belongs to another): delete it and run the scene again from its beginning",
+                path.display()
+            )));
+        }
+        Ok(value)
+    }
+
+    /// Writes the checkpoint and deletes parts that are not `in_use` by it.
+    ///
+    /// # Errors
+    /// `Io`; the previous one then still stands.
+    pub(crate) fn write<T: Serialize>(&mut self, value: &T, in_use: &[PartId]) -> Result<()> {
+        let path = self.dir.join(CHECKPOINT);
+        let content = postcard::to_stdvec(value)
+            .map_err(|cause| Error::internal("a checkpoint cannot be encoded").because(cause))?;
+        file::write(&path, &(&self.identity, Bytes(&content)))?;
+        let keep: BTreeSet<u32> = in_use.iter().map(|part| part.number).collect();
+        let unused: Vec<u32> = self.parts.difference(&keep).copied().collect();
+        for number in unused {
+            let path = self.part(number);
+            fs::remove_file(&path).map_err(|cause| Error::io("delete", &path, cause))?;
+            self.parts.remove(&number);
+        }
+        Ok(())
+    }
+
+    fn part(&self, number: u32) -> PathBuf {
+        self.dir.join(format!("{PART}{number:06}"))
+    }
+}
+
+/// Bytes that are written as one piece, not number by number.
+struct Bytes<'b>(&'b [u8]);
+
+impl Serialize for Bytes<'_> {
+    fn serialize<S: serde::Serializer>(
+        &self,
+        serializer: S,
+    ) -> std::result::Result<S::Ok, S::Error> {
+        serializer.serialize_bytes(self.0)
+    }
+}
+
+fn decode<T: DeserializeOwned>(path: &Path, content: &[u8]) -> Result<T> {
+    postcard::from_bytes(content).map_err(|cause| {
+        Error::input(format!(
+            "{}: the checkpoint was written by another build of the same version: run the scene again from its beginning",
+            path.display()
+        ))
+        .because(cause)
+    })
+}
+
+fn number_of(name: &OsStr) -> Option<u32> {
+    name.to_str()?.strip_prefix(PART)?.parse().ok()
+}
+
+/// Whether a file of this name was written here.
+pub(super) fn is_ours(name: &OsStr) -> bool {
+    let partial = |name: &str| name.ends_with(".partial");
+    let text = name.to_str().unwrap_or_default();
+    [CHECKPOINT, LOCK].contains(&text)
+        || number_of(name).is_some()
+        || (partial(text) && (text.starts_with(PART) || text.starts_with(CHECKPOINT)))
+}

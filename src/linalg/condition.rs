@@ -1,0 +1,106 @@
+//! The condition of a factored matrix, estimated with a few solves.
+//!
+//! For `A = K + diag(shift)` and `S = diag(a_ii^-1/2)` the estimate is `|B|_1 |B^-1|_1` with `B = S A S`: about the smallest that any
+//! scaling of rows and columns gives (van der Sluis), so that units and graded meshes do not count. `|B^-1|_1`, the maximum of a convex
+//! function over a polytope, is climbed to from vertex to vertex; each step takes two solves, and two or three steps are the rule.
+//! It is a lower bound, rarely off by more than a factor of three.
+//!
+//! # Source
+//! W. W. Hager (1984), doi:10.1137/0905023; N. J. Higham (1988), algorithm 674, doi:10.1145/50063.214386, as in LAPACK's `dlacn2`;
+//! A. van der Sluis (1969), doi:10.1007/BF02165096.
+
+use super::{Condensed, SymmetricCsc};
+use crate::error::Result;
+
+/// Most steps from vertex to vertex.
+const MOST: usize = 5;
+
+/// Estimated condition of a factored `matrix` with its shift on the contact freedoms `contact` (empty for none), scaled to a unit diagonal.
+///
+/// # Errors
+/// Those of [`Condensed::recover_all`].
+pub fn condition(
+    condensed: &dyn Condensed,
+    matrix: &SymmetricCsc,
+    contact: &[usize],
+    shift: &[f64],
+) -> Result<f64> {
+    let n = matrix.rows();
+    let mut root = vec![0.0; n];
+    for (j, column) in matrix.outer_iterator().enumerate() {
+        root[j] = column.get(j).copied().unwrap_or(0.0);
+    }
+    for (&freedom, d) in contact.iter().zip(shift) {
+        root[freedom] += d;
+    }
+    let diagonal = root.clone();
+    root.iter_mut().for_each(|a| *a = a.sqrt());
+    let mut sums: Vec<f64> = vec![1.0; n];
+    for (j, column) in matrix.outer_iterator().enumerate() {
+        for (i, &a) in column.iter().filter(|(i, _)| *i != j) {
+            let scaled = a.abs() / (root[i] * root[j]);
+            sums[i] += scaled;
+            sums[j] += scaled;
+        }
+    }
+    let norm = sums.iter().fold(0.0f64, |m, s| m.max(*s));
+    if diagonal.iter().any(|a| *a <= 0.0) {
+        return Ok(f64::INFINITY);
+    }
+    let still = vec![0.0; contact.len()];
+    let solve = |x: &mut [f64]| -> Result<()> {
+        let scale = |x: &mut [f64]| x.iter_mut().zip(&root).for_each(|(x, r)| *x *= r);
+        scale(x);
+        condensed.recover_all(x, &still)?;
+        scale(x);
+        Ok(())
+    };
+    Ok(norm * inverse_norm(n, solve)?)
+}
+
+/// Estimate of `|B^-1|_1` for a symmetric `B` of order `n`, given how to solve with it.
+fn inverse_norm(n: usize, solve: impl Fn(&mut [f64]) -> Result<()>) -> Result<f64> {
+    let size = |x: &[f64]| x.iter().map(|v| v.abs()).sum::<f64>();
+    let signs = |x: &[f64]| -> Vec<f64> { x.iter().map(|v| 1f64.copysign(*v)).collect() };
+    let mut x = vec![1.0 / n as f64; n];
+    solve(&mut x)?;
+    let mut estimate = size(&x);
+    let mut vertex = signs(&x);
+    let mut last = usize::MAX;
+    for _ in 0..MOST {
+        let mut slope = vertex.clone();
+        solve(&mut slope)?;
+        // The first of equals.
+        let steepest = (0..n).fold(0, |best, i| {
+            if slope[i].abs() > slope[best].abs() {
+                i
+            } else {
+                best
+            }
+        });
+        if steepest == last {
+            break;
+        }
+        last = steepest;
+        x.fill(0.0);
+        x[steepest] = 1.0;
+        solve(&mut x)?;
+        let found = size(&x);
+        if found <= estimate {
+            break;
+        }
+        estimate = found;
+        let next = signs(&x);
+        if next == vertex {
+            break;
+        }
+        vertex = next;
+    }
+    // Matrices are known on which the climb stops at once: a vector with all frequencies in it finds most of them out.
+    for (i, v) in x.iter_mut().enumerate() {
+        let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
+        *v = sign * (1.0 + i as f64 / (n.max(2) - 1) as f64);
+    }
+    solve(&mut x)?;
+    Ok(estimate.max(2.0 * size(&x) / (3.0 * n as f64)))
+}

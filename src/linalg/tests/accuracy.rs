@@ -1,0 +1,169 @@
+//! Condition, backward error and refinement.
+
+use super::*;
+use crate::linalg::{componentwise_backward_error, condition, refine, smallest_pivot_ratio};
+
+/// Bending of a clamped beam by differences, `1 -4 6 -4 1`: entries are whole numbers, the condition grows with `n^4`.
+fn beam(n: usize) -> SymmetricCsc {
+    let mut k = sprs::TriMatI::<f64, i64>::new((n, n));
+    for j in 0..n {
+        for (i, value) in [
+            (j.wrapping_sub(2), 1.0),
+            (j.wrapping_sub(1), -4.0),
+            (j, 6.0),
+        ] {
+            if i <= j {
+                k.add_triplet(i, j, value);
+            }
+        }
+    }
+    k.to_csc()
+}
+
+fn whole(n: usize) -> Partition {
+    Partition {
+        n,
+        zone: vec![3, 4, 7],
+        contact: vec![5, n - 1],
+    }
+}
+
+/// Whole numbers that a solution is to be found as, and their load, exact.
+fn exact(k: &SymmetricCsc) -> (Vec<f64>, Vec<f64>) {
+    let mut numbers = Numbers::new(7);
+    let x: Vec<f64> = (0..k.rows())
+        .map(|_| (1000.0 * numbers.next()).round())
+        .collect();
+    let mut load = vec![0.0; x.len()];
+    multiply(k, &x, &mut load);
+    (x, load)
+}
+
+fn error(x: &[f64], exact: &[f64]) -> f64 {
+    let largest = exact.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+    let off = x.iter().zip(exact).map(|(a, b)| (a - b).abs());
+    off.fold(0.0f64, f64::max) / largest
+}
+
+/// Plain refinement stops at round-off times the condition, however often it is repeated; the residual in twice the precision goes on to
+/// the last bit.
+#[test]
+fn refinement_goes_on_where_the_plain_one_stalls() {
+    let k = beam(600);
+    let (x, load) = exact(&k);
+    for backend in backends() {
+        let partition = whole(600);
+        let condensed = condense(backend, &k, &partition, &[]).unwrap();
+        let mut u = load.clone();
+        condensed.recover_all(&mut u, &[0.0; 2]).unwrap();
+        let mut plain = u.clone();
+        let mut best = error(&plain, &x);
+        for _ in 0..10 {
+            let mut step = vec![0.0; load.len()];
+            multiply(&k, &plain, &mut step);
+            step.iter_mut().zip(&load).for_each(|(r, f)| *r = f - *r);
+            condensed.recover_all(&mut step, &[0.0; 2]).unwrap();
+            plain.iter_mut().zip(&step).for_each(|(u, du)| *u += du);
+            best = best.min(error(&plain, &x));
+        }
+        assert!(best > 1e-10, "{backend:?}: not hard enough, {best:e}");
+        assert!(componentwise_backward_error(&k, &load, &plain) < 1e-14);
+
+        let before = error(&u, &x);
+        let refined = refine(
+            &*condensed,
+            &k,
+            &partition.contact,
+            &load,
+            &[0.0; 2],
+            &mut u,
+        )
+        .unwrap();
+        assert_eq!(error(&u, &x), 0.0, "{backend:?}: {refined:?}");
+        assert!((1..=5).contains(&refined.steps), "{refined:?}");
+        // The first correction is the error that there was.
+        assert!(
+            (refined.first / before - 1.0).abs() < 0.01,
+            "{refined:?} {before:e}"
+        );
+        assert_eq!(componentwise_backward_error(&k, &load, &u), 0.0);
+    }
+}
+
+/// `|B|_1 |B^-1|_1` from the inverse, in one place after the other where the estimate could go wrong: graded, shifted, random.
+#[test]
+fn the_condition_is_estimated_within_a_factor_of_three() {
+    let mut cases: Vec<(SymmetricCsc, Partition, Vec<f64>)> = vec![
+        (beam(60), whole(60), vec![]),
+        (beam(200), whole(200), vec![]),
+    ];
+    for seed in 0..8 {
+        let n = 40 + 5 * seed as usize;
+        let singular = laplacian(n, 3, 0.0, seed);
+        cases.push((
+            singular,
+            whole(n),
+            vec![1e-3 * 10f64.powi(seed as i32 % 4), 2.0],
+        ));
+        cases.push((
+            laplacian(n, 3, 10f64.powi(-(seed as i32)), seed),
+            whole(n),
+            vec![],
+        ));
+    }
+    for (k, partition, shift) in &cases {
+        let mut b = full(k);
+        for (&freedom, d) in partition.contact.iter().zip(shift) {
+            b[(freedom, freedom)] += d;
+        }
+        let root = b.diagonal().map(f64::sqrt);
+        let n = b.nrows();
+        let scaled = DMatrix::from_fn(n, n, |i, j| b[(i, j)] / (root[i] * root[j]));
+        let norm = |m: &DMatrix<f64>| m.column_iter().map(|c| c.lp_norm(1)).fold(0.0, f64::max);
+        let inverse = scaled.clone().cholesky().unwrap().inverse();
+        let exact = norm(&scaled) * norm(&inverse);
+        for backend in backends() {
+            let condensed = condense(backend, k, partition, shift).unwrap();
+            let estimate = condition(&*condensed, k, &partition.contact, shift).unwrap();
+            assert!(
+                estimate <= exact * (1.0 + 1e-5) && estimate >= exact / 3.0,
+                "{backend:?} n = {n}: {estimate:e}, exact {exact:e}"
+            );
+        }
+    }
+}
+
+/// The loss of a pivot to cancellation bounds the condition from below, and may say nothing: a beam's pivots look harmless.
+#[test]
+fn pivots_alone_do_not_show_a_bad_condition() {
+    let k = beam(200);
+    let partition = whole(200);
+    let condensed = condense(Backend::Dense, &k, &partition, &[]).unwrap();
+    let pivot = condensed.weakest_pivot().ratio;
+    let estimate = condition(&*condensed, &k, &partition.contact, &[]).unwrap();
+    assert!(pivot > smallest_pivot_ratio(200));
+    assert!(
+        1.0 / pivot <= estimate * (1.0 + 1e-6),
+        "{pivot:e} {estimate:e}"
+    );
+    assert!(
+        estimate > 1e6 && 1.0 / pivot < 1e-2 * estimate,
+        "{pivot:e} {estimate:e}"
+    );
+}
+
+/// A wrong row shows in full, however small it is beside the others.
+#[test]
+fn the_componentwise_error_sees_a_small_row() {
+    let mut k = sprs::TriMatI::<f64, i64>::new((2, 2));
+    k.add_triplet(0, 0, 1e12);
+    k.add_triplet(1, 1, 1.0);
+    let k = k.to_csc();
+    let load = [1e12, 1.0];
+    let omega = componentwise_backward_error(&k, &load, &[1.0, 1.5]);
+    assert!((omega - 0.5 / 2.5).abs() < 1e-15, "{omega}");
+    assert_eq!(componentwise_backward_error(&k, &load, &[1.0, 1.0]), 0.0);
+    assert!(componentwise_backward_error(&k, &load, &[f64::NAN, 1.0]).is_nan());
+    // Next to no load, next to no displacement: round-off there is no error.
+    assert!(componentwise_backward_error(&k, &[1e12, 0.0], &[1.0, 1e-17]) < 1e-16);
+}
