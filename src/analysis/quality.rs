@@ -11,9 +11,9 @@
 mod tests;
 
 use super::engine::Engine;
-use super::state::ElementState;
+use super::stresses::Stresses;
 use crate::linalg::multiply;
-use crate::model::{Model, Slot};
+use crate::model::Model;
 use crate::results::{Quality, Tolerances};
 
 /// Share of the largest force or displacement that an elastic state may be off: round-off times any condition that a state is worth
@@ -85,14 +85,20 @@ impl Engine<'_> {
     }
 
     /// Quality of the current state.
-    pub(super) fn quality(&mut self, u: &Displacements, elements: &[ElementState]) -> Quality {
-        let (internal, reaction) = self.internal_forces(elements);
+    pub(super) fn quality(&mut self, u: &Displacements, stresses: &Stresses) -> Quality {
         let external = self.external_forces();
         let applied = largest(&external);
         self.update_scales();
+        // Reactions measure the load where displacements are prescribed.
+        let reaction = largest(&stresses.reactions);
         self.force_scale = self.force_scale.max(applied).max(reaction);
         self.displacement_scale = self.displacement_scale.max(largest(&u.total));
-        let out_of_balance: Vec<f64> = internal.iter().zip(&external).map(|(i, e)| i - e).collect();
+        let out_of_balance: Vec<f64> = stresses
+            .internal
+            .iter()
+            .zip(&external)
+            .map(|(i, e)| i - e)
+            .collect();
 
         let mut quality = Quality {
             backward_error: self.backward_error(u.deformation()),
@@ -129,27 +135,6 @@ impl Engine<'_> {
             }
         }
         quality
-    }
-
-    /// Forces of the stresses on the free freedoms, and the largest on a prescribed one.
-    fn internal_forces(&self, elements: &[ElementState]) -> (Vec<f64>, f64) {
-        let model = self.model;
-        let mut internal = vec![0.0; model.freedoms.n];
-        let mut reaction = 0.0f64;
-        for (e, element) in elements.iter().enumerate() {
-            for (i, &node) in model.mesh.nodes(e).iter().enumerate() {
-                for (d, slot) in model.freedoms.slots[node as usize].iter().enumerate() {
-                    let force = element.force[2 * i + d];
-                    match slot {
-                        Slot::Free(f) => internal[*f as usize] += force,
-                        // Reactions measure the load where displacements are prescribed.
-                        Slot::Prescribed(_) => reaction = reaction.max(force.abs()),
-                        Slot::Fixed => {}
-                    }
-                }
-            }
-        }
-        (internal, reaction)
     }
 
     fn external_forces(&self) -> Vec<f64> {
