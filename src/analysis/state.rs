@@ -10,7 +10,7 @@ use crate::results::{Fields, State};
 use crate::scene::History;
 
 impl Engine<'_> {
-    /// The current state with its quality; fields where asked for. Costs one full solve.
+    /// The current state with its quality; fields where asked for. Costs half a full solve.
     ///
     /// # Errors
     /// Failure of the backend's solve.

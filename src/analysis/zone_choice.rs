@@ -222,16 +222,15 @@ pub fn stress_ratios(model: &Model, u: &[f64], factors: &[f64]) -> Vec<f64> {
 }
 
 impl Engine<'_> {
-    /// Displacements of the whole model for the current state: one full solve.
+    /// Displacements of the whole model for the current state: half a full solve.
     ///
     /// # Errors
     /// Failure of the backend's solve.
     pub fn all_displacements(&mut self) -> Result<Vec<f64>> {
         self.refresh();
-        let mut load = self.total_load();
-        self.sub.recover_all(&mut load, &self.now.u.contact)?;
+        let reduced = self.reduced_external(&self.at);
         self.counts.full_solves += 1;
-        Ok(load)
+        self.sub.recover_all(&reduced, &self.now.u)
     }
 
     /// Applied loads, contact forces and initial loads on all freedoms.

@@ -12,7 +12,7 @@ pub use pattern::Incidence;
 
 use crate::element::packed;
 use crate::error::Result;
-use crate::linalg::SymmetricCsc;
+use crate::linalg::{self, SymmetricCsc};
 use crate::model::{Model, Slot};
 use rayon::prelude::*;
 
@@ -21,6 +21,8 @@ use rayon::prelude::*;
 pub struct System {
     /// Upper triangle of the elastic stiffness, `n x n`.
     pub stiffness: SymmetricCsc,
+    /// Its infinity norm.
+    pub norm: f64,
     /// Load vector of each load at factor 1 (`n` each); those of prescribed displacements are `-K_fp u_p`.
     pub loads: Vec<Vec<f64>>,
 }
@@ -75,7 +77,11 @@ pub fn assemble(model: &Model) -> Result<System> {
         });
     let n = model.freedoms.n;
     let stiffness = SymmetricCsc::new_csc((n, n), pointers, rows, values);
-    Ok(System { stiffness, loads })
+    Ok(System {
+        norm: linalg::norm(&stiffness),
+        stiffness,
+        loads,
+    })
 }
 
 /// All element stiffness matrices in local axes, packed lower triangles.
