@@ -238,9 +238,9 @@ pub struct Counts {
 pub struct Quality {
     /// Normwise backward error of the full solve: `|f - K u| / (|K| |u| + |f|)`, infinity norms.
     pub backward_error: f64,
-    /// Componentwise backward error: the largest of a row's `|f - K u|` over its `|K| |u| + |f|`. It has no tolerance of its own: what it shows
-    /// beside the normwise one are freedoms on which next to nothing acts.
-    pub componentwise_error: f64,
+    /// Componentwise backward error, the largest of a row's `|f - K u|` over its `|K| |u| + |f|`, where the scene asks for it
+    /// (`analysis.condition`). It has no tolerance of its own: what it shows beside the normwise one are freedoms on which next to nothing acts.
+    pub componentwise_error: Option<f64>,
     /// Out-of-balance force of the stresses over the largest applied or contact force.
     pub equilibrium: f64,
     /// Largest `gap * force` of a pair over (largest gap or displacement * largest force).

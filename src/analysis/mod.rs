@@ -36,6 +36,7 @@ mod saved;
 mod state;
 mod step_length;
 mod stepping;
+mod stresses;
 mod tangent;
 mod targets;
 mod yield_load;

@@ -398,7 +398,12 @@ impl<'m, 'o> Run<'m, 'o> {
             .iter()
             .fold(Quality::default(), |w, s| Quality {
                 backward_error: w.backward_error.max(s.quality.backward_error),
-                componentwise_error: w.componentwise_error.max(s.quality.componentwise_error),
+                // None is less than any number.
+                componentwise_error: w
+                    .componentwise_error
+                    .into_iter()
+                    .chain(s.quality.componentwise_error)
+                    .reduce(f64::max),
                 equilibrium: w.equilibrium.max(s.quality.equilibrium),
                 complementarity: w.complementarity.max(s.quality.complementarity),
                 penetration: w.penetration.max(s.quality.penetration),

@@ -9,20 +9,22 @@
 //! W. W. Hager (1984), doi:10.1137/0905023; N. J. Higham (1988), algorithm 674, doi:10.1145/50063.214386, as in LAPACK's `dlacn2`;
 //! A. van der Sluis (1969), doi:10.1007/BF02165096.
 
-use super::{Condensed, SymmetricCsc};
+use super::{Condensed, Partition, SymmetricCsc, solve_whole};
 use crate::error::Result;
+use nalgebra::Cholesky;
 
 /// Most steps from vertex to vertex.
 const MOST: usize = 5;
 
-/// Estimated condition of a factored `matrix` with its shift on the contact freedoms `contact` (empty for none), scaled to a unit diagonal.
+/// Estimated condition of a factored `matrix` with its `shift` (empty for none), scaled to a unit diagonal; infinite where round-off has left
+/// no definite matrix on the contact freedoms. `partition` holds the zone as it is chosen.
 ///
 /// # Errors
 /// Those of [`Condensed::recover_all`].
 pub fn condition(
     condensed: &dyn Condensed,
     matrix: &SymmetricCsc,
-    contact: &[usize],
+    partition: &Partition,
     shift: &[f64],
 ) -> Result<f64> {
     let n = matrix.rows();
@@ -30,7 +32,7 @@ pub fn condition(
     for (j, column) in matrix.outer_iterator().enumerate() {
         root[j] = column.get(j).copied().unwrap_or(0.0);
     }
-    for (&freedom, d) in contact.iter().zip(shift) {
+    for (&freedom, d) in partition.contact.iter().zip(shift) {
         root[freedom] += d;
     }
     let diagonal = root.clone();
@@ -47,11 +49,22 @@ pub fn condition(
     if diagonal.iter().any(|a| *a <= 0.0) {
         return Ok(f64::INFINITY);
     }
-    let still = vec![0.0; contact.len()];
+    let mut stiffness = condensed.contact_stiffness().clone();
+    for (k, d) in shift.iter().enumerate() {
+        stiffness[(k, k)] += d;
+    }
+    let held = if partition.contact.is_empty() {
+        None
+    } else {
+        let Some(held) = Cholesky::new(stiffness) else {
+            return Ok(f64::INFINITY);
+        };
+        Some(held)
+    };
     let solve = |x: &mut [f64]| -> Result<()> {
         let scale = |x: &mut [f64]| x.iter_mut().zip(&root).for_each(|(x, r)| *x *= r);
         scale(x);
-        condensed.recover_all(x, &still)?;
+        solve_whole(condensed, partition, held.as_ref(), x)?;
         scale(x);
         Ok(())
     };

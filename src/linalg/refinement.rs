@@ -13,7 +13,7 @@
 //! N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., theorem 12.1; T. Ogita, S. M. Rump, S. Oishi (2005), algorithm 5.3
 //! (`Dot2`), doi:10.1137/030601818; M. Arioli, J. W. Demmel, I. S. Duff (1989), doi:10.1137/0610013 (rows without load).
 
-use super::{Condensed, SymmetricCsc};
+use super::SymmetricCsc;
 use crate::error::Result;
 
 /// Most steps: with a condition at which each gains a digit only.
@@ -32,31 +32,22 @@ pub struct Refinement {
     pub last: f64,
 }
 
-/// Improves a solution `u` of `K u = load` until it is right to round-off, or no longer improves. For a matrix that was
-/// factored with a shift `u_contact` are the displacements of the contact freedoms `contact`, as in [`Condensed::recover_all`], and what
-/// is improved is the solution with them.
+/// Improves a solution `u` until it is right to round-off, or no longer improves: `residual` gives `f - A u` in twice the precision
+/// ([`twofold_residual`]), `solve` solves with a factor of `A`.
 ///
 /// # Errors
-/// Those of [`Condensed::recover_all`].
+/// Those of `solve`.
 pub fn refine(
-    condensed: &dyn Condensed,
-    matrix: &SymmetricCsc,
-    contact: &[usize],
-    load: &[f64],
-    u_contact: &[f64],
     u: &mut [f64],
+    residual: impl Fn(&[f64]) -> Vec<f64>,
+    solve: impl Fn(&mut [f64]) -> Result<()>,
 ) -> Result<Refinement> {
     let largest = |v: &[f64]| v.iter().fold(0.0f64, |m, x| m.max(x.abs()));
     let mut out = Refinement::default();
     let mut before = f64::INFINITY;
     for _ in 0..MOST {
-        let mut step = residual(matrix, load, u);
-        let missing: Vec<f64> = contact
-            .iter()
-            .zip(u_contact)
-            .map(|(&freedom, wanted)| wanted - u[freedom])
-            .collect();
-        condensed.recover_all(&mut step, &missing)?;
+        let mut step = residual(u);
+        solve(&mut step)?;
         let size = largest(&step) / largest(u).max(f64::MIN_POSITIVE);
         if before.is_infinite() {
             out.first = size;
@@ -78,7 +69,7 @@ pub fn refine(
 }
 
 /// `load - K u`, summed in twice the working precision and rounded once.
-pub fn residual(matrix: &SymmetricCsc, load: &[f64], u: &[f64]) -> Vec<f64> {
+pub fn twofold_residual(matrix: &SymmetricCsc, load: &[f64], u: &[f64]) -> Vec<f64> {
     let mut high = load.to_vec();
     let mut low = vec![0.0; load.len()];
     for (j, column) in matrix.outer_iterator().enumerate() {
@@ -107,7 +98,7 @@ fn subtract_product(high: &mut f64, low: &mut f64, a: f64, b: f64) {
 /// entry of matrix and load is off by more than this share. Rows in which nothing acts and next to nothing moves are
 /// measured against their own stiffness times the largest displacement.
 pub fn componentwise_backward_error(matrix: &SymmetricCsc, load: &[f64], u: &[f64]) -> f64 {
-    let residual = residual(matrix, load, u);
+    let residual = twofold_residual(matrix, load, u);
     let (mut sums, mut rows) = (vec![0.0f64; u.len()], vec![0.0f64; u.len()]);
     for (j, column) in matrix.outer_iterator().enumerate() {
         for (i, &a) in column.iter() {

@@ -144,7 +144,8 @@ pub struct Settings {
     pub tolerance: f64,
     /// Most plastic iterations per increment.
     pub max_iterations: usize,
-    /// Estimate the condition of the factored matrix, which takes about six full solves; done anyway where accuracy is in doubt.
+    /// Estimate the condition of the factored matrix, which takes about six full solves (done anyway where accuracy is in doubt), and the
+    /// componentwise backward error of each state.
     pub condition: bool,
 }
 

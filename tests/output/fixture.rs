@@ -70,7 +70,7 @@ pub fn pair(pair: usize, status: Status) -> PairState {
 pub fn results(mesh: &Mesh) -> Results {
     let quality = Quality {
         backward_error: 1e-16,
-        componentwise_error: 2e-16,
+        componentwise_error: Some(2e-16),
         equilibrium: 2e-12,
         complementarity: 0.0,
         penetration: 3e-17,

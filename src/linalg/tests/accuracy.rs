@@ -1,7 +1,10 @@
 //! Condition, backward error and refinement.
 
 use super::*;
-use crate::linalg::{componentwise_backward_error, condition, refine, smallest_pivot_ratio};
+use crate::linalg::{
+    componentwise_backward_error, condition, refine, smallest_pivot_ratio, solve_whole,
+    twofold_residual,
+};
 
 /// Bending of a clamped beam by differences, `1 -4 6 -4 1`: entries are whole numbers, the condition grows with `n^4`.
 fn beam(n: usize) -> SymmetricCsc {
@@ -45,8 +48,8 @@ fn error(x: &[f64], exact: &[f64]) -> f64 {
     off.fold(0.0f64, f64::max) / largest
 }
 
-/// Plain refinement stops at round-off times the condition, however often it is repeated; the residual in twice the precision goes on to
-/// the last bit.
+/// Plain refinement stops at round-off times the condition, however often it is repeated, its backward error as small as can be; the residual in
+/// twice the precision goes on to the last bit.
 #[test]
 fn refinement_goes_on_where_the_plain_one_stalls() {
     let k = beam(600);
@@ -54,33 +57,28 @@ fn refinement_goes_on_where_the_plain_one_stalls() {
     for backend in backends() {
         let partition = whole(600);
         let condensed = condense(backend, &k, &partition, &[]).unwrap();
+        let held = condensed.contact_stiffness().clone().cholesky();
+        let solve = |x: &mut [f64]| solve_whole(&*condensed, &partition, held.as_ref(), x);
         let mut u = load.clone();
-        condensed.recover_all(&mut u, &[0.0; 2]).unwrap();
+        solve(&mut u).unwrap();
         let mut plain = u.clone();
-        let mut best = error(&plain, &x);
+        let mut best = f64::INFINITY;
         for _ in 0..10 {
+            best = best.min(error(&plain, &x));
             let mut step = vec![0.0; load.len()];
             multiply(&k, &plain, &mut step);
             step.iter_mut().zip(&load).for_each(|(r, f)| *r = f - *r);
-            condensed.recover_all(&mut step, &[0.0; 2]).unwrap();
+            solve(&mut step).unwrap();
             plain.iter_mut().zip(&step).for_each(|(u, du)| *u += du);
-            best = best.min(error(&plain, &x));
         }
         assert!(best > 1e-10, "{backend:?}: not hard enough, {best:e}");
-        assert!(componentwise_backward_error(&k, &load, &plain) < 1e-14);
+        let backward = componentwise_backward_error(&k, &load, &plain);
+        assert!(backward < 1e-14, "{backend:?}: {backward:e}");
 
         let before = error(&u, &x);
-        let refined = refine(
-            &*condensed,
-            &k,
-            &partition.contact,
-            &load,
-            &[0.0; 2],
-            &mut u,
-        )
-        .unwrap();
+        let refined = refine(&mut u, |u| twofold_residual(&k, &load, u), solve).unwrap();
         assert_eq!(error(&u, &x), 0.0, "{backend:?}: {refined:?}");
-        assert!((1..=5).contains(&refined.steps), "{refined:?}");
+        assert!((1..=8).contains(&refined.steps), "{refined:?}");
         // The first correction is the error that there was.
         assert!(
             (refined.first / before - 1.0).abs() < 0.01,
@@ -124,7 +122,7 @@ fn the_condition_is_estimated_within_a_factor_of_three() {
         let exact = norm(&scaled) * norm(&inverse);
         for backend in backends() {
             let condensed = condense(backend, k, partition, shift).unwrap();
-            let estimate = condition(&*condensed, k, &partition.contact, shift).unwrap();
+            let estimate = condition(&*condensed, k, partition, shift).unwrap();
             assert!(
                 estimate <= exact * (1.0 + 1e-5) && estimate >= exact / 3.0,
                 "{backend:?} n = {n}: {estimate:e}, exact {exact:e}"
@@ -140,7 +138,7 @@ fn pivots_alone_do_not_show_a_bad_condition() {
     let partition = whole(200);
     let condensed = condense(Backend::Dense, &k, &partition, &[]).unwrap();
     let pivot = condensed.weakest_pivot().ratio;
-    let estimate = condition(&*condensed, &k, &partition.contact, &[]).unwrap();
+    let estimate = condition(&*condensed, &k, &partition, &[]).unwrap();
     assert!(pivot > smallest_pivot_ratio(200));
     assert!(
         1.0 / pivot <= estimate * (1.0 + 1e-6),
