@@ -325,6 +325,27 @@ fn subtrees_are_solved_like_the_whole() {
         let u = solve(1);
         assert!(distance(&u, &whole) <= tolerance * norm(&whole));
         assert_eq!(u, solve(3));
+
+        // The zone by its own substitution: the load condensed, eliminated, recovered.
+        assert!(condensed.trailing.n_subtrees() > 2);
+        let trailing = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            pool.unwrap().install(|| {
+                let (mut f_z, mut f_c) = (vec![0.0; zone.len()], vec![0.0; u_c.len()]);
+                condensed
+                    .condense_load(&reduced, &mut f_z, &mut f_c)
+                    .unwrap();
+                condensed.eliminate_zone(&mut f_z, &mut f_c);
+                condensed.recover_zone(&mut f_z, &u_c);
+                (f_z, f_c)
+            })
+        };
+        let (z, c) = trailing(1);
+        assert!(distance(&z, &u_z) <= tolerance * norm(&whole));
+        // C u_c is what is left on the contact freedoms.
+        let force = condensed.contact_stiffness() * nalgebra::DVector::from_column_slice(&u_c);
+        assert!(distance(force.as_slice(), &c) <= tolerance * norm(&load));
+        assert_eq!((z, c), trailing(3));
     }
 }
 
