@@ -57,20 +57,33 @@ fn a_run_killed_again_and_again_has_the_results_of_one_that_was_not() {
     let mut with_checkpoint = 0;
     let stderr = loop {
         let mut child = start(&killed, &["--checkpoint", "--resume"]);
-        // From before the first increment to near the end; later runs are left more time, so that the test ends.
         random ^= random << 13;
         random ^= random >> 7;
         random ^= random << 17;
-        let share = 0.15 + 0.35 * (random % 1000) as f64 / 1000.0 + 0.1 * f64::from(kills / 8);
-        let deadline = Instant::now() + whole.mul_f64(share);
+        // Now at any time of the run, now soon after it has written a checkpoint (it may be writing the next); in the end it is let be.
+        let chance = (random % 1000) as f64 / 1000.0;
+        let written = || {
+            std::fs::metadata(&checkpoint)
+                .and_then(|file| file.modified())
+                .ok()
+        };
+        let before = written();
+        let mut deadline = match kills {
+            12.. => None,
+            k if k % 2 == 0 => Some(Instant::now() + whole.mul_f64(0.6 * chance)),
+            _ => None,
+        };
         let ended = loop {
             if let Some(status) = child.try_wait().unwrap() {
                 break Some(status);
             }
-            if Instant::now() >= deadline {
+            if deadline.is_none() && kills < 12 && written() != before {
+                deadline = Some(Instant::now() + Duration::from_millis(30).mul_f64(chance));
+            }
+            if deadline.is_some_and(|deadline| Instant::now() >= deadline) {
                 break None;
             }
-            std::thread::sleep(Duration::from_millis(2));
+            std::thread::sleep(Duration::from_millis(1));
         };
         match ended {
             Some(_) => {
@@ -84,7 +97,6 @@ fn a_run_killed_again_and_again_has_the_results_of_one_that_was_not() {
                 child.wait().unwrap();
                 kills += 1;
                 with_checkpoint += i32::from(checkpoint.is_file());
-                assert!(kills < 100);
             }
         }
     };
@@ -94,21 +106,68 @@ fn a_run_killed_again_and_again_has_the_results_of_one_that_was_not() {
     );
     assert!(!stderr.contains("last digits"), "{stderr}");
 
-    assert_eq!(summary(&plain), summary(&killed));
-    let mut compared = 0;
-    for entry in std::fs::read_dir(&plain).unwrap() {
-        let name = entry.unwrap().file_name();
-        if name != "summary.json" {
-            let read = |dir: &Path| std::fs::read(dir.join(&name)).unwrap();
-            assert!(read(&plain) == read(&killed), "{name:?} differs");
-            compared += 1;
-        }
-    }
-    assert!(compared >= 5, "{compared} files");
+    same_results(&plain, &killed);
     // Nothing is left but the results.
     let left: Vec<_> = std::fs::read_dir(folder.path())
         .unwrap()
         .map(|entry| entry.unwrap().file_name())
         .collect();
     assert_eq!(left.len(), 2, "{left:?}");
+}
+
+/// Every number of the summary and every byte of every other file.
+fn same_results(plain: &Path, other: &Path) {
+    assert_eq!(summary(plain), summary(other));
+    let mut compared = 0;
+    for entry in std::fs::read_dir(plain).unwrap() {
+        let name = entry.unwrap().file_name();
+        if name != "summary.json" {
+            let read = |dir: &Path| std::fs::read(dir.join(&name)).unwrap();
+            assert!(read(plain) == read(other), "{name:?} differs");
+            compared += 1;
+        }
+    }
+    assert!(compared >= 5, "{compared} files");
+}
+
+/// Ctrl-C leaves results that are marked incomplete, and a checkpoint: the same line with `--resume` finishes the job.
+#[test]
+fn a_run_stopped_by_the_user_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    let (plain, stopped) = (folder.path().join("plain"), folder.path().join("stopped"));
+    assert!(start(&plain, &[]).wait().unwrap().success());
+    let checkpoint = folder.path().join("stopped.checkpoint/checkpoint");
+    let mut child = start(&stopped, &["--checkpoint=3"]);
+    while !checkpoint.is_file() && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let signal = ["-INT", &child.id().to_string()].map(str::to_owned);
+    assert!(
+        Command::new("kill")
+            .args(signal)
+            .status()
+            .unwrap()
+            .success()
+    );
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(summary(&stopped)["incomplete"].is_string());
+    assert!(checkpoint.is_file());
+    assert!(start(&stopped, &["--resume"]).wait().unwrap().success());
+    same_results(&plain, &stopped);
+    assert!(!checkpoint.exists());
+}
+
+/// A demanded accuracy means runs on several meshes: there is no one state to go on from.
+#[test]
+fn a_demanded_accuracy_leaves_no_checkpoints() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    for option in ["--checkpoint", "--resume"] {
+        let refused = start(&out, &["--accuracy", "5%", option]);
+        let output = refused.wait_with_output().unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{stderr}");
+        assert!(stderr.contains("accuracy"), "{stderr}");
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }

@@ -1,6 +1,6 @@
 //! Receding contact: surfaces that conform before the load lose contact with the first bit of it.
 
-use crate::running::{close, healthy, load, run};
+use crate::running::{close, healthy, load, run, run_file, same_contact};
 use brinell::results::{Results, State, Status};
 
 /// The disc in the plate under S along x and `ratio` S along y, at loads from 1e-6 to 1e6.
@@ -94,7 +94,24 @@ fn one_step_ends_where_the_path_does() {
         let path = elastic(&[]);
         let step = elastic(&["program.stepping=steps", "program.steps=1"]);
         for (a, b) in path.states.iter().zip(&step.states) {
-            crate::running::same_contact(name, a, b, 1e-10);
+            same_contact(name, a, b, 1e-10);
         }
     }
+}
+
+/// From one touching node to a patch in one step: no pair is left out (the pressure falls from the pole to the edge, whole surface), and it is
+/// the state that the path from event to event ends in.
+#[test]
+fn a_load_in_one_step_pairs_the_whole_surface() {
+    let step = run_file("hard/one_step", &[]);
+    healthy(&step);
+    let pressed = &step.states[0];
+    assert!(closed(pressed) >= 10, "{}", closed(pressed));
+    for pair in pressed.pairs.windows(2) {
+        // The pole is the last.
+        assert!(pair[0].pressure <= pair[1].pressure, "{pair:?}");
+    }
+    let path = run_file("hard/one_step", &["program.stepping=events"]);
+    assert!(path.history.len() >= 10);
+    same_contact("one step", &path.states[0], pressed, 1e-10);
 }
