@@ -95,8 +95,8 @@ pub fn recover_refined(
 ) -> Result<Recovered> {
     let u = condensed.recover_all(reduced, zone, contact)?;
     let (found, mut r) = Recovered::new(matrix, norm, f, u);
-    // Written so that what is not a number is not refined either.
-    if !(found.backward_error > REFINE_ABOVE) {
+    // What is not a number is not refined either.
+    if found.backward_error.is_nan() || found.backward_error <= REFINE_ABOVE {
         return Ok(found);
     }
     // The contact displacements are given: the step leaves them alone.
