@@ -198,7 +198,7 @@ impl Start {
     }
 }
 
-/// Makes a row of each increment, and a checkpoint of every so manieth.
+/// Makes a row of each increment, and a checkpoint where one is due.
 pub(super) struct Recorder<'r, 'o> {
     pub(super) results: &'r mut Results,
     pub(super) observer: &'r RefCell<&'r mut (dyn Observer + 'o)>,
