@@ -69,6 +69,14 @@ impl Checkpoints {
     /// [`crate::ErrorKind::Io`] naming the file that could not be deleted.
     pub fn remove(&self) -> Result<()> {
         let failed = |path: &Path, cause| Error::io("delete", path, cause);
+        // First what the rest hangs on: killed in between, there is no checkpoint rather than one without its parts.
+        let first = self.dir.join(store::CHECKPOINT);
+        match std::fs::remove_file(&first) {
+            Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => {
+                return Err(failed(&first, cause));
+            }
+            _ => {}
+        }
         let entries = match std::fs::read_dir(&self.dir) {
             Ok(entries) => entries,
             Err(cause) if cause.kind() == std::io::ErrorKind::NotFound => return Ok(()),
