@@ -53,6 +53,15 @@ impl Scene {
             overrides: &[],
         })
     }
+
+    /// The scene as TOML: [`Scene::parse`] reads it back.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Internal`] where a value has no form in TOML, which no scene that was read or built of finite numbers has.
+    pub fn to_toml(&self) -> Result<String> {
+        toml::to_string(self)
+            .map_err(|cause| Error::internal("the scene cannot be written as TOML").because(cause))
+    }
 }
 
 fn parse(source: &Source<'_>) -> Result<Scene> {

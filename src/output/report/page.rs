@@ -27,6 +27,8 @@ pub(super) struct Figure {
 pub(super) struct Figures {
     /// The scene drawn.
     pub scene: Vec<Figure>,
+    /// The same with the mesh, shown on demand.
+    pub meshed: Vec<Figure>,
     /// Charts.
     pub charts: Vec<Figure>,
     /// For each state shown its name and pictures.
@@ -50,16 +52,21 @@ pub(super) fn page(
         (
             "scene",
             "Scene",
-            tables::scene(model, units, &figures.scene),
+            tables::scene(model, units, &figures.scene, &figures.meshed),
         ),
         ("load", "Along the load", charts(&figures.charts)),
         ("states", "States", tables::states(model, results, units)),
         ("pictures", "Stress and plastic zone", pictures(figures)),
         ("reference", "Reference values", tables::reference(results)),
+        (
+            "errors",
+            "How wrong the numbers may be",
+            tables::errors(results),
+        ),
         ("effects", "What was simulated", tables::effects(results)),
         (
             "quality",
-            "How good the numbers are",
+            "How well the equations were solved",
             tables::quality(results),
         ),
         ("cost", "Time and size", tables::cost(header, results)),
@@ -282,7 +289,7 @@ fn cards(model: &Model, results: &Results, units: &Units) -> Markup {
             @for (name, value, unit) in cards.iter().filter(|card| card.1 > 0.0 && card.1.is_finite()) {
                 div.card {
                     dt { (name) }
-                    dd { (round(*value)) " " small { (unit) } }
+                    dd { b { (round(*value)) } " " small { (unit) } }
                 }
             }
         }
