@@ -8,6 +8,24 @@ fn null_is_not_a_number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Er
 }
 
 /// Everything a run leaves behind.
+///
+/// ```
+/// use brinell::results::Status;
+/// # use brinell::{analysis::Analysis, linalg::Backend, model::Model, progress::Silent, scene::Scene};
+///
+/// # fn main() -> brinell::Result<()> {
+/// # let scene = Scene::load("data/scenes/contact_patch.toml")?;
+/// # let results = Analysis::new(Model::new(&scene)?, Backend::default())?.run(&mut Silent)?;
+/// for state in &results.states {
+///     let closed = state.pairs.iter().filter(|pair| pair.status == Status::Closed);
+///     println!("{}: load {}, {} pairs closed", state.name, state.load, closed.count());
+/// }
+/// // A run that ends well: done to its end, and every state within its tolerances.
+/// assert!(results.incomplete.is_none() && results.inaccurate.is_empty());
+/// # assert_eq!(results.states[0].pairs.iter().filter(|p| p.status == Status::Closed).count(), 9);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Debug, Clone, Default)]
 pub struct Results {
     /// Number of free freedoms, elements, contact pairs.

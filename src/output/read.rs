@@ -31,6 +31,25 @@ pub struct Recorded {
 
 /// Reads a directory that [`super::write_with_report`] or [`super::write_without_report`] wrote.
 ///
+/// ```
+/// use brinell::output::{RunHeader, read, write_without_report};
+/// # use brinell::{analysis::Analysis, linalg::Backend, model::Model, progress::Silent, scene::Scene};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let folder = tempfile::tempdir()?;
+/// # let dir = folder.path().join("out");
+/// # let scene = Scene::load("data/scenes/contact_patch.toml")?;
+/// # let mut analysis = Analysis::new(Model::new(&scene)?, Backend::default())?;
+/// # let results = analysis.run(&mut Silent)?;
+/// # let header = RunHeader { bodies: analysis.model().mesh.bodies.clone(), ..RunHeader::default() };
+/// write_without_report(&dir, &header, analysis.model(), &results)?;
+/// let recorded = read(&dir)?;
+/// assert_eq!(recorded.results.states[0].max_pressure, results.states[0].max_pressure);
+/// assert_eq!(recorded.results.history, results.history);
+/// # Ok(())
+/// # }
+/// ```
+///
 /// # Errors
 /// [`crate::ErrorKind::Io`] where a file cannot be read; [`crate::ErrorKind::Input`] naming the file where `dir` is no result of
 /// brinell, was written without its scene, is damaged, or where its parts do not belong together.

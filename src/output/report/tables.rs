@@ -405,7 +405,7 @@ fn stated_errors(stated: &StatedErrors) -> Markup {
         stated
             .kinds
             .iter()
-            .map(|(kind, largest)| row(format!("of that at most from the {kind}"), largest)),
+            .map(|(kind, largest)| row(format!("part of the {kind}, at most"), largest)),
     );
     table(&head, &rows)
 }
