@@ -56,6 +56,19 @@ pub fn main() -> ExitCode {
     }
 }
 
+/// Whether a command line (the program's name first) is understood; the usage error, or what `--help` and `--version` print, if not.
+/// Does nothing else.
+///
+/// # Errors
+/// The text that the program would end with.
+pub fn check_command_line(
+    arguments: impl IntoIterator<Item = std::ffi::OsString>,
+) -> std::result::Result<(), String> {
+    Arguments::try_parse_from(arguments)
+        .map(drop)
+        .map_err(|problem| problem.to_string())
+}
+
 /// An error with its causes, as lines for a reader.
 fn explain(error: &Error) -> String {
     let mut text = format!("error: {}\n", error.to_string().replace('\n', "\n       "));
