@@ -20,7 +20,7 @@ pub struct Settings {
 /// The deck: one step for each load factor of the legs.
 ///
 /// # Errors
-/// Where the scene holds what no deck is made of here: other elements than quad4, other loads than a plane force or a displacement.
+/// Where the scene holds what no deck is made of here: other elements than quad4, several contacts or loads.
 pub fn deck(model: &Model, settings: &Settings, legs: &[f64]) -> Result<String, String> {
     let (mesh, scene) = (&model.mesh, &model.scene);
     let element_type = match scene.kind {
@@ -134,7 +134,29 @@ pub fn deck(model: &Model, settings: &Settings, legs: &[f64]) -> Result<String, 
                 format!("*BOUNDARY{}", lines.collect::<String>())
             })
         }
-        _ => return Err("a deck is made of a plane force or a displacement".into()),
+        _ => {
+            // The consistent forces of brinell's own assembly.
+            let forces: Vec<(u32, u8, f64)> = model.loads[0]
+                .forces
+                .iter()
+                .map(|&(freedom, force)| {
+                    let (node, direction) = model.freedoms.owners[freedom];
+                    (node, direction, force)
+                })
+                .collect();
+            if forces
+                .iter()
+                .any(|f| model.freedoms.axes[f.0 as usize] != [1.0, 0.0])
+            {
+                return Err("a deck is made of loads in global axes".into());
+            }
+            Box::new(move |alpha| {
+                let lines = forces
+                    .iter()
+                    .map(|(n, d, f)| format!("\n{}, {}, {:.12e}", n + 1, d + 1, alpha * f));
+                format!("*CLOAD{}", lines.collect::<String>())
+            })
+        }
     };
     let step = 1.0 / settings.increments as f64;
     for &alpha in legs {
