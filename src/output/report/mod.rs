@@ -4,7 +4,7 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `page`, `tables` | the page |
+//! | `page`, `tables`, `trust` | the page |
 //! | `curves`, `chart` | charts: which, and how they are drawn |
 //! | `fields`, `sketch` | pictures of states; the scene drawn |
 //! | `picture`, `raster`, `window` | elements as pixels under axes; what is shown |
@@ -22,6 +22,7 @@ mod raster;
 mod sketch;
 mod tables;
 mod theme;
+mod trust;
 mod units;
 mod window;
 

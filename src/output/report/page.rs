@@ -2,6 +2,7 @@
 
 use super::tables;
 use super::theme;
+use super::trust;
 use super::units::Units;
 use crate::model::Model;
 use crate::output::RunHeader;
@@ -61,13 +62,13 @@ pub(super) fn page(
         (
             "errors",
             "How wrong the numbers may be",
-            tables::errors(results),
+            trust::errors(results),
         ),
         ("effects", "What was simulated", tables::effects(results)),
         (
             "quality",
             "How well the equations were solved",
-            tables::quality(results),
+            trust::quality(results),
         ),
         ("cost", "Time and size", tables::cost(header, results)),
     ];
