@@ -10,7 +10,7 @@ const CURVES: [(&str, &str, RGBColor); 2] = [
     ("CalculiX", "CalculiX (ccx)", RGBColor(196, 54, 48)),
 ];
 
-/// The plot as SVG: the error of the largest pressure at twice the yield load, in per cent.
+/// The plot as SVG: the larger error of the pressures at 0.8 and at 2 times the yield load, in per cent.
 ///
 /// # Errors
 /// Where a row lacks a figure or the plotting library fails.
@@ -40,7 +40,7 @@ pub fn work_precision(rows: &[Value]) -> Result<String, Box<dyn Error>> {
         chart
             .configure_mesh()
             .x_desc("processor seconds, one thread")
-            .y_desc("error of the largest pressure at twice the yield load [%]")
+            .y_desc("larger error of the pressures at 0.8 P* and at 2 P* [%]")
             .label_style((FONT, 13))
             .light_line_style(TRANSPARENT)
             .draw()?;
