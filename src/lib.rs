@@ -14,6 +14,45 @@
 //! ```
 //!
 //! A module imports only from modules declared above it; a test holds that.
+//!
+//! # Use
+//!
+//! ```
+//! use brinell::{analysis::Analysis, linalg::Backend, model::Model, progress::Silent, scene::Scene};
+//!
+//! # fn main() -> brinell::Result<()> {
+//! let scene = Scene::load("data/scenes/contact_patch.toml")?;
+//! let results = Analysis::new(Model::new(&scene)?, Backend::default())?.run(&mut Silent)?;
+//! // A uniform pressure is passed on by the contact as it is.
+//! assert!((results.states[0].max_pressure - 10.0).abs() < 1e-9);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! | to | use |
+//! |---|---|
+//! | read or make a scene | [`scene::Scene`] |
+//! | run on a mesh of one's own | [`mesh::gmsh`], [`model::Model::from_mesh`] |
+//! | compute | [`analysis::Analysis`]: the whole program or the yield load |
+//! | watch a run, or stop it | [`progress::Observer`] |
+//! | read what came out | [`results::Results`]; as files [`output`] |
+//! | solve contact on a stiffness of one's own | [`constrained::ConstrainedStructure`] |
+//! | know how wrong a number is | [`accuracy`] |
+//! | compare with closed forms | [`analytical`] |
+//!
+//! The library never prints, never ends the process and holds no global state; everything that can fail returns [`Error`], whose
+//! [`ErrorKind`] says what kind of failure it is and whose message names file, key, node or body, the value, and what to do.
+//!
+//! # Features
+//!
+//! - `cholmod` (default): condense with CHOLMOD of SuiteSparse, which must be installed with its headers (and libclang, to
+//!   read them). Its supernodal module is GPL-2.0-or-later: so is what is linked with it.
+//! - `capi`: the C interface (`ffi/include/brinell.h`; `make install` builds the libraries with it).
+//! - Without features (`default-features = false`) the crate is pure Rust, MIT or Apache-2.0; the dense backend takes up to 6000 freedoms.
+//!
+//! # Stability
+//!
+//! Semantic versioning, as the README says in "Versions".
 #![warn(missing_docs)]
 
 // Blank lines keep the order of the data: rustfmt sorts neighbouring lines.

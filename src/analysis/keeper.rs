@@ -2,6 +2,7 @@
 //!
 //! Writing one changes nothing in the run, so that results do not depend on whether and how often that is done.
 
+use super::aim::Aim;
 use super::drive::IncrementReport;
 use super::engine::Engine;
 use super::packed::Ascending;
@@ -198,11 +199,30 @@ impl Start {
     }
 }
 
+/// How much of the load program lies behind.
+pub(super) struct Behind<'r> {
+    /// As it was reported last: it never falls.
+    pub(super) fraction: &'r mut f64,
+    pub(super) aim: Aim,
+    /// The monitored quantity.
+    pub(super) monitored: &'r Cell<f64>,
+    pub(super) done: f64,
+    pub(super) n_targets: f64,
+}
+
+impl Behind<'_> {
+    fn fraction(&mut self, alpha: f64) -> f64 {
+        let share = self.aim.share(alpha, self.monitored.get());
+        *self.fraction = self.fraction.max((self.done + share) / self.n_targets);
+        *self.fraction
+    }
+}
+
 /// Makes a row of each increment, and a checkpoint where one is due.
 pub(super) struct Recorder<'r, 'o> {
     pub(super) results: &'r mut Results,
     pub(super) observer: &'r RefCell<&'r mut (dyn Observer + 'o)>,
-    pub(super) fraction: f64,
+    pub(super) progress: Behind<'r>,
     pub(super) keeper: Option<&'r mut Keeper>,
     pub(super) standing: Standing<'r>,
     pub(super) place: &'r Place,
@@ -216,7 +236,7 @@ impl Watcher for Recorder<'_, '_> {
     fn increment(&mut self, engine: &mut Engine, report: &IncrementReport) -> Result<bool> {
         let row = row(engine, report, self.results.history.len() + 1);
         let mut observer = self.observer.borrow_mut();
-        let flow = observer.increment(&row, self.fraction);
+        let flow = observer.increment(&row, self.progress.fraction(row.alpha));
         self.results.history.push(row);
         let goes_on = flow == Flow::Continue && !observer.stop_requested();
         if let Some(keeper) = &mut self.keeper {

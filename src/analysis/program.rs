@@ -1,8 +1,9 @@
 //! The load program: first yield, then target after target.
 
+use super::aim::Aim;
 use super::drive::{Arrival, Monitor, Stepper, stopped};
 use super::engine::{Engine, LoadPoint};
-use super::keeper::{Keeper, Recorder, Standing, Start};
+use super::keeper::{Behind, Keeper, Recorder, Standing, Start};
 use super::place::Place;
 use super::recovery::Recovery;
 use super::zone_choice::{self, Choice};
@@ -70,6 +71,10 @@ pub(super) struct Run<'m, 'o> {
     pub(super) elastic_range: [f64; 2],
     /// Number of targets behind.
     pub(super) done: usize,
+    /// What the way to the next target is measured by.
+    pub(super) aim: Aim,
+    /// Share of the load program that lies behind, as far as it was reported: it never falls.
+    pub(super) fraction: f64,
     pub(super) seconds: Seconds,
     /// Where the way to the target at hand began: to be gone again with a wider zone.
     pub(super) start: Option<Start>,
@@ -130,6 +135,8 @@ impl<'m, 'o> Run<'m, 'o> {
             yield_alpha: None,
             elastic_range: [0.0; 2],
             done: 0,
+            aim: Aim::Nothing,
+            fraction: 0.0,
             seconds: Seconds {
                 condensation: start.elapsed().as_secs_f64(),
                 ..Seconds::default()
@@ -271,14 +278,31 @@ impl<'m, 'o> Run<'m, 'o> {
     ) -> Result<Arrival> {
         let model = self.model();
         let program = &model.scene.program;
-        let fraction = self.done as f64 / program.targets.len().max(1) as f64;
         let resumed = self.resumed.as_mut().and_then(|place| place.drive.take());
         let taken = Cell::new(resumed.as_ref().map_or(0, |drive| drive.taken));
         let mut leg = resumed.map(|drive| drive.leg);
+        // The increments' observer is told how far the monitored quantity is, which costs a solve for some.
+        let last = Cell::new(f64::NAN);
+        let remembering = monitor.map(|monitor| {
+            let last = &last;
+            move |engine: &mut Engine| {
+                last.set(monitor(engine));
+                last.get()
+            }
+        });
+        let monitor = remembering.as_ref().map(|m| m as &Monitor);
         let mut watched = match leg {
             Some(_) => None,
             None => monitor.map(|m| m(&mut self.engine)),
         };
+        if let (Aim::Monitored { at_first }, Some(value)) = (&mut self.aim, watched) {
+            at_first.get_or_insert(value.abs());
+        }
+        let (aim, done, n_targets) = (
+            self.aim,
+            self.done as f64,
+            program.targets.len().max(1) as f64,
+        );
         loop {
             let plastic = self.plastic && !self.choice.elements.is_empty();
             if plastic && leg.is_none() {
@@ -308,7 +332,13 @@ impl<'m, 'o> Run<'m, 'o> {
             let mut recorder = Recorder {
                 results: &mut self.results,
                 observer: &observer,
-                fraction,
+                progress: Behind {
+                    fraction: &mut self.fraction,
+                    aim,
+                    monitored: &last,
+                    done,
+                    n_targets,
+                },
                 keeper: self.keeper.as_mut(),
                 standing: Standing {
                     guard: &self.choice.guard,

@@ -1,5 +1,6 @@
 //! A run set up from its last checkpoint.
 
+use super::aim::Aim;
 use super::engine::Engine;
 use super::keeper::{Keeper, RunRecord, SpreadRecord, Start, StartRecord};
 use super::place::Place;
@@ -116,6 +117,8 @@ impl<'m, 'o> Run<'m, 'o> {
             yield_alpha: record.yield_alpha,
             elastic_range: record.elastic_range,
             done: record.done,
+            aim: Aim::Nothing,
+            fraction: record.done as f64 / model.scene.program.targets.len().max(1) as f64,
             seconds,
             keeper: Some(keeper),
             start,

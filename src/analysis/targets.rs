@@ -1,5 +1,6 @@
 //! Targets: from the current load factor to the next state that the program asks for.
 
+use super::aim::Aim;
 use super::drive::{Arrival, Monitor, stopped};
 use super::engine::Engine;
 use super::place::Search;
@@ -68,15 +69,22 @@ impl Run<'_, '_> {
         Ok(Arrival::End)
     }
 
+    fn aim_at_factor(&mut self, to: f64) {
+        let from = self.engine.at.alpha;
+        self.aim = Aim::Factor { from, to };
+    }
+
     pub(super) fn reach(&mut self, target: &Target, label: &str) -> Result<()> {
         if target.first_yield {
             let alpha = self.yield_alpha.ok_or_else(|| {
                 Error::analysis(format!("target `{label}`: no yield load was found before the program's largest load factor"))
             })?;
+            self.aim_at_factor(alpha);
             self.drive_to_factor(alpha, None)?;
             return Ok(());
         }
         if let Some(alpha) = target.load_factor {
+            self.aim_at_factor(alpha);
             self.drive_to_factor(alpha, None)?;
             return Ok(());
         }
@@ -160,6 +168,7 @@ impl Run<'_, '_> {
         scale: f64,
         label: &str,
     ) -> Result<()> {
+        self.aim = Aim::Monitored { at_first: None };
         let resumed = self.resumed.as_mut().and_then(|place| place.search.take());
         // One that goes on is on the way to the end that it had.
         let mut under_way = resumed.is_some();
