@@ -19,6 +19,8 @@
 // Blank lines keep the order of the data: rustfmt sorts neighbouring lines.
 pub mod error;
 
+pub mod panics;
+
 pub mod analytical;
 
 pub mod shape;

@@ -3,13 +3,17 @@
 //! Here names become indices and every inconsistency between scene and mesh is found. What comes
 //! after works with numbers only.
 
+mod builder;
 mod freedoms;
+mod given;
 mod held;
 mod loads;
 mod motions;
 mod pairs;
 
+pub use builder::ModelBuilder;
 pub use freedoms::{Freedoms, Prescribed, Slot};
+pub use given::NodePair;
 pub use held::{FloatingBodies, Pin, RigidMotion};
 pub use loads::{LoadCase, Magnitude};
 pub use pairs::{AxisPoint, ContactSurface, Pair};
@@ -19,6 +23,7 @@ use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::mesh::{self, Mesh, Shape};
 use crate::scene::{Kind, Plastic, Scene};
+use given::Given;
 
 /// A model ready to be assembled.
 #[derive(Debug, Clone)]
@@ -56,8 +61,9 @@ impl Model {
     /// Input errors naming the scene entry and the node, body or set; [`crate::ErrorKind::Unheld`] where a body can move
     /// freely and the loads do work on that motion.
     pub fn new(scene: &Scene) -> Result<Self> {
+        scene.validate()?;
         let mesh = build_mesh(scene)?;
-        Self::from_mesh(scene, mesh)
+        Self::resolve(scene, mesh, &Given::default())
     }
 
     /// The model of a scene on a given mesh (its `mesh` entry is ignored).
@@ -65,6 +71,11 @@ impl Model {
     /// # Errors
     /// As [`Model::new`].
     pub fn from_mesh(scene: &Scene, mesh: Mesh) -> Result<Self> {
+        scene.validate_without_mesh()?;
+        Self::resolve(scene, mesh, &Given::default())
+    }
+
+    fn resolve(scene: &Scene, mesh: Mesh, given: &Given) -> Result<Self> {
         mesh::validate(&mesh)?;
         let kind = scene.kind;
         let mut warnings = Vec::new();
@@ -73,9 +84,9 @@ impl Model {
         if kind == Kind::Axisymmetric {
             check_radii(&mesh)?;
         }
-        let (mut pairs, contacts) = pairs::resolve(scene, &mesh)?;
+        let (mut pairs, contacts) = pairs::resolve(scene, &mesh, given)?;
         let mut freedoms = Freedoms::new(scene, &mesh, &mut pairs)?;
-        let loads = loads::resolve(scene, &mesh, &freedoms)?;
+        let loads = loads::resolve(scene, &mesh, given, &freedoms)?;
         let floating = held::resolve(kind, &mesh, &mut freedoms, &pairs, &loads, &mut warnings)?;
         let loads = loads::renumber(loads, &freedoms);
         Ok(Model {
