@@ -18,6 +18,10 @@
 //!
 //! is the problem of [`crate::contact`]. Plastic strains are loads like any others: `f + sum of B_e' D eps_p` over elements.
 
+mod arrays;
+
+pub use arrays::{Triangle, rows_from_csr, stiffness_from_csc};
+
 use crate::contact::{self, Change, Path, PathEnd, Tableau, Unbounded};
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::{self, Backend, Condensed, NotDefinite, Partition, SymmetricCsc};
