@@ -33,10 +33,12 @@ const CANCELLED: f64 = 1e-12;
 
 /// A sparse stiffness with contact rows, factored and condensed once.
 pub struct ConstrainedStructure {
-    n: usize,
     condensed: Box<dyn Condensed>,
-    /// Contact freedoms, ascending.
-    contact: Vec<usize>,
+    stiffness: SymmetricCsc,
+    /// Its infinity norm.
+    norm: f64,
+    /// No zone; contact freedoms ascending.
+    partition: Partition,
     /// `n_rows x n_contact`.
     rows: DMatrix<f64>,
     gaps: DVector<f64>,
@@ -164,14 +166,15 @@ impl ConstrainedStructure {
             }
         }
         let mut structure = ConstrainedStructure {
-            n,
+            norm: linalg::norm(stiffness),
+            stiffness: stiffness.clone(),
             state: State {
                 load: vec![0.0; n],
                 condensed: DVector::zeros(partition.contact.len()),
                 gap: gaps.to_vec(),
                 force: vec![0.0; rows.len()],
             },
-            contact: partition.contact,
+            partition,
             condensed,
             rows: b,
             gaps: DVector::from_column_slice(gaps),
@@ -187,7 +190,7 @@ impl ConstrainedStructure {
 
     /// Number of freedoms.
     pub fn n_freedoms(&self) -> usize {
-        self.n
+        self.partition.n
     }
 
     /// Number of contact rows.
@@ -197,7 +200,7 @@ impl ConstrainedStructure {
 
     /// The contact freedoms, ascending: rows and columns of [`ConstrainedStructure::condensed_stiffness`].
     pub fn contact_freedoms(&self) -> &[usize] {
-        &self.contact
+        &self.partition.contact
     }
 
     /// `C = K_cc - K_ci K_ii^-1 K_ic`, `n_contact x n_contact`, symmetric, column-major.
@@ -319,16 +322,16 @@ impl ConstrainedStructure {
         self.tableau.open()
     }
 
-    /// Displacements of all freedoms (`n`) in the state at hand. Costs one full solve.
+    /// Displacements of all freedoms (`n`) in the state at hand. Returns `|K u - f + B' r| / (|K| |u| + |f|)`. Costs one full solve.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] where `out` has the wrong length; failure of the backend's solve.
-    pub fn displacements(&self, out: &mut [f64]) -> Result<()> {
-        if out.len() != self.n {
+    pub fn displacements(&self, out: &mut [f64]) -> Result<f64> {
+        if out.len() != self.partition.n {
             return Err(Error::input(format!(
                 "{} values were given for the displacements of {} freedoms",
                 out.len(),
-                self.n
+                self.partition.n
             )));
         }
         let force = DVector::from_column_slice(&self.state.force);
@@ -338,20 +341,25 @@ impl ConstrainedStructure {
         let contact = self
             .held
             .solve(&(&self.state.condensed + self.rows.tr_mul(&tied) - &pushed));
-        out.copy_from_slice(&self.state.load);
-        for (&freedom, force) in self.contact.iter().zip(pushed.iter()) {
-            out[freedom] -= force;
+        let mut load = self.state.load.clone();
+        for (&freedom, force) in self.partition.contact.iter().zip(pushed.iter()) {
+            load[freedom] -= force;
         }
-        self.condensed.recover_all(out, contact.as_slice())
-    }
-
-    /// `|K u - f + B' r| / (|K| |u| + |f|)` of the last [`ConstrainedStructure::displacements`].
-    pub fn backward_error(&self) -> f64 {
-        self.condensed.backward_error()
+        let reduced = self.condensed.reduce_load(&self.state.load)?;
+        let found = linalg::recover_refined(
+            self.condensed.as_ref(),
+            &self.stiffness,
+            self.norm,
+            &load,
+            [&reduced, &[], contact.as_slice()],
+            &self.partition,
+        )?;
+        out.copy_from_slice(&found.u);
+        Ok(found.backward_error)
     }
 
     fn condense(&self, load: &[f64]) -> Result<DVector<f64>> {
-        let mut out = DVector::zeros(self.contact.len());
+        let mut out = DVector::zeros(self.partition.contact.len());
         let reduced = self.condensed.reduce_load(load)?;
         self.condensed
             .condense_load(&reduced, &mut [], out.as_mut_slice())?;
@@ -365,11 +373,11 @@ impl ConstrainedStructure {
     }
 
     fn check_load(&self, load: &[f64]) -> Result<()> {
-        if load.len() != self.n {
+        if load.len() != self.partition.n {
             return Err(Error::input(format!(
                 "a load of {} values was given for {} freedoms",
                 load.len(),
-                self.n
+                self.partition.n
             )));
         }
         match load.iter().position(|v| !v.is_finite()) {

@@ -17,7 +17,7 @@ mod tied;
 use crate::assembly::System;
 use crate::contact::Tableau;
 use crate::error::{Error, Result};
-use crate::linalg::{self, Backend, Condensed, NotDefinite, Partition};
+use crate::linalg::{self, Backend, Condensed, NotDefinite, Partition, Recovered};
 use crate::model::{Model, RigidMotion};
 use nalgebra::{DMatrix, DVector};
 use tied::{Tied, Trace};
@@ -232,40 +232,47 @@ impl Substructure {
         self.condensed.recover_zone(&mut load.zone, &load.contact);
     }
 
-    /// All freedoms, for a load on all of them that includes the contact forces, and the contact displacements.
+    /// All freedoms, for a reduced load and the displacements of zone and contact freedoms. Costs about half a full solve.
     ///
     /// # Errors
     /// Failure of the backend's solve.
-    pub fn recover_all(&self, load: &mut [f64], contact: &[f64]) -> Result<()> {
-        self.condensed.recover_all(load, contact)
+    pub fn recover_all(&self, reduced: &[f64], u: &Trailing) -> Result<Vec<f64>> {
+        self.condensed.recover_all(reduced, &u.zone, &u.contact)
     }
 
     /// All freedoms without the rigid motions of floating bodies, and the amplitude of each of these motions: strains of the first
-    /// are free of the cancellation that those of the sum suffer. `load` is on all freedoms and includes the contact forces,
-    /// `condensed` is the same without contact forces on zone and contact freedoms.
+    /// are free of the cancellation that those of the sum suffer. `load` is on all freedoms and includes initial loads and
+    /// contact forces; `reduced` are the external loads, `condensed` these and the initial loads on zone and contact freedoms.
     ///
     /// # Errors
     /// Failure of the backend's solve.
     pub fn recover_deformation(
         &self,
-        load: &mut [f64],
+        system: &System,
+        load: &[f64],
+        reduced: &[f64],
         mut condensed: Trailing,
         slip: &[f64],
-    ) -> Result<Vec<f64>> {
-        let Some(tied) = &self.tied else {
-            self.condensed.recover_all(load, &[])?;
-            return Ok(Vec::new());
-        };
+    ) -> Result<(Recovered, Vec<f64>)> {
         let mut forces = vec![0.0; self.n_pairs];
         self.eliminate(&mut condensed, &mut forces);
-        let split = tied.split(&condensed.contact, slip);
-        self.condensed.recover_all(load, &split.contact)?;
-        Ok(split.motions.as_slice().to_vec())
-    }
-
-    /// Backward error of the last [`Substructure::recover_all`].
-    pub fn backward_error(&self) -> f64 {
-        self.condensed.backward_error()
+        let mut motions = Vec::new();
+        if let Some(tied) = &self.tied {
+            let split = tied.split(&condensed.contact, slip);
+            condensed.contact = split.contact;
+            motions = split.motions.as_slice().to_vec();
+        }
+        let Trailing { zone, contact } = &mut condensed;
+        self.condensed.recover_zone(zone, contact);
+        let recovered = linalg::recover_refined(
+            self.condensed.as_ref(),
+            &system.stiffness,
+            system.norm,
+            load,
+            [reduced, zone, contact],
+            &self.partition,
+        )?;
+        Ok((recovered, motions))
     }
 
     /// Bytes held by the dense contact matrices.

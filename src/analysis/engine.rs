@@ -12,6 +12,9 @@ use crate::results::Counts;
 use crate::substructure::{Substructure, Trailing};
 use std::sync::Arc;
 
+/// Share of the largest gap and force that is the round-off of their sums.
+const ZERO: f64 = 1e-14;
+
 /// A point of the load path: the factor of each load and the share of the interference that is applied.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LoadPoint {
@@ -271,6 +274,19 @@ impl<'m> Engine<'m> {
         out
     }
 
+    /// Reduced external load at a load point.
+    pub fn reduced_external(&self, point: &LoadPoint) -> Vec<f64> {
+        let mut out = vec![0.0; self.model.freedoms.n];
+        for (load, &factor) in self.reduced_loads.iter().zip(&point.factors) {
+            if factor != 0.0 {
+                for (sum, value) in out.iter_mut().zip(load) {
+                    *sum += factor * value;
+                }
+            }
+        }
+        out
+    }
+
     /// Initial gaps less the applied interference.
     pub fn delta(&self, point: &LoadPoint) -> Vec<f64> {
         self.gap
@@ -354,6 +370,16 @@ impl<'m> Engine<'m> {
             let initial = self.now.initial.clone();
             self.now = self.respond(&point, &initial);
             self.fresh = true;
+            // Zero within round-off is zero; what is more than that stays to be seen.
+            let gap = self.gap.iter().fold(0.0f64, |m, g| m.max(g.abs()));
+            let force = (self.now.force.iter()).fold(self.force_scale, |m, r| m.max(*r));
+            for (values, scale) in [(&mut self.now.gap, gap), (&mut self.now.force, force)] {
+                for value in values.iter_mut() {
+                    if (-ZERO * scale..0.0).contains(value) {
+                        *value = 0.0;
+                    }
+                }
+            }
         }
     }
 

@@ -1,25 +1,12 @@
 //! The elements of the zone, packed for speed: strain operators without their zeros, and where freedoms find
 //! displacements.
 //!
-//! With the gradients `n_x = dN/dx`, `n_y = dN/dy`, `n_r = N/r` (axisymmetric) of a node's shape function at a point and the
-//! mean dilatation `m` of the element (B-bar) the strain operator and its transpose are
-//!
-//! ```text
-//! e_xx = sum n_x u + c,  e_yy = sum n_y v + c,  e_zz = sum n_r u + c,  g_xy = sum n_y u + n_x v
-//!        c = (sum m_x u + m_y v - sum (n_x + n_r) u + n_y v)/3
-//! f_x  = w (n_x s_x + n_r s_z + n_y t + m_x p),  f_y = w (n_y s_y + n_x t + m_y p)
-//!        p = mean stress, s = stress less p
-//! ```
-//!
-//! (`c` and `p` are zero without B-bar): for a quad4 about a sixth of the numbers of the full B, which is what counts
-//! where thousands of evaluations run through memory.
+//! An operator ([`Form`]) is a sixth of the numbers of the full B, which is what counts where thousands of evaluations run
+//! through memory.
 
-use crate::element::{MAX_FREEDOMS, MAX_POINTS, Points};
+use crate::element::{AtPoints, Form, MAX_FREEDOMS, Points};
 use crate::model::{Model, Slot};
 use crate::substructure::Trailing;
-
-/// Stresses or strains at the points of an element.
-pub type AtPoints = [[f64; 4]; MAX_POINTS];
 
 /// Position of every freedom of the model in a [`Nodal`] vector.
 pub struct Places {
@@ -129,9 +116,7 @@ pub struct Packed {
     pub body: u32,
     /// Number of points.
     pub n_points: u8,
-    n_nodes: u8,
-    is_axisymmetric: bool,
-    has_mean: bool,
+    form: Form,
     first_value: usize,
     first_place: usize,
     turns: (u32, u32),
@@ -149,14 +134,14 @@ struct Turn {
 pub struct GatheredElements {
     /// The elements, in the order given.
     pub list: Vec<Packed>,
-    /// For each element: per point weight, `n_x`, `n_y` and, axisymmetric, `n_r` of all nodes; then, with B-bar, `m_x`, `m_y`.
+    /// The operator of each element.
     values: Vec<f64>,
     places: Vec<u32>,
     turns: Vec<Turn>,
 }
 
 impl GatheredElements {
-    /// Packs elements of a model, `local` giving their points in global axes.
+    /// Packs elements of a model, `points` giving where they are evaluated.
     pub fn new(
         model: &Model,
         elements: &[usize],
@@ -173,13 +158,6 @@ impl GatheredElements {
     }
 
     fn push(&mut self, model: &Model, element: usize, places: &Places, points: &Points) {
-        let n_nodes = points.n_freedoms / 2;
-        // B-bar puts the same number into rows xx and yy of a node's other direction.
-        let shift = |b: &[[f64; MAX_FREEDOMS]; 4], i: usize| [b[1][2 * i], b[0][2 * i + 1]];
-        let has_mean = points
-            .iter()
-            .any(|p| (0..n_nodes).any(|i| shift(&p.b, i) != [0.0; 2]));
-        let is_axisymmetric = model.kind == crate::scene::Kind::Axisymmetric;
         let first_turn = self.turns.len() as u32;
         let first_place = self.places.len();
         let none = (places.n_zone + places.n_contact) as u32;
@@ -205,31 +183,12 @@ impl GatheredElements {
             element: element as u32,
             body: model.mesh.element_body[element],
             n_points: points.len() as u8,
-            n_nodes: n_nodes as u8,
-            is_axisymmetric,
-            has_mean,
+            form: points.form(),
             first_value: self.values.len(),
             first_place,
             turns: (first_turn, self.turns.len() as u32),
         });
-        for point in points.iter() {
-            let b = &point.b;
-            self.values.push(point.weight);
-            self.values.extend((0..n_nodes).map(|i| b[3][2 * i + 1]));
-            self.values.extend((0..n_nodes).map(|i| b[3][2 * i]));
-            if is_axisymmetric {
-                self.values
-                    .extend((0..n_nodes).map(|i| b[2][2 * i] - shift(b, i)[0]));
-            }
-        }
-        if has_mean {
-            // The same at every point: three times the shift plus what it replaced.
-            let b = &points[0].b;
-            self.values
-                .extend((0..n_nodes).map(|i| b[0][2 * i] + b[1][2 * i] + b[2][2 * i]));
-            self.values
-                .extend((0..n_nodes).map(|i| b[0][2 * i + 1] + b[1][2 * i + 1] + b[2][2 * i + 1]));
-        }
+        self.values.extend_from_slice(points.values());
     }
 
     /// Bytes held.
@@ -242,155 +201,56 @@ impl GatheredElements {
     /// Strains at the points of element `i`, for the nodal values of a [`Nodal`].
     pub fn strains(&self, i: usize, nodal: &[f64]) -> AtPoints {
         let packed = &self.list[i];
-        match packed.n_nodes {
-            3 => self.strains_of::<3>(packed, nodal),
-            4 => self.strains_of::<4>(packed, nodal),
-            6 => self.strains_of::<6>(packed, nodal),
-            _ => self.strains_of::<8>(packed, nodal),
+        let mut u = [0.0; MAX_FREEDOMS];
+        for (u, &place) in u.iter_mut().zip(self.places_of(packed)) {
+            *u = nodal[place as usize];
         }
+        for turn in self.turns_of(packed) {
+            let (k, [a, b]) = (2 * turn.node as usize, turn.axis);
+            (u[k], u[k + 1]) = (a * u[k] - b * u[k + 1], b * u[k] + a * u[k + 1]);
+        }
+        packed.form.strains(&self.values[packed.first_value..], &u)
     }
 
     /// `sum_g w_g B' stress` of element `i`.
     pub fn forces(&self, i: usize, stress: &AtPoints) -> [f64; MAX_FREEDOMS] {
         let packed = &self.list[i];
-        match packed.n_nodes {
-            3 => self.forces_of::<3>(packed, stress),
-            4 => self.forces_of::<4>(packed, stress),
-            6 => self.forces_of::<6>(packed, stress),
-            _ => self.forces_of::<8>(packed, stress),
+        let mut f = packed
+            .form
+            .forces(&self.values[packed.first_value..], stress);
+        for turn in self.turns_of(packed) {
+            let (k, [a, b]) = (2 * turn.node as usize, turn.axis);
+            (f[k], f[k + 1]) = (a * f[k] + b * f[k + 1], a * f[k + 1] - b * f[k]);
         }
+        f
     }
 
     /// Adds the forces of element `i` to nodal sums.
     pub fn scatter(&self, i: usize, force: &[f64; MAX_FREEDOMS], sums: &mut [f64]) {
-        let packed = &self.list[i];
-        let places = &self.places[packed.first_place..][..2 * packed.n_nodes as usize];
-        for (&place, f) in places.iter().zip(force) {
+        for (&place, f) in self.places_of(&self.list[i]).iter().zip(force) {
             sums[place as usize] += f;
         }
+    }
+
+    fn places_of(&self, packed: &Packed) -> &[u32] {
+        &self.places[packed.first_place..][..2 * usize::from(packed.form.n_nodes)]
     }
 
     fn turns_of(&self, packed: &Packed) -> &[Turn] {
         &self.turns[packed.turns.0 as usize..packed.turns.1 as usize]
     }
-
-    fn strains_of<const N: usize>(&self, packed: &Packed, nodal: &[f64]) -> AtPoints {
-        let places = &self.places[packed.first_place..][..2 * N];
-        let mut u = [0.0; N];
-        let mut v = [0.0; N];
-        for k in 0..N {
-            u[k] = nodal[places[2 * k] as usize];
-            v[k] = nodal[places[2 * k + 1] as usize];
-        }
-        for turn in self.turns_of(packed) {
-            let (k, [a, b]) = (turn.node as usize, turn.axis);
-            (u[k], v[k]) = (a * u[k] - b * v[k], b * u[k] + a * v[k]);
-        }
-        let n_points = packed.n_points as usize;
-        let stride = 1 + N * (2 + usize::from(packed.is_axisymmetric));
-        let values = &self.values[packed.first_value..];
-        let mean = if packed.has_mean {
-            let m = &values[n_points * stride..][..2 * N];
-            Some(dot::<N>(&m[..N], &u) + dot::<N>(&m[N..], &v))
-        } else {
-            None
-        };
-        let mut out = AtPoints::default();
-        for (strain, point) in out
-            .iter_mut()
-            .zip(values.chunks_exact(stride))
-            .take(n_points)
-        {
-            let (x, y) = (&point[1..=N], &point[1 + N..=2 * N]);
-            let mut e = [
-                dot::<N>(x, &u),
-                dot::<N>(y, &v),
-                0.0,
-                dot::<N>(y, &u) + dot::<N>(x, &v),
-            ];
-            if packed.is_axisymmetric {
-                e[2] = dot::<N>(&point[1 + 2 * N..], &u);
-            }
-            if let Some(mean) = mean {
-                let change = (mean - (e[0] + e[1] + e[2])) / 3.0;
-                for e in &mut e[..3] {
-                    *e += change;
-                }
-            }
-            *strain = e;
-        }
-        out
-    }
-
-    fn forces_of<const N: usize>(&self, packed: &Packed, stress: &AtPoints) -> [f64; MAX_FREEDOMS] {
-        let n_points = packed.n_points as usize;
-        let stride = 1 + N * (2 + usize::from(packed.is_axisymmetric));
-        let values = &self.values[packed.first_value..];
-        let mut fx = [0.0; N];
-        let mut fy = [0.0; N];
-        let mut pressure = 0.0;
-        for (s, point) in stress
-            .iter()
-            .zip(values.chunks_exact(stride))
-            .take(n_points)
-        {
-            let p = if packed.has_mean {
-                (s[0] + s[1] + s[2]) / 3.0
-            } else {
-                0.0
-            };
-            let weight = point[0];
-            let [sx, sy, sz, t] = [s[0] - p, s[1] - p, s[2] - p, s[3]].map(|s| weight * s);
-            pressure += weight * p;
-            let (x, y) = (&point[1..=N], &point[1 + N..=2 * N]);
-            for k in 0..N {
-                fx[k] += x[k] * sx + y[k] * t;
-                fy[k] += y[k] * sy + x[k] * t;
-            }
-            if packed.is_axisymmetric {
-                for (f, r) in fx.iter_mut().zip(&point[1 + 2 * N..]) {
-                    *f += r * sz;
-                }
-            }
-        }
-        if packed.has_mean {
-            let m = &values[n_points * stride..][..2 * N];
-            for k in 0..N {
-                fx[k] += m[k] * pressure;
-                fy[k] += m[N + k] * pressure;
-            }
-        }
-        for turn in self.turns_of(packed) {
-            let (k, [a, b]) = (turn.node as usize, turn.axis);
-            (fx[k], fy[k]) = (a * fx[k] + b * fy[k], a * fy[k] - b * fx[k]);
-        }
-        let mut out = [0.0; MAX_FREEDOMS];
-        for k in 0..N {
-            out[2 * k] = fx[k];
-            out[2 * k + 1] = fy[k];
-        }
-        out
-    }
-}
-
-fn dot<const N: usize>(a: &[f64], b: &[f64; N]) -> f64 {
-    let mut sum = 0.0;
-    for (a, b) in a[..N].iter().zip(b) {
-        sum += a * b;
-    }
-    sum
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::assembly::{LocalElement, local_element};
+    use crate::assembly::gauss_points_of;
     use crate::scene::Scene;
 
-    /// Packed operators against the full B with its columns in local axes, on every element of a model with turned
-    /// contact nodes: equal to round-off.
+    /// Gathered displacements and scattered forces against the model's own axes and slots, on elements with turned
+    /// contact nodes: equal to round-off, and the one the transpose of the other.
     #[test]
-    fn packed_operators_are_b() {
+    fn gathered_elements_see_the_displacements_of_the_model() {
         for name in [
             "cylinder_on_half_plane",
             "disc_in_plate",
@@ -403,9 +263,8 @@ mod tests {
             let n = model.freedoms.n;
             let elements: Vec<usize> = (0..model.mesh.n_elements()).step_by(7).collect();
             let places = Places::new(n, &(0..n).collect::<Vec<_>>(), &[]);
-            let packed = GatheredElements::new(&model, &elements, &places, |e| {
-                LocalElement::points_of(&model, e)
-            });
+            let gathered =
+                GatheredElements::new(&model, &elements, &places, |e| gauss_points_of(&model, e));
             let mut nodal = Nodal::new(&model, &places);
             let u = Trailing {
                 zone: (0..n)
@@ -413,41 +272,37 @@ mod tests {
                     .collect(),
                 contact: Vec::new(),
             };
+            let factors = vec![0.0; model.loads.len()];
             let values = nodal.variation(&u).to_vec();
+            let mut turned = 0;
             for (i, &e) in elements.iter().enumerate() {
-                let local = local_element(&model, e);
-                let mut displacement = [0.0; MAX_FREEDOMS];
-                for (d, slot) in displacement.iter_mut().zip(&local.slots) {
-                    if let Slot::Free(f) = slot {
-                        *d = u.zone[*f as usize];
-                    }
+                turned += gathered.turns_of(&gathered.list[i]).len();
+                let points = gauss_points_of(&model, e);
+                let strains = gathered.strains(i, &values);
+                let expected = points.strains(&model.element_displacement(e, &u.zone, &factors));
+                let size = points.values().iter().fold(0.0f64, |m, b| m.max(b.abs()));
+                for (a, b) in strains.iter().flatten().zip(expected.iter().flatten()) {
+                    assert!((a - b).abs() <= 64.0 * f64::EPSILON * size, "{name} {e}");
                 }
-                let strains = packed.strains(i, &values);
-                let mut stress = AtPoints::default();
-                let mut expected = [0.0; MAX_FREEDOMS];
-                let mut size = [0.0f64; 2];
-                for (g, point) in local.points.iter().enumerate() {
-                    let strain = point.strain(&displacement[..local.points.n_freedoms]);
-                    let b = point.b.iter().flatten().fold(0.0f64, |m, b| m.max(b.abs()));
-                    for (a, b_) in strain.iter().zip(&strains[g]) {
-                        assert!(
-                            (a - b_).abs() <= 64.0 * f64::EPSILON * b,
-                            "{name} {e}: {a} {b_}"
-                        );
-                    }
-                    stress[g] = [1.0, -2.0 + g as f64, 0.5, 0.3];
-                    point.add_force(&stress[g], &mut expected);
-                    size[0] = size[0].max(4.0 * b * point.weight);
-                    size[1] += 1.0;
+                let stress: AtPoints =
+                    std::array::from_fn(|g| [1.0, -2.0 + g as f64, 0.5, 0.3].map(f64::from));
+                let mut sums = vec![0.0; values.len()];
+                gathered.scatter(i, &gathered.forces(i, &stress), &mut sums);
+                let work: f64 = sums.iter().zip(&values).map(|(f, u)| f * u).sum();
+                let mut internal = 0.0;
+                for (weight, (s, e)) in points.weights().zip(stress.iter().zip(&strains)) {
+                    internal += weight * s.iter().zip(e).map(|(s, e)| s * e).sum::<f64>();
                 }
-                let forces = packed.forces(i, &stress);
-                for (a, b) in expected.iter().zip(&forces) {
-                    assert!(
-                        (a - b).abs() <= 64.0 * f64::EPSILON * size[0] * size[1],
-                        "{name} {e}: {a} {b}"
-                    );
-                }
+                let terms: f64 = points.weights().map(|w| w * size).sum::<f64>() * 16.0;
+                assert!(
+                    (work - internal).abs() <= 64.0 * f64::EPSILON * terms,
+                    "{name} {e}: {work} {internal}"
+                );
             }
+            assert!(
+                turned > 0 || name == "thick_sphere",
+                "{name}: no turned node"
+            );
         }
     }
 }

@@ -13,16 +13,13 @@
 //! O. C. Zienkiewicz, J. Z. Zhu, The superconvergent patch recovery and a posteriori error estimates, parts 1 and 2,
 //! Int. J. Numer. Meth. Engng 33 (1992) 1331-1382, doi:10.1002/nme.1620330702.
 
-use crate::assembly::LocalElement;
-use crate::element::{MAX_POINTS, shape_functions};
+use crate::assembly::gauss_points_of;
+use crate::element::{AtPoints, MAX_POINTS, shape_functions};
 use crate::material::Material;
 use crate::model::Model;
 use crate::scene::Kind;
 use nalgebra::SMatrix;
 use rayon::prelude::*;
-
-/// Stress `[xx, yy, zz, xy]` at the Gauss points of an element.
-pub(super) type PointStresses = [[f64; 4]; MAX_POINTS];
 
 /// Terms of a polynomial of degree 2.
 const MOST_TERMS: usize = 6;
@@ -40,7 +37,7 @@ pub(super) struct Indicator {
 /// The indicator of a stress field: `stress` gives the Gauss points of an element.
 pub(super) fn indicator<'s>(
     model: &Model,
-    stress: impl Fn(usize) -> &'s PointStresses + Sync,
+    stress: impl Fn(usize) -> &'s AtPoints + Sync,
 ) -> Indicator {
     let neighbours = Neighbours::new(model);
     let samples: Vec<Samples> = (0..model.mesh.n_elements())
@@ -114,30 +111,29 @@ impl Neighbours {
 struct Samples {
     n: usize,
     positions: [[f64; 2]; MAX_POINTS],
-    stresses: PointStresses,
+    stresses: AtPoints,
 }
 
 impl Samples {
     /// The centre of a linear element carries its mean, the Gauss points of a quadratic one are superconvergent themselves.
-    fn new(model: &Model, e: usize, stress: &PointStresses) -> Self {
-        let points = LocalElement::points_of(model, e);
+    fn new(model: &Model, e: usize, stress: &AtPoints) -> Self {
+        let points = gauss_points_of(model, e);
         let mut out = Samples {
             n: points.len(),
             positions: [[0.0; 2]; MAX_POINTS],
             stresses: *stress,
         };
-        for (position, point) in out.positions.iter_mut().zip(points.iter()) {
-            *position = point.position;
-        }
+        out.positions[..points.len()].copy_from_slice(points.positions());
         if degree(model, e) == 1 {
             let (mut at, mut mean, mut volume) = ([0.0; 2], [0.0; 4], 0.0);
-            for (point, stress) in points.iter().zip(stress) {
-                volume += point.weight;
+            for ((weight, position), stress) in points.weights().zip(points.positions()).zip(stress)
+            {
+                volume += weight;
                 for d in 0..2 {
-                    at[d] += point.weight * point.position[d];
+                    at[d] += weight * position[d];
                 }
                 for c in 0..4 {
-                    mean[c] += point.weight * stress[c];
+                    mean[c] += weight * stress[c];
                 }
             }
             out.n = 1;
@@ -197,11 +193,11 @@ type Point = ([f64; 2], f64, [f64; 4]);
 
 /// Calls `visit` for each point at which the stresses are compared. Quadratic elements have their stress at the Gauss points,
 /// where it is superconvergent and its error all but vanishes: between them it is the polynomial through them.
-fn quadrature(model: &Model, e: usize, stress: &PointStresses, mut visit: impl FnMut(Point)) {
+fn quadrature(model: &Model, e: usize, stress: &AtPoints, mut visit: impl FnMut(Point)) {
     if degree(model, e) == 1 {
-        let points = LocalElement::points_of(model, e);
-        for (point, stress) in points.iter().zip(stress) {
-            visit((point.position, point.weight, *stress));
+        let points = gauss_points_of(model, e);
+        for ((weight, position), stress) in points.weights().zip(points.positions()).zip(stress) {
+            visit((*position, weight, *stress));
         }
         return;
     }
@@ -248,7 +244,7 @@ fn quadrature(model: &Model, e: usize, stress: &PointStresses, mut visit: impl F
 fn energies(
     model: &Model,
     e: usize,
-    stress: &PointStresses,
+    stress: &AtPoints,
     patch: &[u32],
     samples: &[Samples],
 ) -> [f64; 2] {

@@ -29,6 +29,7 @@ mod reference;
 mod state;
 mod step_length;
 mod stepping;
+mod stresses;
 mod tangent;
 mod targets;
 mod yield_load;

@@ -11,9 +11,9 @@
 mod tests;
 
 use super::engine::Engine;
-use super::state::ElementState;
-use crate::linalg::multiply;
-use crate::model::{Model, Slot};
+use super::stresses::Stresses;
+use crate::linalg::largest;
+use crate::model::Model;
 use crate::results::{Quality, Tolerances};
 
 /// Share of the largest force or displacement that an elastic state may be off: round-off times any condition that a state is worth
@@ -41,6 +41,10 @@ pub(super) struct Displacements {
     pub total: Vec<f64>,
     /// Without the rigid motions of floating bodies; `None` where there are none.
     deformation: Option<Vec<f64>>,
+    /// Largest `|f - K u|` of the deformation.
+    residual: f64,
+    /// Largest `|f|`.
+    load: f64,
 }
 
 impl Displacements {
@@ -51,51 +55,57 @@ impl Displacements {
 }
 
 impl Engine<'_> {
-    /// Displacements of the current state. Costs one full solve.
+    /// Displacements of the current state. Costs half a full solve and a product with K.
     ///
     /// # Errors
     /// Failure of the backend's solve.
     pub(super) fn displacements(&mut self) -> crate::Result<Displacements> {
         self.refresh();
         let model = self.model;
-        let mut load = self.total_load();
+        let reduced = self.reduced_external(&self.at);
+        let load = self.total_load();
         let mut condensed = self.external(&self.at);
         condensed.add(1.0, &self.now.initial);
-        let amplitudes = self
-            .sub
-            .recover_deformation(&mut load, condensed, &self.slip())?;
+        let (found, amplitudes) =
+            self.sub
+                .recover_deformation(self.system, &load, &reduced, condensed, &self.slip())?;
         self.counts.full_solves += 1;
         self.counts.trailing_solves += 1;
-        if amplitudes.iter().all(|a| *a == 0.0) {
-            return Ok(Displacements {
-                total: load,
-                deformation: None,
-            });
-        }
-        let mut total = load.clone();
-        for (motion, amplitude) in model.floating.motions.iter().zip(&amplitudes) {
-            for &(freedom, value) in &motion.values {
-                total[freedom as usize] += amplitude * value;
+        let mut out = Displacements {
+            total: found.u,
+            deformation: None,
+            residual: found.residual,
+            load: largest(&load),
+        };
+        if amplitudes.iter().any(|a| *a != 0.0) {
+            out.deformation = Some(out.total.clone());
+            for (motion, amplitude) in model.floating.motions.iter().zip(&amplitudes) {
+                for &(freedom, value) in &motion.values {
+                    out.total[freedom as usize] += amplitude * value;
+                }
             }
         }
-        Ok(Displacements {
-            total,
-            deformation: Some(load),
-        })
+        Ok(out)
     }
 
     /// Quality of the current state.
-    pub(super) fn quality(&mut self, u: &Displacements, elements: &[ElementState]) -> Quality {
-        let (internal, reaction) = self.internal_forces(elements);
+    pub(super) fn quality(&mut self, u: &Displacements, stresses: &Stresses) -> Quality {
         let external = self.external_forces();
         let applied = largest(&external);
         self.update_scales();
+        // Reactions measure the load where displacements are prescribed.
+        let reaction = largest(&stresses.reactions);
         self.force_scale = self.force_scale.max(applied).max(reaction);
         self.displacement_scale = self.displacement_scale.max(largest(&u.total));
-        let out_of_balance: Vec<f64> = internal.iter().zip(&external).map(|(i, e)| i - e).collect();
+        let out_of_balance: Vec<f64> = stresses
+            .internal
+            .iter()
+            .zip(&external)
+            .map(|(i, e)| i - e)
+            .collect();
 
         let mut quality = Quality {
-            backward_error: self.backward_error(u.deformation()),
+            backward_error: self.backward_error(u),
             ..Quality::default()
         };
         let n = self.now.force.len();
@@ -131,27 +141,6 @@ impl Engine<'_> {
         quality
     }
 
-    /// Forces of the stresses on the free freedoms, and the largest on a prescribed one.
-    fn internal_forces(&self, elements: &[ElementState]) -> (Vec<f64>, f64) {
-        let model = self.model;
-        let mut internal = vec![0.0; model.freedoms.n];
-        let mut reaction = 0.0f64;
-        for (e, element) in elements.iter().enumerate() {
-            for (i, &node) in model.mesh.nodes(e).iter().enumerate() {
-                for (d, slot) in model.freedoms.slots[node as usize].iter().enumerate() {
-                    let force = element.force[2 * i + d];
-                    match slot {
-                        Slot::Free(f) => internal[*f as usize] += force,
-                        // Reactions measure the load where displacements are prescribed.
-                        Slot::Prescribed(_) => reaction = reaction.max(force.abs()),
-                        Slot::Fixed => {}
-                    }
-                }
-            }
-        }
-        (internal, reaction)
-    }
-
     fn external_forces(&self) -> Vec<f64> {
         let mut external = vec![0.0; self.model.freedoms.n];
         for (load, &factor) in self.model.loads.iter().zip(&self.at.factors) {
@@ -163,38 +152,11 @@ impl Engine<'_> {
     }
 
     /// `|f - K u| / (|K| |u| + |f|)` in infinity norms, `u` and `f` the run's largest.
-    fn backward_error(&self, u: &[f64]) -> f64 {
-        let matrix = &self.system.stiffness;
-        let mut residual = vec![0.0; u.len()];
-        multiply(matrix, u, &mut residual);
-        let load = self.total_load();
-        for (r, f) in residual.iter_mut().zip(&load) {
-            *r -= f;
-        }
-        let mut rows = vec![0.0f64; u.len()];
-        for (j, column) in matrix.outer_iterator().enumerate() {
-            for (i, &a) in column.iter() {
-                rows[i] += a.abs();
-                if i != j {
-                    rows[j] += a.abs();
-                }
-            }
-        }
-        let scale = largest(&rows) * largest(u).max(self.displacement_scale)
-            + largest(&load).max(self.force_scale);
-        ratio(largest(&residual), scale)
+    fn backward_error(&self, u: &Displacements) -> f64 {
+        let size = largest(u.deformation()).max(self.displacement_scale);
+        let scale = self.system.norm * size + u.load.max(self.force_scale);
+        ratio(u.residual, scale)
     }
-}
-
-/// Largest absolute value; NaN where there is one.
-fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0f64, |m, v| {
-        if v.abs() > m || v.is_nan() {
-            v.abs()
-        } else {
-            m
-        }
-    })
 }
 
 fn ratio(value: f64, scale: f64) -> f64 {

@@ -10,7 +10,7 @@
 //! K. Salkauskas, moving least squares (1981), doi:10.1090/S0025-5718-1981-0616367-1.
 
 use super::gather::{GatheredElements, Nodal, Places};
-use crate::assembly::LocalElement;
+use crate::assembly::sampling_points_of;
 use crate::element::shape_functions;
 use crate::material::{Material, Matrix4, stress, von_mises};
 use crate::model::Model;
@@ -84,12 +84,10 @@ impl Recovery {
     pub fn new(model: &Model, elements: &[usize], places: &Places) -> Self {
         let mut positions = Vec::new();
         for &e in elements {
-            let points = LocalElement::samples_of(model, e);
-            positions.extend(points.iter().map(|p| p.position));
+            positions.extend_from_slice(sampling_points_of(model, e).positions());
         }
-        let packed = GatheredElements::new(model, elements, places, |e| {
-            LocalElement::samples_of(model, e)
-        });
+        let packed =
+            GatheredElements::new(model, elements, places, |e| sampling_points_of(model, e));
         let mut first = vec![0];
         let mut neighbours: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for (i, element) in packed.list.iter().enumerate() {

@@ -1,63 +1,40 @@
 //! The state at a target: fields on the whole mesh and figures.
 
 use super::engine::Engine;
-use super::indicator::{Indicator, PointStresses, indicator};
+use super::indicator::{Indicator, indicator};
 use super::measure::pair_states;
-use crate::assembly::local_element;
-use crate::element::{MAX_FREEDOMS, MAX_POINTS};
+use super::stresses::{ElementStress, Stresses};
 use crate::error::Result;
-use crate::material::{PlasticState, stress, von_mises};
 use crate::model::{Magnitude, Model, Slot};
 use crate::results::{Fields, State};
 use crate::scene::History;
-use rayon::prelude::*;
-
-/// Share by which a stress must be beyond yield to count: the accuracy of the equilibrium iteration.
-const BEYOND: f64 = 1e-8;
-
-/// Stress figures and nodal forces of an element.
-pub(super) struct ElementState {
-    /// Forces on the element's freedoms.
-    pub(super) force: [f64; MAX_FREEDOMS],
-    stress: [f64; 4],
-    von_mises: f64,
-    plastic_strain: f64,
-    plastic_points: usize,
-    /// Volume of the Gauss points that have flowed.
-    plastic_volume: f64,
-    /// Stress at the Gauss points.
-    points: PointStresses,
-}
 
 impl Engine<'_> {
-    /// The current state with its quality; fields where asked for. Costs one full solve.
+    /// The current state with its quality; fields where asked for. Costs half a full solve.
     ///
     /// # Errors
     /// Failure of the backend's solve.
     pub fn state(&mut self, name: &str, with_fields: bool) -> Result<State> {
         let displacements = self.displacements()?;
-        let elements = self.element_states(displacements.deformation());
-        self.beyond_yield_outside = self.outside_beyond_yield(&elements);
+        let nodal = self
+            .model
+            .nodal(displacements.deformation(), &self.at.factors);
+        let stresses = Stresses::new(self.model, &self.zone, &self.elements, &nodal, with_fields);
+        self.beyond_yield_outside
+            .clone_from(&stresses.beyond_yield_outside);
         let figures = self.contact_figures();
         let residual_depth = self.residual_depth();
-        let mut by_body = vec![0; self.model.mesh.bodies.len()];
-        let (mut largest, mut plastic_volume) = (0.0f64, 0.0);
-        for (e, element) in elements.iter().enumerate() {
-            plastic_volume += element.plastic_volume;
-            by_body[self.model.mesh.element_body[e] as usize] += element.plastic_points;
-            largest = largest.max(element.plastic_strain);
-        }
-        let quality = self.quality(&displacements, &elements);
+        let quality = self.quality(&displacements, &stresses);
         let u = &displacements.total;
         let arc = figures
             .patch
             .and_then(|patch| contact_arc(self.model, figures.contact, patch));
-        let errors = with_fields.then(|| indicator(self.model, |e| &elements[e].points));
+        let errors = with_fields.then(|| indicator(self.model, |e| &stresses.elements[e].points));
         Ok(State {
             name: name.to_string(),
             alpha: self.at.alpha,
             load: self
-                .reaction(&elements)
+                .reaction(&stresses.reactions)
                 .unwrap_or_else(|| self.total_load_size()),
             contact_force: figures.force * self.model.symmetry,
             max_pressure: figures.max_pressure,
@@ -65,10 +42,10 @@ impl Engine<'_> {
             half_width: figures.half_width,
             contact_arc: arc,
             residual_depth,
-            plastic_points: by_body.iter().sum(),
-            plastic_points_by_body: by_body,
-            max_equivalent_plastic_strain: largest,
-            plastic_zone_size: plastic_volume * self.model.symmetry,
+            plastic_points: stresses.plastic_points.iter().sum(),
+            plastic_points_by_body: stresses.plastic_points,
+            max_equivalent_plastic_strain: stresses.plastic_strain,
+            plastic_zone_size: stresses.plastic_volume * self.model.symmetry,
             energy_error: errors.as_ref().map(|i| i.total),
             approach: self.approach(u),
             pairs: pair_states(
@@ -77,66 +54,14 @@ impl Engine<'_> {
                 &self.contact_forces(),
                 self.tableau.open(),
             ),
-            fields: errors.map(|errors| self.fields(u, &elements, errors)),
+            fields: errors.map(|errors| self.fields(u, &stresses.elements, errors)),
             quality,
         })
     }
 
-    /// Stresses of all elements for displacements of the whole model and the committed history.
-    fn element_states(&self, u: &[f64]) -> Vec<ElementState> {
-        let model = self.model;
-        let elastic: Vec<_> = model.materials.iter().map(|m| m.elastic_matrix()).collect();
-        let mut history: Vec<&[PlasticState]> = vec![&[]; model.mesh.n_elements()];
-        for (element, states) in self.zone.history_by_element() {
-            history[element] = states;
-        }
-        (0..model.mesh.n_elements())
-            .into_par_iter()
-            .with_min_len(256)
-            .map(|e| {
-                let local = local_element(model, e);
-                let mut displacement = [0.0; MAX_FREEDOMS];
-                for (d, slot) in displacement.iter_mut().zip(&local.slots) {
-                    *d = model.freedoms.value(*slot, u, &self.at.factors);
-                }
-                let mut out = ElementState {
-                    force: [0.0; MAX_FREEDOMS],
-                    stress: [0.0; 4],
-                    von_mises: 0.0,
-                    plastic_strain: 0.0,
-                    plastic_points: 0,
-                    plastic_volume: 0.0,
-                    points: [[0.0; 4]; MAX_POINTS],
-                };
-                let volume: f64 = local.points.iter().map(|p| p.weight).sum();
-                for (g, point) in local.points.iter().enumerate() {
-                    let past = history[e].get(g).copied().unwrap_or_default();
-                    let strain = point.strain(&displacement[..local.points.n_freedoms]);
-                    let sigma = stress(
-                        &elastic[model.mesh.element_body[e] as usize],
-                        &strain,
-                        &past.strain,
-                    );
-                    point.add_force(&sigma, &mut out.force);
-                    for (mean, s) in out.stress.iter_mut().zip(sigma) {
-                        *mean += point.weight / volume * s;
-                    }
-                    out.von_mises = out.von_mises.max(von_mises(&sigma));
-                    out.plastic_strain = out.plastic_strain.max(past.equivalent);
-                    out.points[g] = sigma;
-                    if past.equivalent > 0.0 {
-                        out.plastic_points += 1;
-                        out.plastic_volume += point.weight;
-                    }
-                }
-                out
-            })
-            .collect()
-    }
-
     /// Where the loads that vary are prescribed displacements only and nothing touches: the force that holds the first of
     /// them, along its displacement, of the whole.
-    fn reaction(&self, elements: &[ElementState]) -> Option<f64> {
+    fn reaction(&self, reactions: &[f64]) -> Option<f64> {
         let model = self.model;
         let mut varying = model
             .loads
@@ -152,46 +77,24 @@ impl Engine<'_> {
         }
         let (leading, _) = varying.next()?;
         let mut sum = 0.0;
-        for (e, element) in elements.iter().enumerate() {
-            for (i, &node) in model.mesh.nodes(e).iter().enumerate() {
-                for (d, slot) in model.freedoms.slots[node as usize].iter().enumerate() {
-                    if let Slot::Prescribed(p) = slot {
-                        let prescribed = &model.freedoms.prescribed[*p as usize];
-                        if prescribed.load == leading {
-                            sum += element.force[2 * i + d] * prescribed.value.signum();
-                        }
-                    }
-                }
+        for (prescribed, force) in model.freedoms.prescribed.iter().zip(reactions) {
+            if prescribed.load == leading {
+                sum += force * prescribed.value.signum();
             }
         }
         Some(sum * self.at.factors[leading].signum() * model.symmetry)
     }
 
-    /// Elements that may yield, are not in the zone and carry more than the yield stress.
-    fn outside_beyond_yield(&self, elements: &[ElementState]) -> Vec<usize> {
-        let model = self.model;
-        (0..elements.len())
-            .filter(|&e| {
-                let body = model.mesh.element_body[e] as usize;
-                model.may_yield[body]
-                    && elements[e].von_mises > model.materials[body].yield_stress() * (1.0 + BEYOND)
-                    && self.elements.binary_search(&e).is_err()
-            })
-            .collect()
-    }
-
-    fn fields(&self, u: &[f64], elements: &[ElementState], errors: Indicator) -> Fields {
-        let model = self.model;
+    fn fields(&self, u: &[f64], elements: &[ElementStress], errors: Indicator) -> Fields {
+        let nodal = self.model.nodal(u, &self.at.factors);
         Fields {
-            displacement: (0..model.mesh.n_nodes())
-                .flat_map(|node| model.freedoms.displacement(node, u, &self.at.factors))
-                .collect(),
-            stress: elements.iter().flat_map(|e| e.stress).collect(),
+            displacement: nodal.into_iter().flatten().collect(),
+            stress: elements.iter().flat_map(|e| e.mean).collect(),
             von_mises: elements.iter().map(|e| e.von_mises).collect(),
             plastic_strain: elements.iter().map(|e| e.plastic_strain).collect(),
             yielded: elements
                 .iter()
-                .map(|e| u8::from(e.plastic_points > 0))
+                .map(|e| u8::from(e.plastic_strain > 0.0))
                 .collect(),
             error: errors.by_element,
         }

@@ -7,9 +7,9 @@
 //! `J` are the paper's initial loads (4.1); the plastic strains depend on the committed history and on the
 //! total strain at the end of the increment only, so within an increment they are a function of `u`.
 
-use super::gather::{AtPoints, GatheredElements, Nodal, Places};
-use crate::assembly::LocalElement;
-use crate::element::{MAX_FREEDOMS, n_gauss_points};
+use super::gather::{GatheredElements, Nodal, Places};
+use crate::assembly::gauss_points_of;
+use crate::element::{AtPoints, MAX_FREEDOMS, n_gauss_points};
 use crate::material::{Material, Matrix4, PlasticState, multiply};
 use crate::model::Model;
 use crate::substructure::Trailing;
@@ -57,9 +57,8 @@ impl Zone {
     /// Sets up the zone of the given elements (ascending); `guard` says which of them only watch. The free freedoms of
     /// the elements must be zone or contact freedoms.
     pub fn new(model: &Model, elements: &[usize], guard: &[bool], places: &Places) -> Self {
-        let elements = GatheredElements::new(model, elements, places, |e| {
-            LocalElement::points_of(model, e)
-        });
+        let elements =
+            GatheredElements::new(model, elements, places, |e| gauss_points_of(model, e));
         let n = elements.list.len();
         // That of the mesh, not of these elements: histories pass from zone to zone.
         let shapes = model.mesh.shapes.iter();
@@ -240,15 +239,6 @@ impl Zone {
         self.renew_base();
     }
 
-    /// History by element of the mesh.
-    pub fn history_by_element(&self) -> impl Iterator<Item = (usize, &[PlasticState])> {
-        self.elements
-            .list
-            .iter()
-            .enumerate()
-            .map(|(i, e)| (e.element as usize, &self.committed[self.points_of(i)]))
-    }
-
     /// Initial loads of the committed plastic strains.
     pub fn initial_load(&self, mut out: Trailing) -> Trailing {
         out.copy_from(&self.base);
@@ -272,6 +262,11 @@ impl Zone {
             elements.scatter(i, &elements.forces(i, &stress), sums);
         }
         self.sums.sum_into(&mut self.base);
+    }
+
+    /// History of the zone's element `i`.
+    pub fn states(&self, i: usize) -> &[PlasticState] {
+        &self.committed[self.points_of(i)]
     }
 
     fn points_of(&self, i: usize) -> std::ops::Range<usize> {

@@ -5,8 +5,7 @@
 //! watches, and when it flows the zone grows.
 
 use super::engine::Engine;
-use crate::assembly::LocalElement;
-use crate::element::MAX_FREEDOMS;
+use crate::assembly::sampling_points_of;
 use crate::error::Result;
 use crate::material::{stress, von_mises};
 use crate::model::{Model, Slot};
@@ -211,38 +210,27 @@ pub fn stress_ratios(model: &Model, u: &[f64], factors: &[f64]) -> Vec<f64> {
                 return 0.0;
             }
             let body = model.mesh.element_body[e] as usize;
-            let local = LocalElement::sampled(model, e);
-            let mut displacement = [0.0; MAX_FREEDOMS];
-            for (d, slot) in displacement.iter_mut().zip(&local.slots) {
-                *d = model.freedoms.value(*slot, u, factors);
-            }
+            let points = sampling_points_of(model, e);
+            let strains = points.strains(&model.element_displacement(e, u, factors));
             let y = model.materials[body].yield_stress();
-            local
-                .points
+            strains[..points.len()]
                 .iter()
-                .map(|p| {
-                    von_mises(&stress(
-                        &elastic[body],
-                        &p.strain(&displacement[..local.points.n_freedoms]),
-                        &[0.0; 4],
-                    )) / y
-                })
+                .map(|strain| von_mises(&stress(&elastic[body], strain, &[0.0; 4])) / y)
                 .fold(0.0, f64::max)
         })
         .collect()
 }
 
 impl Engine<'_> {
-    /// Displacements of the whole model for the current state: one full solve.
+    /// Displacements of the whole model for the current state: half a full solve.
     ///
     /// # Errors
     /// Failure of the backend's solve.
     pub fn all_displacements(&mut self) -> Result<Vec<f64>> {
         self.refresh();
-        let mut load = self.total_load();
-        self.sub.recover_all(&mut load, &self.now.u.contact)?;
+        let reduced = self.reduced_external(&self.at);
         self.counts.full_solves += 1;
-        Ok(load)
+        self.sub.recover_all(&reduced, &self.now.u)
     }
 
     /// Applied loads, contact forces and initial loads on all freedoms.

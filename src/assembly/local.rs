@@ -1,57 +1,43 @@
-//! An element in the local axes of its nodes.
+//! The points of a model's elements, and element matrices in the local axes of their nodes.
 
-use crate::element::{MAX_FREEDOMS, Points, gauss_points, sampling};
-use crate::model::{Model, Slot};
+use crate::element::{Points, gauss_points, packed, sampling};
+use crate::model::Model;
 
-/// An element's Gauss points with B acting on its nodes' local freedoms, and what stands in each of them.
-#[derive(Debug, Clone, Copy)]
-pub struct LocalElement {
-    /// Gauss points; columns of B in local axes.
-    pub points: Points,
-    /// Slot of each element freedom.
-    pub slots: [Slot; MAX_FREEDOMS],
-}
-
-/// The element at its Gauss points.
-pub fn local_element(model: &Model, element: usize) -> LocalElement {
+/// The Gauss points of an element.
+pub fn gauss_points_of(model: &Model, element: usize) -> Points {
     let x = model.element_coordinates(element);
-    let shape = model.mesh.shapes[element];
-    turned(model, element, gauss_points(model.kind, shape, &x))
+    gauss_points(model.kind, model.mesh.shapes[element], &x)
 }
 
-impl LocalElement {
-    /// Gauss points of an element in global axes.
-    pub fn points_of(model: &Model, element: usize) -> Points {
-        let x = model.element_coordinates(element);
-        gauss_points(model.kind, model.mesh.shapes[element], &x)
-    }
-
-    /// The points of an element where stress is most accurate, in global axes.
-    pub fn samples_of(model: &Model, element: usize) -> Points {
-        let x = model.element_coordinates(element);
-        sampling(model.kind, model.mesh.shapes[element], &x)
-    }
-
-    /// The element at the points where stress is most accurate.
-    pub fn sampled(model: &Model, element: usize) -> Self {
-        let x = model.element_coordinates(element);
-        turned(
-            model,
-            element,
-            sampling(model.kind, model.mesh.shapes[element], &x),
-        )
-    }
+/// The points of an element where stress is most accurate.
+pub fn sampling_points_of(model: &Model, element: usize) -> Points {
+    let x = model.element_coordinates(element);
+    sampling(model.kind, model.mesh.shapes[element], &x)
 }
 
-fn turned(model: &Model, element: usize, mut points: Points) -> LocalElement {
-    let mut slots = [Slot::Fixed; MAX_FREEDOMS];
-    for (i, &node) in model.mesh.nodes(element).iter().enumerate() {
-        let node = node as usize;
-        slots[2 * i..2 * i + 2].copy_from_slice(&model.freedoms.slots[node]);
-        let [a, b] = model.freedoms.local(node);
-        if a != [1.0, 0.0] {
-            points.turn(i, a, b);
+/// Turns an element's stiffness (packed lower triangle in global axes) into the local axes of its nodes:
+/// `K <- R' K R`, the columns of `R` the axes.
+pub(super) fn turn_stiffness(model: &Model, element: usize, stiffness: &mut [f64]) {
+    let nodes = model.mesh.nodes(element);
+    for (i, &node) in nodes.iter().enumerate() {
+        let [a, b] = model.freedoms.local(node as usize);
+        if a == [1.0, 0.0] {
+            continue;
         }
+        let (x, y) = (2 * i, 2 * i + 1);
+        for k in (0..2 * nodes.len()).filter(|k| *k != x && *k != y) {
+            let (at_x, at_y) = (packed(x, k), packed(y, k));
+            let (along_x, along_y) = (stiffness[at_x], stiffness[at_y]);
+            stiffness[at_x] = a[0] * along_x + a[1] * along_y;
+            stiffness[at_y] = b[0] * along_x + b[1] * along_y;
+        }
+        let at = [packed(x, x), packed(x, y), packed(y, y)];
+        let [xx, xy, yy] = at.map(|at| stiffness[at]);
+        let product = |p: [f64; 2], q: [f64; 2]| {
+            p[0] * (xx * q[0] + xy * q[1]) + p[1] * (xy * q[0] + yy * q[1])
+        };
+        stiffness[at[0]] = product(a, a);
+        stiffness[at[1]] = product(a, b);
+        stiffness[at[2]] = product(b, b);
     }
-    LocalElement { points, slots }
 }

@@ -7,12 +7,12 @@
 mod local;
 mod pattern;
 
-pub use local::{LocalElement, local_element};
+pub use local::{gauss_points_of, sampling_points_of};
 pub use pattern::Incidence;
 
-use crate::element::{MAX_FREEDOMS, stiffness_into};
+use crate::element::packed;
 use crate::error::Result;
-use crate::linalg::SymmetricCsc;
+use crate::linalg::{self, SymmetricCsc};
 use crate::model::{Model, Slot};
 use rayon::prelude::*;
 
@@ -21,6 +21,8 @@ use rayon::prelude::*;
 pub struct System {
     /// Upper triangle of the elastic stiffness, `n x n`.
     pub stiffness: SymmetricCsc,
+    /// Its infinity norm.
+    pub norm: f64,
     /// Load vector of each load at factor 1 (`n` each); those of prescribed displacements are `-K_fp u_p`.
     pub loads: Vec<Vec<f64>>,
 }
@@ -75,13 +77,11 @@ pub fn assemble(model: &Model) -> Result<System> {
         });
     let n = model.freedoms.n;
     let stiffness = SymmetricCsc::new_csc((n, n), pointers, rows, values);
-    Ok(System { stiffness, loads })
-}
-
-/// Position of (i, j) in the packed lower triangle of a symmetric matrix.
-fn packed(i: usize, j: usize) -> usize {
-    let (high, low) = if i >= j { (i, j) } else { (j, i) };
-    high * (high + 1) / 2 + low
+    Ok(System {
+        norm: linalg::norm(&stiffness),
+        stiffness,
+        loads,
+    })
 }
 
 /// All element stiffness matrices in local axes, packed lower triangles.
@@ -113,19 +113,9 @@ impl ElementMatrices {
             .enumerate()
             .with_min_len(256)
             .for_each(|(e, block)| {
-                let element = local_element(model, e);
-                let n = element.points.n_freedoms;
-                let mut full = [0.0; MAX_FREEDOMS * MAX_FREEDOMS];
-                stiffness_into(
-                    &element.points,
-                    &elastic[model.mesh.element_body[e] as usize],
-                    &mut full,
-                );
-                for i in 0..n {
-                    for j in 0..=i {
-                        block[packed(i, j)] = full[i * n + j];
-                    }
-                }
+                let elastic = &elastic[model.mesh.element_body[e] as usize];
+                gauss_points_of(model, e).stiffness_into(elastic, block);
+                local::turn_stiffness(model, e, block);
             });
         ElementMatrices { offsets, values }
     }

@@ -436,9 +436,9 @@ pub unsafe extern "C" fn brinell_structure_displacements(
                 backward_error.as_mut(),
             )
         };
-        s.structure.displacements(u)?;
+        let backward_error = s.structure.displacements(u)?;
         if let Some(error) = error {
-            *error = s.structure.backward_error();
+            *error = backward_error;
         }
         Ok(())
     })

@@ -31,6 +31,10 @@ pub enum PathEnd {
 
 /// Gaps below this share of the largest, forces below this share of the largest, count as zero when ties are collected.
 const TIE: f64 = 1e-10;
+/// Share of these by which a pair may be beyond its condition at the end of a piece: round-off of an event that is due there.
+const AT_END: f64 = 1e-2;
+/// The same for the last pair that holds a body, as a share of its force at the begin.
+const LAST: f64 = 1e-7;
 
 /// Gaps and forces on a piece of the load path.
 #[derive(Debug, Clone)]
@@ -147,28 +151,33 @@ impl Path {
         Ok(())
     }
 
-    /// Goes on to `end` or to the next change of contact, whichever comes first. A change exactly at the end counts
+    /// Goes on to `end` or to the next change of contact, whichever comes first. A change at the end, within round-off, counts
     /// as the end.
     pub fn advance(&mut self, tableau: &Tableau, end: f64) -> PathEnd {
         let room = end - self.t;
         let mut step = room;
         let mut first = None;
+        let (zero_gap, zero_force) = self.zero(tableau);
         for k in 0..tableau.len() {
             let (value, rate) = self.value_and_rate(tableau, k);
             if rate < 0.0 && value + step * rate < 0.0 {
-                step = value / -rate;
-                first = Some(k);
+                let at_end = if tableau.open()[k] {
+                    AT_END * zero_gap
+                } else if tableau.would_free(k) {
+                    // The last pair that holds a body cannot open: unloaded to nothing its force vanishes near the end.
+                    LAST * value
+                } else {
+                    AT_END * zero_force
+                };
+                if value + room * rate < -at_end {
+                    step = value / -rate;
+                    first = Some(k);
+                }
             }
         }
         self.t = if first.is_some() { self.t + step } else { end };
         self.state_at(tableau, self.t);
-        // The last pair that holds a body cannot open: unloaded to nothing its force vanishes within round-off of the end.
-        let at_end = match first {
-            Some(k) if tableau.would_free(k) => 1.0 - 1e-7,
-            _ => 1.0 - 1e-14,
-        };
-        if first.is_none() || step >= room * at_end {
-            self.t = end;
+        if first.is_none() {
             return PathEnd::Target;
         }
         if let Some(k) = first {

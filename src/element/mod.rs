@@ -8,14 +8,17 @@
 //! plastic flow. `tri3` does.
 
 mod facet;
+mod operator;
 mod shape_functions;
 
 pub use facet::{FacetPoint, facet_points};
+pub use operator::{AtPoints, Form, packed};
 pub use shape_functions::shape_functions;
 
 use crate::material::Matrix4;
 use crate::mesh::Shape;
 use crate::scene::Kind;
+use operator::MAX_VALUES;
 
 /// Most nodes of an element.
 pub const MAX_NODES: usize = 8;
@@ -24,55 +27,65 @@ pub const MAX_POINTS: usize = 4;
 /// Most freedoms of an element.
 pub const MAX_FREEDOMS: usize = 2 * MAX_NODES;
 
-/// Strain-displacement matrix at a Gauss point, with the weight of the point.
-#[derive(Debug, Clone, Copy)]
-pub struct GaussPoint {
-    /// `4 x n_freedoms`.
-    pub b: [[f64; MAX_FREEDOMS]; 4],
-    /// Quadrature weight times Jacobian times thickness (1) or circumference (2 pi r).
-    pub weight: f64,
-    /// Coordinates.
-    pub position: [f64; 2],
-}
-
-const EMPTY: GaussPoint = GaussPoint {
-    b: [[0.0; MAX_FREEDOMS]; 4],
-    weight: 0.0,
-    position: [0.0; 2],
-};
-
-/// The Gauss points of an element.
+/// Points of an element with the strain operator at them, in global axes.
 #[derive(Debug, Clone, Copy)]
 pub struct Points {
-    points: [GaussPoint; MAX_POINTS],
-    n_points: usize,
-    /// Number of freedoms of the element.
-    pub n_freedoms: usize,
+    form: Form,
+    values: [f64; MAX_VALUES],
+    positions: [[f64; 2]; MAX_POINTS],
 }
 
 impl Points {
-    /// Lets the columns of B of a node act on displacements along the unit vectors `a` and `b`.
-    pub fn turn(&mut self, node: usize, a: [f64; 2], b: [f64; 2]) {
-        for point in &mut self.points[..self.n_points] {
-            for row in &mut point.b {
-                let (x, y) = (row[2 * node], row[2 * node + 1]);
-                row[2 * node] = x * a[0] + y * a[1];
-                row[2 * node + 1] = x * b[0] + y * b[1];
-            }
-        }
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        usize::from(self.form.n_points)
     }
-}
 
-impl std::ops::Deref for Points {
-    type Target = [GaussPoint];
-    fn deref(&self) -> &[GaussPoint] {
-        &self.points[..self.n_points]
+    /// Never: every element has a point.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
     }
-}
 
-/// Number of Gauss points of a shape.
-pub fn n_points(shape: Shape) -> usize {
-    rule(shape).len()
+    /// Number of freedoms of the element.
+    pub fn n_freedoms(&self) -> usize {
+        2 * usize::from(self.form.n_nodes)
+    }
+
+    /// What stands in [`Points::values`].
+    pub fn form(&self) -> Form {
+        self.form
+    }
+
+    /// The numbers of the operator.
+    pub fn values(&self) -> &[f64] {
+        &self.values[..self.form.n_values()]
+    }
+
+    /// Coordinates of the points.
+    pub fn positions(&self) -> &[[f64; 2]] {
+        &self.positions[..self.len()]
+    }
+
+    /// Weights of the points: quadrature weight times Jacobian times thickness (1) or circumference (2 pi r).
+    pub fn weights(&self) -> impl Iterator<Item = f64> {
+        let stride = self.form.stride();
+        (0..self.len()).map(move |g| self.values[g * stride])
+    }
+
+    /// `eps = B u_e` at all points.
+    pub fn strains(&self, u: &[f64; MAX_FREEDOMS]) -> AtPoints {
+        self.form.strains(&self.values, u)
+    }
+
+    /// `f_e = sum_g w_g B' sigma`.
+    pub fn forces(&self, stress: &AtPoints) -> [f64; MAX_FREEDOMS] {
+        self.form.forces(&self.values, stress)
+    }
+
+    /// `K_e` for an isotropic elastic matrix, packed lower triangle ([`packed`]).
+    pub fn stiffness_into(&self, elastic: &Matrix4, out: &mut [f64]) {
+        self.form.stiffness_into(&self.values, elastic, out);
+    }
 }
 
 /// Gauss rule: reference coordinates and weight.
@@ -108,22 +121,22 @@ pub fn n_gauss_points(shape: Shape) -> usize {
     rule(shape).len()
 }
 
-/// Strain-displacement matrices at the Gauss points.
+/// The Gauss points of an element.
 pub fn gauss_points(kind: Kind, shape: Shape, coordinates: &[[f64; 2]]) -> Points {
     let mut out = at_points(kind, shape, coordinates, rule(shape));
-    if shape == Shape::Quad4 && kind != Kind::PlaneStress {
-        mean_dilatation(&mut out);
+    if out.form.has_mean {
+        let mean = mean_dilatation(&out);
+        out.set_mean(&mean);
     }
     out
 }
 
-/// Strain-displacement matrices at the sampling points, with the same treatment of the dilatation.
+/// The points at which stress is most accurate, with the same treatment of the dilatation.
 pub fn sampling(kind: Kind, shape: Shape, coordinates: &[[f64; 2]]) -> Points {
-    let points = sampling_points(shape);
-    let mut out = at_points(kind, shape, coordinates, points);
-    if shape == Shape::Quad4 && kind != Kind::PlaneStress {
-        let mean = mean_volume_row(&at_points(kind, shape, coordinates, rule(shape)));
-        replace_dilatation(&mut out, &mean);
+    let mut out = at_points(kind, shape, coordinates, sampling_points(shape));
+    if out.form.has_mean {
+        let mean = mean_dilatation(&at_points(kind, shape, coordinates, rule(shape)));
+        out.set_mean(&mean);
     }
     out
 }
@@ -135,12 +148,19 @@ fn at_points(
     rule: &[([f64; 2], f64)],
 ) -> Points {
     let n = shape.n_nodes();
-    let mut out = Points {
-        points: [EMPTY; MAX_POINTS],
-        n_points: rule.len(),
-        n_freedoms: 2 * n,
+    let form = Form {
+        n_nodes: n as u8,
+        n_points: rule.len() as u8,
+        is_axisymmetric: kind == Kind::Axisymmetric,
+        has_mean: shape == Shape::Quad4 && kind != Kind::PlaneStress,
     };
-    for (point, (reference, weight)) in out.points.iter_mut().zip(rule) {
+    let mut out = Points {
+        form,
+        values: [0.0; MAX_VALUES],
+        positions: [[0.0; 2]; MAX_POINTS],
+    };
+    let points = out.values.chunks_exact_mut(form.stride());
+    for ((point, position), (reference, weight)) in points.zip(&mut out.positions).zip(rule) {
         let (values, gradients) = shape_functions(shape, *reference);
         let mut x = [0.0; 2];
         let mut jacobian = [[0.0; 2]; 2];
@@ -152,103 +172,48 @@ fn at_points(
             }
         }
         let determinant = jacobian[0][0] * jacobian[1][1] - jacobian[0][1] * jacobian[1][0];
-        for i in 0..n {
-            let [a, b] = gradients[i];
-            let dx = (jacobian[1][1] * a - jacobian[0][1] * b) / determinant;
-            let dy = (jacobian[0][0] * b - jacobian[1][0] * a) / determinant;
-            point.b[0][2 * i] = dx;
-            point.b[1][2 * i + 1] = dy;
-            point.b[3][2 * i] = dy;
-            point.b[3][2 * i + 1] = dx;
-            if kind == Kind::Axisymmetric {
-                point.b[2][2 * i] = values[i] / x[0];
+        for (i, [a, b]) in gradients.into_iter().enumerate().take(n) {
+            point[1 + i] = (jacobian[1][1] * a - jacobian[0][1] * b) / determinant;
+            point[1 + n + i] = (jacobian[0][0] * b - jacobian[1][0] * a) / determinant;
+        }
+        point[0] = weight * determinant;
+        if form.is_axisymmetric {
+            point[0] *= 2.0 * std::f64::consts::PI * x[0];
+            for (r, value) in point[1 + 2 * n..].iter_mut().zip(values) {
+                *r = value / x[0];
             }
         }
-        point.position = x;
-        point.weight = weight * determinant;
-        if kind == Kind::Axisymmetric {
-            point.weight *= 2.0 * std::f64::consts::PI * x[0];
-        }
+        *position = x;
     }
     out
 }
 
-fn mean_volume_row(points: &Points) -> [f64; MAX_FREEDOMS] {
+/// B-bar: the mean over the element of `tr B`, `m_x` of all nodes, then `m_y`.
+///
+/// # Source
+/// T. J. R. Hughes, *The Finite Element Method* (1987), section 4.5.
+fn mean_dilatation(points: &Points) -> [f64; MAX_FREEDOMS] {
+    let (form, n) = (points.form, usize::from(points.form.n_nodes));
     let mut mean = [0.0; MAX_FREEDOMS];
     let mut volume = 0.0;
-    for point in points.iter() {
-        volume += point.weight;
-        for (k, m) in mean.iter_mut().enumerate().take(points.n_freedoms) {
-            *m += point.weight * (point.b[0][k] + point.b[1][k] + point.b[2][k]);
+    for point in points.values.chunks_exact(form.stride()).take(points.len()) {
+        volume += point[0];
+        for (m, gradient) in mean.iter_mut().zip(&point[1..=2 * n]) {
+            *m += point[0] * gradient;
+        }
+        if form.is_axisymmetric {
+            for (m, r) in mean.iter_mut().zip(&point[1 + 2 * n..]) {
+                *m += point[0] * r;
+            }
         }
     }
     mean.map(|m| m / volume)
 }
 
-fn replace_dilatation(points: &mut Points, mean: &[f64; MAX_FREEDOMS]) {
-    let n = points.n_points;
-    for point in &mut points.points[..n] {
-        for k in 0..points.n_freedoms {
-            let change = (mean[k] - (point.b[0][k] + point.b[1][k] + point.b[2][k])) / 3.0;
-            for row in 0..3 {
-                point.b[row][k] += change;
-            }
-        }
-    }
-}
-
-/// B-bar: the dilatation is replaced by its mean over the element.
-///
-/// # Source
-/// T. J. R. Hughes, *The Finite Element Method* (1987), section 4.5.
-fn mean_dilatation(points: &mut Points) {
-    let mean = mean_volume_row(points);
-    replace_dilatation(points, &mean);
-}
-
-/// `K_e`, row-major `n x n` with `n = n_freedoms`, into the front of `out`.
-pub fn stiffness_into(points: &Points, elastic: &Matrix4, out: &mut [f64]) {
-    let n = points.n_freedoms;
-    out[..n * n].fill(0.0);
-    for point in points.iter() {
-        let mut db = [[0.0; MAX_FREEDOMS]; 4];
-        for i in 0..4 {
-            for j in 0..4 {
-                let d = elastic[i][j] * point.weight;
-                if d != 0.0 {
-                    for k in 0..n {
-                        db[i][k] += d * point.b[j][k];
-                    }
-                }
-            }
-        }
-        for r in 0..n {
-            for i in 0..4 {
-                let b = point.b[i][r];
-                if b != 0.0 {
-                    for k in 0..n {
-                        out[r * n + k] += b * db[i][k];
-                    }
-                }
-            }
-        }
-    }
-}
-
-impl GaussPoint {
-    /// `eps = B u_e`.
-    pub fn strain(&self, displacement: &[f64]) -> [f64; 4] {
-        std::array::from_fn(|i| self.b[i].iter().zip(displacement).map(|(b, u)| b * u).sum())
-    }
-
-    /// Adds `w B' sigma` to an element vector.
-    pub fn add_force(&self, stress: &[f64; 4], out: &mut [f64]) {
-        for i in 0..4 {
-            let s = self.weight * stress[i];
-            for (f, b) in out.iter_mut().zip(&self.b[i]) {
-                *f += b * s;
-            }
-        }
+impl Points {
+    fn set_mean(&mut self, mean: &[f64; MAX_FREEDOMS]) {
+        let (start, n) = (self.form.mean_at(), self.n_freedoms());
+        self.values[start..start + n].copy_from_slice(&mean[..n]);
     }
 }
 

@@ -14,7 +14,6 @@
 
 use super::*;
 use nalgebra::DVector;
-use std::sync::{Mutex, PoisonError};
 
 /// The largest model that this backend takes: 6000 freedoms need 0.6 GB and about ten seconds.
 pub const LARGEST: usize = 6000;
@@ -25,14 +24,12 @@ pub struct DenseCondensed {
     interior: Vec<usize>,
     /// `K`, both triangles, all freedoms.
     matrix: DMatrix<f64>,
-    norm: f64,
     /// Lower factor of `K_ii`.
     factor_ii: DMatrix<f64>,
     /// Lower factor of `S_zz`.
     factor_zz: DMatrix<f64>,
     s_cz: DMatrix<f64>,
     contact_stiffness: DMatrix<f64>,
-    backward_error: Mutex<f64>,
     weakest: Pivot,
 }
 
@@ -81,20 +78,14 @@ impl DenseCondensed {
             k[(contact[j], contact[j])] + shift.get(j).copied().unwrap_or(0.0)
         })?;
 
-        let norm = k
-            .row_iter()
-            .map(|row| row.iter().map(|a| a.abs()).sum())
-            .fold(0.0, f64::max);
         Ok(DenseCondensed {
             partition: partition.clone(),
             interior,
             matrix: k,
-            norm,
             factor_ii,
             factor_zz,
             s_cz,
             contact_stiffness: c,
-            backward_error: Mutex::new(0.0),
             weakest: pivots.weakest,
         })
     }
@@ -119,24 +110,6 @@ impl DenseCondensed {
         self.factor_zz.solve_lower_triangular_mut(&mut b);
         self.factor_zz.tr_solve_lower_triangular_mut(&mut b);
         b
-    }
-
-    /// `u` with `K u = b` in the interior and the zone, and `u_c` as given.
-    fn solve(&self, b: &DVector<f64>, u_c: &DVector<f64>) -> DVector<f64> {
-        let (f_z, _) = self.condensed(b);
-        let u_z = self.solve_zz(f_z - self.s_cz.tr_mul(u_c));
-        let Partition { zone, contact, .. } = &self.partition;
-        let f_i = pick(b, &self.interior)
-            - block(&self.matrix, &self.interior, zone) * &u_z
-            - block(&self.matrix, &self.interior, contact) * u_c;
-        let u_i = self.solve_ii(f_i);
-        let mut u = DVector::zeros(b.len());
-        for (list, part) in [(&self.interior, &u_i), (zone, &u_z), (contact, u_c)] {
-            for (&freedom, &value) in list.iter().zip(part) {
-                u[freedom] = value;
-            }
-        }
-        u
     }
 }
 
@@ -178,37 +151,28 @@ impl Condensed for DenseCondensed {
         zone.copy_from_slice(u_z.as_slice());
     }
 
-    fn recover_all(&self, x: &mut [f64], u_contact: &[f64]) -> Result<()> {
-        let n_contact = self.partition.contact.len();
-        check::length("load", x.len(), self.partition.n)?;
-        check::length("contact displacement", u_contact.len(), n_contact)?;
-        let load = DVector::from_column_slice(x);
-        let mut u = self.solve(&load, &DVector::from_column_slice(u_contact));
-        let error = |u: &DVector<f64>, r: &DVector<f64>| {
-            super::backward_error(self.norm, load.as_slice(), u.as_slice(), r.as_slice())
-        };
-        let residual = &load - &self.matrix * &u;
-        let mut backward_error = error(&u, &residual);
-        // The contact displacements are given: the step leaves them alone.
-        let refined = &u + self.solve(&residual, &DVector::zeros(n_contact));
-        let refined_error = error(&refined, &(&load - &self.matrix * &refined));
-        if refined_error < backward_error {
-            u = refined;
-            backward_error = refined_error;
+    fn recover_all(&self, load: &[f64], zone: &[f64], contact: &[f64]) -> Result<Vec<f64>> {
+        let partition = &self.partition;
+        check::length("reduced load", load.len(), partition.n)?;
+        check::length("zone displacement", zone.len(), partition.zone.len())?;
+        check::length(
+            "contact displacement",
+            contact.len(),
+            partition.contact.len(),
+        )?;
+        let given = [(&partition.zone, zone), (&partition.contact, contact)];
+        let mut f_i = pick(&DVector::from_column_slice(load), &self.interior);
+        for (list, u) in given {
+            f_i -= block(&self.matrix, &self.interior, list) * DVector::from_column_slice(u);
         }
-        x.copy_from_slice(u.as_slice());
-        *self
-            .backward_error
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner) = backward_error;
-        Ok(())
-    }
-
-    fn backward_error(&self) -> f64 {
-        *self
-            .backward_error
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
+        let u_i = self.solve_ii(f_i);
+        let mut u = vec![0.0; partition.n];
+        for (list, part) in given.into_iter().chain([(&self.interior, u_i.as_slice())]) {
+            for (&freedom, &value) in list.iter().zip(part) {
+                u[freedom] = value;
+            }
+        }
+        Ok(u)
     }
 
     fn cost(&self) -> Prediction {

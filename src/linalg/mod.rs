@@ -21,8 +21,12 @@ mod check;
 #[cfg(feature = "cholmod")]
 pub mod cholmod;
 pub mod dense;
+mod residual;
 #[cfg(test)]
 mod tests;
+
+pub(crate) use residual::largest;
+pub use residual::{Recovered, multiply, norm, recover_refined};
 
 use crate::error::{Error, Result};
 use nalgebra::DMatrix;
@@ -71,7 +75,8 @@ pub trait Condensed: Send + Sync {
     /// `Analysis` where the memory does not suffice.
     fn choose_zone(&mut self, wanted: &[usize]) -> Result<Option<Vec<usize>>>;
 
-    /// Reduces a load on all freedoms (`n`) to what [`Condensed::condense_load`] needs of it for whichever zone is chosen.
+    /// Reduces a load on all freedoms (`n`) to what [`Condensed::condense_load`] and [`Condensed::recover_all`] need of it
+    /// for whichever zone is chosen, linear in the load (`n`).
     /// Costs about half a full solve.
     ///
     /// # Errors
@@ -93,18 +98,12 @@ pub trait Condensed: Send + Sync {
     /// `u_z = S_zz^-1 (f_z - S_zc u_c)`.
     fn recover_zone(&self, zone: &mut [f64], u_contact: &[f64]);
 
-    /// All freedoms for a load that includes the contact forces, given the contact displacements:
-    /// on entry `x` is the load (`n`), on return the solution `u` of `K u = load`. One full solve; a
-    /// step of iterative refinement is taken where it lowers the residual. Where `u_contact` does not belong to
-    /// the load, [`Condensed::backward_error`] says by how much.
+    /// All freedoms for a reduced load, given the displacements of zone and contact freedoms (loads on these have no part
+    /// in it): `u_i = K_ii^-1 (load_i - K_it u_t)`. Costs about half a full solve.
     ///
     /// # Errors
     /// `Analysis` where the memory does not suffice, `Internal` where a vector has the wrong length.
-    fn recover_all(&self, x: &mut [f64], u_contact: &[f64]) -> Result<()>;
-
-    /// Normwise backward error of the last [`Condensed::recover_all`]:
-    /// `|K u - f| / (|K| |u| + |f|)`, infinity norms.
-    fn backward_error(&self) -> f64;
+    fn recover_all(&self, reduced: &[f64], zone: &[f64], contact: &[f64]) -> Result<Vec<f64>>;
 
     /// What the factorisation cost (the same figures that were predicted).
     fn cost(&self) -> Prediction;
@@ -240,40 +239,6 @@ impl std::error::Error for NotDefinite {}
 impl From<NotDefinite> for Error {
     fn from(cause: NotDefinite) -> Self {
         Error::internal(cause.to_string()).because(cause)
-    }
-}
-
-/// `|r| / (norm_k |u| + |f|)` in infinity norms; zero where all are zero, NaN where one is.
-fn backward_error(norm_k: f64, f: &[f64], u: &[f64], r: &[f64]) -> f64 {
-    let largest = |v: &[f64]| {
-        v.iter().fold(0.0, |largest: f64, x| {
-            if x.abs() > largest || x.is_nan() {
-                x.abs()
-            } else {
-                largest
-            }
-        })
-    };
-    let (residual, scale) = (largest(r), norm_k * largest(u) + largest(f));
-    if residual == 0.0 {
-        0.0
-    } else {
-        residual / scale
-    }
-}
-
-/// `y = K x` for the stored upper triangle.
-pub fn multiply(matrix: &SymmetricCsc, x: &[f64], y: &mut [f64]) {
-    y.fill(0.0);
-    for (j, column) in matrix.outer_iterator().enumerate() {
-        let mut sum = 0.0;
-        for (i, &a) in column.iter() {
-            sum += a * x[i];
-            if i != j {
-                y[i] += a * x[j];
-            }
-        }
-        y[j] += sum;
     }
 }
 

@@ -226,6 +226,11 @@ impl Freedoms {
         [a, [-a[1], a[0]]]
     }
 
+    /// A vector at a node, given in global axes, in the local ones.
+    pub fn to_local(&self, node: usize, [x, y]: [f64; 2]) -> [f64; 2] {
+        self.local(node).map(|axis| axis[0] * x + axis[1] * y)
+    }
+
     /// Which local axis lies along a global direction (either sense), if one does.
     pub fn local_axis(&self, node: usize, direction: usize) -> Option<usize> {
         let axes = self.local(node);

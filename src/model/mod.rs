@@ -114,6 +114,28 @@ impl Model {
         out
     }
 
+    /// Displacements of an element's nodes in global axes, `[u_x0, u_y0, u_x1, ...]`, from free freedoms and load factors.
+    pub fn element_displacement(
+        &self,
+        element: usize,
+        u: &[f64],
+        factors: &[f64],
+    ) -> [f64; crate::element::MAX_FREEDOMS] {
+        let mut out = [0.0; crate::element::MAX_FREEDOMS];
+        for (pair, &node) in out.chunks_exact_mut(2).zip(self.mesh.nodes(element)) {
+            pair.copy_from_slice(&self.freedoms.displacement(node as usize, u, factors));
+        }
+        out
+    }
+
+    /// Displacements of all nodes in global axes, from free freedoms and load factors.
+    pub fn nodal(&self, u: &[f64], factors: &[f64]) -> Vec<[f64; 2]> {
+        let nodes = 0..self.mesh.n_nodes();
+        nodes
+            .map(|node| self.freedoms.displacement(node, u, factors))
+            .collect()
+    }
+
     /// Material of an element.
     pub fn material(&self, element: usize) -> &Material {
         &self.materials[self.mesh.element_body[element] as usize]

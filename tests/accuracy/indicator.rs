@@ -2,7 +2,7 @@
 
 use crate::running;
 use brinell::analytical::{Plane, ThickCylinder};
-use brinell::element::{gauss_points, shape_functions};
+use brinell::element::{MAX_FREEDOMS, gauss_points, shape_functions};
 use brinell::material::multiply;
 use brinell::mesh::Shape;
 use brinell::model::Model;
@@ -32,18 +32,17 @@ fn points(model: &Model, e: usize, displacement: &[f64]) -> Vec<([f64; 2], f64, 
     let elastic = model.materials[0].elastic_matrix();
     let (shape, x) = (model.mesh.shapes[e], model.element_coordinates(e));
     let nodes = model.mesh.nodes(e);
-    let local: Vec<f64> = nodes
+    let mut local = [0.0; MAX_FREEDOMS];
+    for (pair, &n) in local.chunks_exact_mut(2).zip(nodes) {
+        pair.copy_from_slice(&displacement[2 * n as usize..][..2]);
+    }
+    let at = gauss_points(model.kind, shape, &x);
+    let gauss: Vec<_> = at
+        .positions()
         .iter()
-        .flat_map(|&n| {
-            [
-                displacement[2 * n as usize],
-                displacement[2 * n as usize + 1],
-            ]
-        })
-        .collect();
-    let gauss: Vec<_> = gauss_points(model.kind, shape, &x)
-        .iter()
-        .map(|p| (p.position, p.weight, multiply(&elastic, &p.strain(&local))))
+        .zip(at.weights())
+        .zip(at.strains(&local))
+        .map(|((position, weight), strain)| (*position, weight, multiply(&elastic, &strain)))
         .collect();
     if shape.n_nodes() == shape.n_corners() {
         return gauss;

@@ -5,6 +5,7 @@ use super::sparse::SymmetricView;
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::NotDefinite;
 use std::ffi::c_void;
+use std::ops::Range;
 use std::ptr::{NonNull, null_mut};
 use suitesparse_sys as sys;
 
@@ -168,13 +169,13 @@ impl Factor {
         // otherwise) the arrays have the lengths that CHOLMOD documents for the kind at hand.
         unsafe {
             if self.is_supernodal() {
-                Columns::Supernodal {
+                Columns::Supernodal(Supernodes {
                     starts: slice(raw.super_, raw.nsuper + 1),
                     row_starts: slice(raw.pi, raw.nsuper + 1),
                     value_starts: slice(raw.px, raw.nsuper + 1),
                     rows: slice(raw.s, raw.ssize),
                     values: slice(raw.x, raw.xsize),
-                }
+                })
             } else {
                 Columns::Simplicial {
                     starts: slice(raw.p, raw.n),
@@ -254,14 +255,8 @@ impl Drop for Factor {
 
 /// The columns of `L` in either of CHOLMOD's two storages.
 pub(super) enum Columns<'a> {
-    /// Dense trapezoids: the columns of a supernode share its rows.
-    Supernodal {
-        starts: &'a [i64],
-        row_starts: &'a [i64],
-        value_starts: &'a [i64],
-        rows: &'a [i64],
-        values: &'a [f64],
-    },
+    /// Dense trapezoids.
+    Supernodal(Supernodes<'a>),
     /// Compressed columns.
     Simplicial {
         starts: &'a [i64],
@@ -271,26 +266,54 @@ pub(super) enum Columns<'a> {
     },
 }
 
+/// Neighbouring columns that share their rows, as dense trapezoids in a rectangle: each column has as many values as the
+/// supernode has rows, those above the diagonal without meaning.
+pub(super) struct Supernodes<'a> {
+    starts: &'a [i64],
+    row_starts: &'a [i64],
+    value_starts: &'a [i64],
+    rows: &'a [i64],
+    values: &'a [f64],
+}
+
+impl<'a> Supernodes<'a> {
+    /// Number of supernodes.
+    pub(super) fn len(&self) -> usize {
+        self.starts.len().saturating_sub(1)
+    }
+
+    /// Columns of a supernode.
+    pub(super) fn columns(&self, s: usize) -> Range<usize> {
+        self.starts[s] as usize..self.starts[s + 1] as usize
+    }
+
+    /// Rows of its first column.
+    pub(super) fn rows(&self, s: usize) -> &'a [i64] {
+        &self.rows[self.row_starts[s] as usize..self.row_starts[s + 1] as usize]
+    }
+
+    /// Values, column by column.
+    pub(super) fn values(&self, s: usize) -> &'a [f64] {
+        let start = self.value_starts[s] as usize;
+        &self.values[start..start + self.rows(s).len() * self.columns(s).len()]
+    }
+}
+
 impl<'a> Columns<'a> {
     /// Column `j`, wherever it lies in its supernode.
     pub(super) fn get(&self, j: usize) -> Column<'a> {
-        match *self {
-            Columns::Supernodal {
-                starts,
-                row_starts,
-                value_starts,
-                rows,
-                values,
-            } => {
-                let supernode = starts.partition_point(|&start| start as usize <= j) - 1;
-                let within = j - starts[supernode] as usize;
-                let row_start = row_starts[supernode] as usize;
-                let row_end = row_starts[supernode + 1] as usize;
-                let height = row_end - row_start;
-                let value_start = value_starts[supernode] as usize + within * height;
+        match self {
+            Columns::Supernodal(supernodes) => {
+                let s = supernodes
+                    .starts
+                    .partition_point(|&start| start as usize <= j)
+                    - 1;
+                let within = j - supernodes.columns(s).start;
+                let rows = supernodes.rows(s);
                 Column {
-                    rows: &rows[row_start + within..row_end],
-                    values: &values[value_start + within..value_start + height],
+                    rows: &rows[within..],
+                    values: &supernodes.values(s)[within * rows.len() + within..]
+                        [..rows.len() - within],
                 }
             }
             Columns::Simplicial {

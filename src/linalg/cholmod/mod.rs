@@ -17,16 +17,17 @@
 //! Y. Chen, T. A. Davis, W. W. Hager, S. Rajamanickam, *Algorithm 887: CHOLMOD*, ACM TOMS 35 (3), 2008,
 //! doi:10.1145/1391989.1391995.
 
+mod backward;
 mod blas;
 mod common;
 mod factor;
 mod ordering;
 mod panel;
-mod residual;
 mod sparse;
 #[cfg(test)]
 mod tests;
 mod trailing;
+mod tree;
 
 pub use blas::{blas_name, blas_threads, set_blas_threads};
 pub use common::cholmod_version;
@@ -36,18 +37,14 @@ use super::{
     Condensed, NotDefinite, Partition, Pivot, Prediction, SymmetricCsc, check, smallest_pivot_ratio,
 };
 use crate::error::{Error, Result};
+use backward::Backward;
 use common::Common;
 use factor::{Factor, System};
 use nalgebra::DMatrix;
 use ordering::{Groups, Ordering};
-use residual::Matrix;
 use sparse::SymmetricView;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use trailing::Trailing;
-
-/// A refinement step is tried where the backward error is above this: a few rounding errors per freedom
-/// are the best that a solve in double precision does.
-const REFINE_ABOVE: f64 = 4.0 * f64::EPSILON;
 
 /// A matrix factored by CHOLMOD and condensed.
 pub struct CholmodCondensed {
@@ -56,7 +53,6 @@ pub struct CholmodCondensed {
     /// The zone freedoms in use.
     zone: Vec<usize>,
     shift: Vec<f64>,
-    matrix: Matrix,
     trailing: Trailing,
     contact_stiffness: DMatrix<f64>,
     solver: Mutex<Solver>,
@@ -64,13 +60,14 @@ pub struct CholmodCondensed {
     weakest: Pivot,
 }
 
-/// The factor and the vectors of a full solve.
+/// The factor and the vectors of its solves.
 struct Solver {
     factor: Factor,
+    backward: Backward,
+    /// In the order of the factor.
     load: Vec<f64>,
     solution: Vec<f64>,
-    residual: Vec<f64>,
-    backward_error: f64,
+    known: Vec<bool>,
 }
 
 impl CholmodCondensed {
@@ -107,7 +104,7 @@ impl CholmodCondensed {
         let (mut factor, name) = analyze(common, matrix, &groups, method)?;
         let cost = prediction(&factor, name, matrix, &groups);
 
-        // One copy of the values, shifted for the factorisation and then kept for residuals.
+        // A copy of the values, shifted for the factorisation.
         let mut values = matrix.data().to_vec();
         let columns = matrix.proper_indptr();
         let diagonal = |freedom: usize| columns[freedom + 1] as usize - 1;
@@ -122,24 +119,21 @@ impl CholmodCondensed {
             }
             .into());
         }
-        for &freedom in &partition.contact {
-            values[diagonal(freedom)] = matrix.data()[diagonal(freedom)];
-        }
+        drop(values);
 
         let (trailing, zone) = Trailing::extract(&factor, &groups, partition, &partition.zone)?;
         Ok(CholmodCondensed {
             contact_stiffness: trailing.contact_stiffness(shift),
             trailing,
             zone,
-            matrix: Matrix::new(matrix, values),
             partition: partition.clone(),
             shift: shift.to_vec(),
             solver: Mutex::new(Solver {
+                backward: Backward::new(&factor),
                 factor,
                 load: vec![0.0; partition.n],
                 solution: vec![0.0; partition.n],
-                residual: vec![0.0; partition.n],
-                backward_error: 0.0,
+                known: vec![false; partition.n],
             }),
             cost,
             weakest,
@@ -189,19 +183,15 @@ impl Condensed for CholmodCondensed {
         for (value, &freedom) in solver.load.iter_mut().zip(solver.factor.permutation()) {
             *value = load[freedom as usize];
         }
-        let y = solver.factor.solve(System::Lower, &solver.load)?;
-        Ok(y[self.interior()..].to_vec())
+        Ok(solver.factor.solve(System::Lower, &solver.load)?.to_vec())
     }
 
     fn condense_load(&self, reduced: &[f64], zone: &mut [f64], contact: &mut [f64]) -> Result<()> {
-        check::length(
-            "reduced load",
-            reduced.len(),
-            self.partition.n - self.interior(),
-        )?;
+        check::length("reduced load", reduced.len(), self.partition.n)?;
         check::length("zone load", zone.len(), self.zone.len())?;
         check::length("contact load", contact.len(), self.partition.contact.len())?;
-        self.trailing.condensed_load(reduced, zone, contact);
+        let trailing = &reduced[self.interior()..];
+        self.trailing.condensed_load(trailing, zone, contact);
         Ok(())
     }
 
@@ -213,58 +203,35 @@ impl Condensed for CholmodCondensed {
         self.trailing.recover_zone(zone, u_contact);
     }
 
-    fn recover_all(&self, x: &mut [f64], u_contact: &[f64]) -> Result<()> {
-        check::length("load", x.len(), self.partition.n)?;
-        check::length(
-            "contact displacement",
-            u_contact.len(),
-            self.partition.contact.len(),
-        )?;
+    // L_ii^T u_i = y_i - L_ti^T u_t, since y_i = L_ii^-1 load_i and L_ii L_ti^T = K_it.
+    fn recover_all(&self, reduced: &[f64], zone: &[f64], contact: &[f64]) -> Result<Vec<f64>> {
+        check::length("reduced load", reduced.len(), self.partition.n)?;
+        check::length("zone displacement", zone.len(), self.zone.len())?;
+        let n_contact = self.partition.contact.len();
+        check::length("contact displacement", contact.len(), n_contact)?;
         let mut solver = self.solver();
         let Solver {
             factor,
+            backward,
             load,
             solution,
-            residual,
-            backward_error,
+            known,
         } = &mut *solver;
-        // K u = load and u_c = u_contact give (K + D) u = load + D u_contact, which is regular.
-        load.copy_from_slice(x);
-        let shifts = || {
-            self.partition
-                .contact
-                .iter()
-                .zip(&self.shift)
-                .zip(u_contact)
-        };
-        for ((&freedom, d), u) in shifts() {
-            load[freedom] += d * u;
+        solution.copy_from_slice(reduced);
+        known.fill(false);
+        let interior = self.interior();
+        self.trailing.place(
+            zone,
+            contact,
+            &mut known[interior..],
+            &mut solution[interior..],
+        );
+        backward.solve(factor, known, solution, load);
+        let mut u = vec![0.0; self.partition.n];
+        for (&freedom, value) in factor.permutation().iter().zip(&*solution) {
+            u[freedom as usize] = *value;
         }
-        solution.copy_from_slice(factor.solve(System::Whole, load)?);
-        self.matrix.residual(x, solution, residual);
-        *backward_error = self.matrix.backward_error(x, solution, residual);
-        if *backward_error > REFINE_ABOVE {
-            // The residual of the shifted system: (K + D) du = load + D u_contact - (K + D) u.
-            for ((&freedom, d), u) in shifts() {
-                residual[freedom] += d * (u - solution[freedom]);
-            }
-            let step = factor.solve(System::Whole, residual)?;
-            for ((refined, u), du) in load.iter_mut().zip(&*solution).zip(step) {
-                *refined = u + du;
-            }
-            self.matrix.residual(x, load, residual);
-            let refined = self.matrix.backward_error(x, load, residual);
-            if refined < *backward_error {
-                *backward_error = refined;
-                solution.copy_from_slice(load);
-            }
-        }
-        x.copy_from_slice(solution);
-        Ok(())
-    }
-
-    fn backward_error(&self) -> f64 {
-        self.solver().backward_error
+        Ok(u)
     }
 
     fn cost(&self) -> Prediction {

@@ -5,7 +5,7 @@ use crate::linalg::dense::DenseCondensed;
 use crate::linalg::tests::matrices::{Grid, Support};
 use crate::linalg::tests::{
     Numbers, SHARES, Sample, assert_condensation_is_the_plain_solve, distance, laplacian, norm,
-    partition,
+    partition, solved,
 };
 use suitesparse_sys as sys;
 
@@ -225,12 +225,12 @@ fn the_trailing_solve_is_the_full_solve_on_a_large_grid() {
         .unwrap()
         .solve(&right);
     condensed.recover_zone(&mut zone, u_c.as_slice());
-    let mut u = load;
-    condensed.recover_all(&mut u, u_c.as_slice()).unwrap();
+    let found = solved(&condensed, &matrix, &partition, &load, u_c.as_slice());
+    let u = found.u;
     assert!(distance(&zone, &at(&u, &partition.zone)) <= tolerance * norm(&zone));
     let moved = at(&u, &partition.contact);
     assert!(distance(u_c.as_slice(), &moved) <= tolerance * norm(&moved));
-    assert!(condensed.backward_error() <= 10.0 * f64::EPSILON);
+    assert!(found.backward_error <= 10.0 * f64::EPSILON);
 }
 
 /// 2-norm condition by a few steps of the power method on `K` and on its inverse: from below, by a
@@ -261,27 +261,20 @@ fn condition(condensed: &CholmodCondensed, matrix: &SymmetricCsc) -> f64 {
 fn refinement_keeps_the_backward_error_at_round_off() {
     // Stiff and soft layers: elements differ by 1e8 in stiffness.
     let grid = Grid::<2>::new([30, 30], Support::Bottom);
-    let contact = grid.freedoms(1..2, |[_, y]| y == 30);
     let partition = Partition {
         n: grid.n,
-        zone: vec![],
-        contact,
+        zone: grid.freedoms(0..2, |[_, y]| y > 24),
+        contact: vec![],
     };
     let matrix = grid.stiffness(|[x, y]| if (x + y) % 3 == 0 { 1e8 } else { 1.0 });
     let condensed = CholmodCondensed::new(&matrix, &partition, &[]).unwrap();
-    let mut u = Numbers::new(4).vector(grid.n);
-    let n_contact = partition.contact.len();
-    condensed
-        .recover_all(&mut u, &vec![0.0; n_contact])
-        .unwrap();
-    assert!(condensed.backward_error() <= REFINE_ABOVE);
+    let load = Numbers::new(4).vector(grid.n);
+    let found = solved(&condensed, &matrix, &partition, &load, &[]);
+    assert!(found.backward_error <= 4.0 * f64::EPSILON);
     // Nothing pushes, nothing moves.
-    let mut u = vec![0.0; grid.n];
-    condensed
-        .recover_all(&mut u, &vec![0.0; n_contact])
-        .unwrap();
-    assert_eq!(norm(&u), 0.0);
-    assert_eq!(condensed.backward_error(), 0.0);
+    let found = solved(&condensed, &matrix, &partition, &vec![0.0; grid.n], &[]);
+    assert_eq!(norm(&found.u), 0.0);
+    assert_eq!(found.backward_error, 0.0);
 }
 
 #[test]
@@ -291,11 +284,69 @@ fn displacements_that_do_not_belong_to_the_load_show_in_the_backward_error() {
     let partition = partition(n, 0.2, 0.2, 8);
     let shift = vec![1.0; partition.contact.len()];
     let condensed = CholmodCondensed::new(&matrix, &partition, &shift).unwrap();
-    let mut u = vec![1.0; n];
-    condensed
-        .recover_all(&mut u, &vec![-50.0; shift.len()])
-        .unwrap();
-    assert!(condensed.backward_error() > 1e-3);
+    let u_c = vec![-50.0; shift.len()];
+    let found = solved(&condensed, &matrix, &partition, &vec![1.0; n], &u_c);
+    assert!(found.backward_error > 1e-3);
+}
+
+/// The backward substitution cut into subtrees is that of CHOLMOD, with the same bits for any number of threads, whichever
+/// part of the zone is in use.
+#[test]
+fn subtrees_are_solved_like_the_whole() {
+    let grid = Grid::<2>::new([120, 120], Support::Bottom);
+    let contact = grid.freedoms(1..2, |[_, y]| y == 120);
+    let mut zone = grid.freedoms(0..2, |[_, y]| y > 90);
+    zone.retain(|freedom| !contact.contains(freedom));
+    let partition = Partition {
+        n: grid.n,
+        zone,
+        contact,
+    };
+    let matrix = grid.stiffness(|_| 1.0);
+    let mut condensed = CholmodCondensed::new(&matrix, &partition, &[]).unwrap();
+    assert!(condensed.solver().backward.n_subtrees() > 4);
+    let load = Numbers::new(8).vector(grid.n);
+    let whole = {
+        let mut solver = condensed.solver();
+        solver.factor.solve(System::Whole, &load).unwrap().to_vec()
+    };
+    let tolerance = (grid.n as f64).sqrt() * f64::EPSILON * condition(&condensed, &matrix);
+    for stride in [1, 5] {
+        let wanted: Vec<usize> = partition.zone.iter().copied().step_by(stride).collect();
+        let zone = condensed.choose_zone(&wanted).unwrap().unwrap();
+        let at = |list: &[usize]| list.iter().map(|&f| whole[f]).collect::<Vec<_>>();
+        let (u_z, u_c) = (at(&zone), at(&partition.contact));
+        let reduced = condensed.reduce_load(&load).unwrap();
+        let solve = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            pool.unwrap()
+                .install(|| condensed.recover_all(&reduced, &u_z, &u_c).unwrap())
+        };
+        let u = solve(1);
+        assert!(distance(&u, &whole) <= tolerance * norm(&whole));
+        assert_eq!(u, solve(3));
+
+        // The zone by its own substitution: the load condensed, eliminated, recovered.
+        assert!(condensed.trailing.n_subtrees() > 2);
+        let trailing = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            pool.unwrap().install(|| {
+                let (mut f_z, mut f_c) = (vec![0.0; zone.len()], vec![0.0; u_c.len()]);
+                condensed
+                    .condense_load(&reduced, &mut f_z, &mut f_c)
+                    .unwrap();
+                condensed.eliminate_zone(&mut f_z, &mut f_c);
+                condensed.recover_zone(&mut f_z, &u_c);
+                (f_z, f_c)
+            })
+        };
+        let (z, c) = trailing(1);
+        assert!(distance(&z, &u_z) <= tolerance * norm(&whole));
+        // C u_c is what is left on the contact freedoms.
+        let force = condensed.contact_stiffness() * nalgebra::DVector::from_column_slice(&u_c);
+        assert!(distance(force.as_slice(), &c) <= tolerance * norm(&load));
+        assert_eq!((z, c), trailing(3));
+    }
 }
 
 #[test]

@@ -14,6 +14,8 @@
 //! ancestors in the elimination tree) may as well have been eliminated after all others: its block of `L` is the
 //! factor of the structure condensed onto it. So a zone shrinks, and grows back, without another factorisation.
 
+mod substitution;
+
 use super::factor::{Columns, Factor};
 use super::ordering::Groups;
 use super::panel;
@@ -22,6 +24,7 @@ use crate::linalg::Partition;
 use nalgebra::DMatrix;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
+use substitution::{Subtree, WorkOfSubtree};
 
 /// Columns of a panel: enough that rows are gathered rarely. 16, 32 and 64 differ by a few per cent.
 const PANEL_WIDTH: usize = 64;
@@ -56,6 +59,7 @@ struct Work {
     vector: Vec<f64>,
     /// The rows of one panel.
     rows: Vec<f64>,
+    subtrees: Vec<WorkOfSubtree>,
 }
 
 /// `L_tt` and its solves.
@@ -70,6 +74,8 @@ pub(super) struct Trailing {
     contact: Vec<u32>,
     panels: Vec<Panel>,
     n_zone_panels: usize,
+    /// Disjoint subtrees of the zone's panels, ascending.
+    subtrees: Vec<Subtree>,
     rows: Vec<u32>,
     values: Vec<f64>,
     work: Mutex<Work>,
@@ -121,11 +127,13 @@ impl Trailing {
             contact: places(&kept[n_zone..]),
             panels: Vec::new(),
             n_zone_panels: 0,
+            subtrees: Vec::new(),
             rows: Vec::new(),
             values: Vec::new(),
             work: Mutex::new(Work {
                 vector: vec![0.0; kept.len()],
                 rows: Vec::new(),
+                subtrees: Vec::new(),
             }),
             kept,
         };
@@ -146,12 +154,17 @@ impl Trailing {
         trailing.copy_panels(&columns, &number, first_zone, first_zone..first_contact);
         trailing.n_zone_panels = trailing.panels.len();
         trailing.copy_panels(&columns, &number, first_zone, first_contact..n);
-        let tallest = trailing.panels.iter().map(|p| p.rows.len()).max();
-        trailing
-            .work
-            .get_mut()
-            .unwrap_or_else(PoisonError::into_inner)
-            .rows = vec![0.0; tallest.unwrap_or(0)];
+        trailing.find_subtrees();
+        let tallest = |panels: &[Panel]| panels.iter().map(|p| p.rows.len()).max().unwrap_or(0);
+        let rows = vec![0.0; tallest(&trailing.panels)];
+        let subtrees = trailing.subtrees.iter().map(|t| WorkOfSubtree {
+            vector: vec![0.0; t.columns.len() + t.outer.len()],
+            rows: vec![0.0; tallest(&trailing.panels[t.panels.clone()])],
+        });
+        let subtrees = subtrees.collect();
+        let work = trailing.work.get_mut();
+        let work = work.unwrap_or_else(PoisonError::into_inner);
+        (work.rows, work.subtrees) = (rows, subtrees);
         Ok((trailing, zone))
     }
 
@@ -220,76 +233,15 @@ impl Trailing {
         }
     }
 
-    /// `f_t = L_tt y_t`, given for all trailing columns of the factor, returned for the kept ones in the partition's order.
-    pub(super) fn condensed_load(&self, y: &[f64], zone: &mut [f64], contact: &mut [f64]) {
-        let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
-        let Work { vector, rows } = &mut *work;
-        for (value, &column) in vector.iter_mut().zip(&self.kept) {
-            *value = y[column as usize];
+    /// Puts the displacements of zone and contact freedoms on the trailing columns of the factor that are kept; `known` says which
+    /// these are.
+    pub(super) fn place(&self, zone: &[f64], contact: &[f64], known: &mut [bool], x: &mut [f64]) {
+        let values = (self.zone.iter().map(|&k| zone[k as usize]))
+            .chain(self.contact.iter().map(|&k| contact[k as usize]));
+        for (&column, value) in self.kept.iter().zip(values) {
+            known[column as usize] = true;
+            x[column as usize] = value;
         }
-        // From the last panel to the first: what a panel reads has not been overwritten yet.
-        for p in self.panels.iter().rev() {
-            let list = &self.rows[p.rows.clone()];
-            let sums = &mut rows[..list.len()];
-            let (own, below) = vector[p.first..].split_at_mut(p.width);
-            panel::multiply(&self.values[p.rectangle()], own, sums);
-            panel::multiply_lower(&self.values[p.triangle()], own);
-            let offset = p.first + p.width;
-            for (&row, &sum) in list.iter().zip(&*sums) {
-                below[row as usize - offset] += sum;
-            }
-        }
-        let (y_zone, y_contact) = vector.split_at(self.n_zone);
-        scatter(&self.zone, y_zone, zone);
-        scatter(&self.contact, y_contact, contact);
-    }
-
-    /// `y_z = L_zz^-1 f_z` left in `zone` in the order of the factor, and `contact -= L_cz y_z`.
-    pub(super) fn eliminate_zone(&self, zone: &mut [f64], contact: &mut [f64]) {
-        let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
-        let Work { vector, rows } = &mut *work;
-        let (v_zone, v_contact) = vector.split_at_mut(self.n_zone);
-        gather(&self.zone, zone, v_zone);
-        gather(&self.contact, contact, v_contact);
-        for p in &self.panels[..self.n_zone_panels] {
-            let list = &self.rows[p.rows.clone()];
-            let sums = &mut rows[..list.len()];
-            let (own, below) = vector[p.first..].split_at_mut(p.width);
-            // A load on a part of the zone (where the material flows) reaches only the panels above that part.
-            if own.iter().all(|value| *value == 0.0) {
-                continue;
-            }
-            panel::solve_lower(&self.values[p.triangle()], own);
-            panel::multiply(&self.values[p.rectangle()], own, sums);
-            let offset = p.first + p.width;
-            for (&row, &sum) in list.iter().zip(&*sums) {
-                below[row as usize - offset] -= sum;
-            }
-        }
-        let (v_zone, v_contact) = vector.split_at(self.n_zone);
-        zone.copy_from_slice(v_zone);
-        scatter(&self.contact, v_contact, contact);
-    }
-
-    /// `u_z = L_zz^-T (y_z - L_cz' u_c)`, with `zone` as [`Trailing::eliminate_zone`] left it.
-    pub(super) fn recover_zone(&self, zone: &mut [f64], u_contact: &[f64]) {
-        let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
-        let Work { vector, rows } = &mut *work;
-        let (v_zone, v_contact) = vector.split_at_mut(self.n_zone);
-        v_zone.copy_from_slice(zone);
-        gather(&self.contact, u_contact, v_contact);
-        for p in self.panels[..self.n_zone_panels].iter().rev() {
-            let list = &self.rows[p.rows.clone()];
-            let (own, below) = vector[p.first..].split_at_mut(p.width);
-            let offset = p.first + p.width;
-            let known = &mut rows[..list.len()];
-            for (value, &row) in known.iter_mut().zip(list) {
-                *value = below[row as usize - offset];
-            }
-            panel::subtract_transposed(&self.values[p.rectangle()], known, own);
-            panel::solve_upper(&self.values[p.triangle()], own);
-        }
-        scatter(&self.zone, &vector[..self.n_zone], zone);
     }
 
     /// `L_cc L_cc' - diag(shift)`, symmetric to the last bit.
@@ -377,16 +329,4 @@ fn needed(
 /// True where two row lists are equal; those of one supernode are the same memory.
 fn same_rows(a: &[i64], b: &[i64]) -> bool {
     a.len() == b.len() && (std::ptr::eq(a, b) || a == b)
-}
-
-fn gather(places: &[u32], from: &[f64], to: &mut [f64]) {
-    for (value, &place) in to.iter_mut().zip(places) {
-        *value = from[place as usize];
-    }
-}
-
-fn scatter(places: &[u32], from: &[f64], to: &mut [f64]) {
-    for (&value, &place) in from.iter().zip(places) {
-        to[place as usize] = value;
-    }
 }

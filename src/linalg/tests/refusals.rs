@@ -115,8 +115,10 @@ fn arguments_that_do_not_fit_are_refused() {
             assert!(error.message().contains(expected), "{}", error.message());
         }
         let condensed = condense(backend, &k, &good, &[]).unwrap();
-        let error = condensed.recover_all(&mut [0.0; 5], &[0.0; 2]).unwrap_err();
-        assert!(error.message().contains("5 values of load"));
+        let error = condensed
+            .recover_all(&[0.0; 5], &[0.0; 2], &[0.0; 2])
+            .unwrap_err();
+        assert!(error.message().contains("5 values of reduced load"));
         let error = condensed.reduce_load(&[0.0; 5]).unwrap_err();
         assert!(error.message().contains("5 values of load"));
         let reduced = condensed.reduce_load(&[0.0; 6]).unwrap();

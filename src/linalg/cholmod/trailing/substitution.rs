@@ -1,0 +1,268 @@
+//! Substitution with the trailing columns, subtree by subtree.
+//!
+//! What is the same for every thread count is the cut into subtrees and the order in which what they leave to the columns above
+//! them is summed: so are the bits.
+
+use super::super::panel;
+use super::super::tree::Forest;
+use super::{Panel, Trailing, Work};
+use rayon::prelude::*;
+use std::ops::Range;
+use std::sync::PoisonError;
+
+/// Panels that may be solved while those of other subtrees are. They see a vector of their own, `[ columns | outer ]`: what a subtree
+/// does to rows outside it stands in the rows of its last panel, its root.
+#[derive(Debug)]
+pub(super) struct Subtree {
+    pub(super) panels: Range<usize>,
+    pub(super) columns: Range<usize>,
+    /// Rows of the root, in `Trailing::rows`.
+    pub(super) outer: Range<usize>,
+    /// Where the rows of each panel begin in `own_rows`.
+    starts: Vec<usize>,
+    /// The rows of all panels in the subtree's own numbering.
+    own_rows: Vec<u32>,
+}
+
+/// Workspace of a subtree in one solve.
+#[derive(Debug)]
+pub(super) struct WorkOfSubtree {
+    pub(super) vector: Vec<f64>,
+    pub(super) rows: Vec<f64>,
+}
+
+impl Trailing {
+    /// Cuts the elimination tree of the zone's panels.
+    pub(super) fn find_subtrees(&mut self) {
+        let zone = &self.panels[..self.n_zone_panels];
+        let panel_of = |column: u32| zone.partition_point(|p| p.first + p.width <= column as usize);
+        let parent: Vec<usize> = zone
+            .iter()
+            .map(|p| match self.rows[p.rows.clone()].first() {
+                Some(&row) if (row as usize) < self.n_zone => panel_of(row),
+                _ => usize::MAX,
+            })
+            .collect();
+        let work: Vec<u64> = zone
+            .iter()
+            .map(|p| (p.rectangle().end - p.values) as u64)
+            .collect();
+        let forest = Forest {
+            parent: &parent,
+            work: &work,
+        };
+        for panels in forest.subtrees() {
+            let (first, root) = (zone[panels.start].first, &zone[panels.end - 1]);
+            let columns = first..root.first + root.width;
+            let outer = &self.rows[root.rows.clone()];
+            let (mut starts, mut own_rows) = (Vec::with_capacity(panels.len()), Vec::new());
+            for p in &zone[panels.clone()] {
+                starts.push(own_rows.len());
+                own_rows.extend(self.rows[p.rows.clone()].iter().map(|&row| {
+                    match columns.contains(&(row as usize)) {
+                        true => row - first as u32,
+                        // Rows of a descendant outside the subtree are rows of the root.
+                        false => (columns.len() + outer.partition_point(|o| *o < row)) as u32,
+                    }
+                }));
+            }
+            self.subtrees.push(Subtree {
+                panels,
+                columns,
+                outer: root.rows.clone(),
+                starts,
+                own_rows,
+            });
+        }
+    }
+
+    /// Number of subtrees.
+    #[cfg(test)]
+    pub(in super::super) fn n_subtrees(&self) -> usize {
+        self.subtrees.len()
+    }
+
+    /// The zone's panels that are in no subtree, in their order.
+    fn top(&self) -> impl DoubleEndedIterator<Item = &Panel> {
+        let begins = [0]
+            .into_iter()
+            .chain(self.subtrees.iter().map(|t| t.panels.end));
+        let ends = self.subtrees.iter().map(|t| t.panels.start);
+        let gaps: Vec<_> = begins.zip(ends.chain([self.n_zone_panels])).collect();
+        gaps.into_iter()
+            .flat_map(|(begin, end)| &self.panels[begin..end])
+    }
+
+    /// The panels of a subtree with their rows.
+    fn panels_of<'a>(
+        &'a self,
+        tree: &'a Subtree,
+    ) -> impl DoubleEndedIterator<Item = (&'a Panel, &'a [u32])> {
+        let panels = self.panels[tree.panels.clone()].iter().zip(&tree.starts);
+        panels.map(|(p, &start)| (p, &tree.own_rows[start..start + p.rows.len()]))
+    }
+
+    /// Forward substitution with the columns of a panel: `own = L^-1 own`, and `below -= L own` for its rows, which `rows` number
+    /// from `offset`.
+    fn forward(
+        &self,
+        p: &Panel,
+        rows: &[u32],
+        (own, below): (&mut [f64], &mut [f64]),
+        offset: usize,
+        sums: &mut [f64],
+    ) {
+        // A load on a part of the zone (where the material flows) reaches only the panels above that part.
+        if own.iter().all(|value| *value == 0.0) {
+            return;
+        }
+        let sums = &mut sums[..rows.len()];
+        panel::solve_lower(&self.values[p.triangle()], own);
+        panel::multiply(&self.values[p.rectangle()], own, sums);
+        for (&row, &sum) in rows.iter().zip(&*sums) {
+            below[row as usize - offset] -= sum;
+        }
+    }
+
+    /// Backward substitution: `own = L^-T (own - L' below)`.
+    fn backward(
+        &self,
+        p: &Panel,
+        rows: &[u32],
+        (own, below): (&mut [f64], &mut [f64]),
+        offset: usize,
+        known: &mut [f64],
+    ) {
+        let known = &mut known[..rows.len()];
+        for (value, &row) in known.iter_mut().zip(rows) {
+            *value = below[row as usize - offset];
+        }
+        panel::subtract_transposed(&self.values[p.rectangle()], known, own);
+        panel::solve_upper(&self.values[p.triangle()], own);
+    }
+
+    /// `f_t = L_tt y_t`, given for all trailing columns of the factor, returned for the kept ones in the partition's order.
+    pub(in super::super) fn condensed_load(
+        &self,
+        y: &[f64],
+        zone: &mut [f64],
+        contact: &mut [f64],
+    ) {
+        let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
+        let Work { vector, rows, .. } = &mut *work;
+        for (value, &column) in vector.iter_mut().zip(&self.kept) {
+            *value = y[column as usize];
+        }
+        // From the last panel to the first: what a panel reads has not been overwritten yet.
+        for p in self.panels.iter().rev() {
+            let list = &self.rows[p.rows.clone()];
+            let sums = &mut rows[..list.len()];
+            let (own, below) = vector[p.first..].split_at_mut(p.width);
+            panel::multiply(&self.values[p.rectangle()], own, sums);
+            panel::multiply_lower(&self.values[p.triangle()], own);
+            let offset = p.first + p.width;
+            for (&row, &sum) in list.iter().zip(&*sums) {
+                below[row as usize - offset] += sum;
+            }
+        }
+        let (y_zone, y_contact) = vector.split_at(self.n_zone);
+        scatter(&self.zone, y_zone, zone);
+        scatter(&self.contact, y_contact, contact);
+    }
+
+    /// `y_z = L_zz^-1 f_z` left in `zone` in the order of the factor, and `contact -= L_cz y_z`.
+    pub(in super::super) fn eliminate_zone(&self, zone: &mut [f64], contact: &mut [f64]) {
+        let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
+        let Work {
+            vector,
+            rows,
+            subtrees,
+        } = &mut *work;
+        let (v_zone, v_contact) = vector.split_at_mut(self.n_zone);
+        gather(&self.zone, zone, v_zone);
+        gather(&self.contact, contact, v_contact);
+        let whole = &*vector;
+        self.subtrees
+            .par_iter()
+            .zip(&mut *subtrees)
+            .for_each(|(tree, work)| {
+                let (own, outer) = work.vector.split_at_mut(tree.columns.len());
+                own.copy_from_slice(&whole[tree.columns.clone()]);
+                outer.fill(0.0);
+                for (p, rows) in self.panels_of(tree) {
+                    let end = p.first + p.width - tree.columns.start;
+                    let (done, below) = work.vector.split_at_mut(end);
+                    let own = &mut done[end - p.width..];
+                    self.forward(p, rows, (own, below), end, &mut work.rows);
+                }
+            });
+        for (tree, work) in self.subtrees.iter().zip(&*subtrees) {
+            let (own, outer) = work.vector.split_at(tree.columns.len());
+            vector[tree.columns.clone()].copy_from_slice(own);
+            for (&row, value) in self.rows[tree.outer.clone()].iter().zip(outer) {
+                vector[row as usize] += value;
+            }
+        }
+        for p in self.top() {
+            let end = p.first + p.width;
+            let (done, below) = vector.split_at_mut(end);
+            let own = (&mut done[p.first..], below);
+            self.forward(p, &self.rows[p.rows.clone()], own, end, rows);
+        }
+        let (v_zone, v_contact) = vector.split_at(self.n_zone);
+        zone.copy_from_slice(v_zone);
+        scatter(&self.contact, v_contact, contact);
+    }
+
+    /// `u_z = L_zz^-T (y_z - L_cz' u_c)`, with `zone` as [`Trailing::eliminate_zone`] left it.
+    pub(in super::super) fn recover_zone(&self, zone: &mut [f64], u_contact: &[f64]) {
+        let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
+        let Work {
+            vector,
+            rows,
+            subtrees,
+        } = &mut *work;
+        let (v_zone, v_contact) = vector.split_at_mut(self.n_zone);
+        v_zone.copy_from_slice(zone);
+        gather(&self.contact, u_contact, v_contact);
+        for p in self.top().rev() {
+            let end = p.first + p.width;
+            let (done, below) = vector.split_at_mut(end);
+            let own = (&mut done[p.first..], below);
+            self.backward(p, &self.rows[p.rows.clone()], own, end, rows);
+        }
+        let whole = &*vector;
+        self.subtrees
+            .par_iter()
+            .zip(&mut *subtrees)
+            .for_each(|(tree, work)| {
+                let (own, outer) = work.vector.split_at_mut(tree.columns.len());
+                own.copy_from_slice(&whole[tree.columns.clone()]);
+                for (value, &row) in outer.iter_mut().zip(&self.rows[tree.outer.clone()]) {
+                    *value = whole[row as usize];
+                }
+                for (p, rows) in self.panels_of(tree).rev() {
+                    let end = p.first + p.width - tree.columns.start;
+                    let (done, below) = work.vector.split_at_mut(end);
+                    let own = &mut done[end - p.width..];
+                    self.backward(p, rows, (own, below), end, &mut work.rows);
+                }
+            });
+        for (tree, work) in self.subtrees.iter().zip(&*subtrees) {
+            vector[tree.columns.clone()].copy_from_slice(&work.vector[..tree.columns.len()]);
+        }
+        scatter(&self.zone, &vector[..self.n_zone], zone);
+    }
+}
+
+fn gather(places: &[u32], from: &[f64], to: &mut [f64]) {
+    for (value, &place) in to.iter_mut().zip(places) {
+        *value = from[place as usize];
+    }
+}
+
+fn scatter(places: &[u32], from: &[f64], to: &mut [f64]) {
+    for (&value, &place) in from.iter().zip(places) {
+        to[place as usize] = value;
+    }
+}

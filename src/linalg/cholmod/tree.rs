@@ -1,0 +1,126 @@
+//! Disjoint subtrees of an elimination tree: what different threads may solve at the same time.
+
+use std::ops::Range;
+
+/// Subtrees are cut until none has more than this share of all work: 16 pieces keep two to eight threads busy, however they fall.
+const LARGEST_SHARE: f64 = 1.0 / 16.0;
+/// Work (nonzeros) below which a subtree is not worth a thread's attention.
+const SMALLEST: u64 = 20_000;
+
+/// A postordered forest: every subtree is a contiguous range that ends with its root.
+pub(super) struct Forest<'a> {
+    /// Parent of each node, `usize::MAX` for a root.
+    pub(super) parent: &'a [usize],
+    /// Work of each node.
+    pub(super) work: &'a [u64],
+}
+
+impl Forest<'_> {
+    /// Disjoint subtrees, ascending, that hold most of the work between them; what is in none of them depends on them or they on it.
+    /// The choice depends on the tree alone, not on the threads of the machine. Empty where the tree is too small, or not postordered.
+    pub(super) fn subtrees(&self) -> Vec<Range<usize>> {
+        let n = self.parent.len();
+        let mut first: Vec<usize> = (0..n).collect();
+        let mut work = self.work.to_vec();
+        let mut size = vec![1usize; n];
+        let mut children: Vec<Vec<usize>> = vec![Vec::new(); n];
+        let mut roots = Vec::new();
+        for node in 0..n {
+            match self.parent[node] {
+                usize::MAX => roots.push(node),
+                parent if parent <= node || parent >= n => return Vec::new(),
+                parent => {
+                    first[parent] = first[parent].min(first[node]);
+                    work[parent] += work[node];
+                    size[parent] += size[node];
+                    children[parent].push(node);
+                }
+            }
+        }
+        let total: u64 = roots.iter().map(|&root| work[root]).sum();
+        let most = ((total as f64 * LARGEST_SHARE) as u64).max(SMALLEST);
+        let mut found = Vec::new();
+        while let Some(node) = roots.pop() {
+            if work[node] > most {
+                roots.extend(&children[node]);
+            } else if work[node] >= SMALLEST {
+                if node + 1 - first[node] != size[node] {
+                    return Vec::new();
+                }
+                found.push(first[node]..node + 1);
+            }
+        }
+        found.sort_unstable_by_key(|range| range.start);
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A complete binary tree in postorder, `levels` deep, every node of the same work.
+    fn binary(levels: u32, parent: &mut Vec<usize>) -> usize {
+        if levels == 0 {
+            return usize::MAX;
+        }
+        let children = [binary(levels - 1, parent), binary(levels - 1, parent)];
+        parent.push(usize::MAX);
+        let node = parent.len() - 1;
+        for child in children.into_iter().filter(|c| *c != usize::MAX) {
+            parent[child] = node;
+        }
+        node
+    }
+
+    #[test]
+    fn a_binary_tree_is_cut_into_its_subtrees() {
+        let mut parent = Vec::new();
+        binary(10, &mut parent);
+        let work = vec![1_000; parent.len()];
+        let forest = Forest {
+            parent: &parent,
+            work: &work,
+        };
+        let subtrees = forest.subtrees();
+        // 1023 nodes: those of 63 nodes are the first below a sixteenth.
+        assert_eq!(subtrees.len(), 16);
+        assert!(subtrees.iter().all(|range| range.len() == 63));
+        for range in &subtrees {
+            let root = range.end - 1;
+            assert!(
+                range
+                    .clone()
+                    .all(|node| node == root || range.contains(&parent[node]))
+            );
+        }
+        assert!(subtrees.windows(2).all(|pair| pair[0].end <= pair[1].start));
+    }
+
+    #[test]
+    fn a_chain_and_a_small_tree_are_left_whole() {
+        let chain: Vec<usize> = (1..100).chain([usize::MAX]).collect();
+        let cut = |work: u64| {
+            Forest {
+                parent: &chain,
+                work: &vec![work; 100],
+            }
+            .subtrees()
+        };
+        assert!(cut(10).is_empty());
+        // A sixteenth of the chain is all that two threads could share.
+        assert_eq!(cut(100_000).len(), 1);
+    }
+
+    #[test]
+    fn a_tree_out_of_postorder_is_left_whole() {
+        // Children 0 and 1 of 3 and 2 of 4, 3 of 4: the subtree of 3 is not contiguous once 2 is not its own.
+        let forest = Forest {
+            parent: &[3, 4, 3, 5, 5, usize::MAX],
+            work: &[30_000; 6],
+        };
+        assert!(
+            forest.subtrees().iter().all(|range| range.len() <= 1) || forest.subtrees().is_empty()
+        );
+    }
+}
