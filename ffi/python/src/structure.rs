@@ -22,6 +22,8 @@ use std::sync::{Mutex, MutexGuard};
 #[pyclass(frozen, module = "brinell")]
 pub struct Structure {
     inner: Mutex<ConstrainedStructure>,
+    /// Of the last displacements.
+    backward_error: Mutex<f64>,
     condensed: Py<PyAny>,
     contact_freedoms: Py<PyAny>,
     n: usize,
@@ -102,6 +104,15 @@ impl Structure {
     fn lock(&self) -> MutexGuard<'_, ConstrainedStructure> {
         // A state that a panic left behind is that of the last call that returned, or refused by the next.
         self.inner.lock().unwrap_or_else(|e| e.into_inner())
+    }
+
+    /// Fills in the displacements, with the interpreter released.
+    fn displace(&self, py: Python<'_>, u: &mut [f64]) -> PyResult<()> {
+        let error = py
+            .detach(|| contained(|| self.lock().displacements(u)))
+            .raise(py)?;
+        *(self.backward_error.lock()).unwrap_or_else(|e| e.into_inner()) = error;
+        Ok(())
     }
 
     /// Hands a vector on, with the interpreter released.
@@ -194,6 +205,7 @@ impl Structure {
             n: structure.n_freedoms(),
             n_rows: structure.n_rows(),
             inner: Mutex::new(structure),
+            backward_error: Mutex::new(f64::NAN),
         })
     }
 
@@ -271,8 +283,7 @@ impl Structure {
     ) -> PyResult<Bound<'py, PyArray1<f64>>> {
         let Some(out) = out else {
             let mut u = vec![0.0; self.n];
-            py.detach(|| contained(|| self.lock().displacements(&mut u)))
-                .raise(py)?;
+            self.displace(py, &mut u)?;
             return Ok(PyArray1::from_vec(py, u));
         };
         {
@@ -282,16 +293,15 @@ impl Structure {
             let u = array
                 .as_slice_mut()
                 .map_err(|cause| wrong(py, format!("out: {cause}")))?;
-            py.detach(|| contained(|| self.lock().displacements(u)))
-                .raise(py)?;
+            self.displace(py, u)?;
         }
         Ok(out)
     }
 
-    /// |K u - f + B' r| / (|K| |u| + |f|) of the last displacements.
+    /// |K u - f + B' r| / (|K| |u| + |f|) of the last displacements; not a number before them.
     #[getter]
     fn backward_error(&self) -> f64 {
-        self.lock().backward_error()
+        *(self.backward_error.lock()).unwrap_or_else(|e| e.into_inner())
     }
 
     fn __repr__(&self) -> String {
