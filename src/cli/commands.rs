@@ -158,15 +158,23 @@ pub(super) fn prepare(common: &CommonArguments) -> Result<Scene> {
     let mut overrides = common.overrides.clone();
     overrides.extend(common.accuracy.iter().map(|a| format!("accuracy={a}")));
     let scene = Scene::load_with(&common.scene, &overrides)?;
-    if let Some(threads) = common.threads {
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(usize::from(threads))
-            .build_global()
-            .map_err(|cause| {
-                Error::internal(format!("cannot start {threads} threads")).because(cause)
-            })?;
-    }
+    start_threads(common.threads.map(usize::from))?;
     Ok(scene)
+}
+
+/// This thread becomes one of the `threads` (all processors if not said): it works on small pieces itself where it would otherwise
+/// wake another one and wait.
+fn start_threads(threads: Option<usize>) -> Result<()> {
+    let started = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.unwrap_or(0))
+        .use_current_thread()
+        .build_global();
+    match (started, threads) {
+        (Err(cause), Some(threads)) => {
+            Err(Error::internal(format!("cannot start {threads} threads")).because(cause))
+        }
+        _ => Ok(()),
+    }
 }
 
 pub(super) fn json(value: &impl serde::Serialize) -> Result<String> {

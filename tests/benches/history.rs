@@ -76,6 +76,9 @@ fn scene(name: &str) -> Result<Scene, Failure> {
 
 /// brinell from scene to files.
 fn run(name: &str, directory: &Path) -> Result<Value, Failure> {
+    rayon::ThreadPoolBuilder::new()
+        .use_current_thread()
+        .build_global()?;
     let start = Instant::now();
     let scene = scene(name)?;
     let model = Model::new(&scene)?;

@@ -300,6 +300,21 @@ impl<'a> Supernodes<'a> {
 }
 
 impl<'a> Columns<'a> {
+    /// The diagonal of `L`.
+    pub(super) fn pivots(&self) -> Vec<f64> {
+        match self {
+            Columns::Supernodal(supernodes) => (0..supernodes.len())
+                .flat_map(|s| {
+                    let (values, height) = (supernodes.values(s), supernodes.rows(s).len());
+                    (0..supernodes.columns(s).len()).map(move |k| values[k * height + k])
+                })
+                .collect(),
+            Columns::Simplicial { starts, values, .. } => {
+                starts.iter().map(|&start| values[start as usize]).collect()
+            }
+        }
+    }
+
     /// Column `j`, wherever it lies in its supernode.
     pub(super) fn get(&self, j: usize) -> Column<'a> {
         match self {

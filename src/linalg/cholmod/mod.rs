@@ -376,14 +376,12 @@ fn prediction(
 
 /// The smallest `l_jj^2 / a_jj`, the first of equals in the order of elimination.
 fn weakest_pivot(factor: &Factor, diagonal: impl Fn(usize) -> f64) -> Pivot {
-    let columns = factor.columns();
     let mut weakest = Pivot {
         freedom: 0,
         ratio: f64::INFINITY,
     };
-    for (j, &freedom) in factor.permutation().iter().enumerate() {
+    for (&freedom, pivot) in factor.permutation().iter().zip(factor.columns().pivots()) {
         let freedom = freedom as usize;
-        let pivot = columns.get(j).values[0];
         let ratio = pivot * pivot / diagonal(freedom);
         if ratio < weakest.ratio || ratio.is_nan() {
             weakest = Pivot { freedom, ratio };
