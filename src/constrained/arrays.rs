@@ -18,6 +18,24 @@ pub enum Triangle {
 /// A symmetric `n x n` matrix from its entries compressed by column: `n + 1` begins of the columns in `rows` and `values`.
 /// Repeated entries are added; rows need not be sorted.
 ///
+/// ```
+/// use brinell::constrained::{ConstrainedStructure, Triangle, rows_from_csr, stiffness_from_csc};
+/// use brinell::linalg::Backend;
+///
+/// # fn main() -> brinell::Result<()> {
+/// // Two unit springs in a row, the first tied to the ground; a wall at distance 1 before the second end.
+/// let k = stiffness_from_csc(2, &[0, 1, 3], &[0, 0, 1], &[2.0, -1.0, 1.0], Triangle::Upper)?;
+/// let wall = rows_from_csr(2, &[0, 1], &[1], &[1.0])?;
+/// let mut structure = ConstrainedStructure::new(Backend::default(), &k, &wall, &[1.0])?;
+/// structure.start(&[0.0, 1.0])?;
+/// let event = structure.step(2.0)?;
+/// assert!((event.t - 0.5).abs() < 1e-15, "the wall is reached under half the load");
+/// structure.step(2.0)?;
+/// assert!((structure.forces()[0] - 1.5).abs() < 1e-14);
+/// # Ok(())
+/// # }
+/// ```
+///
 /// # Errors
 /// Lengths that do not fit, begins that fall, a row that is not in `0..n`, an entry outside of the triangle or not finite: by its
 /// place and value.
