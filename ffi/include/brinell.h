@@ -83,7 +83,7 @@
 // Total force (x, y), shared by the nodes like a uniform traction (surface) or equally (node set).
 #define BRINELL_LOAD_FORCE 0
 
-// Pressure on a surface, positive into the body: values[0].
+// Pressure on a surface, positive into the body: the first of `values`.
 #define BRINELL_LOAD_PRESSURE 1
 
 // Uniform traction (x, y) on a surface.
@@ -95,7 +95,7 @@
 // Prescribed displacement (x, y) in the given directions.
 #define BRINELL_LOAD_DISPLACEMENT 4
 
-// Total force values[0] along the one given direction, on a surface that is held plane.
+// Total force (the first of `values`) along the one given direction, on a surface that is held plane.
 #define BRINELL_LOAD_PLANE_FORCE 5
 
 // A force of its own (x, y) on each of `nodes`; `name` is needed, `on` is not.

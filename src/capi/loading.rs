@@ -12,7 +12,7 @@ use std::ffi::c_char;
 
 /// Total force (x, y), shared by the nodes like a uniform traction (surface) or equally (node set).
 pub const BRINELL_LOAD_FORCE: i32 = 0;
-/// Pressure on a surface, positive into the body: values[0].
+/// Pressure on a surface, positive into the body: the first of `values`.
 pub const BRINELL_LOAD_PRESSURE: i32 = 1;
 /// Uniform traction (x, y) on a surface.
 pub const BRINELL_LOAD_TRACTION: i32 = 2;
@@ -20,7 +20,7 @@ pub const BRINELL_LOAD_TRACTION: i32 = 2;
 pub const BRINELL_LOAD_KIRSCH: i32 = 3;
 /// Prescribed displacement (x, y) in the given directions.
 pub const BRINELL_LOAD_DISPLACEMENT: i32 = 4;
-/// Total force values[0] along the one given direction, on a surface that is held plane.
+/// Total force (the first of `values`) along the one given direction, on a surface that is held plane.
 pub const BRINELL_LOAD_PLANE_FORCE: i32 = 5;
 /// A force of its own (x, y) on each of `nodes`; `name` is needed, `on` is not.
 pub const BRINELL_LOAD_NODAL: i32 = 6;
