@@ -61,7 +61,6 @@ impl Model {
     /// Input errors naming the scene entry and the node, body or set; [`crate::ErrorKind::Unheld`] where a body can move
     /// freely and the loads do work on that motion.
     pub fn new(scene: &Scene) -> Result<Self> {
-        scene.validate()?;
         let mesh = build_mesh(scene)?;
         Self::resolve(scene, mesh, &Given::default())
     }
@@ -71,7 +70,6 @@ impl Model {
     /// # Errors
     /// As [`Model::new`].
     pub fn from_mesh(scene: &Scene, mesh: Mesh) -> Result<Self> {
-        scene.validate_without_mesh()?;
         Self::resolve(scene, mesh, &Given::default())
     }
 

@@ -11,7 +11,7 @@ use std::fmt;
 
 impl Scene {
     /// Checks values and references. [`Scene::load`] and [`Scene::parse`] do so by themselves, with
-    /// line and column; a scene built in code is checked when a [`crate::model::Model`] is made from it.
+    /// line and column, and so does [`crate::model::ModelBuilder`]; a scene changed in code is checked by this.
     ///
     /// # Errors
     /// [`crate::ErrorKind::Input`], one line per problem: key path, value, what to do.
