@@ -31,6 +31,9 @@ pub enum PathEnd {
 
 /// Gaps below this share of the largest, forces below this share of the largest, count as zero when ties are collected.
 const TIE: f64 = 1e-10;
+/// Events over which gaps, forces and their rates are carried along, each for the cost of a column; after that many they are solved for anew,
+/// so that round-off does not add up.
+const CARRIED: usize = 16;
 /// Share of these by which a pair may be beyond its condition at the end of a piece: round-off of an event that is due there.
 const AT_END: f64 = 1e-2;
 /// The same for the last pair that holds a body, as a share of its force at the begin.
@@ -51,6 +54,8 @@ pub struct Path {
     force_rate: Vec<f64>,
     gap_scale: f64,
     force_scale: f64,
+    /// Events since gaps, forces and rates were last solved for.
+    carried: usize,
     /// Pairs that changed status when the rates were last settled.
     pub changes: usize,
 }
@@ -80,6 +85,7 @@ impl Path {
             force_rate: vec![0.0; n],
             gap_scale,
             force_scale: 0.0,
+            carried: CARRIED,
             changes: 0,
         };
         path.settle(tableau)?;
@@ -113,15 +119,19 @@ impl Path {
             .filter(|&k| self.gap[k] <= zero_gap && self.force[k] <= zero_force)
             .collect();
         let before = tableau.open().to_vec();
+        let anew = self.carried >= CARRIED;
+        self.carried = if anew { 0 } else { self.carried + 1 };
+        if anew {
+            tableau.solve(&self.rate, &mut self.gap_rate, &mut self.force_rate);
+        }
         if !border.is_empty() {
             for &k in &border {
                 if tableau.open()[k] {
-                    tableau.flip(k);
+                    tableau.flip_with(k, &mut self.gap_rate, &mut self.force_rate);
                 }
                 self.gap[k] = 0.0;
                 self.force[k] = 0.0;
             }
-            tableau.solve(&self.rate, &mut self.gap_rate, &mut self.force_rate);
             let m = border.len();
             let reduced = DMatrix::from_fn(m, m, |i, j| tableau.swept()[(border[i], border[j])]);
             let rates: Vec<f64> = border.iter().map(|&k| self.force_rate[k]).collect();
@@ -131,12 +141,16 @@ impl Path {
                 pair: border[u.pair],
             })?;
             for (i, &k) in border.iter().enumerate() {
-                if small.open()[i] && !tableau.flip(k) {
+                if small.open()[i]
+                    && !tableau.flip_with(k, &mut self.gap_rate, &mut self.force_rate)
+                {
                     return Err(Unbounded { pair: k });
                 }
             }
         }
-        tableau.solve(&self.rate, &mut self.gap_rate, &mut self.force_rate);
+        if anew {
+            tableau.solve(&self.rate, &mut self.gap_rate, &mut self.force_rate);
+        }
         // At the border a rate that leads beyond it is round-off, the complementarity problem has seen to that: taken at
         // its word the path would stand still for ever.
         for &k in &border {
@@ -175,10 +189,18 @@ impl Path {
                 }
             }
         }
-        self.t = if first.is_some() { self.t + step } else { end };
-        self.state_at(tableau, self.t);
         if first.is_none() {
+            self.state_at(tableau, end);
             return PathEnd::Target;
+        }
+        if self.carried >= CARRIED {
+            self.state_at(tableau, self.t + step);
+        } else {
+            self.t += step;
+            let rates = self.gap_rate.iter().chain(&self.force_rate);
+            for (value, rate) in self.gap.iter_mut().chain(&mut self.force).zip(rates) {
+                *value = (*value + step * rate).max(0.0);
+            }
         }
         if let Some(k) = first {
             // This pair is at its border by construction. Round-off that says otherwise would let the path stand still.

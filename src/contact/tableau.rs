@@ -78,6 +78,26 @@ impl Tableau {
         true
     }
 
+    /// As [`Tableau::flip`]; keeps `gap` and `force` what [`Tableau::solve`] gives for their right-hand side, for the new statuses: one column
+    /// instead of the whole matrix.
+    pub fn flip_with(&mut self, k: usize, gap: &mut [f64], force: &mut [f64]) -> bool {
+        if self.would_free(k) {
+            return false;
+        }
+        // Of y = b + S z with y = (r_closed, -g_open) and z = (g_closed, r_open) only b stands where z is zero.
+        let b = if self.open[k] { -gap[k] } else { force[k] };
+        let z = -b / self.swept[(k, k)];
+        for (i, s) in self.swept.column(k).iter().enumerate() {
+            if self.open[i] {
+                gap[i] -= s * z;
+            } else {
+                force[i] += s * z;
+            }
+        }
+        (gap[k], force[k]) = if self.open[k] { (0.0, z) } else { (z, 0.0) };
+        self.flip(k)
+    }
+
     /// Sets all statuses, starting from the original matrix; pairs whose opening would free a rigid motion stay closed.
     pub fn reset(&mut self, open: &[bool]) {
         self.swept.copy_from(&self.matrix);

@@ -76,6 +76,30 @@ proptest! {
 }
 
 #[test]
+fn flips_carry_gaps_and_forces_along() {
+    let n = 7;
+    let entries: Vec<f64> = (0..n * n)
+        .map(|i| ((i * i * 7919) % 1013) as f64 / 1013.0 - 0.5)
+        .collect();
+    let mut tableau = Tableau::new(semidefinite(n, n, &entries));
+    let q: Vec<f64> = (0..n).map(|i| (i as f64 * 0.7).cos()).collect();
+    let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
+    tableau.solve(&q, &mut gap, &mut force);
+    let (mut solved_gap, mut solved_force) = (gap.clone(), force.clone());
+    for k in [2, 5, 0, 2, 6, 0, 3, 5] {
+        assert!(tableau.flip_with(k, &mut gap, &mut force));
+        tableau.solve(&q, &mut solved_gap, &mut solved_force);
+        let largest = |v: &[f64]| v.iter().fold(1.0f64, |m, x| m.max(x.abs()));
+        for (a, b) in [(&gap, &solved_gap), (&force, &solved_force)] {
+            for (x, y) in a.iter().zip(b) {
+                // A few pivots of a matrix whose condition is far below 1e5.
+                assert!((x - y).abs() <= 1e-10 * largest(b), "{k}: {a:?} {b:?}");
+            }
+        }
+    }
+}
+
+#[test]
 fn sweeping_there_and_back_is_the_identity() {
     let t = semidefinite(
         5,

@@ -17,6 +17,7 @@
 //! | [`cholmod`] | one sparse Cholesky factor whose trailing block *is* the factor of `S` | everything |
 //! | [`dense`] | the formulas above, term by term | reference, small models, builds without CHOLMOD |
 
+pub(crate) mod blocked;
 mod check;
 #[cfg(feature = "cholmod")]
 pub mod cholmod;

@@ -23,6 +23,7 @@
 //! doi:10.1007/BF02165096, and N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., theorem 10.5 (scaling).
 
 use crate::error::{Error, Result};
+use crate::linalg::blocked;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// A rigid motion on the contact freedoms: first nodes of all pairs, then second nodes.
@@ -134,23 +135,22 @@ impl Tied {
                 coupling[(n_w + a, j)] = forces[(f, a)];
             }
         }
-        let factor = Cholesky::new(tied).ok_or_else(|| {
+        let factor = blocked::cholesky(tied).ok_or_else(|| {
             Error::internal(
                 "the bodies are not held even with all contact pairs closed: the condensed stiffness of the tied structure is \
                  not positive definite",
             )
         })?;
-        let half = factor
-            .l_dirty()
-            .solve_lower_triangular(&coupling)
-            .ok_or_else(|| {
-                Error::internal("the condensed stiffness of the tied structure has a zero pivot")
-            })?;
+        let mut half = coupling.clone();
+        blocked::solve_lower(&factor, &mut half);
+        let factor = Cholesky::pack_dirty(factor);
         let softer = DMatrix::from_fn(n, n, |i, j| stiffness[(follow[i], follow[j])]);
-        let mut matrix = softer - half.tr_mul(&half);
+        let eliminated = blocked::gram(half.as_view(), |_| half.nrows());
+        let mut matrix = softer;
         for j in 0..n {
             for i in j..n {
-                let value = sign[i] * sign[j] * 0.5 * (matrix[(i, j)] + matrix[(j, i)]);
+                // C is symmetric to the last bit.
+                let value = sign[i] * sign[j] * (matrix[(i, j)] - eliminated[(i, j)]);
                 matrix[(i, j)] = value;
                 matrix[(j, i)] = value;
             }

@@ -20,7 +20,7 @@ use super::factor::{Columns, Factor};
 use super::ordering::Groups;
 use super::panel;
 use crate::error::{Error, Result};
-use crate::linalg::Partition;
+use crate::linalg::{Partition, blocked};
 use nalgebra::DMatrix;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -273,18 +273,9 @@ impl Trailing {
                 }
             }
         }
-        // (L L')_IJ for blocks J <= I: only the first rows of U, up to the end of J, contribute.
-        const BLOCK: usize = 96;
-        let mut product = DMatrix::zeros(n, n);
-        for j in (0..n).step_by(BLOCK) {
-            let width = BLOCK.min(n - j);
-            let depth = j + width;
-            let left = upper.view((0, j), (depth, n - j)).transpose();
-            let right = upper.view((0, j), (depth, width));
-            product
-                .view_mut((j, j), (n - j, width))
-                .gemm(1.0, &left, &right, 0.0);
-        }
+        // (L L')_ij for j <= i: only the first rows of U, up to j, contribute.
+        let product = blocked::gram(upper.as_view(), |j| j);
+        drop(upper);
         let mut stiffness = DMatrix::zeros(n, n);
         for j in 0..n {
             for i in j..n {
