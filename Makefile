@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .ONESHELL:
 .DEFAULT_GOAL := help
-.PHONY: help setup cargo build run test lint bench install python clean
+.PHONY: help setup cargo build run test lint bench bench-peers install python clean
 
 # What the CHOLMOD backend is built on: SuiteSparse, a fast BLAS, and libclang for bindgen.
 PACKAGES := libsuitesparse-dev libopenblas-dev libclang-dev
@@ -12,7 +12,7 @@ SCENE ?= data/scenes/cylinder_on_half_plane.toml
 ARGS ?=
 
 help: ## Show this list
-	@grep -E '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## /\1\t/' | expand -t 10
+	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /\1\t/' | expand -t 10
 	echo
 	echo "make run SCENE=data/scenes/disc_in_plate.toml ARGS='--out disc' runs another scene."
 
@@ -69,7 +69,12 @@ lint: setup ## Format, clippy and documentation, warnings are errors
 	RUSTDOCFLAGS="-D warnings" cargo doc --features capi --no-deps --quiet
 
 bench: setup ## Measure
-	@cargo bench
+	@cargo bench --bench trailing --bench history --bench contact
+
+# CalculiX is needed for nothing else.
+bench-peers: PACKAGES += calculix-ccx
+bench-peers: setup ## Measure beside CalculiX (installs it where it is absent)
+	@cargo bench --bench peers
 
 # The libraries are built for `install` alone: they would slow down every other build.
 PREFIX ?= /usr/local

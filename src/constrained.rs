@@ -32,6 +32,41 @@ use std::collections::BTreeMap;
 const CANCELLED: f64 = 1e-12;
 
 /// A sparse stiffness with contact rows, factored and condensed once.
+///
+/// Three springs of stiffness 1 in a row, the first to ground; the last node meets a wall at distance 1:
+///
+/// ```
+/// use brinell::constrained::ConstrainedStructure;
+/// use brinell::contact::Change;
+/// use brinell::linalg::{Backend, SymmetricCsc};
+///
+/// # fn main() -> brinell::Result<()> {
+/// // Upper triangle by columns: column pointers, rows, values.
+/// let stiffness = SymmetricCsc::new_csc(
+///     (3, 3),
+///     vec![0, 1, 3, 5],
+///     vec![0, 0, 1, 1, 2],
+///     vec![2.0, -1.0, 2.0, -1.0, 1.0],
+/// );
+/// let rows = [vec![(2, 1.0)]];
+/// let mut structure = ConstrainedStructure::new(Backend::default(), &stiffness, &rows, &[1.0])?;
+///
+/// // Pulled by a force that grows to 2: the wall is met at a third, then it carries the rest.
+/// structure.start(&[0.0, 0.0, 1.0])?;
+/// let event = structure.step(2.0)?;
+/// assert_eq!(event.changes, [Change::Closes(0)]);
+/// assert!((event.t - 1.0 / 3.0).abs() < 1e-12);
+/// structure.step(2.0)?;
+/// assert!((structure.forces()[0] - 5.0 / 3.0).abs() < 1e-12);
+///
+/// // Or at once, under any load: plastic strains as initial loads among them.
+/// structure.solve(&[0.0, 3.0, 0.0])?;
+/// let mut u = [0.0; 3];
+/// structure.displacements(&mut u)?;
+/// assert!((u[2] - 1.0).abs() < 1e-12 && structure.gaps()[0] == 0.0);
+/// # Ok(())
+/// # }
+/// ```
 pub struct ConstrainedStructure {
     condensed: Box<dyn Condensed>,
     stiffness: SymmetricCsc,

@@ -15,51 +15,44 @@
 //!
 //! A module imports only from modules declared above it; a test holds that.
 //!
-//! # From a scene to results
+//! # Use
 //!
 //! ```
 //! use brinell::{analysis::Analysis, linalg::Backend, model::Model, progress::Silent, scene::Scene};
 //!
 //! # fn main() -> brinell::Result<()> {
-//! // A shaft that is 0.05 too thick for its ring; Lame gives a pressure of 78.75.
-//! let scene = Scene::parse(
-//!     r#"
-//!     kind = "plane_stress"
-//!     mesh.parts = [
-//!         { body = "shaft", disc = { radius = 50.0, elements = 16 } },
-//!         { body = "ring", ring = { radius = [50.0, 100.0], elements = [16, 16] } },
-//!     ]
-//!     materials.steel = { youngs_modulus = 210e3, poissons_ratio = 0.3 }
-//!     bodies = { shaft = { material = "steel" }, ring = { material = "steel" } }
-//!     contact = [{ first = "shaft.outer", second = "ring.inner", interference = 0.05 }]
-//!     support = [
-//!         { on = "shaft.start", fix = ["y"] }, { on = "shaft.end", fix = ["x"] },
-//!         { on = "ring.start", fix = ["y"] }, { on = "ring.end", fix = ["x"] },
-//!     ]
-//!     program.targets = [{ name = "fitted", load_factor = 0.0 }]
-//!     "#,
-//!     "shrink fit",
-//! )?;
+//! let scene = Scene::load("data/scenes/contact_patch.toml")?;
 //! let results = Analysis::new(Model::new(&scene)?, Backend::default())?.run(&mut Silent)?;
-//! assert!((results.states[0].max_pressure / 78.75 - 1.0).abs() < 0.01);
+//! // A uniform pressure is passed on by the contact as it is.
+//! assert!((results.states[0].max_pressure - 10.0).abs() < 1e-9);
 //! # Ok(())
 //! # }
 //! ```
 //!
-//! A model may also come from arrays ([`model::ModelBuilder`]); programs with elements of their own hand over a sparse stiffness and
-//! contact rows ([`constrained::ConstrainedStructure`]). Other languages: `ffi/README.md`.
+//! | to | use |
+//! |---|---|
+//! | read or make a scene | [`scene::Scene`] |
+//! | run on a mesh of one's own | [`mesh::gmsh`], [`model::Model::from_mesh`]; from arrays [`model::ModelBuilder`] |
+//! | compute | [`analysis::Analysis`]: the whole program or the yield load |
+//! | watch a run, or stop it | [`progress::Observer`] |
+//! | read what came out | [`results::Results`]; as files [`output`] |
+//! | solve contact on a stiffness of one's own | [`constrained::ConstrainedStructure`] |
+//! | know how wrong a number is | [`accuracy`] |
+//! | compare with closed forms | [`analytical`] |
+//!
+//! The library never prints, never ends the process and holds no global state; everything that can fail returns [`Error`], whose
+//! [`ErrorKind`] says what kind of failure it is and whose message names file, key, node or body, the value, and what to do.
 //!
 //! # Features
 //!
-//! `cholmod` (default) condenses with SuiteSparse's CHOLMOD; without it (`default-features = false`) the crate is pure Rust and solves densely,
-//! up to 6000 freedoms. `capi` adds the C interface.
+//! - `cholmod` (default): condense with CHOLMOD of SuiteSparse, which must be installed with its headers (and libclang, to
+//!   read them). Its supernodal module is GPL-2.0-or-later: so is what is linked with it.
+//! - `capi`: the C interface (`ffi/include/brinell.h`; `make install` builds the libraries with it).
+//! - Without features (`default-features = false`) the crate is pure Rust, MIT or Apache-2.0; the dense backend takes up to 6000 freedoms.
 //!
-//! # Versions
+//! # Stability
 //!
-//! Semantic versioning: before 1.0 a minor version may break what a patch may not. It covers public items, scene keys, keys of `summary.json`,
-//! columns of tables, exit codes and the C header (which has a version of its own, raised where programs must be compiled anew). The types of
-//! [`scene`] and [`results`] may gain fields in any minor version: build them with `..Default::default()`. Digits at the level of round-off may
-//! change with any version, and so may the texts of messages. A later Rust than 1.89 may be asked for by a minor version.
+//! Semantic versioning, as the README says in "Versions".
 #![warn(missing_docs)]
 
 // Blank lines keep the order of the data: rustfmt sorts neighbouring lines.

@@ -1,8 +1,31 @@
 //! What an analysis computed: states, history, quality and cost, free of any solver's types.
 
-use serde::Serialize;
+use serde::{Deserialize, Deserializer, Serialize};
+
+/// Numbers that are not finite are written as null.
+fn null_is_not_a_number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+    Ok(Option::<f64>::deserialize(from)?.unwrap_or(f64::NAN))
+}
 
 /// Everything a run leaves behind.
+///
+/// ```
+/// use brinell::results::Status;
+/// # use brinell::{analysis::Analysis, linalg::Backend, model::Model, progress::Silent, scene::Scene};
+///
+/// # fn main() -> brinell::Result<()> {
+/// # let scene = Scene::load("data/scenes/contact_patch.toml")?;
+/// # let results = Analysis::new(Model::new(&scene)?, Backend::default())?.run(&mut Silent)?;
+/// for state in &results.states {
+///     let closed = state.pairs.iter().filter(|pair| pair.status == Status::Closed);
+///     println!("{}: load {}, {} pairs closed", state.name, state.load, closed.count());
+/// }
+/// // A run that ends well: done to its end, and every state within its tolerances.
+/// assert!(results.incomplete.is_none() && results.inaccurate.is_empty());
+/// # assert_eq!(results.states[0].pairs.iter().filter(|p| p.status == Status::Closed).count(), 9);
+/// # Ok(())
+/// # }
+/// ```
 #[derive(Debug, Clone, Default)]
 pub struct Results {
     /// Number of free freedoms, elements, contact pairs.
@@ -212,7 +235,7 @@ pub struct HistoryRow {
 }
 
 /// Machine-independent cost of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Counts {
     /// Numerical factorisations of the sparse stiffness.
     pub factorizations: usize,
@@ -292,7 +315,7 @@ pub struct ReferenceRow {
 }
 
 /// How wrong the figures of a run may be.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Accuracy {
     /// How the discretisation error was estimated.
     pub method: EstimateMethod,
@@ -303,26 +326,29 @@ pub struct Accuracy {
     /// What was demanded, chosen and reached, where the scene demands an accuracy.
     pub demand: Option<Demand>,
     /// Seconds that the estimate took.
+    #[serde(deserialize_with = "null_is_not_a_number")]
     pub seconds: f64,
     /// What the estimate could not do, and why.
     pub notes: Vec<String>,
 }
 
 /// A demanded accuracy and what became of it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Demand {
     /// The largest relative error that was demanded.
+    #[serde(deserialize_with = "null_is_not_a_number")]
     pub accuracy: f64,
     /// Whether every stated error is within it.
     pub reached: bool,
     /// The largest stated relative error of the quantities that govern.
+    #[serde(deserialize_with = "null_is_not_a_number")]
     pub stated: f64,
     /// What was chosen, and why.
     pub choices: Vec<String>,
 }
 
 /// How a discretisation error was estimated.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EstimateMethod {
     /// The same scene on coarser meshes of the same family; the error is extrapolated.
@@ -335,22 +361,25 @@ pub enum EstimateMethod {
 }
 
 /// A coarser mesh of the same family.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Companion {
     /// Its element size over that of the run.
+    #[serde(deserialize_with = "null_is_not_a_number")]
     pub ratio: f64,
     /// Its freedoms.
     pub freedoms: usize,
     /// Seconds that its run took.
+    #[serde(deserialize_with = "null_is_not_a_number")]
     pub seconds: f64,
 }
 
 /// A reported quantity with its estimated errors, all absolute, in its own unit, and not negative.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct QuantityError {
     /// Its path in `summary.json`; states by name: `states.NAME.KEY`.
     pub quantity: String,
     /// The computed value.
+    #[serde(deserialize_with = "null_is_not_a_number")]
     pub value: f64,
     /// The stated error: twice the discretisation error, path and algebraic error together.
     pub error: Option<f64>,
@@ -361,6 +390,7 @@ pub struct QuantityError {
     /// Estimated error of the path: increments, plastic iteration and event tolerance.
     pub path: Option<f64>,
     /// Estimated error of the algebra: backward error, equilibrium, complementarity.
+    #[serde(deserialize_with = "null_is_not_a_number")]
     pub algebraic: f64,
     /// Order of convergence in the element size that the meshes show, within the range that is believed.
     pub order: Option<f64>,

@@ -86,7 +86,28 @@ impl Analysis {
     }
 
     /// Runs the whole load program. A run that fails after increments were accepted returns what was computed, with
-    /// [`Results::incomplete`] set.
+    /// [`Results::incomplete`] set. The observer sees every accepted increment, and may stop the run there:
+    ///
+    /// ```
+    /// use brinell::progress::{Flow, Observer};
+    /// use brinell::results::HistoryRow;
+    /// use brinell::{ErrorKind, analysis::Analysis, linalg::Backend, model::Model, scene::Scene};
+    ///
+    /// struct UpTo(f64);
+    /// impl Observer for UpTo {
+    ///     fn increment(&mut self, row: &HistoryRow, _fraction: f64) -> Flow {
+    ///         if row.load < self.0 { Flow::Continue } else { Flow::Stop }
+    ///     }
+    /// }
+    ///
+    /// # fn main() -> brinell::Result<()> {
+    /// let scene = Scene::load("data/scenes/three_bodies.toml")?;
+    /// let results = Analysis::new(Model::new(&scene)?, Backend::default())?.run(&mut UpTo(1.0))?;
+    /// assert_eq!(results.incomplete_kind, Some(ErrorKind::Stopped));
+    /// assert!(results.history.last().is_some_and(|row| row.load >= 1.0));
+    /// # Ok(())
+    /// # }
+    /// ```
     ///
     /// # Errors
     /// Failures before the first state: factorisation, yield load, a body that is not held.
@@ -102,6 +123,19 @@ impl Analysis {
     }
 
     /// The yield load only.
+    ///
+    /// ```
+    /// use brinell::{analysis::Analysis, linalg::Backend, model::Model, progress::Silent, scene::Scene};
+    ///
+    /// # fn main() -> brinell::Result<()> {
+    /// let scene = Scene::load("data/scenes/thick_cylinder.toml")?;
+    /// let results = Analysis::new(Model::new(&scene)?, Backend::default())?.yield_load(&mut Silent)?;
+    /// let first = results.first_yield.expect("the tube yields");
+    /// // Lame, von Mises at the bore in plane strain: 103.750 for a yield stress of 240.
+    /// assert!((first.load / 103.750 - 1.0).abs() < 1e-3);
+    /// # Ok(())
+    /// # }
+    /// ```
     ///
     /// # Errors
     /// As [`Analysis::run`].

@@ -60,7 +60,41 @@ pub(super) struct Run<'m, 'o> {
     pub(super) elastic_range: [f64; 2],
     /// Number of targets behind.
     pub(super) done: usize,
+    /// What the way to the next target is measured by.
+    pub(super) aim: Aim,
+    /// Share of the load program that lies behind, as far as it was reported: it never falls.
+    pub(super) fraction: f64,
     pub(super) seconds: Seconds,
+}
+
+/// What the way to a target is measured by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Aim {
+    /// There is no target yet.
+    Nothing,
+    /// From one load factor to another.
+    Factor { from: f64, to: f64 },
+    /// A monitored quantity is to vanish; its size at the beginning, once it is known.
+    Monitored { at_first: Option<f64> },
+}
+
+impl Aim {
+    /// Share of the way that lies behind, at a load factor and a value of the monitored quantity.
+    fn share(self, alpha: f64, monitored: f64) -> f64 {
+        let share = match self {
+            Aim::Factor { from, to } if from != to => (alpha - from) / (to - from),
+            Aim::Factor { .. } => 1.0,
+            Aim::Monitored {
+                at_first: Some(first),
+            } if first > 0.0 => 1.0 - monitored.abs() / first,
+            _ => 0.0,
+        };
+        if share.is_finite() {
+            share.clamp(0.0, 1.0)
+        } else {
+            0.0
+        }
+    }
 }
 
 /// Seconds by effect.
@@ -112,6 +146,8 @@ impl<'m, 'o> Run<'m, 'o> {
             yield_alpha: None,
             elastic_range: [0.0; 2],
             done: 0,
+            aim: Aim::Nothing,
+            fraction: 0.0,
             seconds: Seconds {
                 condensation: start.elapsed().as_secs_f64(),
                 ..Seconds::default()
@@ -228,9 +264,26 @@ impl<'m, 'o> Run<'m, 'o> {
     ) -> Result<Arrival> {
         let model = self.model();
         let program = &model.scene.program;
-        let fraction = self.done as f64 / program.targets.len().max(1) as f64;
         let taken = Cell::new(0);
+        // The increments' observer is told how far the monitored quantity is, which costs a solve for some.
+        let last = Cell::new(f64::NAN);
+        let remembering = monitor.map(|monitor| {
+            let last = &last;
+            move |engine: &mut Engine| {
+                last.set(monitor(engine));
+                last.get()
+            }
+        });
+        let monitor = remembering.as_ref().map(|m| m as &Monitor);
         let mut watched = monitor.map(|m| m(&mut self.engine));
+        if let (Aim::Monitored { at_first }, Some(value)) = (&mut self.aim, watched) {
+            at_first.get_or_insert(value.abs());
+        }
+        let (aim, done, n_targets) = (
+            self.aim,
+            self.done as f64,
+            program.targets.len().max(1) as f64,
+        );
         loop {
             let plastic = self.plastic && !self.choice.elements.is_empty();
             if plastic {
@@ -247,6 +300,7 @@ impl<'m, 'o> Run<'m, 'o> {
             }
             let start = Instant::now();
             let results = &mut self.results;
+            let fraction = &mut self.fraction;
             let observer = RefCell::new(&mut *self.observer);
             let stop = || observer.borrow().stop_requested();
             let stepper = Stepper {
@@ -260,7 +314,9 @@ impl<'m, 'o> Run<'m, 'o> {
             };
             let mut report = |engine: &mut Engine, increment: &IncrementReport| {
                 let row = row(engine, increment, results.history.len() + 1);
-                let flow = observer.borrow_mut().increment(&row, fraction);
+                let share = aim.share(row.alpha, last.get());
+                *fraction = fraction.max((done + share) / n_targets);
+                let flow = observer.borrow_mut().increment(&row, *fraction);
                 results.history.push(row);
                 Ok(flow == Flow::Continue && !stop())
             };
@@ -376,5 +432,38 @@ fn row(engine: &Engine, report: &IncrementReport, increment: usize) -> HistoryRo
         trailing_solves: report.trailing_solves,
         residual: report.residual,
         event: report.event.clone(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Aim;
+
+    #[test]
+    fn the_share_of_the_way_runs_from_0_to_1_and_is_a_number_whatever_comes() {
+        let up = Aim::Factor { from: 1.0, to: 3.0 };
+        assert_eq!(
+            [1.0, 2.0, 3.0].map(|alpha| up.share(alpha, f64::NAN)),
+            [0.0, 0.5, 1.0]
+        );
+        let down = Aim::Factor { from: 2.0, to: 0.0 };
+        assert_eq!(down.share(0.5, 0.0), 0.75);
+        let monitored = Aim::Monitored {
+            at_first: Some(0.5),
+        };
+        assert_eq!(
+            [0.5, -0.25, 0.0, 9.0].map(|m| monitored.share(1.0, m)),
+            [0.0, 0.5, 1.0, 0.0]
+        );
+        for aim in [
+            Aim::Nothing,
+            Aim::Monitored { at_first: None },
+            up,
+            monitored,
+        ] {
+            let share = aim.share(f64::NAN, f64::NAN);
+            assert!((0.0..=1.0).contains(&share), "{aim:?}: {share}");
+        }
+        assert_eq!(Aim::Factor { from: 1.0, to: 1.0 }.share(1.0, 0.0), 1.0);
     }
 }

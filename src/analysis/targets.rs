@@ -2,7 +2,7 @@
 
 use super::drive::{Arrival, Monitor, stopped};
 use super::engine::Engine;
-use super::program::{DOUBLINGS, Run};
+use super::program::{Aim, DOUBLINGS, Run};
 use crate::error::{Error, Result};
 use crate::scene::{Direction, Target};
 
@@ -57,15 +57,22 @@ impl Run<'_, '_> {
         Ok(Arrival::End)
     }
 
+    fn aim_at_factor(&mut self, to: f64) {
+        let from = self.engine.at.alpha;
+        self.aim = Aim::Factor { from, to };
+    }
+
     pub(super) fn reach(&mut self, target: &Target, label: &str) -> Result<()> {
         if target.first_yield {
             let alpha = self.yield_alpha.ok_or_else(|| {
                 Error::analysis(format!("target `{label}`: no yield load was found before the program's largest load factor"))
             })?;
+            self.aim_at_factor(alpha);
             self.drive_to_factor(alpha, None)?;
             return Ok(());
         }
         if let Some(alpha) = target.load_factor {
+            self.aim_at_factor(alpha);
             self.drive_to_factor(alpha, None)?;
             return Ok(());
         }
@@ -136,6 +143,7 @@ impl Run<'_, '_> {
 
     /// Moves the load factor up (doubling) or down to zero until the monitored quantity vanishes.
     pub(super) fn search(&mut self, monitor: &Monitor, upward: bool, label: &str) -> Result<()> {
+        self.aim = Aim::Monitored { at_first: None };
         let mut end = self.engine.at.alpha;
         for _ in 0..DOUBLINGS {
             end = match (upward, end > 0.0) {

@@ -88,7 +88,10 @@ pub(super) enum Command {
     New(super::new::NewArguments),
     /// Print the JSON schema of scenes, for editors that complete and check
     Schema(super::schema::SchemaArguments),
-    /// Look at the results in a directory: plots in the terminal, and where the report is
+    /// Make the report of a result directory anew, or plot its main figures in the terminal
+    ///
+    /// Writes report.html and its figures from what the directory holds, without running anything; prints where the report is.
+    /// Serves nothing and opens nothing.
     View(super::view::ViewArguments),
     /// Print completions for a shell
     #[command(
@@ -98,6 +101,16 @@ pub(super) enum Command {
     /// Print the manual page (roff)
     #[command(after_help = "Example: brinell man | man -l -")]
     Man,
+}
+
+impl Command {
+    /// Whether standard error is for JSON lines alone.
+    pub(super) fn progress_is_json(&self) -> bool {
+        match self {
+            Command::Run(run) | Command::Yield(run) => run.progress_is_json(),
+            _ => false,
+        }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -119,6 +132,13 @@ pub(super) struct RunArguments {
     /// No progress and no warnings, only results and errors
     #[arg(long, short)]
     pub quiet: bool,
+}
+
+impl RunArguments {
+    /// Whether standard error is for JSON lines alone.
+    pub(super) fn progress_is_json(&self) -> bool {
+        self.progress == Shown::Json && !self.quiet
+    }
 }
 
 #[derive(Debug, Args)]
@@ -151,14 +171,14 @@ pub(super) struct CommonArguments {
 /// How progress is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub(super) enum Shown {
-    /// A bar on a terminal, lines elsewhere
+    /// Bars on a terminal, lines elsewhere
     #[default]
     Auto,
-    /// A bar with the time that is left
+    /// A bar per phase with elapsed time and what is left
     Bar,
     /// A line per phase and every few seconds
     Plain,
-    /// A JSON object per line: phases, increments, warnings
+    /// A JSON object per line: phases, increments, warnings, Ctrl-C, and the error at the end
     Json,
 }
 

@@ -15,13 +15,13 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 /// Does what the user asked for.
-pub(super) fn execute(arguments: &Arguments) -> Result<()> {
+pub(super) fn execute(arguments: &Arguments, start: Instant) -> Result<()> {
     match &arguments.command {
         Command::Run(run) => {
             let out = (run.out.clone()).unwrap_or_else(|| run.common.scene.with_extension("out"));
-            analyse(run, Some(out), Extent::Program)
+            analyse(run, Some(out), Extent::Program, start)
         }
-        Command::Yield(run) => analyse(run, run.out.clone(), Extent::Yield),
+        Command::Yield(run) => analyse(run, run.out.clone(), Extent::Yield, start),
         Command::Check(check) => predict(&check.common),
         Command::Selftest(selftest) => super::selftest::execute(selftest),
         Command::Accuracy(arguments) => study::execute(arguments),
@@ -35,17 +35,21 @@ pub(super) fn execute(arguments: &Arguments) -> Result<()> {
 }
 
 /// Scene, model, analysis, files, summary.
-fn analyse(arguments: &RunArguments, out: Option<PathBuf>, extent: Extent) -> Result<()> {
+fn analyse(
+    arguments: &RunArguments,
+    out: Option<PathBuf>,
+    extent: Extent,
+    start: Instant,
+) -> Result<()> {
     let common = &arguments.common;
     let scene = prepare(common)?;
     if let Some(out) = &out {
         // A directory that cannot be written is better found before an hour's run than after it.
         output::check_directory(out)?;
     }
-    interrupt::listen()?;
-    let start = Instant::now();
+    interrupt::listen(arguments.progress_is_json().then_some(start))?;
     let seconds = || start.elapsed().as_secs_f64();
-    let mut progress = Progress::new(arguments.quiet, arguments.progress);
+    let mut progress = Progress::new(arguments.quiet, arguments.progress, start);
     let (scene, analysis, mut results) = match scene.accuracy {
         Some(_) => {
             let found = accuracy::reach(&scene, common.solver.into(), extent, &mut progress)?;
@@ -62,7 +66,7 @@ fn analyse(arguments: &RunArguments, out: Option<PathBuf>, extent: Extent) -> Re
     if let Some(out) = &out {
         progress.start("output");
         if arguments.no_report {
-            output::write(out, &header, &model.mesh, &results)?;
+            output::write_without_report(out, &header, model, &results)?;
         } else {
             output::write_with_report(out, &header, model, &results)?;
         }
@@ -102,6 +106,7 @@ fn once(
     progress.start("mesh and model");
     let model = Model::new(scene)?;
     let modelled = start.elapsed().as_secs_f64();
+    progress.size(model.freedoms.n);
     progress.start("assembly");
     let mut analysis = Analysis::new(model, backend)?;
     let mut results = match extent {

@@ -21,9 +21,11 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::output::number;
 use arguments::Arguments;
 use clap::Parser;
+use serde_json::json;
 use std::error::Error as StdError;
 use std::io::{self, Write};
 use std::process::ExitCode;
+use std::time::Instant;
 
 /// Runs the program with the arguments of the process and returns its exit code.
 pub fn main() -> ExitCode {
@@ -36,13 +38,35 @@ pub fn main() -> ExitCode {
     }));
     // clap prints help, version and usage errors (exit code 2) itself.
     let arguments = Arguments::parse();
-    match commands::execute(&arguments) {
+    let started = Instant::now();
+    match commands::execute(&arguments, started) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            let _ = io::stderr().write_all(explain(&error).as_bytes());
-            ExitCode::from(error.kind().exit_code())
+            let exit_code = error.kind().exit_code();
+            let text = explain(&error);
+            if arguments.command.progress_is_json() {
+                let message = text.trim_start_matches("error: ").trim_end();
+                let content = json!({ "message": message, "exit_code": exit_code });
+                progress::json_line(started, "error", content);
+            } else {
+                let _ = io::stderr().write_all(text.as_bytes());
+            }
+            ExitCode::from(exit_code)
         }
     }
+}
+
+/// Whether a command line (the program's name first) is understood; the usage error, or what `--help` and `--version` print, if not.
+/// Does nothing else.
+///
+/// # Errors
+/// The text that the program would end with.
+pub fn check_command_line(
+    arguments: impl IntoIterator<Item = std::ffi::OsString>,
+) -> std::result::Result<(), String> {
+    Arguments::try_parse_from(arguments)
+        .map(drop)
+        .map_err(|problem| problem.to_string())
 }
 
 /// An error with its causes, as lines for a reader.

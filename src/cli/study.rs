@@ -69,9 +69,9 @@ pub(super) fn execute(arguments: &StudyArguments) -> Result<()> {
     }
     let out = (arguments.out.clone()).unwrap_or_else(|| common.scene.with_extension("accuracy"));
     output::check_directory(&out)?;
-    interrupt::listen()?;
+    interrupt::listen(None)?;
     let start = Instant::now();
-    let mut progress = Progress::new(arguments.quiet, Shown::default());
+    let mut progress = Progress::new(arguments.quiet, Shown::default(), std::time::Instant::now());
     let found = study(&scene, common.solver.into(), &plan, &mut progress)?;
     let header = header(
         &scene,

@@ -1,26 +1,41 @@
-//! `brinell view`: the main figures of a result directory in the terminal.
+//! `brinell view`: the report of a result directory made anew, or its main figures in the terminal.
 
 use super::number::{number, significant};
 use super::print;
 use crate::error::{Error, Result};
+use crate::output;
 use clap::Args;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// What `brinell view` takes.
 #[derive(Debug, Args)]
-#[command(after_help = "Example: brinell view data/scenes/cylinder_on_half_plane.out")]
+#[command(after_help = "Examples:
+  brinell view data/scenes/cylinder_on_half_plane.out
+  brinell view data/scenes/cylinder_on_half_plane.out --terminal")]
 pub(super) struct ViewArguments {
     /// A directory that `brinell run` wrote
     #[arg(value_name = "DIR")]
     pub dir: PathBuf,
+    /// Print the main plots instead; writes nothing
+    #[arg(long)]
+    pub terminal: bool,
     /// Columns of the plots
-    #[arg(long, value_name = "N", default_value_t = 72, value_parser = clap::value_parser!(u16).range(20..=400))]
+    #[arg(long, value_name = "N", requires = "terminal", default_value_t = 72, value_parser = clap::value_parser!(u16).range(20..=400))]
     pub width: u16,
 }
 
-/// Prints what a result directory holds, as far as a terminal shows it.
+/// Makes the report anew from what the directory holds, or prints the plots.
 pub(super) fn run(arguments: &ViewArguments) -> Result<()> {
+    if arguments.terminal {
+        return terminal(arguments);
+    }
+    let page = output::write_report(&arguments.dir)?;
+    print(&format!("{}\n", page.display()))
+}
+
+/// Prints what a result directory holds, as far as a terminal shows it.
+fn terminal(arguments: &ViewArguments) -> Result<()> {
     let dir = &arguments.dir;
     let summary = summary(dir)?;
     let mut text = headlines(&summary);
@@ -49,10 +64,6 @@ pub(super) fn run(arguments: &ViewArguments) -> Result<()> {
             ));
         }
     }
-    text.push_str(&match dir.join("report.html") {
-        report if report.exists() => format!("\nReport: {}\n", report.display()),
-        _ => "\nThere is no report.html here: the run was made with --no-report\n".to_string(),
-    });
     print(&text)
 }
 

@@ -134,7 +134,14 @@ impl Path {
             }
             let m = border.len();
             let reduced = DMatrix::from_fn(m, m, |i, j| tableau.swept()[(border[i], border[j])]);
-            let rates: Vec<f64> = border.iter().map(|&k| self.force_rate[k]).collect();
+            // A rate that is nothing but the round-off of what it is a sum of has no sign to follow: a body on which nothing acts
+            // would be driven off by it.
+            let round_off = tableau.force_tolerance(&self.rate, &self.gap_rate);
+            let rates: Vec<f64> = border
+                .iter()
+                .map(|&k| self.force_rate[k])
+                .map(|rate| if rate.abs() <= round_off { 0.0 } else { rate })
+                .collect();
             let mut small = Tableau::new(reduced);
             let (mut dg, mut dr) = (vec![0.0; m], vec![0.0; m]);
             solve(&mut small, &rates, &mut dg, &mut dr).map_err(|u| Unbounded {

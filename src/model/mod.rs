@@ -67,6 +67,20 @@ impl Model {
 
     /// The model of a scene on a given mesh (its `mesh` entry is ignored).
     ///
+    /// ```
+    /// use brinell::{mesh::gmsh, model::Model, scene::Scene};
+    /// use std::path::Path;
+    ///
+    /// # fn main() -> brinell::Result<()> {
+    /// let mesh = gmsh::read(Path::new("data/meshes/two_blocks.msh"))?;
+    /// let scene = Scene::load("data/scenes/gmsh_blocks.toml")?;
+    /// let model = Model::from_mesh(&scene, mesh)?;
+    /// println!("{} freedoms, {} contact pairs", model.freedoms.n, model.pairs.len());
+    /// # assert!(model.freedoms.n > 0 && !model.pairs.is_empty());
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
     /// # Errors
     /// As [`Model::new`].
     pub fn from_mesh(scene: &Scene, mesh: Mesh) -> Result<Self> {

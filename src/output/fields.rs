@@ -95,7 +95,7 @@ fn grid<'a>(header: &RunHeader, mesh: &'a Mesh, fields: &'a Fields) -> Grid<'a> 
 }
 
 /// Checks that every array has its length: a reader would take a short one for a damaged file.
-fn check(mesh: &Mesh, fields: &Fields) -> Result<()> {
+pub(super) fn check(mesh: &Mesh, fields: &Fields) -> Result<()> {
     let (nodes, elements) = (mesh.n_nodes(), mesh.n_elements());
     let lengths = [
         ("coordinates", mesh.coordinates.len(), 2 * nodes),

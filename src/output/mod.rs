@@ -8,8 +8,11 @@
 //!     state_01_NAME.vtu     mesh and fields of one state              (fields, vtu)
 //!     report.html           the run to look at                        (report)
 //!     report_NAME.svg       its figures
+//!     scene_as_run.toml     the scene with all that was put over it   (record)
+//!     mesh_as_run.msh       its mesh, where the scene does not make it
 //! ```
 //!
+//! [`read()`] takes a directory back, [`write_report`] makes its report anew.
 //!
 //! A study ([`write_study`]) leaves a directory of its own:
 //!
@@ -27,18 +30,23 @@ mod contact;
 mod fields;
 mod history;
 pub(crate) mod number;
+mod read;
+mod record;
 mod report;
+pub(crate) mod stated_errors;
 mod study;
 mod summary;
 mod table;
 mod vtu;
+mod vtu_read;
 mod work_precision;
 
+pub use read::{Recorded, read};
 pub use study::{study_json, write_study};
 pub use summary::summary;
 pub use work_precision::plot;
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::linalg::Backend;
 use crate::mesh::Mesh;
 use crate::model::Model;
@@ -46,7 +54,7 @@ use crate::results::Results;
 use atomic::Staging;
 use std::ffi::OsStr;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// The JSON schema (draft 2020-12) that every `summary.json` of this version obeys.
 pub const SUMMARY_SCHEMA: &str = include_str!("../../data/schema/summary.schema.json");
@@ -115,7 +123,23 @@ pub fn write(dir: &Path, header: &RunHeader, mesh: &Mesh, results: &Results) -> 
     staging.publish(is_result_file)
 }
 
-/// As [`write()`], with `report.html`, the figures of the report as SVG files, and the scene as it was run.
+/// As [`write()`], with the scene as it was run: [`read()`] takes such a directory back, and its report can be made later.
+///
+/// # Errors
+/// As [`write()`].
+pub fn write_without_report(
+    dir: &Path,
+    header: &RunHeader,
+    model: &Model,
+    results: &Results,
+) -> Result<()> {
+    let staging = Staging::new(dir)?;
+    write_tables_and_fields(&staging, header, &model.mesh, results)?;
+    record::write(&staging, model)?;
+    staging.publish(is_result_file)
+}
+
+/// As [`write_without_report`], with `report.html` and the figures of the report as SVG files.
 ///
 /// # Errors
 /// As [`write()`]; `Internal` where a figure cannot be drawn.
@@ -127,10 +151,41 @@ pub fn write_with_report(
 ) -> Result<()> {
     let staging = Staging::new(dir)?;
     write_tables_and_fields(&staging, header, &model.mesh, results)?;
+    record::write(&staging, model)?;
     for (name, text) in report::files(header, model, results)? {
         staging.file(&name, |out| out.write_all(text.as_bytes()))?;
     }
     staging.publish(is_result_file)
+}
+
+/// Makes the report of a result directory anew: `report.html` and its figures, each put in its place whole. Figures of an
+/// earlier report that this one does not have are removed; nothing else is touched. Returns the path of the page.
+///
+/// # Errors
+/// Those of [`read()`]; `Internal` where a figure cannot be drawn, `Io` naming the file that cannot be written.
+pub fn write_report(dir: &Path) -> Result<PathBuf> {
+    let recorded = read(dir)?;
+    let files = report::files(&recorded.header, &recorded.model, &recorded.results)?;
+    let listing = std::fs::read_dir(dir).map_err(|cause| Error::io("list", dir, cause))?;
+    for entry in listing.flatten() {
+        let name = entry.file_name();
+        let stale = name.to_str().is_some_and(|name| {
+            is_figure(name) && files.iter().all(|(written, _)| written != name)
+        });
+        if stale {
+            let path = entry.path();
+            std::fs::remove_file(&path).map_err(|cause| Error::io("remove", &path, cause))?;
+        }
+    }
+    for (name, text) in &files {
+        atomic::replace(&dir.join(name), text.as_bytes())?;
+    }
+    Ok(dir.join(report::REPORT_FILE))
+}
+
+/// Whether a file of this name is a figure of a report.
+fn is_figure(name: &str) -> bool {
+    name.starts_with(report::FIGURE_PREFIX) && name.ends_with(report::FIGURE_SUFFIX)
 }
 
 fn write_tables_and_fields(
@@ -167,9 +222,11 @@ fn is_result_file(name: &OsStr) -> bool {
             CONTACT_FILE,
             COLLECTION_FILE,
             report::REPORT_FILE,
+            record::SCENE_FILE,
+            record::MESH_FILE,
         ]
         .contains(&name)
             || (name.starts_with(fields::FILE_PREFIX) && name.ends_with(fields::FILE_SUFFIX))
-            || (name.starts_with(report::FIGURE_PREFIX) && name.ends_with(report::FIGURE_SUFFIX))
+            || is_figure(name)
     })
 }

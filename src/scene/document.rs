@@ -75,7 +75,7 @@ impl Places {
     /// Numbers all nodes of `root`, which afterwards carries numbers in place of spans.
     ///
     /// # Errors
-    /// A number that is not finite, by key and place.
+    /// A number that is not finite, or an integer beyond 64 bits, by key and place.
     pub fn number<'i>(
         source: &Source<'_>,
         root: DeTable<'i>,
@@ -166,6 +166,16 @@ impl Places {
                     )));
                 }
                 DeValue::Float(number)
+            }
+            // TOML's own range; beyond it the scene could not be written again.
+            DeValue::Integer(number)
+                if i64::from_str_radix(number.as_str(), number.radix()).is_err() =>
+            {
+                return Err(Error::input(format!(
+                    "{}: {path}: {} is out of the range of integers; give a smaller one",
+                    source.describe(place),
+                    number.as_str()
+                )));
             }
             other => other,
         };

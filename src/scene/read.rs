@@ -22,6 +22,17 @@ impl Scene {
     /// index of an array entry or its name (`load.press.history=constant`); the
     /// value is TOML, or else taken as a string.
     ///
+    /// ```
+    /// use brinell::scene::Scene;
+    ///
+    /// # fn main() -> brinell::Result<()> {
+    /// let overrides = ["materials.steel.yield_stress=400".to_string()];
+    /// let scene = Scene::load_with("data/scenes/contact_patch.toml", &overrides)?;
+    /// assert_eq!(scene.materials["steel"].yield_stress, Some(400.0));
+    /// # Ok(())
+    /// # }
+    /// ```
+    ///
     /// # Errors
     /// As [`Scene::load`]; what is wrong with an override is reported as `--set KEY=VALUE: ...`.
     pub fn load_with(path: impl AsRef<Path>, overrides: &[String]) -> Result<Scene> {
@@ -44,6 +55,14 @@ impl Scene {
     /// Reads and validates a scene from a string; `name` stands for the file in messages. Relative paths in
     /// the scene are relative to the working directory.
     ///
+    /// ```
+    /// use brinell::{ErrorKind, scene::Scene};
+    ///
+    /// let error = Scene::parse("kind = \"plane_strain\"\nmaterial = {}", "press.toml").unwrap_err();
+    /// assert_eq!(error.kind(), ErrorKind::Input);
+    /// assert!(error.to_string().starts_with("press.toml:2:1: unknown key `material`, did you mean `materials`?"));
+    /// ```
+    ///
     /// # Errors
     /// As [`Scene::load`].
     pub fn parse(text: &str, name: &str) -> Result<Scene> {
@@ -60,6 +79,15 @@ impl Scene {
             text,
             overrides,
         })
+    }
+
+    /// The scene as TOML: [`Scene::parse`] reads it back.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Internal`] where a value has no form in TOML, which no scene that was read or built of finite numbers has.
+    pub fn to_toml(&self) -> Result<String> {
+        toml::to_string(self)
+            .map_err(|cause| Error::internal("the scene cannot be written as TOML").because(cause))
     }
 }
 

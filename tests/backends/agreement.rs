@@ -16,7 +16,7 @@ pub fn both(scene: &Scene) -> Option<Results> {
     let dense = try_run(scene, Backend::Dense);
     match (sparse, dense) {
         (Ok(a), Ok(b)) => {
-            agree(&a, &b);
+            agree(&a, &b, of_movement(scene));
             Some(a)
         }
         (Err(a), Err(b)) => {
@@ -51,8 +51,19 @@ const FIGURES: [Figure; 6] = [
     ("plastic strain", |s| s.max_equivalent_plastic_strain),
 ];
 
+/// The size of the forces that prescribed movements may call up, in bodies of a size of about 1: the sums from which they come hold
+/// terms of this size also where nothing is touched and the forces are zero.
+fn of_movement(scene: &Scene) -> f64 {
+    let stiffest = largest(scene.materials.values().map(|m| m.youngs_modulus));
+    let moves = scene.load.iter().filter_map(|load| load.displacement);
+    let moves = moves.flat_map(|d| [d.x, d.y]).flatten().map(f64::abs);
+    stiffest * largest(moves)
+}
+
+/// Compares two runs; forces are compared relative to `force` at least.
 #[track_caller]
-pub fn agree(a: &Results, b: &Results) {
+pub fn agree(a: &Results, b: &Results, force: f64) {
+    let at_least = force;
     let events = |r: &Results| {
         r.history
             .iter()
@@ -62,19 +73,25 @@ pub fn agree(a: &Results, b: &Results) {
     assert_eq!(events(a), events(b));
     for (name, value) in COLUMNS {
         let floor = match name {
-            "max_pressure" | "contact_force" => largest(a.history.iter().map(|r| r.load)),
+            "max_pressure" | "contact_force" | "load" => {
+                largest(a.history.iter().map(|r| r.load)).max(at_least)
+            }
             _ => 0.0,
         };
         let scale = largest(a.history.iter().map(value)).max(floor);
         let most = largest(a.history.iter().map(|r| r.contact_force));
         for (row, other) in a.history.iter().zip(&b.history) {
             // Under a vanishing force (a floating body that just touches) the extent of the contact is one of round-off.
-            if name == "half_width" && row.contact_force <= 1e-6 * most {
+            let untouched = row.contact_force <= (AGREEMENT * at_least).max(1e-6 * most);
+            if name == "half_width" && untouched {
                 continue;
             }
             let what = format!("{name} of increment {}", row.increment);
             close(&what, value(row), value(other), scale, AGREEMENT);
-            assert_eq!(row.closed_pairs, other.closed_pairs, "{what}");
+            assert!(
+                untouched || row.closed_pairs == other.closed_pairs,
+                "{what}"
+            );
             assert_eq!(row.plastic_points, other.plastic_points, "{what}");
         }
     }
@@ -100,11 +117,14 @@ pub fn agree(a: &Results, b: &Results) {
             "residual_depth" | "approach" => largest(gaps)
                 .max(of(|s| s.approach))
                 .max(of(|s| s.max_equivalent_plastic_strain)),
-            "max_pressure" => of(|s| s.load),
+            "max_pressure" | "load" => of(|s| s.load).max(at_least),
             _ => 0.0,
         };
         let scale = largest(a.states.iter().map(value)).max(floor);
         for (s, t) in a.states.iter().zip(&b.states) {
+            if name == "half_width" && s.contact_force <= AGREEMENT * at_least {
+                continue;
+            }
             close(
                 &format!("{name} of state {}", s.name),
                 value(s),
@@ -125,7 +145,7 @@ pub fn agree(a: &Results, b: &Results) {
     let moved = largest(a.states.iter().map(|s| s.approach));
     let (gap, force) = (
         largest(p.iter().map(|p| p.gap)).max(moved),
-        largest(p.iter().map(|p| p.force)).max(load),
+        largest(p.iter().map(|p| p.force)).max(load).max(at_least),
     );
     for (p, q) in p.iter().zip(&q) {
         close(

@@ -186,5 +186,5 @@ fn iterations_agree() {
             );
         }
     }
-    agree(&newton, &newton);
+    agree(&newton, &newton, 0.0);
 }

@@ -23,7 +23,7 @@ fn long() -> Folder {
     )
 }
 
-fn start(folder: &Folder) -> Child {
+fn start(folder: &Folder, progress: &str) -> Child {
     let (scene, out) = (folder.scene(), folder.path("out"));
     Command::new(env!("CARGO_BIN_EXE_brinell"))
         .args([
@@ -31,6 +31,8 @@ fn start(folder: &Folder) -> Child {
             scene.to_str().unwrap(),
             "--threads",
             "1",
+            "--progress",
+            progress,
             "--out",
             out.to_str().unwrap(),
         ])
@@ -65,7 +67,7 @@ fn wait_for(child: &mut Child, what: &str) {
 fn the_first_signal_ends_the_run_with_results_that_are_marked_incomplete() {
     for signal in ["-INT", "-TERM"] {
         let folder = long();
-        let mut child = start(&folder);
+        let mut child = start(&folder, "plain");
         wait_for(&mut child, "load program");
         // The first increments (to first yield) need no more than this, on a loaded machine too.
         std::thread::sleep(Duration::from_millis(1500));
@@ -93,7 +95,7 @@ fn a_second_signal_ends_the_program_at_once_and_leaves_nothing() {
         "elements = [28, 32]"
     };
     let folder = Folder::with_changes("thick_cylinder", &[("elements = [16, 16]", elements)]);
-    let mut child = start(&folder);
+    let mut child = start(&folder, "plain");
     wait_for(&mut child, "mesh and model");
     interrupt(&child, "-INT");
     std::thread::sleep(Duration::from_millis(400));
@@ -103,4 +105,35 @@ fn a_second_signal_ends_the_program_at_once_and_leaves_nothing() {
     assert_eq!(status.code(), Some(130));
     assert!(begin.elapsed() < Duration::from_secs(5));
     assert_eq!(folder.entries(), 1);
+}
+
+/// Standard error is JSON to the last line, also where the run is stopped.
+#[test]
+fn a_signal_is_an_event_where_progress_is_json() {
+    use std::io::{BufRead, BufReader};
+    let folder = long();
+    let mut child = start(&folder, "json");
+    let lines = BufReader::new(child.stderr.take().unwrap()).lines();
+    let mut events = Vec::new();
+    for line in lines {
+        let line = line.unwrap();
+        let event: serde_json::Value =
+            serde_json::from_str(&line).unwrap_or_else(|e| panic!("{e}: {line}"));
+        if event["event"] == "increment" && events.is_empty() {
+            interrupt(&child, "-INT");
+        }
+        if event["event"] != "phase" {
+            events.push(event);
+        }
+    }
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(
+        events.iter().any(|e| e["event"] == "stopping"),
+        "{events:?}"
+    );
+    let last = events.last().unwrap();
+    assert_eq!(
+        (&last["event"], &last["exit_code"]),
+        (&"error".into(), &130.into())
+    );
 }

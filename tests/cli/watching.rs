@@ -37,7 +37,7 @@ fn progress_is_a_json_object_per_line() {
         assert!(event["seconds_left"].is_null() || event["seconds_left"].as_f64() >= Some(0.0));
         last = now;
     }
-    assert!(last[1] > 0.0, "{last:?}");
+    assert_eq!(last[1], 1.0, "the program was done to its end");
     for other in ["plain", "bar"] {
         let run = brinell(&["yield", &scene("thick_cylinder"), "--progress", other]);
         assert!(run.status.success(), "{other}");
@@ -51,14 +51,13 @@ fn results_are_shown_in_the_terminal() {
     let out = out.to_str().unwrap();
     let run = brinell(&["run", "-q", &scene("three_bodies"), "--out", out]);
     assert!(run.status.success());
-    let shown = brinell(&["view", out, "--width", "60"]);
+    let shown = brinell(&["view", out, "--terminal", "--width", "60"]);
     assert!(shown.status.success());
     let text = stdout(&shown);
     for word in [
         "Shim between two blocks",
         "First yield",
         "Maximum contact pressure",
-        "report.html",
     ] {
         assert!(text.contains(word), "{word}:\n{text}");
     }
@@ -67,7 +66,22 @@ fn results_are_shown_in_the_terminal() {
         dots.len() >= 24 && dots.iter().all(|l| l.chars().count() <= 60),
         "{text}"
     );
-    let nothing = brinell(&["view", folder.path().to_str().unwrap()]);
-    assert_eq!(nothing.status.code(), Some(3));
-    assert!(String::from_utf8_lossy(&nothing.stderr).contains("summary.json"));
+    for more in [&[] as &[&str], &["--terminal"]] {
+        let nothing = brinell(&[&["view", folder.path().to_str().unwrap()], more].concat());
+        assert_eq!(nothing.status.code(), Some(3));
+        assert!(String::from_utf8_lossy(&nothing.stderr).contains("summary.json"));
+    }
+}
+
+#[test]
+fn an_error_is_a_json_object_too() {
+    let run = brinell(&["run", &scene("no_such_scene"), "--progress", "json"]);
+    assert_eq!(run.status.code(), Some(3));
+    let text = String::from_utf8(run.stderr).unwrap();
+    let event: Value = serde_json::from_str(text.trim_end()).unwrap();
+    assert_eq!(
+        (&event["event"], &event["exit_code"]),
+        (&"error".into(), &3.into())
+    );
+    assert!(event["message"].as_str().unwrap().contains("no_such_scene"));
 }

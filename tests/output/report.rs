@@ -134,6 +134,25 @@ fn every_kind_of_scene_has_a_self_contained_well_formed_report() {
             );
         }
 
+        // The mesh is there on demand, the scene at once.
+        let (before, details) = page.split_once("<details>").expect(scene);
+        assert!(before.contains("The whole model"), "{scene}");
+        let details = details.split("</details>").next().unwrap();
+        assert!(
+            details.contains("<summary>Show the mesh") && details.contains("<svg "),
+            "{scene}"
+        );
+        assert!(files.keys().any(|n| n.ends_with("_mesh.svg")), "{scene}");
+
+        // Quality and what the numbers may be wrong by.
+        for word in [
+            "adhesion",
+            "Condition of the factored matrix",
+            "may be wrong by",
+        ] {
+            assert!(page.contains(word), "{scene}: {word}");
+        }
+
         // What the summary says stands in the page.
         for state in summary["states"].as_array().unwrap() {
             assert!(
@@ -207,6 +226,100 @@ fn a_report_can_be_left_out_and_goes_with_its_result() {
     assert!(dir.join("mine.svg").exists() && dir.join("summary.json").exists());
 }
 
+/// The report made anew from the directory is the one that the run wrote, whatever made the mesh, also where the run wrote none.
+#[test]
+fn a_report_is_made_anew_from_its_directory_to_the_byte() {
+    let temporary = tempfile::tempdir().unwrap();
+    let view = |dir: &Path| {
+        Command::new(env!("CARGO_BIN_EXE_brinell"))
+            .arg("view")
+            .arg(dir)
+            .output()
+            .unwrap()
+    };
+    for (scene, overrides) in [
+        (
+            "gmsh_blocks",
+            &["materials.steel.yield_stress=200"] as &[&str],
+        ),
+        (
+            "ball_on_half_space",
+            &["mesh.cylinder_on_half_plane.resolution=4"],
+        ),
+        ("thick_cylinder", &["mesh.parts.0.ring.elements=[4, 4]"]),
+        ("shrink_fit", &[]),
+    ] {
+        let dir = temporary.path().join(scene);
+        run(scene, overrides, &dir);
+        let content = |dir: &Path| -> BTreeMap<String, Vec<u8>> {
+            std::fs::read_dir(dir)
+                .unwrap()
+                .map(|e| e.unwrap().path())
+                .map(|p| {
+                    (
+                        p.file_name().unwrap().to_string_lossy().into(),
+                        std::fs::read(p).unwrap(),
+                    )
+                })
+                .collect()
+        };
+        let before = content(&dir);
+        for name in before.keys().filter(|n| n.starts_with("report")) {
+            std::fs::remove_file(dir.join(name)).unwrap();
+        }
+        std::fs::write(dir.join("report_of_something_else.svg"), "stale").unwrap();
+        let shown = view(&dir);
+        let error = String::from_utf8_lossy(&shown.stderr);
+        assert!(shown.status.success(), "{scene}: {error}");
+        let printed = String::from_utf8(shown.stdout).unwrap();
+        assert_eq!(Path::new(printed.trim()), dir.join("report.html"));
+        let after = content(&dir);
+        assert!(
+            before.keys().eq(after.keys()),
+            "{scene}: {:?}",
+            after.keys()
+        );
+        for (name, bytes) in &before {
+            assert!(after[name] == *bytes, "{scene}: {name} differs");
+        }
+    }
+    // What does not belong together, is damaged or is not there is refused by name, and the page stays.
+    let dir = temporary.path().join("shrink_fit");
+    let page = std::fs::read(dir.join("report.html")).unwrap();
+    let scene = std::fs::read_to_string(dir.join("scene_as_run.toml")).unwrap();
+    let history = std::fs::read_to_string(dir.join("history.csv")).unwrap();
+    let field = std::fs::read_dir(&dir)
+        .unwrap()
+        .map(|e| e.unwrap().file_name().into_string().unwrap())
+        .find(|n| n.ends_with(".vtu"))
+        .unwrap();
+    for (file, damage) in [
+        (
+            "scene_as_run.toml",
+            scene.replacen("elements = 16", "elements = 8", 1),
+        ),
+        (
+            "history.csv",
+            history.replacen("contact_force", "something", 1),
+        ),
+        (field.as_str(), "cut off".to_string()),
+    ] {
+        let good = std::fs::read(dir.join(file)).unwrap();
+        std::fs::write(dir.join(file), damage).unwrap();
+        let refused = view(&dir);
+        assert_eq!(refused.status.code(), Some(2), "{file}");
+        let error = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert!(
+            error.contains(file) || error.contains("summary.json"),
+            "{error}"
+        );
+        std::fs::write(dir.join(file), good).unwrap();
+    }
+    std::fs::remove_file(dir.join("scene_as_run.toml")).unwrap();
+    assert_eq!(view(&dir).status.code(), Some(2));
+    assert!(std::fs::read(dir.join("report.html")).unwrap() == page);
+}
+
 /// What stands in a scene is text on the page, whatever it looks like.
 #[test]
 fn names_are_escaped() {
@@ -255,6 +368,7 @@ window.addEventListener('load', () => {
   const found = [];
   for (const frame of document.querySelectorAll('iframe')) {
     const page = frame.contentDocument, root = page.documentElement;
+    page.querySelectorAll('details').forEach(d => d.open = true);
     const wide = [...page.querySelectorAll('main *, header *, footer *')].filter(e =>
       !e.parentElement.closest('.wide') && !(e.closest('svg') && e.tagName != 'svg') && e.getBoundingClientRect().right > frame.clientWidth + 0.5);
     const style = frame.contentWindow.getComputedStyle(page.body);

@@ -2,6 +2,7 @@
 
 use super::kind::Kind;
 use crate::mesh::Mesh;
+use std::collections::BTreeSet;
 use std::io::{Error, ErrorKind, Result, Write};
 
 /// Writes a mesh as Gmsh `.msh` 2.2 ASCII. Bodies, surfaces and node sets become physical groups;
@@ -55,11 +56,10 @@ fn write_elements(mesh: &Mesh, out: &mut dyn Write) -> Result<()> {
     let n_lines: usize = mesh.surfaces.values().map(|s| s.facets.len()).sum();
     let n_points: usize = mesh.node_sets.values().map(Vec::len).sum();
     writeln!(out, "$Elements\n{}", n_elements + n_lines + n_points)?;
-    // Lines and points are numbered after the largest number of an element.
-    let mut number = 0;
+    let mut largest = 0u64;
     for element in 0..n_elements {
         let label = mesh.element_label(element);
-        number = number.max(label);
+        largest = largest.max(label);
         let kind = Kind::Element(mesh.shapes[element]);
         let group = mesh.element_body[element] + 1;
         write!(out, "{label} {} 2 {group} {group}", kind.type_number())?;
@@ -68,9 +68,19 @@ fn write_elements(mesh: &Mesh, out: &mut dyn Write) -> Result<()> {
         }
         writeln!(out)?;
     }
+    // Lines and points are numbered after the largest number of an element; where that leaves no room, in the gaps.
+    let needed = (n_lines + n_points) as u64;
+    let mut numbers: Box<dyn Iterator<Item = u64>> = match largest.checked_add(needed) {
+        Some(last) => Box::new(largest + 1..=last),
+        None => {
+            let taken: BTreeSet<u64> = (0..n_elements).map(|e| mesh.element_label(e)).collect();
+            Box::new((1..u64::MAX).filter(move |number| !taken.contains(number)))
+        }
+    };
+    let mut next = || numbers.next().unwrap_or(u64::MAX);
     for (group, surface) in (1..).zip(mesh.surfaces.values()) {
         for &facet in &surface.facets {
-            number += 1;
+            let number = next();
             let n_nodes = mesh.facet_nodes(facet).count();
             let kind = Kind::Line { n_nodes };
             write!(out, "{number} {} 2 {group} {group}", kind.type_number())?;
@@ -82,7 +92,7 @@ fn write_elements(mesh: &Mesh, out: &mut dyn Write) -> Result<()> {
     }
     for (group, nodes) in (1..).zip(mesh.node_sets.values()) {
         for &node in nodes {
-            number += 1;
+            let number = next();
             let kind = Kind::Point.type_number();
             writeln!(
                 out,

@@ -4,7 +4,7 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `page`, `tables` | the page |
+//! | `page`, `tables`, `trust` | the page |
 //! | `curves`, `chart` | charts: which, and how they are drawn |
 //! | `fields`, `sketch` | pictures of states; the scene drawn |
 //! | `picture`, `raster`, `window` | elements as pixels under axes; what is shown |
@@ -22,6 +22,7 @@ mod raster;
 mod sketch;
 mod tables;
 mod theme;
+mod trust;
 mod units;
 mod window;
 
@@ -42,6 +43,8 @@ pub(super) const REPORT_FILE: &str = "report.html";
 pub(super) const FIGURE_PREFIX: &str = "report_";
 /// How the name of a figure's file ends.
 pub(super) const FIGURE_SUFFIX: &str = ".svg";
+/// Least share of the area whose elements are large enough to be seen that is worth a drawing of the mesh.
+const LEAST_MESH: f64 = 0.2;
 /// Most states whose pictures the page shows.
 const MOST_STATES: usize = 4;
 
@@ -68,8 +71,12 @@ pub(super) fn files(
             svg: drawing.inline(if title.is_empty() { caption } else { title }),
         }
     };
-    for (name, drawing, title, caption) in scene(model, results, &units)? {
-        figures.scene.push(keep(name, &drawing, title, &caption));
+    for sketch in scene(model, results, &units)? {
+        let figure = keep(&sketch.name, &sketch.drawing, sketch.title, &sketch.caption);
+        match sketch.meshed {
+            true => figures.meshed.push(figure),
+            false => figures.scene.push(figure),
+        }
     }
     let charts = curves::charts(model, results, &units);
     let drawn: Vec<Drawing> = charts
@@ -109,32 +116,50 @@ pub(super) fn files(
     Ok(out)
 }
 
-type Sketched = (&'static str, Drawing, &'static str, String);
+/// A drawing of the scene.
+struct Sketched {
+    name: String,
+    title: &'static str,
+    caption: String,
+    drawing: Drawing,
+    /// Whether the mesh is drawn.
+    meshed: bool,
+}
 
-/// The scene: all of it, and the surroundings of the contact with the mesh.
+/// The scene: all of it, and the surroundings of the contact; then both with the mesh, where it is coarse enough to be seen.
 fn scene(model: &Model, results: &Results, units: &Units) -> Result<Vec<Sketched>> {
-    let mut out = Vec::new();
     let Some(whole) = window::whole(model, [false; 2]) else {
-        return Ok(out);
+        return Ok(Vec::new());
     };
     let near = window::near_contact(model, results, [false; 2])
         .filter(|near| !model.pairs.is_empty() && near.size()[0] < 0.6 * whole.size()[0]);
-    let (drawing, meshed) = sketch::draw(model, units, whole, near.is_none())?;
-    let mesh = if meshed { " and its mesh" } else { "" };
-    let caption = format!("As given in the scene{mesh}, without load.");
-    out.push(("scene", drawing, "The whole model", caption));
-    if let Some(near) = near {
-        let (drawing, meshed) = sketch::draw(model, units, near, true)?;
-        let caption = match meshed {
-            true => "With the mesh, without load.",
-            false => "Without load; the mesh is too fine to be drawn.",
-        };
-        out.push((
-            "contact_region",
-            drawing,
-            "Near the contact",
-            caption.to_string(),
-        ));
+    let mut views = vec![("scene", "The whole model", whole)];
+    views.extend(near.map(|near| ("contact_region", "Near the contact", near)));
+    let mut out = Vec::new();
+    for mesh in [false, true] {
+        for &(name, title, window) in &views {
+            let (drawing, meshed) = sketch::draw(model, units, window, mesh)?;
+            if mesh && meshed < LEAST_MESH {
+                continue;
+            }
+            out.push(Sketched {
+                name: match mesh {
+                    true => format!("{name}_mesh"),
+                    false => name.to_string(),
+                },
+                title,
+                caption: match mesh {
+                    true if meshed < 1.0 => {
+                        "With the mesh, without load; elements too small to be seen are left plain."
+                            .to_string()
+                    }
+                    true => "With the mesh, without load.".to_string(),
+                    false => "As given in the scene, without load.".to_string(),
+                },
+                drawing,
+                meshed: mesh,
+            });
+        }
     }
     Ok(out)
 }

@@ -2,6 +2,7 @@
 
 use super::tables;
 use super::theme;
+use super::trust;
 use super::units::Units;
 use crate::model::Model;
 use crate::output::RunHeader;
@@ -27,6 +28,8 @@ pub(super) struct Figure {
 pub(super) struct Figures {
     /// The scene drawn.
     pub scene: Vec<Figure>,
+    /// The same with the mesh, shown on demand.
+    pub meshed: Vec<Figure>,
     /// Charts.
     pub charts: Vec<Figure>,
     /// For each state shown its name and pictures.
@@ -50,17 +53,22 @@ pub(super) fn page(
         (
             "scene",
             "Scene",
-            tables::scene(model, units, &figures.scene),
+            tables::scene(model, units, &figures.scene, &figures.meshed),
         ),
         ("load", "Along the load", charts(&figures.charts)),
         ("states", "States", tables::states(model, results, units)),
         ("pictures", "Stress and plastic zone", pictures(figures)),
         ("reference", "Reference values", tables::reference(results)),
+        (
+            "errors",
+            "How wrong the numbers may be",
+            trust::errors(results),
+        ),
         ("effects", "What was simulated", tables::effects(results)),
         (
             "quality",
-            "How good the numbers are",
-            tables::quality(results),
+            "How well the equations were solved",
+            trust::quality(results),
         ),
         ("cost", "Time and size", tables::cost(header, results)),
     ];
@@ -282,7 +290,7 @@ fn cards(model: &Model, results: &Results, units: &Units) -> Markup {
             @for (name, value, unit) in cards.iter().filter(|card| card.1 > 0.0 && card.1.is_finite()) {
                 div.card {
                     dt { (name) }
-                    dd { (round(*value)) " " small { (unit) } }
+                    dd { b { (round(*value)) } " " small { (unit) } }
                 }
             }
         }

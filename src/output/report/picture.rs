@@ -16,6 +16,8 @@ const TOP: u32 = 12;
 const BOTTOM: u32 = 46;
 /// Pixels of the image per pixel shown: sharp on paper and on fine screens.
 const SHARP: f64 = 2.5;
+/// Pixels across an element (the root of its area) from which on its sides are drawn.
+const SMALLEST_SIDE: f64 = 3.0;
 
 /// A picture in the making.
 pub(super) struct Picture<'a> {
@@ -157,17 +159,26 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Draws the sides of elements. Of those that are smaller than a few pixels only a grey would be seen: false, and nothing drawn.
-    pub(super) fn sides(&mut self, elements: &[usize], color: u8) -> bool {
-        let [w, h] = self.window.size();
-        let pixels = (self.raster.width * self.raster.height) as f64;
-        let area: f64 = elements.iter().map(|&e| self.area_inside(e)).sum();
-        let shown = pixels * area / (w * h) / elements.len().max(1) as f64;
-        if shown < 16.0 * SHARP * SHARP {
-            return false;
-        }
+    /// Draws the sides of elements. Of those that are smaller than a few pixels only a grey would be seen: they are left out.
+    /// Returns the share of the elements' area whose sides are drawn.
+    pub(super) fn sides(&mut self, elements: &[usize], color: u8) -> f64 {
+        let (mut drawn, mut all) = (0.0, 0.0);
         for &element in elements {
             let (ring, n) = ring(self.mesh, element);
+            let points = ring.map(|node| self.spot(self.node(node)));
+            let size = [0, 1].map(|k| {
+                let values = points[..n].iter().map(|p| p[k]);
+                let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
+                    (l.min(v), h.max(v))
+                });
+                high - low
+            });
+            let area = self.area_inside(element);
+            all += area;
+            if size[0] * size[1] < (SMALLEST_SIDE * SHARP).powi(2) {
+                continue;
+            }
+            drawn += area;
             for i in 0..n {
                 let (p, q) = (self.node(ring[i]), self.node(ring[(i + 1) % n]));
                 for sign in self.signs() {
@@ -176,7 +187,7 @@ impl<'a> Picture<'a> {
                 }
             }
         }
-        true
+        if all > 0.0 { drawn / all } else { 0.0 }
     }
 
     /// Area of an element's bounding box inside the window.

@@ -33,8 +33,8 @@ const TRIANGLE: f64 = 10.0;
 const ARROW: f64 = 26.0;
 const HEAD: f64 = 7.0;
 
-/// Draws what lies in a window, undeformed; with `mesh` the sides of the elements too. The flag says whether
-/// they were coarse enough to be drawn.
+/// Draws what lies in a window, undeformed; with `mesh` the sides of the elements too, of those that are large enough to be seen.
+/// Returns the share of the area whose elements are.
 ///
 /// # Errors
 /// `Internal` where it cannot be drawn.
@@ -43,7 +43,7 @@ pub(super) fn draw(
     units: &Units,
     window: Window,
     mesh: bool,
-) -> Result<(Drawing, bool)> {
+) -> Result<(Drawing, f64)> {
     let mut picture = Picture::large(&model.mesh, window);
     let fills: Vec<u8> = BODIES
         .iter()
@@ -57,7 +57,10 @@ pub(super) fn draw(
         let fill = fills[body % fills.len()];
         picture.element(element, body as u16 + 1, |_| 0.0, 0.0, |_| fill);
     }
-    let meshed = mesh && picture.sides(&visible, side);
+    let meshed = match mesh {
+        true => picture.sides(&visible, side),
+        false => 0.0,
+    };
     picture.raster.outline(1, ink);
     let signs = Signs::new(model, &picture, window);
     let labels = units.axes(model.kind);

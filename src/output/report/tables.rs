@@ -13,7 +13,7 @@ use maud::{Markup, PreEscaped, html};
 use plotters::style::RGBColor;
 
 /// A table that may be wider than the page. Columns that hold numbers are flush right.
-fn table(head: &[(bool, String)], rows: &[Vec<Markup>]) -> Markup {
+pub(super) fn table(head: &[(bool, String)], rows: &[Vec<Markup>]) -> Markup {
     html! {
         div.wide tabindex="0" {
             table {
@@ -33,15 +33,15 @@ fn table(head: &[(bool, String)], rows: &[Vec<Markup>]) -> Markup {
     }
 }
 
-fn text(name: &str) -> (bool, String) {
+pub(super) fn text(name: &str) -> (bool, String) {
     (false, name.to_string())
 }
 
-fn numbers(name: impl Into<String>) -> (bool, String) {
+pub(super) fn numbers(name: impl Into<String>) -> (bool, String) {
     (true, name.into())
 }
 
-fn plain(text: impl AsRef<str>) -> Markup {
+pub(super) fn plain(text: impl AsRef<str>) -> Markup {
     html! { (text.as_ref()) }
 }
 
@@ -50,9 +50,15 @@ fn swatch(color: RGBColor, name: &str) -> Markup {
 }
 
 /// What the scene is made of, beside its drawing.
-pub(super) fn scene(model: &Model, units: &Units, drawn: &[Figure]) -> Markup {
+pub(super) fn scene(model: &Model, units: &Units, drawn: &[Figure], meshed: &[Figure]) -> Markup {
     html! {
         (figures(drawn, "figures"))
+        @if !meshed.is_empty() {
+            details {
+                summary { "Show the mesh" }
+                (figures(meshed, "figures"))
+            }
+        }
         h3 { "Bodies" }
         (bodies(model, units))
         h3 { "Contact, supports, loads" }
@@ -351,38 +357,6 @@ pub(super) fn effects(results: &Results) -> Markup {
                 }
             }
         }
-    }
-}
-
-/// The figures of quality: the worst of the run, then each state's.
-pub(super) fn quality(results: &Results) -> Markup {
-    let head = [
-        text("state"),
-        numbers("backward error"),
-        numbers("equilibrium"),
-        numbers("complementarity"),
-        numbers("penetration"),
-    ];
-    let row = |name: &str, q: &crate::results::Quality| -> Vec<Markup> {
-        let mut cells = vec![plain(name)];
-        let figures = [
-            q.backward_error,
-            q.equilibrium,
-            q.complementarity,
-            q.penetration,
-        ];
-        cells.extend(figures.map(|v| plain(significant(v, 2))));
-        cells
-    };
-    let mut rows = vec![row("worst of all", &results.quality)];
-    rows.extend(results.states.iter().map(|s| row(&s.name, &s.quality)));
-    html! {
-        p.quiet {
-            "Relative and without dimension; 1e-16 is round-off. Backward error of the full solve; out-of-balance force of the \
-             stresses over the forces that act; gap times force of a pair; penetration over the largest displacement. These say \
-             how well the equations were solved, not how fine the mesh is."
-        }
-        (table(&head, &rows))
     }
 }
 

@@ -390,3 +390,23 @@ fn the_scenes_of_the_repository_are_valid() {
     }
     assert!(read >= 10, "only {read} scenes");
 }
+
+/// Every scene of the repository written as TOML is read back as itself.
+#[test]
+fn a_scene_survives_the_way_through_toml() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes");
+    let mut seen = 0;
+    for folder in [folder.join("hard"), folder] {
+        for entry in std::fs::read_dir(&folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_none_or(|e| e != "toml") {
+                continue;
+            }
+            let text = Scene::load(&path).unwrap().to_toml().unwrap();
+            let again = Scene::parse(&text, "again").unwrap_or_else(|e| panic!("{e}\n{text}"));
+            assert_eq!(again.to_toml().unwrap(), text, "{}", path.display());
+            seen += 1;
+        }
+    }
+    assert!(seen > 10, "{seen}");
+}

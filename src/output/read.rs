@@ -1,0 +1,409 @@
+//! A result directory read back: what its report shows, without running again.
+//!
+//! `summary.json` holds the figures, `history.csv` and `contact.csv` the rows, the `.vtu` files the fields, and the scene as it
+//! was run makes the model. Numbers that were not finite were written as null (or an empty cell) and come back as NaN.
+
+use super::{CONTACT_FILE, HISTORY_FILE, RunHeader, SUMMARY_FILE, record, vtu_read};
+use crate::error::{Error, Result};
+use crate::linalg::Prediction;
+use crate::model::Model;
+use crate::results::{
+    Effect, HistoryRow, PairState, Quality, ReferenceRow, Results, Sizes, State, Status, YieldPoint,
+};
+use crate::scene::Scene;
+use serde::de::DeserializeOwned;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// Names of orders that a factor may have.
+const ORDERINGS: [&str; 3] = ["dense", "CAMD", "nested dissection + CAMD"];
+
+/// A run read back from its directory.
+#[derive(Debug, Clone)]
+pub struct Recorded {
+    /// What the output says about the run beside its results.
+    pub header: RunHeader,
+    /// The model, built again from the scene as it was run.
+    pub model: Model,
+    /// The results. [`Results::incomplete_kind`] is not recorded.
+    pub results: Results,
+}
+
+/// Reads a directory that [`super::write_with_report`] or [`super::write_without_report`] wrote.
+///
+/// ```
+/// use brinell::output::{RunHeader, read, write_without_report};
+/// # use brinell::{analysis::Analysis, linalg::Backend, model::Model, progress::Silent, scene::Scene};
+///
+/// # fn main() -> Result<(), Box<dyn std::error::Error>> {
+/// # let folder = tempfile::tempdir()?;
+/// # let dir = folder.path().join("out");
+/// # let scene = Scene::load("data/scenes/contact_patch.toml")?;
+/// # let mut analysis = Analysis::new(Model::new(&scene)?, Backend::default())?;
+/// # let results = analysis.run(&mut Silent)?;
+/// # let header = RunHeader { bodies: analysis.model().mesh.bodies.clone(), ..RunHeader::default() };
+/// write_without_report(&dir, &header, analysis.model(), &results)?;
+/// let recorded = read(&dir)?;
+/// assert_eq!(recorded.results.states[0].max_pressure, results.states[0].max_pressure);
+/// assert_eq!(recorded.results.history, results.history);
+/// # Ok(())
+/// # }
+/// ```
+///
+/// # Errors
+/// [`crate::ErrorKind::Io`] where a file cannot be read; [`crate::ErrorKind::Input`] naming the file where `dir` is no result of
+/// brinell, was written without its scene, is damaged, or where its parts do not belong together.
+pub fn read(dir: &Path) -> Result<Recorded> {
+    let path = dir.join(SUMMARY_FILE);
+    let summary = Summary {
+        root: json(&path)?,
+        path: &path,
+    };
+    let scene_path = dir.join(record::SCENE_FILE);
+    if !scene_path.exists() {
+        return Err(Error::input(format!(
+            "{}: the results were written without their scene ({}), run the scene again; \
+             `brinell view --terminal` shows what there is",
+            dir.display(),
+            record::SCENE_FILE
+        )));
+    }
+    let model = Model::new(&Scene::load(&scene_path)?)?;
+    let header = summary.header(&model);
+    let mut results = summary.results(&header)?;
+    for (what, recorded, made) in [
+        ("nodes", results.sizes.nodes, model.mesh.n_nodes()),
+        ("elements", results.sizes.elements, model.mesh.n_elements()),
+        (
+            "contact pairs",
+            results.sizes.contact_pairs,
+            model.pairs.len(),
+        ),
+    ] {
+        if recorded != made {
+            return Err(Error::input(format!(
+                "{}: has {recorded} {what} where {} makes {made}: they do not belong together",
+                path.display(),
+                scene_path.display()
+            )));
+        }
+    }
+    results.history = Rows::read(&dir.join(HISTORY_FILE))?.history()?;
+    for (state, pairs) in Rows::read(&dir.join(CONTACT_FILE))?.pairs(&model)? {
+        let state = results.states.get_mut(state).ok_or_else(|| {
+            Error::input(format!(
+                "{}: a row of state {}, which the summary does not have",
+                dir.join(CONTACT_FILE).display(),
+                state + 1
+            ))
+        })?;
+        state.pairs.push(pairs);
+    }
+    for (state, entry) in results.states.iter_mut().zip(summary.list("states")) {
+        if let Some(name) = entry["fields"].as_str() {
+            // A file of this directory, whatever the summary says.
+            let name = Path::new(name).file_name().unwrap_or_default();
+            state.fields = Some(vtu_read::read(&dir.join(name), &model.mesh)?);
+        }
+    }
+    Ok(Recorded {
+        header,
+        model,
+        results,
+    })
+}
+
+/// The content of a summary.
+///
+/// # Errors
+/// As [`read`].
+fn json(path: &Path) -> Result<Value> {
+    let text = std::fs::read_to_string(path).map_err(|cause| {
+        Error::io("read the results", path, cause)
+            .within("no directory of results that brinell wrote")
+    })?;
+    let summary: Value = serde_json::from_str(&text).map_err(|cause| {
+        Error::input(format!("{}: not valid JSON", path.display())).because(cause)
+    })?;
+    if summary["brinell"].is_string() {
+        Ok(summary)
+    } else {
+        Err(Error::input(format!(
+            "{}: not a summary of brinell (it has no key `brinell`)",
+            path.display()
+        )))
+    }
+}
+
+fn float(value: &Value) -> f64 {
+    value.as_f64().unwrap_or(f64::NAN)
+}
+
+fn count(value: &Value) -> usize {
+    value.as_u64().unwrap_or(0) as usize
+}
+
+fn text(value: &Value) -> String {
+    value.as_str().unwrap_or_default().to_string()
+}
+
+fn texts(value: &Value) -> Vec<String> {
+    value.as_array().into_iter().flatten().map(text).collect()
+}
+
+fn quality(value: &Value) -> Quality {
+    Quality {
+        backward_error: float(&value["backward_error"]),
+        equilibrium: float(&value["equilibrium"]),
+        complementarity: float(&value["complementarity"]),
+        penetration: float(&value["penetration"]),
+        adhesion: float(&value["adhesion"]),
+    }
+}
+
+/// The parsed `summary.json`.
+struct Summary<'a> {
+    path: &'a Path,
+    root: Value,
+}
+
+impl Summary<'_> {
+    fn list(&self, key: &str) -> impl Iterator<Item = &Value> {
+        self.root[key].as_array().into_iter().flatten()
+    }
+
+    /// Keys and values of an object.
+    fn entries(&self, key: &str) -> impl Iterator<Item = (&String, &Value)> {
+        self.root[key].as_object().into_iter().flatten()
+    }
+
+    /// A part whose type reads itself.
+    fn part<Part: DeserializeOwned>(&self, key: &str) -> Result<Part> {
+        serde_json::from_value(self.root[key].clone()).map_err(|cause| {
+            Error::input(format!("{}: `{key}` is damaged", self.path.display())).because(cause)
+        })
+    }
+
+    fn header(&self, model: &Model) -> RunHeader {
+        RunHeader {
+            scene_title: model.scene.title.clone(),
+            scene_file: self.root["scene_file"].as_str().map(str::to_string),
+            kind: text(&self.root["kind"]),
+            solver: text(&self.root["solver"]),
+            wall_seconds: float(&self.root["timings"]["total"]),
+            bodies: model.mesh.bodies.clone(),
+        }
+    }
+
+    /// All but the history, the pairs and the fields.
+    fn results(&self, header: &RunHeader) -> Result<Results> {
+        let root = &self.root;
+        Ok(Results {
+            sizes: Sizes {
+                freedoms: count(&root["freedoms"]),
+                nodes: count(&root["nodes"]),
+                elements: count(&root["elements"]),
+                contact_pairs: count(&root["contact_pairs"]),
+                zone_freedoms: count(&root["zone_freedoms"]),
+                zone_elements: count(&root["zone_elements"]),
+            },
+            effects: self
+                .entries("effects")
+                .map(|(name, effect)| Effect {
+                    name: name.clone(),
+                    on: effect["on"] == true,
+                    why: text(&effect["why"]),
+                    seconds: float(&effect["seconds"]),
+                    memory_bytes: effect["memory_bytes"].as_u64().unwrap_or(0),
+                })
+                .collect(),
+            first_yield: root["yield"].is_object().then(|| YieldPoint {
+                alpha: float(&root["yield"]["alpha"]),
+                load: float(&root["yield"]["load"]),
+                max_pressure: float(&root["yield"]["max_pressure"]),
+                half_width: float(&root["yield"]["half_width"]),
+                location: ["x", "y"].map(|key| float(&root["yield"]["location"][key])),
+                body: body(header, &root["yield"]["location"]["body"]),
+            }),
+            states: self.list("states").map(|s| state(header, s)).collect(),
+            timings: self
+                .entries("timings")
+                .filter(|(phase, _)| *phase != "total")
+                .map(|(phase, seconds)| (phase.clone(), float(seconds)))
+                .collect(),
+            counts: self.part("counts")?,
+            quality: quality(&root["quality"]),
+            condition: float(&root["condition"]),
+            inaccurate: texts(&root["inaccurate"]),
+            factor: factor(&root["factor"]),
+            reference: self.list("reference").map(reference).collect(),
+            accuracy: self.part("accuracy")?,
+            warnings: texts(&root["warnings"]),
+            incomplete: root["incomplete"].as_str().map(str::to_string),
+            ..Results::default()
+        })
+    }
+}
+
+fn body(header: &RunHeader, name: &Value) -> usize {
+    let named = |body: &String| name.as_str() == Some(body);
+    header.bodies.iter().position(named).unwrap_or(0)
+}
+
+fn state(header: &RunHeader, entry: &Value) -> State {
+    let arc = &entry["contact_arc"];
+    State {
+        name: text(&entry["name"]),
+        alpha: float(&entry["alpha"]),
+        load: float(&entry["load"]),
+        contact_force: float(&entry["contact_force"]),
+        max_pressure: float(&entry["max_pressure"]),
+        pole_pressure: float(&entry["pole_pressure"]),
+        half_width: float(&entry["half_width"]),
+        contact_arc: arc
+            .is_object()
+            .then(|| [float(&arc["from"]), float(&arc["to"])]),
+        residual_depth: float(&entry["residual_depth"]),
+        plastic_points: count(&entry["plastic_points"]),
+        plastic_points_by_body: header
+            .bodies
+            .iter()
+            .map(|body| count(&entry["plastic_points_by_body"][body.as_str()]))
+            .collect(),
+        max_equivalent_plastic_strain: float(&entry["max_equivalent_plastic_strain"]),
+        plastic_zone_size: float(&entry["plastic_zone_size"]),
+        energy_error: entry["energy_error"].as_f64(),
+        approach: float(&entry["approach"]),
+        quality: quality(&entry["quality"]),
+        ..State::default()
+    }
+}
+
+fn reference(row: &Value) -> ReferenceRow {
+    ReferenceRow {
+        quantity: text(&row["quantity"]),
+        reference: float(&row["reference"]),
+        computed: float(&row["computed"]),
+        ratio: float(&row["ratio"]),
+        published_ratio: row["published_ratio"].as_f64(),
+        source: text(&row["source"]),
+    }
+}
+
+fn factor(value: &Value) -> Prediction {
+    let name = value["ordering"].as_str().unwrap_or_default();
+    let known = ORDERINGS.iter().find(|known| **known == name);
+    Prediction {
+        ordering: known.copied().unwrap_or("not known here"),
+        factor_nonzeros: float(&value["factor_nonzeros"]),
+        flops: float(&value["flops"]),
+        trailing_nonzeros: float(&value["trailing_nonzeros"]),
+        memory_bytes: float(&value["memory_bytes"]),
+    }
+}
+
+/// A CSV file by columns.
+struct Rows {
+    path: PathBuf,
+    head: csv::StringRecord,
+    rows: Vec<csv::StringRecord>,
+}
+
+impl Rows {
+    fn read(path: &Path) -> Result<Self> {
+        let damaged = |cause: csv::Error| {
+            Error::input(format!("{}: cannot be read as CSV", path.display())).because(cause)
+        };
+        let mut reader = csv::Reader::from_path(path).map_err(damaged)?;
+        Ok(Rows {
+            head: reader.headers().map_err(damaged)?.clone(),
+            rows: reader
+                .records()
+                .collect::<std::result::Result<_, _>>()
+                .map_err(damaged)?,
+            path: path.to_path_buf(),
+        })
+    }
+
+    fn place(&self, name: &str) -> Result<usize> {
+        self.head.iter().position(|n| n == name).ok_or_else(|| {
+            Error::input(format!(
+                "{}: there is no column `{name}`",
+                self.path.display()
+            ))
+        })
+    }
+
+    fn history(&self) -> Result<Vec<HistoryRow>> {
+        let event = self.place("event")?;
+        let rows = self.rows.iter().enumerate();
+        rows.map(|(row, record)| {
+            let number = |name: &str| self.number(row, name);
+            Ok(HistoryRow {
+                increment: number("increment")? as usize,
+                alpha: number("alpha")?,
+                load: number("load")?,
+                max_pressure: number("max_pressure")?,
+                half_width: number("half_width")?,
+                contact_force: number("contact_force")?,
+                closed_pairs: number("closed_pairs")? as usize,
+                plastic_points: number("plastic_points")? as usize,
+                max_equivalent_plastic_strain: number("max_equivalent_plastic_strain")?,
+                iterations: number("iterations")? as usize,
+                trailing_solves: number("trailing_solves")? as usize,
+                residual: number("residual")?,
+                event: record.get(event).unwrap_or_default().to_string(),
+            })
+        })
+        .collect()
+    }
+
+    /// The pairs, each with the index of its state.
+    fn pairs(&self, model: &Model) -> Result<Vec<(usize, PairState)>> {
+        let status = self.place("status")?;
+        let rows = self.rows.iter().enumerate();
+        rows.map(|(row, record)| {
+            let number = |name: &str| self.number(row, name);
+            let pair = number("pair")? as usize;
+            let contact = number("contact")? as usize;
+            let state = number("state")? as usize;
+            if pair >= model.pairs.len() || contact >= model.contacts.len() || state == 0 {
+                return Err(Error::input(format!(
+                    "{}: row {}: pair {pair} of contact {contact} in state {state} does not belong to this model",
+                    self.path.display(),
+                    row + 1
+                )));
+            }
+            let pair = PairState {
+                pair,
+                contact,
+                position: [number("x")?, number("y")?],
+                gap: number("gap")?,
+                force: number("force")?,
+                area: number("area")?,
+                pressure: number("pressure")?,
+                status: match record.get(status) {
+                    Some("closed") => Status::Closed,
+                    _ => Status::Open,
+                },
+            };
+            Ok((state - 1, pair))
+        })
+        .collect()
+    }
+
+    /// The number in a row and a column; an empty cell is not a number.
+    fn number(&self, row: usize, name: &str) -> Result<f64> {
+        let cell = self.rows[row].get(self.place(name)?).unwrap_or_default();
+        if cell.is_empty() {
+            return Ok(f64::NAN);
+        }
+        cell.parse().map_err(|_| {
+            Error::input(format!(
+                "{}: row {}: `{name}` is {cell:?}, which is no number",
+                self.path.display(),
+                row + 1
+            ))
+        })
+    }
+}

@@ -1,0 +1,120 @@
+//! The stated errors as rows and columns, for terminal and report alike: a row per state, a column per quantity.
+
+use super::number::significant;
+use crate::results::{Accuracy, Demand, EstimateMethod, QuantityError};
+
+/// Columns: key and heading.
+const KEYS: [(&str, &str); 6] = [
+    ("load", "load"),
+    ("max_pressure", "max\npressure"),
+    ("half_width", "half\nwidth"),
+    ("approach", "approach"),
+    ("residual_depth", "residual\ndepth"),
+    ("plastic_zone_size", "plastic\nzone"),
+];
+
+/// The table: errors relative to the largest size of each quantity in the run.
+pub(crate) struct StatedErrors {
+    /// The heading of each column, in lines.
+    pub columns: Vec<&'static str>,
+    /// A row per state: its name and the stated errors, ready to print, in per cent.
+    pub states: Vec<(String, Vec<String>)>,
+    /// The largest of each kind of error, before they are put together.
+    pub kinds: Vec<(&'static str, Vec<String>)>,
+    /// How the mesh's part was estimated.
+    pub method: String,
+}
+
+impl StatedErrors {
+    /// The table of an estimate; `None` where nothing was estimated.
+    pub(crate) fn of(accuracy: &Accuracy) -> Option<Self> {
+        if accuracy.method == EstimateMethod::None {
+            return None;
+        }
+        let find = |prefix: &str, key: &str| {
+            let path = format!("{prefix}.{key}");
+            accuracy.quantities.iter().find(|q| q.quantity == path)
+        };
+        let mut prefixes: Vec<&str> = Vec::new();
+        for quantity in &accuracy.quantities {
+            if let Some((prefix, _)) = quantity.quantity.rsplit_once('.')
+                && !prefixes.contains(&prefix)
+            {
+                prefixes.push(prefix);
+            }
+        }
+        let keys: Vec<_> = KEYS
+            .iter()
+            .filter(|(key, _)| prefixes.iter().any(|p| find(p, key).is_some()))
+            .collect();
+        let states = prefixes.iter().map(|prefix| {
+            let name = match *prefix {
+                "yield" => "first yield",
+                state => state.strip_prefix("states.").unwrap_or(state),
+            };
+            let errors = keys
+                .iter()
+                .map(|(key, _)| percent(find(prefix, key).and_then(|q| q.relative_error)));
+            (name.to_string(), errors.collect())
+        });
+        type Part = fn(&QuantityError) -> Option<f64>;
+        let parts: [(&str, Part); 3] = [
+            ("mesh", |q| q.discretisation),
+            ("path", |q| q.path),
+            ("algebra", |q| Some(q.algebraic)),
+        ];
+        let kinds = parts.into_iter().map(|(name, part)| {
+            let largest = keys.iter().map(|(key, _)| {
+                let relative = prefixes.iter().filter_map(|p| {
+                    let quantity = find(p, key)?;
+                    // The scale is that of the stated error.
+                    let scale = quantity.error? / quantity.relative_error?;
+                    Some(part(quantity)? / scale)
+                });
+                percent(relative.filter(|r| r.is_finite()).reduce(f64::max))
+            });
+            (name, largest.collect())
+        });
+        Some(StatedErrors {
+            columns: keys.iter().map(|(_, heading)| *heading).collect(),
+            states: states.collect(),
+            kinds: kinds.collect(),
+            method: method(accuracy),
+        })
+    }
+}
+
+fn method(accuracy: &Accuracy) -> String {
+    let ratios = accuracy.companions.iter().map(|c| significant(c.ratio, 3));
+    match accuracy.method {
+        EstimateMethod::CoarserMeshes => format!(
+            "The mesh's part is extrapolated from runs with elements {} times as large; it counts twice.",
+            ratios.collect::<Vec<_>>().join(" and ")
+        ),
+        _ => "The mesh's part is the energy norm of the stress error, a rough figure: this mesh cannot be made coarser. \
+              `brinell accuracy` refines it."
+            .to_string(),
+    }
+}
+
+/// A demanded accuracy in a line.
+pub(crate) fn demand(demand: &Demand) -> String {
+    format!(
+        "Demanded accuracy {} %: {}, the largest stated error is {} %",
+        significant(100.0 * demand.accuracy, 2),
+        match demand.reached {
+            true => "reached",
+            false => "NOT reached",
+        },
+        significant(100.0 * demand.stated, 2)
+    )
+}
+
+/// A share in per cent, two digits.
+fn percent(share: Option<f64>) -> String {
+    match share {
+        Some(0.0) => "0".to_string(),
+        Some(share) => significant(100.0 * share, 2),
+        None => "-".to_string(),
+    }
+}
