@@ -129,3 +129,30 @@ fn index(value: i64, below: usize, what: &str) -> Result<usize> {
         .filter(|v| *v < below)
         .ok_or_else(|| Error::input(format!("{what} {value} is not in 0..{below}")))
 }
+
+/// Rows and gaps that fit each other and the freedoms.
+pub(super) fn check(n: usize, rows: &[Vec<(usize, f64)>], gaps: &[f64]) -> Result<()> {
+    if rows.len() != gaps.len() {
+        return Err(Error::input(format!(
+            "{} contact rows have {} gaps: one each is needed",
+            rows.len(),
+            gaps.len()
+        )));
+    }
+    for (i, row) in rows.iter().enumerate() {
+        if let Some((freedom, _)) = row.iter().find(|(freedom, _)| *freedom >= n) {
+            return Err(Error::input(format!(
+                "contact row {i} names freedom {freedom} of a matrix with {n}"
+            )));
+        }
+        if row.iter().any(|(_, c)| !c.is_finite()) || !gaps[i].is_finite() {
+            return Err(Error::input(format!(
+                "contact row {i} has a coefficient or a gap that is not finite"
+            )));
+        }
+        if row.iter().all(|(_, c)| *c == 0.0) {
+            return Err(Error::input(format!("contact row {i} is zero")));
+        }
+    }
+    Ok(())
+}
