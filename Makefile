@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .ONESHELL:
 .DEFAULT_GOAL := help
-.PHONY: help setup cargo build run test lint bench bench-peers install clean
+.PHONY: help setup cargo build run test lint bench bench-peers install python clean
 
 # What the CHOLMOD backend is built on: SuiteSparse, a fast BLAS, and libclang for bindgen.
 PACKAGES := libsuitesparse-dev libopenblas-dev libclang-dev
@@ -63,6 +63,7 @@ test: lint ## Format, lints, documentation and all tests
 
 lint: setup ## Format, clippy and documentation, warnings are errors
 	@cargo fmt --check
+	cargo fmt --check --manifest-path ffi/python/Cargo.toml
 	cargo clippy --features capi --all-targets -- -D warnings
 	cargo clippy --no-default-features --all-targets -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --features capi --no-deps --quiet
@@ -92,6 +93,11 @@ install: setup ## Install the C library, header and pkg-config file (PREFIX=...)
 	ln -sf "libbrinell.so.$(VERSION)" "$(PREFIX)/lib/libbrinell.so.0"
 	ln -sf libbrinell.so.0 "$(PREFIX)/lib/libbrinell.so"
 	sed -e 's|@PREFIX@|$(abspath $(PREFIX))|' -e 's|@VERSION@|$(VERSION)|' ffi/brinell.pc.in > "$(PREFIX)/lib/pkgconfig/brinell.pc"
+
+PYTHON ?= python3
+
+python: setup ## Install the Python package (PYTHON=..., in an environment that is writable)
+	@$(PYTHON) -m pip install ./ffi/python
 
 clean: ## Remove what was built
 	@cargo clean

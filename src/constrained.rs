@@ -18,6 +18,10 @@
 //!
 //! is the problem of [`crate::contact`]. Plastic strains are loads like any others: `f + sum of B_e' D eps_p` over elements.
 
+mod arrays;
+
+pub use arrays::{Triangle, rows_from_csr, stiffness_from_csc};
+
 use crate::contact::{self, Change, Path, PathEnd, Tableau, Unbounded};
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::{self, Backend, Condensed, NotDefinite, Partition, SymmetricCsc};
@@ -127,7 +131,7 @@ impl ConstrainedStructure {
         gaps: &[f64],
     ) -> Result<Self> {
         let n = stiffness.cols();
-        check(n, rows, gaps)?;
+        arrays::check(n, rows, gaps)?;
         let mut place: BTreeMap<usize, usize> =
             rows.iter().flatten().map(|&(f, _)| (f, 0)).collect();
         for (i, at) in place.values_mut().enumerate() {
@@ -419,32 +423,6 @@ impl ConstrainedStructure {
             None => Ok(()),
         }
     }
-}
-
-fn check(n: usize, rows: &[Vec<(usize, f64)>], gaps: &[f64]) -> Result<()> {
-    if rows.len() != gaps.len() {
-        return Err(Error::input(format!(
-            "{} contact rows have {} gaps: one each is needed",
-            rows.len(),
-            gaps.len()
-        )));
-    }
-    for (i, row) in rows.iter().enumerate() {
-        if let Some((freedom, _)) = row.iter().find(|(freedom, _)| *freedom >= n) {
-            return Err(Error::input(format!(
-                "contact row {i} names freedom {freedom} of a matrix with {n}"
-            )));
-        }
-        if row.iter().any(|(_, c)| !c.is_finite()) || !gaps[i].is_finite() {
-            return Err(Error::input(format!(
-                "contact row {i} has a coefficient or a gap that is not finite"
-            )));
-        }
-        if row.iter().all(|(_, c)| *c == 0.0) {
-            return Err(Error::input(format!("contact row {i} is zero")));
-        }
-    }
-    Ok(())
 }
 
 /// Condenses; where the matrix alone is not definite once more with its own diagonal added on the contact freedoms and taken off

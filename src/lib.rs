@@ -32,7 +32,7 @@
 //! | to | use |
 //! |---|---|
 //! | read or make a scene | [`scene::Scene`] |
-//! | run on a mesh of one's own | [`mesh::gmsh`], [`model::Model::from_mesh`] |
+//! | run on a mesh of one's own | [`mesh::gmsh`], [`model::Model::from_mesh`]; from arrays [`model::ModelBuilder`] |
 //! | compute | [`analysis::Analysis`]: the whole program or the yield load |
 //! | watch a run, or stop it | [`progress::Observer`] |
 //! | read what came out | [`results::Results`]; as files [`output`] |
@@ -57,6 +57,8 @@
 
 // Blank lines keep the order of the data: rustfmt sorts neighbouring lines.
 pub mod error;
+
+pub mod panics;
 
 pub mod analytical;
 

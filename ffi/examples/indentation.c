@@ -1,4 +1,5 @@
-/* Presses and releases a ball through the whole library, and follows two springs and a wall at the lower level.
+/* Presses and releases a ball through the whole library, builds a model of two blocks from arrays, and follows two springs and a
+ * wall at the lower level.
  *
  * Build against the installed library:
  *     cc indentation.c -o indentation $(pkg-config --cflags --libs brinell)
@@ -62,6 +63,78 @@ static void *analyse(void *user) {
     return NULL;
 }
 
+/* Half of two blocks from arrays: pairs with gaps that grow from the middle, pressed together until they flow, and let go. */
+enum { NX = 4, NY = 2, ROW = NX + 1, EACH = ROW * (NY + 1) };
+
+static int64_t node(int body, int i, int j) { return body * EACH + j * ROW + i; }
+
+static void blocks(void) {
+    brinell_model *model = NULL;
+    check(brinell_model_new(BRINELL_PLANE_STRAIN, 2, &model), "model");
+    const char *names[] = {"lower", "upper"};
+    int64_t middle[2 * (NY + 1)], rows[4][ROW];
+    double gaps[ROW];
+    for (int body = 0; body < 2; ++body) {
+        double coordinates[2 * EACH];
+        int64_t elements[4 * NX * NY], *next = elements;
+        for (int j = 0; j <= NY; ++j)
+            for (int i = 0; i <= NX; ++i) {
+                coordinates[2 * (j * ROW + i)] = 0.5 * i;
+                coordinates[2 * (j * ROW + i) + 1] = body + 0.5 * j;
+            }
+        for (int j = 0; j < NY; ++j)
+            for (int i = 0; i < NX; ++i) {
+                *next++ = node(body, i, j);
+                *next++ = node(body, i + 1, j);
+                *next++ = node(body, i + 1, j + 1);
+                *next++ = node(body, i, j + 1);
+            }
+        for (int j = 0; j <= NY; ++j) middle[body * (NY + 1) + j] = node(body, 0, j);
+        check(brinell_model_nodes(model, coordinates, EACH), "nodes");
+        check(brinell_model_elements(model, names[body], BRINELL_SHAPE_QUAD4, elements, NX * NY), "elements");
+        check(brinell_model_body(model, names[body], "steel", 0), "body");
+    }
+    for (int i = 0; i <= NX; ++i) {
+        rows[0][i] = node(0, i, 0);
+        rows[1][i] = node(0, i, NY);
+        rows[2][i] = node(1, i, 0);
+        rows[3][i] = node(1, i, NY);
+        gaps[i] = 0.002 * (0.5 * i) * (0.5 * i);
+    }
+    const char *surfaces[] = {"floor", "face", "opposite", "top"};
+    for (int k = 0; k < 4; ++k)
+        check(brinell_model_surface_of_nodes(model, surfaces[k], rows[k], ROW), "surface");
+    check(brinell_model_node_set(model, "middle", middle, 2 * (NY + 1)), "node set");
+    brinell_material steel = {.size = sizeof steel, .youngs_modulus = 210e3, .poissons_ratio = 0.3,
+                              .yield_stress = 300, .plastic_modulus = 2100};
+    check(brinell_model_material(model, "steel", &steel), "material");
+    brinell_contact contact = {.size = sizeof contact, .n_pairs = ROW, .first_nodes = rows[2],
+                               .second_nodes = rows[1], .gaps = gaps};
+    check(brinell_model_contact(model, "opposite", "face", &contact), "contact");
+    check(brinell_model_support(model, "floor", BRINELL_Y, 0), "support");
+    check(brinell_model_support(model, "middle", BRINELL_X, 0), "support");
+    brinell_load press = {.size = sizeof press, .kind = BRINELL_LOAD_PRESSURE, .on = "top", .values = {300}};
+    check(brinell_model_load(model, &press), "load");
+    for (int k = 0; k < 2; ++k) {
+        brinell_target target = {.size = sizeof target, .value = 1 - k};
+        check(brinell_model_target(model, &target), "target");
+    }
+    brinell_results *results = NULL;
+    check(brinell_model_run(model, NULL, NULL, NULL, &results), "run");
+    brinell_model_free(model);
+    brinell_state state = {.size = sizeof state};
+    check(brinell_results_state(results, 0, &state), "state");
+    printf("blocks: contact force %.15e, largest pressure %.15e, points that flow %llu\n", state.contact_force,
+           state.max_pressure, (unsigned long long)state.plastic_points);
+    const double *left;
+    size_t n;
+    check(brinell_results_pairs(results, 1, BRINELL_PAIR_GAP, &left, &n), "gaps");
+    printf("gaps left:");
+    for (size_t k = 0; k < n; ++k) printf(" %.15e", left[k]);
+    printf("\n");
+    brinell_results_free(results);
+}
+
 /* Freedoms 0-1-2 in a row, unit springs between them, 0 tied to the ground; a wall at distance 1 before freedom 2. */
 static void springs(void) {
     const int64_t column_starts[] = {0, 1, 3, 5}, rows[] = {0, 0, 1, 1, 2};
@@ -122,6 +195,7 @@ int main(int argc, char **argv) {
     brinell_scene_free(scene);
     status = brinell_scene_parse("kind = 3", &scene);
     printf("refused with status %d: %s\n", status, brinell_last_error());
+    blocks();
     springs();
     return 0;
 }

@@ -24,6 +24,7 @@ template <class T, void (*release)(T *)> struct Release {
 template <class T, void (*release)(T *)> using Owned = std::unique_ptr<T, Release<T, release>>;
 using Scene = Owned<brinell_scene, brinell_scene_free>;
 using Results = Owned<brinell_results, brinell_results_free>;
+using Model = Owned<brinell_model, brinell_model_free>;
 using Structure = Owned<brinell_structure, brinell_structure_free>;
 
 Scene load(const char *path, std::vector<const char *> overrides = {}) {
@@ -70,6 +71,84 @@ Figures analyse(const char *path) {
     check(brinell_results_field(results.get(), figures.n_states - 1, BRINELL_FIELD_DISPLACEMENT, &u.data, &u.n), "field");
     for (double v : u) figures.displacement += v * v;
     return figures;
+}
+
+template <class T> T sized() {
+    T value{};
+    value.size = sizeof value;
+    return value;
+}
+
+void blocks() {
+    constexpr int nx = 4, ny = 2, row = nx + 1, each = row * (ny + 1);
+    auto node = [](int body, int i, int j) -> int64_t { return body * each + j * row + i; };
+    brinell_model *out = nullptr;
+    check(brinell_model_new(BRINELL_PLANE_STRAIN, 2, &out), "model");
+    Model model(out);
+    std::vector<int64_t> middle, rows[4];
+    std::vector<double> gaps;
+    for (int body = 0; body < 2; ++body) {
+        const char *name = body == 0 ? "lower" : "upper";
+        std::vector<double> coordinates;
+        std::vector<int64_t> elements;
+        for (int j = 0; j <= ny; ++j)
+            for (int i = 0; i <= nx; ++i) coordinates.insert(coordinates.end(), {0.5 * i, body + 0.5 * j});
+        for (int j = 0; j < ny; ++j)
+            for (int i = 0; i < nx; ++i)
+                elements.insert(elements.end(),
+                                {node(body, i, j), node(body, i + 1, j), node(body, i + 1, j + 1), node(body, i, j + 1)});
+        for (int j = 0; j <= ny; ++j) middle.push_back(node(body, 0, j));
+        check(brinell_model_nodes(model.get(), coordinates.data(), each), "nodes");
+        check(brinell_model_elements(model.get(), name, BRINELL_SHAPE_QUAD4, elements.data(), nx * ny), "elements");
+        check(brinell_model_body(model.get(), name, "steel", 0), "body");
+    }
+    for (int i = 0; i <= nx; ++i) {
+        rows[0].push_back(node(0, i, 0));
+        rows[1].push_back(node(0, i, ny));
+        rows[2].push_back(node(1, i, 0));
+        rows[3].push_back(node(1, i, ny));
+        gaps.push_back(0.002 * (0.5 * i) * (0.5 * i));
+    }
+    const char *surfaces[] = {"floor", "face", "opposite", "top"};
+    for (int k = 0; k < 4; ++k)
+        check(brinell_model_surface_of_nodes(model.get(), surfaces[k], rows[k].data(), row), "surface");
+    check(brinell_model_node_set(model.get(), "middle", middle.data(), middle.size()), "node set");
+    auto steel = sized<brinell_material>();
+    steel.youngs_modulus = 210e3;
+    steel.poissons_ratio = 0.3;
+    steel.yield_stress = 300;
+    steel.plastic_modulus = 2100;
+    check(brinell_model_material(model.get(), "steel", &steel), "material");
+    auto contact = sized<brinell_contact>();
+    contact.n_pairs = row;
+    contact.first_nodes = rows[2].data();
+    contact.second_nodes = rows[1].data();
+    contact.gaps = gaps.data();
+    check(brinell_model_contact(model.get(), "opposite", "face", &contact), "contact");
+    check(brinell_model_support(model.get(), "floor", BRINELL_Y, 0), "support");
+    check(brinell_model_support(model.get(), "middle", BRINELL_X, 0), "support");
+    auto press = sized<brinell_load>();
+    press.kind = BRINELL_LOAD_PRESSURE;
+    press.on = "top";
+    press.values[0] = 300;
+    check(brinell_model_load(model.get(), &press), "load");
+    for (double factor : {1.0, 0.0}) {
+        auto target = sized<brinell_target>();
+        target.value = factor;
+        check(brinell_model_target(model.get(), &target), "target");
+    }
+    brinell_results *run = nullptr;
+    check(brinell_model_run(model.get(), nullptr, nullptr, nullptr, &run), "run");
+    Results results(run);
+    auto state = sized<brinell_state>();
+    check(brinell_results_state(results.get(), 0, &state), "state");
+    std::printf("blocks: contact force %.15e, largest pressure %.15e, points that flow %llu\n", state.contact_force,
+                state.max_pressure, static_cast<unsigned long long>(state.plastic_points));
+    Span left;
+    check(brinell_results_pairs(results.get(), 1, BRINELL_PAIR_GAP, &left.data, &left.n), "gaps");
+    std::printf("gaps left:");
+    for (double gap : left) std::printf(" %.15e", gap);
+    std::printf("\n");
 }
 
 void springs() {
@@ -122,6 +201,7 @@ int main(int argc, char **argv) try {
     brinell_scene *none = nullptr;
     status = brinell_scene_parse("kind = 3", &none);
     std::printf("refused with status %d: %s\n", status, brinell_last_error());
+    blocks();
     springs();
     return 0;
 } catch (const std::exception &error) {

@@ -6,10 +6,11 @@ use brinell::analysis::Analysis;
 use brinell::constrained::ConstrainedStructure;
 use brinell::contact::Change;
 use brinell::linalg::{Backend, SymmetricCsc};
-use brinell::model::Model;
+use brinell::mesh::Shape;
+use brinell::model::{Model, ModelBuilder, NodePair};
 use brinell::progress::{Flow, Observer, Silent};
 use brinell::results::HistoryRow;
-use brinell::scene::Scene;
+use brinell::scene::{Body, Contact, Direction, Kind, Load, Material, Scene, Support, Target};
 use std::error::Error;
 
 /// A number as C prints it with `%.15e`.
@@ -51,6 +52,107 @@ fn analyse(path: &str) -> brinell::Result<String> {
             .iter()
             .fold(0.0, |sum, u| sum + u * u))),
     ))
+}
+
+/// Half of two blocks from arrays: pairs with gaps that grow from the middle, pressed together until they flow, and let go.
+fn blocks() -> brinell::Result<()> {
+    const NX: usize = 4;
+    const NY: usize = 2;
+    const ROW: usize = NX + 1;
+    let node = |body: usize, i: usize, j: usize| body * ROW * (NY + 1) + j * ROW + i;
+    let row =
+        |body: usize, j: usize| -> Vec<usize> { (0..ROW).map(|i| node(body, i, j)).collect() };
+    let mut builder = ModelBuilder::new(Kind::PlaneStrain);
+    builder.symmetry(2);
+    let mut middle = Vec::new();
+    for (body, name) in ["lower", "upper"].into_iter().enumerate() {
+        let mut coordinates = Vec::new();
+        let mut elements = Vec::new();
+        for j in 0..=NY {
+            for i in 0..=NX {
+                coordinates.extend([0.5 * i as f64, body as f64 + 0.5 * j as f64]);
+            }
+            middle.push(node(body, 0, j));
+        }
+        for j in 0..NY {
+            for i in 0..NX {
+                elements.extend(
+                    [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)].map(|(i, j)| node(body, i, j)),
+                );
+            }
+        }
+        let steel = Body {
+            material: "steel".into(),
+            ..Body::default()
+        };
+        builder
+            .nodes(&coordinates)?
+            .elements(Shape::Quad4, name, &elements)?
+            .body(name, steel)?;
+    }
+    let (opposite, face) = (row(1, 0), row(0, NY));
+    let pairs: Vec<NodePair> = (0..ROW)
+        .map(|i| NodePair {
+            first: opposite[i],
+            second: face[i],
+            normal: None,
+            gap: Some(0.002 * (0.5 * i as f64) * (0.5 * i as f64)),
+        })
+        .collect();
+    let contact = Contact {
+        first: "opposite".into(),
+        second: "face".into(),
+        ..Contact::default()
+    };
+    let steel = Material {
+        youngs_modulus: 210e3,
+        poissons_ratio: 0.3,
+        yield_stress: Some(300.0),
+        plastic_modulus: Some(2100.0),
+        ..Material::default()
+    };
+    builder
+        .surface_of_nodes("floor", &row(0, 0))?
+        .surface_of_nodes("face", &face)?
+        .surface_of_nodes("opposite", &opposite)?
+        .surface_of_nodes("top", &row(1, NY))?
+        .node_set("middle", &middle)?
+        .material("steel", steel)?
+        .contact_pairs(contact, &pairs)?
+        .support(Support {
+            on: "floor".into(),
+            fix: vec![Direction::Y],
+            angle: None,
+        })
+        .support(Support {
+            on: "middle".into(),
+            fix: vec![Direction::X],
+            angle: None,
+        })
+        .load(Load {
+            on: "top".into(),
+            pressure: Some(300.0),
+            ..Load::default()
+        })
+        .target(Target {
+            load_factor: Some(1.0),
+            ..Target::default()
+        })
+        .target(Target {
+            load_factor: Some(0.0),
+            ..Target::default()
+        });
+    let results = Analysis::new(builder.build()?, Backend::default())?.run(&mut Silent)?;
+    let loaded = &results.states[0];
+    println!(
+        "blocks: contact force {}, largest pressure {}, points that flow {}",
+        e(loaded.contact_force),
+        e(loaded.max_pressure),
+        loaded.plastic_points
+    );
+    let left: Vec<String> = results.states[1].pairs.iter().map(|p| e(p.gap)).collect();
+    println!("gaps left: {}", left.join(" "));
+    Ok(())
 }
 
 fn springs() -> brinell::Result<()> {
@@ -102,6 +204,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     if let Err(error) = Scene::parse("kind = 3", "scene") {
         println!("refused with status {}: {error}", error.kind().exit_code());
     }
+    blocks()?;
     springs()?;
     Ok(())
 }

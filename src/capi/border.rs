@@ -1,10 +1,10 @@
 //! What holds at the border: statuses, messages, pointers, structures that know their size.
 
 use crate::error::{Error, ErrorKind, Result};
+use crate::panics::contained;
 use std::cell::RefCell;
 use std::error::Error as _;
 use std::ffi::{CStr, CString, c_char};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Done.
 pub const BRINELL_OK: i32 = 0;
@@ -54,16 +54,10 @@ pub extern "C" fn brinell_abi_version() -> u32 {
 
 /// Runs `act`; its failure, or its panic, becomes a status with a message.
 pub(super) fn guarded(act: impl FnOnce() -> Result<()>) -> i32 {
-    let error = match catch_unwind(AssertUnwindSafe(act)) {
-        Ok(Ok(())) => return BRINELL_OK,
-        Ok(Err(error)) => error,
-        Err(panic) => {
-            let text = panic.downcast_ref::<String>().cloned();
-            let text = text.or_else(|| panic.downcast_ref::<&str>().map(|t| t.to_string()));
-            Error::internal(format!("panic: {}", text.unwrap_or_default()))
-        }
-    };
-    note(&error)
+    match contained(act) {
+        Ok(()) => BRINELL_OK,
+        Err(error) => note(&error),
+    }
 }
 
 /// Keeps an error for [`brinell_last_error`] and returns its status.
@@ -84,6 +78,21 @@ pub(super) fn status(kind: ErrorKind) -> i32 {
     i32::from(kind.exit_code())
 }
 
+/// Refuses NULL and lengths that no memory holds.
+fn check<T>(is_null: bool, n: usize, what: &str) -> Result<()> {
+    if is_null {
+        return Err(Error::input(format!(
+            "{what}: NULL was given for {n} values"
+        )));
+    }
+    if n > isize::MAX as usize / size_of::<T>().max(1) {
+        return Err(Error::input(format!(
+            "{what}: {n} values are more than memory holds"
+        )));
+    }
+    Ok(())
+}
+
 /// `n` values from a pointer; NULL is right where there are none.
 ///
 /// # Safety
@@ -92,12 +101,8 @@ pub(super) unsafe fn slice<'a, T>(data: *const T, n: usize, what: &str) -> Resul
     if n == 0 {
         return Ok(&[]);
     }
-    if data.is_null() {
-        return Err(Error::input(format!(
-            "{what}: NULL was given for {n} values"
-        )));
-    }
-    // SAFETY: not NULL; the caller vouches for the rest.
+    check::<T>(data.is_null(), n, what)?;
+    // SAFETY: not NULL, of a possible length; the caller vouches for the rest.
     Ok(unsafe { std::slice::from_raw_parts(data, n) })
 }
 
@@ -109,12 +114,8 @@ pub(super) unsafe fn slice_mut<'a, T>(data: *mut T, n: usize, what: &str) -> Res
     if n == 0 {
         return Ok(&mut []);
     }
-    if data.is_null() {
-        return Err(Error::input(format!(
-            "{what}: NULL was given for {n} values"
-        )));
-    }
-    // SAFETY: not NULL; the caller vouches for the rest.
+    check::<T>(data.is_null(), n, what)?;
+    // SAFETY: not NULL, of a possible length; the caller vouches for the rest.
     Ok(unsafe { std::slice::from_raw_parts_mut(data, n) })
 }
 
@@ -167,7 +168,10 @@ pub(super) unsafe fn hand_out<T>(out: *mut *mut T, value: T) -> Result<()> {
 pub(super) unsafe fn free<T>(handle: *mut T) {
     if !handle.is_null() {
         // SAFETY: made by Box::into_raw and given up by the caller. Dropping it must not unwind into C.
-        let _ = catch_unwind(AssertUnwindSafe(|| drop(unsafe { Box::from_raw(handle) })));
+        let _ = contained(|| {
+            drop(unsafe { Box::from_raw(handle) });
+            Ok(())
+        });
     }
 }
 

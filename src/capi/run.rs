@@ -7,12 +7,12 @@ use super::options::{backend, brinell_options};
 use super::results::brinell_results;
 use super::scene::brinell_scene;
 use crate::analysis::Analysis;
-use crate::error::{Error, ErrorKind};
+use crate::error::{Error, ErrorKind, Result};
 use crate::model::Model;
 use crate::output::RunHeader;
+use crate::panics::outside;
 use crate::progress::{Flow, Observer};
 use crate::results::HistoryRow;
-use crate::scene::Kind;
 use std::ffi::{CString, c_char, c_void};
 use std::time::Instant;
 
@@ -85,7 +85,7 @@ impl Observer for Caller {
             event: event.as_ptr(),
         };
         // SAFETY: the callback and its pointer are the caller's; the structure lives during the call.
-        match unsafe { callback(&raw const increment, self.user) } {
+        match outside(|| unsafe { callback(&raw const increment, self.user) }) {
             0 => Flow::Continue,
             _ => Flow::Stop,
         }
@@ -108,30 +108,40 @@ pub unsafe extern "C" fn brinell_run(
     user: *mut c_void,
     out: *mut *mut brinell_results,
 ) -> i32 {
+    // SAFETY: as vouched for by the caller.
+    unsafe {
+        execute(
+            || Model::new(&shared(scene, "the scene")?.scene),
+            options,
+            callback,
+            user,
+            out,
+        )
+    }
+}
+
+/// Runs the load program of a model.
+///
+/// # Safety
+/// As [`brinell_run`].
+pub(super) unsafe fn execute(
+    model: impl FnOnce() -> Result<Model>,
+    options: *const brinell_options,
+    callback: brinell_callback,
+    user: *mut c_void,
+    out: *mut *mut brinell_results,
+) -> i32 {
     let mut ended = BRINELL_OK;
     let done = guarded(|| {
         // SAFETY: the caller vouches for every pointer.
         unsafe {
             *super::border::exclusive(out, "the place for the results")? = std::ptr::null_mut();
-            let scene = &shared(scene, "the scene")?.scene;
             let backend = backend(options)?;
             let start = Instant::now();
-            let mut analysis = Analysis::new(Model::new(scene)?, backend)?;
+            let mut analysis = Analysis::new(model()?, backend)?;
             let results = analysis.run(&mut Caller { callback, user })?;
             let model = analysis.model();
-            let kind = match scene.kind {
-                Kind::PlaneStrain => "plane_strain",
-                Kind::PlaneStress => "plane_stress",
-                Kind::Axisymmetric => "axisymmetric",
-            };
-            let header = RunHeader {
-                scene_title: scene.title.clone(),
-                scene_file: scene.file.as_ref().map(|file| file.display().to_string()),
-                kind: kind.to_string(),
-                solver: backend.name().to_string(),
-                wall_seconds: start.elapsed().as_secs_f64(),
-                bodies: model.mesh.bodies.clone(),
-            };
+            let header = RunHeader::new(model, backend, start.elapsed().as_secs_f64());
             if let Some(why) = &results.incomplete {
                 let kind = results.incomplete_kind.unwrap_or(ErrorKind::Analysis);
                 ended = status(kind);

@@ -5,7 +5,7 @@ use super::border::{
 };
 use super::options::{backend, brinell_options};
 use super::results::lend;
-use crate::constrained::ConstrainedStructure;
+use crate::constrained::{ConstrainedStructure, Triangle, rows_from_csr, stiffness_from_csc};
 use crate::contact::Change;
 use crate::error::{Error, Result};
 use crate::linalg::SymmetricCsc;
@@ -70,22 +70,10 @@ unsafe impl SizePrefixed for brinell_rows {
     const NAME: &'static str = "brinell_rows";
 }
 
-/// Index of the caller, checked.
-fn index(value: i64, below: usize, what: &str) -> Result<usize> {
-    usize::try_from(value)
-        .ok()
-        .filter(|v| *v < below)
-        .ok_or_else(|| Error::input(format!("{what} {value} is not in 0..{below}")))
-}
-
-/// Begins that do not fall; the last one is the number of entries.
+/// Number of entries that an array of begins speaks of; what else is wrong with it is found later.
 fn entries(starts: &[i64], what: &str) -> Result<usize> {
-    let rising = starts.first() == Some(&0) && starts.windows(2).all(|p| p[0] <= p[1]);
-    starts
-        .last()
-        .filter(|_| rising)
-        .and_then(|n| usize::try_from(*n).ok())
-        .ok_or_else(|| Error::input(format!("{what} must begin with 0 and not fall")))
+    let end = starts.last().and_then(|n| usize::try_from(*n).ok());
+    end.ok_or_else(|| Error::input(format!("{what} must end with the number of entries")))
 }
 
 /// # Safety
@@ -94,7 +82,7 @@ unsafe fn read_matrix(matrix: &brinell_matrix) -> Result<SymmetricCsc> {
     let n = matrix.n;
     // SAFETY: as vouched for by the caller.
     let (starts, rows, values) = unsafe {
-        let starts = slice(matrix.column_starts, n + 1, "column_starts")?;
+        let starts = slice(matrix.column_starts, n.saturating_add(1), "column_starts")?;
         let entries = entries(starts, "column_starts")?;
         (
             starts,
@@ -102,33 +90,13 @@ unsafe fn read_matrix(matrix: &brinell_matrix) -> Result<SymmetricCsc> {
             slice(matrix.values, entries, "values")?,
         )
     };
-    let mut triplets = sprs::TriMatI::<f64, i64>::with_capacity((n, n), rows.len());
-    for column in 0..n {
-        for k in starts[column] as usize..starts[column + 1] as usize {
-            let row = index(rows[k], n, "a row of the matrix,")?;
-            if !values[k].is_finite() {
-                return Err(Error::input(format!(
-                    "the matrix at row {row}, column {column} is {}",
-                    values[k]
-                )));
-            }
-            match (matrix.triangle, row <= column) {
-                (BRINELL_TRIANGLE_BOTH | BRINELL_TRIANGLE_UPPER, true) => {
-                    triplets.add_triplet(row, column, values[k]);
-                }
-                (BRINELL_TRIANGLE_BOTH, false) => {}
-                (BRINELL_TRIANGLE_LOWER, _) if row >= column => {
-                    triplets.add_triplet(column, row, values[k]);
-                }
-                (triangle, _) => {
-                    return Err(Error::input(format!(
-                        "the matrix has an entry at row {row}, column {column}, which is not in triangle {triangle}"
-                    )));
-                }
-            }
-        }
-    }
-    Ok(triplets.to_csc())
+    let triangle = match matrix.triangle {
+        BRINELL_TRIANGLE_BOTH => Triangle::Both,
+        BRINELL_TRIANGLE_UPPER => Triangle::Upper,
+        BRINELL_TRIANGLE_LOWER => Triangle::Lower,
+        other => return Err(Error::input(format!("there is no triangle {other}"))),
+    };
+    stiffness_from_csc(n, starts, rows, values, triangle)
 }
 
 type Rows = (Vec<Vec<(usize, f64)>>, Vec<f64>);
@@ -141,7 +109,7 @@ unsafe fn read_rows(rows: &brinell_rows, n: usize) -> Result<Rows> {
     }
     // SAFETY: as vouched for by the caller.
     let (starts, freedoms, coefficients, gaps) = unsafe {
-        let starts = slice(rows.row_starts, rows.n_rows + 1, "row_starts")?;
+        let starts = slice(rows.row_starts, rows.n_rows.saturating_add(1), "row_starts")?;
         let entries = entries(starts, "row_starts")?;
         (
             starts,
@@ -150,17 +118,7 @@ unsafe fn read_rows(rows: &brinell_rows, n: usize) -> Result<Rows> {
             slice(rows.gaps, rows.n_rows, "gaps")?,
         )
     };
-    let row = |i: usize| -> Result<Vec<(usize, f64)>> {
-        (starts[i] as usize..starts[i + 1] as usize)
-            .map(|k| {
-                Ok((
-                    index(freedoms[k], n, "a freedom of a contact row,")?,
-                    coefficients[k],
-                ))
-            })
-            .collect()
-    };
-    let list = (0..rows.n_rows).map(row).collect::<Result<_>>()?;
+    let list = rows_from_csr(n, starts, freedoms, coefficients)?;
     Ok((list, gaps.to_vec()))
 }
 

@@ -173,3 +173,242 @@ fn a_damaged_matrix_is_refused() {
         assert!(!message().is_empty());
     }
 }
+
+/// Two blocks from a scene, and the mesh of its results handed back as arrays: the same bits.
+#[test]
+fn a_model_from_arrays_gives_the_bits_of_the_scene() {
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/data/scenes/hard/floating_body.toml"
+    );
+    let path = CString::new(path).unwrap();
+    let sets = [
+        c"materials.steel.yield_stress=8",
+        c"materials.steel.plastic_modulus=1000",
+    ];
+    let sets = sets.map(|s| s.as_ptr());
+    // SAFETY: texts, arrays and places live through the calls, handles are freed once.
+    unsafe {
+        let (mut scene, mut expected) = (null_mut(), null_mut());
+        let loaded = brinell_scene_load(path.as_ptr(), sets.as_ptr(), 2, &mut scene);
+        assert_eq!(loaded, BRINELL_OK, "{}", message());
+        let status = brinell_run(scene, null(), None, null_mut(), &mut expected);
+        assert_eq!(status, BRINELL_OK, "{}", message());
+        let mut mesh: brinell_mesh = std::mem::zeroed();
+        mesh.size = size_of::<brinell_mesh>();
+        assert_eq!(brinell_results_mesh(expected, &mut mesh), BRINELL_OK);
+        let model = two_blocks(&mesh);
+        let mut found = null_mut();
+        let status = brinell_model_run(model, null(), None, null_mut(), &mut found);
+        assert_eq!(status, BRINELL_OK, "{}", message());
+        let (expected_bits, found_bits) = (all_bits(expected), all_bits(found));
+        assert!(expected_bits.iter().any(|b| *b != 0));
+        assert!(expected_bits == found_bits);
+        brinell_results_free(found);
+        brinell_results_free(expected);
+        brinell_model_free(model);
+        brinell_scene_free(scene);
+    }
+}
+
+/// What the scene `floating_body` says, by calls.
+///
+/// # Safety
+/// The mesh is as the results handed it out.
+unsafe fn two_blocks(mesh: &brinell_mesh) -> *mut brinell_model {
+    let mut model = null_mut();
+    // SAFETY: as vouched for by the caller; texts, arrays and places live through the calls.
+    unsafe {
+        let ok = |status: i32| assert_eq!(status, BRINELL_OK, "{}", message());
+        ok(brinell_model_new(BRINELL_PLANE_STRAIN, 1, &mut model));
+        ok(brinell_model_nodes(model, mesh.coordinates, mesh.n_nodes));
+        let bodies = std::slice::from_raw_parts(mesh.element_body, mesh.n_elements);
+        let nodes = std::slice::from_raw_parts(mesh.connectivity, 4 * mesh.n_elements);
+        for (element, &body) in bodies.iter().enumerate() {
+            let body = [c"lower", c"upper"][body as usize];
+            let nodes = [0, 1, 2, 3].map(|k| i64::from(nodes[4 * element + k]));
+            let shape = BRINELL_SHAPE_QUAD4;
+            ok(brinell_model_elements(
+                model,
+                body.as_ptr(),
+                shape,
+                nodes.as_ptr(),
+                1,
+            ));
+        }
+        let xy = std::slice::from_raw_parts(mesh.coordinates, 2 * mesh.n_nodes);
+        let nodes_where = |holds: &dyn Fn(f64, f64) -> bool| -> Vec<i64> {
+            let all = 0..mesh.n_nodes;
+            let chosen = all.filter(|&i| holds(xy[2 * i], xy[2 * i + 1]));
+            chosen.map(|i| i as i64).collect()
+        };
+        let surface = |name: &CStr, holds: &dyn Fn(f64, f64) -> bool| {
+            let nodes = nodes_where(holds);
+            ok(brinell_model_surface_of_nodes(
+                model,
+                name.as_ptr(),
+                nodes.as_ptr(),
+                nodes.len(),
+            ));
+        };
+        surface(c"floor", &|_, y| y == 0.0);
+        surface(c"face", &|_, y| y == 1.0);
+        surface(c"opposite", &|_, y| y == 1.01);
+        surface(c"top", &|_, y| y == 2.01);
+        let left = nodes_where(&|x, _| x == 0.0);
+        ok(brinell_model_node_set(
+            model,
+            c"left".as_ptr(),
+            left.as_ptr(),
+            left.len(),
+        ));
+        let mut steel: brinell_material = std::mem::zeroed();
+        steel.size = size_of::<brinell_material>();
+        (steel.youngs_modulus, steel.poissons_ratio) = (210000.0, 0.3);
+        (steel.yield_stress, steel.plastic_modulus) = (8.0, 1000.0);
+        ok(brinell_model_material(model, c"steel".as_ptr(), &steel));
+        for body in [c"lower", c"upper"] {
+            ok(brinell_model_body(
+                model,
+                body.as_ptr(),
+                c"steel".as_ptr(),
+                0,
+            ));
+        }
+        ok(brinell_model_contact(
+            model,
+            c"opposite".as_ptr(),
+            c"face".as_ptr(),
+            null(),
+        ));
+        ok(brinell_model_support(
+            model,
+            c"floor".as_ptr(),
+            BRINELL_Y,
+            0.0,
+        ));
+        ok(brinell_model_support(
+            model,
+            c"left".as_ptr(),
+            BRINELL_X,
+            0.0,
+        ));
+        let mut press: brinell_load = std::mem::zeroed();
+        press.size = size_of::<brinell_load>();
+        (press.kind, press.on, press.values[0]) = (BRINELL_LOAD_PRESSURE, c"top".as_ptr(), 10.0);
+        ok(brinell_model_load(model, &press));
+        ok(brinell_model_program(model, null()));
+        for factor in [1.0, 0.25, 1.0] {
+            let mut target: brinell_target = std::mem::zeroed();
+            (target.size, target.value) = (size_of::<brinell_target>(), factor);
+            ok(brinell_model_target(model, &target));
+        }
+    }
+    model
+}
+
+/// All arrays of results, bit by bit.
+///
+/// # Safety
+/// A living handle.
+unsafe fn all_bits(results: *const brinell_results) -> Vec<u64> {
+    let mut bits = Vec::new();
+    let (mut data, mut n) = (null(), 0);
+    let mut keep = |status: i32, data: *const f64, n: usize| {
+        assert_eq!(status, BRINELL_OK, "{}", message());
+        // SAFETY: handed out by the library, valid as long as the results.
+        let values = unsafe { std::slice::from_raw_parts(data, n) };
+        bits.extend(values.iter().map(|v| v.to_bits()));
+    };
+    // SAFETY: as vouched for by the caller.
+    unsafe {
+        for which in 0..7 {
+            let status = brinell_results_history(results, which, &mut data, &mut n);
+            keep(status, data, n);
+        }
+        for state in 0..brinell_results_n_states(results) {
+            for which in 0..7 {
+                let status = brinell_results_pairs(results, state, which, &mut data, &mut n);
+                keep(status, data, n);
+            }
+            for which in 0..4 {
+                let status = brinell_results_field(results, state, which, &mut data, &mut n);
+                keep(status, data, n);
+            }
+        }
+    }
+    bits
+}
+
+#[test]
+fn bad_arrays_are_refused_by_index_and_leave_the_model_as_it_was() {
+    let mut model = null_mut();
+    // SAFETY: texts, arrays and places live through the calls, the handle is freed once.
+    unsafe {
+        assert_eq!(brinell_model_new(3, 1, &mut model), BRINELL_INPUT);
+        assert_eq!(
+            brinell_model_new(BRINELL_AXISYMMETRIC, 1, &mut model),
+            BRINELL_OK
+        );
+        let refused = |status: i32, words: &[&str]| {
+            assert_eq!(status, BRINELL_INPUT);
+            for word in words {
+                assert!(message().contains(word), "{} lacks {word}", message());
+            }
+        };
+        let square = [0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0];
+        let nan = [0.0, f64::NAN];
+        refused(
+            brinell_model_nodes(model, nan.as_ptr(), 1),
+            &["node 0", "NaN"],
+        );
+        refused(brinell_model_nodes(model, null(), 1), &["NULL"]);
+        refused(
+            brinell_model_nodes(null_mut(), square.as_ptr(), 4),
+            &["NULL"],
+        );
+        assert_eq!(brinell_model_nodes(model, square.as_ptr(), 4), BRINELL_OK);
+        let body = c"body".as_ptr();
+        let elements = |nodes: [i64; 4], shape: i32| {
+            brinell_model_elements(model, body, shape, nodes.as_ptr(), 1)
+        };
+        refused(
+            elements([0, 1, 2, -1], BRINELL_SHAPE_QUAD4),
+            &["entry 3 is -1"],
+        );
+        refused(
+            elements([0, 1, 2, 4], BRINELL_SHAPE_QUAD4),
+            &["element 0", "is 4"],
+        );
+        refused(elements([0, 1, 2, 3], 9), &["shape 9"]);
+        assert_eq!(elements([0, 1, 2, 3], BRINELL_SHAPE_QUAD4), BRINELL_OK);
+        refused(
+            brinell_model_support(model, body, 4, 0.0),
+            &["4 are no directions"],
+        );
+        for kind in [-1, 7] {
+            let mut load: brinell_load = std::mem::zeroed();
+            (load.size, load.kind, load.on) = (size_of::<brinell_load>(), kind, body);
+            refused(brinell_model_load(model, &load), &["no kind of load"]);
+            load.history = kind;
+            refused(brinell_model_load(model, &load), &["no history"]);
+        }
+        let mut nodal: brinell_load = std::mem::zeroed();
+        (nodal.size, nodal.kind) = (size_of::<brinell_load>(), BRINELL_LOAD_NODAL);
+        nodal.n_nodes = 3;
+        refused(brinell_model_load(model, &nodal), &["NULL", "3"]);
+        nodal.n_nodes = usize::MAX;
+        refused(brinell_model_load(model, &nodal), &["NULL"]);
+        refused(
+            brinell_model_nodes(model, square.as_ptr(), usize::MAX / 2),
+            &["more than memory holds"],
+        );
+        let mut results = null_mut();
+        refused(
+            brinell_model_run(model, null(), None, null_mut(), &mut results),
+            &["bodies"],
+        );
+        assert!(results.is_null());
+        brinell_model_free(model);
+    }
+}

@@ -1,6 +1,7 @@
 //! Load vectors on the free freedoms.
 
 use super::freedoms::{dot, named_nodes};
+use super::given::Given;
 use super::{Freedoms, Slot};
 use crate::analytical::KirschField;
 use crate::element::facet_points;
@@ -76,13 +77,21 @@ fn interpolate(rows: &[[f64; 2]], alpha: f64) -> f64 {
     }
 }
 
-pub(super) fn resolve(scene: &Scene, mesh: &Mesh, freedoms: &Freedoms) -> Result<Vec<LoadCase>> {
+pub(super) fn resolve(
+    scene: &Scene,
+    mesh: &Mesh,
+    given: &Given,
+    freedoms: &Freedoms,
+) -> Result<Vec<LoadCase>> {
     scene
         .load
         .iter()
         .enumerate()
         .map(|(index, load)| {
             let mut case = resolve_load(index, load, scene, mesh)?;
+            if let Some(forces) = given.forces.get(&index) {
+                case.nodal.clone_from(forces);
+            }
             case.forces = on_freedoms(&case.nodal, freedoms);
             Ok(case)
         })

@@ -3,13 +3,17 @@
 //! Here names become indices and every inconsistency between scene and mesh is found. What comes
 //! after works with numbers only.
 
+mod builder;
 mod freedoms;
+mod given;
 mod held;
 mod loads;
 mod motions;
 mod pairs;
 
+pub use builder::ModelBuilder;
 pub use freedoms::{Freedoms, Prescribed, Slot};
+pub use given::NodePair;
 pub use held::{FloatingBodies, Pin, RigidMotion};
 pub use loads::{LoadCase, Magnitude};
 pub use pairs::{AxisPoint, ContactSurface, Pair};
@@ -19,6 +23,7 @@ use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::mesh::{self, Mesh, Shape};
 use crate::scene::{Kind, Plastic, Scene};
+use given::Given;
 
 /// A model ready to be assembled.
 #[derive(Debug, Clone)]
@@ -57,7 +62,7 @@ impl Model {
     /// freely and the loads do work on that motion.
     pub fn new(scene: &Scene) -> Result<Self> {
         let mesh = build_mesh(scene)?;
-        Self::from_mesh(scene, mesh)
+        Self::resolve(scene, mesh, &Given::default())
     }
 
     /// The model of a scene on a given mesh (its `mesh` entry is ignored).
@@ -79,6 +84,10 @@ impl Model {
     /// # Errors
     /// As [`Model::new`].
     pub fn from_mesh(scene: &Scene, mesh: Mesh) -> Result<Self> {
+        Self::resolve(scene, mesh, &Given::default())
+    }
+
+    fn resolve(scene: &Scene, mesh: Mesh, given: &Given) -> Result<Self> {
         mesh::validate(&mesh)?;
         let kind = scene.kind;
         let mut warnings = Vec::new();
@@ -87,9 +96,9 @@ impl Model {
         if kind == Kind::Axisymmetric {
             check_radii(&mesh)?;
         }
-        let (mut pairs, contacts) = pairs::resolve(scene, &mesh)?;
+        let (mut pairs, contacts) = pairs::resolve(scene, &mesh, given)?;
         let mut freedoms = Freedoms::new(scene, &mesh, &mut pairs)?;
-        let loads = loads::resolve(scene, &mesh, &freedoms)?;
+        let loads = loads::resolve(scene, &mesh, given, &freedoms)?;
         let floating = held::resolve(kind, &mesh, &mut freedoms, &pairs, &loads, &mut warnings)?;
         let loads = loads::renumber(loads, &freedoms);
         Ok(Model {

@@ -4,6 +4,7 @@
 //! `delta = (x_first - x_second) . n` and `n` the unit vector from the second body to the first.
 
 use super::freedoms::{dot, unknown_name};
+use super::given::{Given, NodePair, Partner, partners};
 use crate::element::facet_points;
 use crate::error::{Error, Result};
 use crate::mesh::surface::{normals, ordered_nodes};
@@ -69,13 +70,18 @@ const NO_AREA: f64 = 0.02;
 /// Two nodes pair if their distance across the normal is below this share of a facet's length.
 const PAIRING: f64 = 1e-5;
 
-pub(super) fn resolve(scene: &Scene, mesh: &Mesh) -> Result<(Vec<Pair>, Vec<ContactSurface>)> {
+pub(super) fn resolve(
+    scene: &Scene,
+    mesh: &Mesh,
+    given: &Given,
+) -> Result<(Vec<Pair>, Vec<ContactSurface>)> {
     let mut pairs: Vec<Pair> = Vec::new();
     let mut contacts = Vec::new();
     let mut used: BTreeMap<usize, usize> = BTreeMap::new();
     for (index, contact) in scene.contact.iter().enumerate() {
         let start = pairs.len();
-        let surface = resolve_contact(index, contact, mesh, scene, &mut pairs)?;
+        let given = given.pairs.get(&index).map(Vec::as_slice);
+        let surface = resolve_contact(index, contact, given, mesh, scene, &mut pairs)?;
         for pair in &pairs[start..] {
             for node in [pair.first, pair.second] {
                 if let Some(other) = used.insert(node, index) {
@@ -98,6 +104,7 @@ pub(super) fn resolve(scene: &Scene, mesh: &Mesh) -> Result<(Vec<Pair>, Vec<Cont
 fn resolve_contact(
     index: usize,
     contact: &Contact,
+    given: Option<&[NodePair]>,
     mesh: &Mesh,
     scene: &Scene,
     pairs: &mut Vec<Pair>,
@@ -128,6 +135,34 @@ fn resolve_contact(
     let facet_length = longest_facet(mesh, first).max(longest_facet(mesh, second));
     let tolerance = PAIRING * facet_length;
     let areas = nodal_areas(scene, mesh, second);
+    let partners = match given {
+        Some(given) => {
+            let names = [contact.first.as_str(), contact.second.as_str()];
+            partners(
+                given,
+                mesh,
+                names,
+                &first_nodes,
+                &second_nodes,
+                &normal,
+                contact.gap,
+            )
+            .map_err(context)?
+        }
+        None => second_nodes
+            .iter()
+            .zip(&normal)
+            .map(|(&node, &normal)| {
+                facing(mesh, mesh.point(node), normal, &first_nodes, tolerance).map(|first| {
+                    Partner {
+                        first,
+                        normal,
+                        gap: contact.gap,
+                    }
+                })
+            })
+            .collect(),
+    };
 
     let mut taken = vec![false; first_nodes.len()];
     let mut unpaired = Vec::new();
@@ -139,18 +174,18 @@ fn resolve_contact(
             let before = mesh.point(second_nodes[j - 1]);
             arc += (x[0] - before[0]).hypot(x[1] - before[1]);
         }
-        match facing(mesh, x, normal[j], &first_nodes, tolerance) {
-            Some(i) if !taken[i] => {
-                taken[i] = true;
+        match partners[j] {
+            Some(partner) if !taken[partner.first] => {
+                taken[partner.first] = true;
                 let area = areas.get(&node).copied().unwrap_or([0.0; 2]);
-                let y = mesh.point(first_nodes[i]);
-                let geometric = dot([y[0] - x[0], y[1] - x[1]], normal[j]);
+                let y = mesh.point(first_nodes[partner.first]);
+                let geometric = dot([y[0] - x[0], y[1] - x[1]], partner.normal);
                 pairs.push(Pair {
                     contact: index,
-                    first: first_nodes[i],
+                    first: first_nodes[partner.first],
                     second: node,
-                    normal: normal[j],
-                    gap: contact.gap.unwrap_or(geometric),
+                    normal: partner.normal,
+                    gap: partner.gap.unwrap_or(geometric),
                     interference: contact.interference,
                     area: area[0],
                     spread: if area[0] != 0.0 {
@@ -170,8 +205,9 @@ fn resolve_contact(
         .filter(|(_, taken)| !**taken)
         .map(|(&n, _)| n)
         .collect();
-    // One surface may reach beyond the other, but the shorter one must pair completely.
-    if pairs.len() == start || (!unpaired.is_empty() && !unpaired_first.is_empty()) {
+    // One surface may reach beyond the other, but the shorter one must pair completely; who gives the pairs decides himself.
+    let incomplete = given.is_none() && !unpaired.is_empty() && !unpaired_first.is_empty();
+    if pairs.len() == start || incomplete {
         return Err(Error::input(format!(
             "{what}: the surfaces' nodes do not pair: node{} of `{}` face{} no node of `{}` along the normal (within {:.1e}); \
              mesh the two surfaces with facing nodes, or give `normal`",

@@ -47,6 +47,7 @@ pub use summary::summary;
 pub use work_precision::plot;
 
 use crate::error::{Error, Result};
+use crate::linalg::Backend;
 use crate::mesh::Mesh;
 use crate::model::Model;
 use crate::results::Results;
@@ -84,6 +85,18 @@ pub struct RunHeader {
 }
 
 impl RunHeader {
+    /// The header of a run of `model`.
+    pub fn new(model: &Model, backend: Backend, wall_seconds: f64) -> Self {
+        RunHeader {
+            scene_title: model.scene.title.clone(),
+            scene_file: (model.scene.file.as_ref()).map(|file| file.display().to_string()),
+            kind: model.kind.name().to_string(),
+            solver: backend.name().to_string(),
+            wall_seconds,
+            bodies: model.mesh.bodies.clone(),
+        }
+    }
+
     /// Name of a body by its index.
     fn body(&self, index: usize) -> String {
         match self.bodies.get(index) {

@@ -24,7 +24,8 @@ pub(super) fn write(staging: &Staging, model: &Model) -> Result<()> {
         || made.disc_in_plate.is_some()
         || made.parts.is_some();
     if !generated {
-        if !has_plain_names(&model.mesh) {
+        // A model from arrays may hold pairs and nodal forces that no scene can say.
+        if made.file.is_none() || !has_plain_names(&model.mesh) {
             return Ok(());
         }
         staging.file(MESH_FILE, |out| gmsh::write(&model.mesh, out))?;

@@ -100,3 +100,14 @@ pub enum Kind {
     /// Coordinates are (r, z), x = 0 is the axis; forces are totals over the full circle.
     Axisymmetric,
 }
+
+impl Kind {
+    /// The name in scenes and results: `plane_strain`, `plane_stress`, `axisymmetric`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::PlaneStrain => "plane_strain",
+            Kind::PlaneStress => "plane_stress",
+            Kind::Axisymmetric => "axisymmetric",
+        }
+    }
+}

@@ -25,6 +25,19 @@ pub struct Program {
     pub targets: Vec<Target>,
 }
 
+impl Default for Program {
+    /// Load factors of the loads as given, event by event, no targets yet.
+    fn default() -> Self {
+        Program {
+            unit: Unit::default(),
+            stepping: Stepping::default(),
+            steps: super::defaults::steps(),
+            gamma: super::defaults::gamma(),
+            targets: Vec::new(),
+        }
+    }
+}
+
 /// What a load factor of 1 means.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]

@@ -66,10 +66,18 @@ impl Scene {
     /// # Errors
     /// As [`Scene::load`].
     pub fn parse(text: &str, name: &str) -> Result<Scene> {
+        Self::parse_with(text, name, &[])
+    }
+
+    /// As [`Scene::parse`], with `overrides` put over it as by [`Scene::load_with`].
+    ///
+    /// # Errors
+    /// As [`Scene::load_with`].
+    pub fn parse_with(text: &str, name: &str, overrides: &[String]) -> Result<Scene> {
         parse(&Source {
             name,
             text,
-            overrides: &[],
+            overrides,
         })
     }
 

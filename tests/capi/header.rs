@@ -30,7 +30,17 @@ fn generated() -> String {
         ..cbindgen::Config::default()
     };
     let mut builder = cbindgen::Builder::new().with_config(config);
-    for file in ["border", "options", "scene", "run", "results", "structure"] {
+    for file in [
+        "border",
+        "options",
+        "scene",
+        "model",
+        "conditions",
+        "loading",
+        "run",
+        "results",
+        "structure",
+    ] {
         builder = builder.with_src(root().join(format!("src/capi/{file}.rs")));
     }
     let mut text = Vec::new();

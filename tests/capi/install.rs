@@ -32,13 +32,29 @@ fn words(output: &Output) -> Vec<String> {
     text.split_whitespace().map(String::from).collect()
 }
 
-/// Features of this build, for the nested one.
+/// Features of the library as installed: those of this build and the interface.
 fn features() -> &'static str {
     if cfg!(feature = "cholmod") {
         "--features capi"
     } else {
         "--no-default-features --features capi"
     }
+}
+
+/// The Rust example on a scene. Asked for with the very features of this build, it is there already.
+pub fn rust_example(scene: &Path) -> Command {
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo
+        .current_dir(root())
+        .args(["run", "-q", "--example", "indentation"]);
+    if !cfg!(feature = "cholmod") {
+        cargo.arg("--no-default-features");
+    }
+    if cfg!(feature = "capi") {
+        cargo.args(["--features", "capi"]);
+    }
+    cargo.arg("--").arg(scene);
+    cargo
 }
 
 #[test]
@@ -51,12 +67,14 @@ fn programs_against_the_installed_library_print_the_same_digits() {
     }
     let folder = tempfile::tempdir().unwrap();
     let prefix = folder.path().join("installed");
+    // brinell is compiled anew, as a library of another kind, for programs that take seconds: half the optimisation is half the time.
+    let quick = "--config profile.dev.package.brinell.opt-level=1 --config profile.dev.package.brinell.debug=false";
     done(
         Command::new("make")
             .current_dir(root())
             .args(["install", "PROFILE=dev"])
             .arg(format!("PREFIX={}", prefix.display()))
-            .arg(format!("FEATURES={}", features())),
+            .arg(format!("FEATURES={} {quick}", features())),
     );
     let lib = prefix.join("lib");
     for file in [
@@ -130,14 +148,7 @@ fn programs_against_the_installed_library_print_the_same_digits() {
     );
     assert_eq!(printed, run(&cpp));
 
-    let mut cargo = Command::new(env!("CARGO"));
-    cargo
-        .current_dir(root())
-        .args(["run", "-q", "--example", "indentation"]);
-    if !cfg!(feature = "cholmod") {
-        cargo.arg("--no-default-features");
-    }
-    let rust = done(cargo.arg("--").arg(&scene));
+    let rust = done(&mut rust_example(&scene));
     assert_eq!(printed, String::from_utf8(rust.stdout).unwrap());
 
     // The archive: all of the library inside the program.

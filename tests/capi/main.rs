@@ -1,4 +1,5 @@
-//! The C interface from the outside: header, installation, programs in C, C++ and Rust.
+//! The C interface from the outside: header, installation, programs in C, C++, Rust and Python.
 
 mod header;
 mod install;
+mod python;

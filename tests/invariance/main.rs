@@ -1,5 +1,6 @@
 //! What must not matter: units, sizes, numbering, order, threads, mirrors.
 
+mod arrays;
 mod mirrors;
 mod numbering;
 #[path = "../running/mod.rs"]

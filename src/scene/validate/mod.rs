@@ -11,12 +11,23 @@ use std::fmt;
 
 impl Scene {
     /// Checks values and references. [`Scene::load`] and [`Scene::parse`] do so by themselves, with
-    /// line and column; a scene built in code is checked when the model is made from it.
+    /// line and column, and so does [`crate::model::ModelBuilder`]; a scene changed in code is checked by this.
     ///
     /// # Errors
     /// [`crate::ErrorKind::Input`], one line per problem: key path, value, what to do.
     pub fn validate(&self) -> Result<()> {
-        let problems = problems(self);
+        self.report(problems(self))
+    }
+
+    /// As [`Scene::validate`] for a scene whose mesh is handed over: its `mesh` entry is not looked at.
+    ///
+    /// # Errors
+    /// As [`Scene::validate`].
+    pub fn validate_without_mesh(&self) -> Result<()> {
+        self.report(problems_without_mesh(self))
+    }
+
+    fn report(&self, problems: Vec<Problem>) -> Result<()> {
         if problems.is_empty() {
             return Ok(());
         }
@@ -74,18 +85,12 @@ impl fmt::Display for Problem {
 
 /// All problems of a scene.
 pub(super) fn problems(scene: &Scene) -> Vec<Problem> {
-    let mut checks = Checks::default();
-    checks.finite(scene);
-    // A comparison with NaN would only repeat the problem in other words.
-    if checks.problems.is_empty() {
-        checks.count("symmetry", scene.symmetry, 1);
-        checks.geometry(scene);
-        checks.materials(scene);
-        checks.boundary(scene);
-        checks.program(scene);
-        checks.references(scene);
-    }
-    checks.problems
+    Checks::of(scene, Checks::geometry)
+}
+
+/// All problems of a scene but those of its mesh entry.
+fn problems_without_mesh(scene: &Scene) -> Vec<Problem> {
+    Checks::of(scene, |_, _| {})
 }
 
 /// Collects problems.
@@ -95,6 +100,21 @@ struct Checks {
 }
 
 impl Checks {
+    fn of(scene: &Scene, geometry: impl Fn(&mut Checks, &Scene)) -> Vec<Problem> {
+        let mut checks = Checks::default();
+        checks.finite(scene);
+        // A comparison with NaN would only repeat the problem in other words.
+        if checks.problems.is_empty() {
+            checks.count("symmetry", scene.symmetry, 1);
+            geometry(&mut checks, scene);
+            checks.materials(scene);
+            checks.boundary(scene);
+            checks.program(scene);
+            checks.references(scene);
+        }
+        checks.problems
+    }
+
     fn problem(&mut self, key: impl Into<String>, message: impl Into<String>) {
         self.problems.push(Problem {
             key: key.into(),

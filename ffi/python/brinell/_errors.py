@@ -1,0 +1,62 @@
+"""What can go wrong."""
+
+
+class Error(Exception):
+    """A failure of brinell.
+
+    kind: a word ("input", "unheld", "collapse", ...); status: the exit code of the program for it; result: what was computed before
+    the failure, or None.
+    """
+
+    def __init__(self, message, kind="internal", status=70, result=None):
+        super().__init__(message)
+        self.kind = kind
+        self.status = status
+        self.result = result
+
+
+class InputError(Error, ValueError):
+    """An argument, the scene or the mesh is wrong."""
+
+
+class UnsupportedError(InputError):
+    """The scene asks for an effect that brinell does not have."""
+
+
+class IoError(Error):
+    """A file cannot be read or written."""
+
+
+class UnheldError(Error):
+    """The model is not held: a body can move freely."""
+
+
+class AnalysisError(Error):
+    """A solve did not converge, or a target was not reached."""
+
+
+class CollapseError(AnalysisError):
+    """The load passed the limit load."""
+
+
+class InternalError(Error):
+    """A fault of brinell itself."""
+
+
+class InaccurateWarning(UserWarning):
+    """A state's quality misses its tolerance: the result is not to be trusted."""
+
+
+_KINDS = {
+    "input": InputError,
+    "unsupported": UnsupportedError,
+    "io": IoError,
+    "unheld": UnheldError,
+    "analysis": AnalysisError,
+    "collapse": CollapseError,
+    "internal": InternalError,
+}
+
+
+def make(kind, status, message, result):
+    return _KINDS.get(kind, Error)(message, kind, status, result)

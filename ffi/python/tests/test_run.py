@@ -1,0 +1,329 @@
+"""Scenes and models from arrays."""
+
+import json
+import pathlib
+import signal
+import threading
+import time
+import warnings
+
+import brinell
+import numpy as np
+import pytest
+
+SCENES = pathlib.Path(__file__).parents[3] / "data" / "scenes"
+CYLINDER = SCENES / "cylinder_on_half_plane.toml"
+SMALL = {"mesh.cylinder_on_half_plane.resolution": 4}
+BLOCKS = SCENES / "hard" / "floating_body.toml"
+FLOWS = {"materials.steel.yield_stress": 8.0, "materials.steel.plastic_modulus": 1000.0}
+
+
+@pytest.fixture(scope="module")
+def result():
+    return brinell.run(CYLINDER, SMALL)
+
+
+def test_tables_have_a_value_for_each_row(result):
+    history = result.history
+    n = len(history["alpha"])
+    assert n > 3 and all(len(column) == n for column in history.values())
+    assert list(history["increment"]) == list(range(1, n + 1))
+    assert history["event"][-1].startswith("target")
+    states = result.states
+    assert states["name"] == [result[k].name for k in range(len(result))]
+    assert list(states["alpha"]) == [result[k].alpha for k in range(len(result))]
+    assert result[-1].alpha == 0.0 and result["yield"].alpha == pytest.approx(1.0, rel=1e-9)
+    with pytest.raises(IndexError):
+        result[len(result)]
+    with pytest.raises(brinell.InputError, match="nothing"):
+        result["nothing"]
+
+
+def test_pandas_takes_the_tables(result):
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame(result.history)
+    assert frame.shape == (len(result.history["alpha"]), len(result.history))
+    assert pandas.DataFrame(result[1].pairs).closed.any()
+
+
+def test_contact_balances_the_load(result):
+    for state in (result[k] for k in range(len(result) - 1)):
+        pairs = state.pairs
+        # A half model: forces of the whole are twice those of its pairs.
+        assert 2 * pairs["force"].sum() == pytest.approx(state.contact_force, rel=1e-12)
+        assert state.contact_force == pytest.approx(state.load, rel=1e-9)
+        assert pairs["pressure"].max() <= state.max_pressure * (1 + 1e-12)
+        assert (pairs["force"][~pairs["closed"]] == 0).all()
+        assert state.quality["equilibrium"] < 1e-8
+
+
+def test_fields_belong_to_the_mesh(result):
+    mesh, fields = result.mesh, result[0].fields
+    n_nodes, n_elements = len(mesh["coordinates"]), len(mesh["element_body"])
+    assert fields["displacement"].shape == (n_nodes, 2)
+    assert fields["stress"].shape == (n_elements, 4)
+    for name in ("von_mises", "plastic_strain", "yielded", "error"):
+        assert fields[name].shape == (n_elements,)
+    assert mesh["offsets"][-1] == len(mesh["connectivity"])
+    assert mesh["connectivity"].max() == n_nodes - 1
+    held = mesh["node_sets"]["half_plane.bottom"]
+    assert (fields["displacement"][held, 1] == 0).all()
+    # The arrays own what was computed: each access gives the same one, and nobody writes to it.
+    assert result[0].fields["stress"] is fields["stress"]
+    with pytest.raises(ValueError):
+        fields["stress"][0] = 0.0
+
+
+def test_the_summary_is_that_of_the_written_directory(result, tmp_path):
+    result.write(tmp_path / "out")
+    written = json.loads((tmp_path / "out" / "summary.json").read_text())
+    summary = json.loads(json.dumps(result.summary))
+    # The peak so far: writing takes memory too.
+    assert written.pop("peak_memory_bytes") >= summary.pop("peak_memory_bytes") > 0
+    assert written == summary
+    assert (tmp_path / "out" / "report.html").exists()
+    assert len(list((tmp_path / "out").glob("*.vtu"))) == len(result)
+
+
+def test_overrides_come_in_every_form():
+    text = BLOCKS.read_text()
+    expected = brinell.run(BLOCKS, FLOWS)
+    assert expected.history["plastic_points"].max() > 0
+    for other in [
+        brinell.run(str(BLOCKS), materials__steel__yield_stress=8, materials__steel__plastic_modulus=np.float64(1000)),
+        brinell.run(text, FLOWS, program__targets=[{"load_factor": 1.0}, {"load_factor": 0.25}, {"load_factor": 1.0, "name": "again"}]),
+        brinell.run(text, FLOWS, kind="plane_strain", solver=None),
+    ]:
+        assert (other.history["residual"] == expected.history["residual"]).all()
+        assert other.states["name"] == expected.states["name"]
+
+
+def test_an_estimate_comes_with_the_summary():
+    result = brinell.run(CYLINDER, {"mesh.cylinder_on_half_plane.resolution": 8}, estimate=True)
+    quantities = result.summary["accuracy"]["quantities"]
+    assert any(q["quantity"] == "yield.load" and q["error"] > 0 for q in quantities)
+
+
+def test_a_callback_sees_each_increment_and_stops():
+    seen = []
+    whole = brinell.run(CYLINDER, SMALL, callback=seen.append)
+    assert [row["increment"] for row in seen] == list(whole.history["increment"])
+    assert 0 <= seen[0]["fraction"] < seen[-1]["fraction"] <= 1
+    part = brinell.run(CYLINDER, SMALL, callback=lambda row: row["increment"] == 2)
+    assert part.incomplete and len(part.history["alpha"]) == 2
+    assert (part.history["alpha"] == whole.history["alpha"][:2]).all()
+
+
+def test_what_a_callback_raises_is_raised():
+    def fail(row):
+        raise KeyError(row["increment"])
+
+    with pytest.raises(KeyError, match="1"):
+        brinell.run(CYLINDER, SMALL, callback=fail)
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="no timers on this system")
+def test_a_signal_stops_a_run():
+    class Pressed(Exception):
+        pass
+
+    def handle(number, frame):
+        raise Pressed
+
+    # As Ctrl-C: the signal arrives while the analysis works without the interpreter. The run would take several seconds.
+    before = signal.signal(signal.SIGALRM, handle)
+    begun = time.monotonic()
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.3)
+        with pytest.raises(Pressed):
+            brinell.run(CYLINDER, {"mesh.cylinder_on_half_plane.resolution": 48})
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
+    assert time.monotonic() - begun < 60
+
+
+def test_the_interpreter_is_free_while_a_run_works():
+    # Each run waits in its callback for the other: with the interpreter held, neither would come.
+    meet = threading.Barrier(2, timeout=120)
+    results = []
+
+    def work():
+        first = []
+        results.append(brinell.run(CYLINDER, SMALL, callback=lambda row: first or (first.append(row), meet.wait()) and None))
+
+    threads = [threading.Thread(target=work) for _ in range(2)]
+    for thread in threads:
+        thread.start()
+    begun = time.monotonic()
+    ticks = 0
+    while any(thread.is_alive() for thread in threads) and time.monotonic() - begun < 300:
+        ticks += 1
+        time.sleep(0.001)
+    for thread in threads:
+        thread.join()
+    assert len(results) == 2 and ticks > 0
+    assert (results[0].history["alpha"] == results[1].history["alpha"]).all()
+
+
+def test_errors_have_a_kind_a_status_and_a_place(tmp_path):
+    with pytest.raises(brinell.InputError, match="scene:1:.*kind") as caught:
+        brinell.run("kind = 3\n")
+    assert (caught.value.kind, caught.value.status, caught.value.result) == ("input", 2, None)
+    with pytest.raises(brinell.IoError, match="nowhere") as caught:
+        brinell.run(tmp_path / "nowhere.toml")
+    assert caught.value.status == 3
+    with pytest.raises(brinell.UnsupportedError, match="friction"):
+        brinell.run(BLOCKS.read_text() + "\n[friction]\n")
+    with pytest.raises(brinell.InputError, match="--set"):
+        brinell.run(BLOCKS, contact__0__gap=-1)
+
+
+def test_collapse_hands_over_what_was_computed():
+    with pytest.raises(brinell.CollapseError) as caught:
+        brinell.run(SCENES / "hard" / "limit_load.toml")
+    assert caught.value.status == 6
+    assert caught.value.result.incomplete
+    assert len(caught.value.result.history["alpha"]) > 0
+
+
+def test_lost_accuracy_warns():
+    with pytest.warns(brinell.InaccurateWarning, match="equilibrium"):
+        result = brinell.run(BLOCKS, contact__0__gap=1e8)
+    assert result.inaccurate
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        brinell.run(BLOCKS)
+
+
+def model_of(result):
+    """The scene of the two blocks by calls, on the arrays of the mesh of a run."""
+    mesh = result.mesh
+    model = brinell.Model("plane_strain")
+    model.nodes(mesh["coordinates"])
+    nodes = mesh["connectivity"].reshape(-1, 4)
+    for body, name in enumerate(mesh["bodies"]):
+        model.elements(name, nodes[mesh["element_body"] == body])
+        model.body(name, "steel")
+    sets = mesh["node_sets"]
+    for name in ("upper.bottom", "lower.top", "lower.bottom", "upper.top"):
+        model.surface_of_nodes(name, sets[name])
+    model.node_set("left", np.concatenate([sets["lower.left"], sets["upper.left"]]))
+    model.material("steel", youngs_modulus=210000.0, poissons_ratio=0.3, yield_stress=8, plastic_modulus=np.int64(1000))
+    model.support("lower.bottom", "y")
+    model.support("left", "x")
+    model.target(load_factor=1.0)
+    model.target(load_factor=0.25)
+    model.target(load_factor=1.0, name="again")
+    return model
+
+
+def test_first_yield_is_a_target():
+    expected = brinell.run(BLOCKS, FLOWS)
+    model = model_of(expected)
+    model.contact("upper.bottom", "lower.top")
+    model.load("upper.top", pressure=10.0)
+    model.target(first_yield=True, name="late")
+    with pytest.raises(brinell.InputError, match="steel.*NaN"):
+        model.material("other steel", youngs_modulus=float("nan"), poissons_ratio=0.3)
+        model.run()
+    model = model_of(expected)
+    model.contact("upper.bottom", "lower.top")
+    model.load("upper.top", pressure=10.0)
+    model.target(first_yield=True, name="late")
+    result = model.run()
+    assert result["late"].alpha == pytest.approx(result.first_yield["alpha"], rel=1e-12)
+
+
+def same(a, b):
+    assert a.states["name"] == b.states["name"]
+    for table, other in [(a.history, b.history)] + [(a[k].pairs, b[k].pairs) for k in range(len(a))]:
+        for name in table:
+            assert list(table[name]) == list(other[name]), name
+    for k in range(len(a)):
+        for name, field in a[k].fields.items():
+            assert (field == b[k].fields[name]).all(), name
+
+
+def test_a_model_from_arrays_is_the_scene_to_the_last_bit():
+    expected = brinell.run(BLOCKS, FLOWS)
+    assert expected[0].plastic_points > 0
+    model = model_of(expected)
+    model.contact("upper.bottom", "lower.top")
+    model.load("upper.top", pressure=10.0)
+    assert (model.n_nodes, model.n_elements) == (len(expected.mesh["coordinates"]), 64)
+    same(model.run(), expected)
+    # Once more: a run changes nothing.
+    same(model.run(), expected)
+    steps = model_of(expected)
+    steps.contact("upper.bottom", "lower.top")
+    steps.load("upper.top", pressure=10.0, name="press", history=[[0.0, 0.0], [1.0, 1.0]])
+    steps.program(stepping="steps", steps=3)
+    steps.settings(plastic_iteration="anderson", tolerance=1e-11)
+    other = steps.run()
+    # Three steps to each target, and one more that ends at first yield.
+    assert other.history["alpha"][-6:].tolist() == pytest.approx([0.75, 0.5, 0.25, 0.5, 0.75, 1.0], rel=1e-14)
+    assert len(other.history["alpha"]) == 10
+    assert other[2].residual_depth == pytest.approx(expected[2].residual_depth, rel=1e-5)
+
+
+def test_given_pairs_and_nodal_forces():
+    mesh = brinell.run(BLOCKS, FLOWS)
+    x = mesh.mesh["coordinates"][:, 0]
+    lower, upper = (mesh.mesh["node_sets"][name] for name in ("lower.top", "upper.bottom"))
+    top = mesh.mesh["node_sets"]["upper.top"]
+    width = np.where((x[top] == 0) | (x[top] == 2), 0.125, 0.25)
+    model = model_of(mesh)
+    pairs = np.column_stack([upper[np.argsort(x[upper])], lower[np.argsort(x[lower])]])
+    model.contact("upper.bottom", "lower.top", pairs=pairs, gap=np.full(9, 0.01), normal=(0, 1))
+    model.nodal_load("push", top, np.column_stack([0 * width, -10.0 * width]), history="proportional")
+    result = model.run()
+    # The gap is closed by moving the upper block: 0.01 or the distance in the mesh differ by round-off.
+    for k in range(len(result)):
+        assert result[k].contact_force == pytest.approx(mesh[k].contact_force, rel=1e-12)
+        assert result[k].pairs["force"] == pytest.approx(mesh[k].pairs["force"], rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "act, words",
+    [
+        (lambda m: m.nodes([[0.0, np.nan]]), "node 4: coordinate y is NaN"),
+        (lambda m: m.nodes([0.0, 1.0]), "shape"),
+        (lambda m: m.elements("a", [[0, 1, 2]]), "shape"),
+        (lambda m: m.elements("a", [[0, 1, 2, 9]]), "element 1 .*node 3 is 9"),
+        (lambda m: m.elements("a", [[0, 1, 2, -9]]), "entry 3 is -9"),
+        (lambda m: m.elements("a", [[0, 1, 2, 3.5]]), "whole numbers"),
+        (lambda m: m.elements("a", [[0, 1, 2, 3]], shape="hex8"), "hex8"),
+        (lambda m: m.node_set("s", [4]), "node 4"),
+        (lambda m: m.surface("s", [[0, 4]]), "facet 4"),
+        (lambda m: m.surface_of_nodes("s", [0, 2]), "node 0"),
+        (lambda m: m.material("steel", youngs_modulus=1.0, poisons_ratio=0.3), "poisons_ratio"),
+        (lambda m: m.material("steel", youngs_modulus="much", poissons_ratio=0.3), "steel"),
+        (lambda m: m.contact("a", "b", pairs=[[0, 0]]), "pair 0: node 0"),
+        (lambda m: m.contact("a", "b", pairs=[[0, 1]], gap=[1.0, 2.0]), "2 gaps"),
+        (lambda m: m.contact("a", "b", pairs=[[0, 1]], gap=-1.0), "gap is -1"),
+        (lambda m: m.contact("a", "b", pairs=[[0, 1]], normal=[[0.0, 0.0]]), "no direction"),
+        (lambda m: m.support("a", "z"), "'z'"),
+        (lambda m: m.load("a", presure=1.0), "presure"),
+        (lambda m: m.nodal_load("push", [0, 1], [[1.0, 0.0]]), "2 nodes have 1 forces"),
+        (lambda m: m.target(load_facter=1.0), "load_facter"),
+        (lambda m: m.program(unit="bar"), "bar"),
+        (lambda m: m.run(), "bodies"),
+    ],
+)
+def test_bad_arrays_are_refused_by_index(act, words):
+    model = brinell.Model()
+    model.nodes([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    model.elements("a", [[0, 1, 2, 3]])
+    with pytest.raises(brinell.InputError, match=words):
+        act(model)
+    assert (model.n_nodes, model.n_elements) == (4, 1)
+
+
+def test_a_body_that_nothing_holds_is_named():
+    expected = brinell.run(BLOCKS, FLOWS)
+    model = model_of(expected)
+    model.load("upper.top", pressure=10.0)
+    with pytest.raises(brinell.UnheldError, match="upper") as caught:
+        model.run()
+    assert (caught.value.kind, caught.value.status) == ("unheld", 4)

@@ -1,0 +1,277 @@
+//! Models from arrays: nodes, elements, sets and surfaces.
+
+use super::border::{exclusive, free, guarded, hand_out, shared, slice, text};
+use super::options::brinell_options;
+use super::results::brinell_results;
+use super::run::{brinell_callback, execute};
+use crate::error::{Error, Result};
+use crate::mesh::{Curve, Shape};
+use crate::model::ModelBuilder;
+use crate::scene::{Kind, Program};
+use std::ffi::{c_char, c_void};
+
+/// A model that is being put together from arrays.
+pub struct brinell_model {
+    pub(super) builder: ModelBuilder,
+    pub(super) program: Program,
+}
+
+/// No strain out of the plane; forces per unit thickness.
+pub const BRINELL_PLANE_STRAIN: i32 = 0;
+/// No stress out of the plane; forces per unit thickness.
+pub const BRINELL_PLANE_STRESS: i32 = 1;
+/// Coordinates are (r, z); forces are totals over the full circle.
+pub const BRINELL_AXISYMMETRIC: i32 = 2;
+
+/// Three corners.
+pub const BRINELL_SHAPE_TRI3: i32 = 0;
+/// Three corners, then the mid-side nodes, the first between corners 0 and 1.
+pub const BRINELL_SHAPE_TRI6: i32 = 1;
+/// Four corners.
+pub const BRINELL_SHAPE_QUAD4: i32 = 2;
+/// Four corners, then the mid-side nodes.
+pub const BRINELL_SHAPE_QUAD8: i32 = 3;
+
+/// One of several values by its number.
+pub(super) fn one_of<T: Copy>(values: &[T], which: i32, what: &str) -> Result<T> {
+    usize::try_from(which)
+        .ok()
+        .and_then(|which| values.get(which))
+        .copied()
+        .ok_or_else(|| Error::input(format!("there is no {what} {which}")))
+}
+
+/// Indices of the caller.
+///
+/// # Safety
+/// As [`slice`].
+pub(super) unsafe fn indices(data: *const i64, n: usize, what: &str) -> Result<Vec<usize>> {
+    // SAFETY: as vouched for by the caller.
+    let values = unsafe { slice(data, n, what) }?;
+    values
+        .iter()
+        .enumerate()
+        .map(|(at, &value)| {
+            usize::try_from(value).map_err(|_| {
+                Error::input(format!(
+                    "{what}: entry {at} is {value}; numbers count from 0"
+                ))
+            })
+        })
+        .collect()
+}
+
+/// Changes a model under construction. A refused call leaves it as it was.
+///
+/// # Safety
+/// `model` is NULL or a living handle.
+pub(super) unsafe fn change(
+    model: *mut brinell_model,
+    act: impl FnOnce(&mut brinell_model) -> Result<()>,
+) -> i32 {
+    // SAFETY: as vouched for by the caller.
+    guarded(|| act(unsafe { exclusive(model, "the model") }?))
+}
+
+/// An empty model: one of BRINELL_PLANE_STRAIN, BRINELL_PLANE_STRESS, BRINELL_AXISYMMETRIC. `symmetry` copies of it make the whole: 1
+/// where all of it is meshed, 2 for a half model (loads and results are those of the whole).
+///
+/// # Safety
+/// `out` may be written to.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn brinell_model_new(
+    kind: i32,
+    symmetry: usize,
+    out: *mut *mut brinell_model,
+) -> i32 {
+    guarded(|| {
+        let kinds = [Kind::PlaneStrain, Kind::PlaneStress, Kind::Axisymmetric];
+        let mut builder = ModelBuilder::new(one_of(&kinds, kind, "kind of model")?);
+        builder.symmetry(symmetry);
+        let model = brinell_model {
+            builder,
+            program: Program::default(),
+        };
+        // SAFETY: as vouched for by the caller.
+        unsafe { hand_out(out, model) }
+    })
+}
+
+/// Frees a model.
+///
+/// # Safety
+/// `model` is NULL or was handed out by this library and not freed before.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn brinell_model_free(model: *mut brinell_model) {
+    // SAFETY: as vouched for by the caller.
+    unsafe { free(model) }
+}
+
+/// Adds nodes: n x 2 coordinates, node by node. Nodes are numbered from 0 in the order in which they were added.
+///
+/// # Safety
+/// `model` is a living handle, `coordinates` has 2 n values.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn brinell_model_nodes(
+    model: *mut brinell_model,
+    coordinates: *const f64,
+    n: usize,
+) -> i32 {
+    // SAFETY: the caller vouches for every pointer.
+    unsafe {
+        change(model, |m| {
+            let n = n.saturating_mul(2);
+            m.builder.nodes(slice(coordinates, n, "coordinates")?)?;
+            Ok(())
+        })
+    }
+}
+
+/// Adds `n` elements of one shape (BRINELL_SHAPE_...) to a body: the nodes of one after the other, counter-clockwise, corners first.
+///
+/// # Safety
+/// `model` is a living handle, `body` a text that ends with a zero byte, `nodes` has n values for each node of the shape.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn brinell_model_elements(
+    model: *mut brinell_model,
+    body: *const c_char,
+    shape: i32,
+    nodes: *const i64,
+    n: usize,
+) -> i32 {
+    // SAFETY: the caller vouches for every pointer.
+    unsafe {
+        change(model, |m| {
+            let shapes = [Shape::Tri3, Shape::Tri6, Shape::Quad4, Shape::Quad8];
+            let shape = one_of(&shapes, shape, "shape")?;
+            let n = n.saturating_mul(shape.n_nodes());
+            let nodes = indices(nodes, n, "nodes of elements")?;
+            m.builder.elements(shape, text(body, "the body")?, &nodes)?;
+            Ok(())
+        })
+    }
+}
+
+/// Names some nodes.
+///
+/// # Safety
+/// `model` is a living handle, `name` a text that ends with a zero byte, `nodes` has n values.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn brinell_model_node_set(
+    model: *mut brinell_model,
+    name: *const c_char,
+    nodes: *const i64,
+    n: usize,
+) -> i32 {
+    // SAFETY: the caller vouches for every pointer.
+    unsafe {
+        change(model, |m| {
+            let nodes = indices(nodes, n, "nodes")?;
+            m.builder.node_set(text(name, "the name")?, &nodes)?;
+            Ok(())
+        })
+    }
+}
+
+/// Names a surface of n facets, each by its element and its number there: facet k lies between corners k and k + 1.
+///
+/// # Safety
+/// `model` is a living handle, `name` a text that ends with a zero byte, `elements` and `facets` have n values each.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn brinell_model_surface(
+    model: *mut brinell_model,
+    name: *const c_char,
+    elements: *const i64,
+    facets: *const i64,
+    n: usize,
+) -> i32 {
+    // SAFETY: the caller vouches for every pointer.
+    unsafe {
+        change(model, |m| {
+            let elements = indices(elements, n, "elements of the surface")?;
+            let facets = indices(facets, n, "facets of the surface")?;
+            let facets: Vec<_> = elements.into_iter().zip(facets).collect();
+            m.builder.surface(text(name, "the name")?, &facets)?;
+            Ok(())
+        })
+    }
+}
+
+/// Names a surface by its nodes, mid-side nodes included: the facets of the boundary all whose nodes are among them.
+///
+/// # Safety
+/// `model` is a living handle, `name` a text that ends with a zero byte, `nodes` has n values.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn brinell_model_surface_of_nodes(
+    model: *mut brinell_model,
+    name: *const c_char,
+    nodes: *const i64,
+    n: usize,
+) -> i32 {
+    // SAFETY: the caller vouches for every pointer.
+    unsafe {
+        change(model, |m| {
+            let nodes = indices(nodes, n, "nodes of the surface")?;
+            m.builder
+                .surface_of_nodes(text(name, "the name")?, &nodes)?;
+            Ok(())
+        })
+    }
+}
+
+/// States that a surface is a circle about (x, y): the body lies inside (`outward` 1) or outside of it (0, a hole). Normals are then
+/// exact.
+///
+/// # Safety
+/// `model` is a living handle, `surface` a text that ends with a zero byte.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn brinell_model_circle(
+    model: *mut brinell_model,
+    surface: *const c_char,
+    x: f64,
+    y: f64,
+    radius: f64,
+    outward: i32,
+) -> i32 {
+    // SAFETY: the caller vouches for every pointer.
+    unsafe {
+        change(model, |m| {
+            let circle = Curve::Circle {
+                center: [x, y],
+                radius,
+                outward: outward != 0,
+            };
+            m.builder.curve(text(surface, "the surface")?, circle)?;
+            Ok(())
+        })
+    }
+}
+
+/// Runs the load program of a model; all else as brinell_run. The model may be changed and run again.
+///
+/// # Safety
+/// `model` is a living model, `options` NULL or as long as it says, `out` may be written to; `callback` does not unwind.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn brinell_model_run(
+    model: *const brinell_model,
+    options: *const brinell_options,
+    callback: brinell_callback,
+    user: *mut c_void,
+    out: *mut *mut brinell_results,
+) -> i32 {
+    // SAFETY: as vouched for by the caller.
+    unsafe {
+        execute(
+            || {
+                let model = shared(model, "the model")?;
+                let mut builder = model.builder.clone();
+                builder.program(model.program.clone());
+                builder.build()
+            },
+            options,
+            callback,
+            user,
+            out,
+        )
+    }
+}

@@ -1,0 +1,278 @@
+//! A model from arrays: what a scene says in words and a mesh file in tables, handed over in memory.
+
+mod geometry;
+
+use super::given::Given;
+use super::{Model, NodePair};
+use crate::error::{Error, Result};
+use crate::mesh::Mesh;
+use crate::scene::{
+    Body, Contact, History, Kind, Load, Material, MeshSource, Program, Scene, Settings, Support,
+    Target,
+};
+use std::collections::BTreeMap;
+
+/// Builds a [`Model`] from arrays, without a scene file or a mesh file. Nodes and elements are numbered from 0 in the order
+/// in which they were given, and messages name them by these numbers; what stands in a scene's tables is given by the same types
+/// ([`crate::scene`]). A refused call leaves the builder as it was.
+///
+/// ```
+/// use brinell::analysis::Analysis;
+/// use brinell::linalg::Backend;
+/// use brinell::model::ModelBuilder;
+/// use brinell::progress::Silent;
+/// use brinell::scene::{Body, Contact, Direction, Kind, Load, Material, Support};
+/// use brinell::mesh::Shape;
+///
+/// # fn main() -> brinell::Result<()> {
+/// // Two unit squares, 0.01 apart, pressed together.
+/// let mut builder = ModelBuilder::new(Kind::PlaneStrain);
+/// builder
+///     .nodes(&[0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0])?
+///     .nodes(&[0.0, 1.01, 1.0, 1.01, 1.0, 2.01, 0.0, 2.01])?
+///     .elements(Shape::Quad4, "lower", &[0, 1, 2, 3])?
+///     .elements(Shape::Quad4, "upper", &[4, 5, 6, 7])?
+///     .surface_of_nodes("floor", &[0, 1])?
+///     .surface_of_nodes("face", &[2, 3])?
+///     .surface_of_nodes("opposite", &[4, 5])?
+///     .surface_of_nodes("top", &[6, 7])?
+///     .node_set("left", &[0, 3, 4, 7])?
+///     .material("steel", Material { youngs_modulus: 210e3, poissons_ratio: 0.3, ..Material::default() })?
+///     .body("lower", Body { material: "steel".into(), ..Body::default() })?
+///     .body("upper", Body { material: "steel".into(), ..Body::default() })?
+///     .contact(Contact { first: "opposite".into(), second: "face".into(), ..Contact::default() })
+///     .support(Support { on: "floor".into(), fix: vec![Direction::Y], angle: None })
+///     .support(Support { on: "left".into(), fix: vec![Direction::X], angle: None })
+///     .load(Load { on: "top".into(), pressure: Some(10.0), ..Load::default() });
+/// let results = Analysis::new(builder.build()?, Backend::default())?.run(&mut Silent)?;
+/// assert!((results.states[0].max_pressure - 10.0).abs() < 1e-9);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug, Clone)]
+pub struct ModelBuilder {
+    scene: Scene,
+    mesh: Mesh,
+    given: Given,
+}
+
+impl ModelBuilder {
+    /// An empty model: the whole of it is meshed, one target at load factor 1.
+    pub fn new(kind: Kind) -> Self {
+        ModelBuilder {
+            scene: Scene {
+                title: String::new(),
+                kind,
+                units: None,
+                symmetry: 1,
+                mesh: MeshSource::default(),
+                materials: BTreeMap::new(),
+                bodies: BTreeMap::new(),
+                contact: Vec::new(),
+                support: Vec::new(),
+                load: Vec::new(),
+                program: Program::default(),
+                analysis: Settings::default(),
+                accuracy: None,
+                reference: Vec::new(),
+                file: None,
+            },
+            mesh: Mesh {
+                dimension: 2,
+                ..Mesh::default()
+            },
+            given: Given::default(),
+        }
+    }
+
+    /// One line for humans.
+    pub fn title(&mut self, title: &str) -> &mut Self {
+        self.scene.title = title.to_string();
+        self
+    }
+
+    /// How many copies of the model make the whole (see [`Scene::symmetry`]).
+    pub fn symmetry(&mut self, copies: usize) -> &mut Self {
+        self.scene.symmetry = copies;
+        self
+    }
+
+    /// Names a material. Its values are checked by [`ModelBuilder::build`].
+    ///
+    /// # Errors
+    /// A name that is taken.
+    pub fn material(&mut self, name: &str, material: Material) -> Result<&mut Self> {
+        if self.scene.materials.contains_key(name) {
+            return Err(Error::input(format!("two materials are named `{name}`")));
+        }
+        self.scene.materials.insert(name.to_string(), material);
+        Ok(self)
+    }
+
+    /// Says what a body is made of.
+    ///
+    /// # Errors
+    /// A body that has its material already.
+    pub fn body(&mut self, name: &str, body: Body) -> Result<&mut Self> {
+        if self.scene.bodies.contains_key(name) {
+            return Err(Error::input(format!(
+                "body `{name}` is given a material twice"
+            )));
+        }
+        self.scene.bodies.insert(name.to_string(), body);
+        Ok(self)
+    }
+
+    /// Lets two surfaces touch; their nodes are paired by geometry.
+    pub fn contact(&mut self, contact: Contact) -> &mut Self {
+        self.scene.contact.push(contact);
+        self
+    }
+
+    /// Lets two surfaces touch at the given pairs of nodes. Nodes of the surfaces without a pair do not touch; `contact.normal` is not
+    /// used, `contact.gap` is that of pairs without their own.
+    ///
+    /// # Errors
+    /// By pair: an index of no node, a node in two pairs, a normal without direction, a gap that is negative or not finite.
+    pub fn contact_pairs(&mut self, contact: Contact, pairs: &[NodePair]) -> Result<&mut Self> {
+        let mut pair_of = BTreeMap::new();
+        for (k, pair) in pairs.iter().enumerate() {
+            for node in [pair.first, pair.second] {
+                if node >= self.n_nodes() {
+                    return Err(Error::input(format!(
+                        "pair {k}: node {node}, but there are {} nodes",
+                        self.n_nodes()
+                    )));
+                }
+                if let Some(other) = pair_of.insert(node, k) {
+                    return Err(Error::input(format!(
+                        "pair {k}: node {node} is in pair {other} already; a node may belong to one pair"
+                    )));
+                }
+            }
+            if let Some(gap) = pair.gap.filter(|g| !(g.is_finite() && *g >= 0.0)) {
+                return Err(Error::input(format!(
+                    "pair {k}: the gap is {gap}; give a finite one that is not negative, and an overlap as `interference`"
+                )));
+            }
+            if let Some(n) = pair.normal
+                && !(n[0].hypot(n[1]).is_finite() && n != [0.0, 0.0])
+            {
+                return Err(Error::input(format!(
+                    "pair {k}: the normal ({}, {}) is no direction",
+                    n[0], n[1]
+                )));
+            }
+        }
+        let index = self.scene.contact.len();
+        self.given.pairs.insert(index, pairs.to_vec());
+        self.scene.contact.push(contact);
+        Ok(self)
+    }
+
+    /// Holds a node set or surface.
+    pub fn support(&mut self, support: Support) -> &mut Self {
+        self.scene.support.push(support);
+        self
+    }
+
+    /// Loads a node set or surface.
+    pub fn load(&mut self, load: Load) -> &mut Self {
+        self.scene.load.push(load);
+        self
+    }
+
+    /// Loads nodes with forces of their own at factor 1, in global axes; they act on the model itself, not on the whole of a
+    /// symmetric one. `name` also becomes the name of the set of these nodes.
+    ///
+    /// # Errors
+    /// Numbers of nodes and forces that differ, an index of no node, a force that is not finite, a name that is taken.
+    pub fn nodal_load(
+        &mut self,
+        name: &str,
+        nodes: &[usize],
+        forces: &[[f64; 2]],
+        history: History,
+    ) -> Result<&mut Self> {
+        if nodes.len() != forces.len() {
+            return Err(Error::input(format!(
+                "load `{name}`: {} nodes have {} forces: one each is needed",
+                nodes.len(),
+                forces.len()
+            )));
+        }
+        let mut sums: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+        for (&node, force) in nodes.iter().zip(forces) {
+            if force.iter().any(|f| !f.is_finite()) {
+                return Err(Error::input(format!(
+                    "load `{name}`: the force on node {node} is ({}, {})",
+                    force[0], force[1]
+                )));
+            }
+            let sum = sums.entry(node).or_default();
+            *sum = [sum[0] + force[0], sum[1] + force[1]];
+        }
+        self.node_set(name, nodes)?;
+        let index = self.scene.load.len();
+        self.given.forces.insert(index, sums.into_iter().collect());
+        self.scene.load.push(Load {
+            name: name.to_string(),
+            on: name.to_string(),
+            force: Some([0.0, 0.0]),
+            history,
+            ..Load::default()
+        });
+        Ok(self)
+    }
+
+    /// Adds a target of the load program. Without any there will be one at load factor 1.
+    pub fn target(&mut self, target: Target) -> &mut Self {
+        self.scene.program.targets.push(target);
+        self
+    }
+
+    /// The load program, in place of the one so far.
+    pub fn program(&mut self, program: Program) -> &mut Self {
+        self.scene.program = program;
+        self
+    }
+
+    /// How to compute.
+    pub fn settings(&mut self, settings: Settings) -> &mut Self {
+        self.scene.analysis = settings;
+        self
+    }
+
+    /// The model.
+    ///
+    /// # Errors
+    /// Input errors naming the entry, node, element or pair; [`crate::ErrorKind::Unheld`] where a body can move freely and the
+    /// loads do work on that motion.
+    pub fn build(&self) -> Result<Model> {
+        let mut scene = self.scene.clone();
+        for (&index, forces) in &self.given.forces {
+            let total = forces
+                .iter()
+                .fold([0.0; 2], |s, (_, f)| [s[0] + f[0], s[1] + f[1]]);
+            scene.load[index].force = Some(total.map(|f| f * scene.symmetry as f64));
+        }
+        if scene.program.targets.is_empty() {
+            scene.program.targets.push(Target {
+                load_factor: Some(1.0),
+                ..Target::default()
+            });
+        }
+        let labels = scene.program.labels();
+        for (target, label) in scene.program.targets.iter_mut().zip(labels) {
+            target.name = Some(label);
+        }
+        scene.validate_without_mesh()?;
+        let mut mesh = self.mesh.clone();
+        mesh.node_labels = (0..mesh.n_nodes() as u64).collect();
+        mesh.element_labels = (0..mesh.n_elements() as u64).collect();
+        Model::resolve(&scene, mesh, &self.given)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,240 @@
+//! Nodes, elements, node sets and surfaces from arrays.
+
+use super::ModelBuilder;
+use crate::error::{Error, Result};
+use crate::mesh::{Curve, Facet, Shape, Surface};
+use std::collections::BTreeMap;
+
+impl ModelBuilder {
+    /// Number of nodes so far.
+    pub fn n_nodes(&self) -> usize {
+        self.mesh.n_nodes()
+    }
+
+    /// Number of elements so far.
+    pub fn n_elements(&self) -> usize {
+        self.mesh.n_elements()
+    }
+
+    /// Adds nodes: `n x 2` coordinates, node by node; (r, z) in an axisymmetric model.
+    ///
+    /// # Errors
+    /// An odd number of values; a value that is not finite, by node.
+    pub fn nodes(&mut self, coordinates: &[f64]) -> Result<&mut Self> {
+        if !coordinates.len().is_multiple_of(2) {
+            return Err(Error::input(format!(
+                "{} coordinates were given: two for each node are needed",
+                coordinates.len()
+            )));
+        }
+        let before = self.n_nodes();
+        if let Some(at) = coordinates.iter().position(|c| !c.is_finite()) {
+            return Err(Error::input(format!(
+                "node {}: coordinate {} is {}",
+                before + at / 2,
+                ["x", "y"][at % 2],
+                coordinates[at]
+            )));
+        }
+        if u32::try_from(before + coordinates.len() / 2).is_err() {
+            return Err(Error::input(format!(
+                "{} nodes are more than can be numbered",
+                before + coordinates.len() / 2
+            )));
+        }
+        self.mesh.coordinates.extend_from_slice(coordinates);
+        Ok(self)
+    }
+
+    /// Adds elements of one shape and body: the nodes of one after the other, counter-clockwise, corners first
+    /// ([`Shape`]).
+    ///
+    /// # Errors
+    /// A number of indices that is no multiple of the shape's nodes; an index of no node, by element.
+    pub fn elements(
+        &mut self,
+        shape: Shape,
+        body: &str,
+        connectivity: &[usize],
+    ) -> Result<&mut Self> {
+        let (each, n_nodes) = (shape.n_nodes(), self.n_nodes());
+        if !connectivity.len().is_multiple_of(each) {
+            return Err(Error::input(format!(
+                "body `{body}`: {} node indices are no multiple of the {each} nodes of a {}",
+                connectivity.len(),
+                shape.name()
+            )));
+        }
+        if let Some(at) = connectivity.iter().position(|&n| n >= n_nodes) {
+            return Err(Error::input(format!(
+                "element {} (body `{body}`): node {} is {}, but there are {n_nodes} nodes (0 to {}); give the nodes first",
+                self.n_elements() + at / each,
+                at % each,
+                connectivity[at],
+                n_nodes.saturating_sub(1)
+            )));
+        }
+        let number = match self.mesh.bodies.iter().position(|b| b == body) {
+            Some(number) => number,
+            None => {
+                self.mesh.bodies.push(body.to_string());
+                self.mesh.bodies.len() - 1
+            }
+        };
+        for nodes in connectivity.chunks_exact(each) {
+            let mut own = [0u32; 8];
+            for (own, &node) in own.iter_mut().zip(nodes) {
+                // Below the number of nodes, which `nodes` keeps within u32.
+                *own = node as u32;
+            }
+            self.mesh.push_element(shape, number, &own[..each]);
+        }
+        Ok(self)
+    }
+
+    /// Names some nodes.
+    ///
+    /// # Errors
+    /// An empty set, an index of no node, a name that is taken.
+    pub fn node_set(&mut self, name: &str, nodes: &[usize]) -> Result<&mut Self> {
+        self.is_new(name)?;
+        let mut sorted = self.known_nodes(name, nodes)?;
+        sorted.sort_unstable();
+        sorted.dedup();
+        self.mesh.node_sets.insert(name.to_string(), sorted);
+        Ok(self)
+    }
+
+    /// Names a surface by (element, local facet): facet k lies between corners k and k + 1 ([`Shape::facet`]).
+    ///
+    /// # Errors
+    /// An empty surface, a facet of no element, a name that is taken.
+    pub fn surface(&mut self, name: &str, facets: &[(usize, usize)]) -> Result<&mut Self> {
+        self.is_new(name)?;
+        let n_elements = self.n_elements();
+        let mut out = Vec::with_capacity(facets.len());
+        for (k, &(element, local)) in facets.iter().enumerate() {
+            let shape = self.mesh.shapes.get(element).ok_or_else(|| {
+                Error::input(format!(
+                    "surface `{name}`: facet {k} is of element {element}, but there are {n_elements} elements; give the elements first"
+                ))
+            })?;
+            if local >= shape.n_corners() {
+                return Err(Error::input(format!(
+                    "surface `{name}`: facet {k} is facet {local} of element {element}, a {}: it has {}",
+                    shape.name(),
+                    shape.n_corners()
+                )));
+            }
+            out.push(Facet { element, local });
+        }
+        self.keep_surface(name, out)
+    }
+
+    /// Names a surface by its nodes, mid-side nodes included: the facets of the boundary all whose nodes are among them.
+    ///
+    /// # Errors
+    /// A node that belongs to no such facet, an index of no node, a name that is taken.
+    pub fn surface_of_nodes(&mut self, name: &str, nodes: &[usize]) -> Result<&mut Self> {
+        self.is_new(name)?;
+        let nodes = self.known_nodes(name, nodes)?;
+        let mut among = vec![false; self.n_nodes()];
+        for &node in &nodes {
+            among[node] = true;
+        }
+        // A facet between two elements is found twice.
+        let mut found: BTreeMap<[usize; 2], Option<Facet>> = BTreeMap::new();
+        for element in 0..self.n_elements() {
+            for local in 0..self.mesh.shapes[element].n_corners() {
+                let facet = Facet { element, local };
+                if !self.mesh.facet_nodes(facet).all(|n| among[n]) {
+                    continue;
+                }
+                let mut ends = [0; 2];
+                for (end, node) in ends.iter_mut().zip(self.mesh.facet_nodes(facet)) {
+                    *end = node;
+                }
+                ends.sort_unstable();
+                found
+                    .entry(ends)
+                    .and_modify(|kept| *kept = None)
+                    .or_insert(Some(facet));
+            }
+        }
+        let facets: Vec<Facet> = found.into_values().flatten().collect();
+        for &facet in &facets {
+            for node in self.mesh.facet_nodes(facet) {
+                among[node] = false;
+            }
+        }
+        if let Some(node) = nodes.into_iter().find(|&n| among[n]) {
+            return Err(Error::input(format!(
+                "surface `{name}`: node {node} belongs to no edge of the boundary whose nodes are all given; give both ends of each \
+                 edge and its mid-side node where it has one"
+            )));
+        }
+        self.keep_surface(name, facets)
+    }
+
+    /// States the exact shape of a surface: normals are then exact at every node.
+    ///
+    /// # Errors
+    /// No such surface; a node of it that is off the circle by more than 1e-6 of its radius.
+    pub fn curve(&mut self, surface: &str, curve: Curve) -> Result<&mut Self> {
+        let nodes = self.mesh.set_nodes(surface).unwrap_or_default();
+        if let Curve::Circle { center, radius, .. } = curve {
+            for node in nodes {
+                let [x, y] = self.mesh.point(node);
+                let distance = (x - center[0]).hypot(y - center[1]);
+                let off = (distance - radius).abs();
+                if off.is_nan() || off > 1e-6 * radius {
+                    return Err(Error::input(format!(
+                        "surface `{surface}`: node {node} is {distance} from ({}, {}), not {radius}",
+                        center[0], center[1]
+                    )));
+                }
+            }
+        }
+        match self.mesh.surfaces.get_mut(surface) {
+            Some(kept) => kept.curve = Some(curve),
+            None => return Err(Error::input(format!("there is no surface `{surface}`"))),
+        }
+        Ok(self)
+    }
+
+    fn is_new(&self, name: &str) -> Result<()> {
+        if self.mesh.node_sets.contains_key(name) || self.mesh.surfaces.contains_key(name) {
+            return Err(Error::input(format!(
+                "`{name}` is the name of a node set or surface already"
+            )));
+        }
+        Ok(())
+    }
+
+    fn known_nodes(&self, name: &str, nodes: &[usize]) -> Result<Vec<usize>> {
+        let n = self.n_nodes();
+        if nodes.is_empty() {
+            return Err(Error::input(format!("`{name}` has no nodes")));
+        }
+        match nodes.iter().position(|&node| node >= n) {
+            Some(at) => Err(Error::input(format!(
+                "`{name}`: entry {at} is node {}, but there are {n} nodes (0 to {}); give the nodes first",
+                nodes[at],
+                n.saturating_sub(1)
+            ))),
+            None => Ok(nodes.to_vec()),
+        }
+    }
+
+    fn keep_surface(&mut self, name: &str, facets: Vec<Facet>) -> Result<&mut Self> {
+        if facets.is_empty() {
+            return Err(Error::input(format!("surface `{name}` has no facets")));
+        }
+        let surface = Surface {
+            facets,
+            curve: None,
+        };
+        self.mesh.surfaces.insert(name.to_string(), surface);
+        Ok(self)
+    }
+}

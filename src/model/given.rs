@@ -1,0 +1,102 @@
+//! What a model made from arrays states node by node, where a scene leaves it to the geometry.
+
+use crate::error::{Error, Result};
+use crate::mesh::Mesh;
+use std::collections::BTreeMap;
+
+/// Two nodes that may touch, by their indices, with what is known better than from the mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NodePair {
+    /// Node of the first surface.
+    pub first: usize,
+    /// Node of the second surface.
+    pub second: usize,
+    /// Direction from the second body to the first (the paper's i_1), of any length; `None` for the outward normal of the
+    /// second surface.
+    pub normal: Option<[f64; 2]>,
+    /// Initial gap, >= 0; `None` for the distance of the nodes along the normal.
+    pub gap: Option<f64>,
+}
+
+/// Beside a scene: pairs of a contact and nodal forces of a load, by the index of their entry.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Given {
+    pub(super) pairs: BTreeMap<usize, Vec<NodePair>>,
+    /// Forces on the model itself (not on the whole of a symmetric one) at factor 1.
+    pub(super) forces: BTreeMap<usize, Vec<(usize, [f64; 2])>>,
+}
+
+/// The node that faces a node of the second surface.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Partner {
+    /// Place among the nodes of the first surface.
+    pub(super) first: usize,
+    pub(super) normal: [f64; 2],
+    /// `None` for the geometric gap.
+    pub(super) gap: Option<f64>,
+}
+
+/// A vector whose length is one to round-off is one: normalising it again would change its last digit.
+const UNIT: f64 = 4.0 * f64::EPSILON;
+
+/// For each node of the second surface its partner. `normals` are the outward normals of the second surface.
+///
+/// # Errors
+/// A pair whose nodes are not on the two surfaces, or whose normal points into the second body.
+pub(super) fn partners(
+    given: &[NodePair],
+    mesh: &Mesh,
+    names: [&str; 2],
+    first_nodes: &[usize],
+    second_nodes: &[usize],
+    normals: &[[f64; 2]],
+    gap: Option<f64>,
+) -> Result<Vec<Option<Partner>>> {
+    let places = |nodes: &[usize]| -> BTreeMap<usize, usize> {
+        nodes.iter().enumerate().map(|(i, &n)| (n, i)).collect()
+    };
+    let (first_places, second_places) = (places(first_nodes), places(second_nodes));
+    let mut out = vec![None; second_nodes.len()];
+    for (k, pair) in given.iter().enumerate() {
+        let place = |node: usize, places: &BTreeMap<usize, usize>, name: &str| {
+            places.get(&node).copied().ok_or_else(|| {
+                Error::input(format!(
+                    "pair {k}: node {} is not on surface `{name}`",
+                    mesh.node_label(node)
+                ))
+            })
+        };
+        let first = place(pair.first, &first_places, names[0])?;
+        let second = place(pair.second, &second_places, names[1])?;
+        let outward = normals[second];
+        let normal = match pair.normal {
+            None => outward,
+            Some(n) => {
+                if n[0] * outward[0] + n[1] * outward[1] <= 0.0 {
+                    return Err(Error::input(format!(
+                        "pair {k} (nodes {} and {}): the normal ({}, {}) points into the second body, whose outward normal there is \
+                         ({}, {}); give the direction from the second body to the first",
+                        mesh.node_label(pair.first),
+                        mesh.node_label(pair.second),
+                        n[0],
+                        n[1],
+                        outward[0],
+                        outward[1]
+                    )));
+                }
+                let length = n[0].hypot(n[1]);
+                if (length - 1.0).abs() <= UNIT {
+                    n
+                } else {
+                    [n[0] / length, n[1] / length]
+                }
+            }
+        };
+        out[second] = Some(Partner {
+            first,
+            normal,
+            gap: pair.gap.or(gap),
+        });
+    }
+    Ok(out)
+}
