@@ -66,7 +66,7 @@ fn block_pivoting(
     let mut patience = PATIENCE;
     loop {
         out.rounds += 1;
-        tableau.solve(q, gap, force);
+        tableau.solve_safely(q, gap, force);
         let r_tol = tableau.force_tolerance(q, gap);
         let g_tol = tableau.gap_tolerance(r_tol);
         let violated: Vec<usize> = (0..tableau.len())
@@ -117,7 +117,7 @@ fn principal_pivoting(
     // Pairs whose tension is round-off: opening them could repeat a set without lowering the energy.
     let mut settled = vec![false; n];
     loop {
-        tableau.solve(q, gap, force);
+        tableau.solve_safely(q, gap, force);
         for g in gap.iter_mut() {
             *g = g.max(0.0);
         }

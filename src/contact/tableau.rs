@@ -5,6 +5,8 @@ use serde::{Deserialize, Serialize};
 
 /// Share of the original diagonal below which a pivot counts as zero: opening the pair would free a rigid motion.
 const SINGULAR: f64 = 1e-11;
+/// Multiple of the round-off to be expected beyond which a solution has lost its digits.
+const LOST: f64 = 1e3;
 /// Pivots after which the transform is rebuilt from the original matrix.
 const REBUILD: usize = 2000;
 
@@ -172,6 +174,22 @@ impl Tableau {
     /// Gaps of the open pairs and forces of the closed ones for the given statuses: `r_o = 0`, `g_c = 0`,
     /// `r = q + T g`. The gaps are refined once against `T`, so that errors of many pivots do not stay.
     pub fn solve(&self, q: &[f64], gap: &mut [f64], force: &mut [f64]) {
+        self.solve_with_residual(q, gap, force);
+    }
+
+    /// As [`Tableau::solve`], starting again from the original matrix where pivots have lost the digits (a pivot that was hardly more than
+    /// round-off): pairs that then turn out to hold a rigid motion are closed.
+    pub fn solve_safely(&mut self, q: &[f64], gap: &mut [f64], force: &mut [f64]) {
+        let residual = self.solve_with_residual(q, gap, force);
+        if residual > LOST * self.force_tolerance(q, gap) {
+            let open = self.open.clone();
+            self.reset(&open);
+            self.solve_with_residual(q, gap, force);
+        }
+    }
+
+    /// [`Tableau::solve`]; the largest force that is left on an open pair.
+    fn solve_with_residual(&self, q: &[f64], gap: &mut [f64], force: &mut [f64]) -> f64 {
         gap.fill(0.0);
         force.copy_from_slice(q);
         for _ in 0..2 {
@@ -183,9 +201,12 @@ impl Tableau {
                 }
             }
         }
+        let mut residual = 0.0f64;
         for (f, _) in force.iter_mut().zip(&self.open).filter(|(_, open)| **open) {
+            residual = residual.max(f.abs());
             *f = 0.0;
         }
+        residual
     }
 
     /// `g_o -= T_oo^-1 residual_o`.
