@@ -280,6 +280,8 @@ impl ConstrainedStructure {
         let begin = self.forces_if_tied(&self.state.condensed, 1.0);
         let change = self.forces_if_tied(&condensed_rate, 0.0);
         let scale = self.gaps.iter().fold(0.0f64, |m, g| m.max(g.abs()));
+        // `q` is what is left of the load's part and that of the gaps.
+        let terms = (self.tableau.matrix() * &self.gaps).amax() + begin.amax();
         let path = Path::new(
             &mut self.tableau,
             begin.as_slice().to_vec(),
@@ -287,6 +289,7 @@ impl ConstrainedStructure {
             self.state.gap.clone(),
             self.state.force.clone(),
             scale,
+            terms,
         )
         .map_err(pushed_away)?;
         self.way = Some(Way {

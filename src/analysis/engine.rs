@@ -319,6 +319,23 @@ impl<'m> Engine<'m> {
             .collect()
     }
 
+    /// The largest sum of absolute values of the terms of [`Engine::closed_forces`]: what its round-off is a share of.
+    pub fn closed_forces_terms(&self, point: &LoadPoint) -> f64 {
+        (0..self.gap.len())
+            .map(|k| {
+                let loads: f64 = self
+                    .load_forces
+                    .iter()
+                    .zip(&point.factors)
+                    .map(|(t, f)| (f * t[k]).abs())
+                    .sum();
+                loads
+                    + self.gap_forces[0][k].abs()
+                    + (point.interference * self.gap_forces[1][k]).abs()
+            })
+            .fold(0.0, f64::max)
+    }
+
     /// Forces `t` of the tied pairs under initial loads alone.
     pub fn initial_forces(&mut self, initial: &Trailing) -> Vec<f64> {
         let mut forces = vec![0.0; self.gap.len()];

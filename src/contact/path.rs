@@ -54,6 +54,7 @@ pub struct Path {
     gap_rate: Vec<f64>,
     force_rate: Vec<f64>,
     gap_scale: f64,
+    terms: f64,
     force_scale: f64,
     /// Events since gaps, forces and rates were last solved for.
     carried: usize,
@@ -63,7 +64,8 @@ pub struct Path {
 
 impl Path {
     /// Starts at `t = 0` with `q(t) = start + t rate` and the gaps and forces that hold there (statuses are
-    /// those in the tableau). `gap_scale` is the size of gaps that matter (such as the largest initial gap).
+    /// those in the tableau). `gap_scale` is the size of gaps that matter (such as the largest initial gap),
+    /// `terms` that of the terms of which `start` is a sum: they may cancel, their round-off does not.
     ///
     /// # Errors
     /// [`Unbounded`] where the load pushes pairs apart for ever.
@@ -74,6 +76,7 @@ impl Path {
         gap: Vec<f64>,
         force: Vec<f64>,
         gap_scale: f64,
+        terms: f64,
     ) -> Result<Self, Unbounded> {
         let n = tableau.len();
         let mut path = Path {
@@ -85,6 +88,7 @@ impl Path {
             gap_rate: vec![0.0; n],
             force_rate: vec![0.0; n],
             gap_scale,
+            terms,
             force_scale: 0.0,
             carried: CARRIED,
             changes: 0,
@@ -102,7 +106,9 @@ impl Path {
             .zip(&self.rate)
             .map(|(a, b)| a.abs() + self.t * b.abs())
             .collect();
-        let round_off = tableau.force_tolerance(&q, &self.gap);
+        let round_off = tableau
+            .force_tolerance(&q, &self.gap)
+            .max(tableau.force_tolerance(&[self.terms], &[]));
         let gap = TIE * self.gap.iter().fold(self.gap_scale, |m, g| m.max(*g)) * 1e-2;
         let force = TIE * self.force.iter().fold(self.force_scale, |m, r| m.max(*r));
         (

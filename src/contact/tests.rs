@@ -57,7 +57,7 @@ proptest! {
         let mut tableau = Tableau::new(t.clone());
         let (mut g, mut r) = (vec![0.0; n], vec![0.0; n]);
         prop_assert!(solve(&mut tableau, &q0[..n], &mut g, &mut r).is_ok());
-        let mut path = Path::new(&mut tableau, q0[..n].to_vec(), q1[..n].to_vec(), g, r, 1.0).unwrap();
+        let mut path = Path::new(&mut tableau, q0[..n].to_vec(), q1[..n].to_vec(), g, r, 1.0, 0.0).unwrap();
         let mut events = 0;
         while let PathEnd::Event(changes) = path.advance(&tableau, 1.0) {
             prop_assert!(!changes.is_empty());
@@ -131,7 +131,7 @@ fn ties_open_together() {
     let mut tableau = Tableau::new(t);
     let q0 = vec![1.0; n];
     let q1 = vec![-2.0; n];
-    let mut path = Path::new(&mut tableau, q0.clone(), q1, vec![0.0; n], q0, 1.0).unwrap();
+    let mut path = Path::new(&mut tableau, q0.clone(), q1, vec![0.0; n], q0, 1.0, 0.0).unwrap();
     match path.advance(&tableau, 1.0) {
         PathEnd::Event(changes) => assert_eq!(changes.len(), n),
         PathEnd::Target => panic!("all pairs open halfway"),
@@ -152,7 +152,7 @@ fn a_pair_that_stays_at_the_border_does_not_hold_up_the_path() {
         let mut tableau = Tableau::new(t.clone());
         let (mut g, mut r) = (vec![0.0; 3], vec![0.0; 3]);
         assert!(solve(&mut tableau, &start, &mut g, &mut r).is_ok());
-        let mut path = Path::new(&mut tableau, start.to_vec(), rate, g, r, 1.0).unwrap();
+        let mut path = Path::new(&mut tableau, start.to_vec(), rate, g, r, 1.0, 0.0).unwrap();
         let mut events = 0;
         while path.advance(&tableau, 1.0) != PathEnd::Target {
             path.turn(&mut tableau).unwrap();
