@@ -1,12 +1,15 @@
 //! The contact matrix with a set of pairs opened: a principal pivotal transform.
 
 use nalgebra::DMatrix;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 /// Share of the original diagonal below which a pivot counts as zero: opening the pair would free a rigid motion.
 const SINGULAR: f64 = 1e-11;
 /// Multiple of the round-off to be expected beyond which a solution has lost its digits.
 const LOST: f64 = 1e3;
+/// Pairs from which on the columns of a pivot are shared among threads.
+const SHARED: usize = 512;
 /// Pivots after which the transform is rebuilt from the original matrix.
 const REBUILD: usize = 2000;
 
@@ -150,20 +153,28 @@ impl Tableau {
         let pivot = self.swept[(k, k)];
         let sign = if self.open[k] { -1.0 } else { 1.0 };
         self.column.copy_from_slice(self.swept.column(k).as_slice());
-        for j in (0..n).filter(|&j| j != k) {
-            let factor = self.column[j] / pivot;
+        let pivot_column = &self.column;
+        let sweep_column = |(j, column): (usize, &mut [f64])| {
+            if j == k {
+                return;
+            }
+            let factor = pivot_column[j] / pivot;
             if factor != 0.0 {
-                for (s, c) in self
-                    .swept
-                    .column_mut(j)
-                    .as_mut_slice()
-                    .iter_mut()
-                    .zip(&self.column)
-                {
+                for (s, c) in column.iter_mut().zip(pivot_column) {
                     *s -= factor * c;
                 }
             }
-            self.swept[(k, j)] = sign * factor;
+            column[k] = sign * factor;
+        };
+        let columns = self.swept.as_mut_slice();
+        if n < SHARED {
+            columns
+                .chunks_exact_mut(n)
+                .enumerate()
+                .for_each(sweep_column);
+        } else {
+            let columns = columns.par_chunks_exact_mut(n).enumerate();
+            columns.with_min_len(64).for_each(sweep_column);
         }
         for j in 0..n {
             self.swept[(j, k)] = sign * self.column[j] / pivot;
