@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 
 /// Share of the original diagonal below which a pivot counts as zero: opening the pair would free a rigid motion.
 const SINGULAR: f64 = 1e-11;
+/// Share beyond which it certainly does not.
+const NOT_SINGULAR: f64 = 1e-4;
 /// Multiple of the round-off to be expected beyond which a solution has lost its digits.
 const LOST: f64 = 1e3;
 /// Pairs from which on the columns of a pivot are shared among threads.
@@ -77,8 +79,21 @@ impl Tableau {
     }
 
     /// Whether opening pair `k` now would free a rigid motion.
+    ///
+    /// What is left of `T_kk` is `T_kk - T_ko w` with `w = T_oo^-1 T_ok`: the round-off of that is a share of
+    /// `|T_kk| + 2 |T_ko| |w| + |w|' |T_oo| |w| <= (sqrt T_kk + sum |w_o| sqrt T_oo)^2`, since `|T_ij| <= sqrt(T_ii T_jj)`.
     pub fn would_free(&self, k: usize) -> bool {
-        !self.open[k] && self.swept[(k, k)] <= SINGULAR * self.matrix[(k, k)]
+        let (left, whole) = (self.swept[(k, k)], self.matrix[(k, k)]);
+        if self.open[k] || left > NOT_SINGULAR * whole {
+            return false;
+        }
+        let open = (0..self.len()).filter(|&j| self.open[j]);
+        let moved: f64 = open
+            .map(|j| self.swept[(j, k)].abs() * self.matrix[(j, j)].sqrt())
+            .sum();
+        let n = (self.len() as f64).sqrt();
+        let round_off = 8.0 * f64::EPSILON * n * (whole.sqrt() + moved).powi(2);
+        left <= round_off.max(SINGULAR * whole)
     }
 
     /// Opens or closes pair `k`; false (and nothing changed) if opening it would free a rigid motion.

@@ -33,7 +33,7 @@ fn check(t: &DMatrix<f64>, q: &[f64], g: &[f64], r: &[f64]) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(2000))]
+    #![proptest_config(ProptestConfig::with_cases(10_000))]
 
     /// Every semidefinite problem is solved, or shown to have no solution by a direction that costs no energy.
     #[test]
@@ -48,6 +48,11 @@ proptest! {
             Err(_) => prop_assert!(rank < n, "a definite problem always has a solution"),
         }
     }
+
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
 
     /// The path's end is the direct solution there, whatever happened on the way.
     #[test]

@@ -55,6 +55,7 @@ fn a_run_killed_again_and_again_has_the_results_of_one_that_was_not() {
     let mut random = 88_172_645_463_325_252u64;
     let mut kills = 0;
     let mut with_checkpoint = 0;
+    let mut rounds = 0;
     let stderr = loop {
         let mut child = start(&killed, &["--checkpoint", "--resume"]);
         random ^= random << 13;
@@ -90,7 +91,13 @@ fn a_run_killed_again_and_again_has_the_results_of_one_that_was_not() {
                 let output = child.wait_with_output().unwrap();
                 let stderr = String::from_utf8(output.stderr).unwrap();
                 assert!(output.status.success(), "{stderr}");
-                break stderr;
+                rounds += 1;
+                if with_checkpoint >= 2 || rounds == 5 {
+                    break stderr;
+                }
+                // The machine was busier before: the run came to its end sooner than a kill. Again from the begin.
+                std::fs::remove_dir_all(&killed).unwrap();
+                kills = 0;
             }
             None => {
                 child.kill().unwrap();
@@ -138,19 +145,20 @@ fn a_run_stopped_by_the_user_goes_on() {
     let (plain, stopped) = (folder.path().join("plain"), folder.path().join("stopped"));
     assert!(start(&plain, &[]).wait().unwrap().success());
     let checkpoint = folder.path().join("stopped.checkpoint/checkpoint");
-    let mut child = start(&stopped, &["--checkpoint=3"]);
-    while !checkpoint.is_file() && child.try_wait().unwrap().is_none() {
-        std::thread::sleep(Duration::from_millis(1));
+    for attempt in 0.. {
+        let mut child = start(&stopped, &["--checkpoint=3"]);
+        while !checkpoint.is_file() && child.try_wait().unwrap().is_none() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        let signal = ["-INT", &child.id().to_string()].map(str::to_owned);
+        // It fails where the run has come to its end in the meantime.
+        let _ = Command::new("kill").args(signal).status().unwrap();
+        match child.wait().unwrap().code() {
+            Some(130) => break,
+            Some(0) if attempt < 5 => std::fs::remove_dir_all(&stopped).unwrap(),
+            code => panic!("{code:?}"),
+        }
     }
-    let signal = ["-INT", &child.id().to_string()].map(str::to_owned);
-    assert!(
-        Command::new("kill")
-            .args(signal)
-            .status()
-            .unwrap()
-            .success()
-    );
-    assert_eq!(child.wait().unwrap().code(), Some(130));
     assert!(summary(&stopped)["incomplete"].is_string());
     assert!(checkpoint.is_file());
     assert!(start(&stopped, &["--resume"]).wait().unwrap().success());
