@@ -15,7 +15,7 @@ fn follow(t: &DMatrix<f64>, start: &[f64], end: &[f64]) -> (Vec<f64>, Vec<f64>, 
     let (mut g, mut r) = (vec![0.0; n], vec![0.0; n]);
     brinell::contact::solve(&mut tableau, start, &mut g, &mut r).unwrap();
     let rate = end.iter().zip(start).map(|(b, a)| b - a).collect();
-    let mut path = Path::new(&mut tableau, start.to_vec(), rate, g, r, 1.0).unwrap();
+    let mut path = Path::new(&mut tableau, start.to_vec(), rate, g, r, 1.0, 0.0).unwrap();
     let mut events = 0;
     let mut last = 0.0;
     while let PathEnd::Event(changes) = path.advance(&tableau, 1.0) {
