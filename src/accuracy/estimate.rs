@@ -1,5 +1,6 @@
 //! The errors of every quantity of a run, estimated after it.
 
+use super::meter::work;
 use super::path::{self, PathErrors};
 use super::quantities::{Quantity, quantities, value_of};
 use super::{coarser, extrapolate, largest_order};
@@ -68,6 +69,7 @@ pub fn estimate(
             let begun = Instant::now();
             match run(&level.scene, backend, extent, observer) {
                 Ok(found) => {
+                    out.work += work(&found);
                     out.companions.push(Companion {
                         ratio: level.ratio,
                         freedoms: found.sizes.freedoms,
@@ -103,6 +105,7 @@ pub fn estimate(
         }
         _ => PathErrors::default(),
     };
+    out.work += path.work();
     let orders = [LOWEST_ORDER, largest_order(scene)];
     for quantity in &quantities {
         let mut values = vec![(1.0, quantity.value)];
@@ -150,8 +153,18 @@ fn algebraic_error(results: &Results, path: &str) -> f64 {
     worst.max(smallest_pivot_ratio(results.sizes.freedoms))
 }
 
-/// Runs a scene without fields. An incomplete run is an error.
+/// Runs a scene without fields, telling nothing of it. An incomplete run is an error.
 pub(super) fn run(
+    scene: &Scene,
+    backend: Backend,
+    extent: Extent,
+    observer: &mut dyn Observer,
+) -> Result<Results> {
+    run_observed(scene, backend, extent, &mut Quiet(observer))
+}
+
+/// Runs a scene without fields. An incomplete run is an error.
+pub(super) fn run_observed(
     scene: &Scene,
     backend: Backend,
     extent: Extent,
@@ -162,10 +175,9 @@ pub(super) fn run(
         target.fields = false;
     }
     let mut analysis = Analysis::new(Model::new(&bare)?, backend)?;
-    let mut quiet = Quiet(observer);
     let results = match extent {
-        Extent::Yield => analysis.yield_load(&mut quiet)?,
-        Extent::Program => analysis.run(&mut quiet)?,
+        Extent::Yield => analysis.yield_load(observer)?,
+        Extent::Program => analysis.run(observer)?,
     };
     match &results.incomplete {
         None => Ok(results),

@@ -11,6 +11,7 @@
 //! where they are near round-off (the difference is the error times [`FACTOR`]).
 
 use super::estimate::{Coarse, Extent, run};
+use super::meter::work;
 use super::quantities::{quantities, value_of};
 use crate::linalg::Backend;
 use crate::progress::Observer;
@@ -23,9 +24,9 @@ const FACTOR: f64 = 100.0;
 /// Tolerances below this are made looser, not tighter: [`FACTOR`] below them lies round-off.
 const TIGHT: f64 = 1e-9;
 
-/// Errors of the path by quantity.
+/// Errors of the path by quantity, and the operations they took.
 #[derive(Debug, Default)]
-pub(super) struct PathErrors(BTreeMap<String, f64>);
+pub(super) struct PathErrors(BTreeMap<String, f64>, f64);
 
 impl PathErrors {
     /// The error of a quantity, where it was estimated.
@@ -33,9 +34,15 @@ impl PathErrors {
         self.0.get(path).copied()
     }
 
+    /// Floating point operations of the runs that were made for them.
+    pub(super) fn work(&self) -> f64 {
+        self.1
+    }
+
     /// Adds `share` of the difference between two runs.
     fn add(&mut self, coarsest: &Coarse, other: &Results, share: f64) {
         let others = quantities(other);
+        self.1 += work(other);
         for quantity in &coarsest.quantities {
             if let Some(value) = value_of(&others, &quantity.path) {
                 *self.0.entry(quantity.path.clone()).or_default() +=

@@ -17,6 +17,8 @@ const CONTACT_OF_QUARTER: f64 = 19.625 / 90.0;
 const DISTORTION: f64 = 0.2;
 /// Least change of the element size that makes another level of it.
 const LEAST_CHANGE: f64 = 1.15;
+/// Greatest growth the generators take.
+pub(super) const MOST_GROWTH: f64 = 100.0;
 /// Distance between a piece's end and a node, in elements, up to which they coincide.
 const ON_NODE: f64 = 1e-6;
 /// Element sizes of the coarser meshes over that of the run, most wanted first: where the run is fine enough, the first pair
@@ -60,12 +62,14 @@ pub fn refined(scene: &Scene, factor: f64) -> Option<Level> {
         let ratio = p.resolution as f64 / n as f64;
         p.resolution = n;
         p.growth = p.growth.powf(ratio);
+        p.far_growth = p.far_growth.map(|g| g.powf(ratio).min(MOST_GROWTH));
         ratio
     } else if let Some(p) = &mut out.mesh.disc_in_plate {
         let n = count(p.resolution, 2);
         let ratio = p.resolution as f64 / n as f64;
         p.resolution = n;
         p.growth = p.growth.powf(ratio);
+        p.far_growth = p.far_growth.map(|g| g.powf(ratio).min(MOST_GROWTH));
         ratio
     } else if let Some(parts) = &mut out.mesh.parts {
         let mut ratios = Vec::new();

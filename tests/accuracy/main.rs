@@ -7,4 +7,5 @@ mod claim;
 mod demand;
 mod effectivity;
 mod indicator;
+mod price;
 mod study;
