@@ -14,11 +14,11 @@
 //! reaches the demand. Memory and time of a mesh are predicted from the symbolic factorisation before it is run: what
 //! does not fit is refused with its price.
 
-use super::estimate::{Extent, SAFETY, estimate};
+use super::estimate::{Extent, SAFETY, estimate_on};
 use super::grading::{balanced, risen};
 use super::knobs::resolution;
 use super::meter::{Pace, forecast, work};
-use super::pilot::pilot;
+use super::pilot::{pilot, rungs};
 use super::quantities::quantities;
 use super::refinement::{FEWEST, governing_count, largest_order, refined};
 use super::refusal::{Cost, percent, refuse_beyond_memory, refuse_round_off};
@@ -110,7 +110,7 @@ pub fn reach(
             Extent::Yield => analysis.yield_load(observer)?,
             Extent::Program => analysis.run(observer)?,
         };
-        let mut found = estimate(&level, backend, &results, extent, observer);
+        let mut found = estimate_on(rungs(&level), &level, backend, &results, extent, observer);
         let seconds = begun.elapsed().as_secs_f64();
         spent += work(&results) + found.work;
         pace.learn(cost.seconds, seconds);

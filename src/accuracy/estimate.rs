@@ -3,7 +3,7 @@
 use super::meter::work;
 use super::path::{self, PathErrors};
 use super::quantities::{Quantity, quantities, value_of};
-use super::{coarser, extrapolate, largest_order};
+use super::{Level, coarser, extrapolate, largest_order};
 use crate::analysis::Analysis;
 use crate::error::Result;
 use crate::linalg::{Backend, smallest_pivot_ratio};
@@ -49,6 +49,18 @@ pub fn estimate(
     extent: Extent,
     observer: &mut dyn Observer,
 ) -> Accuracy {
+    estimate_on(coarser(scene), scene, backend, results, extent, observer)
+}
+
+/// The same with other meshes of the family to extrapolate from.
+pub(super) fn estimate_on(
+    levels: Vec<Level>,
+    scene: &Scene,
+    backend: Backend,
+    results: &Results,
+    extent: Extent,
+    observer: &mut dyn Observer,
+) -> Accuracy {
     let start = Instant::now();
     let mut out = Accuracy::default();
     let quantities = quantities(results);
@@ -57,7 +69,6 @@ pub fn estimate(
         out.notes
             .push("the run is incomplete: no error is estimated".to_string());
     } else {
-        let levels = coarser(scene);
         let n = levels.len();
         for (i, level) in levels.into_iter().enumerate() {
             if observer.stop_requested() {

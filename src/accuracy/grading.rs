@@ -27,10 +27,13 @@ use crate::scene::{MeshSource, Scene};
 /// price is `1/L`, and the cheapest is `L ~ r^(1/3)`. Measured (contact of a line and of a point, errors and flops over
 /// powers from 0 to 0.4) the best lies at 1/4, flatly.
 const RISE: f64 = 0.25;
+/// What a rising growth saves far away is spent near: this power of the growth there. Measured on the contact of a line, a mesh so graded
+/// has the errors of the uniform one, from 6 to 16 elements over the contact, at half the operations.
+const NEAR: f64 = 2.0 / 3.0;
 /// The far part of the pilot is this much coarser in the run that tells its share.
 const COARSER: f64 = 1.5;
 /// Ratios of far to near fineness, over that of the pilot, that are weighed.
-const RATIOS: [f64; 7] = [0.35, 0.5, 0.71, 1.0, 1.41, 2.0, 2.83];
+const RATIOS: [f64; 5] = [0.5, 0.71, 1.0, 1.41, 2.0];
 /// Fewest elements along a direction of a ring or block: coarser companions must still tell something.
 const FEWEST: f64 = 6.0;
 /// Operations of a factorisation of a plane mesh grow with this power of its elements.
@@ -39,15 +42,18 @@ const FLOPS: f64 = 1.5;
 /// The scene with elements that grow faster with the distance, where its generator knows that and it does not say how.
 pub(super) fn risen(scene: &Scene) -> Scene {
     let mut out = scene.clone();
-    let far = |growth: f64, octaves: f64| {
-        (growth > 1.0).then(|| growth.powf(octaves.powf(RISE)).min(MOST_GROWTH))
+    let rise = |growth: &mut f64, far: &mut Option<f64>, distances: f64| {
+        if far.is_none() && *growth > 1.0 {
+            *growth = growth.powf(NEAR);
+            *far = Some(growth.powf(distances.powf(RISE)).min(MOST_GROWTH));
+        }
     };
     if let Some(p) = &mut out.mesh.cylinder_on_half_plane {
         let fine = p.fine_width.max(p.fine_depth);
-        p.far_growth = p.far_growth.or(far(p.growth, p.far_size / fine));
+        rise(&mut p.growth, &mut p.far_growth, p.far_size / fine);
     }
     if let Some(p) = &mut out.mesh.disc_in_plate {
-        p.far_growth = p.far_growth.or(far(p.growth, p.far_radius));
+        rise(&mut p.growth, &mut p.far_growth, p.far_radius);
     }
     out
 }
@@ -153,7 +159,7 @@ pub(super) fn balanced(pilot: &Scene, shares: &[Share], most: f64) -> Option<(Sc
 }
 
 /// Elements of a generated mesh; the contact half width, which scales that of a cylinder on a half plane, does not matter for it.
-fn elements(scene: &Scene) -> Option<usize> {
+pub(super) fn elements(scene: &Scene) -> Option<usize> {
     let radius = (scene.mesh.cylinder_on_half_plane.as_ref()).map_or(1.0, |p| p.radius);
     generate::from_source(&scene.mesh, None, |p| Ok(1e-3 * radius / p.fine_width))
         .ok()
@@ -194,7 +200,7 @@ mod tests {
     fn a_rising_growth_saves_elements() {
         let text = include_str!("../../data/scenes/cylinder_on_half_plane.toml");
         let scene = Scene::parse(text, "scene.toml").unwrap();
-        assert!(2 * elements(&cylinder()).unwrap() < elements(&scene).unwrap());
+        assert!(3 * elements(&cylinder()).unwrap() < 2 * elements(&scene).unwrap());
     }
 
     #[test]

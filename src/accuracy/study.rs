@@ -61,7 +61,7 @@ pub struct StudyRun {
     pub factor: [f64; 3],
     /// Machine-independent cost.
     pub counts: Counts,
-    /// Floating point operations of all factorisations and solves ([`super::work`]).
+    /// Cost in floating point operations ([`super::work()`]).
     pub work: f64,
     /// Time and memory.
     pub usage: Usage,

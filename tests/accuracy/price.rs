@@ -100,12 +100,13 @@ fn a_demand_costs_at_most_twice_the_cheapest_setting_picked_by_hand() {
         let found = study(&case.scene, Backend::default(), &plan, &mut Silent).unwrap();
         for (i, run) in found.runs.iter().enumerate() {
             println!(
-                "{}: {} {}: {} freedoms, {:.2e} operations, error {:.2e}",
+                "{}: {} {}: {} freedoms, {:.2e} operations, {:.2} s, error {:.2e}",
                 case.name,
                 run.series,
                 run.value,
                 run.freedoms,
                 run.work,
+                run.usage.undisturbed_seconds(),
                 error(&found, &case, i)
             );
         }
@@ -113,7 +114,9 @@ fn a_demand_costs_at_most_twice_the_cheapest_setting_picked_by_hand() {
         for &accuracy in case.demands {
             let mut scene = case.scene.clone();
             scene.accuracy = Some(AccuracyDemand::new(accuracy).unwrap());
+            let meter = brinell::accuracy::Meter::start();
             let reached = reach(&scene, Backend::default(), Extent::Yield, &mut Silent).unwrap();
+            println!("time {:.2} s", meter.stop().undisturbed_seconds());
             let demand = reached.results.accuracy.unwrap().demand.unwrap();
             let rows = reached.results.reference.iter();
             let actual = rows
