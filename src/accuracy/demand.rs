@@ -17,10 +17,11 @@
 use super::estimate::{Extent, SAFETY, estimate_on};
 use super::grading::{balanced, risen};
 use super::knobs::resolution;
+use super::ladder::{Ladder, PILOT, spacings};
 use super::meter::{Pace, forecast, work};
-use super::pilot::{pilot, rungs};
+use super::pilot::pilot;
 use super::quantities::quantities;
-use super::refinement::{FEWEST, governing_count, largest_order, refined};
+use super::refinement::{largest_order, refined};
 use super::refusal::{Cost, percent, refuse_beyond_memory, refuse_round_off};
 use crate::analysis::Analysis;
 use crate::error::{Error, Result};
@@ -40,18 +41,17 @@ const TIGHTEST: f64 = 1e-10;
 const LOOSEST: f64 = 1e-6;
 /// Share of the demand that the path may take.
 const PATH_SHARE: f64 = 1.0 / 3.0;
-/// Elements over what governs, in the first pilot run.
-const PILOT: f64 = 1.2 * FEWEST;
-/// A mesh is at most this many times finer than the one it is aimed from: beyond, an observed order is a guess.
-const STRIDE: f64 = 2.5;
+/// A mesh is at most this many times finer than the one it is aimed from: beyond, an observed order is a guess. Each
+/// is judged by the two before it, which cost nothing again, so that all together cost about 1.5 times the last.
+const STRIDE: f64 = 1.6;
 /// And at least this many times: one that is hardly finer says nothing new.
 const LEAST_STEP: f64 = 1.2;
 /// What is aimed at, of what is demanded: the error of a contact edge scatters.
 const AIM: f64 = 0.8;
 /// Runs before the demand is given up.
-const ROUNDS: usize = 8;
+const ROUNDS: usize = 12;
 /// Rounds from which on the prediction of the mesh that will do is believed.
-const TRUSTED: usize = 3;
+const TRUSTED: usize = 4;
 
 /// A run that was made to a demand.
 pub struct Reached {
@@ -78,7 +78,7 @@ pub fn reach(
     let Some(demand) = scene.accuracy.map(|a| a.relative()) else {
         return Err(Error::input("the scene demands no accuracy"));
     };
-    let Some(count) = governing_count(&scene.mesh) else {
+    let Some(count) = spacings(scene) else {
         return Err(Error::input(
             "`accuracy`: the mesh comes from a file and cannot be refined; take the key out, or use a generator",
         ));
@@ -92,12 +92,13 @@ pub fn reach(
     let mut pace = Pace::default();
     let mut costs: Vec<Cost> = Vec::new();
     let mut spent = 0.0;
+    let mut ladder = Ladder::default();
     for round in 1..=ROUNDS {
         let level = nearest(&wanted, factor)?;
         let settings = resolution(&level, 1.0);
         observer.phase(&format!("accuracy {}: {settings}", percent(demand)));
         let cost = forecast(&level, backend)?;
-        let fineness = governing_count(&level.mesh).unwrap_or(count * factor);
+        let fineness = spacings(&level).unwrap_or(count * factor);
         costs.push(Cost {
             fineness,
             memory: cost.factor.memory_bytes,
@@ -110,7 +111,16 @@ pub fn reach(
             Extent::Yield => analysis.yield_load(observer)?,
             Extent::Program => analysis.run(observer)?,
         };
-        let mut found = estimate_on(rungs(&level), &level, backend, &results, extent, observer);
+        let mut found = estimate_on(
+            ladder.rungs(&level),
+            &mut ladder,
+            &level,
+            backend,
+            &results,
+            extent,
+            observer,
+        );
+        ladder.keep(&level, &results);
         let seconds = begun.elapsed().as_secs_f64();
         spent += work(&results) + found.work;
         pace.learn(cost.seconds, seconds);
@@ -146,16 +156,20 @@ pub fn reach(
         }
         refuse_round_off(demand, outcome.algebraic)?;
         let mut finer = outcome.refinement.max(1.0);
+        // Another shape begins a ladder of its own: worth it only where more than a rung lies ahead.
         if round == 1
+            && finer > STRIDE
             && let Some(pilot) = pilot(&level, backend, extent, &results, &found, observer)
         {
             spent += pilot.work;
             let aim = AIM * outcome.mesh_share * demand / SAFETY;
             if let Some((shaped, needed)) = balanced(&level, &pilot.shares(aim), STRIDE) {
-                choices.push(format!(
-                    "near and far parts so fine that the error costs the fewest elements: {}",
-                    resolution(&shaped, 1.0)
-                ));
+                let shape = resolution(&shaped, 1.0);
+                if shape != settings {
+                    choices.push(format!(
+                        "near and far parts so fine that the error costs the fewest elements: {shape}"
+                    ));
+                }
                 wanted = shaped;
                 factor = 1.0;
                 finer = needed.max(LEAST_STEP);
@@ -237,7 +251,7 @@ impl Outcome {
                 out.least = out.least.max(least.powf(1.0 / highest));
                 out.refinement = out
                     .refinement
-                    .max(needed.powf(1.0 / errors.order.unwrap_or(1.0)));
+                    .max(needed.powf(1.0 / errors.order.unwrap_or(highest)));
             }
         }
         // A mesh that is not finer says nothing new.
@@ -289,8 +303,8 @@ mod tests {
 
     #[test]
     fn strides_are_equal_and_none_too_long() {
-        assert!((stride(2.4) - 2.4).abs() < 1e-12);
-        assert!((stride(4.0) - 2.0).abs() < 1e-12);
+        assert!((stride(1.5) - 1.5).abs() < 1e-12);
+        assert!((stride(2.25) - 1.5).abs() < 1e-12);
         assert!((stride(1.0) - 1.0).abs() < 1e-12);
     }
 }

@@ -1,6 +1,6 @@
 //! The errors of every quantity of a run, estimated after it.
 
-use super::meter::work;
+use super::ladder::Ladder;
 use super::path::{self, PathErrors};
 use super::quantities::{Quantity, quantities, value_of};
 use super::{Level, coarser, extrapolate, largest_order};
@@ -49,12 +49,23 @@ pub fn estimate(
     extent: Extent,
     observer: &mut dyn Observer,
 ) -> Accuracy {
-    estimate_on(coarser(scene), scene, backend, results, extent, observer)
+    let mut ladder = Ladder::default();
+    let levels = coarser(scene);
+    estimate_on(
+        levels,
+        &mut ladder,
+        scene,
+        backend,
+        results,
+        extent,
+        observer,
+    )
 }
 
-/// The same with other meshes of the family to extrapolate from.
+/// The same with other meshes of the family to extrapolate from, and what was run already.
 pub(super) fn estimate_on(
     levels: Vec<Level>,
+    ladder: &mut Ladder,
     scene: &Scene,
     backend: Backend,
     results: &Results,
@@ -78,9 +89,9 @@ pub(super) fn estimate_on(
             }
             observer.phase(&format!("error estimate: coarser mesh {} of {n}", i + 1));
             let begun = Instant::now();
-            match run(&level.scene, backend, extent, observer) {
-                Ok(found) => {
-                    out.work += work(&found);
+            match ladder.step(&level.scene, backend, extent, observer) {
+                Ok((found, spent)) => {
+                    out.work += spent;
                     out.companions.push(Companion {
                         ratio: level.ratio,
                         freedoms: found.sizes.freedoms,

@@ -8,6 +8,7 @@
 //! | `estimate` | discretisation, path and algebraic error of every quantity of a run |
 //! | `path` | the error of increments and tolerances |
 //! | `demand`, `refusal` | the cheapest settings that reach a demanded accuracy; what cannot be reached |
+//! | `ladder` | the meshes on the way to a demand |
 //! | `grading`, `pilot` | resolution where it counts: which part of a mesh the errors come from |
 //! | `knobs`, `meter`, `study`, `verdict` | a study: what to turn, what it takes, the runs, what they say |
 //!
@@ -28,6 +29,7 @@ mod estimate;
 mod extrapolation;
 mod grading;
 mod knobs;
+mod ladder;
 mod meter;
 mod path;
 mod pilot;

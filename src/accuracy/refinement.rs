@@ -133,10 +133,14 @@ pub fn coarser(scene: &Scene) -> Vec<Level> {
 /// Largest order of convergence that is believed for the quantities of a scene: twice the degree of the elements (what
 /// functionals of smooth solutions reach) but not more than 3, which the extrapolation of rounded meshes cannot tell from less.
 pub fn largest_order(scene: &Scene) -> f64 {
+    if all_quadratic(scene) { 3.0 } else { 2.0 }
+}
+
+/// Whether the generator makes quadratic elements only.
+pub(super) fn all_quadratic(scene: &Scene) -> bool {
     let quadratic = |shape: Shape| shape.n_nodes() > shape.n_corners();
     let mesh = &scene.mesh;
-    let all = mesh
-        .cylinder_on_half_plane
+    mesh.cylinder_on_half_plane
         .as_ref()
         .is_some_and(|p| quadratic(p.element))
         || mesh
@@ -146,8 +150,7 @@ pub fn largest_order(scene: &Scene) -> f64 {
         || mesh
             .parts
             .as_ref()
-            .is_some_and(|p| p.iter().all(|p| quadratic(p.element)));
-    if all { 3.0 } else { 2.0 }
+            .is_some_and(|p| p.iter().all(|p| quadratic(p.element)))
 }
 
 /// Elements over what governs the result.

@@ -3,10 +3,11 @@
 use super::estimate::{Extent, run_observed};
 use super::grading::{balanced, risen};
 use super::knobs::{Knob, Setting, graded, resolution, settings};
+use super::ladder::{PILOT, spacings};
 use super::meter::{Forecast, Meter, Pace, PhaseMeter, PhaseUsage, Usage, forecast, work};
 use super::pilot::fly;
 use super::quantities::quantities;
-use super::refinement::{FEWEST, governing_count, refined};
+use super::refinement::refined;
 use super::verdict::{QuantityStudy, judge};
 use crate::error::Result;
 use crate::linalg::Backend;
@@ -213,16 +214,13 @@ pub fn study(
     Ok(out)
 }
 
-/// Elements over what governs in the pilot.
-const PILOT: f64 = 1.2 * FEWEST;
-
 /// The scene's mesh graded for its quantities, as fine as the pilot by which that was found.
 fn shaped(
     scene: &Scene,
     backend: Backend,
     observer: &mut dyn Observer,
 ) -> Option<(Scene, Grading)> {
-    let factor = PILOT / governing_count(&scene.mesh)?;
+    let factor = PILOT / spacings(scene)?;
     let pilot_scene = refined(&risen(scene), factor.min(1.0))?.scene;
     let pilot = fly(&pilot_scene, backend, Extent::Program, observer)?;
     // Weighed at a tenth of the pilot's own error: the balance hardly depends on it.

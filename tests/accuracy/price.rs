@@ -25,8 +25,8 @@ fn cases() -> Vec<Case> {
             &[
                 yielding,
                 "materials.steel.yield_stress=50.0",
-                "mesh.cylinder_on_half_plane.resolution=11",
-                "mesh.cylinder_on_half_plane.growth=1.2254",
+                "mesh.cylinder_on_half_plane.resolution=12",
+                "mesh.cylinder_on_half_plane.growth=1.2048",
                 far,
             ],
         )
