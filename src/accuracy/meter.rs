@@ -110,7 +110,7 @@ impl<'o> PhaseMeter<'o> {
     fn turn(&mut self, next: &str) {
         let next = (next.to_string(), Instant::now(), processor_seconds());
         let (name, wall, processor) = std::mem::replace(&mut self.current, next);
-        let wall_seconds = wall.elapsed().as_secs_f64();
+        let wall_seconds = self.current.1.duration_since(wall).as_secs_f64();
         let cpu_seconds = self
             .current
             .2
