@@ -3,7 +3,7 @@
 //! A study turns one knob at a time from the scene's own settings, but for the mesh, which is refined with every element shape
 //! and once more with loose tolerances: work and precision both come from the mesh first.
 
-use super::refinement::refined;
+use super::refinement::{factors, refined};
 use crate::error::{Error, Result};
 use crate::linalg::Backend;
 use crate::mesh::Shape;
@@ -107,8 +107,10 @@ pub fn settings(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) 
     let name = |shape: Option<Shape>| shape.map_or("mesh", shape_name);
     let meshes =
         |scene: &Scene, knob: Knob, series: &str, finest: usize, out: &mut Vec<Setting>| {
-            for level in finest..levels.max(1) {
-                let factor = FINEST / STEP.powi(level as i32);
+            for factor in factors(scene, FINEST, STEP, levels)
+                .into_iter()
+                .skip(finest)
+            {
                 // The scene itself belongs to every series, file or not.
                 let made = match (factor - 1.0).abs() < 1e-9 {
                     true => Some((scene.clone(), 1.0)),
@@ -124,7 +126,7 @@ pub fn settings(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) 
                 out.push(Setting {
                     series: series.to_string(),
                     knob,
-                    value: resolution(&scene, ratio),
+                    value: resolution(&scene),
                     ratio,
                     scene,
                     backend,
@@ -152,7 +154,7 @@ pub fn settings(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) 
         out.push(base(
             Knob::Resolution,
             name(own),
-            resolution(scene, 1.0),
+            resolution(scene),
             scene.clone(),
             backend,
         ));
@@ -264,7 +266,7 @@ fn shape_name(shape: Shape) -> &'static str {
 }
 
 /// The mesh in the generator's own words.
-pub(super) fn resolution(scene: &Scene, ratio: f64) -> String {
+pub(super) fn resolution(scene: &Scene) -> String {
     let mesh = &scene.mesh;
     if let Some(p) = &mesh.cylinder_on_half_plane {
         format!("resolution {}, growth {:.4}", p.resolution, p.growth)
@@ -282,7 +284,7 @@ pub(super) fn resolution(scene: &Scene, ratio: f64) -> String {
             .collect();
         format!("elements {}", counts.join(", "))
     } else {
-        format!("element size {ratio:.3}")
+        format!("subdivisions {}", mesh.subdivisions)
     }
 }
 

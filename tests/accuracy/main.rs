@@ -6,5 +6,7 @@ mod running;
 mod claim;
 mod demand;
 mod effectivity;
+mod file_mesh;
 mod indicator;
+mod parts;
 mod study;
