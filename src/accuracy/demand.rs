@@ -91,7 +91,7 @@ pub fn reach(
     let mut costs: Vec<Cost> = Vec::new();
     for round in 1..=ROUNDS {
         let level = nearest(&wanted, factor)?;
-        let settings = resolution(&level);
+        let settings = resolution(&level, 1.0);
         observer.phase(&format!("accuracy {}: {settings}", percent(demand)));
         let cost = forecast(&level, backend)?;
         let begun = Instant::now();
@@ -195,10 +195,7 @@ impl Outcome {
             out.algebraic = out.algebraic.max(errors.algebraic / quantity.scale);
             let mesh = SAFETY * errors.discretisation.unwrap_or(0.0) / quantity.scale;
             let needed = mesh
-                / (AIM
-                    * (1.0
-                        - PATH_SHARE * f64::from(u8::from(errors.path.is_some_and(|p| p > 0.0))))
-                    * demand);
+                / (AIM * (1.0 - PATH_SHARE * f64::from(u8::from(errors.path.is_some()))) * demand);
             if relative > demand {
                 let least = errors.discretisation.unwrap_or(0.0) / quantity.scale / demand;
                 out.least = out.least.max(least.powf(1.0 / highest));

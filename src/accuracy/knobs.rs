@@ -126,7 +126,7 @@ pub fn settings(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) 
                 out.push(Setting {
                     series: series.to_string(),
                     knob,
-                    value: resolution(&scene),
+                    value: resolution(&scene, ratio),
                     ratio,
                     scene,
                     backend,
@@ -154,7 +154,7 @@ pub fn settings(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) 
         out.push(base(
             Knob::Resolution,
             name(own),
-            resolution(scene),
+            resolution(scene, 1.0),
             scene.clone(),
             backend,
         ));
@@ -266,7 +266,7 @@ fn shape_name(shape: Shape) -> &'static str {
 }
 
 /// The mesh in the generator's own words.
-pub(super) fn resolution(scene: &Scene) -> String {
+pub(super) fn resolution(scene: &Scene, ratio: f64) -> String {
     let mesh = &scene.mesh;
     if let Some(p) = &mesh.cylinder_on_half_plane {
         format!("resolution {}, growth {:.4}", p.resolution, p.growth)
@@ -284,7 +284,10 @@ pub(super) fn resolution(scene: &Scene) -> String {
             .collect();
         format!("elements {}", counts.join(", "))
     } else {
-        format!("subdivisions {}", mesh.subdivisions)
+        format!(
+            "subdivisions {}, element size {ratio:.3}",
+            mesh.subdivisions
+        )
     }
 }
 
