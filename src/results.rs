@@ -340,6 +340,9 @@ pub struct Accuracy {
     /// Seconds that the estimate took.
     #[serde(deserialize_with = "null_is_not_a_number")]
     pub seconds: f64,
+    /// Floating point operations of the factorisations and solves of the runs that were made for it.
+    #[serde(default, deserialize_with = "null_is_not_a_number")]
+    pub work: f64,
     /// What the estimate could not do, and why.
     pub notes: Vec<String>,
 }
@@ -357,6 +360,9 @@ pub struct Demand {
     pub stated: f64,
     /// What was chosen, and why.
     pub choices: Vec<String>,
+    /// Floating point operations of the factorisations and solves of all trials, their estimates included.
+    #[serde(default, deserialize_with = "null_is_not_a_number")]
+    pub work: f64,
 }
 
 /// How a discretisation error was estimated.

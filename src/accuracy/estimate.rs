@@ -1,9 +1,10 @@
 //! The errors of every quantity of a run, estimated after it.
 
 use super::extrapolation::of_edge;
+use super::meter::work;
 use super::path::{self, Base, PathErrors};
 use super::quantities::{Quantity, quantities, value_of};
-use super::{companions, extrapolate, largest_order};
+use super::{Level, companions, extrapolate, largest_order};
 use crate::analysis::Analysis;
 use crate::error::Result;
 use crate::linalg::{Backend, smallest_pivot_ratio};
@@ -55,6 +56,19 @@ pub fn estimate(
     extent: Extent,
     observer: &mut dyn Observer,
 ) -> Accuracy {
+    let levels = companions(scene, results.sizes.elements);
+    estimate_on(levels, scene, backend, results, extent, observer)
+}
+
+/// The same with other meshes of the family to extrapolate from.
+pub(super) fn estimate_on(
+    levels: Vec<Level>,
+    scene: &Scene,
+    backend: Backend,
+    results: &Results,
+    extent: Extent,
+    observer: &mut dyn Observer,
+) -> Accuracy {
     let start = Instant::now();
     let mut out = Accuracy::default();
     let quantities = quantities(results);
@@ -63,7 +77,6 @@ pub fn estimate(
         out.notes
             .push("the run is incomplete: no error is estimated".to_string());
     } else {
-        let levels = companions(scene, results.sizes.elements);
         let n = levels.len();
         for (i, level) in levels.into_iter().enumerate() {
             if observer.stop_requested() {
@@ -75,6 +88,7 @@ pub fn estimate(
             let begun = Instant::now();
             match run(&level.scene, backend, extent, observer) {
                 Ok(found) => {
+                    out.work += work(&found);
                     out.companions.push(Companion {
                         ratio: level.ratio,
                         freedoms: found.sizes.freedoms,
@@ -125,6 +139,7 @@ pub fn estimate(
     } else {
         PathErrors::Unknown
     };
+    out.work += path.work();
     for quantity in &quantities {
         let mut values = vec![(1.0, quantity.value)];
         values.extend(
@@ -188,8 +203,18 @@ fn algebraic_error(results: &Results, path: &str) -> f64 {
     worst.max(smallest_pivot_ratio(results.sizes.freedoms))
 }
 
-/// Runs a scene without fields. An incomplete run is an error.
+/// Runs a scene without fields, telling nothing of it. An incomplete run is an error.
 pub(super) fn run(
+    scene: &Scene,
+    backend: Backend,
+    extent: Extent,
+    observer: &mut dyn Observer,
+) -> Result<Results> {
+    run_observed(scene, backend, extent, &mut Quiet(observer))
+}
+
+/// Runs a scene without fields. An incomplete run is an error.
+pub(super) fn run_observed(
     scene: &Scene,
     backend: Backend,
     extent: Extent,
@@ -200,10 +225,9 @@ pub(super) fn run(
         target.fields = false;
     }
     let mut analysis = Analysis::new(Model::new(&bare)?, backend)?;
-    let mut quiet = Quiet(observer);
     let results = match extent {
-        Extent::Yield => analysis.yield_load(&mut quiet)?,
-        Extent::Program => analysis.run(&mut quiet)?,
+        Extent::Yield => analysis.yield_load(observer)?,
+        Extent::Program => analysis.run(observer)?,
     };
     match &results.incomplete {
         None => Ok(results),

@@ -7,7 +7,8 @@
 //! | `extrapolation` | the error of a value from those on other meshes |
 //! | `estimate` | discretisation, path and algebraic error of every quantity of a run |
 //! | `path` | the error of increments and tolerances |
-//! | `demand` | the cheapest settings that reach a demanded accuracy |
+//! | `demand`, `refusal` | the cheapest settings that reach a demanded accuracy; what cannot be reached |
+//! | `grading`, `pilot` | resolution where it counts: which part of a mesh the errors come from |
 //! | `knobs`, `meter`, `study`, `verdict` | a study: what to turn, what it takes, the runs, what they say |
 //!
 //! Three errors stand beside each other:
@@ -26,11 +27,14 @@
 mod demand;
 mod estimate;
 mod extrapolation;
+mod grading;
 mod knobs;
 mod meter;
 mod path;
+mod pilot;
 mod quantities;
 mod refinement;
+mod refusal;
 mod study;
 mod verdict;
 
@@ -38,8 +42,8 @@ pub use demand::{Reached, reach};
 pub use estimate::{Extent, SAFETY, estimate};
 pub use extrapolation::{Extrapolation, extrapolate};
 pub use knobs::{Knob, Setting, settings};
-pub use meter::{Forecast, Meter, Pace, Usage, available_memory, forecast};
+pub use meter::{Forecast, Meter, Pace, PhaseUsage, Usage, available_memory, forecast, work};
 pub use quantities::{Quantity, quantities, value_of};
-pub use refinement::{Level, companions, largest_order, refined};
-pub use study::{Plan, Study, StudyRun, study};
+pub use refinement::{Level, coarser, companions, largest_order, refined};
+pub use study::{Grading, Plan, Study, StudyRun, study};
 pub use verdict::{Price, QuantityStudy, StudyReference, foremost, judge};

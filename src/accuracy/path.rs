@@ -14,6 +14,7 @@
 //! where they are near round-off (the difference is the error times [`FACTOR`]).
 
 use super::estimate::{Extent, run};
+use super::meter::work;
 use super::quantities::{Quantity, quantities, value_of};
 use crate::linalg::Backend;
 use crate::progress::Observer;
@@ -35,8 +36,8 @@ pub(super) enum PathErrors {
     Unknown,
     /// The path is exact.
     None,
-    /// By quantity.
-    Estimated(BTreeMap<String, f64>),
+    /// By quantity, and the floating point operations of the runs that were made for them.
+    Estimated(BTreeMap<String, f64>, f64),
 }
 
 impl PathErrors {
@@ -45,7 +46,15 @@ impl PathErrors {
         match self {
             PathErrors::Unknown => None,
             PathErrors::None => Some(0.0),
-            PathErrors::Estimated(errors) => errors.get(path).copied(),
+            PathErrors::Estimated(errors, _) => errors.get(path).copied(),
+        }
+    }
+
+    /// Floating point operations of the runs that were made for them.
+    pub(super) fn work(&self) -> f64 {
+        match self {
+            PathErrors::Estimated(_, work) => *work,
+            _ => 0.0,
         }
     }
 }
@@ -84,6 +93,7 @@ pub(super) fn errors(
     notes: &mut Vec<String>,
 ) -> PathErrors {
     let mut out = BTreeMap::new();
+    let mut spent = 0.0;
     let tolerances = with_other_tolerances(base.scene);
     let increments = with_more_increments(base.scene, base.results);
     let grown = base.results.history.len() as f64 / results.history.len().max(1) as f64;
@@ -97,13 +107,16 @@ pub(super) fn errors(
         }
         observer.phase(&format!("error estimate: other {what}"));
         match run(&scene, backend, Extent::Program, observer) {
-            Ok(found) => base.add(&found, share, &mut out),
+            Ok(found) => {
+                spent += work(&found);
+                base.add(&found, share, &mut out);
+            }
             Err(error) => notes.push(format!(
                 "the run with other {what} failed, so that the error of the path lacks them: {error}"
             )),
         }
     }
-    PathErrors::Estimated(out)
+    PathErrors::Estimated(out, spent)
 }
 
 /// The scene with other tolerances, and what share of the difference is their error.

@@ -17,6 +17,8 @@ const CONTACT_OF_QUARTER: f64 = 19.625 / 90.0;
 const DISTORTION: f64 = 0.2;
 /// Least change of the element size that makes another level of it.
 const LEAST_CHANGE: f64 = 1.15;
+/// Greatest growth the generators take.
+pub(super) const MOST_GROWTH: f64 = 100.0;
 /// Distance between a piece's end and a node, in elements, up to which they coincide.
 const ON_NODE: f64 = 1e-6;
 /// Elements over what governs the result that a coarser mesh must have to tell the error of a finer one: below, the errors of the
@@ -33,6 +35,15 @@ const COARSER: [f64; 6] = [
     1.0 / 4.0,
     3.0 / 4.0,
     1.0 / 3.0,
+];
+/// Coarser ones near the run.
+const NEAR: [f64; 6] = [
+    2.0 / 3.0,
+    1.0 / 2.0,
+    3.0 / 4.0,
+    5.0 / 8.0,
+    3.0 / 8.0,
+    1.0 / 4.0,
 ];
 /// One coarser and one finer.
 const BRACKET: [f64; 5] = [2.0 / 3.0, 3.0 / 2.0, 3.0 / 4.0, 5.0 / 4.0, 2.0];
@@ -65,12 +76,14 @@ pub fn refined(scene: &Scene, factor: f64) -> Option<Level> {
         let ratio = p.resolution as f64 / n as f64;
         p.resolution = n;
         p.growth = p.growth.powf(ratio);
+        p.far_growth = p.far_growth.map(|g| g.powf(ratio).min(MOST_GROWTH));
         ratio
     } else if let Some(p) = &mut out.mesh.disc_in_plate {
         let n = count(p.resolution, 2);
         let ratio = p.resolution as f64 / n as f64;
         p.resolution = n;
         p.growth = p.growth.powf(ratio);
+        p.far_growth = p.far_growth.map(|g| g.powf(ratio).min(MOST_GROWTH));
         ratio
     } else if let Some(parts) = &mut out.mesh.parts {
         let mut ratios = Vec::new();
@@ -140,6 +153,20 @@ pub fn companions(scene: &Scene, elements: usize) -> Vec<Level> {
             _ => &[],
         },
     };
+    chosen(scene, wanted)
+}
+
+/// The two coarser meshes nearest to those that tell most; fewer where the family has not that many.
+pub fn coarser(scene: &Scene) -> Vec<Level> {
+    match governing_count(&scene.mesh) {
+        Some(n) if n * COARSER[1] >= FEWEST => chosen(scene, &COARSER),
+        Some(_) => chosen(scene, &NEAR),
+        None => chosen(scene, &[0.5, 0.25]),
+    }
+}
+
+/// The first two of the wanted meshes that can be made and differ enough, finer one first.
+fn chosen(scene: &Scene, wanted: &[f64]) -> Vec<Level> {
     let mut levels: Vec<Level> = Vec::new();
     for &factor in wanted {
         let Some(level) = refined(scene, factor) else {

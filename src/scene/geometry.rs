@@ -80,6 +80,9 @@ pub struct CylinderOnHalfPlane {
     /// Ratio of neighbouring element sizes outside the even region.
     #[serde(default = "super::defaults::growth")]
     pub growth: f64,
+    /// Ratio of neighbouring element sizes at the far end: from `growth` on, its logarithm rises to that of this one with a power of
+    /// the distance. What happens far away matters less to the contact, so that elements may grow ever faster; default as `growth`.
+    pub far_growth: Option<f64>,
     /// Element shape.
     #[serde(default = "super::defaults::shape")]
     pub element: Shape,
@@ -105,6 +108,9 @@ pub struct DiscInPlate {
     /// Ratio of neighbouring radial element sizes in the plate.
     #[serde(default = "super::defaults::disc_growth")]
     pub growth: f64,
+    /// Ratio of neighbouring element sizes at the far end: from `growth` on, its logarithm rises to that of this one with a power of
+    /// the distance. What happens far away matters less to the contact, so that elements may grow ever faster; default as `growth`.
+    pub far_growth: Option<f64>,
     /// Element shape.
     #[serde(default = "super::defaults::shape")]
     pub element: Shape,

@@ -9,4 +9,5 @@ mod effectivity;
 mod file_mesh;
 mod indicator;
 mod parts;
+mod price;
 mod study;

@@ -129,6 +129,7 @@ fn nodes_that_face_each_other_have_new_ones_that_do() {
             fine_depth: 2.0,
             far_size: 10.0,
             growth: 1.3,
+            far_growth: None,
             element: shape,
         };
         let mut mesh = generate::cylinder_on_half_plane(&parameters, 0.5).unwrap();

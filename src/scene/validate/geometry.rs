@@ -75,6 +75,9 @@ impl Checks {
         self.at_least(key("fine_width"), parameters.fine_width, 1.0);
         self.positive(key("fine_depth"), parameters.fine_depth);
         self.at_least(key("growth"), parameters.growth, 1.0);
+        if let Some(far) = parameters.far_growth {
+            self.at_least(key("far_growth"), far, parameters.growth);
+        }
         let fine = parameters.fine_width.max(parameters.fine_depth);
         self.require(
             parameters.far_size > fine,
@@ -125,6 +128,9 @@ impl Checks {
             ),
         );
         self.at_least(key("growth"), parameters.growth, 1.0);
+        if let Some(far) = parameters.far_growth {
+            self.at_least(key("far_growth"), far, parameters.growth);
+        }
         self.require(
             parameters.interference.abs() < parameters.radius,
             key("interference"),
