@@ -8,8 +8,14 @@ use nalgebra::{DMatrix, DVector};
 
 /// Terms of the polynomials that are tried: cubic, quadratic, linear, constant.
 const TERMS: [usize; 4] = [10, 6, 3, 1];
-/// Reach of the weights in element sizes.
-pub const REACH: f64 = 3.25;
+/// Reach of the weights in distances between samples.
+const REACH: f64 = 3.25;
+
+/// Reach of the weights in sizes of an element with `n` samples: elements with more of them need fewer neighbours, and a fit over
+/// less of the field is closer to it (at a bore the error of the cubic falls with the fourth power of the reach).
+pub fn reach(n: usize) -> f64 {
+    REACH / (n as f64).sqrt()
+}
 
 /// Samples around an element, in coordinates relative to it and scaled by its size.
 #[derive(Debug, Clone)]
@@ -18,6 +24,8 @@ pub struct Patch {
     pub center: [f64; 2],
     /// Its extents.
     pub scale: [f64; 2],
+    /// Reach of the weights in element sizes.
+    pub reach: f64,
     /// The samples.
     pub samples: Vec<Sample>,
 }
@@ -55,7 +63,7 @@ impl Patch {
         for sample in &self.samples {
             let position = sample.position;
             let (dx, dy) = (position[0] - x[0], position[1] - x[1]);
-            let distance = (dx * dx + dy * dy) / (REACH * REACH);
+            let distance = (dx * dx + dy * dy) / (self.reach * self.reach);
             if distance >= 1.0 && n > 1 {
                 continue;
             }

@@ -12,7 +12,7 @@
 
 use super::gather::{GatheredElements, Nodal, Places};
 use super::mirror::{self, Reflection, mirrors};
-use super::patch::{Patch, REACH, Sample};
+use super::patch::{Patch, Sample, reach};
 use crate::assembly::sampling_points_of;
 use crate::element::shape_functions;
 use crate::material::{Material, Matrix4, stress, von_mises};
@@ -326,11 +326,12 @@ impl Recovery {
         let mut mirrors = mirrors(model, &self.loaded, &elements);
         // A plane with the body on both sides is none of its boundary.
         mirrors.retain(|m| own.iter().all(|&i| m.beyond(self.positions[i]) < 0.0));
+        let reach = reach(self.elements.list[i].n_points as usize);
         let mut samples: Vec<Sample> = Vec::new();
         let mut add = |index: usize, at: [f64; 2], reflection: Option<Reflection>| {
             let position: [f64; 2] = std::array::from_fn(|d| (at[d] - center[d]) / scale[d]);
             // Images are kept as far as a weight reaches from a point of the element.
-            if reflection.is_none() || position[0].hypot(position[1]) < REACH + 1.0 {
+            if reflection.is_none() || position[0].hypot(position[1]) < reach + 1.0 {
                 samples.push(Sample {
                     index: index as u32,
                     position,
@@ -353,6 +354,7 @@ impl Recovery {
         Patch {
             center,
             scale,
+            reach,
             samples,
         }
     }
