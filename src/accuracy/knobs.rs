@@ -3,7 +3,7 @@
 //! A study turns one knob at a time from the scene's own settings, but for the mesh, which is refined with every element shape
 //! and once more with loose tolerances: work and precision both come from the mesh first.
 
-use super::refinement::{governing_count, refined};
+use super::refinement::{factors, governing_count, refined};
 use crate::error::{Error, Result};
 use crate::linalg::Backend;
 use crate::mesh::Shape;
@@ -111,8 +111,10 @@ pub fn settings(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) 
     let name = |shape: Option<Shape>| shape.map_or("mesh", shape_name);
     let meshes =
         |scene: &Scene, knob: Knob, series: &str, finest: usize, out: &mut Vec<Setting>| {
-            for level in finest..levels.max(1) {
-                let factor = FINEST / STEP.powi(level as i32);
+            for factor in factors(scene, FINEST, STEP, levels)
+                .into_iter()
+                .skip(finest)
+            {
                 // The scene itself belongs to every series, file or not.
                 let made = match (factor - 1.0).abs() < 1e-9 {
                     true => Some((scene.clone(), 1.0)),
@@ -322,7 +324,10 @@ pub(super) fn resolution(scene: &Scene, ratio: f64) -> String {
             .collect();
         format!("elements {}", counts.join(", "))
     } else {
-        format!("element size {ratio:.3}")
+        format!(
+            "subdivisions {}, element size {ratio:.3}",
+            mesh.subdivisions
+        )
     }
 }
 
