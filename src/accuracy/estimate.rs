@@ -29,6 +29,9 @@ const SMOOTH_ORDER: f64 = 4.0;
 /// meshes of a smooth solution and his 3 for two: contact edges are not smooth.
 pub const SAFETY: f64 = 2.0;
 
+/// Ratio of the largest to the smallest element size from which on two orders are told apart: nearer meshes would magnify their scatter.
+const SPREAD: f64 = 2.0;
+
 /// How far a run went.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
@@ -164,7 +167,8 @@ pub(super) fn estimate_on(
                     false => largest_order(scene),
                 };
                 let found = extrapolate(&values, [LOWEST_ORDER, highest]);
-                let edge = of_edge(&values).filter(|_| quantity.path.ends_with(".half_width"));
+                let edge = of_edge(&values)
+                    .filter(|_| quantity.path.ends_with(".half_width") && spread(&values));
                 (
                     found.map(|f| edge.map_or(f.error, |e| e.max(f.error))),
                     found.and_then(|f| f.order),
@@ -191,6 +195,13 @@ pub(super) fn estimate_on(
     }
     out.seconds = start.elapsed().as_secs_f64();
     out
+}
+
+/// Whether the meshes lie so far apart that two orders can be told from their scatter.
+fn spread(values: &[(f64, f64)]) -> bool {
+    let sizes = values.iter().map(|v| v.0);
+    let (least, most) = sizes.fold((f64::INFINITY, 0.0f64), |(a, b), h| (a.min(h), b.max(h)));
+    most >= SPREAD * least
 }
 
 /// The state that a quantity belongs to; none for first yield.

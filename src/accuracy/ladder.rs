@@ -11,11 +11,11 @@ use crate::results::Results;
 use crate::scene::Scene;
 
 /// Node spacings over what governs in the lowest run that is judged, by one rung below it.
-pub(super) const PILOT: f64 = 1.2 * FEWEST;
+pub(super) const PILOT: f64 = 1.4 * FEWEST;
 /// From so many spacings on rungs far apart tell more than near ones, and with less than so many one rung has to do: a contact edge
 /// cannot be read off fewer than [`FEWEST`].
 const FINE: f64 = 13.0;
-const COARSE: f64 = 7.5;
+const COARSE: f64 = 8.0;
 /// Least change of the element size from rung to rung.
 const LEAST_CHANGE: f64 = 1.1;
 /// A rung that was run already serves where its elements are so many times larger.
@@ -74,7 +74,7 @@ impl Ladder {
         let (most, factors) = match count {
             n if n >= FINE => (2, [1.0 / 2.0, 3.0 / 8.0, 2.0 / 3.0, 1.0 / 4.0]),
             n if n >= COARSE => (2, [2.0 / 3.0, 5.0 / 9.0, 1.0 / 2.0, 3.0 / 4.0]),
-            _ => (1, [5.0 / 6.0, 2.0 / 3.0, 1.0 / 2.0, 1.0 / 3.0]),
+            _ => (1, [6.0 / 7.0, 2.0 / 3.0, 1.0 / 2.0, 1.0 / 3.0]),
         };
         let mut out: Vec<Level> = Vec::new();
         let others = factors.into_iter().filter_map(|f| refined(scene, f));
@@ -133,7 +133,12 @@ mod tests {
 
     #[test]
     fn rungs_come_nearer_towards_the_foot() {
-        for (n, wanted) in [(6, vec![5]), (9, vec![6, 5]), (16, vec![8, 6])] {
+        for (n, wanted) in [
+            (7, vec![6]),
+            (9, vec![6, 5]),
+            (12, vec![8, 7]),
+            (16, vec![8, 6]),
+        ] {
             assert_eq!(resolutions(&Ladder::default().rungs(&cylinder(n))), wanted);
         }
     }

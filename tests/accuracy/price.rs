@@ -1,5 +1,9 @@
 //! What `accuracy = x` costs beside the cheapest setting that a user could have picked by hand, and graded meshes beside uniform ones:
 //! in floating point operations, which no busy machine disturbs.
+//!
+//! Not every demand keeps to twice the cheapest. The hand knows the true error and needs one run; the program states twice an estimate and
+//! needs a coarser run to make it. Where a coarse mesh happens to lie just within the demand (Hertz line at 1 %: 0.6 %) or an estimate
+//! scatters (the half width in the disc's hole), that is several times as much. The bounds hold what was measured, with a third to spare.
 
 use crate::running;
 use brinell::accuracy::{Extent, Knob, Plan, Study, StudyRun, reach, study};
@@ -42,8 +46,8 @@ fn cases() -> Vec<Case> {
                 "mesh.cylinder_on_half_plane.far_size=20000.0",
             ),
             quantities: CONTACT,
-            demands: &[(0.1, 9e9), (0.03, 9e9), (0.01, 9e9), (0.003, 9e9)],
-            graded: 1.0,
+            demands: &[(0.1, 2.0), (0.03, 2.0), (0.01, 10.0), (0.003, 6.0)],
+            graded: 0.75,
         },
         Case {
             name: "Hertz point",
@@ -52,8 +56,8 @@ fn cases() -> Vec<Case> {
                 "mesh.cylinder_on_half_plane.far_size=2000.0",
             ),
             quantities: CONTACT,
-            demands: &[(0.1, 9e9), (0.03, 9e9), (0.01, 9e9)],
-            graded: 0.6,
+            demands: &[(0.1, 2.7), (0.03, 5.3), (0.01, 2.0)],
+            graded: 0.4,
         },
         Case {
             name: "disc in a plate",
@@ -66,14 +70,14 @@ fn cases() -> Vec<Case> {
                 ],
             ),
             quantities: &["yield.load", "yield.half_width"],
-            demands: &[(0.1, 9e9), (0.03, 9e9), (0.01, 9e9)],
-            graded: 1.0,
+            demands: &[(0.1, 12.0), (0.03, 83.0), (0.01, 2.0)],
+            graded: 0.75,
         },
         Case {
             name: "thick cylinder",
             scene: running::load("thick_cylinder", &[yielding]),
             quantities: &["yield.alpha"],
-            demands: &[(0.1, 9e9), (0.03, 9e9), (0.01, 9e9), (0.003, 9e9)],
+            demands: &[(0.1, 2.0), (0.03, 2.0), (0.01, 3.3), (0.003, 5.7)],
             graded: 1.3,
         },
     ]
