@@ -10,6 +10,7 @@
 //!     report_NAME.svg       its figures
 //!     scene_as_run.toml     the scene with all that was put over it   (record)
 //!     mesh_as_run.msh       its mesh, where the scene does not make it
+//!     model_as_run.json     in place of both: a model that was handed over in arrays
 //! ```
 //!
 //! [`read()`] takes a directory back, [`write_report`] makes its report anew.
@@ -33,6 +34,7 @@ pub(crate) mod number;
 mod read;
 mod record;
 mod report;
+pub(crate) mod rows;
 pub(crate) mod stated_errors;
 mod study;
 mod summary;
@@ -224,6 +226,7 @@ fn is_result_file(name: &OsStr) -> bool {
             report::REPORT_FILE,
             record::SCENE_FILE,
             record::MESH_FILE,
+            record::MODEL_FILE,
         ]
         .contains(&name)
             || (name.starts_with(fields::FILE_PREFIX) && name.ends_with(fields::FILE_SUFFIX))
