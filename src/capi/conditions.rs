@@ -188,7 +188,8 @@ pub unsafe extern "C" fn brinell_model_contact(
             let unless_null = |is_null: bool| if is_null { 0 } else { n };
             let normals = rows(given.normals, unless_null(given.normals.is_null()), "")?;
             let gaps = slice(given.gaps, unless_null(given.gaps.is_null()), "")?;
-            let node = |k: usize, nodes: &[i64]| m.builder.node(|| format!("pair {k}: one"), nodes[k]);
+            let node =
+                |k: usize, nodes: &[i64]| m.builder.node(|| format!("pair {k}: one"), nodes[k]);
             let pairs = (0..n).map(|k| {
                 Ok(NodePair {
                     first: node(k, first)?,

@@ -115,8 +115,7 @@ fn sort_and_add(columns: &mut [i64], rows: &mut Vec<i64>, values: &mut Vec<f64>)
         let own = begin..columns[column] as usize;
         begin = own.end;
         if !rows[own.clone()].is_sorted() {
-            let mut entries: Vec<(i64, f64)> =
-                own.clone().map(|k| (rows[k], values[k])).collect();
+            let mut entries: Vec<(i64, f64)> = own.clone().map(|k| (rows[k], values[k])).collect();
             entries.sort_by_key(|entry| entry.0);
             for (k, entry) in own.clone().zip(entries) {
                 (rows[k], values[k]) = entry;
@@ -181,7 +180,11 @@ fn check_starts<I: Index>(
         && starts.windows(2).all(|p| place(&p[0]) <= place(&p[1]))
         && starts.iter().all(|begin| place(begin).is_some());
     let end = starts.last().and_then(place);
-    if starts.len().checked_sub(1) != Some(n) || !rising || end != Some(indices) || indices != values {
+    if starts.len().checked_sub(1) != Some(n)
+        || !rising
+        || end != Some(indices)
+        || indices != values
+    {
         let say = |begin: Option<&I>| begin.map_or("none".to_string(), I::to_string);
         return Err(Error::input(format!(
             "the begins of {n} {what}s must be one number more, begin with 0, not fall and end with the number of entries: {} were \
@@ -196,8 +199,7 @@ fn check_starts<I: Index>(
 }
 
 fn index(value: impl Index, below: usize, what: &str) -> Result<usize> {
-    (value.below(below))
-        .ok_or_else(|| Error::input(format!("{what} {value} is not in 0..{below}")))
+    (value.below(below)).ok_or_else(|| Error::input(format!("{what} {value} is not in 0..{below}")))
 }
 
 /// Rows and gaps that fit each other and the freedoms.

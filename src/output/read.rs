@@ -296,7 +296,7 @@ fn history(rows: &Rows) -> Result<Vec<HistoryRow>> {
             })
         })
         .collect()
-    }
+}
 
 /// The pairs, each with the index of its state.
 fn pairs(rows: &Rows, model: &Model) -> Result<Vec<(usize, PairState)>> {
@@ -329,4 +329,4 @@ fn pairs(rows: &Rows, model: &Model) -> Result<Vec<(usize, PairState)>> {
             Ok((state - 1, pair))
         })
         .collect()
-    }
+}

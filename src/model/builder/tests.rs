@@ -205,11 +205,7 @@ fn bad_sets_and_surfaces_are_refused_by_index() {
         &["entry 1", "88", "8 nodes"],
     );
     refused(b().node_set("left", &[1]).map(drop), Input, &["already"]);
-    refused(
-        b().surface("left", [(0, 0)]).map(drop),
-        Input,
-        &["already"],
-    );
+    refused(b().surface("left", [(0, 0)]).map(drop), Input, &["already"]);
     refused(b().surface("s", [(0, 0); 0]).map(drop), Input, &["`s`"]);
     refused(
         b().surface("s", [(0, 0), (7, 0)]).map(drop),
