@@ -302,10 +302,7 @@ fn gaps_that_are_kept_stay_those_of_their_state() {
     assert!(std::ptr::eq(pressed.0.as_slice(), spring.gaps()));
     spring.start(&[-3.0]).unwrap();
     while !spring.step(1.0).unwrap().changes.is_empty() {}
-    assert_eq!(spring.gaps(), [1.0]);
-    assert_eq!(
-        (&without_load[..], &pressed.0[..]),
-        (&[1.0][..], &[0.0][..])
-    );
-    assert_eq!(pressed.1[..], [2.0]);
+    let close = |values: &[f64], expected: f64| (values[0] - expected).abs() < 1e-14;
+    assert!(close(spring.gaps(), 1.0) && close(&without_load, 1.0));
+    assert!(close(&pressed.0, 0.0) && close(&pressed.1, 2.0));
 }

@@ -120,8 +120,20 @@ impl RunHeader {
 /// [`crate::ErrorKind::Internal`] where the fields of a state do not fit the mesh. After an error `dir` is as
 /// it was and nothing is left beside it.
 pub fn write(dir: &Path, header: &RunHeader, mesh: &Mesh, results: &Results) -> Result<()> {
+    write_with(dir, header, mesh, results, |_| Ok(()))
+}
+
+/// Writes tables and fields and what `more` adds, all or nothing.
+fn write_with(
+    dir: &Path,
+    header: &RunHeader,
+    mesh: &Mesh,
+    results: &Results,
+    more: impl FnOnce(&Staging) -> Result<()>,
+) -> Result<()> {
     let staging = Staging::new(dir)?;
     write_tables_and_fields(&staging, header, mesh, results)?;
+    more(&staging)?;
     staging.publish(is_result_file)
 }
 
@@ -135,10 +147,9 @@ pub fn write_without_report(
     model: &Model,
     results: &Results,
 ) -> Result<()> {
-    let staging = Staging::new(dir)?;
-    write_tables_and_fields(&staging, header, &model.mesh, results)?;
-    record::write(&staging, model)?;
-    staging.publish(is_result_file)
+    write_with(dir, header, &model.mesh, results, |staging| {
+        record::write(staging, model)
+    })
 }
 
 /// As [`write_without_report`], with `report.html` and the figures of the report as SVG files.
@@ -151,13 +162,13 @@ pub fn write_with_report(
     model: &Model,
     results: &Results,
 ) -> Result<()> {
-    let staging = Staging::new(dir)?;
-    write_tables_and_fields(&staging, header, &model.mesh, results)?;
-    record::write(&staging, model)?;
-    for (name, text) in report::files(header, model, results)? {
-        staging.file(&name, |out| out.write_all(text.as_bytes()))?;
-    }
-    staging.publish(is_result_file)
+    write_with(dir, header, &model.mesh, results, |staging| {
+        record::write(staging, model)?;
+        for (name, text) in report::files(header, model, results)? {
+            staging.file(&name, |out| out.write_all(text.as_bytes()))?;
+        }
+        Ok(())
+    })
 }
 
 /// Makes the report of a result directory anew: `report.html` and its figures, each put in its place whole. Figures of an
