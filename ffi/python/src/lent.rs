@@ -98,7 +98,11 @@ where
     let base = keep(py, owner)?;
     // SAFETY: as in `lent`; what is checked above is that each row has a `T` at `offset`.
     let array = unsafe {
-        let first = rows.as_ptr().cast::<u8>().wrapping_add(offset).cast::<T::Seen>();
+        let first = rows
+            .as_ptr()
+            .cast::<u8>()
+            .wrapping_add(offset)
+            .cast::<T::Seen>();
         let shape = rows.len().strides(stride / size);
         PyArray1::borrow_from_array(&ArrayView1::from_shape_ptr(shape, first), base)
     };

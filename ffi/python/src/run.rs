@@ -2,8 +2,8 @@
 
 use crate::arrays::backend;
 use crate::errors::{Raise, exception, wrong};
-use crate::observer::Watcher;
 use crate::lent::{lent, read_only};
+use crate::observer::Watcher;
 use crate::tables;
 use brinell::accuracy::{self, Extent};
 use brinell::analysis::Analysis;
@@ -367,7 +367,8 @@ impl State {
     fn __repr__(&self) -> String {
         format!(
             "<brinell.State {:?}: alpha {}>",
-            self.state().name, self.state().alpha
+            self.state().name,
+            self.state().alpha
         )
     }
 }
