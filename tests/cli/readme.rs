@@ -71,29 +71,31 @@ fn the_bearing_ball_dents_its_race_as_the_table_says() {
     }
 }
 
-/// The worked example is the scene of the repository: all its lines, in its order.
+/// Whether all that `part` says stands in `whole`; entries of a list may be left out.
+fn holds(whole: &toml::Value, part: &toml::Value) -> bool {
+    use toml::Value::{Array, Table};
+    match (whole, part) {
+        (Table(whole), Table(part)) => part
+            .iter()
+            .all(|(key, value)| whole.get(key).is_some_and(|w| holds(w, value))),
+        (Array(whole), Array(part)) => part.iter().all(|p| whole.iter().any(|w| holds(w, p))),
+        _ => whole == part,
+    }
+}
+
+/// The worked example says what the scene of the repository says.
 #[test]
 fn the_worked_example_is_the_scene() {
     let text = section("A worked example");
     let block = text.split("```toml\n").nth(1).unwrap();
-    let block = block.split("```").next().unwrap();
-    let plain = |line: &str| {
-        let line = line.split(" #").next().unwrap_or(line).trim();
-        let words: Vec<&str> = line.split_whitespace().collect();
-        words.join(" ")
-    };
-    let scene =
-        std::fs::read_to_string(format!("{ROOT}/data/scenes/cylinder_on_half_plane.toml")).unwrap();
-    let scene: Vec<String> = scene.lines().map(plain).collect();
-    let mut from = 0;
-    for line in block.lines().map(plain) {
-        if line.is_empty() || line.starts_with('#') || line.starts_with("targets") {
-            continue;
-        }
-        let place = scene[from..].iter().position(|l| *l == line);
-        from += 1 + place.unwrap_or_else(|| panic!("the scene has no {line:?} there"));
+    let block: toml::Value = toml::from_str(block.split("```").next().unwrap()).unwrap();
+    let path = format!("{ROOT}/data/scenes/cylinder_on_half_plane.toml");
+    let scene: toml::Value = toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    for (key, value) in block.as_table().unwrap() {
+        assert!(holds(&scene[key], value), "{key}: {value}");
     }
-    assert!(from > 10);
+    let different = toml::from_str("steel = { yield_stress = 501.0 }").unwrap();
+    assert!(!holds(&scene["materials"], &different));
 }
 
 /// Without features nothing in another language is compiled or linked.
