@@ -111,6 +111,7 @@ impl<'m, 'o> Run<'m, 'o> {
         Ok(Run {
             recovery: None,
             choice: Choice { elements, guard },
+            at_yield: None,
             spread,
             observer,
             plastic: record.plastic,

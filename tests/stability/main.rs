@@ -11,6 +11,7 @@ mod killed;
 mod numbers;
 mod quality;
 mod receding;
+mod refinement;
 #[path = "../running/mod.rs"]
 mod running;
 mod selftest;
