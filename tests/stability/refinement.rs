@@ -129,6 +129,10 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
     largest(a.iter().zip(b).map(|(a, b)| a - b)) / largest(a.iter().copied())
 }
 
+/// Other codes refine and believe the digits gained. The entries of an assembled stiffness are sums of rounded element stiffnesses, and a sum in another
+/// order is another matrix: its exact solution is as far off as the plain one is from the refined one (measured: 0.2 to 3 times), so that a
+/// residual in twice the precision makes displacements exact for a matrix that is not. Scenes therefore stop at the residual in working precision;
+/// `ConstrainedStructure`, whose matrix is the caller's own, refines to the last digit.
 #[test]
 fn twice_the_precision_is_lost_on_a_stiffness_of_rounded_sums() {
     let block = Rectangle {
@@ -184,11 +188,18 @@ fn twice_the_precision_is_lost_on_a_stiffness_of_rounded_sums() {
     ];
     for (name, case) in cases {
         let [a, b] = [false, true].map(|descending| solve(&case.model(descending)));
-        println!(
-            "{name}: condition {:.1e}, plain to refined {:.1e}, refined of two sums {:.1e}",
-            a.condition,
-            apart(&a.plain, &a.refined),
-            apart(&a.refined, &b.refined)
+        let (gained, rounding) = (apart(&a.plain, &a.refined), apart(&a.refined, &b.refined));
+        assert!(
+            gained <= 10.0 * rounding.max(f64::EPSILON),
+            "{name}: refinement moves by {gained:e}, another order of the sums by {rounding:e}"
         );
+        // The bad ones are bad: otherwise nothing would have been shown.
+        if name != "ratio" {
+            assert!(
+                a.condition > 1e5 && gained > 1e-13,
+                "{name}: {:e}",
+                a.condition
+            );
+        }
     }
 }
