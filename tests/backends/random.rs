@@ -152,7 +152,8 @@ impl Stack {
                 self.pressure
             )),
         }
-        say("[program]\ngamma = 1e-12".into());
+        // Forces balance better than the agreement asked for: two roundings of an increment may stop at different iterates.
+        say("[analysis]\ntolerance = 1e-12\n[program]\ngamma = 1e-12".into());
         if let Some(steps) = self.steps {
             say(format!("stepping = \"steps\"\nsteps = {steps}"));
         }

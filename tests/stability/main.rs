@@ -9,6 +9,7 @@ mod held_by_contact;
 mod incompressible;
 mod killed;
 mod numbers;
+mod peers;
 mod quality;
 mod receding;
 mod refinement;
