@@ -36,6 +36,10 @@ pub fn both(scene: &Scene) -> Option<Results> {
     }
 }
 
+/// An event lies where a force or gap crosses zero: its place, and all figures there, are off by their round-off over the slope, which may be small. (Once
+/// in 11,000 random scenes beyond 1e-10: 3e-10.) The states at the targets know nothing of it.
+const ON_THE_WAY: f64 = 1e-8;
+
 type Column = (&'static str, fn(&HistoryRow) -> f64);
 const COLUMNS: [Column; 6] = [
     ("alpha", |r| r.alpha),
@@ -102,7 +106,7 @@ fn agree_on_the_way(a: &Results, b: &Results, force: f64) {
                 continue;
             }
             let what = format!("{name} of increment {}", row.increment);
-            close(&what, value(row), value(other), scale, AGREEMENT);
+            close(&what, value(row), value(other), scale, ON_THE_WAY);
             assert!(
                 untouched || row.closed_pairs == other.closed_pairs,
                 "{what}"

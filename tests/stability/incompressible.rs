@@ -48,6 +48,7 @@ fn limit_loads_of_a_sphere() {
             let set = [
                 format!("mesh.parts.0.element={shape}"),
                 format!("materials.steel.poissons_ratio={nu}"),
+                "mesh.parts.0.ring.elements=[12,4]".to_string(),
                 "program.targets=[{ load_factor = 300.0 }, { load_factor = 345.0 }]".to_string(),
             ];
             let set: Vec<&str> = set.iter().map(String::as_str).collect();
