@@ -1,5 +1,5 @@
 //! Finds what CHOLMOD needs and writes the bindings that `suitesparse_sys` does not have: the
-//! configuration functions of OpenBLAS (`ffi/openblas.h`).
+//! configuration functions of OpenBLAS (`ffi/openblas.h`) and of the OpenMP runtime (`ffi/openmp.h`).
 //!
 //! `OPENBLAS_LIBRARY_DIR` names another place for it than the usual ones. SuiteSparse itself is found by
 //! `suitesparse_sys`, whose build comes before this one.
@@ -7,7 +7,9 @@
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");
     println!("cargo:rerun-if-changed=ffi/openblas.h");
+    println!("cargo:rerun-if-changed=ffi/openmp.h");
     println!("cargo:rustc-check-cfg=cfg(openblas)");
+    println!("cargo:rustc-check-cfg=cfg(openmp)");
     #[cfg(feature = "cholmod")]
     if let Err(message) = native::configure() {
         eprintln!("error: {message}");
@@ -18,7 +20,8 @@ fn main() {
 #[cfg(feature = "cholmod")]
 mod native {
     use std::env;
-    use std::path::PathBuf;
+    use std::path::{Path, PathBuf};
+    use std::process::Command;
 
     /// What to install, in the words of the reader's package manager.
     const REMEDY: &str = "install SuiteSparse, OpenBLAS and libclang (Debian, Ubuntu: `apt-get install \
@@ -27,7 +30,8 @@ mod native {
 
     pub fn configure() -> Result<(), String> {
         println!("cargo:rerun-if-env-changed=OPENBLAS_LIBRARY_DIR");
-        write_openblas_bindings()?;
+        write_bindings("openblas", "openblas_.*")?;
+        write_bindings("openmp", "omp_.*")?;
         match openblas_directory() {
             Some(directory) => {
                 // Linked directly it comes before the libblas that CHOLMOD asks for, so its
@@ -41,23 +45,41 @@ mod native {
                  several times slower (Debian: libopenblas-dev; elsewhere set OPENBLAS_LIBRARY_DIR)"
             ),
         }
+        // The runtime that CHOLMOD itself was linked with, as every GNU compiler has it.
+        if has_openmp_runtime() {
+            println!("cargo:rustc-link-lib=dylib=gomp");
+            println!("cargo:rustc-cfg=openmp");
+        }
         Ok(())
     }
 
+    /// Asked for a library that it does not have, the compiler answers with the bare name.
+    fn has_openmp_runtime() -> bool {
+        Command::new("cc")
+            .arg("-print-file-name=libgomp.so")
+            .output()
+            .is_ok_and(|answer| {
+                let path = String::from_utf8_lossy(&answer.stdout).trim().to_owned();
+                let path = Path::new(&path);
+                path.is_absolute() && path.exists()
+            })
+    }
+
     /// bindgen panics where it finds no libclang: the panic becomes the message.
-    fn write_openblas_bindings() -> Result<(), String> {
+    fn write_bindings(name: &str, functions: &str) -> Result<(), String> {
         let out = env::var_os("OUT_DIR").ok_or("OUT_DIR is not set: build with cargo")?;
-        let path = PathBuf::from(out).join("openblas.rs");
+        let path = PathBuf::from(out).join(format!("{name}.rs"));
+        let header = format!("ffi/{name}.h");
         let generated = std::panic::catch_unwind(|| {
             bindgen::Builder::default()
-                .header("ffi/openblas.h")
-                .allowlist_function("openblas_.*")
+                .header(&header)
+                .allowlist_function(functions)
                 .rust_target(bindgen::RustTarget::stable(89, 0).unwrap_or_default())
                 .rust_edition(bindgen::RustEdition::Edition2024)
                 .generate()
         })
         .map_err(|_| format!("bindgen found no libclang: {REMEDY}"))?
-        .map_err(|e| format!("bindgen failed on ffi/openblas.h ({e}): {REMEDY}"))?;
+        .map_err(|e| format!("bindgen failed on {header} ({e}): {REMEDY}"))?;
         generated
             .write_to_file(&path)
             .map_err(|e| format!("cannot write {}: {e}", path.display()))

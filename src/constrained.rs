@@ -321,7 +321,7 @@ impl ConstrainedStructure {
             way.path.turn(&mut self.tableau).map_err(pushed_away)?;
             way.at_event = false;
         }
-        let outcome = way.path.advance(&self.tableau, end);
+        let outcome = way.path.advance(&mut self.tableau, end);
         let t = way.path.t;
         let changes = match outcome {
             PathEnd::Target => Vec::new(),

@@ -51,14 +51,14 @@ impl ElasticPiece {
 
     /// Goes to the next event, at most to share `t` of the piece; the engine's gaps and forces follow.
     pub fn advance(&mut self, engine: &mut Engine, t: f64) -> PathEnd {
-        let outcome = self.path.advance(&engine.tableau, t);
+        let outcome = self.path.advance(&mut engine.tableau, t);
         self.write(engine);
         outcome
     }
 
     /// Goes to share `t` of the piece with the current statuses: they must hold there.
     pub fn go_back(&mut self, engine: &mut Engine, t: f64) {
-        self.path.state_at(&engine.tableau, t);
+        self.path.state_at(&mut engine.tableau, t);
         self.write(engine);
     }
 

@@ -122,6 +122,7 @@ fn principal_pivoting(
     // Pairs whose tension is round-off: opening them could repeat a set without lowering the energy.
     let mut settled = vec![false; n];
     let mut entered: BTreeSet<(usize, Vec<bool>)> = BTreeSet::new();
+    let mut column = vec![0.0; n];
     loop {
         tableau.solve_safely(q, gap, force);
         for g in gap.iter_mut() {
@@ -142,14 +143,14 @@ fn principal_pivoting(
         let mut blocked_at_once = 0;
         loop {
             out.fallback_pivots += 1;
-            let curvature = tableau.swept()[(k, k)];
+            let curvature = tableau.swept(k, k);
             let free = tableau.would_free(k);
             let full = if free {
                 f64::INFINITY
             } else {
                 -force[k] / curvature
             };
-            let column = tableau.swept().column(k);
+            column.copy_from_slice(tableau.swept_column(k));
             let blocking = (0..n)
                 .filter(|&j| tableau.open()[j] && column[j] > 0.0)
                 .map(|j| (gap[j] / column[j], j))

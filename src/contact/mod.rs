@@ -16,6 +16,7 @@
 
 mod complementarity;
 mod path;
+mod swept;
 mod tableau;
 
 pub use complementarity::{Certificate, Unbounded, solve};

@@ -34,9 +34,13 @@ pub enum PathEnd {
 const TIE: f64 = 1e-10;
 /// Share of the terms of a force's rate that is their round-off: eps times the pairs and the condition of the tied structure that they come from.
 const ROUND_OFF: f64 = 1e-11;
-/// Events over which gaps, forces and their rates are carried along, each for the cost of a column; after that many they are solved for anew,
+/// Events over which gaps, forces and their rates are carried along at least, each for the cost of a column; then they are solved for anew,
 /// so that round-off does not add up.
 const CARRIED: usize = 16;
+/// They may be as many as a share of the pairs, one to this number: a solution is a sum of that many terms itself.
+const PAIRS_PER_CARRIED: usize = 32;
+/// In place of their number where there are no rates yet.
+const NEVER: usize = usize::MAX;
 /// Share of these by which a pair may be beyond its condition at the end of a piece: round-off of an event that is due there.
 const AT_END: f64 = 1e-2;
 /// The same for the last pair that holds a body, as a share of its force at the begin.
@@ -58,7 +62,7 @@ pub struct Path {
     gap_scale: f64,
     terms: f64,
     force_scale: f64,
-    /// Events since gaps, forces and rates were last solved for.
+    /// Events since gaps, forces and rates were last solved for; [`NEVER`] before.
     carried: usize,
     /// Pairs that changed status when the rates were last settled.
     pub changes: usize,
@@ -92,7 +96,7 @@ impl Path {
             gap_scale,
             terms,
             force_scale: 0.0,
-            carried: CARRIED,
+            carried: NEVER,
             changes: 0,
         };
         path.settle(tableau)?;
@@ -119,6 +123,11 @@ impl Path {
         )
     }
 
+    /// Whether gaps, forces and rates have been carried along for long enough.
+    fn is_old(&self) -> bool {
+        self.carried >= CARRIED.max(self.gap.len() / PAIRS_PER_CARRIED)
+    }
+
     /// Settles the statuses of pairs at the border by the complementarity problem of the rates, then computes all rates.
     fn settle(&mut self, tableau: &mut Tableau) -> Result<(), Unbounded> {
         let n = tableau.len();
@@ -128,11 +137,11 @@ impl Path {
             .filter(|&k| self.gap[k] <= zero_gap && self.force[k] <= zero_force)
             .collect();
         let before = tableau.open().to_vec();
-        let anew = self.carried >= CARRIED;
-        self.carried = if anew { 0 } else { self.carried + 1 };
-        if anew {
+        let anew = self.is_old();
+        if self.carried == NEVER {
             tableau.solve(&self.rate, &mut self.gap_rate, &mut self.force_rate);
         }
+        self.carried = if anew { 0 } else { self.carried + 1 };
         if !border.is_empty() {
             for &k in &border {
                 if tableau.open()[k] {
@@ -142,7 +151,7 @@ impl Path {
                 self.force[k] = 0.0;
             }
             let m = border.len();
-            let reduced = DMatrix::from_fn(m, m, |i, j| tableau.swept()[(border[i], border[j])]);
+            let reduced = DMatrix::from_fn(m, m, |i, j| tableau.swept(border[i], border[j]));
             // A rate that is nothing but the round-off of what it is a sum of has no sign to follow: a body on which nothing acts
             // would be driven off by it.
             let terms = |k: usize| {
@@ -189,7 +198,7 @@ impl Path {
 
     /// Goes on to `end` or to the next change of contact, whichever comes first. A change at the end, within round-off, counts
     /// as the end.
-    pub fn advance(&mut self, tableau: &Tableau, end: f64) -> PathEnd {
+    pub fn advance(&mut self, tableau: &mut Tableau, end: f64) -> PathEnd {
         let room = end - self.t;
         let mut step = room;
         let mut first = None;
@@ -215,7 +224,7 @@ impl Path {
             self.state_at(tableau, end);
             return PathEnd::Target;
         }
-        if self.carried >= CARRIED {
+        if self.is_old() {
             self.state_at(tableau, self.t + step);
         } else {
             self.t += step;
@@ -266,7 +275,7 @@ impl Path {
     }
 
     /// Goes to `t` with the current statuses, which must hold there.
-    pub fn state_at(&mut self, tableau: &Tableau, t: f64) {
+    pub fn state_at(&mut self, tableau: &mut Tableau, t: f64) {
         self.t = t;
         let q: Vec<f64> = self
             .start

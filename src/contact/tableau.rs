@@ -1,5 +1,6 @@
 //! The contact matrix with a set of pairs opened: a principal pivotal transform.
 
+use super::swept::Swept;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -10,8 +11,8 @@ const SINGULAR: f64 = 1e-11;
 const NOT_SINGULAR: f64 = 1e-4;
 /// Multiple of the round-off to be expected beyond which a solution has lost its digits.
 const LOST: f64 = 1e3;
-/// Pairs from which on the columns of a pivot are shared among threads.
-const SHARED: usize = 512;
+/// Rows that a thread takes at a time.
+const ROWS: usize = 512;
 /// Pivots after which the transform is rebuilt from the original matrix.
 const REBUILD: usize = 2000;
 
@@ -22,7 +23,7 @@ const REBUILD: usize = 2000;
 #[derive(Debug, Clone)]
 pub struct Tableau {
     matrix: DMatrix<f64>,
-    swept: DMatrix<f64>,
+    swept: Swept,
     open: Vec<bool>,
     way: TableauRecord,
     column: Vec<f64>,
@@ -42,7 +43,7 @@ impl Tableau {
     pub fn new(matrix: DMatrix<f64>) -> Self {
         let n = matrix.nrows();
         Tableau {
-            swept: matrix.clone(),
+            swept: Swept::new(matrix.clone()),
             matrix,
             open: vec![false; n],
             way: TableauRecord {
@@ -73,9 +74,15 @@ impl Tableau {
         &self.matrix
     }
 
-    /// The swept matrix.
-    pub(super) fn swept(&self) -> &DMatrix<f64> {
-        &self.swept
+    /// An entry of the swept matrix.
+    pub(super) fn swept(&self, i: usize, j: usize) -> f64 {
+        self.swept.get(i, j)
+    }
+
+    /// A column of the swept matrix.
+    pub(super) fn swept_column(&mut self, j: usize) -> &[f64] {
+        self.swept.column(j, &mut self.column);
+        &self.column
     }
 
     /// Whether opening pair `k` now would free a rigid motion.
@@ -83,13 +90,13 @@ impl Tableau {
     /// What is left of `T_kk` is `T_kk - T_ko w` with `w = T_oo^-1 T_ok`: the round-off of that is a share of
     /// `|T_kk| + 2 |T_ko| |w| + |w|' |T_oo| |w| <= (sqrt T_kk + sum |w_o| sqrt T_oo)^2`, since `|T_ij| <= sqrt(T_ii T_jj)`.
     pub fn would_free(&self, k: usize) -> bool {
-        let (left, whole) = (self.swept[(k, k)], self.matrix[(k, k)]);
+        let (left, whole) = (self.swept.get(k, k), self.matrix[(k, k)]);
         if self.open[k] || left > NOT_SINGULAR * whole {
             return false;
         }
         let open = (0..self.len()).filter(|&j| self.open[j]);
         let moved: f64 = open
-            .map(|j| self.swept[(j, k)].abs() * self.matrix[(j, j)].sqrt())
+            .map(|j| self.swept.get(j, k).abs() * self.matrix[(j, j)].sqrt())
             .sum();
         let n = (self.len() as f64).sqrt();
         let round_off = 8.0 * f64::EPSILON * n * (whole.sqrt() + moved).powi(2);
@@ -119,8 +126,9 @@ impl Tableau {
         }
         // Of y = b + S z with y = (r_closed, -g_open) and z = (g_closed, r_open) only b stands where z is zero.
         let b = if self.open[k] { -gap[k] } else { force[k] };
-        let z = -b / self.swept[(k, k)];
-        for (i, s) in self.swept.column(k).iter().enumerate() {
+        self.swept.column(k, &mut self.column);
+        let z = -b / self.column[k];
+        for (i, s) in self.column.iter().enumerate() {
             if self.open[i] {
                 gap[i] -= s * z;
             } else {
@@ -164,42 +172,13 @@ impl Tableau {
     }
 
     fn sweep(&mut self, k: usize) {
-        let n = self.len();
-        let pivot = self.swept[(k, k)];
         let sign = if self.open[k] { -1.0 } else { 1.0 };
-        self.column.copy_from_slice(self.swept.column(k).as_slice());
-        let pivot_column = &self.column;
-        let sweep_column = |(j, column): (usize, &mut [f64])| {
-            if j == k {
-                return;
-            }
-            let factor = pivot_column[j] / pivot;
-            if factor != 0.0 {
-                for (s, c) in column.iter_mut().zip(pivot_column) {
-                    *s -= factor * c;
-                }
-            }
-            column[k] = sign * factor;
-        };
-        let columns = self.swept.as_mut_slice();
-        if n < SHARED {
-            columns
-                .chunks_exact_mut(n)
-                .enumerate()
-                .for_each(sweep_column);
-        } else {
-            let columns = columns.par_chunks_exact_mut(n).enumerate();
-            columns.with_min_len(64).for_each(sweep_column);
-        }
-        for j in 0..n {
-            self.swept[(j, k)] = sign * self.column[j] / pivot;
-        }
-        self.swept[(k, k)] = -1.0 / pivot;
+        self.swept.pivot(k, sign);
     }
 
     /// Gaps of the open pairs and forces of the closed ones for the given statuses: `r_o = 0`, `g_c = 0`,
     /// `r = q + T g`. The gaps are refined once against `T`, so that errors of many pivots do not stay.
-    pub fn solve(&self, q: &[f64], gap: &mut [f64], force: &mut [f64]) {
+    pub fn solve(&mut self, q: &[f64], gap: &mut [f64], force: &mut [f64]) {
         self.solve_with_residual(q, gap, force);
     }
 
@@ -215,17 +194,13 @@ impl Tableau {
     }
 
     /// [`Tableau::solve`]; the largest force that is left on an open pair.
-    fn solve_with_residual(&self, q: &[f64], gap: &mut [f64], force: &mut [f64]) -> f64 {
+    fn solve_with_residual(&mut self, q: &[f64], gap: &mut [f64], force: &mut [f64]) -> f64 {
         gap.fill(0.0);
         force.copy_from_slice(q);
         for _ in 0..2 {
             self.correct(force, gap);
             force.copy_from_slice(q);
-            for (j, &g) in gap.iter().enumerate().filter(|(_, g)| **g != 0.0) {
-                for (f, t) in force.iter_mut().zip(self.matrix.column(j).as_slice()) {
-                    *f += t * g;
-                }
-            }
+            add_product(&self.matrix, gap, force);
         }
         let mut residual = 0.0f64;
         for (f, _) in force.iter_mut().zip(&self.open).filter(|(_, open)| **open) {
@@ -236,18 +211,19 @@ impl Tableau {
     }
 
     /// `g_o -= T_oo^-1 residual_o`.
-    fn correct(&self, residual: &[f64], gap: &mut [f64]) {
-        for (j, &r) in residual.iter().enumerate() {
-            if self.open[j] && r != 0.0 {
-                for (g, (w, open)) in gap
-                    .iter_mut()
-                    .zip(self.swept.column(j).as_slice().iter().zip(&self.open))
-                {
-                    if *open {
-                        *g += w * r;
-                    }
-                }
-            }
+    fn correct(&mut self, residual: &mut [f64], gap: &mut [f64]) {
+        for (r, _) in residual
+            .iter_mut()
+            .zip(&self.open)
+            .filter(|(_, open)| !**open)
+        {
+            *r = 0.0;
+        }
+        self.column.fill(0.0);
+        add_product(self.swept.matrix(), residual, &mut self.column);
+        let correction = gap.iter_mut().zip(&self.column).zip(&self.open);
+        for ((g, c), _) in correction.filter(|(_, open)| **open) {
+            *g += c;
         }
     }
 
@@ -269,5 +245,22 @@ impl Tableau {
         } else {
             0.0
         }
+    }
+}
+
+/// `y += A x`, where few entries of `x` may be other than zero.
+fn add_product(a: &DMatrix<f64>, x: &[f64], y: &mut [f64]) {
+    let add = |(block, y): (usize, &mut [f64])| {
+        for (j, &x) in x.iter().enumerate().filter(|(_, x)| **x != 0.0) {
+            let rows = &a.as_slice()[j * a.nrows() + block * ROWS..][..y.len()];
+            for (y, a) in y.iter_mut().zip(rows) {
+                *y += a * x;
+            }
+        }
+    };
+    if y.len() <= ROWS {
+        add((0, y));
+    } else {
+        y.par_chunks_mut(ROWS).enumerate().for_each(add);
     }
 }

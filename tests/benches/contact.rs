@@ -1,8 +1,11 @@
 //! What contact costs: condensing on many pairs, and one change of contact among them.
 //!
 //! Two blocks, one node per pair, the upper one held by contact alone; gaps grow as the square of the distance from one end, so that
-//! pairs close one after the other. `cargo bench --bench contact` takes 50, 500 and 3,000 pairs; `-- 500` one of them. The table goes to
-//! the terminal, the figures to `bench-results/contact.json`.
+//! pairs close one after the other. `cargo bench --bench contact` takes 50, 500 and 3,000 pairs, on blocks that are thin beside the contact
+//! (20 elements: next to nothing but contact is factored) and on solid ones; `-- 500` one of them, `-- 5000` a larger one. The table goes
+//! to the terminal, the figures to `bench-results/contact.json`.
+
+mod process;
 
 use brinell::analysis::Analysis;
 use brinell::linalg::cholmod::{CholmodCondensed, blas_name, cholmod_version, solve_unconstrained};
@@ -11,19 +14,20 @@ use brinell::model::Model;
 use brinell::progress::Silent;
 use brinell::scene::Scene;
 use brinell::substructure::Substructure;
+use process::{Failure, peak_memory};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-
-type Failure = Box<dyn std::error::Error>;
 
 const SCENE: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
     "/data/scenes/contact_patch.toml"
 );
 const PAIRS: [usize; 3] = [50, 500, 3000];
-/// Elements through the thickness of a block.
-const ROWS: usize = 20;
+/// Elements through the thickness of a thin block.
+const THIN: usize = 20;
+/// Elements through the thickness of a solid block: half as many as pairs, no more than fit into the memory.
+const SOLID: usize = 200;
 /// Gap of the last pair, in lengths of an element.
 const LARGEST_GAP: f64 = 1e-3;
 
@@ -37,12 +41,18 @@ fn main() -> Result<(), Failure> {
         .build_global()?;
     println!("CHOLMOD {}, {}\n", cholmod_version(), blas_name());
     println!(
-        "pairs  freedoms  bare factor s  condensed s  C alone s  by solves s  contact s  events  ms/event  events/factor"
+        "pairs  rows  freedoms  bare factor s  condensed s  C alone s  by solves s  contact s  events  ms/event  1000 events/factor  peak GB"
     );
     let mut rows = Vec::new();
-    for pairs in PAIRS {
-        if given.is_empty() || given.contains(&pairs) {
-            rows.push(measure(pairs)?);
+    let chosen = if given.is_empty() {
+        &PAIRS[..]
+    } else {
+        &given[..]
+    };
+    for &pairs in chosen {
+        rows.push(measure(pairs, THIN)?);
+        if PAIRS.contains(&pairs) {
+            rows.push(measure(pairs, SOLID.min(pairs / 2))?);
         }
     }
     let results = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("bench-results");
@@ -56,8 +66,8 @@ fn main() -> Result<(), Failure> {
     Ok(())
 }
 
-fn model(pairs: usize) -> Result<Model, Failure> {
-    let (n, rows) = (pairs - 1, ROWS);
+fn model(pairs: usize, rows: usize) -> Result<Model, Failure> {
+    let n = pairs - 1;
     let scene = Scene::load_with(
         Path::new(SCENE),
         &[
@@ -78,8 +88,8 @@ fn model(pairs: usize) -> Result<Model, Failure> {
     Ok(model)
 }
 
-fn measure(pairs: usize) -> Result<Value, Failure> {
-    let model = model(pairs)?;
+fn measure(pairs: usize, rows: usize) -> Result<Value, Failure> {
+    let model = model(pairs, rows)?;
     let system = brinell::assembly::assemble(&model)?;
     let n = system.stiffness.cols();
     let sub = Substructure::new(&model, &system, vec![], Backend::Cholmod)?;
@@ -113,13 +123,17 @@ fn measure(pairs: usize) -> Result<Value, Failure> {
         .map(|(_, seconds)| seconds)
         .sum();
     let events = results.history.len();
+    let event = seconds / events as f64;
+    let peak = peak_memory()?;
     println!(
-        "{pairs:5} {n:9} {bare_seconds:14.3} {all:12.3} {extraction:10.3} {by_solves:12.1} {seconds:10.3} {events:7} {:9.3} {:14.2}",
-        1e3 * seconds / events as f64,
-        seconds / bare_seconds,
+        "{pairs:5} {rows:5} {n:9} {bare_seconds:14.3} {all:12.3} {extraction:10.3} {by_solves:12.1} {seconds:10.3} {events:7} {:9.3} {:18.2} {:8.2}",
+        1e3 * event,
+        1e3 * event / bare_seconds,
+        peak / 1e9,
     );
     Ok(json!({
         "pairs": pairs,
+        "rows": rows,
         "freedoms": n,
         "contact_freedoms": partition.contact.len(),
         "bare": {"analyse": bare.analyse_seconds, "factor": bare.factor_seconds, "solve": bare.solve_seconds,
@@ -129,6 +143,7 @@ fn measure(pairs: usize) -> Result<Value, Failure> {
         "by_solves": by_solves,
         "elastic_increments": seconds,
         "increments": events,
+        "peak_bytes_so_far": peak,
         "contact_changes": results.counts.contact_changes,
         "equilibrium": results.quality.equilibrium,
     }))

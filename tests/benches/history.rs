@@ -5,7 +5,12 @@
 //! written results, `matrix` writes the assembled matrix to a file, `cholmod` reads that file and does nothing else.
 //!
 //! `cargo bench --bench history` takes the sizes of [`SIZES`]; `-- 10k` or `-- 100k` or `-- 1M` one of them. The table
-//! goes to the terminal, the figures to `bench-results/history.json`.
+//! goes to the terminal, the figures to `bench-results/history.json`. `-- perfect` the same without hardening. `-- scaling` runs meshes from ten thousand to
+//! three million freedoms instead, on one thread and on two (`history/scaling.rs`).
+
+mod process;
+#[path = "history/scaling.rs"]
+mod scaling;
 
 use brinell::analysis::Analysis;
 use brinell::linalg::cholmod::{blas_name, cholmod_version, solve_unconstrained};
@@ -14,13 +19,11 @@ use brinell::model::Model;
 use brinell::output::{self, RunHeader};
 use brinell::progress::Silent;
 use brinell::scene::Scene;
+use process::{Failure, child, peak_memory, processor_seconds};
 use serde_json::{Value, json};
 use std::io::{BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::time::Instant;
-
-type Failure = Box<dyn std::error::Error>;
 
 const SCENE: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
@@ -30,12 +33,33 @@ const SCENE: &str = concat!(
 /// Name, and what is changed in the scene's mesh: elements over b* and growth of the element sizes outside the even
 /// region. The finer the contact, the more slowly sizes should grow: the discretisation errors stay balanced.
 const SIZES: [(&str, &[&str]); 4] = [
-    ("10k", &["resolution=8", "growth=1.25"]),
-    ("100k", &["resolution=32", "growth=1.08"]),
-    ("1M", &["resolution=64", "growth=1.02"]),
+    (
+        "10k",
+        &[
+            "mesh.cylinder_on_half_plane.resolution=8",
+            "mesh.cylinder_on_half_plane.growth=1.25",
+        ],
+    ),
+    (
+        "100k",
+        &[
+            "mesh.cylinder_on_half_plane.resolution=32",
+            "mesh.cylinder_on_half_plane.growth=1.08",
+        ],
+    ),
+    (
+        "1M",
+        &[
+            "mesh.cylinder_on_half_plane.resolution=64",
+            "mesh.cylinder_on_half_plane.growth=1.02",
+        ],
+    ),
     (
         "1M, even finer far field",
-        &["resolution=32", "growth=1.015"],
+        &[
+            "mesh.cylinder_on_half_plane.resolution=32",
+            "mesh.cylinder_on_half_plane.growth=1.015",
+        ],
     ),
 ];
 
@@ -45,10 +69,13 @@ fn main() -> Result<(), Failure> {
         .filter(|a| a != "--bench")
         .collect();
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        ["run", name, directory] => print(&run(name, Path::new(directory))?),
-        ["matrix", name, directory] => write_matrix(name, Path::new(directory)),
+        ["run", changes, directory] => print(&run(changes, Path::new(directory))?),
+        ["matrix", changes, directory] => write_matrix(changes, Path::new(directory)),
         ["cholmod", directory] => print(&bare(Path::new(directory))?),
-        ref names => compare(names),
+        ["check", changes] => print(&scaling::prediction(changes)?),
+        ["scaling"] => scaling::measure(),
+        ["perfect", ref names @ ..] => compare(names, &["materials.steel.plastic_modulus=0.0"]),
+        ref names => compare(names, &[]),
     }
 }
 
@@ -57,15 +84,9 @@ fn print(value: &Value) -> Result<(), Failure> {
     Ok(())
 }
 
-fn scene(name: &str) -> Result<Scene, Failure> {
-    let (_, changes) = SIZES
-        .iter()
-        .find(|(size, _)| *size == name)
-        .ok_or_else(|| format!("no size `{name}`"))?;
-    let overrides: Vec<String> = changes
-        .iter()
-        .map(|change| format!("mesh.cylinder_on_half_plane.{change}"))
-        .collect();
+/// The scene with what is changed in it, separated by semicolons.
+fn scene(changes: &str) -> Result<Scene, Failure> {
+    let overrides: Vec<String> = changes.split(';').map(str::to_string).collect();
     let mut scene = Scene::load_with(Path::new(SCENE), &overrides)?;
     // Fields of one state, as a user with a large model would ask for.
     for target in &mut scene.program.targets {
@@ -75,12 +96,12 @@ fn scene(name: &str) -> Result<Scene, Failure> {
 }
 
 /// brinell from scene to files.
-fn run(name: &str, directory: &Path) -> Result<Value, Failure> {
+fn run(changes: &str, directory: &Path) -> Result<Value, Failure> {
     rayon::ThreadPoolBuilder::new()
         .use_current_thread()
         .build_global()?;
     let start = Instant::now();
-    let scene = scene(name)?;
+    let scene = scene(changes)?;
     let model = Model::new(&scene)?;
     let modelled = start.elapsed().as_secs_f64();
     let mut analysis = Analysis::new(model, Backend::Cholmod)?;
@@ -115,6 +136,7 @@ fn run(name: &str, directory: &Path) -> Result<Value, Failure> {
         "phases": phases,
         "sizes": results.sizes,
         "counts": results.counts,
+        "factor": results.factor,
         "quality": results.quality,
         "increments": results.history.len(),
         "states": results.states.len(),
@@ -124,8 +146,8 @@ fn run(name: &str, directory: &Path) -> Result<Value, Failure> {
 
 /// The matrix that is factored, `K + D` on the contact freedoms of the body that contact alone holds: `n`, the number of
 /// entries, column pointers, rows, values.
-fn write_matrix(name: &str, directory: &Path) -> Result<(), Failure> {
-    let analysis = Analysis::new(Model::new(&scene(name)?)?, Backend::Cholmod)?;
+fn write_matrix(changes: &str, directory: &Path) -> Result<(), Failure> {
+    let analysis = Analysis::new(Model::new(&scene(changes)?)?, Backend::Cholmod)?;
     let (model, matrix) = (analysis.model(), &analysis.system().stiffness);
     let columns = matrix.proper_indptr();
     let mut values = matrix.data().to_vec();
@@ -195,50 +217,7 @@ fn bare(directory: &Path) -> Result<Value, Failure> {
     }))
 }
 
-/// The largest resident memory of this process, as Linux counts it.
-fn peak_memory() -> Result<f64, Failure> {
-    let status = std::fs::read_to_string("/proc/self/status")?;
-    let kilobytes = status
-        .lines()
-        .find_map(|line| line.strip_prefix("VmHWM:"))
-        .and_then(|rest| {
-            rest.trim()
-                .trim_end_matches("kB")
-                .trim()
-                .parse::<f64>()
-                .ok()
-        })
-        .ok_or("/proc/self/status has no VmHWM")?;
-    Ok(1024.0 * kilobytes)
-}
-
-/// Processor time of this process in seconds, all threads together: what a busy machine does not change. Linux counts
-/// it in hundredths.
-fn processor_seconds() -> Result<f64, Failure> {
-    let stat = std::fs::read_to_string("/proc/self/stat")?;
-    // The name of the program, in parentheses, may contain spaces.
-    let fields = stat.rsplit(')').next().unwrap_or_default();
-    let ticks: Vec<f64> = fields
-        .split_whitespace()
-        .skip(11)
-        .take(2)
-        .flat_map(str::parse)
-        .collect();
-    Ok(ticks.iter().sum::<f64>() / 100.0)
-}
-
-fn child(arguments: &[&str]) -> Result<String, Failure> {
-    let output = Command::new(std::env::current_exe()?)
-        .args(arguments)
-        .stderr(std::process::Stdio::inherit())
-        .output()?;
-    if !output.status.success() {
-        return Err(format!("`{}` failed", arguments.join(" ")).into());
-    }
-    Ok(String::from_utf8(output.stdout)?)
-}
-
-fn compare(names: &[&str]) -> Result<(), Failure> {
+fn compare(names: &[&str], always: &[&str]) -> Result<(), Failure> {
     println!("CHOLMOD {}, {}\n", cholmod_version(), blas_name());
     let mut all = Vec::new();
     for (name, changes) in SIZES {
@@ -250,15 +229,20 @@ fn compare(names: &[&str]) -> Result<(), Failure> {
             .path()
             .to_str()
             .ok_or("a temporary directory with an odd name")?;
-        child(&["matrix", name, path])?;
-        let bare: Value = serde_json::from_str(&child(&["cholmod", path])?)?;
-        let run: Value = serde_json::from_str(&child(&["run", name, path])?)?;
-        report(name, changes, &bare, &run);
-        all.push(json!({"size": name, "mesh": changes, "cholmod": bare, "brinell": run}));
+        let changes = [changes, always].concat().join(";");
+        child(&["matrix", &changes, path], None)?;
+        let bare: Value = serde_json::from_str(&child(&["cholmod", path], None)?)?;
+        let run: Value = serde_json::from_str(&child(&["run", &changes, path], None)?)?;
+        report(name, &changes, &bare, &run);
+        all.push(json!({"size": name, "changes": changes, "cholmod": bare, "brinell": run}));
     }
     let results = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("bench-results");
     std::fs::create_dir_all(&results)?;
-    let file = results.join("history.json");
+    let file = results.join(if always.is_empty() {
+        "history.json"
+    } else {
+        "history_perfect.json"
+    });
     let text = serde_json::to_string_pretty(&json!({
         "cholmod_version": cholmod_version(),
         "blas": blas_name(),
@@ -269,13 +253,15 @@ fn compare(names: &[&str]) -> Result<(), Failure> {
     Ok(())
 }
 
-fn report(name: &str, changes: &[&str], bare: &Value, run: &Value) {
+fn report(name: &str, changes: &str, bare: &Value, run: &Value) {
     let number = |value: &Value, key: &str| value[key].as_f64().unwrap_or(f64::NAN);
     let seconds = number(bare, "seconds");
     let count = |group: &str, key: &str| run[group][key].as_u64().unwrap_or(0);
     println!(
         "{name} ({}): {} freedoms, {} elements, {} pairs, zone {} freedoms",
-        changes.join(", "),
+        changes
+            .replace("mesh.cylinder_on_half_plane.", "")
+            .replace(';', ", "),
         count("sizes", "freedoms"),
         count("sizes", "elements"),
         count("sizes", "contact_pairs"),

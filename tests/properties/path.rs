@@ -18,7 +18,7 @@ fn follow(t: &DMatrix<f64>, start: &[f64], end: &[f64]) -> (Vec<f64>, Vec<f64>, 
     let mut path = Path::new(&mut tableau, start.to_vec(), rate, g, r, 1.0, 0.0).unwrap();
     let mut events = 0;
     let mut last = 0.0;
-    while let PathEnd::Event(changes) = path.advance(&tableau, 1.0) {
+    while let PathEnd::Event(changes) = path.advance(&mut tableau, 1.0) {
         assert!(
             !changes.is_empty(),
             "an event without a change at t = {}",

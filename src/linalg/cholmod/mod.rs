@@ -7,7 +7,7 @@
 //! ```
 //!
 //! `D = diag(shift)` acts on contact freedoms only, so it enters `L_cc` alone: `L_cc L_cc' = C + D`.
-//! Of the whole module only `common`, `sparse`, `ordering`, `factor` and `blas` call C.
+//! Of the whole module only `common`, `sparse`, `ordering`, `factor`, `blas` and `openmp` call C.
 //!
 //! The same BLAS with the same number of threads gives the same bits in every run; another number of threads may
 //! add in another order and differ by round-off ([`set_blas_threads`]).
@@ -21,6 +21,7 @@ mod backward;
 mod blas;
 mod common;
 mod factor;
+mod openmp;
 mod ordering;
 mod panel;
 mod sparse;
@@ -41,6 +42,7 @@ use backward::Backward;
 use common::Common;
 use factor::{Factor, System};
 use nalgebra::DMatrix;
+use openmp::Serial;
 use ordering::{Groups, Ordering};
 use sparse::SymmetricView;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -111,7 +113,10 @@ impl CholmodCondensed {
         for (&freedom, &d) in partition.contact.iter().zip(shift) {
             values[diagonal(freedom)] += d;
         }
-        factor.factorize(&SymmetricView::with_values(matrix, &values))?;
+        {
+            let _serial = Serial::new();
+            factor.factorize(&SymmetricView::with_values(matrix, &values))?;
+        }
         let weakest = weakest_pivot(&factor, |freedom| values[diagonal(freedom)]);
         if weakest.ratio <= smallest_pivot_ratio(partition.n) {
             return Err(NotDefinite {

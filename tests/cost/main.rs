@@ -1,0 +1,7 @@
+//! Speed that a test can hold: what a run does, counted, whatever machine it runs on.
+
+mod allocations;
+#[cfg(feature = "cholmod")]
+mod counts;
+#[path = "../running/mod.rs"]
+mod running;
