@@ -33,6 +33,7 @@ const EXAMPLES: &[Example] = examples![
     "disc_in_plate",
     "flat_punch",
     "nafems_cb1",
+    "pin_in_hole",
     "shrink_fit",
     "thick_cylinder",
     "thick_sphere",

@@ -9,6 +9,7 @@ mod hertz_line;
 mod hertz_line_history;
 mod hertz_point;
 mod nafems_cb1;
+mod pin_in_hole;
 mod quality;
 mod run;
 mod shrink_fit;
