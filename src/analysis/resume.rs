@@ -112,6 +112,7 @@ impl<'m, 'o> Run<'m, 'o> {
         Ok(Run {
             recovery: None,
             choice: Choice { elements, guard },
+            at_yield: None,
             spread,
             observer,
             plastic: record.plastic,
