@@ -265,8 +265,8 @@ pub struct Counts {
 pub struct Quality {
     /// Normwise backward error of the full solve: `|f - K u| / (|K| |u| + |f|)`, infinity norms.
     pub backward_error: f64,
-    /// Componentwise backward error, the largest of a row's `|f - K u|` over its `|K| |u| + |f|`, where the scene asks for it
-    /// (`analysis.condition`). It has no tolerance of its own: what it shows beside the normwise one are freedoms on which next to nothing acts.
+    /// Componentwise backward error, the largest of a row's `|f - K u|` over its `|K| |u| + |f|`; none in results of versions that did not
+    /// have it. It has no tolerance of its own: what it shows beside the normwise one are freedoms on which next to nothing acts.
     pub componentwise_error: Option<f64>,
     /// Out-of-balance force of the stresses over the largest applied or contact force.
     pub equilibrium: f64,
@@ -290,6 +290,20 @@ pub struct Tolerances {
 }
 
 impl Quality {
+    /// Figure by figure the worse of two; what is not a number is the worst.
+    pub fn worse(&self, other: &Quality) -> Quality {
+        let worse = |a: f64, b: f64| if a.is_nan() || a > b { a } else { b };
+        let componentwise = self.componentwise_error.into_iter();
+        Quality {
+            backward_error: worse(self.backward_error, other.backward_error),
+            componentwise_error: componentwise.chain(other.componentwise_error).reduce(worse),
+            equilibrium: worse(self.equilibrium, other.equilibrium),
+            complementarity: worse(self.complementarity, other.complementarity),
+            penetration: worse(self.penetration, other.penetration),
+            adhesion: worse(self.adhesion, other.adhesion),
+        }
+    }
+
     /// The figures that miss their tolerance (or are not numbers), each with its name, value and tolerance.
     pub fn misses(&self, tolerances: &Tolerances) -> Vec<(&'static str, f64, f64)> {
         [

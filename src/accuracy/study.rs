@@ -178,12 +178,13 @@ pub fn study(
             true => String::new(),
             false => format!("; about {left:.0} s left"),
         };
-        observer.phase(&format!(
+        let name = format!(
             "run {} of {n}: {}, {}{left}",
             i + 1,
             setting.series,
             setting.value
-        ));
+        );
+        observer.phase_of(&name, expected);
         let meter = Meter::start();
         let mut phases = PhaseMeter::start("assembly", observer);
         let found = run_observed(

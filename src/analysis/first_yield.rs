@@ -10,8 +10,8 @@ use crate::results::YieldPoint;
 use crate::scene::{Unit, YieldMethod};
 
 impl Run<'_, '_> {
-    /// Finds the yield load on the path of growing load factor and comes back to the start.
-    pub(super) fn find_yield(&mut self, required: bool) -> Result<()> {
+    /// Finds the yield load on the path of growing load factor and comes back to the start; with `judge` takes note of the quality there.
+    pub(super) fn find_yield(&mut self, required: bool, judge: bool) -> Result<()> {
         let unit_is_yield = self.model().scene.program.unit == Unit::Yield;
         if self.plastic {
             return if unit_is_yield {
@@ -45,6 +45,9 @@ impl Run<'_, '_> {
             if missed.is_none() {
                 if let Some((alpha, peak)) = found {
                     self.record_yield(peak)?;
+                    if judge {
+                        self.at_yield = Some(self.engine.quality_here()?);
+                    }
                     self.yield_alpha = Some(if unit_is_yield { 1.0 } else { alpha });
                     if unit_is_yield {
                         self.engine.unit = alpha;

@@ -59,6 +59,8 @@ pub(super) struct Run<'m, 'o> {
     /// Recovered stress over the zone at hand, once it was asked for.
     pub(super) recovery: Option<Recovery>,
     pub(super) choice: Choice,
+    /// Quality at first yield, where that is all that is asked for.
+    pub(super) at_yield: Option<Quality>,
     /// What the zone follows the load by.
     pub(super) spread: Option<Spread>,
     pub(super) observer: &'o mut dyn Observer,
@@ -104,6 +106,7 @@ impl<'m, 'o> Run<'m, 'o> {
         timings: &[(String, f64)],
         observer: &'o mut dyn Observer,
     ) -> Result<Self> {
+        observer.model(model.freedoms.n, model.pairs.len());
         observer.phase("factorisation");
         let start = Instant::now();
         let within = zone_choice::first_guess(model).elements;
@@ -128,6 +131,7 @@ impl<'m, 'o> Run<'m, 'o> {
             engine,
             recovery: None,
             choice,
+            at_yield: None,
             spread: None,
             observer,
             results,
@@ -186,7 +190,7 @@ impl<'m, 'o> Run<'m, 'o> {
         if !self.choice.elements.is_empty() && (required || self.largest_factor().is_some()) {
             self.observer.phase("yield load");
             let start = Instant::now();
-            self.find_yield(required)?;
+            self.find_yield(required, yield_only)?;
             self.seconds.yield_load = start.elapsed().as_secs_f64();
         }
         if yield_only {
@@ -401,11 +405,14 @@ impl<'m, 'o> Run<'m, 'o> {
         results.factor = self.engine.sub.cost();
         results.condition = self.engine.sub.condition();
         let tolerances = quality::tolerances(model);
-        for state in &results.states {
-            for (figure, value, most) in state.quality.misses(&tolerances) {
+        let states = results.states.iter().map(|s| (s.name.as_str(), s.quality));
+        let judged: Vec<(&str, Quality)> =
+            states.chain(self.at_yield.map(|q| ("yield", q))).collect();
+        for (name, quality) in &judged {
+            for (figure, value, most) in quality.misses(&tolerances) {
                 let text = format!(
-                    "state `{}` is inaccurate: {figure} {value:.1e}, allowed {most:.1e} (condition at least {:.0e})",
-                    state.name, results.condition
+                    "state `{name}` is inaccurate: {figure} {value:.1e}, allowed {most:.1e} (condition at least {:.0e})",
+                    results.condition
                 );
                 self.observer.warning(&text);
                 results.warnings.push(text.clone());
@@ -423,22 +430,8 @@ impl<'m, 'o> Run<'m, 'o> {
                 .condition_estimate(model, self.engine.system);
             results.condition_estimate = estimate.ok();
         }
-        results.quality = results
-            .states
-            .iter()
-            .fold(Quality::default(), |w, s| Quality {
-                backward_error: w.backward_error.max(s.quality.backward_error),
-                // None is less than any number.
-                componentwise_error: w
-                    .componentwise_error
-                    .into_iter()
-                    .chain(s.quality.componentwise_error)
-                    .reduce(f64::max),
-                equilibrium: w.equilibrium.max(s.quality.equilibrium),
-                complementarity: w.complementarity.max(s.quality.complementarity),
-                penetration: w.penetration.max(s.quality.penetration),
-                adhesion: w.adhesion.max(s.quality.adhesion),
-            });
+        let qualities = judged.iter().map(|(_, q)| q);
+        results.quality = qualities.fold(Quality::default(), |w, q| w.worse(q));
         for (name, seconds) in [
             ("factorisation and condensation", self.seconds.condensation),
             ("yield load", self.seconds.yield_load),

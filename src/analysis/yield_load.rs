@@ -11,6 +11,8 @@ use crate::error::{Error, Result};
 
 /// Relative accuracy of the yield load.
 const ACCURACY: f64 = 1e-14;
+/// Share by which a ratio may be below 1 and still be that of first yield: far above [`ACCURACY`], far below any jump.
+const BEFORE: f64 = 1e-9;
 /// Most iterations of a bracketed root search.
 const MOST: usize = 200;
 
@@ -34,7 +36,10 @@ pub fn yield_share(
     let mut found = None;
     let share = bracketed_root(0.0, 1.0, ACCURACY, |s| {
         let peak = at(s);
-        found = peak;
+        // On a coarse mesh the recovered maximum may jump where another place is searched: what yields is what lies beyond the jump.
+        if peak.is_some_and(|p| p.ratio >= 1.0 - BEFORE) {
+            found = peak;
+        }
         peak.map_or(-1.0, |p| p.ratio - 1.0)
     });
     (share, found)

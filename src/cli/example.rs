@@ -32,6 +32,8 @@ const EXAMPLES: &[Example] = examples![
     "cylinder_on_half_plane",
     "disc_in_plate",
     "flat_punch",
+    "nafems_cb1",
+    "pin_in_hole",
     "shrink_fit",
     "thick_cylinder",
     "thick_sphere",

@@ -35,7 +35,7 @@ pub(super) fn results(
     if let Some(accuracy) = &results.accuracy {
         report.accuracy(accuracy);
     }
-    report.quality(&results.quality);
+    report.quality(results);
     report.cost(results, wall_seconds);
     report.list("Warnings", &results.warnings);
     if let Some(out) = out {
@@ -371,13 +371,24 @@ impl Report {
         self.section("Reference values", &table);
     }
 
-    fn quality(&mut self, quality: &Quality) {
+    fn quality(&mut self, results: &Results) {
         let figure = |value| significant(value, 2);
+        let quality: &Quality = &results.quality;
+        let componentwise = quality
+            .componentwise_error
+            .map_or_else(String::new, |value| {
+                format!(" (row by row {})", figure(value))
+            });
+        let condition = match (results.condition_estimate, results.condition) {
+            (Some(estimate), _) => format!("; condition about {}", figure(estimate)),
+            (None, least) if least > 0.0 => format!("; condition at least {}", figure(least)),
+            _ => String::new(),
+        };
         self.text.push('\n');
         self.labelled(
             "Quality",
             &format!(
-                "backward error {}, equilibrium {}, complementarity {}, penetration {}, adhesion {}",
+                "backward error {}{componentwise}, equilibrium {}, complementarity {}, penetration {}, adhesion {}{condition}",
                 figure(quality.backward_error),
                 figure(quality.equilibrium),
                 figure(quality.complementarity),

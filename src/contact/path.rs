@@ -32,6 +32,8 @@ pub enum PathEnd {
 
 /// Gaps below this share of the largest, forces below this share of the largest, count as zero when ties are collected.
 const TIE: f64 = 1e-10;
+/// Share of the terms of a force's rate that is their round-off: eps times the pairs and the condition of the tied structure that they come from.
+const ROUND_OFF: f64 = 1e-11;
 /// Events over which gaps, forces and their rates are carried along at least, each for the cost of a column; then they are solved for anew,
 /// so that round-off does not add up.
 const CARRIED: usize = 16;
@@ -152,11 +154,17 @@ impl Path {
             let reduced = DMatrix::from_fn(m, m, |i, j| tableau.swept(border[i], border[j]));
             // A rate that is nothing but the round-off of what it is a sum of has no sign to follow: a body on which nothing acts
             // would be driven off by it.
-            let round_off = tableau.force_tolerance(&self.rate, &self.gap_rate);
+            let terms = |k: usize| {
+                let column = tableau.matrix().column(k);
+                let of_gaps = column.iter().zip(&self.gap_rate);
+                self.rate[k].abs() + of_gaps.map(|(t, g)| (t * g).abs()).sum::<f64>()
+            };
             let rates: Vec<f64> = border
                 .iter()
-                .map(|&k| self.force_rate[k])
-                .map(|rate| if rate.abs() <= round_off { 0.0 } else { rate })
+                .map(|&k| match self.force_rate[k] {
+                    rate if rate.abs() <= ROUND_OFF * terms(k) => 0.0,
+                    rate => rate,
+                })
                 .collect();
             let mut small = Tableau::new(reduced);
             let (mut dg, mut dr) = (vec![0.0; m], vec![0.0; m]);

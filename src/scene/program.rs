@@ -157,8 +157,8 @@ pub struct Settings {
     pub tolerance: f64,
     /// Most plastic iterations per increment.
     pub max_iterations: usize,
-    /// Estimate the condition of the factored matrix, which takes about six full solves (done anyway where accuracy is in doubt), and the
-    /// componentwise backward error of each state.
+    /// Estimate the condition of the factored matrix, which takes about six full solves (done anyway where accuracy is in doubt; a lower
+    /// bound is in every summary).
     pub condition: bool,
 }
 

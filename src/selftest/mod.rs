@@ -6,11 +6,13 @@
 //! | `contact` | floating and conforming bodies, ties, events, complementarity |
 //! | `numbers` | stiffness ratios, slivers, units, backends |
 //! | `flow` | incompressible flow, limit loads, cycles, ratchetting, the axis of quadratic elements |
+//! | `peers` | cases on which other codes were seen to fail without a word |
 //! | `restart` | going on from checkpoints |
 
 mod contact;
 mod flow;
 mod numbers;
+mod peers;
 mod restart;
 
 use crate::analysis::Analysis;
@@ -83,6 +85,7 @@ pub fn run(observer: &mut dyn Observer) -> Vec<Row> {
         .iter()
         .chain(numbers::FAMILIES)
         .chain(flow::FAMILIES)
+        .chain(peers::FAMILIES)
         .chain(restart::FAMILIES);
     let mut rows = Vec::new();
     for family in families {
@@ -134,7 +137,16 @@ pub fn page(rows: &[Row]) -> String {
             }
         );
     }
-    text
+    text + &beside_others()
+}
+
+/// What another program made of the cases of `data/peers`: the part of that page which stands under its heading, as it was measured.
+fn beside_others() -> String {
+    const PAGE: &str = include_str!("../../data/peers/README.md");
+    const HEADING: &str = "## Where contact codes fail silently";
+    let part = PAGE.find(HEADING).map_or("", |at| &PAGE[at..]);
+    // The links there are relative to that page's folder.
+    format!("\n{}", part.replace("](", "](peers/"))
 }
 
 /// A scene of the suite.

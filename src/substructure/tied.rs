@@ -205,7 +205,8 @@ impl Tied {
     }
 
     /// A relative displacement of the pairs without what rigid motions of floating bodies contribute to it. They cost nothing: forces of
-    /// a gap that is large beside the deformation are those of the rest, and do not drown in its round-off.
+    /// a gap that is large beside the deformation are those of the rest, and do not drown in its round-off. What is rigid to round-off
+    /// leaves nothing, so that a body which an interference lifts off another feels no force, rather than one whose sign is chance.
     pub(super) fn without_rigid(&self, slip: &[f64]) -> DVector<f64> {
         let n = self.n;
         let mut basis: Vec<DVector<f64>> = Vec::new();
@@ -224,11 +225,17 @@ impl Tied {
             }
         }
         let mut rest = DVector::from_column_slice(slip);
+        let whole = rest.norm();
         for _ in 0..2 {
             for motion in &basis {
                 let along = motion.dot(&rest);
                 rest.axpy(-along, motion, 1.0);
             }
+        }
+        // Each subtraction leaves a rounding error of what it is made from.
+        let round_off = 4.0 * (basis.len() + 1) as f64 * f64::EPSILON * whole;
+        if rest.norm() <= round_off {
+            rest.fill(0.0);
         }
         rest
     }

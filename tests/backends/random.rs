@@ -11,6 +11,8 @@ struct Layer {
     height: f64,
     rows: usize,
     gap: f64,
+    /// By how much it overlaps the one below.
+    interference: f64,
     young: f64,
     poisson: f64,
     /// Yield stress and plastic modulus over E.
@@ -36,18 +38,22 @@ fn layer() -> impl Strategy<Value = Layer> {
         0.3f64..2.0,
         1usize..3,
         prop_oneof![Just(0.0), 1e-5f64..1e-2],
+        prop_oneof![3 => Just(0.0), 1 => 1e-5f64..3e-3],
         4f64..5.5,
         0.0f64..0.45,
         prop::option::of((50.0f64..500.0, 0.02f64..0.5)),
     )
-        .prop_map(|(height, rows, gap, exponent, poisson, plastic)| Layer {
-            height,
-            rows,
-            gap,
-            young: 10f64.powf(exponent),
-            poisson,
-            plastic,
-        })
+        .prop_map(
+            |(height, rows, gap, interference, exponent, poisson, plastic)| Layer {
+                height,
+                rows,
+                gap,
+                interference,
+                young: 10f64.powf(exponent),
+                poisson,
+                plastic,
+            },
+        )
 }
 
 fn stack() -> impl Strategy<Value = Stack> {
@@ -78,8 +84,7 @@ fn stack() -> impl Strategy<Value = Stack> {
                 pressure,
                 targets,
                 steps,
-                // Bodies between, on which nothing acts, would fall about in their gaps as round-off has it: two bodies only.
-                movement: movement.filter(|_| layers.len() == 2),
+                movement,
                 layers,
             },
         )
@@ -130,6 +135,9 @@ impl Stack {
                     "[[contact]]\nfirst = \"b{k}.bottom\"\nsecond = \"b{}.top\"",
                     k - 1
                 ));
+                if layer.interference > 0.0 {
+                    say(format!("interference = {:?}", layer.interference));
+                }
             }
         }
         say("[[support]]\non = \"b0.bottom\"\nfix = [\"y\"]".into());
@@ -144,7 +152,8 @@ impl Stack {
                 self.pressure
             )),
         }
-        say("[program]\ngamma = 1e-12".into());
+        // Forces balance better than the agreement asked for: two roundings of an increment may stop at different iterates.
+        say("[analysis]\ntolerance = 1e-12\n[program]\ngamma = 1e-12".into());
         if let Some(steps) = self.steps {
             say(format!("stepping = \"steps\"\nsteps = {steps}"));
         }
@@ -165,6 +174,7 @@ fn a_body_on_which_nothing_acts_is_left_alone() {
         height,
         rows: 1,
         gap,
+        interference: 0.0,
         young,
         poisson,
         plastic: None,
@@ -186,6 +196,105 @@ fn a_body_on_which_nothing_acts_is_left_alone() {
     };
     let results = both(&parse(&stack.scene())).unwrap();
     assert!(results.states[0].contact_force.abs() < 1e-9);
+}
+
+/// A body that lies on another between two that move: nothing acts on it, it stays. The rates of the forces that hold it are sums of terms that cancel
+/// to the round-off of a condition; taken at its word it was driven off (one backend refused).
+#[test]
+fn a_body_that_lies_loose_stays_where_the_other_turns_back() {
+    let layer = |height, rows, gap, young, poisson| Layer {
+        height,
+        rows,
+        gap,
+        interference: 0.0,
+        young,
+        poisson,
+        plastic: None,
+    };
+    let stack = Stack {
+        kind: "plane_stress",
+        shape: "quad4",
+        columns: 2,
+        layers: vec![
+            layer(1.1808884856596076, 2, 0.0, 10000.0, 0.28623047526580025),
+            layer(0.3, 1, 0.0, 11776.14780811858, 0.0),
+            layer(
+                0.3,
+                2,
+                0.006244561194281796,
+                161788.4246784119,
+                0.08853682252930438,
+            ),
+        ],
+        pad: 1,
+        pressure: -1.0,
+        targets: vec![0.43522734583979944, 0.05],
+        steps: None,
+        movement: Some(0.0035978333763670256),
+    };
+    let results = both(&parse(&stack.scene())).unwrap();
+    for s in &results.states {
+        assert!(s.contact_force.abs() < 1e-9, "{s:?}");
+    }
+}
+
+/// Let go, the body between is held by forces of round-off, which hand it from pair to pair: each fall of the energy was of 1e-30, none the same,
+/// and the statuses never settled. `hard/loose_body` is this scene.
+#[test]
+fn a_body_let_go_between_two_others_settles() {
+    assert!(both(&crate::running::load("hard/loose_body", &[])).is_some());
+}
+
+/// An interference lifts a body that nothing but contact holds: it costs nothing, and its forces are zero, not the round-off of a rigid motion.
+#[test]
+fn an_interference_lifts_a_floating_body() {
+    let results = both(&crate::running::load("hard/lifted_by_interference", &[])).unwrap();
+    let [fitted, pressed] = &results.states[..] else {
+        panic!("two states")
+    };
+    assert_eq!(fitted.contact_force, 0.0);
+    crate::running::close("force", pressed.contact_force, 2.0, 2.0, 1e-12);
+}
+
+/// On a mesh as coarse as this the recovered stress is far from the sampled one, and its maximum jumps where a second place comes close enough to
+/// be searched: first yield is at the jump, in the body beyond it, whatever round-off says of the last step there.
+#[test]
+fn first_yield_at_a_jump_of_the_recovered_maximum_is_in_one_body() {
+    let layer = |height, young, poisson, stress| Layer {
+        height,
+        rows: 1,
+        gap: 0.0,
+        interference: 0.0,
+        young,
+        poisson,
+        plastic: Some((stress, 0.02)),
+    };
+    let stack = Stack {
+        kind: "plane_strain",
+        shape: "quad8",
+        columns: 3,
+        layers: vec![
+            layer(
+                1.2477142808843953,
+                90357.62499174543,
+                0.3972915153475171,
+                408.93554386639056,
+            ),
+            layer(
+                0.7681796729293688,
+                117189.45496845475,
+                0.09115701818005525,
+                463.95702815817884,
+            ),
+        ],
+        pad: 2,
+        pressure: 536.173332410839,
+        targets: vec![0.7920769307018691],
+        steps: None,
+        movement: None,
+    };
+    let results = both(&parse(&stack.scene())).unwrap();
+    assert!(results.first_yield.is_some());
 }
 
 #[test]

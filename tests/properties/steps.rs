@@ -47,6 +47,59 @@ fn elastic_states_do_not_depend_on_increments() {
     }
 }
 
+/// Increments over fifteen orders of magnitude on one path: codes that compare an increment's change with an absolute number, or divide by it, stall
+/// or lose statuses. Elastic: the state is that of the direct way to round-off.
+#[test]
+fn elastic_increments_over_fifteen_orders_of_magnitude() {
+    let run_to = |targets: &str, stepping: &str| {
+        let results = run(&load(
+            "hard/unload_reload",
+            &[
+                "bodies.cylinder.plastic=false",
+                "bodies.half_plane.plastic=false",
+                "program.unit=load",
+                "mesh.cylinder_on_half_plane.half_width=0.2",
+                stepping,
+                "program.steps=1",
+                &format!("program.targets=[{targets}]"),
+            ],
+        ));
+        healthy(&results);
+        results
+    };
+    let target = |factor: f64| format!("{{ load_factor = {factor:e} }}");
+    let small: Vec<String> = (0..=15)
+        .rev()
+        .map(|k| target(3.0 * 10f64.powi(-k)))
+        .collect();
+    for stepping in ["program.stepping=events", "program.stepping=steps"] {
+        let direct = run_to(&target(3.0), stepping);
+        let long = run_to(&small.join(", "), stepping);
+        assert_eq!(long.states.len(), 16);
+        same_contact(stepping, &direct.states[0], &long.states[15], 1e-12);
+    }
+}
+
+/// The same beyond yield, from 1e-14 to 1e-1 of the yield load: the answer is that of the direct way, but for what the length of the increments makes
+/// (below 1e-3 where the whole way is one of 0.1).
+#[test]
+fn elastoplastic_increments_over_fourteen_orders_of_magnitude() {
+    let target = |factor: f64| format!("{{ load_factor = {factor:?} }}");
+    let mut small = vec!["{ yield = true }".to_string(), target(1.2)];
+    let direct = [small.clone(), vec![target(1.3)]].concat().join(", ");
+    small.extend((1..=14).rev().map(|k| target(1.2 + 10f64.powi(-k))));
+    let [direct, long] = [direct, small.join(", ")].map(|targets| {
+        let results = cylinder(&[&format!("program.targets=[{targets}]")]);
+        healthy(&results);
+        results
+    });
+    let (a, b) = (direct.states.last().unwrap(), long.states.last().unwrap());
+    assert_eq!((direct.states.len(), long.states.len()), (3, 16));
+    same_contact("small increments", a, b, 1e-3);
+    let strain = a.max_equivalent_plastic_strain;
+    assert!((b.max_equivalent_plastic_strain / strain - 1.0).abs() < 1e-2);
+}
+
 /// Elastoplastic: radial return is a backward Euler rule, so states of coarse increments are off by O(increment) at most. Fixed steps and
 /// events converge to one answer.
 #[test]

@@ -80,3 +80,21 @@ fn one_closed_pair_holds_a_body() {
     );
     same_contact("back", touch, again, 1e-9);
 }
+
+/// A beam that contact holds at its end is a millionth as stiff without: whoever holds it by soft springs meanwhile, or takes its pivots for zero, gets
+/// another share of the load. Propped cantilever; shear adds (h/L)^2 = 1e-4 times a small number, and where on the edge's element the force
+/// acts (half an element, 0.5 % of the length) as much of it.
+#[test]
+fn a_nearly_floating_body_is_held_by_its_own_stiffness() {
+    let results = run_file("hard/nearly_floating", &[]);
+    healthy(&results);
+    let (l, x, q) = (100.0f64, 99.0f64, 0.01);
+    let exact = q * (6.0 * l * l - 4.0 * l * x + x * x) / (8.0 * x);
+    let (laid, again) = (state(&results, "laid"), state(&results, "laid again"));
+    close("reaction", laid.contact_force, exact, exact, 6e-3);
+    assert_eq!(state(&results, "lifted").contact_force, 0.0);
+    same_contact("laid again", laid, again, 1e-10);
+    // What the beam's length costs is said, in every run.
+    assert!(results.condition > 1e4, "{:e}", results.condition);
+    assert!(results.inaccurate.is_empty());
+}

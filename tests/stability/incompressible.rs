@@ -39,6 +39,33 @@ fn limit_loads_of_all_shapes_that_claim_not_to_lock() {
     }
 }
 
+/// The same in a sphere, axisymmetric: three constraints at a point instead of two, one of them the hoop strain. Hill's limit is exact for any nu.
+#[test]
+fn limit_loads_of_a_sphere() {
+    let exact = 2.0 * 240.0 * 2f64.ln();
+    for shape in ["quad4", "quad8", "tri6"] {
+        for nu in [0.3, 0.4999] {
+            let set = [
+                format!("mesh.parts.0.element={shape}"),
+                format!("materials.steel.poissons_ratio={nu}"),
+                "mesh.parts.0.ring.elements=[12,4]".to_string(),
+                "program.targets=[{ load_factor = 300.0 }, { load_factor = 345.0 }]".to_string(),
+            ];
+            let set: Vec<&str> = set.iter().map(String::as_str).collect();
+            let model = Model::new(&load("thick_sphere", &set)).unwrap();
+            let mut analysis = Analysis::new(model, Backend::default()).unwrap();
+            let results = analysis.run(&mut Silent).unwrap();
+            assert_eq!(
+                results.incomplete_kind,
+                Some(ErrorKind::Collapse),
+                "{shape} {nu}"
+            );
+            let limit = results.history.last().unwrap().alpha / exact;
+            assert!((limit - 1.0).abs() < 0.01, "{shape}, nu {nu}: {limit}");
+        }
+    }
+}
+
 /// Near the limit the tangent is almost singular: iterations stall, and codes accept what they have. At 99.9 % of the mesh's own limit load
 /// the state is in balance to the tolerance of the iteration, 1e-10, with room for where it is measured.
 #[test]

@@ -9,8 +9,10 @@ mod held_by_contact;
 mod incompressible;
 mod killed;
 mod numbers;
+mod peers;
 mod quality;
 mod receding;
+mod refinement;
 #[path = "../running/mod.rs"]
 mod running;
 mod selftest;

@@ -82,11 +82,22 @@ fn a_loose_iteration_does_not_loosen_what_counts_as_good() {
     assert!(tight.inaccurate.is_empty(), "{:?}", tight.inaccurate);
 }
 
-/// The condition of the factored matrix is estimated where the user asks for it and where accuracy is in doubt, and not paid for elsewhere.
+/// Every run says at least how badly its matrix is conditioned and how well each row of it was solved, for the price of a pass over the matrix. The
+/// condition is estimated where the user asks for it and where accuracy is in doubt, and not paid for elsewhere.
 #[test]
 fn the_condition_is_estimated_where_it_matters() {
     let usual = run_file("hard/three_in_a_row", &[]);
     assert_eq!(usual.condition_estimate, None);
+    // A factor solves each row to a few rounding errors for each of its entries (18), and of those of the factor's row.
+    for q in usual
+        .states
+        .iter()
+        .map(|s| s.quality)
+        .chain([usual.quality])
+    {
+        let omega = q.componentwise_error.unwrap();
+        assert!(omega > 0.0 && omega <= 1e-13, "{q:?}");
+    }
     let asked = run_file("hard/three_in_a_row", &["analysis.condition=true"]);
     let estimate = asked.condition_estimate.unwrap();
     assert!(
@@ -101,4 +112,33 @@ fn the_condition_is_estimated_where_it_matters() {
     assert!(slivers > 1e3 * estimate, "{slivers:e} {estimate:e}");
     let doubtful = run_file("hard/floating_body", &["contact.0.gap=1e8"]);
     assert!(!doubtful.inaccurate.is_empty() && doubtful.condition_estimate.is_some());
+}
+
+/// A yield load is a result like any other: `brinell yield` judges the state that it was taken from, and says so where that is bad.
+#[test]
+fn a_yield_load_has_its_quality_too() {
+    let quality = |overrides: &[&str]| {
+        let scene = crate::running::load("hard/unload_reload", overrides);
+        let model = brinell::model::Model::new(&scene).unwrap();
+        let mut analysis =
+            brinell::analysis::Analysis::new(model, brinell::linalg::Backend::default()).unwrap();
+        let results = analysis.yield_load(&mut brinell::progress::Silent).unwrap();
+        assert!(results.first_yield.is_some());
+        (results.quality, results.inaccurate)
+    };
+    let (good, inaccurate) = quality(&[]);
+    assert!(
+        good.backward_error > 0.0 && good.backward_error <= 1e-14,
+        "{good:?}"
+    );
+    assert!(
+        good.equilibrium > 0.0 && good.equilibrium <= 1e-9,
+        "{good:?}"
+    );
+    assert!(
+        good.componentwise_error
+            .is_some_and(|w| w > 0.0 && w <= 1e-12),
+        "{good:?}"
+    );
+    assert!(inaccurate.is_empty(), "{inaccurate:?}");
 }

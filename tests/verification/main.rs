@@ -1,5 +1,6 @@
 //! Published cases with known answers, run through the library: one case per file, its source at the head.
 
+mod circular_punch;
 mod contact_patch;
 mod cyclic_element;
 mod disc_in_plate;
@@ -7,9 +8,12 @@ mod flat_punch;
 mod hertz_line;
 mod hertz_line_history;
 mod hertz_point;
+mod nafems_cb1;
+mod pin_in_hole;
 mod quality;
 mod run;
 mod shrink_fit;
+mod ssnv104;
 mod thick_cylinder;
 mod thick_sphere;
 mod yield_load;

@@ -60,6 +60,7 @@ pub(super) fn quality(results: &Results) -> Markup {
     let head = [
         text("state"),
         numbers("backward error"),
+        numbers("row by row"),
         numbers("equilibrium"),
         numbers("complementarity"),
         numbers("penetration"),
@@ -68,27 +69,33 @@ pub(super) fn quality(results: &Results) -> Markup {
     let row = |name: &str, q: &crate::results::Quality| -> Vec<Markup> {
         let mut cells = vec![plain(name)];
         let figures = [
-            q.backward_error,
-            q.equilibrium,
-            q.complementarity,
-            q.penetration,
-            q.adhesion,
+            Some(q.backward_error),
+            q.componentwise_error,
+            Some(q.equilibrium),
+            Some(q.complementarity),
+            Some(q.penetration),
+            Some(q.adhesion),
         ];
-        cells.extend(figures.map(|v| plain(significant(v, 2))));
+        let shown = |v: Option<f64>| v.map_or_else(|| "-".to_string(), |v| significant(v, 2));
+        cells.extend(figures.map(|v| plain(shown(v))));
         cells
     };
     let mut rows = vec![row("worst of all", &results.quality)];
     rows.extend(results.states.iter().map(|s| row(&s.name, &s.quality)));
     html! {
         p.quiet {
-            "Relative and without dimension; 1e-16 is round-off. Backward error of the full solve; out-of-balance force of the \
+            "Relative and without dimension; 1e-16 is round-off. Backward error of the full solve, of the whole and of the worst row; out-of-balance force of the \
              stresses over the forces that act; gap times force of a pair; penetration over the largest displacement; tension of a pair over the largest force. \
              These say how well the equations were solved, not how fine the mesh is."
         }
         @for text in &results.inaccurate { div.note.bad { b { "Not to be trusted: " } (text) } }
         (table(&head, &rows))
         @if results.condition > 0.0 {
-            p.quiet { "Condition of the factored matrix: at least " (significant(results.condition, 2)) "." }
+            p.quiet {
+                "Condition of the factored matrix: at least " (significant(results.condition, 2))
+                @if let Some(estimate) = results.condition_estimate { ", about " (significant(estimate, 2)) }
+                "."
+            }
         }
     }
 }
