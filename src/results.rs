@@ -345,7 +345,7 @@ pub struct ReferenceRow {
 pub struct Accuracy {
     /// How the discretisation error was estimated.
     pub method: EstimateMethod,
-    /// The coarser meshes that were run for it, finest first.
+    /// The other meshes that were run for it, finest first.
     pub companions: Vec<Companion>,
     /// A row per reported quantity.
     pub quantities: Vec<QuantityError>,
@@ -354,6 +354,9 @@ pub struct Accuracy {
     /// Seconds that the estimate took.
     #[serde(deserialize_with = "null_is_not_a_number")]
     pub seconds: f64,
+    /// Floating point operations of the factorisations and solves of the runs that were made for it.
+    #[serde(default, deserialize_with = "null_is_not_a_number")]
+    pub work: f64,
     /// What the estimate could not do, and why.
     pub notes: Vec<String>,
 }
@@ -371,22 +374,25 @@ pub struct Demand {
     pub stated: f64,
     /// What was chosen, and why.
     pub choices: Vec<String>,
+    /// Floating point operations of the factorisations and solves of all trials, their estimates included.
+    #[serde(default, deserialize_with = "null_is_not_a_number")]
+    pub work: f64,
 }
 
 /// How a discretisation error was estimated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EstimateMethod {
-    /// The same scene on coarser meshes of the same family; the error is extrapolated.
+    /// The same scene on other meshes of the same family, coarser ones where the run is fine enough; the error is extrapolated.
     CoarserMeshes,
-    /// The energy norm of the recovered stress error: a rough figure, for meshes that cannot be made coarser.
+    /// The energy norm of the recovered stress error: a rough figure, for large meshes from files.
     EnergyNorm,
     /// Not at all.
     #[default]
     None,
 }
 
-/// A coarser mesh of the same family.
+/// Another mesh of the same family.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Companion {
     /// Its element size over that of the run.

@@ -4,22 +4,27 @@
 //!
 //! | setting | chosen so that |
 //! |---|---|
-//! | mesh | the stated error of every governing quantity is at most `x` of its largest size in the run |
+//! | mesh, its grading | the stated error of every governing quantity is at most `x` of its largest size in the run |
 //! | `gamma` | `x / 300`: below a hundredth of `x` it is not seen beside the mesh (measured: `data/accuracy`) |
 //! | plastic tolerance | `x / 300`, at most 1e-6: looser ones save little and miss targets that are read off the state |
 //! | increments | the path's part of the stated error is at most `x / 3`; fixed steps where events leave fewer |
 //!
-//! A pilot run on a coarse mesh states its error and its order; from them the next mesh is aimed at, at most [`STRIDE`] times finer,
-//! until one reaches the demand. Memory and time of a mesh are predicted from the symbolic factorisation before it is run: what
+//! A pilot run on a coarse mesh states its error and its order, and a second one which part of the mesh it comes from (`grading`):
+//! from them the next mesh is aimed at, graded so that the demand costs the fewest elements, at most [`STRIDE`] times finer, until one
+//! reaches the demand. Memory and time of a mesh are predicted from the symbolic factorisation before it is run: what
 //! does not fit is refused with its price.
 
-use super::estimate::{Extent, SAFETY, estimate};
+use super::estimate::{Extent, SAFETY, estimate_on};
+use super::grading::{balanced, risen};
 use super::knobs::resolution;
-use super::meter::{Pace, available_memory, forecast};
+use super::ladder::{Ladder, PILOT, spacings};
+use super::meter::{Pace, forecast, work};
+use super::pilot::pilot;
 use super::quantities::quantities;
-use super::refinement::{FEWEST, governing_count, largest_order, refined};
+use super::refinement::{largest_order, refined};
+use super::refusal::{Cost, percent, refuse_beyond_memory, refuse_round_off};
 use crate::analysis::Analysis;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::linalg::Backend;
 use crate::model::Model;
 use crate::progress::Observer;
@@ -36,20 +41,17 @@ const TIGHTEST: f64 = 1e-10;
 const LOOSEST: f64 = 1e-6;
 /// Share of the demand that the path may take.
 const PATH_SHARE: f64 = 1.0 / 3.0;
-/// Elements over what governs, in the first pilot run.
-const PILOT: f64 = 1.2 * FEWEST;
-/// A mesh is at most this many times finer than the one it is aimed from: beyond, an observed order is a guess.
-const STRIDE: f64 = 2.0;
+/// A mesh is at most this many times finer than the one it is aimed from: beyond, an observed order is a guess. Each
+/// is judged by the two before it, which cost nothing again, so that all together cost about 1.5 times the last.
+const STRIDE: f64 = 1.6;
+/// And at least this many times: one that is hardly finer says nothing new.
+const LEAST_STEP: f64 = 1.2;
 /// What is aimed at, of what is demanded: the error of a contact edge scatters.
 const AIM: f64 = 0.8;
 /// Runs before the demand is given up.
-const ROUNDS: usize = 8;
+const ROUNDS: usize = 12;
 /// Rounds from which on the prediction of the mesh that will do is believed.
-const TRUSTED: usize = 3;
-/// Share of the free memory that a run may take.
-const MEMORY_SHARE: f64 = 0.9;
-/// Bytes of the results, mesh and assembly per byte of the factor at its peak.
-const BESIDE_FACTOR: f64 = 2.0;
+const TRUSTED: usize = 4;
 
 /// A run that was made to a demand.
 pub struct Reached {
@@ -76,12 +78,12 @@ pub fn reach(
     let Some(demand) = scene.accuracy.map(|a| a.relative()) else {
         return Err(Error::input("the scene demands no accuracy"));
     };
-    let Some(count) = governing_count(&scene.mesh) else {
+    let Some(count) = spacings(scene) else {
         return Err(Error::input(
             "`accuracy`: the mesh comes from a file and cannot be refined; take the key out, or use a generator",
         ));
     };
-    let mut wanted = with_tolerances(scene, demand);
+    let mut wanted = risen(&with_tolerances(scene, demand));
     let mut choices = vec![format!(
         "tolerance {:.1e} and gamma {:.1e}: a 300th of the demand, the former at most {LOOSEST:e}",
         wanted.analysis.tolerance, wanted.program.gamma
@@ -89,25 +91,39 @@ pub fn reach(
     let mut factor = PILOT / count;
     let mut pace = Pace::default();
     let mut costs: Vec<Cost> = Vec::new();
+    let mut spent = 0.0;
+    let mut ladder = Ladder::default();
     for round in 1..=ROUNDS {
         let level = nearest(&wanted, factor)?;
         let settings = resolution(&level, 1.0);
         observer.phase(&format!("accuracy {}: {settings}", percent(demand)));
         let cost = forecast(&level, backend)?;
+        let fineness = spacings(&level).unwrap_or(count * factor);
+        costs.push(Cost {
+            fineness,
+            memory: cost.factor.memory_bytes,
+            forecast: cost.seconds,
+        });
+        refuse_beyond_memory(demand, fineness, &costs, &pace)?;
         let begun = Instant::now();
         let mut analysis = Analysis::new(Model::new(&level)?, backend)?;
         let mut results = match extent {
             Extent::Yield => analysis.yield_load(observer)?,
             Extent::Program => analysis.run(observer)?,
         };
-        let mut found = estimate(&level, backend, &results, extent, observer);
+        let mut found = estimate_on(
+            ladder.rungs(&level),
+            &mut ladder,
+            &level,
+            backend,
+            &results,
+            extent,
+            observer,
+        );
+        ladder.keep(&level, &results);
         let seconds = begun.elapsed().as_secs_f64();
+        spent += work(&results) + found.work;
         pace.learn(cost.seconds, seconds);
-        costs.push(Cost {
-            factor,
-            memory: cost.factor.memory_bytes,
-            forecast: cost.seconds,
-        });
         let outcome = Outcome::of(&results, &found, demand, largest_order(scene));
         choices.push(format!(
             "{settings}: stated error {} in {seconds:.2} s{}",
@@ -129,6 +145,7 @@ pub fn reach(
                 reached,
                 stated: outcome.stated,
                 choices,
+                work: spent,
             });
             results.accuracy = Some(found);
             return Ok(Reached {
@@ -137,7 +154,27 @@ pub fn reach(
                 results,
             });
         }
-        refuse_round_off(demand, &outcome)?;
+        refuse_round_off(demand, outcome.algebraic)?;
+        let mut finer = outcome.refinement.max(1.0);
+        // Another shape begins a ladder of its own: worth it only where more than a rung lies ahead.
+        if round == 1
+            && finer > STRIDE
+            && let Some(pilot) = pilot(&level, backend, extent, &results, &found, observer)
+        {
+            spent += pilot.work;
+            let aim = AIM * outcome.mesh_share * demand / SAFETY;
+            if let Some((shaped, needed)) = balanced(&level, &pilot.shares(aim), STRIDE) {
+                let shape = resolution(&shaped, 1.0);
+                if shape != settings {
+                    choices.push(format!(
+                        "near and far parts so fine that the error costs the fewest elements: {shape}"
+                    ));
+                }
+                wanted = shaped;
+                factor = 1.0;
+                finer = needed.max(LEAST_STEP);
+            }
+        }
         if outcome.path > PATH_SHARE * demand {
             let steps = more_steps(&mut wanted, &results, outcome.path / (PATH_SHARE * demand));
             choices.push(format!(
@@ -145,16 +182,22 @@ pub fn reach(
                 percent(outcome.path)
             ));
         }
-        let finer = outcome.refinement.max(1.0);
+        let step = stride(finer);
         // What a coarse mesh says of a fine one is a guess: at first only what no order of convergence could reach is refused.
         let certain = match round < TRUSTED {
-            true => outcome.least.max(finer.min(STRIDE)),
+            true => outcome.least.max(step),
             false => finer,
         };
-        refuse_beyond_memory(demand, factor * certain, &costs, &pace)?;
-        factor *= finer.min(STRIDE);
+        refuse_beyond_memory(demand, fineness * certain, &costs, &pace)?;
+        factor *= step;
     }
     Err(Error::internal("the rounds of a demand end in the loop"))
+}
+
+/// How much finer the next mesh is made on the way to one that is `finer`: equal strides, none longer than [`STRIDE`].
+fn stride(finer: f64) -> f64 {
+    let strides = (finer.ln() / STRIDE.ln()).ceil().max(1.0);
+    finer.powf(1.0 / strides)
 }
 
 /// What a run says about the next.
@@ -171,6 +214,8 @@ struct Outcome {
     refinement: f64,
     /// The same with the highest order and the safety factor left out.
     least: f64,
+    /// Share of the demand that is left to the mesh.
+    mesh_share: f64,
 }
 
 impl Outcome {
@@ -182,6 +227,7 @@ impl Outcome {
             algebraic: 0.0,
             refinement: 1.0,
             least: 1.0,
+            mesh_share: 1.0,
         };
         for (quantity, errors) in quantities(results).iter().zip(&found.quantities) {
             let Some(relative) = errors.relative_error.filter(|_| quantity.governs) else {
@@ -194,29 +240,26 @@ impl Outcome {
             out.path = out.path.max(errors.path.unwrap_or(0.0) / quantity.scale);
             out.algebraic = out.algebraic.max(errors.algebraic / quantity.scale);
             let mesh = SAFETY * errors.discretisation.unwrap_or(0.0) / quantity.scale;
-            let needed = mesh
-                / (AIM * (1.0 - PATH_SHARE * f64::from(u8::from(errors.path.is_some()))) * demand);
+            let share = match errors.path {
+                Some(path) if path > 0.0 => 1.0 - PATH_SHARE,
+                _ => 1.0,
+            };
+            out.mesh_share = out.mesh_share.min(share);
+            let needed = mesh / (AIM * share * demand);
             if relative > demand {
                 let least = errors.discretisation.unwrap_or(0.0) / quantity.scale / demand;
                 out.least = out.least.max(least.powf(1.0 / highest));
                 out.refinement = out
                     .refinement
-                    .max(needed.powf(1.0 / errors.order.unwrap_or(1.0)));
+                    .max(needed.powf(1.0 / errors.order.unwrap_or(highest)));
             }
         }
         // A mesh that is not finer says nothing new.
         if out.stated > demand {
-            out.refinement = out.refinement.max(1.2);
+            out.refinement = out.refinement.max(LEAST_STEP);
         }
         out
     }
-}
-
-/// Predicted cost of a mesh.
-struct Cost {
-    factor: f64,
-    memory: f64,
-    forecast: f64,
 }
 
 /// The member of the family nearest to `factor` that can be made.
@@ -254,99 +297,14 @@ fn more_steps(scene: &mut Scene, results: &Results, factor: f64) -> usize {
     scene.program.steps
 }
 
-fn refuse_round_off(demand: f64, outcome: &Outcome) -> Result<()> {
-    if outcome.algebraic <= demand {
-        return Ok(());
-    }
-    Err(Error::input(format!(
-        "an accuracy of {} is below round-off: the algebra alone leaves {}, however fine the mesh; demand no less",
-        percent(demand),
-        percent(outcome.algebraic)
-    )))
-}
-
-/// Memory and time of a mesh as a power of its fineness, from those predicted so far (two unknowns of the plane's factor: it
-/// fills a little faster than the mesh).
-fn refuse_beyond_memory(demand: f64, factor: f64, costs: &[Cost], pace: &Pace) -> Result<()> {
-    let Some(last) = costs.last() else {
-        return Ok(());
-    };
-    let power = |f: &dyn Fn(&Cost) -> f64, low: f64, high: f64| match costs.first() {
-        Some(first) if last.factor > 1.3 * first.factor => {
-            ((f(last) / f(first)).ln() / (last.factor / first.factor).ln()).clamp(low, high)
-        }
-        _ => high,
-    };
-    let finer = (factor / last.factor).max(1.0);
-    let memory = BESIDE_FACTOR * last.memory * finer.powf(power(&|c| c.memory, 2.0, 2.4));
-    let seconds = pace.seconds(last.forecast * finer.powf(power(&|c| c.forecast, 2.0, 3.2)));
-    match available_memory() {
-        Some(free) if memory > MEMORY_SHARE * free => Err(Error::new(
-            ErrorKind::Input,
-            format!(
-                "{} would take about {} and {:.0} GB, and {:.0} GB are free: the mesh would have to be {finer:.0} times finer than the \
-                 last one tried; demand less, or name fewer targets",
-                percent(demand),
-                duration(seconds),
-                memory / 1e9,
-                free / 1e9
-            ),
-        )),
-        _ => Ok(()),
-    }
-}
-
-fn percent(share: f64) -> String {
-    let value = 100.0 * share;
-    match value {
-        v if !v.is_finite() => "of unknown size".to_string(),
-        v if v != 0.0 && v.abs() < 1e-3 => format!("{v:.1e} %"),
-        v => {
-            let digits = (1 - v.abs().max(1e-300).log10().floor() as i32).clamp(0, 6) as usize;
-            format!("{v:.digits$} %")
-        }
-    }
-}
-
-fn duration(seconds: f64) -> String {
-    match seconds {
-        s if s < 120.0 => format!("{s:.0} s"),
-        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
-        s if s < 172_800.0 => format!("{:.0} h", s / 3600.0),
-        s => format!("{:.1e} days", s / 86400.0),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn a_price_is_told_in_readable_units() {
-        assert_eq!(percent(0.003), "0.30 %");
-        assert_eq!(percent(0.1), "10 %");
-        assert_eq!(percent(1e-8), "1.0e-6 %");
-        assert_eq!(duration(10_800.0), "3 h");
-        assert_eq!(duration(90.0), "90 s");
-    }
-
-    #[test]
-    fn what_does_not_fit_is_refused_with_its_price() {
-        let cost = |factor: f64| Cost {
-            factor,
-            memory: 1e9 * factor * factor,
-            forecast: factor.powi(3),
-        };
-        let costs = [cost(1.0), cost(2.0)];
-        let pace = Pace::default();
-        assert!(refuse_beyond_memory(0.01, 2.0, &costs[..1], &pace).is_ok());
-        if available_memory().is_some() {
-            let error = refuse_beyond_memory(1e-5, 2e4, &costs, &pace).unwrap_err();
-            assert!(
-                error.message().starts_with("0.0010 % would take about"),
-                "{error}"
-            );
-            assert!(error.message().contains(" GB"), "{error}");
-        }
+    fn strides_are_equal_and_none_too_long() {
+        assert!((stride(1.5) - 1.5).abs() < 1e-12);
+        assert!((stride(2.25) - 1.5).abs() < 1e-12);
+        assert!((stride(1.0) - 1.0).abs() < 1e-12);
     }
 }

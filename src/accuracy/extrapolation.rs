@@ -59,6 +59,22 @@ pub fn extrapolate(values: &[(f64, f64)], orders: [f64; 2]) -> Option<Extrapolat
     })
 }
 
+/// The error of the finest of three values `(h, q)` with a part of first and one of second order, `q = q0 + a h + b h^2`; `None` for
+/// more or fewer values. The end of a contact is found within its element by a share of it, while the contact as a whole
+/// converges with the second order: where the two cancel no single order fits.
+pub fn of_edge(values: &[(f64, f64)]) -> Option<f64> {
+    let &[(h, q), second, third] = values else {
+        return None;
+    };
+    // Differences to the first value: r = a (k - h) + b (k^2 - h^2).
+    let [(x, y, r), (v, w, t)] =
+        [second, third].map(|(k, value)| (k - h, k * k - h * h, value - q));
+    let determinant = x * w - y * v;
+    let (a, b) = ((r * w - y * t) / determinant, (x * t - r * v) / determinant);
+    let error = (a * h + b * h * h).abs();
+    error.is_finite().then_some(error)
+}
+
 struct Fit {
     slope: f64,
     limit: f64,
@@ -122,6 +138,14 @@ mod tests {
         assert!((found.limit - 2.5).abs() < 1e-15);
         assert!((found.error - 0.5).abs() < 1e-15);
         assert_eq!(extrapolate(&[(1.0, 3.0)], [1.0, 2.0]), None);
+    }
+
+    #[test]
+    fn parts_of_two_orders_are_told_apart() {
+        let values = sampled(&[1.0, 2.0, 8.0 / 3.0], |h| 7.0 + 0.3 * h - 0.25 * h * h);
+        assert!((of_edge(&values).unwrap() - 0.05).abs() < 1e-13);
+        assert!(extrapolate(&values, [1.0, 2.0]).unwrap().error > 0.2);
+        assert_eq!(of_edge(&values[..2]), None);
     }
 
     #[test]

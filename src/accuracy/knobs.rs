@@ -3,7 +3,7 @@
 //! A study turns one knob at a time from the scene's own settings, but for the mesh, which is refined with every element shape
 //! and once more with loose tolerances: work and precision both come from the mesh first.
 
-use super::refinement::refined;
+use super::refinement::{factors, governing_count, refined};
 use crate::error::{Error, Result};
 use crate::linalg::Backend;
 use crate::mesh::Shape;
@@ -30,6 +30,8 @@ pub enum Knob {
     Resolution,
     /// Element shape, over all resolutions.
     Element,
+    /// Graded meshes over all resolutions: each part as fine as its share of the error asks for.
+    Grading,
     /// From event to event, or `n` steps.
     Stepping,
     /// Tolerance of the plastic iteration.
@@ -44,9 +46,10 @@ pub enum Knob {
 
 impl Knob {
     /// All of them.
-    pub const ALL: [Knob; 7] = [
+    pub const ALL: [Knob; 8] = [
         Knob::Resolution,
         Knob::Element,
+        Knob::Grading,
         Knob::Stepping,
         Knob::Tolerance,
         Knob::Gamma,
@@ -59,6 +62,7 @@ impl Knob {
         match self {
             Knob::Resolution => "resolution",
             Knob::Element => "element",
+            Knob::Grading => "grading",
             Knob::Stepping => "stepping",
             Knob::Tolerance => "tolerance",
             Knob::Gamma => "gamma",
@@ -107,8 +111,10 @@ pub fn settings(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) 
     let name = |shape: Option<Shape>| shape.map_or("mesh", shape_name);
     let meshes =
         |scene: &Scene, knob: Knob, series: &str, finest: usize, out: &mut Vec<Setting>| {
-            for level in finest..levels.max(1) {
-                let factor = FINEST / STEP.powi(level as i32);
+            for factor in factors(scene, FINEST, STEP, levels)
+                .into_iter()
+                .skip(finest)
+            {
                 // The scene itself belongs to every series, file or not.
                 let made = match (factor - 1.0).abs() < 1e-9 {
                     true => Some((scene.clone(), 1.0)),
@@ -229,6 +235,39 @@ pub fn settings(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) 
     out
 }
 
+/// The series of graded meshes: `shaped` as fine, coarse and finer, as those of the scene's own series.
+pub(super) fn graded(
+    scene: &Scene,
+    shaped: &Scene,
+    backend: Backend,
+    levels: usize,
+) -> Vec<Setting> {
+    let name = element(scene).map_or("mesh", shape_name);
+    let fineness = |s: &Scene| governing_count(&s.mesh);
+    let Some(lead) = fineness(scene).zip(fineness(shaped)).map(|(a, b)| a / b) else {
+        return Vec::new();
+    };
+    let mut out: Vec<Setting> = Vec::new();
+    for level in 0..levels.max(1) {
+        let Some(made) = refined(shaped, lead * FINEST / STEP.powi(level as i32)) else {
+            continue;
+        };
+        let ratio = lead * made.ratio;
+        if out.iter().any(|s| (s.ratio - ratio).abs() < 1e-9) {
+            continue;
+        }
+        out.push(Setting {
+            series: format!("{name}, graded"),
+            knob: Knob::Grading,
+            value: resolution(&made.scene, ratio),
+            ratio,
+            scene: made.scene,
+            backend,
+        });
+    }
+    out
+}
+
 /// The element shape of a generated mesh.
 fn element(scene: &Scene) -> Option<Shape> {
     let mesh = &scene.mesh;
@@ -266,10 +305,13 @@ fn shape_name(shape: Shape) -> &'static str {
 /// The mesh in the generator's own words.
 pub(super) fn resolution(scene: &Scene, ratio: f64) -> String {
     let mesh = &scene.mesh;
+    let rising = |far: Option<f64>| far.map_or(String::new(), |g| format!(", far_growth {g:.4}"));
     if let Some(p) = &mesh.cylinder_on_half_plane {
-        format!("resolution {}, growth {:.4}", p.resolution, p.growth)
+        let far = rising(p.far_growth);
+        format!("resolution {}, growth {:.4}{far}", p.resolution, p.growth)
     } else if let Some(p) = &mesh.disc_in_plate {
-        format!("resolution {}, growth {:.4}", p.resolution, p.growth)
+        let far = rising(p.far_growth);
+        format!("resolution {}, growth {:.4}{far}", p.resolution, p.growth)
     } else if let Some(parts) = &mesh.parts {
         let counts: Vec<String> = parts
             .iter()
@@ -282,12 +324,16 @@ pub(super) fn resolution(scene: &Scene, ratio: f64) -> String {
             .collect();
         format!("elements {}", counts.join(", "))
     } else {
-        format!("element size {ratio:.3}")
+        format!(
+            "subdivisions {}, element size {ratio:.3}",
+            mesh.subdivisions
+        )
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::grading::risen;
     use super::*;
 
     fn scene() -> Scene {
@@ -306,7 +352,10 @@ mod tests {
             .collect();
         // 32, 22.6, 16 and 11.3 elements, rounded.
         assert_eq!(ratios, [0.5, 16.0 / 23.0, 1.0, 16.0 / 11.0]);
-        let mut seen: Vec<Knob> = all.iter().map(|s| s.knob).collect();
+        let shaped = risen(&scene);
+        let graded = graded(&scene, &shaped, Backend::Dense, 4);
+        assert!(graded.iter().map(|s| s.ratio).eq(ratios));
+        let mut seen: Vec<Knob> = all.iter().chain(&graded).map(|s| s.knob).collect();
         seen.dedup();
         assert!(
             Knob::ALL

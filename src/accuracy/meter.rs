@@ -4,14 +4,10 @@ use crate::analysis::check;
 use crate::error::Result;
 use crate::linalg::{Backend, Prediction};
 use crate::model::Model;
+use crate::progress::{Flow, Observer};
+use crate::results::{HistoryRow, Results};
 use crate::scene::Scene;
 use std::time::Instant;
-
-/// Clock ticks per second in which Linux tells processor time to programs (`USER_HZ`).
-const TICKS: f64 = 100.0;
-
-/// Processor times from here on are known to a fifth.
-const RESOLVED: f64 = 5.0 / TICKS;
 
 /// Measures wall time, processor time and memory between [`Meter::start`] and [`Meter::stop`].
 #[derive(Debug)]
@@ -26,7 +22,7 @@ pub struct Meter {
 pub struct Usage {
     /// Wall time in seconds.
     pub wall_seconds: f64,
-    /// Processor time of all threads of this process in seconds, in steps of 10 ms; `None` where the system does not tell.
+    /// Processor time of all threads of this process in seconds; `None` where the system does not tell.
     pub cpu_seconds: Option<f64>,
     /// Most memory resident during the run, that which the process held before included (the allocator returns large blocks
     /// at once, small ones late); `None` where the system does not let the mark be set back (Linux: `clear_refs`).
@@ -35,12 +31,10 @@ pub struct Usage {
 
 impl Usage {
     /// What the run takes when nothing disturbs it: wall time, or processor time where that is less, because the machine had
-    /// other things to do; too short a processor time is not resolved.
+    /// other things to do.
     pub fn undisturbed_seconds(&self) -> f64 {
-        match self.cpu_seconds {
-            Some(cpu) if cpu >= RESOLVED => self.wall_seconds.min(cpu),
-            _ => self.wall_seconds,
-        }
+        self.cpu_seconds
+            .map_or(self.wall_seconds, |cpu| self.wall_seconds.min(cpu))
     }
 }
 
@@ -66,14 +60,106 @@ impl Meter {
     }
 }
 
-/// Processor time of the process, user and system.
+/// Processor time of the process, all its threads.
+#[cfg(unix)]
 fn processor_seconds() -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/self/stat").ok()?;
-    // The name in parentheses may hold blanks; what follows it does not. utime and stime are fields 14 and 15.
-    let (_, fields) = text.rsplit_once(')')?;
-    let fields: Vec<&str> = fields.split_whitespace().collect();
-    let ticks = |i: usize| fields.get(i)?.parse::<f64>().ok();
-    Some((ticks(11)? + ticks(12)?) / TICKS)
+    let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+    Some(time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64)
+}
+
+#[cfg(not(unix))]
+fn processor_seconds() -> Option<f64> {
+    None
+}
+
+/// Tells what each phase of a run takes, by the phases that the run itself tells, and passes on the wish to stop.
+pub(super) struct PhaseMeter<'o> {
+    observer: &'o mut dyn Observer,
+    phases: Vec<PhaseUsage>,
+    /// The phase under way, and the wall and processor time at its beginning.
+    current: (String, Instant, Option<f64>),
+}
+
+/// What a phase took.
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+pub struct PhaseUsage {
+    /// Its name.
+    pub phase: String,
+    /// Wall time in seconds.
+    pub wall_seconds: f64,
+    /// Processor time of all threads in seconds, where the system tells.
+    pub cpu_seconds: Option<f64>,
+}
+
+impl<'o> PhaseMeter<'o> {
+    /// Begins with the phase `name`.
+    pub(super) fn start(name: &str, observer: &'o mut dyn Observer) -> Self {
+        PhaseMeter {
+            observer,
+            phases: Vec::new(),
+            current: (name.to_string(), Instant::now(), processor_seconds()),
+        }
+    }
+
+    /// The phases in the order in which they first began; one that came more than once is summed.
+    pub(super) fn stop(mut self) -> Vec<PhaseUsage> {
+        self.turn("");
+        self.phases
+    }
+
+    fn turn(&mut self, next: &str) {
+        let next = (next.to_string(), Instant::now(), processor_seconds());
+        let (name, wall, processor) = std::mem::replace(&mut self.current, next);
+        let wall_seconds = self.current.1.duration_since(wall).as_secs_f64();
+        let cpu_seconds = self
+            .current
+            .2
+            .zip(processor)
+            .map(|(end, start)| end - start);
+        match self.phases.iter_mut().find(|p| p.phase == name) {
+            Some(phase) => {
+                phase.wall_seconds += wall_seconds;
+                phase.cpu_seconds = phase.cpu_seconds.zip(cpu_seconds).map(|(a, b)| a + b);
+            }
+            None => self.phases.push(PhaseUsage {
+                phase: name,
+                wall_seconds,
+                cpu_seconds,
+            }),
+        }
+    }
+}
+
+impl Observer for PhaseMeter<'_> {
+    fn phase(&mut self, name: &str) {
+        self.turn(name);
+    }
+
+    fn increment(&mut self, _: &HistoryRow, _: f64) -> Flow {
+        match self.observer.stop_requested() {
+            true => Flow::Stop,
+            false => Flow::Continue,
+        }
+    }
+
+    fn stop_requested(&self) -> bool {
+        self.observer.stop_requested()
+    }
+}
+
+/// Operations of assembly, ordering and analysis per nonzero of the factor: what they take beside those of the factorisation (the
+/// speeds that [`crate::analysis::check`] assumes). In small meshes they are most of the time.
+const PER_NONZERO: f64 = 250.0;
+/// Operations of a solve per nonzero of the columns it goes through: back and forth, a multiplication and an addition each.
+const PER_SOLVE: f64 = 4.0;
+
+/// Cost of a run in floating point operations: of its factorisations with what precedes them, and of its solves. It does not depend on
+/// the machine, nor on what else that does.
+pub fn work(results: &Results) -> f64 {
+    let (counts, factor) = (&results.counts, &results.factor);
+    counts.factorizations as f64 * (factor.flops + PER_NONZERO * factor.factor_nonzeros)
+        + PER_SOLVE * counts.full_solves as f64 * factor.factor_nonzeros
+        + PER_SOLVE * counts.trailing_solves as f64 * factor.trailing_nonzeros
 }
 
 fn peak_memory() -> Option<u64> {
@@ -183,5 +269,32 @@ mod tests {
         if let Some(peak) = usage.peak_memory_bytes {
             assert!(peak >= 64 << 20, "{peak}");
         }
+    }
+    #[test]
+    fn phases_are_told_apart_and_summed() {
+        let mut silent = crate::progress::Silent;
+        let mut meter = PhaseMeter::start("assembly", &mut silent);
+        meter.phase("factorisation");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+        meter.phase("load program");
+        meter.phase("factorisation");
+        let phases = meter.stop();
+        let names: Vec<&str> = phases.iter().map(|p| p.phase.as_str()).collect();
+        assert_eq!(names, ["assembly", "factorisation", "load program"]);
+        assert!(phases[1].wall_seconds >= 0.02 && phases[0].wall_seconds < 0.02);
+        // Asleep it takes no processor time of its own; other tests may run beside it.
+        assert_eq!(phases[1].cpu_seconds.is_some(), cfg!(unix));
+    }
+
+    #[test]
+    fn work_counts_factorisations_and_solves() {
+        let mut results = Results::default();
+        results.counts.factorizations = 2;
+        results.counts.trailing_solves = 3;
+        results.counts.full_solves = 1;
+        results.factor.flops = 1000.0;
+        results.factor.factor_nonzeros = 50.0;
+        results.factor.trailing_nonzeros = 10.0;
+        assert_eq!(work(&results), 2.0 * (1000.0 + 12500.0) + 200.0 + 120.0);
     }
 }

@@ -1,85 +1,122 @@
 //! The error of the way through the load program: the size of its increments, the tolerance of the plastic iteration and that
 //! with which changes of contact are hit.
 //!
-//! The rule of the flow (implicit) is of first order in the increment: an error `c/n` for `n` increments changes by half of itself
-//! when there are twice as many. The changes of contact end the increments where the stepping is `events`, so there is
-//! nothing to double; the scene is then run with fixed steps, twice as many as there were increments. Both are done on
-//! the coarsest of the meshes of the estimate, where they cost little: the error of the path hardly depends on the
+//! The rule of the flow (implicit) is of first order in the increment: an error `c/n` for `n` increments changes by `c/n - c/m` when
+//! there are `m`, twice as many, or [`FEWEST`] where there were so few that first order is not to be seen yet. The changes of contact
+//! end the increments where the stepping is `events`, so there is nothing to divide; the scene is then run with fixed steps. Both are
+//! done on the coarsest of the meshes of the estimate, where they cost little: the error of the path hardly depends on the
 //! mesh, but for the number of increments, by whose ratio it is scaled.
+//!
+//! Where nothing flows there is no such error: elastic contact follows its path exactly from event to event, and a state depends
+//! on its load alone.
 //!
 //! Tolerances are changed by [`FACTOR`]: made tighter where they are loose (the difference is the error), looser
 //! where they are near round-off (the difference is the error times [`FACTOR`]).
 
-use super::estimate::{Coarse, Extent, run};
-use super::quantities::{quantities, value_of};
+use super::estimate::{Extent, run};
+use super::meter::work;
+use super::quantities::{Quantity, quantities, value_of};
 use crate::linalg::Backend;
 use crate::progress::Observer;
 use crate::results::Results;
 use crate::scene::{Scene, Stepping};
 use std::collections::BTreeMap;
 
+/// Increments from target to target with which a run is compared at least.
+const FEWEST: usize = 8;
 /// By how much tolerances are changed.
 const FACTOR: f64 = 100.0;
 /// Tolerances below this are made looser, not tighter: [`FACTOR`] below them lies round-off.
 const TIGHT: f64 = 1e-9;
 
-/// Errors of the path by quantity.
-#[derive(Debug, Default)]
-pub(super) struct PathErrors(BTreeMap<String, f64>);
+/// Errors of the path.
+#[derive(Debug)]
+pub(super) enum PathErrors {
+    /// They were not estimated.
+    Unknown,
+    /// The path is exact.
+    None,
+    /// By quantity, and the floating point operations of the runs that were made for them.
+    Estimated(BTreeMap<String, f64>, f64),
+}
 
 impl PathErrors {
     /// The error of a quantity, where it was estimated.
     pub(super) fn of(&self, path: &str) -> Option<f64> {
-        self.0.get(path).copied()
+        match self {
+            PathErrors::Unknown => None,
+            PathErrors::None => Some(0.0),
+            PathErrors::Estimated(errors, _) => errors.get(path).copied(),
+        }
     }
 
-    /// Adds `share` of the difference between two runs.
-    fn add(&mut self, coarsest: &Coarse, other: &Results, share: f64) {
+    /// Floating point operations of the runs that were made for them.
+    pub(super) fn work(&self) -> f64 {
+        match self {
+            PathErrors::Estimated(_, work) => *work,
+            _ => 0.0,
+        }
+    }
+}
+
+/// A finished run that is repeated with another path.
+pub(super) struct Base<'r> {
+    pub scene: &'r Scene,
+    pub results: &'r Results,
+    pub quantities: &'r [Quantity],
+}
+
+impl Base<'_> {
+    /// Adds `share` of the difference to another run.
+    fn add(&self, other: &Results, share: f64, to: &mut BTreeMap<String, f64>) {
         let others = quantities(other);
-        for quantity in &coarsest.quantities {
+        for quantity in self.quantities {
             if let Some(value) = value_of(&others, &quantity.path) {
-                *self.0.entry(quantity.path.clone()).or_default() +=
+                *to.entry(quantity.path.clone()).or_default() +=
                     share * (value - quantity.value).abs();
             }
         }
     }
 }
 
-/// Elastic paths are followed exactly from event to event: only beyond yield does the path have an error.
+/// Only beyond yield does the path have an error.
 pub(super) fn matters(results: &Results) -> bool {
     results.states.iter().any(|s| s.plastic_points > 0)
 }
 
-/// Estimates the errors of the path of a run from its coarsest companion.
+/// Estimates the errors of the path of a run from `base`, its coarsest companion or the run itself.
 pub(super) fn errors(
-    coarsest: &Coarse,
+    base: &Base,
     backend: Backend,
     results: &Results,
     observer: &mut dyn Observer,
     notes: &mut Vec<String>,
 ) -> PathErrors {
-    let mut out = PathErrors::default();
-    let tolerances = with_other_tolerances(&coarsest.scene);
-    let increments = with_more_increments(&coarsest.scene, &coarsest.results);
-    let grown = coarsest.results.history.len() as f64 / results.history.len().max(1) as f64;
-    // The error c/n is twice its change from n to 2n.
-    let halved = 2.0 * grown.min(1.0);
+    let mut out = BTreeMap::new();
+    let mut spent = 0.0;
+    let tolerances = with_other_tolerances(base.scene);
+    let increments = with_more_increments(base.scene, base.results);
+    let grown = base.results.history.len() as f64 / results.history.len().max(1) as f64;
+    let changed = increments.1 * grown.min(1.0);
     for (what, scene, share) in [
         ("tolerances", tolerances.0, tolerances.1),
-        ("increments", increments, halved),
+        ("increments", increments.0, changed),
     ] {
         if observer.stop_requested() {
-            return out;
+            break;
         }
         observer.phase(&format!("error estimate: other {what}"));
         match run(&scene, backend, Extent::Program, observer) {
-            Ok(found) => out.add(coarsest, &found, share),
+            Ok(found) => {
+                spent += work(&found);
+                base.add(&found, share, &mut out);
+            }
             Err(error) => notes.push(format!(
                 "the run with other {what} failed, so that the error of the path lacks them: {error}"
             )),
         }
     }
-    out
+    PathErrors::Estimated(out, spent)
 }
 
 /// The scene with other tolerances, and what share of the difference is their error.
@@ -98,8 +135,8 @@ fn with_other_tolerances(scene: &Scene) -> (Scene, f64) {
     }
 }
 
-/// The scene with twice as many increments as its run took from target to target.
-fn with_more_increments(scene: &Scene, results: &Results) -> Scene {
+/// The scene with more increments than its run took from target to target, and what multiple of the difference is their error.
+fn with_more_increments(scene: &Scene, results: &Results) -> (Scene, f64) {
     let mut out = scene.clone();
     let taken = match scene.program.stepping {
         Stepping::Steps => scene.program.steps,
@@ -108,7 +145,10 @@ fn with_more_increments(scene: &Scene, results: &Results) -> Scene {
             .len()
             .div_ceil(scene.program.targets.len().max(1)),
     };
+    let taken = taken.max(1);
     out.program.stepping = Stepping::Steps;
-    out.program.steps = 2 * taken.max(1);
-    out
+    out.program.steps = FEWEST.max(2 * taken);
+    // From c/n to c/m.
+    let share = 1.0 / (1.0 - taken as f64 / out.program.steps as f64);
+    (out, share)
 }

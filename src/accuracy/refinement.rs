@@ -2,7 +2,7 @@
 //!
 //! In a family every element size, also where elements grow with the distance, is multiplied by the same ratio `h`: a
 //! growth `g` from element to element becomes `g^h`. With a fixed growth only the evenly meshed part would refine and
-//! the error would level off at that of the growing part.
+//! the error would level off at that of the growing part. A mesh from a file and its subdivisions are a family too.
 
 use crate::error::Result;
 use crate::mesh::{Shape, generate};
@@ -17,18 +17,26 @@ const CONTACT_OF_QUARTER: f64 = 19.625 / 90.0;
 const DISTORTION: f64 = 0.2;
 /// Least change of the element size that makes another level of it.
 const LEAST_CHANGE: f64 = 1.15;
+/// Greatest growth the generators take.
+pub(super) const MOST_GROWTH: f64 = 100.0;
 /// Distance between a piece's end and a node, in elements, up to which they coincide.
 const ON_NODE: f64 = 1e-6;
-/// Element sizes of the coarser meshes over that of the run, most wanted first: where the run is fine enough, the first pair
-/// costs a quarter of it at most; else the second keeps the coarse meshes fine enough to tell something.
-const FAR: [f64; 6] = [
+/// Elements over what governs the result that a coarser mesh must have to tell the error of a finer one: below, the errors of the
+/// recovered stress and of the elements, of different order and sign, cancel by chance (Hertz' point contact: at five).
+const TELLING: f64 = 6.0;
+/// Elements from which on one finer mesh is enough beside a coarser one.
+const BRACKETED: f64 = 12.0;
+/// Element counts of the meshes for comparison over that of the run, most wanted first. Where the run is fine enough, coarser ones: the
+/// first pair costs a quarter of it at most.
+const COARSER: [f64; 6] = [
     1.0 / 2.0,
     3.0 / 8.0,
-    1.0 / 4.0,
     2.0 / 3.0,
+    1.0 / 4.0,
     3.0 / 4.0,
     1.0 / 3.0,
 ];
+/// Coarser ones near the run.
 const NEAR: [f64; 6] = [
     2.0 / 3.0,
     1.0 / 2.0,
@@ -37,6 +45,13 @@ const NEAR: [f64; 6] = [
     3.0 / 8.0,
     1.0 / 4.0,
 ];
+/// One coarser and one finer.
+const BRACKET: [f64; 5] = [2.0 / 3.0, 3.0 / 2.0, 3.0 / 4.0, 5.0 / 4.0, 2.0];
+/// Where the run is as coarse as a mesh can be to tell anything: finer ones, which cost little then.
+const FINER: [f64; 5] = [3.0 / 2.0, 2.0, 5.0 / 4.0, 3.0, 4.0];
+/// Elements up to which a mesh from a file is compared with its subdivision, and up to which with that of the subdivision: they
+/// have four and sixteen times as many.
+const SUBDIVIDED: [usize; 2] = [2000, 400];
 
 /// A scene with another mesh of its family.
 #[derive(Debug, Clone)]
@@ -47,8 +62,9 @@ pub struct Level {
     pub ratio: f64,
 }
 
-/// The scene with `factor` times as many elements along each line, rounded to what the generator can make; `None` where the
-/// mesh comes from a file or has no such member (a piece of a block that would end between nodes).
+/// The scene with `factor` times as many elements along each line, rounded to what the generator can make; `None` where there is
+/// no such member of the family (a piece of a block that would end between nodes; a mesh from a file has those that are
+/// 2, 4, ... times as fine as the file).
 pub fn refined(scene: &Scene, factor: f64) -> Option<Level> {
     let mut out = scene.clone();
     let count = |n: usize, step: usize| -> usize {
@@ -60,12 +76,14 @@ pub fn refined(scene: &Scene, factor: f64) -> Option<Level> {
         let ratio = p.resolution as f64 / n as f64;
         p.resolution = n;
         p.growth = p.growth.powf(ratio);
+        p.far_growth = p.far_growth.map(|g| g.powf(ratio).min(MOST_GROWTH));
         ratio
     } else if let Some(p) = &mut out.mesh.disc_in_plate {
         let n = count(p.resolution, 2);
         let ratio = p.resolution as f64 / n as f64;
         p.resolution = n;
         p.growth = p.growth.powf(ratio);
+        p.far_growth = p.far_growth.map(|g| g.powf(ratio).min(MOST_GROWTH));
         ratio
     } else if let Some(parts) = &mut out.mesh.parts {
         let mut ratios = Vec::new();
@@ -92,27 +110,70 @@ pub fn refined(scene: &Scene, factor: f64) -> Option<Level> {
         }
         *ratio
     } else {
-        return None;
+        out.mesh.file.as_ref()?;
+        let halvings = factor.log2().round();
+        if (factor.log2() - halvings).abs() > ON_NODE {
+            return None;
+        }
+        let subdivisions = out.mesh.subdivisions as f64 + halvings;
+        if !(0.0..=f64::from(u16::MAX)).contains(&subdivisions) {
+            return None;
+        }
+        out.mesh.subdivisions = subdivisions as usize;
+        0.5f64.powf(halvings)
     };
     Some(Level { scene: out, ratio })
 }
 
+/// Factors by which the meshes of a study are finer than the scene's, finest first: `levels` of them from `finest`, `step` apart;
+/// of a file those from the scene's own on that are 2 apart, over the same range.
+pub(super) fn factors(scene: &Scene, finest: f64, step: f64, levels: usize) -> Vec<f64> {
+    if scene.mesh.file.is_none() {
+        return (0..levels.max(1) as i32)
+            .map(|i| finest / step.powi(i))
+            .collect();
+    }
+    let range = ((levels.max(1) - 1) as f64 * step.log2()).floor() as i32;
+    (0..=range).map(|i| 2f64.powi(range - i)).collect()
+}
+
 /// The two meshes from which the error of the scene's own is extrapolated, finer one first; fewer where the family has not
-/// that many.
-pub fn coarser(scene: &Scene) -> Vec<Level> {
-    let wanted = match governing_count(&scene.mesh) {
-        Some(n) if n * FAR[1] >= FEWEST => FAR,
-        Some(_) => NEAR,
-        None => return Vec::new(),
+/// that many. `elements` are those of the run: what a finer mesh may cost depends on them.
+pub fn companions(scene: &Scene, elements: usize) -> Vec<Level> {
+    let wanted: &[f64] = match governing_count(&scene.mesh) {
+        Some(n) if n * COARSER[1] >= TELLING => &COARSER,
+        Some(n) if n >= BRACKETED => &BRACKET,
+        Some(_) => &FINER,
+        None => match SUBDIVIDED.map(|most| elements <= most) {
+            _ if scene.mesh.subdivisions >= 2 => &[0.5, 0.25],
+            [true, _] if scene.mesh.subdivisions == 1 => &[0.5, 2.0],
+            _ if scene.mesh.subdivisions == 1 => &[0.5],
+            [_, true] => &[2.0, 4.0],
+            [true, false] => &[2.0],
+            _ => &[],
+        },
     };
+    chosen(scene, wanted)
+}
+
+/// The two coarser meshes nearest to those that tell most; fewer where the family has not that many.
+pub fn coarser(scene: &Scene) -> Vec<Level> {
+    match governing_count(&scene.mesh) {
+        Some(n) if n * COARSER[1] >= FEWEST => chosen(scene, &COARSER),
+        Some(_) => chosen(scene, &NEAR),
+        None => chosen(scene, &[0.5, 0.25]),
+    }
+}
+
+/// The first two of the wanted meshes that can be made and differ enough, finer one first.
+fn chosen(scene: &Scene, wanted: &[f64]) -> Vec<Level> {
     let mut levels: Vec<Level> = Vec::new();
-    for factor in wanted {
+    for &factor in wanted {
         let Some(level) = refined(scene, factor) else {
             continue;
         };
         let differs = |other: f64| level.ratio.max(other) / level.ratio.min(other) >= LEAST_CHANGE;
-        if level.ratio > 1.0
-            && differs(1.0)
+        if differs(1.0)
             && levels.iter().all(|l| differs(l.ratio))
             && can_be_made(&level.scene).is_ok()
         {
@@ -129,10 +190,14 @@ pub fn coarser(scene: &Scene) -> Vec<Level> {
 /// Largest order of convergence that is believed for the quantities of a scene: twice the degree of the elements (what
 /// functionals of smooth solutions reach) but not more than 3, which the extrapolation of rounded meshes cannot tell from less.
 pub fn largest_order(scene: &Scene) -> f64 {
+    if all_quadratic(scene) { 3.0 } else { 2.0 }
+}
+
+/// Whether the generator makes quadratic elements only.
+pub(super) fn all_quadratic(scene: &Scene) -> bool {
     let quadratic = |shape: Shape| shape.n_nodes() > shape.n_corners();
     let mesh = &scene.mesh;
-    let all = mesh
-        .cylinder_on_half_plane
+    mesh.cylinder_on_half_plane
         .as_ref()
         .is_some_and(|p| quadratic(p.element))
         || mesh
@@ -142,8 +207,7 @@ pub fn largest_order(scene: &Scene) -> f64 {
         || mesh
             .parts
             .as_ref()
-            .is_some_and(|p| p.iter().all(|p| quadratic(p.element)));
-    if all { 3.0 } else { 2.0 }
+            .is_some_and(|p| p.iter().all(|p| quadratic(p.element)))
 }
 
 /// Elements over what governs the result.
@@ -194,6 +258,9 @@ fn pieces_end_on_nodes(block: &Block) -> bool {
 /// Whether the generator makes the mesh: a family ends where it refuses. The contact half width, which scales the mesh of a
 /// cylinder on a half plane, does not matter for that.
 fn can_be_made(scene: &Scene) -> Result<()> {
+    if scene.mesh.file.is_some() {
+        return Ok(());
+    }
     let radius = scene
         .mesh
         .cylinder_on_half_plane
@@ -231,25 +298,44 @@ mod tests {
         let p = level.scene.mesh.cylinder_on_half_plane.unwrap();
         assert_eq!((p.resolution, level.ratio), (32, 0.5));
         assert!((p.growth - 1.1).abs() < 1e-15);
-        let ratios: Vec<f64> = coarser(&scene).iter().map(|l| l.ratio).collect();
+        let ratios: Vec<f64> = companions(&scene, 1000).iter().map(|l| l.ratio).collect();
         assert_eq!(ratios, [2.0, 16.0 / 6.0]);
     }
 
     #[test]
-    fn a_coarse_run_is_compared_with_near_meshes() {
-        let scene = cylinder(8, 1.15);
-        let counts: Vec<usize> = coarser(&scene)
-            .iter()
-            .map(|l| {
-                l.scene
-                    .mesh
-                    .cylinder_on_half_plane
-                    .as_ref()
-                    .unwrap()
-                    .resolution
-            })
-            .collect();
-        assert_eq!(counts, [5, 4]);
+    fn a_coarse_run_is_compared_with_finer_meshes() {
+        let counts = |resolution: usize| -> Vec<usize> {
+            let levels = companions(&cylinder(resolution, 1.15), 1000);
+            let generators = levels
+                .iter()
+                .filter_map(|l| l.scene.mesh.cylinder_on_half_plane.as_ref());
+            generators.map(|p| p.resolution).collect()
+        };
+        assert_eq!(counts(4), [8, 6]);
+        assert_eq!(counts(8), [16, 12]);
+        assert_eq!(counts(12), [18, 8]);
+        assert_eq!(counts(16), [8, 6]);
+        assert_eq!(counts(32), [16, 12]);
+    }
+
+    #[test]
+    fn a_mesh_from_a_file_has_its_subdivisions() {
+        let mut scene = scene("[mesh]\nfile = \"a.msh\"");
+        let ratios = |scene: &Scene, elements: usize| -> Vec<f64> {
+            companions(scene, elements)
+                .iter()
+                .map(|l| l.ratio)
+                .collect()
+        };
+        assert_eq!(ratios(&scene, 100), [0.25, 0.5]);
+        assert_eq!(ratios(&scene, 1000), [0.5]);
+        assert!(ratios(&scene, 10_000).is_empty());
+        assert!(refined(&scene, 0.5).is_none() && refined(&scene, 1.5).is_none());
+        assert_eq!(factors(&scene, 2.0, 2f64.sqrt(), 6), [4.0, 2.0, 1.0]);
+        scene.mesh.subdivisions = 2;
+        assert_eq!(ratios(&scene, 10_000), [2.0, 4.0]);
+        let coarser = refined(&scene, 0.5).unwrap();
+        assert_eq!((coarser.scene.mesh.subdivisions, coarser.ratio), (1, 2.0));
     }
 
     #[test]
@@ -262,7 +348,7 @@ mod tests {
             refined(&scene, 0.4).is_none(),
             "16 elements over 5 leave no node at 1"
         );
-        let counts: Vec<f64> = coarser(&scene).iter().map(|l| l.ratio).collect();
+        let counts: Vec<f64> = companions(&scene, 1600).iter().map(|l| l.ratio).collect();
         assert_eq!(counts, [2.0, 40.0 / 15.0]);
     }
 

@@ -1,9 +1,13 @@
 //! The study: many settings of one scene, each run and measured, cheapest first.
 
-use super::estimate::{Extent, run};
-use super::knobs::{Knob, Setting, settings};
-use super::meter::{Forecast, Meter, Pace, Usage, forecast};
+use super::estimate::{Extent, run_observed};
+use super::grading::{balanced, risen};
+use super::knobs::{Knob, Setting, graded, resolution, settings};
+use super::ladder::{PILOT, spacings};
+use super::meter::{Forecast, Meter, Pace, PhaseMeter, PhaseUsage, Usage, forecast, work};
+use super::pilot::fly;
 use super::quantities::quantities;
+use super::refinement::refined;
 use super::verdict::{QuantityStudy, judge};
 use crate::error::Result;
 use crate::linalg::Backend;
@@ -58,12 +62,27 @@ pub struct StudyRun {
     pub factor: [f64; 3],
     /// Machine-independent cost.
     pub counts: Counts,
+    /// Cost in floating point operations ([`super::work()`]).
+    pub work: f64,
     /// Time and memory.
     pub usage: Usage,
-    /// Wall seconds by phase.
-    pub phases: Vec<(String, f64)>,
+    /// Wall seconds by phase, as the run itself times them.
+    pub timings: Vec<(String, f64)>,
+    /// Wall and processor time by phase, as the run tells them.
+    pub phases: Vec<PhaseUsage>,
     /// Quantities by path.
     pub values: Vec<(String, f64)>,
+}
+
+/// How the graded meshes of a study were found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Grading {
+    /// The mesh of the pilot in the generator's words.
+    pub pilot: String,
+    /// The graded mesh as fine as that.
+    pub graded: String,
+    /// Floating point operations of all runs that were made for it.
+    pub work: f64,
 }
 
 /// A whole study.
@@ -75,6 +94,8 @@ pub struct Study {
     pub quantities: Vec<QuantityStudy>,
     /// What was left out, and why.
     pub left_out: Vec<String>,
+    /// How the graded meshes were found, and what that took.
+    pub grading: Option<Grading>,
     /// Seconds that the study took.
     pub seconds: f64,
     /// Whether it was stopped before its end.
@@ -98,7 +119,15 @@ pub fn study(
     forecast(scene, backend)?;
     let mut queue: Vec<(Setting, Forecast)> = Vec::new();
     let mut known: Vec<(f64, String, Forecast)> = Vec::new();
-    for setting in settings(scene, backend, &plan.knobs, plan.levels) {
+    let mut all = settings(scene, backend, &plan.knobs, plan.levels);
+    if plan.knobs.contains(&Knob::Grading) {
+        observer.phase("study: a pilot for the graded meshes");
+        if let Some((shaped, found)) = shaped(scene, backend, observer) {
+            all.extend(graded(scene, &shaped, backend, plan.levels));
+            out.grading = Some(found);
+        }
+    }
+    for setting in all {
         if observer.stop_requested() {
             break;
         }
@@ -157,7 +186,14 @@ pub fn study(
         );
         observer.phase_of(&name, expected);
         let meter = Meter::start();
-        let found = run(&setting.scene, setting.backend, Extent::Program, observer);
+        let mut phases = PhaseMeter::start("assembly", observer);
+        let found = run_observed(
+            &setting.scene,
+            setting.backend,
+            Extent::Program,
+            &mut phases,
+        );
+        let phases = phases.stop();
         let usage = meter.stop();
         if observer.stop_requested() {
             out.stopped = true;
@@ -169,11 +205,34 @@ pub fn study(
         {
             references.clone_from(&results.reference);
         }
-        out.runs.push(record(setting, cost, usage, found));
+        out.runs.push(StudyRun {
+            phases,
+            ..record(setting, cost, usage, found)
+        });
     }
     out.quantities = judge(&out.runs, &references, scene);
     out.seconds = start.elapsed().as_secs_f64();
     Ok(out)
+}
+
+/// The scene's mesh graded for its quantities, as fine as the pilot by which that was found.
+fn shaped(
+    scene: &Scene,
+    backend: Backend,
+    observer: &mut dyn Observer,
+) -> Option<(Scene, Grading)> {
+    let factor = PILOT / spacings(scene)?;
+    let pilot_scene = refined(&risen(scene), factor.min(1.0))?.scene;
+    let pilot = fly(&pilot_scene, backend, Extent::Program, observer)?;
+    // Weighed at a tenth of the pilot's own error: the balance hardly depends on it.
+    let wanted = 0.1 * pilot.largest_error();
+    let (shaped, _) = balanced(&pilot_scene, &pilot.shares(wanted), f64::INFINITY)?;
+    let found = Grading {
+        pilot: resolution(&pilot_scene, 1.0),
+        graded: resolution(&shaped, 1.0),
+        work: pilot.work,
+    };
+    Some((shaped, found))
 }
 
 fn record(setting: &Setting, cost: &Forecast, usage: Usage, found: Result<Results>) -> StudyRun {
@@ -191,7 +250,9 @@ fn record(setting: &Setting, cost: &Forecast, usage: Usage, found: Result<Result
             cost.factor.trailing_nonzeros,
         ],
         counts: Counts::default(),
+        work: 0.0,
         usage,
+        timings: Vec::new(),
         phases: Vec::new(),
         values: Vec::new(),
     };
@@ -207,6 +268,7 @@ fn record(setting: &Setting, cost: &Forecast, usage: Usage, found: Result<Result
                 factor.trailing_nonzeros,
             ];
             out.counts = results.counts;
+            out.work = work(&results);
             out.values = quantities(&results)
                 .into_iter()
                 .map(|q| (q.path, q.value))
@@ -216,7 +278,7 @@ fn record(setting: &Setting, cost: &Forecast, usage: Usage, found: Result<Result
                     out.values.push((row.quantity.clone(), row.computed));
                 }
             }
-            out.phases = results.timings;
+            out.timings = results.timings;
         }
     }
     out

@@ -124,7 +124,7 @@ fn series<'r>(runs: &'r [StudyRun], name: &'r str) -> Vec<(usize, f64)> {
 /// The names of the series of meshes, the scene's own first.
 fn mesh_series(runs: &[StudyRun]) -> Vec<&str> {
     let mut out: Vec<&str> = Vec::new();
-    for knob in [Knob::Resolution, Knob::Element] {
+    for knob in [Knob::Resolution, Knob::Element, Knob::Grading] {
         for run in runs.iter().filter(|r| r.knob == knob) {
             if !out.contains(&run.series.as_str()) {
                 out.push(&run.series);
@@ -292,7 +292,7 @@ fn cheapest(runs: &[StudyRun], errors: &[Option<f64>], accuracy: f64) -> Option<
     (0..runs.len())
         .filter(|&i| reaches(i))
         .filter(|&i| match runs[i].knob {
-            Knob::Resolution | Knob::Element => series(runs, &runs[i].series)
+            Knob::Resolution | Knob::Element | Knob::Grading => series(runs, &runs[i].series)
                 .into_iter()
                 .filter(|(_, h)| *h < runs[i].ratio)
                 .all(|(finer, _)| errors[finer].is_none() || reaches(finer)),

@@ -342,20 +342,16 @@ impl Engine<'_> {
         }
     }
 
-    /// Mean displacement of the first varying load's nodes along the load, for displacements of the whole model.
+    /// Mean displacement over the surface (or nodes) of the first varying load along the load, for displacements of the whole model.
     pub fn approach(&self, u: &[f64]) -> f64 {
         let Some(load) = self.leading_load().map(|i| &self.model.loads[i]) else {
             return 0.0;
         };
-        let along: f64 = load
-            .nodes
-            .iter()
-            .map(|&node| {
-                let d = self.model.freedoms.displacement(node, u, &self.at.factors);
-                d[0] * load.direction[0] + d[1] * load.direction[1]
-            })
-            .sum();
-        along / load.nodes.len().max(1) as f64
+        let along = load.nodes.iter().zip(&load.shares).map(|(&node, share)| {
+            let d = self.model.freedoms.displacement(node, u, &self.at.factors);
+            share * (d[0] * load.direction[0] + d[1] * load.direction[1])
+        });
+        along.sum()
     }
 
     /// The dent that the plastic strains alone leave: largest opening of a pair under the initial loads with all contact

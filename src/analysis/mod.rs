@@ -3,7 +3,7 @@
 //! | file | what | paper |
 //! |---|---|---|
 //! | `engine` | structure under load, response to loads and initial loads | 3.7, 4.1 to 4.6 |
-//! | `first_yield`, `yield_load`, `recovery` | load at first yield, stress between the points | 3.11 to 3.14 |
+//! | `first_yield`, `yield_load`, `recovery`, `patch`, `mirror` | load at first yield, stress between the points | 3.11 to 3.14 |
 //! | `elastic` | contact along an elastic path, from event to event | 3.9, 3.10 |
 //! | `increment`, `step_length` | one elastoplastic increment that ends at the next change of contact | 4.7 to 4.23 |
 //! | `zone`, `gather`, `zone_choice`, `zone_fit` | elements that may yield, initial loads, their choice and growth | 4.1 |
@@ -26,7 +26,9 @@ mod increment;
 mod indicator;
 mod keeper;
 mod measure;
+mod mirror;
 mod packed;
+mod patch;
 mod place;
 mod program;
 mod quality;

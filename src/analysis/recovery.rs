@@ -3,19 +3,21 @@
 //! Stresses are sampled at superconvergent points. Between them each component is a moving least-squares fit: at a
 //! point `x` a cubic polynomial is fitted to the samples of the same body around, with weights that fall smoothly to zero,
 //! so the recovered stress is continuous, across elements too. Von Mises' stress is maximised over it: yield load and
-//! yield depth then are continuous quantities, not quantised by the mesh.
+//! yield depth then are continuous quantities, not quantised by the mesh. Beyond a plane of symmetry the samples go on as
+//! their mirror images: a maximum on the plane, as under a ball or cylinder, is found there.
 //!
 //! # Source
 //! O. C. Zienkiewicz, J. Z. Zhu, superconvergent patch recovery (1992), doi:10.1002/nme.1620330702; P. Lancaster,
 //! K. Salkauskas, moving least squares (1981), doi:10.1090/S0025-5718-1981-0616367-1.
 
 use super::gather::{GatheredElements, Nodal, Places};
+use super::mirror::{self, Reflection, mirrors};
+use super::patch::{Patch, Sample, reach};
 use crate::assembly::sampling_points_of;
 use crate::element::shape_functions;
 use crate::material::{Material, Matrix4, stress, von_mises};
 use crate::model::Model;
 use crate::substructure::Trailing;
-use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -29,12 +31,8 @@ const FINEST: f64 = 2e-5;
 const TIE: f64 = 1e-9;
 /// Share of the stress, times the square of a step in an element's reference coordinates, that is left to gain within that step.
 const CURVATURE: f64 = 0.1;
-/// Terms of the polynomials that are tried: cubic, quadratic, linear, constant.
-const TERMS: [usize; 4] = [10, 6, 3, 1];
 /// Layers of elements around an element that belong to its patch.
 const LAYERS: usize = 3;
-/// Reach of the weights in element sizes.
-const REACH: f64 = 3.25;
 
 /// The sampled stress `[xx, yy, zz, xy]` of all points of all elements, element by element.
 pub type Samples = Vec<[f64; 4]>;
@@ -60,14 +58,8 @@ pub struct Recovery {
     nodal: Nodal,
     neighbours: BTreeMap<u32, Vec<u32>>,
     patches: BTreeMap<u32, Patch>,
-}
-
-/// Samples around an element, in coordinates relative to it and scaled by its size.
-#[derive(Debug, Clone)]
-struct Patch {
-    center: [f64; 2],
-    scale: [f64; 2],
-    samples: Vec<(u32, [f64; 2])>,
+    /// Nodes on which forces act.
+    loaded: Vec<bool>,
 }
 
 /// The highest point found in an element.
@@ -108,6 +100,7 @@ impl Recovery {
             nodal: Nodal::new(model, places),
             neighbours,
             patches: BTreeMap::new(),
+            loaded: mirror::loaded_nodes(model),
         }
     }
 
@@ -322,93 +315,47 @@ impl Recovery {
         }
         let center = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
         let scale = [high[0] - low[0], high[1] - low[1]];
-        let samples = members
+        let elements: Vec<usize> = members
+            .iter()
+            .map(|&m| self.elements.list[m as usize].element as usize)
+            .collect();
+        let own: Vec<usize> = members
             .iter()
             .flat_map(|&m| self.first[m as usize]..self.first[m as usize + 1])
-            .map(|sample| {
-                let at = self.positions[sample];
-                (
-                    sample as u32,
-                    [
-                        (at[0] - center[0]) / scale[0],
-                        (at[1] - center[1]) / scale[1],
-                    ],
-                )
-            })
             .collect();
+        let mut mirrors = mirrors(model, &self.loaded, &elements);
+        // A plane with the body on both sides is none of its boundary.
+        mirrors.retain(|m| own.iter().all(|&i| m.beyond(self.positions[i]) < 0.0));
+        let reach = reach(self.elements.list[i].n_points as usize);
+        let mut samples: Vec<Sample> = Vec::new();
+        let mut add = |index: usize, at: [f64; 2], reflection: Option<Reflection>| {
+            let position: [f64; 2] = std::array::from_fn(|d| (at[d] - center[d]) / scale[d]);
+            // Images are kept as far as a weight reaches from a point of the element.
+            if reflection.is_none() || position[0].hypot(position[1]) < reach + 1.0 {
+                samples.push(Sample {
+                    index: index as u32,
+                    position,
+                    reflection,
+                });
+            }
+        };
+        for &i in &own {
+            let at = self.positions[i];
+            add(i, at, None);
+            for mirror in &mirrors {
+                add(i, mirror.image(at), Some(mirror.reflection()));
+            }
+            if let [a, b] = mirrors[..]
+                && a.is_normal_to(&b)
+            {
+                add(i, a.image(b.image(at)), None);
+            }
+        }
         Patch {
             center,
             scale,
+            reach,
             samples,
         }
-    }
-}
-
-impl Patch {
-    /// Moving least squares at a point: the fit of the highest degree that the samples around determine.
-    fn value(&self, samples: &Samples, at: [f64; 2]) -> [f64; 4] {
-        let x = [
-            (at[0] - self.center[0]) / self.scale[0],
-            (at[1] - self.center[1]) / self.scale[1],
-        ];
-        TERMS
-            .iter()
-            .find_map(|&n| self.fit(samples, x, n))
-            .unwrap_or([0.0; 4])
-    }
-
-    /// Value at `x` of the weighted fit with `n` terms, by the normal equations; terms are centred at `x`, so that the value
-    /// is the constant term. `None` where the samples do not determine it.
-    fn fit(&self, samples: &Samples, x: [f64; 2], n: usize) -> Option<[f64; 4]> {
-        let mut gram = DMatrix::<f64>::zeros(n, n);
-        let mut right = DMatrix::<f64>::zeros(n, 4);
-        let mut used = 0;
-        for &(sample, position) in &self.samples {
-            let (dx, dy) = (position[0] - x[0], position[1] - x[1]);
-            let distance = (dx * dx + dy * dy) / (REACH * REACH);
-            if distance >= 1.0 && n > 1 {
-                continue;
-            }
-            used += 1;
-            let weight = if n > 1 {
-                (1.0 - distance).powi(3)
-            } else {
-                1.0 / (1.0 + distance)
-            };
-            let terms = [
-                1.0,
-                dx,
-                dy,
-                dx * dx,
-                dx * dy,
-                dy * dy,
-                dx * dx * dx,
-                dx * dx * dy,
-                dx * dy * dy,
-                dy * dy * dy,
-            ];
-            for a in 0..n {
-                for b in 0..n {
-                    gram[(a, b)] += weight * terms[a] * terms[b];
-                }
-                for c in 0..4 {
-                    right[(a, c)] += weight * terms[a] * samples[sample as usize][c];
-                }
-            }
-        }
-        if used < n + n / 2 {
-            return None;
-        }
-        let scaling = DVector::from_fn(n, |i, _| 1.0 / gram[(i, i)].max(f64::MIN_POSITIVE).sqrt());
-        let scaled = DMatrix::from_fn(n, n, |i, j| gram[(i, j)] * scaling[i] * scaling[j]);
-        let factor = scaled.cholesky()?;
-        if (0..n).any(|i| factor.l_dirty()[(i, i)] < 1e-2) {
-            return None;
-        }
-        for mut column in right.column_iter_mut() {
-            column.component_mul_assign(&scaling);
-        }
-        let solution = factor.solve(&right);
-        Some(std::array::from_fn(|c| solution[(0, c)] * scaling[0]))
     }
 }

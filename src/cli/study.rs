@@ -28,7 +28,7 @@ pub(super) struct StudyArguments {
     /// Meshes in a series: the finest has twice as many elements along a line as the scene, the next each 1/sqrt(2) of that
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u16).range(2..=12))]
     pub levels: u16,
-    /// What to turn, separated by commas: resolution, element, stepping, tolerance, gamma, algorithm, backend; default all
+    /// What to turn, separated by commas: resolution, element, grading, stepping, tolerance, gamma, algorithm, backend; default all
     #[arg(long, value_name = "KNOBS", value_delimiter = ',')]
     pub knobs: Vec<String>,
     /// No progress, only results and errors

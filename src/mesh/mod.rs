@@ -3,14 +3,17 @@
 //! The dimension is data ([`Mesh::dimension`]); element shapes carry their own node order and
 //! facets ([`Shape`]).
 
+mod circles;
 mod conformity;
 pub mod generate;
 pub mod gmsh;
 mod jacobian;
+mod subdivision;
 pub mod surface;
 mod validate;
 
 pub use crate::shape::Shape;
+pub use subdivision::subdivided;
 pub use validate::validate;
 
 use serde::{Deserialize, Serialize};

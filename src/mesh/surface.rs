@@ -4,6 +4,9 @@ use super::{Curve, Facet, Mesh, Surface};
 use crate::{Error, Result};
 use std::collections::BTreeMap;
 
+/// Two nodes pair if their distance across the normal is below this share of a facet's length.
+pub const PAIRING: f64 = 1e-5;
+
 /// The nodes of a surface along its arc, mid-side nodes included, with the body on the left (a hole is
 /// run through clockwise). A closed surface begins at its smallest node index and does not repeat it.
 ///
@@ -134,6 +137,40 @@ fn add_tangents(mesh: &Mesh, facet: Facet, sums: &mut BTreeMap<usize, [f64; 2]>)
     add(a, [0, 1].map(|k| chord[k] + 4.0 * sag[k]));
     add(m, chord);
     add(b, [0, 1].map(|k| chord[k] - 4.0 * sag[k]));
+}
+
+/// The index of the node of `candidates` on the line through `x` along the unit vector `normal`, off it by `tolerance` at most; the
+/// nearest if there are several.
+pub fn facing(
+    mesh: &Mesh,
+    x: [f64; 2],
+    normal: [f64; 2],
+    candidates: &[usize],
+    tolerance: f64,
+) -> Option<usize> {
+    let mut best: Option<(f64, usize)> = None;
+    for (i, &node) in candidates.iter().enumerate() {
+        let y = mesh.point(node);
+        let d = [y[0] - x[0], y[1] - x[1]];
+        let across = (d[0] * normal[1] - d[1] * normal[0]).abs();
+        let along = (d[0] * normal[0] + d[1] * normal[1]).abs();
+        if across <= tolerance && best.is_none_or(|(b, _)| along < b) {
+            best = Some((along, i));
+        }
+    }
+    best.map(|(_, i)| i)
+}
+
+/// Length of the longest facet of a surface.
+pub fn longest_facet(mesh: &Mesh, surface: &Surface) -> f64 {
+    surface
+        .facets
+        .iter()
+        .map(|&f| {
+            let ends: Vec<[f64; 2]> = mesh.facet_nodes(f).take(2).map(|n| mesh.point(n)).collect();
+            (ends[1][0] - ends[0][0]).hypot(ends[1][1] - ends[0][1])
+        })
+        .fold(0.0, f64::max)
 }
 
 fn unit([x, y]: [f64; 2]) -> [f64; 2] {

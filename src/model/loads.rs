@@ -37,6 +37,9 @@ pub struct LoadCase {
     pub measures: Magnitude,
     /// Nodes of the loaded set, for the approach.
     pub nodes: Vec<usize>,
+    /// Share of each of these nodes in the mean over the set: its part of a surface's area (the integral of its shape function), equal
+    /// parts of a node set. They add up to 1.
+    pub shares: Vec<f64>,
     /// Unit direction of the load, for the approach.
     pub direction: [f64; 2],
 }
@@ -121,6 +124,7 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
         history: load.history.clone(),
         magnitude: 0.0,
         measures: Magnitude::Force,
+        shares: shares(scene.kind, mesh, &load.on, &nodes),
         nodes,
         direction: [0.0, 0.0],
     };
@@ -202,6 +206,26 @@ impl LoadCase {
         if size > 0.0 {
             self.direction = [vector[0] / size, vector[1] / size];
         }
+    }
+}
+
+/// Share of each node in the mean over a surface or node set.
+fn shares(kind: Kind, mesh: &Mesh, name: &str, nodes: &[usize]) -> Vec<f64> {
+    let equal = || vec![1.0 / nodes.len() as f64; nodes.len()];
+    let Some(surface) = mesh
+        .surfaces
+        .get(name)
+        .filter(|_| !mesh.node_sets.contains_key(name))
+    else {
+        return equal();
+    };
+    // In the order of the nodes: both ascend.
+    let areas = integrate(kind, mesh, surface, |_, _| [1.0, 0.0]);
+    let whole: f64 = areas.iter().map(|(_, a)| a[0]).sum();
+    if areas.len() == nodes.len() && whole > 0.0 {
+        areas.iter().map(|(_, a)| a[0] / whole).collect()
+    } else {
+        equal()
     }
 }
 

@@ -179,7 +179,19 @@ impl Model {
 
 fn build_mesh(scene: &Scene) -> Result<Mesh> {
     let folder = scene.file.as_deref().and_then(std::path::Path::parent);
-    mesh::generate::from_source(&scene.mesh, folder, |p| yield_half_width(scene, p.radius))
+    let mesh =
+        mesh::generate::from_source(&scene.mesh, folder, |p| yield_half_width(scene, p.radius))?;
+    let times = scene.mesh.subdivisions;
+    if times == 0 {
+        return Ok(mesh);
+    }
+    // What is wrong with the file is told by its own numbers.
+    mesh::validate(&mesh)?;
+    let finer = mesh::subdivided(mesh, times, &scene.contact)?;
+    mesh::validate(&finer).map_err(|e| {
+        e.within("the subdivided mesh (is a surface that is laid on its circle too far from it for the elements beside it?)")
+    })?;
+    Ok(finer)
 }
 
 /// Contact half width (radius) at first yield by Hertz, for the weaker of the two bodies: sizes the generated mesh.

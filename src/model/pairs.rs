@@ -7,7 +7,7 @@ use super::freedoms::{dot, unknown_name};
 use super::given::{Given, NodePair, Partner, partners};
 use crate::element::facet_points;
 use crate::error::{Error, Result};
-use crate::mesh::surface::{normals, ordered_nodes};
+use crate::mesh::surface::{PAIRING, facing, longest_facet, normals, ordered_nodes};
 use crate::mesh::{Curve, Mesh, Surface};
 use crate::scene::{Contact, Kind, Scene};
 use std::collections::BTreeMap;
@@ -67,8 +67,6 @@ pub struct AxisPoint {
 /// Share of its neighbour's area below which a node on the axis carries no force: 0 for quadratic elements but for curvature, 1/6 for
 /// linear ones.
 const NO_AREA: f64 = 0.02;
-/// Two nodes pair if their distance across the normal is below this share of a facet's length.
-const PAIRING: f64 = 1e-5;
 
 pub(super) fn resolve(
     scene: &Scene,
@@ -278,38 +276,6 @@ fn take_axis_pair(
         }
     }
     None
-}
-
-/// The node of `candidates` on the line through `x` along `normal`, the nearest if there are several.
-fn facing(
-    mesh: &Mesh,
-    x: [f64; 2],
-    normal: [f64; 2],
-    candidates: &[usize],
-    tolerance: f64,
-) -> Option<usize> {
-    let mut best: Option<(f64, usize)> = None;
-    for (i, &node) in candidates.iter().enumerate() {
-        let y = mesh.point(node);
-        let d = [y[0] - x[0], y[1] - x[1]];
-        let across = (d[0] * normal[1] - d[1] * normal[0]).abs();
-        let along = dot(d, normal).abs();
-        if across <= tolerance && best.is_none_or(|(b, _)| along < b) {
-            best = Some((along, i));
-        }
-    }
-    best.map(|(_, i)| i)
-}
-
-fn longest_facet(mesh: &Mesh, surface: &Surface) -> f64 {
-    surface
-        .facets
-        .iter()
-        .map(|&f| {
-            let ends: Vec<[f64; 2]> = mesh.facet_nodes(f).take(2).map(|n| mesh.point(n)).collect();
-            (ends[1][0] - ends[0][0]).hypot(ends[1][1] - ends[0][1])
-        })
-        .fold(0.0, f64::max)
 }
 
 /// Integrals of each node's shape function over a surface, plain and times the squared distance from the node.

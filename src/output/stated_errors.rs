@@ -91,8 +91,8 @@ fn method(accuracy: &Accuracy) -> String {
             "The mesh's part is extrapolated from runs with elements {} times as large; it counts twice.",
             ratios.collect::<Vec<_>>().join(" and ")
         ),
-        _ => "The mesh's part is the energy norm of the stress error, a rough figure: this mesh cannot be made coarser. \
-              `brinell accuracy` refines it."
+        _ => "The mesh's part is the energy norm of the stress error, a rough figure: this mesh is not refined in passing. \
+              `brinell accuracy` does."
             .to_string(),
     }
 }

@@ -12,7 +12,7 @@ use std::path::Path;
 const TABLE_FILE: &str = "accuracy.csv";
 const PLOT_SUFFIX: &str = ".svg";
 /// Columns of the table.
-const COLUMNS: [&str; 21] = [
+const COLUMNS: [&str; 27] = [
     "run",
     "series",
     "knob",
@@ -34,6 +34,20 @@ const COLUMNS: [&str; 21] = [
     "computed",
     "reference",
     "relative_error",
+    "work",
+    "assembly_cpu_seconds",
+    "factorisation_cpu_seconds",
+    "preload_cpu_seconds",
+    "yield_load_cpu_seconds",
+    "load_program_cpu_seconds",
+];
+/// Phases of a run, as it tells them, in the order of their columns.
+const PHASES: [&str; 5] = [
+    "assembly",
+    "factorisation",
+    "preload",
+    "yield load",
+    "load program",
 ];
 
 /// Writes the study to `dir`, all of it or nothing. An earlier study or result of brinell is replaced, other files are kept.
@@ -68,6 +82,7 @@ pub fn study_json(header: &RunHeader, study: &Study) -> Value {
         "runs": study.runs.iter().map(run).collect::<Vec<_>>(),
         "quantities": study.quantities.iter().map(quantity).collect::<Vec<_>>(),
         "left_out": study.left_out,
+        "grading": study.grading,
     })
 }
 
@@ -87,7 +102,9 @@ fn run(run: &StudyRun) -> Value {
         "wall_seconds": run.usage.wall_seconds,
         "cpu_seconds": run.usage.cpu_seconds,
         "peak_memory_bytes": run.usage.peak_memory_bytes,
-        "timings": object(&run.phases),
+        "work": run.work,
+        "timings": object(&run.timings),
+        "phases": run.phases,
         "values": object(&run.values),
     })
 }
@@ -154,7 +171,12 @@ fn table(out: &mut impl Write, study: &Study) -> std::io::Result<()> {
                 optional(computed.map(|v| v.1)),
                 reference.value.to_string(),
                 error.to_string(),
+                run.work.to_string(),
             ]);
+            row.extend(PHASES.map(|name| {
+                let phase = run.phases.iter().find(|p| p.phase == name);
+                optional(phase.and_then(|p| p.cpu_seconds))
+            }));
             writer.write_record(&row)?;
         }
     }

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Where the mesh comes from: exactly one key.
+/// Where the mesh comes from: one of a generator's key and `file`.
 #[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MeshSource {
@@ -18,6 +18,30 @@ pub struct MeshSource {
     /// A Gmsh file (.msh 2.2 or 4.1, ASCII), relative to the scene file. Physical surfaces are
     /// bodies, physical curves surfaces, physical points node sets.
     pub file: Option<PathBuf>,
+    /// Surfaces of the file that lie on circles.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub circles: Vec<SurfaceCircle>,
+    /// How many times each element of the file is cut in four. New nodes on the surfaces in `circles` lie on these.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub subdivisions: usize,
+}
+
+fn is_zero(n: &usize) -> bool {
+    *n == 0
+}
+
+/// The circle that a surface of a mesh file lies on. A file holds nodes only: with the circle their normals and gaps are exact, and
+/// a finer mesh comes nearer to the body, not to the polygon of the file.
+#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceCircle {
+    /// Name of the surface.
+    pub on: String,
+    /// Centre.
+    #[serde(default)]
+    pub center: [f64; 2],
+    /// Radius.
+    pub radius: f64,
 }
 
 /// The half model (x >= 0) of a cylinder (ball) pressed on a half plane (half space), the first contact at
@@ -56,6 +80,9 @@ pub struct CylinderOnHalfPlane {
     /// Ratio of neighbouring element sizes outside the even region.
     #[serde(default = "super::defaults::growth")]
     pub growth: f64,
+    /// Ratio of neighbouring element sizes at the far end: from `growth` on, its logarithm rises to that of this one with a power of
+    /// the distance. What happens far away matters less to the contact, so that elements may grow ever faster; default as `growth`.
+    pub far_growth: Option<f64>,
     /// Element shape.
     #[serde(default = "super::defaults::shape")]
     pub element: Shape,
@@ -81,6 +108,9 @@ pub struct DiscInPlate {
     /// Ratio of neighbouring radial element sizes in the plate.
     #[serde(default = "super::defaults::disc_growth")]
     pub growth: f64,
+    /// Ratio of neighbouring element sizes at the far end: from `growth` on, its logarithm rises to that of this one with a power of
+    /// the distance. What happens far away matters less to the contact, so that elements may grow ever faster; default as `growth`.
+    pub far_growth: Option<f64>,
     /// Element shape.
     #[serde(default = "super::defaults::shape")]
     pub element: Shape,

@@ -28,7 +28,9 @@ mod validate;
 
 pub use accuracy::AccuracyDemand;
 pub use boundary::{Contact, Direction, Displacement, History, Kirsch, Load, PlaneForce, Support};
-pub use geometry::{Block, CylinderOnHalfPlane, Disc, DiscInPlate, MeshSource, Part, Piece, Ring};
+pub use geometry::{
+    Block, CylinderOnHalfPlane, Disc, DiscInPlate, MeshSource, Part, Piece, Ring, SurfaceCircle,
+};
 pub use material::{Body, Material, Plastic};
 pub use program::{
     DisplacementTarget, PlasticIteration, Program, Settings, Stepping, Target, Unit, YieldMethod,

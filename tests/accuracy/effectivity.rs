@@ -52,74 +52,87 @@ pub fn hertz(name: &str, n: usize, far_size: f64) -> Scene {
     )
 }
 
+/// Meshes from the coarsest that tells anything to one that is right to less than the model is.
+const RESOLUTIONS: [usize; 9] = [4, 6, 8, 10, 12, 16, 20, 24, 32];
+
+fn check(name: &str, far_size: f64, exact: [f64; 2]) {
+    let mut outside = Vec::new();
+    for n in RESOLUTIONS {
+        let (_, accuracy) = estimated(&hertz(name, n, far_size), Extent::Yield);
+        let found = [
+            effectivity(&accuracy, "yield.load", exact[0]),
+            effectivity(&accuracy, "yield.max_pressure", exact[1]),
+        ];
+        println!(
+            "{name} {n}: yield load {:.2}, pressure {:.2}",
+            found[0], found[1]
+        );
+        if !found.iter().all(|e| (0.5..=2.0).contains(e)) {
+            outside.push((n, found));
+        }
+    }
+    assert!(outside.is_empty(), "{outside:?}");
+}
+
 #[test]
 fn hertz_line_yield_load_and_pressure() {
     let modulus = contact_modulus(210e3, 0.3, 210e3, 0.3);
-    let load = HertzLine::new(10.0, modulus)
-        .unwrap()
-        .yield_load(0.3, YIELD_STRESS);
-    let pressure = HertzLine::yield_pressure(0.3, YIELD_STRESS);
-    for n in [8, 11, 16, 24, 32] {
-        let (_, accuracy) = estimated(&hertz("cylinder_on_half_plane", n, 20e3), Extent::Yield);
-        let found = [
-            effectivity(&accuracy, "yield.load", load),
-            effectivity(&accuracy, "yield.max_pressure", pressure),
-        ];
-        println!(
-            "line {n}: yield load {:.2}, pressure {:.2}",
-            found[0], found[1]
-        );
-        assert!(
-            found.iter().all(|e| (0.5..=2.3).contains(e)),
-            "{n}: {found:?}"
-        );
-    }
+    let line = HertzLine::new(10.0, modulus).unwrap();
+    let exact = [
+        line.yield_load(0.3, YIELD_STRESS),
+        HertzLine::yield_pressure(0.3, YIELD_STRESS),
+    ];
+    check("cylinder_on_half_plane", 20e3, exact);
 }
 
 #[test]
 fn hertz_point_yield_load_and_pressure() {
     let modulus = contact_modulus(210e3, 0.3, 210e3, 0.3);
-    let load = HertzPoint::new(10.0, modulus)
-        .unwrap()
-        .yield_load(0.3, YIELD_STRESS);
-    let pressure = HertzPoint::yield_pressure(0.3, YIELD_STRESS);
-    for n in [6, 8, 11, 16, 24, 32] {
-        let (_, accuracy) = estimated(&hertz("ball_on_half_space", n, 2e3), Extent::Yield);
-        let found = [
-            effectivity(&accuracy, "yield.load", load),
-            effectivity(&accuracy, "yield.max_pressure", pressure),
-        ];
-        println!(
-            "point {n}: yield load {:.2}, pressure {:.2}",
-            found[0], found[1]
-        );
-        assert!(
-            found.iter().all(|e| (0.5..=4.0).contains(e)),
-            "{n}: {found:?}"
-        );
-    }
+    let point = HertzPoint::new(10.0, modulus).unwrap();
+    let exact = [
+        point.yield_load(0.3, YIELD_STRESS),
+        HertzPoint::yield_pressure(0.3, YIELD_STRESS),
+    ];
+    check("ball_on_half_space", 2e3, exact);
 }
 
 #[test]
-fn thick_cylinder_displacement() {
-    // The approach is the mean over the bore's nodes of the displacement along the resultant, at 45 degrees: the mean of
+fn thick_cylinder_displacement_and_yield_load() {
+    // The approach is the mean over the bore of the displacement along the resultant, at 45 degrees: the mean of
     // cos over +-45 degrees times the radial displacement.
     let cylinder = ThickCylinder::new(100.0, 200.0, 210e3, 0.3, Plane::Strain).unwrap();
     let exact = cylinder.displacement(100.0, 10.0, 0.0) * 8f64.sqrt() / std::f64::consts::PI;
+    let load = cylinder.yield_pressure(240.0);
+    let mut outside = Vec::new();
     for shape in ["quad4", "quad8", "tri3", "tri6"] {
-        for n in [6, 8, 12, 16, 24, 32] {
+        // Not 24: the diagonals of triangles alternate, and its companion with 9 elements breaks their pattern.
+        for n in [4, 6, 8, 12, 16, 32] {
             let scene = running::load(
                 "thick_cylinder",
                 &[
                     &format!("mesh.parts.0.element={shape}"),
                     &format!("mesh.parts.0.ring.elements=[{n},{n}]"),
-                    "program.targets=[{ name = \"pressed\", load_factor = 10.0 }]",
+                    "program.targets=[{ name = \"pressed\", load_factor = 10.0 }, { yield = true }]",
                 ],
             );
             let (_, accuracy) = estimated(&scene, Extent::Program);
-            let found = effectivity(&accuracy, "states.pressed.approach", exact);
-            println!("thick cylinder {shape} {n}: displacement {found:.2}");
-            assert!((0.5..=2.0).contains(&found), "{shape} {n}: {found}");
+            let displacement = effectivity(&accuracy, "states.pressed.approach", exact);
+            let yielding = effectivity(&accuracy, "yield.load", load);
+            println!(
+                "thick cylinder {shape} {n}: displacement {displacement:.2}, yield load {yielding:.2}"
+            );
+            let good = |e: f64| (0.5..=2.0).contains(&e);
+            let stated = match shape {
+                // Stresses of linear triangles at a bore converge to another value: no comparison of meshes sees it.
+                "tri3" => true,
+                // With quadratic ones the error at the bore changes its sign between 6 and 8 elements: there is no order about it.
+                "tri6" => true,
+                _ => good(yielding),
+            };
+            if !(good(displacement) && stated) {
+                outside.push((shape, n, displacement, yielding));
+            }
         }
     }
+    assert!(outside.is_empty(), "{outside:?}");
 }

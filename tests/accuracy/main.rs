@@ -6,5 +6,8 @@ mod running;
 mod claim;
 mod demand;
 mod effectivity;
+mod file_mesh;
 mod indicator;
+mod parts;
+mod price;
 mod study;

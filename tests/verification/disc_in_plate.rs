@@ -39,9 +39,9 @@ fn table_two_converges_to_the_exact_values() {
         );
         errors.push((at_yield.load / yield_stress - 1.0).abs());
     }
-    // Order about 1.6 (measured 0.13 %, 0.03 %), until the size of the plate (1e-4) shows.
+    // Order about 2.4 (measured 0.35 %, 0.07 %, 0.02 %), until the size of the plate (1e-4) shows.
     assert!(
-        errors[1] <= errors[0] / 2.0 && errors[2] <= 2e-4,
+        errors[1] <= errors[0] / 4.0 && errors[2] <= 3e-4,
         "{errors:?}"
     );
 }

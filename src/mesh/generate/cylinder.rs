@@ -1,7 +1,8 @@
 //! A cylinder or ball on a half plane or half space (paper 5.1).
 
+use super::grading::{self, Growth};
 use super::grid::{BodyBuilder, Side, empty_mesh};
-use super::{grading, limits};
+use super::limits;
 use crate::mesh::{Curve, Mesh};
 use crate::scene::CylinderOnHalfPlane;
 use crate::{Error, Result};
@@ -19,7 +20,7 @@ const WIDEST: f64 = 0.9;
 /// finite size W changes the stress under the contact by the order b/W (a uniform stress along the surface), a true
 /// cylinder by b/R; `far_size` is therefore large, which the growing elements make cheap. Elements are even with
 /// size `b/resolution` out to `fine_width b` and down to `fine_depth b` (to the nearest whole
-/// element), then grow by `growth`. Both surfaces have nodes at the same `x`; corner and mid-side
+/// element), then grow by `growth`, by up to `far_growth` at the far end. Both surfaces have nodes at the same `x`; corner and mid-side
 /// nodes of the cylinder lie on the circle to round-off, so that nodal gaps are the exact gaps.
 ///
 /// Only the even part of the surfaces is a contact candidate (`cylinder.contact`,
@@ -131,7 +132,7 @@ impl Layout {
         limits::positive(&key("fine_width"), p.fine_width)?;
         limits::positive(&key("fine_depth"), p.fine_depth)?;
         limits::positive(&key("far_size"), p.far_size)?;
-        limits::growth(&key("growth"), p.growth)?;
+        limits::growths(&key("growth"), p.growth, &key("far_growth"), p.far_growth)?;
         limits::at_least(&key("resolution"), p.resolution, 1)?;
 
         let size = p.far_size * half_width;
@@ -173,12 +174,12 @@ impl Layout {
         let n_deep = fine("fine_depth", p.fine_depth)?;
 
         let h = half_width / resolution;
-        let count = |n: f64| n + grading::grown_count(h * p.growth, size - n * h, p.growth);
+        let growth = Growth::new(p.growth, p.far_growth, 0.0);
+        let count = |n: f64| n + growth.count(h * p.growth, n * h, size);
         let cells = 2.0 * count(n_fine) * count(n_deep);
         limits::total(&key("resolution"), limits::elements(cells, p.element))?;
-        let lines = |name: &str, n: f64| {
-            grading::even_then_grown(&key(name), h, n as usize, size, p.growth)
-        };
+        let lines =
+            |name: &str, n: f64| grading::even_then_grown(&key(name), h, n as usize, size, growth);
         Ok(Layout {
             n_fine: n_fine as usize,
             size,

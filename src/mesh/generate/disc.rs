@@ -1,9 +1,10 @@
 //! A disc in the hole of a plate (paper 5.2).
 
+use super::grading::{self, Growth};
 use super::grid::{BodyBuilder, Side, empty_mesh};
+use super::limits;
 use super::o_grid::{self, disc_grid};
 use super::polar::{Sector, ring_grid};
-use super::{grading, limits};
 use crate::mesh::{Curve, Mesh};
 use crate::scene::DiscInPlate;
 use crate::{Error, Result};
@@ -16,7 +17,8 @@ const KEY: &str = "mesh.disc_in_plate";
 /// Both contact surfaces lie on radius `R` with nodes at the same equal angles: an interference is a
 /// change of the initial gap in small-strain theory, not of the geometry. The disc is a core of
 /// `resolution/2 x resolution/2` elements inside graded layers; the plate is a polar grid
-/// whose radial size begins with the arc spacing `pi R/(2 resolution)` and grows to the far radius.
+/// whose radial size begins with the arc spacing `pi R/(2 resolution)` and grows by `growth`, by up to `far_growth` at the
+/// far radius.
 ///
 /// Bodies, surfaces and units are those of [`DiscInPlate`]; node sets `disc.pole` and `plate.pole` are
 /// the nodes at `(0, R)`, `disc.center` is the node in the origin. Nodes on symmetry lines lie
@@ -29,7 +31,7 @@ pub fn disc_in_plate(p: &DiscInPlate) -> Result<Mesh> {
     let n = p.resolution;
     limits::positive(&key("radius"), p.radius)?;
     limits::finite(&key("interference"), p.interference)?;
-    limits::growth(&key("growth"), p.growth)?;
+    limits::growths(&key("growth"), p.growth, &key("far_growth"), p.far_growth)?;
     limits::finite(&key("far_radius"), p.far_radius)?;
     if p.far_radius <= 1.0 {
         return Err(Error::input(format!(
@@ -49,7 +51,8 @@ pub fn disc_in_plate(p: &DiscInPlate) -> Result<Mesh> {
 
     let width = (p.far_radius - 1.0) * p.radius;
     let spacing = FRAC_PI_2 * p.radius / n as f64;
-    let layers = grading::grown_count(spacing, width, p.growth);
+    let growth = Growth::new(p.growth, p.far_growth, p.radius);
+    let layers = growth.count(spacing, 0.0, width);
     let cells = layers * n as f64 + o_grid::n_cells(n, 1);
     limits::total(&key("resolution"), limits::elements(cells, p.element))?;
 
@@ -83,7 +86,7 @@ pub fn disc_in_plate(p: &DiscInPlate) -> Result<Mesh> {
     disc.node_set("pole", grid.pole)?;
 
     let far = p.far_radius * p.radius;
-    let mut radii = grading::even_then_grown(&key("far_radius"), spacing, 0, width, p.growth)?;
+    let mut radii = grading::even_then_grown(&key("far_radius"), spacing, 0, width, growth)?;
     for r in &mut radii {
         *r += p.radius;
     }

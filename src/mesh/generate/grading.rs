@@ -37,6 +37,105 @@ pub(super) fn biased(key: &str, from: f64, to: f64, n: usize, bias: f64) -> Resu
     with_midpoints(key, corners)
 }
 
+/// How elements grow with the distance `r` from a point of interest: each is `near^((r/r0)^s)` times as large as the one before,
+/// from `near` at the beginning `r0` of the growing part to `far` at its end. With `far = near` the growth is geometric.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Growth {
+    pub near: f64,
+    pub far: f64,
+    /// Distance of the line's 0 from the point of interest.
+    pub origin: f64,
+}
+
+/// More growing elements along a line than any mesh within the limits has.
+const MOST_ON_A_LINE: usize = 1_000_000;
+
+impl Growth {
+    /// The same ratio everywhere, where none is given for the far end.
+    pub fn new(near: f64, far: Option<f64>, origin: f64) -> Self {
+        Growth {
+            near,
+            far: far.unwrap_or(near),
+            origin,
+        }
+    }
+
+    /// How many elements it takes from `start` to `length`, the first of size `first`. A float, because a wrong input can ask for
+    /// more than any integer holds.
+    pub fn count(&self, first: f64, start: f64, length: f64) -> f64 {
+        if self.far == self.near || length <= start {
+            return grown_count(first, length - start, self.near);
+        }
+        let law = self.law(start, length);
+        let (mut at, mut step, mut n) = (start, first, 0usize);
+        while at + 0.5 * step < length && n < MOST_ON_A_LINE {
+            at += step;
+            step *= law.ratio(at, 1.0);
+            n += 1;
+        }
+        n.max(1) as f64
+    }
+
+    fn law(&self, start: f64, length: f64) -> Law {
+        let (begin, end) = (self.origin + start, self.origin + length);
+        Law {
+            near: self.near.ln(),
+            begin,
+            origin: self.origin,
+            power: (self.far.ln() / self.near.ln()).ln() / (end / begin).ln(),
+        }
+    }
+}
+
+/// `ln near (r/r0)^s`, the logarithm of the growth.
+struct Law {
+    near: f64,
+    begin: f64,
+    origin: f64,
+    power: f64,
+}
+
+impl Law {
+    /// Size of the element that begins at `at` over that of the one before, with `share` of the law's logarithm.
+    fn ratio(&self, at: f64, share: f64) -> f64 {
+        let distance = (self.origin + at) / self.begin;
+        (share * self.near * distance.powf(self.power)).exp()
+    }
+
+    /// Sizes of `n` elements over the first, with the share of the law that makes them fill `sum` firsts.
+    fn sizes(&self, start: f64, first: f64, n: usize, sum: f64) -> Vec<f64> {
+        let sizes = |share: f64| {
+            let (mut at, mut size) = (0.0f64, 1.0);
+            let mut out = Vec::with_capacity(n);
+            for _ in 0..n {
+                out.push(size);
+                at += size;
+                // Beyond the end the law would overflow.
+                size *= self.ratio(start + first * at.min(sum), share);
+            }
+            (out, at)
+        };
+        let (mut low, mut high) = (-1.0, 2.0);
+        while sizes(high).1 < sum && high < 1e6 {
+            high *= 2.0;
+        }
+        while sizes(low).1 > sum && low > -1e6 {
+            low *= 2.0;
+        }
+        loop {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                return sizes(middle).0;
+            }
+            if sizes(middle).1 < sum {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+    }
+}
+
 /// From 0 to `length`: `n_even` elements of `size`, then elements that grow by about `growth`, a
 /// little adjusted so that the last one ends exactly at `length`.
 pub(super) fn even_then_grown(
@@ -44,29 +143,42 @@ pub(super) fn even_then_grown(
     size: f64,
     n_even: usize,
     length: f64,
-    growth: f64,
+    growth: Growth,
 ) -> Result<Vec<f64>> {
     let mut corners: Vec<f64> = (0..=n_even).map(|i| size * i as f64).collect();
     let start = size * n_even as f64;
-    let first = if n_even > 0 { size * growth } else { size };
-    let n = grown_count(first, length - start, growth) as usize;
+    let first = if n_even > 0 { size * growth.near } else { size };
+    let n = if length > start {
+        growth.count(first, start, length) as usize
+    } else {
+        0
+    };
     if n > 0 {
-        let ratio = ratio_that_fills((length - start) / first, n, growth);
-        let mut step = first;
-        let mut at = start;
-        for _ in 1..n {
-            at += step;
-            step *= ratio;
-            corners.push(at);
+        let sum = (length - start) / first;
+        if growth.far == growth.near {
+            let ratio = ratio_that_fills(sum, n, growth.near);
+            let mut step = first;
+            let mut at = start;
+            for _ in 1..n {
+                at += step;
+                step *= ratio;
+                corners.push(at);
+            }
+        } else {
+            let sizes = growth.law(start, length).sizes(start, first, n, sum);
+            let mut at = start;
+            for size in &sizes[..n - 1] {
+                at += first * size;
+                corners.push(at);
+            }
         }
         corners.push(length);
     }
     with_midpoints(key, corners)
 }
 
-/// How many elements [`even_then_grown`] adds over `length` beginning with one of size `first`.
-/// A float, because a wrong input can ask for more than any integer holds.
-pub(super) fn grown_count(first: f64, length: f64, growth: f64) -> f64 {
+/// How many elements a geometric growth adds over `length` beginning with one of size `first`.
+fn grown_count(first: f64, length: f64, growth: f64) -> f64 {
     if length <= 0.0 {
         return 0.0;
     }
@@ -160,7 +272,7 @@ mod tests {
         fn growth_ends_exactly_and_stays_near_the_ratio_asked_for(
             n_even in 0usize..30, length in 40.0..4000.0f64, growth in 1.0..1.5f64
         ) {
-            let x = even_then_grown("x", 1.0, n_even, length, growth).unwrap();
+            let x = even_then_grown("x", 1.0, n_even, length, Growth::new(growth, None, 0.0)).unwrap();
             prop_assert_eq!(x[0], 0.0);
             prop_assert_eq!(x[x.len() - 1], length);
             for i in 0..n_even {
@@ -173,6 +285,27 @@ mod tests {
             for pair in sizes.windows(2) {
                 prop_assert!((pair[1] / pair[0] / growth - 1.0).abs() < 1.5 / n, "{:?}", sizes);
             }
+        }
+    }
+    #[test]
+    fn a_growth_rises_with_the_distance_to_that_of_the_far_end() {
+        for (origin, n_even) in [(0.0, 20), (0.0, 8), (10.0, 0)] {
+            let law = Growth::new(1.2, Some(4.0), origin);
+            let x = even_then_grown("x", 1.0, n_even, 20e3, law).unwrap();
+            assert_eq!(x[x.len() - 1], 20e3);
+            let sizes: Vec<f64> = (n_even.max(1)..x.len() / 2)
+                .map(|i| x[2 * i + 2] - x[2 * i])
+                .collect();
+            let ratios: Vec<f64> = sizes.windows(2).map(|p| p[1] / p[0]).collect();
+            assert!(ratios.windows(2).all(|r| r[1] > r[0]), "{ratios:?}");
+            // The whole is stretched by less than half of the last element, an eighth or so of the law's logarithm.
+            assert!(
+                (ratios[0].ln() / 1.2f64.ln() - 1.0).abs() < 0.3,
+                "{ratios:?}"
+            );
+            let plain = even_then_grown("x", 1.0, n_even, 20e3, Growth::new(1.2, None, origin));
+            let plain = plain.unwrap().len() / 2 - n_even.max(1);
+            assert!(4 * sizes.len() < 3 * plain, "{} {plain}", sizes.len());
         }
     }
 }

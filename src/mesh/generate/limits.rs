@@ -62,6 +62,19 @@ pub(super) fn growth(key: &str, value: f64) -> Result<()> {
     )))
 }
 
+/// A growth ratio and that at the far end: not less, and more only where there is a growth to rise from.
+pub(super) fn growths(key: &str, near: f64, far_key: &str, far: Option<f64>) -> Result<()> {
+    growth(key, near)?;
+    let Some(far) = far else { return Ok(()) };
+    growth(far_key, far)?;
+    if far == near || far > near && near > 1.0 {
+        return Ok(());
+    }
+    Err(Error::input(format!(
+        "{far_key} = {far}: the growth rises from {key} = {near} with the distance; give at least that, and a growth above 1"
+    )))
+}
+
 /// Elements made of `cells` quadrilateral cells.
 pub(super) fn elements(cells: f64, shape: Shape) -> f64 {
     if shape.n_corners() == 3 {

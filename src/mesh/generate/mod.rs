@@ -21,6 +21,7 @@ pub use cylinder::cylinder_on_half_plane;
 pub use disc::disc_in_plate;
 pub use parts::parts;
 
+use super::circles::lay_on_circles;
 use super::{Mesh, gmsh};
 use crate::scene::{CylinderOnHalfPlane, MeshSource};
 use crate::{Error, Result};
@@ -30,7 +31,7 @@ use std::path::Path;
 ///
 /// A relative `file` is looked up in `directory` (the scene file's). `half_width` gives the contact
 /// half width at first yield of a cylinder on a half plane; it is only called for that geometry, where the
-/// source does not give one.
+/// source does not give one. Subdivisions are not made here: they depend on which surfaces touch ([`super::subdivided`]).
 ///
 /// # Errors
 /// Input errors if not exactly one source is given, and those of the source itself.
@@ -64,9 +65,11 @@ pub fn from_source(
         parts(p)
     } else {
         let file = source.file.as_deref().unwrap_or(Path::new(""));
-        match directory {
-            Some(directory) => gmsh::read(&directory.join(file)),
-            None => gmsh::read(file),
-        }
+        let mut mesh = match directory {
+            Some(directory) => gmsh::read(&directory.join(file))?,
+            None => gmsh::read(file)?,
+        };
+        lay_on_circles(&mut mesh, &source.circles)?;
+        Ok(mesh)
     }
 }

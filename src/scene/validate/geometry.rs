@@ -45,6 +45,26 @@ impl Checks {
                 "is empty; give the path of a Gmsh file, relative to the scene file",
             );
         }
+        let from_file = mesh.file.is_some();
+        self.require(
+            from_file || mesh.subdivisions == 0,
+            "mesh.subdivisions",
+            "is for meshes from a file; give the generator more elements instead",
+        );
+        self.require(
+            from_file || mesh.circles.is_empty(),
+            "mesh.circles",
+            "is for meshes from a file; a generator knows the shape of its surfaces",
+        );
+        for (index, circle) in mesh.circles.iter().enumerate() {
+            let key = |name: &str| format!("mesh.circles.{index}.{name}");
+            self.positive(key("radius"), circle.radius);
+            self.require(
+                circle.center.iter().all(|c| c.is_finite()),
+                key("center"),
+                "must be finite",
+            );
+        }
         self.bodies_of_mesh(scene);
     }
 
@@ -55,6 +75,9 @@ impl Checks {
         self.at_least(key("fine_width"), parameters.fine_width, 1.0);
         self.positive(key("fine_depth"), parameters.fine_depth);
         self.at_least(key("growth"), parameters.growth, 1.0);
+        if let Some(far) = parameters.far_growth {
+            self.at_least(key("far_growth"), far, parameters.growth);
+        }
         let fine = parameters.fine_width.max(parameters.fine_depth);
         self.require(
             parameters.far_size > fine,
@@ -105,6 +128,9 @@ impl Checks {
             ),
         );
         self.at_least(key("growth"), parameters.growth, 1.0);
+        if let Some(far) = parameters.far_growth {
+            self.at_least(key("far_growth"), far, parameters.growth);
+        }
         self.require(
             parameters.interference.abs() < parameters.radius,
             key("interference"),

@@ -14,6 +14,7 @@ pub(super) fn example(element: Shape) -> CylinderOnHalfPlane {
         fine_depth: 1.5,
         far_size: 50.0,
         growth: 1.15,
+        far_growth: None,
         element,
     }
 }
@@ -217,7 +218,7 @@ fn scaling_all_lengths_scales_the_mesh() {
 #[test]
 fn refusals_name_key_and_value() {
     type Change = fn(&mut CylinderOnHalfPlane);
-    let cases: [(Change, &[&str]); 14] = [
+    let cases: [(Change, &[&str]); 16] = [
         (|p| p.radius = 0.0, &["radius = 0"]),
         (|p| p.radius = f64::NAN, &["radius = NaN"]),
         (|p| p.radius = f64::INFINITY, &["radius = inf"]),
@@ -236,6 +237,11 @@ fn refusals_name_key_and_value() {
         ),
         (|p| p.growth = 0.9, &["growth = 0.9"]),
         (|p| p.growth = f64::NAN, &["growth = NaN"]),
+        (|p| p.far_growth = Some(1.1), &["far_growth = 1.1", "1.15"]),
+        (
+            |p| (p.growth, p.far_growth) = (1.0, Some(2.0)),
+            &["far_growth = 2", "above 1"],
+        ),
         (|p| p.far_size = 0.0, &["far_size = 0"]),
         (
             |p| p.fine_width = 90.0,

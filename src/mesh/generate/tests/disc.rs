@@ -12,6 +12,7 @@ pub(super) fn example(resolution: usize, element: Shape) -> DiscInPlate {
         resolution,
         far_radius: 20.0,
         growth: 1.05,
+        far_growth: None,
         element,
     }
 }
@@ -159,7 +160,7 @@ fn interference_does_not_move_nodes() {
 #[test]
 fn refusals_name_key_and_value() {
     type Change = fn(&mut DiscInPlate);
-    let cases: [(Change, &[&str]); 10] = [
+    let cases: [(Change, &[&str]); 11] = [
         (|p| p.radius = -2.0, &["radius = -2"]),
         (|p| p.radius = f64::NAN, &["radius = NaN"]),
         (|p| p.interference = f64::NAN, &["interference = NaN"]),
@@ -173,6 +174,7 @@ fn refusals_name_key_and_value() {
         (|p| p.far_radius = 1.0, &["far_radius", "more than 1"]),
         (|p| p.far_radius = f64::NAN, &["far_radius = NaN"]),
         (|p| p.growth = 0.0, &["growth = 0"]),
+        (|p| p.far_growth = Some(1.0), &["far_growth = 1:"]),
     ];
     for (change, parts) in cases {
         let mut p = example(8, Shape::Quad4);

@@ -11,6 +11,7 @@ fn generated(shape: Shape) -> [Mesh; 2] {
         fine_depth: 1.5,
         far_size: 30.0,
         growth: 1.2,
+        far_growth: None,
         element: shape,
     };
     let disc = DiscInPlate {
@@ -19,6 +20,7 @@ fn generated(shape: Shape) -> [Mesh; 2] {
         resolution: 6,
         far_radius: 7.0,
         growth: 1.1,
+        far_growth: None,
         element: shape,
     };
     [

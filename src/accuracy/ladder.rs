@@ -1,0 +1,163 @@
+//! The ladder of meshes that leads to a demand: what was run on one rung judges the next.
+
+use super::estimate::{Extent, run};
+use super::grading::elements;
+use super::meter::work;
+use super::refinement::{FEWEST, Level, all_quadratic, governing_count, refined};
+use crate::error::Result;
+use crate::linalg::Backend;
+use crate::progress::Observer;
+use crate::results::Results;
+use crate::scene::Scene;
+
+/// Node spacings over what governs in the lowest run that is judged, by one rung below it.
+pub(super) const PILOT: f64 = 1.4 * FEWEST;
+/// From so many spacings on rungs far apart tell more than near ones, and with less than so many one rung has to do: a contact edge
+/// cannot be read off fewer than [`FEWEST`].
+const FINE: f64 = 13.0;
+const COARSE: f64 = 8.0;
+/// Least change of the element size from rung to rung.
+const LEAST_CHANGE: f64 = 1.1;
+/// A rung that was run already serves where its elements are so many times larger.
+const REUSED: [f64; 2] = [1.25, 3.0];
+/// Growths that agree to so many digits make one mesh: they come by different ways.
+const DIGITS: f64 = 1e9;
+
+/// Finished runs, to be used again.
+#[derive(Default)]
+pub(super) struct Ladder {
+    finished: Vec<(Scene, Results)>,
+}
+
+impl Ladder {
+    /// Keeps a finished run, without its fields.
+    pub(super) fn keep(&mut self, scene: &Scene, results: &Results) {
+        let mut results = results.clone();
+        for state in &mut results.states {
+            state.fields = None;
+        }
+        self.finished.push((scene.clone(), results));
+    }
+
+    /// The results of a scene, and the operations they took: none where it was run before.
+    pub(super) fn step(
+        &mut self,
+        scene: &Scene,
+        backend: Backend,
+        extent: Extent,
+        observer: &mut dyn Observer,
+    ) -> Result<(Results, f64)> {
+        let key = key(scene);
+        if let Some((_, known)) = self.finished.iter().find(|(s, _)| self::key(s) == key) {
+            return Ok((known.clone(), 0.0));
+        }
+        let results = run(scene, backend, extent, observer)?;
+        let spent = work(&results);
+        self.keep(scene, &results);
+        Ok((results, spent))
+    }
+
+    /// The coarser meshes, two or for the lowest run one, from which a run is judged, those that were run already first. A ladder goes up from meshes so coarse that they
+    /// must not lean on yet coarser ones, nor, with its price in mind, on finer ones.
+    pub(super) fn rungs(&self, scene: &Scene) -> Vec<Level> {
+        let Some(count) = spacings(scene) else {
+            return Vec::new();
+        };
+        let known = self.finished.iter().filter_map(|(other, _)| {
+            let factor = spacings(other)? / count;
+            let level = refined(scene, factor)?;
+            let serves = (REUSED[0]..=REUSED[1]).contains(&level.ratio) && factor * count >= FEWEST;
+            (serves && key(&level.scene) == key(other)).then_some(level)
+        });
+        let mut known: Vec<Level> = known.collect();
+        known.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
+        let (most, factors) = match count {
+            n if n >= FINE => (2, [1.0 / 2.0, 3.0 / 8.0, 2.0 / 3.0, 1.0 / 4.0]),
+            n if n >= COARSE => (2, [2.0 / 3.0, 5.0 / 9.0, 1.0 / 2.0, 3.0 / 4.0]),
+            _ => (1, [6.0 / 7.0, 2.0 / 3.0, 1.0 / 2.0, 1.0 / 3.0]),
+        };
+        let mut out: Vec<Level> = Vec::new();
+        let others = factors.into_iter().filter_map(|f| refined(scene, f));
+        for level in known.into_iter().chain(others) {
+            let far = |other: f64| level.ratio.max(other) / level.ratio.min(other) >= LEAST_CHANGE;
+            if out.len() < most
+                && level.ratio > 1.0
+                && far(1.0)
+                && out.iter().all(|l| far(l.ratio))
+                && elements(&level.scene).is_some()
+            {
+                out.push(level);
+            }
+        }
+        out.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
+        out
+    }
+}
+
+/// Node spacings over what governs the result.
+pub(super) fn spacings(scene: &Scene) -> Option<f64> {
+    let each = if all_quadratic(scene) { 2.0 } else { 1.0 };
+    governing_count(&scene.mesh).map(|n| each * n)
+}
+
+/// What tells scenes apart, round-off of the growths left out.
+fn key(scene: &Scene) -> String {
+    let mut scene = scene.clone();
+    let round = |growth: &mut f64| *growth = (*growth * DIGITS).round() / DIGITS;
+    if let Some(p) = &mut scene.mesh.cylinder_on_half_plane {
+        round(&mut p.growth);
+        p.far_growth.iter_mut().for_each(round);
+    }
+    if let Some(p) = &mut scene.mesh.disc_in_plate {
+        round(&mut p.growth);
+        p.far_growth.iter_mut().for_each(round);
+    }
+    format!("{scene:?}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cylinder(n: usize) -> Scene {
+        let text = include_str!("../../data/scenes/cylinder_on_half_plane.toml");
+        let scene = Scene::parse(text, "scene.toml").unwrap();
+        refined(&scene, n as f64 / 16.0).unwrap().scene
+    }
+
+    fn resolutions(levels: &[Level]) -> Vec<usize> {
+        let meshes = levels.iter().map(|l| &l.scene.mesh);
+        let generators = meshes.map(|m| m.cylinder_on_half_plane.as_ref().unwrap());
+        generators.map(|p| p.resolution).collect()
+    }
+
+    #[test]
+    fn rungs_come_nearer_towards_the_foot() {
+        for (n, wanted) in [
+            (7, vec![6]),
+            (9, vec![6, 5]),
+            (12, vec![8, 7]),
+            (16, vec![8, 6]),
+        ] {
+            assert_eq!(resolutions(&Ladder::default().rungs(&cylinder(n))), wanted);
+        }
+    }
+
+    #[test]
+    fn what_was_run_serves_again() {
+        let mut ladder = Ladder::default();
+        for n in [7, 5] {
+            ladder.keep(&cylinder(n), &Results::default());
+        }
+        assert_eq!(resolutions(&ladder.rungs(&cylinder(12))), [7, 5]);
+        // Not where it is of another family.
+        let mut other = cylinder(12);
+        other.mesh.cylinder_on_half_plane.as_mut().unwrap().growth += 0.01;
+        assert_eq!(resolutions(&ladder.rungs(&other)), [8, 6]);
+        let mut observer = crate::progress::Silent;
+        let (_, spent) = ladder
+            .step(&cylinder(7), Backend::Dense, Extent::Yield, &mut observer)
+            .unwrap();
+        assert_eq!(spent, 0.0);
+    }
+}
