@@ -50,8 +50,7 @@ pub fn lay_on_circles(mesh: &mut Mesh, circles: &[SurfaceCircle]) -> Result<()> 
             let (dx, dy) = (x - cx, y - cy);
             let distance = dx.hypot(dy);
             let off = distance - radius;
-            // Not `off > ...`: what is not a number is off too.
-            if !(off.abs() <= OFF * radius) {
+            if off.is_nan() || off.abs() > OFF * radius {
                 return Err(Error::input(format!(
                     "{key}: node {} at ({x}, {y}) lies {:.3e} off the circle round ({cx}, {cy}) with radius {radius}; \
                      check center and radius, and that mid-side nodes were exported curved",
