@@ -19,14 +19,18 @@
 //! is the problem of [`crate::contact`]. Plastic strains are loads like any others: `f + sum of B_e' D eps_p` over elements.
 
 mod arrays;
+mod held;
+mod refined;
 
 pub use arrays::{Triangle, rows_from_csr, stiffness_from_csc};
 
-use crate::contact::{self, Change, Path, PathEnd, Tableau, Unbounded};
+use crate::contact::{self, Change, Path, PathEnd, Tableau};
 use crate::error::{Error, ErrorKind, Result};
-use crate::linalg::{self, Backend, Condensed, NotDefinite, Partition, SymmetricCsc};
+use crate::linalg::{self, Backend, Condensed, Partition, SymmetricCsc};
+use held::{condense, pushed_away};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Share of `S` below which a diagonal entry of `T = A^-1 - S` is round-off of the subtraction.
 const CANCELLED: f64 = 1e-12;
@@ -68,7 +72,7 @@ const CANCELLED: f64 = 1e-12;
 /// # }
 /// ```
 pub struct ConstrainedStructure {
-    condensed: Box<dyn Condensed>,
+    condensed: Arc<dyn Condensed>,
     stiffness: SymmetricCsc,
     /// Its infinity norm.
     norm: f64,
@@ -94,8 +98,8 @@ struct State {
     load: Vec<f64>,
     /// The load condensed on the contact freedoms.
     condensed: DVector<f64>,
-    gap: Vec<f64>,
-    force: Vec<f64>,
+    gap: Arc<Vec<f64>>,
+    force: Arc<Vec<f64>>,
 }
 
 /// A piece of the load path.
@@ -130,6 +134,19 @@ impl ConstrainedStructure {
         rows: &[Vec<(usize, f64)>],
         gaps: &[f64],
     ) -> Result<Self> {
+        Self::with_owned(backend, stiffness.clone(), rows, gaps)
+    }
+
+    /// As [`ConstrainedStructure::new`], without the copy of the stiffness that the structure keeps (displacements are refined with it).
+    ///
+    /// # Errors
+    /// As [`ConstrainedStructure::new`].
+    pub fn with_owned(
+        backend: Backend,
+        stiffness: SymmetricCsc,
+        rows: &[Vec<(usize, f64)>],
+        gaps: &[f64],
+    ) -> Result<Self> {
         let n = stiffness.cols();
         arrays::check(n, rows, gaps)?;
         let mut place: BTreeMap<usize, usize> =
@@ -142,7 +159,7 @@ impl ConstrainedStructure {
             zone: Vec::new(),
             contact: place.keys().copied().collect(),
         };
-        let condensed = condense(backend, stiffness, &partition)?;
+        let condensed = condense(backend, &stiffness, &partition)?;
         let mut b = DMatrix::zeros(rows.len(), partition.contact.len());
         for (i, row) in rows.iter().enumerate() {
             for (freedom, coefficient) in row {
@@ -201,16 +218,16 @@ impl ConstrainedStructure {
             }
         }
         let mut structure = ConstrainedStructure {
-            norm: linalg::norm(stiffness),
-            stiffness: stiffness.clone(),
+            norm: linalg::norm(&stiffness),
+            stiffness,
             state: State {
                 load: vec![0.0; n],
                 condensed: DVector::zeros(partition.contact.len()),
-                gap: gaps.to_vec(),
-                force: vec![0.0; rows.len()],
+                gap: Arc::new(gaps.to_vec()),
+                force: Arc::new(vec![0.0; rows.len()]),
             },
             partition,
-            condensed,
+            condensed: Arc::from(condensed),
             rows: b,
             gaps: DVector::from_column_slice(gaps),
             shift,
@@ -263,8 +280,8 @@ impl ConstrainedStructure {
         self.state = State {
             load: load.to_vec(),
             condensed,
-            gap,
-            force,
+            gap: Arc::new(gap),
+            force: Arc::new(force),
         };
         self.way = None;
         Ok(())
@@ -286,8 +303,8 @@ impl ConstrainedStructure {
             &mut self.tableau,
             begin.as_slice().to_vec(),
             change.as_slice().to_vec(),
-            self.state.gap.clone(),
-            self.state.force.clone(),
+            self.state.gap.to_vec(),
+            self.state.force.to_vec(),
             scale,
             terms,
         )
@@ -340,8 +357,8 @@ impl ConstrainedStructure {
             *load = start + t * rate;
         }
         self.state.condensed = &way.start.condensed + t * &way.condensed_rate;
-        self.state.gap.copy_from_slice(&way.path.gap);
-        self.state.force.copy_from_slice(&way.path.force);
+        replace(&mut self.state.gap, &way.path.gap);
+        replace(&mut self.state.force, &way.path.force);
         Ok(Event { t, changes })
     }
 
@@ -353,6 +370,21 @@ impl ConstrainedStructure {
     /// Forces of the rows, >= 0, compressive.
     pub fn forces(&self) -> &[f64] {
         &self.state.force
+    }
+
+    /// [`ConstrainedStructure::gaps`] to be kept without a copy: those of this state, whatever comes after.
+    pub fn shared_gaps(&self) -> Arc<Vec<f64>> {
+        Arc::clone(&self.state.gap)
+    }
+
+    /// [`ConstrainedStructure::forces`] to be kept without a copy: those of this state, whatever comes after.
+    pub fn shared_forces(&self) -> Arc<Vec<f64>> {
+        Arc::clone(&self.state.force)
+    }
+
+    /// The factored stiffness, which holds [`ConstrainedStructure::condensed_stiffness`], to be kept without a copy.
+    pub fn shared_condensation(&self) -> Arc<dyn Condensed> {
+        Arc::clone(&self.condensed)
     }
 
     /// Which rows are open.
@@ -372,8 +404,8 @@ impl ConstrainedStructure {
                 self.partition.n
             )));
         }
-        let force = DVector::from_column_slice(&self.state.force);
-        let gap = DVector::from_column_slice(&self.state.gap);
+        let force = DVector::from_column_slice(self.forces());
+        let gap = DVector::from_column_slice(self.gaps());
         let pushed = self.rows.tr_mul(&force);
         let tied = self.shift.component_mul(&(&self.gaps - gap));
         let contact = self
@@ -428,54 +460,13 @@ impl ConstrainedStructure {
     }
 }
 
-/// Condenses; where the matrix alone is not definite once more with its own diagonal added on the contact freedoms and taken off
-/// again.
-fn condense(
-    backend: Backend,
-    stiffness: &SymmetricCsc,
-    partition: &Partition,
-) -> Result<Box<dyn Condensed>> {
-    let freedom = |error: &Error| {
-        let cause = std::error::Error::source(error)?;
-        Some(cause.downcast_ref::<NotDefinite>()?.freedom)
-    };
-    match linalg::condense(backend, stiffness, partition, &[]) {
-        Err(error) if freedom(&error).is_some() && !partition.contact.is_empty() => {}
-        Err(error) => return Err(named(error, freedom)),
-        done => return done,
-    }
-    let largest = stiffness.data().iter().fold(0.0f64, |m, v| m.max(v.abs()));
-    let diagonal = |&f: &usize| stiffness.get(f, f).copied().unwrap_or(0.0);
-    let shift: Vec<f64> = partition
-        .contact
-        .iter()
-        .map(diagonal)
-        .map(|d| if d > 0.0 { d } else { largest })
-        .collect();
-    linalg::condense(backend, stiffness, partition, &shift).map_err(|e| named(e, freedom))
-}
-
-fn named(error: Error, freedom: impl Fn(&Error) -> Option<usize>) -> Error {
-    match freedom(&error) {
-        Some(freedom) => Error::new(
-            ErrorKind::Unheld,
-            format!("the stiffness is not positive definite at freedom {freedom}: a part of the structure is not held"),
-        )
-        .because(error),
-        None => error,
+/// Puts new values in the place of those that nobody else keeps.
+fn replace(kept: &mut Arc<Vec<f64>>, values: &[f64]) {
+    match Arc::get_mut(kept) {
+        Some(own) => own.copy_from_slice(values),
+        None => *kept = Arc::new(values.to_vec()),
     }
 }
 
-fn pushed_away(cause: Unbounded) -> Error {
-    Error::new(
-        ErrorKind::Unheld,
-        format!(
-            "the load pushes a part of the structure away from every contact: nothing stops row {} from opening",
-            cause.pair
-        ),
-    )
-}
-
-mod refined;
 #[cfg(test)]
 mod tests;

@@ -60,6 +60,8 @@ pub mod error;
 
 pub mod panics;
 
+pub mod index;
+
 pub mod analytical;
 
 pub mod shape;

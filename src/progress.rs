@@ -13,6 +13,12 @@ pub enum Flow {
 pub trait Observer: Send {
     /// A phase (`"assembly"`, `"factorisation"`, ...) begins.
     fn phase(&mut self, _name: &str) {}
+    /// A phase begins whose time is known, roughly.
+    fn phase_of(&mut self, name: &str, _seconds: f64) {
+        self.phase(name);
+    }
+    /// The size of the model that the next phases are about.
+    fn model(&mut self, _freedoms: usize, _contact_pairs: usize) {}
     /// An increment was accepted. `fraction` of the load program lies behind.
     fn increment(&mut self, _row: &crate::results::HistoryRow, _fraction: f64) -> Flow {
         Flow::Continue

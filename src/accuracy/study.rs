@@ -149,12 +149,13 @@ pub fn study(
             true => String::new(),
             false => format!("; about {left:.0} s left"),
         };
-        observer.phase(&format!(
+        let name = format!(
             "run {} of {n}: {}, {}{left}",
             i + 1,
             setting.series,
             setting.value
-        ));
+        );
+        observer.phase_of(&name, expected);
         let meter = Meter::start();
         let found = run(&setting.scene, setting.backend, Extent::Program, observer);
         let usage = meter.stop();

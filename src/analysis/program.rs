@@ -106,6 +106,7 @@ impl<'m, 'o> Run<'m, 'o> {
         timings: &[(String, f64)],
         observer: &'o mut dyn Observer,
     ) -> Result<Self> {
+        observer.model(model.freedoms.n, model.pairs.len());
         observer.phase("factorisation");
         let start = Instant::now();
         let within = zone_choice::first_guess(model).elements;

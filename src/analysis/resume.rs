@@ -32,6 +32,7 @@ impl<'m, 'o> Run<'m, 'o> {
         every: usize,
     ) -> Result<Self> {
         let record: RunRecord = store.read()?;
+        observer.model(model.freedoms.n, model.pairs.len());
         observer.phase("factorisation");
         let begin = Instant::now();
         let (engine, same) = Engine::recall(model, system, backend, &record.engine)?;

@@ -1,7 +1,7 @@
 //! Models from arrays: materials, contact, supports.
 
 use super::border::{SizePrefixed, shared, slice, take, text};
-use super::model::{brinell_model, change, indices, one_of};
+use super::model::{brinell_model, change, one_of};
 use crate::error::{Error, Result};
 use crate::model::NodePair;
 use crate::scene::{Body, Contact, Direction, Material, Plastic, Support};
@@ -183,19 +183,22 @@ pub unsafe extern "C" fn brinell_model_contact(
                 m.builder.contact(entry);
                 return Ok(());
             }
-            let first = indices(given.first_nodes, n, "first_nodes")?;
-            let second = indices(given.second_nodes, n, "second_nodes")?;
+            let first = slice(given.first_nodes, n, "first_nodes")?;
+            let second = slice(given.second_nodes, n, "second_nodes")?;
             let unless_null = |is_null: bool| if is_null { 0 } else { n };
             let normals = rows(given.normals, unless_null(given.normals.is_null()), "")?;
             let gaps = slice(given.gaps, unless_null(given.gaps.is_null()), "")?;
-            let pairs: Vec<NodePair> = (0..n)
-                .map(|k| NodePair {
-                    first: first[k],
-                    second: second[k],
+            let node =
+                |k: usize, nodes: &[i64]| m.builder.node(|| format!("pair {k}: one"), nodes[k]);
+            let pairs = (0..n).map(|k| {
+                Ok(NodePair {
+                    first: node(k, first)?,
+                    second: node(k, second)?,
                     normal: normals.get(k).copied(),
                     gap: gaps.get(k).copied(),
                 })
-                .collect();
+            });
+            let pairs = pairs.collect::<Result<Vec<_>>>()?;
             m.builder.contact_pairs(entry, &pairs)?;
             Ok(())
         })

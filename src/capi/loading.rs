@@ -1,8 +1,8 @@
 //! Models from arrays: loads and the load program.
 
-use super::border::{SizePrefixed, shared, text};
+use super::border::{SizePrefixed, shared, slice, text};
 use super::conditions::{BRINELL_X, BRINELL_Y, directions, rows, zero_or};
-use super::model::{brinell_model, change, indices, one_of};
+use super::model::{brinell_model, change, one_of};
 use crate::error::{Error, Result};
 use crate::scene::{
     Direction, Displacement, DisplacementTarget, History, Kirsch, Load, PlaneForce,
@@ -173,10 +173,10 @@ pub unsafe extern "C" fn brinell_model_load(
                 other => return Err(Error::input(format!("there is no history {other}"))),
             };
             if given.kind == BRINELL_LOAD_NODAL {
-                let nodes = indices(given.nodes, given.n_nodes, "nodes of the load")?;
+                let nodes = slice(given.nodes, given.n_nodes, "nodes of the load")?;
                 let forces = rows(given.forces, given.n_nodes, "forces of the load")?;
                 let name = text(given.name, "the name of a nodal load")?;
-                m.builder.nodal_load(name, &nodes, &forces, history)?;
+                m.builder.nodal_load(name, nodes, &forces, history)?;
                 return Ok(());
             }
             let mut load = Load {

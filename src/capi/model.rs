@@ -41,26 +41,6 @@ pub(super) fn one_of<T: Copy>(values: &[T], which: i32, what: &str) -> Result<T>
         .ok_or_else(|| Error::input(format!("there is no {what} {which}")))
 }
 
-/// Indices of the caller.
-///
-/// # Safety
-/// As [`slice`].
-pub(super) unsafe fn indices(data: *const i64, n: usize, what: &str) -> Result<Vec<usize>> {
-    // SAFETY: as vouched for by the caller.
-    let values = unsafe { slice(data, n, what) }?;
-    values
-        .iter()
-        .enumerate()
-        .map(|(at, &value)| {
-            usize::try_from(value).map_err(|_| {
-                Error::input(format!(
-                    "{what}: entry {at} is {value}; numbers count from 0"
-                ))
-            })
-        })
-        .collect()
-}
-
 /// Changes a model under construction. A refused call leaves it as it was.
 ///
 /// # Safety
@@ -145,8 +125,8 @@ pub unsafe extern "C" fn brinell_model_elements(
             let shapes = [Shape::Tri3, Shape::Tri6, Shape::Quad4, Shape::Quad8];
             let shape = one_of(&shapes, shape, "shape")?;
             let n = n.saturating_mul(shape.n_nodes());
-            let nodes = indices(nodes, n, "nodes of elements")?;
-            m.builder.elements(shape, text(body, "the body")?, &nodes)?;
+            let nodes = slice(nodes, n, "nodes of elements")?;
+            m.builder.elements(shape, text(body, "the body")?, nodes)?;
             Ok(())
         })
     }
@@ -166,8 +146,8 @@ pub unsafe extern "C" fn brinell_model_node_set(
     // SAFETY: the caller vouches for every pointer.
     unsafe {
         change(model, |m| {
-            let nodes = indices(nodes, n, "nodes")?;
-            m.builder.node_set(text(name, "the name")?, &nodes)?;
+            let nodes = slice(nodes, n, "nodes")?;
+            m.builder.node_set(text(name, "the name")?, nodes)?;
             Ok(())
         })
     }
@@ -188,10 +168,10 @@ pub unsafe extern "C" fn brinell_model_surface(
     // SAFETY: the caller vouches for every pointer.
     unsafe {
         change(model, |m| {
-            let elements = indices(elements, n, "elements of the surface")?;
-            let facets = indices(facets, n, "facets of the surface")?;
-            let facets: Vec<_> = elements.into_iter().zip(facets).collect();
-            m.builder.surface(text(name, "the name")?, &facets)?;
+            let elements = slice(elements, n, "elements of the surface")?.iter();
+            let facets = slice(facets, n, "facets of the surface")?.iter();
+            let facets = elements.copied().zip(facets.copied());
+            m.builder.surface(text(name, "the name")?, facets)?;
             Ok(())
         })
     }
@@ -211,9 +191,8 @@ pub unsafe extern "C" fn brinell_model_surface_of_nodes(
     // SAFETY: the caller vouches for every pointer.
     unsafe {
         change(model, |m| {
-            let nodes = indices(nodes, n, "nodes of the surface")?;
-            m.builder
-                .surface_of_nodes(text(name, "the name")?, &nodes)?;
+            let nodes = slice(nodes, n, "nodes of the surface")?;
+            m.builder.surface_of_nodes(text(name, "the name")?, nodes)?;
             Ok(())
         })
     }

@@ -156,7 +156,8 @@ pub unsafe extern "C" fn brinell_structure_new(
             shared(matrix, "the matrix")?;
             let stiffness = read_matrix(&take(matrix, no_matrix)?)?;
             let (rows, gaps) = read_rows(&take(rows, no_rows)?, stiffness.cols())?;
-            let structure = ConstrainedStructure::new(backend(options)?, &stiffness, &rows, &gaps)?;
+            let structure =
+                ConstrainedStructure::with_owned(backend(options)?, stiffness, &rows, &gaps)?;
             hand_out(
                 out,
                 brinell_structure {

@@ -374,7 +374,7 @@ fn bad_arrays_are_refused_by_index_and_leave_the_model_as_it_was() {
         };
         refused(
             elements([0, 1, 2, -1], BRINELL_SHAPE_QUAD4),
-            &["entry 3 is -1"],
+            &["node 3 is -1"],
         );
         refused(
             elements([0, 1, 2, 4], BRINELL_SHAPE_QUAD4),

@@ -11,6 +11,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::Backend;
 use crate::model::Model;
 use crate::output::{self, RunHeader};
+use crate::progress::Observer;
 use crate::results::Results;
 use crate::scene::{Kind, Scene};
 use std::path::PathBuf;
@@ -123,10 +124,11 @@ fn once(
 ) -> Result<(Analysis, Results)> {
     let backend = arguments.common.solver.into();
     let start = Instant::now();
+    progress.scene(scene);
     progress.start("mesh and model");
     let model = Model::new(scene)?;
     let modelled = start.elapsed().as_secs_f64();
-    progress.size(model.freedoms.n);
+    progress.model(model.freedoms.n, model.pairs.len());
     progress.start("assembly");
     let mut analysis = Analysis::new(model, backend)?;
     let mut results = match (extent, restart) {

@@ -7,6 +7,7 @@ mod arguments;
 mod commands;
 mod completions;
 mod example;
+mod forecast;
 mod interrupt;
 mod new;
 mod progress;

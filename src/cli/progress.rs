@@ -4,17 +4,19 @@
 //!
 //! | `event` | further keys |
 //! |---|---|
-//! | `phase` | `name`, `predicted_seconds` (null where nothing is known to predict it from) |
-//! | `increment` | `fraction` of the load program done, `seconds_left` (predicted; null at first), `row` (a row of `history.csv`) |
-//! | `warning` | `message` |
+//! | `phase` | `name`, `predicted_seconds` (rough: by the size of the model and what lies behind) |
+//! | `increment` | `fraction` of the load program done, `seconds_left` of it (predicted), `row` (a row of `history.csv`) |
+//! | `note`, `warning` | `message` |
 //! | `stopping` | `message`: Ctrl-C was heard |
 //! | `error` | `message`, `exit_code`: the last line of a run that failed |
 
 use super::arguments::Shown as Wish;
+use super::forecast::Forecast;
 use super::interrupt;
 use super::number::significant;
 use crate::progress::{Flow, Observer};
 use crate::results::HistoryRow;
+use crate::scene::Scene;
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use serde_json::{Value, json};
 use std::fmt;
@@ -26,13 +28,6 @@ const PAUSE: Duration = Duration::from_secs(5);
 /// Resolution of a bar, and its width.
 const PARTS: u64 = 1000;
 const WIDTH: usize = 24;
-/// Seconds of assembly per freedom, and of ordering, factorisation and condensation per freedom and per power 3/2 of the freedoms (the
-/// growth of nested dissection in the plane), on a processor of 2020. What the assembly takes here corrects the rest.
-const ASSEMBLY: f64 = 1.3e-6;
-const FACTORISATION: [f64; 2] = [2.5e-6, 7.75e-9];
-/// Share of the run's own time that the estimate of its errors takes.
-const ESTIMATE: f64 = 0.4;
-
 /// Shows what an analysis does, and passes on the user's wish to stop it.
 pub(super) struct Progress {
     shown: Shown,
@@ -40,12 +35,9 @@ pub(super) struct Progress {
     started: Instant,
     /// When the first increment was accepted and how much of the program then lay behind.
     first: Option<(Instant, f64)>,
-    /// The phase at hand and when it began.
-    phase: Option<(String, Instant)>,
-    /// Size of the model, once it is known.
-    freedoms: f64,
-    /// How much slower than expected this machine is.
-    slower: f64,
+    /// The phase at hand, when it began, and how many seconds it will take.
+    phase: Option<(String, Instant, f64)>,
+    forecast: Forecast,
 }
 
 enum Shown {
@@ -82,28 +74,32 @@ impl Progress {
             started,
             first: None,
             phase: None,
-            freedoms: 0.0,
-            slower: 1.0,
+            forecast: Forecast::new(started),
         }
     }
 
-    /// The number of freedoms: phases are predicted from it.
-    pub fn size(&mut self, freedoms: usize) {
-        self.freedoms = freedoms as f64;
+    /// A run of this scene comes.
+    pub fn scene(&mut self, scene: &Scene) {
+        self.forecast.scene(scene);
     }
 
     /// Shows what is being done now.
     pub fn start(&mut self, phase: &str) {
-        if let Some((last, began)) = &self.phase
-            && last == "assembly"
-            && self.freedoms > 0.0
-        {
-            // Of a very small model only the clock's grain would be seen.
-            let ratio = began.elapsed().as_secs_f64() / (ASSEMBLY * self.freedoms);
-            self.slower = ratio.clamp(0.3, 10.0);
+        self.end_phase();
+        let predicted = self.forecast.seconds(phase);
+        self.show(phase, predicted);
+    }
+
+    /// What the phase at hand took says something of the next.
+    fn end_phase(&mut self) {
+        if let Some((last, began, _)) = self.phase.take() {
+            self.forecast.learn(&last, began.elapsed().as_secs_f64());
         }
-        self.phase = Some((phase.to_string(), Instant::now()));
-        let predicted = self.predicted(phase);
+        self.first = None;
+    }
+
+    fn show(&mut self, phase: &str, predicted: f64) {
+        self.phase = Some((phase.to_string(), Instant::now(), predicted));
         match &mut self.shown {
             Shown::Nothing => {}
             Shown::Bars { all, bar } => {
@@ -114,11 +110,7 @@ impl Progress {
                 next.enable_steady_tick(Duration::from_millis(100));
                 *bar = Some(next);
             }
-            Shown::Lines { .. } => {
-                let about = predicted.filter(|s| *s >= 1.0);
-                let about = about.map_or(String::new(), |s| format!(", about {}", rough(s)));
-                self.line(&format!("{phase}{about}"));
-            }
+            Shown::Lines { .. } => self.line(&format!("{phase}, about {}", rough(predicted))),
             Shown::Json => self.json(
                 "phase",
                 json!({ "name": phase, "predicted_seconds": predicted }),
@@ -126,29 +118,17 @@ impl Progress {
         }
     }
 
-    /// Seconds that a phase will take, where something is known to say so.
-    fn predicted(&self, phase: &str) -> Option<f64> {
-        let n = self.freedoms;
-        match phase {
-            _ if n == 0.0 => None,
-            "assembly" => Some(ASSEMBLY * n),
-            "factorisation" => {
-                Some(self.slower * (FACTORISATION[0] * n + FACTORISATION[1] * n.powf(1.5)))
-            }
-            // The estimate has several phases of about one length.
-            phase if phase.starts_with("error estimate") => {
-                Some(0.25 * ESTIMATE * self.started.elapsed().as_secs_f64())
-            }
-            _ => None,
-        }
-    }
-
-    /// Seconds until the program is done if the rest goes like what lies behind.
-    fn seconds_left(&mut self, fraction: f64) -> Option<f64> {
+    /// Seconds until the program is done: if the rest goes like what lies behind, at first as predicted.
+    fn seconds_left(&mut self, fraction: f64) -> f64 {
         let (begin, done) = *self.first.get_or_insert((Instant::now(), fraction));
-        let progress = fraction - done;
-        (progress > 0.0)
-            .then(|| begin.elapsed().as_secs_f64() * (1.0 - fraction).max(0.0) / progress)
+        let (progress, rest) = (fraction - done, (1.0 - fraction).max(0.0));
+        if progress > 0.0 {
+            return begin.elapsed().as_secs_f64() * rest / progress;
+        }
+        let phase = self.phase.as_ref();
+        phase.map_or(0.0, |(_, began, predicted)| {
+            (predicted - began.elapsed().as_secs_f64()).max(rest * predicted)
+        })
     }
 
     /// Writes an event as a line of its own.
@@ -164,6 +144,16 @@ impl Progress {
             }
             // What cannot be cleared stays to be seen.
             let _ = all.clear();
+        }
+    }
+
+    /// Says something that is no phase and no warning.
+    pub fn note(&self, text: &str) {
+        match &self.shown {
+            Shown::Nothing => {}
+            Shown::Bars { all, .. } => all.suspend(|| self.line(text)),
+            Shown::Lines { .. } => self.line(text),
+            Shown::Json => self.json("note", json!({ "message": text })),
         }
     }
 
@@ -195,12 +185,18 @@ impl Observer for Progress {
         self.start(name);
     }
 
+    fn phase_of(&mut self, name: &str, seconds: f64) {
+        self.end_phase();
+        self.show(name, seconds);
+    }
+
+    fn model(&mut self, freedoms: usize, pairs: usize) {
+        self.forecast.model(freedoms, pairs);
+    }
+
     fn increment(&mut self, row: &HistoryRow, fraction: f64) -> Flow {
         let left = self.seconds_left(fraction);
-        let text = || match left {
-            Some(left) => format!("{}, about {} left", describe(row), rough(left)),
-            None => describe(row),
-        };
+        let text = || format!("{}, about {} left", describe(row), rough(left));
         match &mut self.shown {
             Shown::Nothing => {}
             Shown::Bars { bar, .. } => {
@@ -256,27 +252,26 @@ impl Shown {
 
 /// The bar of a phase: name, what is done, time, time that is left. What is done is the share of the load program where
 /// increments tell it, else the share of the predicted time, of which the last bit is only filled by the end.
-fn new_bar(phase: &str, predicted: Option<f64>) -> ProgressBar {
-    let done = move |state: &ProgressState| match (state.is_finished(), state.pos(), predicted) {
-        (true, ..) => Some(1.0),
-        (_, 1.., _) => Some(f64::from(state.fraction())),
-        (_, 0, Some(predicted)) => Some((state.elapsed().as_secs_f64() / predicted).min(0.97)),
-        _ => None,
+fn new_bar(phase: &str, predicted: f64) -> ProgressBar {
+    let done = move |state: &ProgressState| match (state.is_finished(), state.pos()) {
+        (true, _) => 1.0,
+        (_, 1..) => f64::from(state.fraction()),
+        (_, 0) => (state.elapsed().as_secs_f64() / predicted).min(0.97),
     };
     let gauge = move |state: &ProgressState, out: &mut dyn fmt::Write| {
-        let filled = done(state).map_or(0, |done| (done * WIDTH as f64) as usize);
+        let filled = (done(state) * WIDTH as f64) as usize;
         let rest = WIDTH - filled.min(WIDTH);
         let _ = write!(out, "{}{}", "=".repeat(WIDTH - rest), " ".repeat(rest));
     };
     let left = move |state: &ProgressState, out: &mut dyn fmt::Write| {
         let elapsed = state.elapsed().as_secs_f64();
-        let left = match (state.is_finished(), state.pos(), predicted) {
-            (true, ..) => None,
-            (_, 1.., _) => {
+        let left = match (state.is_finished(), state.pos()) {
+            (true, _) => None,
+            (_, 1..) => {
                 let done = f64::from(state.fraction());
                 Some(elapsed * (1.0 - done) / done)
             }
-            (_, 0, predicted) => predicted.map(|all| (all - elapsed).max(0.0)),
+            (_, 0) => Some((predicted - elapsed).max(0.0)),
         };
         let _ = match left {
             Some(left) => write!(out, "about {} left", rough(left)),
@@ -294,6 +289,7 @@ fn new_bar(phase: &str, predicted: Option<f64>) -> ProgressBar {
 /// Seconds as far as a prediction is worth saying.
 fn rough(seconds: f64) -> String {
     match seconds {
+        s if s < 0.5 => "0.5 s".to_string(),
         s if s < 99.5 => format!("{:.0} s", s.ceil()),
         s if s < 5940.0 => format!("{:.0} min", s / 60.0),
         s => format!("{:.1} h", s / 3600.0),
@@ -334,7 +330,8 @@ mod tests {
     #[test]
     fn predictions_are_rounded() {
         for (seconds, text) in [
-            (0.2, "1 s"),
+            (0.2, "0.5 s"),
+            (0.7, "1 s"),
             (59.0, "59 s"),
             (150.0, "2 min"),
             (9000.0, "2.5 h"),
@@ -385,7 +382,7 @@ mod tests {
         let target = ProgressDrawTarget::term_like_with_hz(Box::new(terminal.clone()), 255);
         progress.shown = Shown::bars(target);
         progress.start("mesh and model");
-        progress.size(40_000_000);
+        progress.model(40_000_000, 0);
         progress.start("assembly");
         std::thread::sleep(Duration::from_millis(30));
         progress.start("factorisation");
@@ -407,11 +404,12 @@ mod tests {
             "load program",
         ] {
             assert!(line(phase, "["), "{phase}: {text}");
+            assert!(line(phase, "left"), "{phase}: {text}");
         }
         // Predicted by size, corrected by the assembly: 0.3 of 2060 s.
         assert!(line("factorisation", "about 10 min left"), "{text}");
         assert!(line("load program", "============            "), "{text}");
-        assert!(line("load program", "about 1 s left"), "{text}");
+        assert!(line("load program", "about 0.5 s left"), "{text}");
     }
 
     #[test]

@@ -56,7 +56,7 @@ impl RestartArguments {
         let dir = checkpoints.dir().display();
         match (self.resume, checkpoints.exist()) {
             (true, true) => return analysis.resume(checkpoints, progress),
-            (true, false) => progress.start(&format!("no checkpoint in {dir}: from the beginning")),
+            (true, false) => progress.note(&format!("no checkpoint in {dir}: from the beginning")),
             (false, true) => progress.warning(&format!(
                 "the checkpoint in {dir} will be replaced (--resume would go on from it)"
             )),

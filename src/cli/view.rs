@@ -2,11 +2,14 @@
 
 use super::number::{number, significant};
 use super::print;
-use crate::error::{Error, Result};
-use crate::output;
+use crate::error::Result;
+use crate::output::{
+    self,
+    rows::{self, Rows},
+};
 use clap::Args;
 use serde_json::Value;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// What `brinell view` takes.
 #[derive(Debug, Args)]
@@ -37,9 +40,9 @@ pub(super) fn run(arguments: &ViewArguments) -> Result<()> {
 /// Prints what a result directory holds, as far as a terminal shows it.
 fn terminal(arguments: &ViewArguments) -> Result<()> {
     let dir = &arguments.dir;
-    let summary = summary(dir)?;
+    let summary = rows::summary(&dir.join("summary.json"))?;
     let mut text = headlines(&summary);
-    let history = Table::read(&dir.join("history.csv"))?;
+    let history = Rows::read(&dir.join("history.csv"))?;
     // Where a displacement is prescribed without contact the history has no load.
     let load = history.column("load")?;
     let (load, against) = match load.iter().any(|l| l.is_finite()) {
@@ -65,25 +68,6 @@ fn terminal(arguments: &ViewArguments) -> Result<()> {
         }
     }
     print(&text)
-}
-
-fn summary(dir: &Path) -> Result<Value> {
-    let path = dir.join("summary.json");
-    let text = std::fs::read_to_string(&path).map_err(|cause| {
-        Error::io("read the results", &path, cause)
-            .within("no directory of results that brinell wrote")
-    })?;
-    let summary: Value = serde_json::from_str(&text).map_err(|cause| {
-        Error::input(format!("{}: not valid JSON", path.display())).because(cause)
-    })?;
-    if summary["brinell"].is_string() {
-        Ok(summary)
-    } else {
-        Err(Error::input(format!(
-            "{}: not a summary of brinell (it has no key `brinell`)",
-            path.display()
-        )))
-    }
 }
 
 fn headlines(summary: &Value) -> String {
@@ -125,46 +109,6 @@ fn headlines(summary: &Value) -> String {
         text.push('\n');
     }
     text
-}
-
-/// A CSV file by columns.
-struct Table {
-    path: PathBuf,
-    head: csv::StringRecord,
-    rows: Vec<csv::StringRecord>,
-}
-
-impl Table {
-    fn read(path: &Path) -> Result<Self> {
-        let damaged = |cause: csv::Error| {
-            Error::input(format!("{}: cannot be read as CSV", path.display())).because(cause)
-        };
-        let mut reader = csv::Reader::from_path(path).map_err(damaged)?;
-        Ok(Table {
-            head: reader.headers().map_err(damaged)?.clone(),
-            rows: reader
-                .records()
-                .collect::<std::result::Result<_, _>>()
-                .map_err(damaged)?,
-            path: path.to_path_buf(),
-        })
-    }
-
-    /// The numbers of a column; an empty cell is not a number.
-    fn column(&self, name: &str) -> Result<Vec<f64>> {
-        let place = self.head.iter().position(|n| n == name).ok_or_else(|| {
-            Error::input(format!(
-                "{}: there is no column `{name}`",
-                self.path.display()
-            ))
-        })?;
-        let cell = |row: &csv::StringRecord| row.get(place).and_then(|c| c.parse().ok());
-        Ok(self
-            .rows
-            .iter()
-            .map(|row| cell(row).unwrap_or(f64::NAN))
-            .collect())
-    }
 }
 
 /// Lines of a plot without axes.

@@ -1,7 +1,9 @@
 //! Compressed arrays of other programs, checked.
 
 use crate::error::{Error, Result};
+use crate::index::Index;
 use crate::linalg::SymmetricCsc;
+use std::ops::Range;
 
 /// Which entries of a symmetric matrix are given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -36,47 +38,102 @@ pub enum Triangle {
 /// # }
 /// ```
 ///
+/// The arrays are read where they lie, indices of any width; what comes back is all that is allocated: the upper triangle with 64-bit
+/// indices, 16 bytes for each of its entries, as the factorisation takes it.
+///
 /// # Errors
 /// Lengths that do not fit, begins that fall, a row that is not in `0..n`, an entry outside of the triangle or not finite: by its
 /// place and value.
-pub fn stiffness_from_csc(
+pub fn stiffness_from_csc<S: Index, I: Index>(
     n: usize,
-    starts: &[i64],
-    rows: &[i64],
+    starts: &[S],
+    rows: &[I],
     values: &[f64],
     triangle: Triangle,
 ) -> Result<SymmetricCsc> {
     check_starts(starts, n, rows.len(), values.len(), "column")?;
-    let mut triplets = sprs::TriMatI::<f64, i64>::with_capacity((n, n), rows.len());
+    // Where the columns of the upper triangle begin, and with one pass less where each goes on.
+    let mut columns = vec![0i64; n + 1];
     for column in 0..n {
-        for k in starts[column] as usize..starts[column + 1] as usize {
+        for k in range(starts, column) {
             let row = index(rows[k], n, "a row of the matrix,")?;
-            let value = values[k];
-            if !value.is_finite() {
+            if !values[k].is_finite() {
                 return Err(Error::input(format!(
-                    "the matrix at row {row}, column {column} is {value}"
+                    "the matrix at row {row}, column {column} is {}",
+                    values[k]
                 )));
             }
-            match (triangle, row <= column) {
-                (Triangle::Both | Triangle::Upper, true) => {
-                    triplets.add_triplet(row, column, value)
-                }
-                (Triangle::Both, false) => {}
-                (Triangle::Lower, _) if row >= column => triplets.add_triplet(column, row, value),
-                (Triangle::Upper | Triangle::Lower, _) => {
-                    return Err(Error::input(format!(
-                        "the matrix has an entry at row {row}, column {column}, which is not in its {} triangle",
-                        if triangle == Triangle::Upper {
-                            "upper"
-                        } else {
-                            "lower"
-                        }
-                    )));
-                }
+            if let Some([_, column]) = in_upper(triangle, row, column)? {
+                columns[column + 1] += 1;
             }
         }
     }
-    Ok(triplets.to_csc())
+    for column in 0..n {
+        columns[column + 1] += columns[column];
+    }
+    let entries = columns[n] as usize;
+    let (mut kept_rows, mut kept) = (vec![0i64; entries], vec![0.0; entries]);
+    for column in 0..n {
+        for k in range(starts, column) {
+            let row = index(rows[k], n, "a row of the matrix,")?;
+            if let Some([row, column]) = in_upper(triangle, row, column)? {
+                let at = columns[column] as usize;
+                (kept_rows[at], kept[at]) = (row as i64, values[k]);
+                columns[column] += 1;
+            }
+        }
+    }
+    // Each begin has moved to the next one's place.
+    columns.rotate_right(1);
+    columns[0] = 0;
+    sort_and_add(&mut columns, &mut kept_rows, &mut kept);
+    Ok(SymmetricCsc::new_csc((n, n), columns, kept_rows, kept))
+}
+
+/// Row and column in the upper triangle of an entry that counts.
+///
+/// # Errors
+/// An entry outside of the triangle that is given.
+fn in_upper(triangle: Triangle, row: usize, column: usize) -> Result<Option<[usize; 2]>> {
+    let name = match triangle {
+        Triangle::Both | Triangle::Upper if row <= column => return Ok(Some([row, column])),
+        Triangle::Both => return Ok(None),
+        Triangle::Lower if row >= column => return Ok(Some([column, row])),
+        Triangle::Lower => "lower",
+        Triangle::Upper => "upper",
+    };
+    Err(Error::input(format!(
+        "the matrix has an entry at row {row}, column {column}, which is not in its {name} triangle"
+    )))
+}
+
+/// Sorts the rows of each column that needs it and adds repeated entries, in the order in which they were given.
+fn sort_and_add(columns: &mut [i64], rows: &mut Vec<i64>, values: &mut Vec<f64>) {
+    let mut end = 0;
+    let mut begin = 0;
+    for column in 1..columns.len() {
+        let own = begin..columns[column] as usize;
+        begin = own.end;
+        if !rows[own.clone()].is_sorted() {
+            let mut entries: Vec<(i64, f64)> = own.clone().map(|k| (rows[k], values[k])).collect();
+            entries.sort_by_key(|entry| entry.0);
+            for (k, entry) in own.clone().zip(entries) {
+                (rows[k], values[k]) = entry;
+            }
+        }
+        let first = end;
+        for k in own {
+            if end > first && rows[end - 1] == rows[k] {
+                values[end - 1] += values[k];
+            } else {
+                (rows[end], values[end]) = (rows[k], values[k]);
+                end += 1;
+            }
+        }
+        columns[column] = end as i64;
+    }
+    rows.truncate(end);
+    values.truncate(end);
 }
 
 /// Contact rows on `n` freedoms from their coefficients compressed by row: begins of the rows in `freedoms` and `coefficients`, one
@@ -84,18 +141,17 @@ pub fn stiffness_from_csc(
 ///
 /// # Errors
 /// Lengths that do not fit, begins that fall, a freedom that is not in `0..n`.
-pub fn rows_from_csr(
+pub fn rows_from_csr<S: Index, I: Index>(
     n: usize,
-    starts: &[i64],
-    freedoms: &[i64],
+    starts: &[S],
+    freedoms: &[I],
     coefficients: &[f64],
 ) -> Result<Vec<Vec<(usize, f64)>>> {
     let n_rows = starts.len().saturating_sub(1);
     check_starts(starts, n_rows, freedoms.len(), coefficients.len(), "row")?;
-    starts
-        .windows(2)
-        .map(|ends| {
-            (ends[0] as usize..ends[1] as usize)
+    (0..n_rows)
+        .map(|row| {
+            range(starts, row)
                 .map(|k| {
                     let freedom = index(freedoms[k], n, "a freedom of a contact row,")?;
                     Ok((freedom, coefficients[k]))
@@ -105,29 +161,45 @@ pub fn rows_from_csr(
         .collect()
 }
 
+/// Entries of a column (row); the begins have been checked.
+fn range<I: Index>(starts: &[I], column: usize) -> Range<usize> {
+    let place = |at: usize| starts[at].try_into().unwrap_or(0);
+    place(column)..place(column + 1)
+}
+
 /// Begins that rise from 0 to the number of entries.
-fn check_starts(starts: &[i64], n: usize, indices: usize, values: usize, what: &str) -> Result<()> {
-    let rising = starts.first() == Some(&0) && starts.windows(2).all(|p| p[0] <= p[1]);
-    let end = starts.last().and_then(|e| usize::try_from(*e).ok());
-    if starts.len() != n + 1 || !rising || end != Some(indices) || indices != values {
+fn check_starts<I: Index>(
+    starts: &[I],
+    n: usize,
+    indices: usize,
+    values: usize,
+    what: &str,
+) -> Result<()> {
+    let place = |begin: &I| (*begin).try_into().ok();
+    let rising = starts.first().and_then(place) == Some(0)
+        && starts.windows(2).all(|p| place(&p[0]) <= place(&p[1]))
+        && starts.iter().all(|begin| place(begin).is_some());
+    let end = starts.last().and_then(place);
+    if starts.len().checked_sub(1) != Some(n)
+        || !rising
+        || end != Some(indices)
+        || indices != values
+    {
+        let say = |begin: Option<&I>| begin.map_or("none".to_string(), I::to_string);
         return Err(Error::input(format!(
-            "the begins of {n} {what}s must be {} numbers that begin with 0, do not fall and end with the number of entries: {} were \
-             given, {}from {:?} to {:?}, for {indices} indices and {values} values",
-            n + 1,
+            "the begins of {n} {what}s must be one number more, begin with 0, not fall and end with the number of entries: {} were \
+             given, {}from {} to {}, for {indices} indices and {values} values",
             starts.len(),
             if rising { "" } else { "not rising " },
-            starts.first(),
-            starts.last()
+            say(starts.first()),
+            say(starts.last())
         )));
     }
     Ok(())
 }
 
-fn index(value: i64, below: usize, what: &str) -> Result<usize> {
-    usize::try_from(value)
-        .ok()
-        .filter(|v| *v < below)
-        .ok_or_else(|| Error::input(format!("{what} {value} is not in 0..{below}")))
+fn index(value: impl Index, below: usize, what: &str) -> Result<usize> {
+    (value.below(below)).ok_or_else(|| Error::input(format!("{what} {value} is not in 0..{below}")))
 }
 
 /// Rows and gaps that fit each other and the freedoms.

@@ -16,7 +16,7 @@ impl ConstrainedStructure {
     pub fn refined_displacements(&self, out: &mut [f64]) -> Result<Refinement> {
         self.displacements(out)?;
         let contact = &self.partition.contact;
-        let force = DVector::from_column_slice(&self.state.force);
+        let force = DVector::from_column_slice(self.forces());
         let pushed = self.rows.tr_mul(&force);
         let mut load = self.state.load.clone();
         for (&freedom, force) in contact.iter().zip(pushed.iter()) {

@@ -239,3 +239,70 @@ fn refined_displacements_meet_a_closed_row() {
         }
     }
 }
+
+#[test]
+fn a_matrix_is_the_same_in_every_layout() {
+    let expected = SymmetricCsc::new_csc(
+        (3, 3),
+        vec![0, 1, 3, 5],
+        vec![0, 0, 1, 1, 2],
+        vec![2.0, -1.0, 2.0, -1.0, 1.0],
+    );
+    let upper = stiffness_from_csc(
+        3,
+        &[0usize, 1, 3, 5],
+        &[0u8, 0, 1, 1, 2],
+        &[2.0, -1.0, 2.0, -1.0, 1.0],
+        Triangle::Upper,
+    );
+    // Backwards, the last entry in two halves.
+    let lower = stiffness_from_csc(
+        3,
+        &[0i32, 2, 4, 6],
+        &[1i64, 0, 2, 1, 2, 2],
+        &[-1.0, 2.0, -1.0, 2.0, 0.5, 0.5],
+        Triangle::Lower,
+    );
+    let both = stiffness_from_csc(
+        3,
+        &[0i64, 2, 5, 8],
+        &[1i32, 0, 2, 1, 0, 2, 1, 2],
+        &[-1.0, 2.0, -1.0, 2.0, -1.0, 0.5, -1.0, 0.5],
+        Triangle::Both,
+    );
+    for found in [upper, lower, both] {
+        assert_eq!(found.unwrap(), expected);
+    }
+    for (starts, rows) in [
+        (&[0i64, 1, 2, 3] as &[i64], &[0i64, 1, 3] as &[i64]),
+        (&[0, 1, 2, 3], &[0, -1, 2]),
+        (&[0, 2, 1, 3], &[0, 1, 2]),
+        (&[0, -1, 2, 3], &[0, 1, 2]),
+        (&[0, 1, 3], &[0, 1, 2]),
+        (&[], &[0, 1, 2]),
+        (&[0, 1, 2, 3], &[0, 1, 1]),
+    ] {
+        let found = stiffness_from_csc(3, starts, rows, &[1.0; 3], Triangle::Lower);
+        assert_eq!(
+            found.unwrap_err().kind(),
+            ErrorKind::Input,
+            "{starts:?} {rows:?}"
+        );
+    }
+}
+
+#[test]
+fn gaps_that_are_kept_stay_those_of_their_state() {
+    let k = stiffness_from_csc(1, &[0, 1], &[0], &[1.0], Triangle::Both).unwrap();
+    let mut spring =
+        ConstrainedStructure::with_owned(Backend::Dense, k, &[vec![(0, 1.0)]], &[1.0]).unwrap();
+    let without_load = spring.shared_gaps();
+    spring.solve(&[3.0]).unwrap();
+    let pressed = (spring.shared_gaps(), spring.shared_forces());
+    assert!(std::ptr::eq(pressed.0.as_slice(), spring.gaps()));
+    spring.start(&[-3.0]).unwrap();
+    while !spring.step(1.0).unwrap().changes.is_empty() {}
+    let close = |values: &[f64], expected: f64| (values[0] - expected).abs() < 1e-14;
+    assert!(close(spring.gaps(), 1.0) && close(&without_load, 1.0));
+    assert!(close(&pressed.0, 0.0) && close(&pressed.1, 2.0));
+}

@@ -13,10 +13,11 @@ mod validate;
 pub use crate::shape::Shape;
 pub use validate::validate;
 
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// A facet of an element: an edge in two dimensions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Facet {
     /// Element index.
     pub element: usize,
@@ -25,7 +26,7 @@ pub struct Facet {
 }
 
 /// The exact shape of a surface, where it is known. Normals then are exact at every node.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Curve {
     /// A straight line with outward unit normal.
     Line {
@@ -44,7 +45,7 @@ pub enum Curve {
 }
 
 /// A named surface: facets of one body's boundary.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Surface {
     /// Facets, in any order.
     pub facets: Vec<Facet>,
@@ -53,7 +54,7 @@ pub struct Surface {
 }
 
 /// A finite element mesh.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Mesh {
     /// Space dimension (2).
     pub dimension: usize,

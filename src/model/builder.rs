@@ -3,8 +3,9 @@
 mod geometry;
 
 use super::given::Given;
-use super::{Model, NodePair};
+use super::{Model, NodePair, Origin};
 use crate::error::{Error, Result};
+use crate::index::Index;
 use crate::mesh::Mesh;
 use crate::scene::{
     Body, Contact, History, Kind, Load, Material, MeshSource, Program, Scene, Settings, Support,
@@ -138,12 +139,7 @@ impl ModelBuilder {
         let mut pair_of = BTreeMap::new();
         for (k, pair) in pairs.iter().enumerate() {
             for node in [pair.first, pair.second] {
-                if node >= self.n_nodes() {
-                    return Err(Error::input(format!(
-                        "pair {k}: node {node}, but there are {} nodes",
-                        self.n_nodes()
-                    )));
-                }
+                self.node(|| format!("pair {k}: one"), node)?;
                 if let Some(other) = pair_of.insert(node, k) {
                     return Err(Error::input(format!(
                         "pair {k}: node {node} is in pair {other} already; a node may belong to one pair"
@@ -187,10 +183,10 @@ impl ModelBuilder {
     ///
     /// # Errors
     /// Numbers of nodes and forces that differ, an index of no node, a force that is not finite, a name that is taken.
-    pub fn nodal_load(
+    pub fn nodal_load<I: Index>(
         &mut self,
         name: &str,
-        nodes: &[usize],
+        nodes: &[I],
         forces: &[[f64; 2]],
         history: History,
     ) -> Result<&mut Self> {
@@ -202,7 +198,7 @@ impl ModelBuilder {
             )));
         }
         let mut sums: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
-        for (&node, force) in nodes.iter().zip(forces) {
+        for (node, force) in self.known_nodes(name, nodes)?.into_iter().zip(forces) {
             if force.iter().any(|f| !f.is_finite()) {
                 return Err(Error::input(format!(
                     "load `{name}`: the force on node {node} is ({}, {})",
@@ -270,7 +266,7 @@ impl ModelBuilder {
         let mut mesh = self.mesh.clone();
         mesh.node_labels = (0..mesh.n_nodes() as u64).collect();
         mesh.element_labels = (0..mesh.n_elements() as u64).collect();
-        Model::resolve(&scene, mesh, &self.given)
+        Model::resolve(&scene, mesh, Origin::Arrays(self.given.clone()))
     }
 }
 

@@ -2,10 +2,11 @@
 
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// Two nodes that may touch, by their indices, with what is known better than from the mesh.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct NodePair {
     /// Node of the first surface.
     pub first: usize,
@@ -19,11 +20,27 @@ pub struct NodePair {
 }
 
 /// Beside a scene: pairs of a contact and nodal forces of a load, by the index of their entry.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Given {
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub(crate) struct Given {
     pub(super) pairs: BTreeMap<usize, Vec<NodePair>>,
     /// Forces on the model itself (not on the whole of a symmetric one) at factor 1.
     pub(super) forces: BTreeMap<usize, Vec<(usize, [f64; 2])>>,
+}
+
+impl Given {
+    /// Checks that forces act on nodes that there are; those of pairs are looked up on their surfaces.
+    ///
+    /// # Errors
+    /// A node that there is not.
+    pub(super) fn check(&self, n_nodes: usize) -> Result<()> {
+        let nodes = self.forces.values().flatten().map(|(node, _)| *node);
+        match nodes.into_iter().find(|node| *node >= n_nodes) {
+            Some(node) => Err(Error::input(format!(
+                "a force acts on node {node}, but there are {n_nodes} nodes"
+            ))),
+            None => Ok(()),
+        }
+    }
 }
 
 /// The node that faces a node of the second surface.

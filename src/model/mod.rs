@@ -10,6 +10,7 @@ mod held;
 mod loads;
 mod motions;
 mod pairs;
+mod recipe;
 
 pub use builder::ModelBuilder;
 pub use freedoms::{Freedoms, Prescribed, Slot};
@@ -24,6 +25,7 @@ use crate::material::Material;
 use crate::mesh::{self, Mesh, Shape};
 use crate::scene::{Kind, Plastic, Scene};
 use given::Given;
+pub(crate) use recipe::Recipe;
 
 /// A model ready to be assembled.
 #[derive(Debug, Clone)]
@@ -52,6 +54,16 @@ pub struct Model {
     pub symmetry: f64,
     /// Things the user should know.
     pub warnings: Vec<String>,
+    origin: Origin,
+}
+
+/// Where a model came from.
+#[derive(Debug, Clone)]
+enum Origin {
+    /// Its scene makes it again.
+    Scene,
+    /// A mesh, and what was stated node by node, was handed over.
+    Arrays(Given),
 }
 
 impl Model {
@@ -62,7 +74,7 @@ impl Model {
     /// freely and the loads do work on that motion.
     pub fn new(scene: &Scene) -> Result<Self> {
         let mesh = build_mesh(scene)?;
-        Self::resolve(scene, mesh, &Given::default())
+        Self::resolve(scene, mesh, Origin::Scene)
     }
 
     /// The model of a scene on a given mesh (its `mesh` entry is ignored).
@@ -84,10 +96,20 @@ impl Model {
     /// # Errors
     /// As [`Model::new`].
     pub fn from_mesh(scene: &Scene, mesh: Mesh) -> Result<Self> {
-        Self::resolve(scene, mesh, &Given::default())
+        Self::resolve(scene, mesh, Origin::Arrays(Given::default()))
     }
 
-    fn resolve(scene: &Scene, mesh: Mesh, given: &Given) -> Result<Self> {
+    /// Whether the scene alone makes this model.
+    pub(crate) fn is_of_its_scene(&self) -> bool {
+        matches!(self.origin, Origin::Scene)
+    }
+
+    fn resolve(scene: &Scene, mesh: Mesh, origin: Origin) -> Result<Self> {
+        let none = Given::default();
+        let given = match &origin {
+            Origin::Scene => &none,
+            Origin::Arrays(given) => given,
+        };
         mesh::validate(&mesh)?;
         let kind = scene.kind;
         let mut warnings = Vec::new();
@@ -114,6 +136,7 @@ impl Model {
             floating,
             symmetry: scene.symmetry as f64,
             warnings,
+            origin,
         })
     }
 

@@ -10,6 +10,7 @@
 //!     report_NAME.svg       its figures
 //!     scene_as_run.toml     the scene with all that was put over it   (record)
 //!     mesh_as_run.msh       its mesh, where the scene does not make it
+//!     model_as_run.json     in place of both: a model that was handed over in arrays
 //! ```
 //!
 //! [`read()`] takes a directory back, [`write_report`] makes its report anew.
@@ -33,6 +34,7 @@ pub(crate) mod number;
 mod read;
 mod record;
 mod report;
+pub(crate) mod rows;
 pub(crate) mod stated_errors;
 mod study;
 mod summary;
@@ -118,8 +120,20 @@ impl RunHeader {
 /// [`crate::ErrorKind::Internal`] where the fields of a state do not fit the mesh. After an error `dir` is as
 /// it was and nothing is left beside it.
 pub fn write(dir: &Path, header: &RunHeader, mesh: &Mesh, results: &Results) -> Result<()> {
+    write_with(dir, header, mesh, results, |_| Ok(()))
+}
+
+/// Writes tables and fields and what `more` adds, all or nothing.
+fn write_with(
+    dir: &Path,
+    header: &RunHeader,
+    mesh: &Mesh,
+    results: &Results,
+    more: impl FnOnce(&Staging) -> Result<()>,
+) -> Result<()> {
     let staging = Staging::new(dir)?;
     write_tables_and_fields(&staging, header, mesh, results)?;
+    more(&staging)?;
     staging.publish(is_result_file)
 }
 
@@ -133,10 +147,9 @@ pub fn write_without_report(
     model: &Model,
     results: &Results,
 ) -> Result<()> {
-    let staging = Staging::new(dir)?;
-    write_tables_and_fields(&staging, header, &model.mesh, results)?;
-    record::write(&staging, model)?;
-    staging.publish(is_result_file)
+    write_with(dir, header, &model.mesh, results, |staging| {
+        record::write(staging, model)
+    })
 }
 
 /// As [`write_without_report`], with `report.html` and the figures of the report as SVG files.
@@ -149,13 +162,13 @@ pub fn write_with_report(
     model: &Model,
     results: &Results,
 ) -> Result<()> {
-    let staging = Staging::new(dir)?;
-    write_tables_and_fields(&staging, header, &model.mesh, results)?;
-    record::write(&staging, model)?;
-    for (name, text) in report::files(header, model, results)? {
-        staging.file(&name, |out| out.write_all(text.as_bytes()))?;
-    }
-    staging.publish(is_result_file)
+    write_with(dir, header, &model.mesh, results, |staging| {
+        record::write(staging, model)?;
+        for (name, text) in report::files(header, model, results)? {
+            staging.file(&name, |out| out.write_all(text.as_bytes()))?;
+        }
+        Ok(())
+    })
 }
 
 /// Makes the report of a result directory anew: `report.html` and its figures, each put in its place whole. Figures of an
@@ -224,6 +237,7 @@ fn is_result_file(name: &OsStr) -> bool {
             report::REPORT_FILE,
             record::SCENE_FILE,
             record::MESH_FILE,
+            record::MODEL_FILE,
         ]
         .contains(&name)
             || (name.starts_with(fields::FILE_PREFIX) && name.ends_with(fields::FILE_SUFFIX))

@@ -3,6 +3,7 @@
 //! `summary.json` holds the figures, `history.csv` and `contact.csv` the rows, the `.vtu` files the fields, and the scene as it
 //! was run makes the model. Numbers that were not finite were written as null (or an empty cell) and come back as NaN.
 
+use super::rows::{self, Rows};
 use super::{CONTACT_FILE, HISTORY_FILE, RunHeader, SUMMARY_FILE, record, vtu_read};
 use crate::error::{Error, Result};
 use crate::linalg::Prediction;
@@ -10,10 +11,9 @@ use crate::model::Model;
 use crate::results::{
     Effect, HistoryRow, PairState, Quality, ReferenceRow, Results, Sizes, State, Status, YieldPoint,
 };
-use crate::scene::Scene;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Names of orders that a factor may have.
 const ORDERINGS: [&str; 3] = ["dense", "CAMD", "nested dissection + CAMD"];
@@ -23,7 +23,7 @@ const ORDERINGS: [&str; 3] = ["dense", "CAMD", "nested dissection + CAMD"];
 pub struct Recorded {
     /// What the output says about the run beside its results.
     pub header: RunHeader,
-    /// The model, built again from the scene as it was run.
+    /// The model, built again from the scene (or the arrays) as it was run.
     pub model: Model,
     /// The results. [`Results::incomplete_kind`] is not recorded.
     pub results: Results,
@@ -56,19 +56,10 @@ pub struct Recorded {
 pub fn read(dir: &Path) -> Result<Recorded> {
     let path = dir.join(SUMMARY_FILE);
     let summary = Summary {
-        root: json(&path)?,
+        root: rows::summary(&path)?,
         path: &path,
     };
-    let scene_path = dir.join(record::SCENE_FILE);
-    if !scene_path.exists() {
-        return Err(Error::input(format!(
-            "{}: the results were written without their scene ({}), run the scene again; \
-             `brinell view --terminal` shows what there is",
-            dir.display(),
-            record::SCENE_FILE
-        )));
-    }
-    let model = Model::new(&Scene::load(&scene_path)?)?;
+    let (model_path, model) = record::read(dir)?;
     let header = summary.header(&model);
     let mut results = summary.results(&header)?;
     for (what, recorded, made) in [
@@ -84,12 +75,12 @@ pub fn read(dir: &Path) -> Result<Recorded> {
             return Err(Error::input(format!(
                 "{}: has {recorded} {what} where {} makes {made}: they do not belong together",
                 path.display(),
-                scene_path.display()
+                model_path.display()
             )));
         }
     }
-    results.history = Rows::read(&dir.join(HISTORY_FILE))?.history()?;
-    for (state, pairs) in Rows::read(&dir.join(CONTACT_FILE))?.pairs(&model)? {
+    results.history = history(&Rows::read(&dir.join(HISTORY_FILE))?)?;
+    for (state, pairs) in pairs(&Rows::read(&dir.join(CONTACT_FILE))?, &model)? {
         let state = results.states.get_mut(state).ok_or_else(|| {
             Error::input(format!(
                 "{}: a row of state {}, which the summary does not have",
@@ -111,28 +102,6 @@ pub fn read(dir: &Path) -> Result<Recorded> {
         model,
         results,
     })
-}
-
-/// The content of a summary.
-///
-/// # Errors
-/// As [`read`].
-fn json(path: &Path) -> Result<Value> {
-    let text = std::fs::read_to_string(path).map_err(|cause| {
-        Error::io("read the results", path, cause)
-            .within("no directory of results that brinell wrote")
-    })?;
-    let summary: Value = serde_json::from_str(&text).map_err(|cause| {
-        Error::input(format!("{}: not valid JSON", path.display())).because(cause)
-    })?;
-    if summary["brinell"].is_string() {
-        Ok(summary)
-    } else {
-        Err(Error::input(format!(
-            "{}: not a summary of brinell (it has no key `brinell`)",
-            path.display()
-        )))
-    }
 }
 
 fn float(value: &Value) -> f64 {
@@ -305,43 +274,11 @@ fn factor(value: &Value) -> Prediction {
     }
 }
 
-/// A CSV file by columns.
-struct Rows {
-    path: PathBuf,
-    head: csv::StringRecord,
-    rows: Vec<csv::StringRecord>,
-}
-
-impl Rows {
-    fn read(path: &Path) -> Result<Self> {
-        let damaged = |cause: csv::Error| {
-            Error::input(format!("{}: cannot be read as CSV", path.display())).because(cause)
-        };
-        let mut reader = csv::Reader::from_path(path).map_err(damaged)?;
-        Ok(Rows {
-            head: reader.headers().map_err(damaged)?.clone(),
-            rows: reader
-                .records()
-                .collect::<std::result::Result<_, _>>()
-                .map_err(damaged)?,
-            path: path.to_path_buf(),
-        })
-    }
-
-    fn place(&self, name: &str) -> Result<usize> {
-        self.head.iter().position(|n| n == name).ok_or_else(|| {
-            Error::input(format!(
-                "{}: there is no column `{name}`",
-                self.path.display()
-            ))
-        })
-    }
-
-    fn history(&self) -> Result<Vec<HistoryRow>> {
-        let event = self.place("event")?;
-        let rows = self.rows.iter().enumerate();
-        rows.map(|(row, record)| {
-            let number = |name: &str| self.number(row, name);
+/// The history.
+fn history(rows: &Rows) -> Result<Vec<HistoryRow>> {
+    (0..rows.len())
+        .map(|row| {
+            let number = |name: &str| rows.number(row, name);
             Ok(HistoryRow {
                 increment: number("increment")? as usize,
                 alpha: number("alpha")?,
@@ -355,25 +292,24 @@ impl Rows {
                 iterations: number("iterations")? as usize,
                 trailing_solves: number("trailing_solves")? as usize,
                 residual: number("residual")?,
-                event: record.get(event).unwrap_or_default().to_string(),
+                event: rows.text(row, "event")?.to_string(),
             })
         })
         .collect()
-    }
+}
 
-    /// The pairs, each with the index of its state.
-    fn pairs(&self, model: &Model) -> Result<Vec<(usize, PairState)>> {
-        let status = self.place("status")?;
-        let rows = self.rows.iter().enumerate();
-        rows.map(|(row, record)| {
-            let number = |name: &str| self.number(row, name);
+/// The pairs, each with the index of its state.
+fn pairs(rows: &Rows, model: &Model) -> Result<Vec<(usize, PairState)>> {
+    (0..rows.len())
+        .map(|row| {
+            let number = |name: &str| rows.number(row, name);
             let pair = number("pair")? as usize;
             let contact = number("contact")? as usize;
             let state = number("state")? as usize;
             if pair >= model.pairs.len() || contact >= model.contacts.len() || state == 0 {
                 return Err(Error::input(format!(
                     "{}: row {}: pair {pair} of contact {contact} in state {state} does not belong to this model",
-                    self.path.display(),
+                    rows.path().display(),
                     row + 1
                 )));
             }
@@ -385,28 +321,12 @@ impl Rows {
                 force: number("force")?,
                 area: number("area")?,
                 pressure: number("pressure")?,
-                status: match record.get(status) {
-                    Some("closed") => Status::Closed,
+                status: match rows.text(row, "status")? {
+                    "closed" => Status::Closed,
                     _ => Status::Open,
                 },
             };
             Ok((state - 1, pair))
         })
         .collect()
-    }
-
-    /// The number in a row and a column; an empty cell is not a number.
-    fn number(&self, row: usize, name: &str) -> Result<f64> {
-        let cell = self.rows[row].get(self.place(name)?).unwrap_or_default();
-        if cell.is_empty() {
-            return Ok(f64::NAN);
-        }
-        cell.parse().map_err(|_| {
-            Error::input(format!(
-                "{}: row {}: `{name}` is {cell:?}, which is no number",
-                self.path.display(),
-                row + 1
-            ))
-        })
-    }
 }

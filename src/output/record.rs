@@ -1,33 +1,36 @@
-//! The scene as it was run, so that a result directory says by itself where it comes from: everything that was put over the
-//! scene file is in it, and the mesh where the scene does not make one.
+//! What was run, so that a result directory says by itself where it comes from: the scene with everything that was put over its
+//! file, and the mesh where the scene does not make one; or, of a model that was handed over in arrays, all of these.
 
 use super::atomic::Staging;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::mesh::{Mesh, gmsh};
-use crate::model::Model;
-use crate::scene::MeshSource;
+use crate::model::{Model, Recipe};
+use crate::scene::{MeshSource, Scene};
 use std::io::Write;
+use std::path::{Path, PathBuf};
 
 /// The scene.
 pub(super) const SCENE_FILE: &str = "scene_as_run.toml";
 /// Its mesh.
 pub(super) const MESH_FILE: &str = "mesh_as_run.msh";
+/// A model that no scene makes.
+pub(super) const MODEL_FILE: &str = "model_as_run.json";
 
-/// Writes both. A mesh whose names a Gmsh file cannot hold is left out with its scene: results go first.
+/// Writes the scene and its mesh, or the model.
 ///
 /// # Errors
 /// `Io` naming the file.
 pub(super) fn write(staging: &Staging, model: &Model) -> Result<()> {
+    let made = &model.scene.mesh;
+    // A Gmsh file cannot hold every name.
+    if !model.is_of_its_scene() || (made.file.is_some() && !has_plain_names(&model.mesh)) {
+        return staging.file(MODEL_FILE, |out| {
+            serde_json::to_writer(&mut *out, &model.recipe())?;
+            out.write_all(b"\n")
+        });
+    }
     let mut scene = model.scene.clone();
-    let made = &scene.mesh;
-    let generated = made.cylinder_on_half_plane.is_some()
-        || made.disc_in_plate.is_some()
-        || made.parts.is_some();
-    if !generated {
-        // A model from arrays may hold pairs and nodal forces that no scene can say.
-        if made.file.is_none() || !has_plain_names(&model.mesh) {
-            return Ok(());
-        }
+    if made.file.is_some() {
         staging.file(MESH_FILE, |out| gmsh::write(&model.mesh, out))?;
         scene.mesh = MeshSource {
             file: Some(MESH_FILE.into()),
@@ -43,6 +46,34 @@ pub(super) fn write(staging: &Staging, model: &Model) -> Result<()> {
         out.write_all(head.as_bytes())?;
         out.write_all(text.as_bytes())
     })
+}
+
+/// Makes the model of a directory again; with it the file that says how.
+///
+/// # Errors
+/// `Input` where there is none or it is damaged, `Io` where it cannot be read.
+pub(super) fn read(dir: &Path) -> Result<(PathBuf, Model)> {
+    let scene = dir.join(SCENE_FILE);
+    if scene.exists() {
+        let model = Model::new(&Scene::load(&scene)?)?;
+        return Ok((scene, model));
+    }
+    let path = dir.join(MODEL_FILE);
+    if !path.exists() {
+        return Err(Error::input(format!(
+            "{}: the results were written without their scene ({SCENE_FILE} or {MODEL_FILE}), run the scene again; \
+             `brinell view --terminal` shows what there is",
+            dir.display()
+        )));
+    }
+    let text = std::fs::read(&path).map_err(|cause| Error::io("read the model", &path, cause))?;
+    let recipe: Recipe = serde_json::from_slice(&text).map_err(|cause| {
+        Error::input(format!("{}: the model is damaged", path.display())).because(cause)
+    })?;
+    let model = Model::from_recipe(recipe).map_err(|cause| {
+        Error::input(format!("{}: the model is damaged", path.display())).because(cause)
+    })?;
+    Ok((path, model))
 }
 
 fn has_plain_names(mesh: &Mesh) -> bool {

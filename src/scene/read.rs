@@ -181,7 +181,7 @@ fn unknown_word(word: &str, known: &[&str], path: &str) -> (ErrorKind, String) {
 }
 
 /// The known word closest to `word`, if it is close: at most a third of its letters differ.
-fn closest<'k>(word: &str, known: &[&'k str]) -> Option<&'k str> {
+pub(super) fn closest<'k>(word: &str, known: &[&'k str]) -> Option<&'k str> {
     let word = word.to_lowercase();
     known
         .iter()
@@ -211,6 +211,11 @@ fn in_words(message: &str) -> String {
         if let Some(rest) = found.strip_prefix(serde) {
             found = format!("{words}{rest}");
         }
+    }
+    // A list of one entry: the most natural slip in TOML.
+    if found == "wrong type: table" && expected == "a sequence" {
+        return "a single table, expected a list of them: write its head with two brackets, [[...]]"
+            .to_string();
     }
     let expected = match expected {
         "f64" => "a number",

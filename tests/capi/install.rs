@@ -173,6 +173,7 @@ fn programs_against_the_installed_library_print_the_same_digits() {
             "-q",
             "--error-exitcode=9",
             "--leak-check=full",
+            "--show-leak-kinds=definite",
             "--errors-for-leak-kinds=definite",
         ];
         done(
@@ -181,8 +182,9 @@ fn programs_against_the_installed_library_print_the_same_digits() {
                 .arg(&c)
                 .arg(&scene)
                 .env("LD_LIBRARY_PATH", &lib)
-                // One thread of BLAS: valgrind runs one at a time anyway.
-                .env("OPENBLAS_NUM_THREADS", "1"),
+                // One thread of BLAS and CHOLMOD: valgrind runs one at a time anyway.
+                .env("OPENBLAS_NUM_THREADS", "1")
+                .env("OMP_NUM_THREADS", "1"),
         );
     } else {
         println!("skipped: there is no valgrind on this machine");

@@ -3,6 +3,7 @@
 mod interruption;
 mod mutations;
 mod outputs;
+mod readme;
 mod refusals;
 mod scene_help;
 mod watching;

@@ -22,7 +22,20 @@ fn progress_is_a_json_object_per_line() {
         .map(|line| serde_json::from_str(line).unwrap_or_else(|e| panic!("{e}: {line}")))
         .collect();
     let of = |name: &str| -> Vec<&Value> { events.iter().filter(|e| e["event"] == name).collect() };
-    assert!(of("phase").iter().any(|e| e["name"] == "assembly"));
+    let phases = of("phase");
+    for name in [
+        "mesh and model",
+        "assembly",
+        "factorisation",
+        "load program",
+        "output",
+    ] {
+        assert!(phases.iter().any(|e| e["name"] == name), "{name}: {text}");
+    }
+    for phase in &phases {
+        let predicted = phase["predicted_seconds"].as_f64();
+        assert!(predicted.is_some_and(|s| s > 0.0), "{phase}");
+    }
     let increments = of("increment");
     let history = std::fs::read_to_string(out.join("history.csv")).unwrap();
     assert_eq!(increments.len(), history.lines().count() - 1);
@@ -34,14 +47,24 @@ fn progress_is_a_json_object_per_line() {
             "{event}"
         );
         assert!(event["row"]["event"].is_string());
-        assert!(event["seconds_left"].is_null() || event["seconds_left"].as_f64() >= Some(0.0));
+        assert!(event["seconds_left"].as_f64() >= Some(0.0), "{event}");
         last = now;
     }
     assert_eq!(last[1], 1.0, "the program was done to its end");
-    for other in ["plain", "bar"] {
-        let run = brinell(&["yield", &scene("thick_cylinder"), "--progress", other]);
-        assert!(run.status.success(), "{other}");
+    // Not on a terminal: a line for each phase, with its time and the time it will take.
+    for other in [&["--progress", "plain"] as &[&str], &[]] {
+        let run = brinell(&[&["yield", &scene("thick_cylinder")], other].concat());
+        assert!(run.status.success(), "{other:?}");
+        let text = String::from_utf8(run.stderr).unwrap();
+        let lines: Vec<&str> = text.lines().collect();
+        assert!(lines.len() >= 4, "{text}");
+        for line in lines {
+            assert!(line.starts_with('[') && line.contains(" s] "), "{text}");
+            assert!(line.contains(", about "), "{text}");
+        }
     }
+    let run = brinell(&["yield", &scene("thick_cylinder"), "--progress", "bar"]);
+    assert!(run.status.success());
 }
 
 #[test]

@@ -18,10 +18,9 @@ fn from_arrays(scene: &Scene, mesh: &Mesh, pairs: Option<&Model>) -> ModelBuilde
         .nodes(&mesh.coordinates)
         .unwrap();
     for element in 0..mesh.n_elements() {
-        let nodes: Vec<usize> = mesh.nodes(element).iter().map(|n| *n as usize).collect();
         let body = &mesh.bodies[mesh.element_body[element] as usize];
         builder
-            .elements(mesh.shapes[element], body, &nodes)
+            .elements(mesh.shapes[element], body, mesh.nodes(element))
             .unwrap();
     }
     for (name, nodes) in &mesh.node_sets {
@@ -35,7 +34,7 @@ fn from_arrays(scene: &Scene, mesh: &Mesh, pairs: Option<&Model>) -> ModelBuilde
                 .iter()
                 .map(|f| (f.element, f.local))
                 .collect();
-            builder.surface(name, &facets).unwrap();
+            builder.surface(name, facets).unwrap();
         } else {
             let nodes = mesh.set_nodes(name).unwrap();
             builder.surface_of_nodes(name, &nodes).unwrap();

@@ -1,5 +1,6 @@
 //! The result directory: what is in it, and that it appears whole or not at all.
 
+mod arrays;
 mod directory;
 mod fields;
 mod fixture;

@@ -251,18 +251,6 @@ fn a_report_is_made_anew_from_its_directory_to_the_byte() {
     ] {
         let dir = temporary.path().join(scene);
         run(scene, overrides, &dir);
-        let content = |dir: &Path| -> BTreeMap<String, Vec<u8>> {
-            std::fs::read_dir(dir)
-                .unwrap()
-                .map(|e| e.unwrap().path())
-                .map(|p| {
-                    (
-                        p.file_name().unwrap().to_string_lossy().into(),
-                        std::fs::read(p).unwrap(),
-                    )
-                })
-                .collect()
-        };
         let before = content(&dir);
         for name in before.keys().filter(|n| n.starts_with("report")) {
             std::fs::remove_file(dir.join(name)).unwrap();
@@ -318,6 +306,18 @@ fn a_report_is_made_anew_from_its_directory_to_the_byte() {
     std::fs::remove_file(dir.join("scene_as_run.toml")).unwrap();
     assert_eq!(view(&dir).status.code(), Some(2));
     assert!(std::fs::read(dir.join("report.html")).unwrap() == page);
+}
+
+/// Names and contents of the files of a directory.
+pub fn content(dir: &Path) -> BTreeMap<String, Vec<u8>> {
+    let files = std::fs::read_dir(dir).unwrap();
+    files
+        .map(|entry| entry.unwrap().path())
+        .map(|path| {
+            let name = path.file_name().unwrap().to_string_lossy().into_owned();
+            (name, std::fs::read(path).unwrap())
+        })
+        .collect()
 }
 
 /// What stands in a scene is text on the page, whatever it looks like.

@@ -2,7 +2,7 @@
 
 use crate::errors::wrong;
 use brinell::linalg::Backend;
-use numpy::{PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use numpy::{Element, PyReadonlyArrayDyn, PyUntypedArrayMethods};
 use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple};
@@ -22,7 +22,10 @@ pub fn doubles<'py>(
 }
 
 /// The values of a contiguous array.
-pub fn values<'a>(py: Python<'_>, array: &'a PyReadonlyArrayDyn<'_, f64>) -> PyResult<&'a [f64]> {
+pub fn values<'a, T: Element>(
+    py: Python<'_>,
+    array: &'a PyReadonlyArrayDyn<'_, T>,
+) -> PyResult<&'a [T]> {
     array
         .as_slice()
         .map_err(|cause| wrong(py, cause.to_string()))
@@ -48,8 +51,43 @@ pub fn shape(py: Python<'_>, shape: &[usize], rest: &[usize], what: &str) -> PyR
     ))
 }
 
-/// Whole numbers as they came, with the shape of their array.
-pub fn integers(given: &Bound<'_, PyAny>, what: &str) -> PyResult<(Vec<i64>, Vec<usize>)> {
+/// Whole numbers where they lie.
+pub enum Integers<'py> {
+    /// 32 bit, as sparse matrices mostly have them.
+    Narrow(PyReadonlyArrayDyn<'py, i32>),
+    /// 64 bit, numpy's own.
+    Wide(PyReadonlyArrayDyn<'py, i64>),
+}
+
+impl Integers<'_> {
+    /// Shape of the array.
+    pub fn shape(&self) -> &[usize] {
+        match self {
+            Integers::Narrow(array) => array.shape(),
+            Integers::Wide(array) => array.shape(),
+        }
+    }
+}
+
+/// Says what to do with a slice of whole numbers, of either width.
+macro_rules! each_width {
+    ($py:expr, $integers:expr, |$slice:ident| $act:expr) => {
+        match &$integers {
+            $crate::arrays::Integers::Narrow(array) => {
+                let $slice = $crate::arrays::values($py, array)?;
+                $act
+            }
+            $crate::arrays::Integers::Wide(array) => {
+                let $slice = $crate::arrays::values($py, array)?;
+                $act
+            }
+        }
+    };
+}
+pub(crate) use each_width;
+
+/// Whole numbers: the caller's own where they are contiguous and of 32 or 64 bit with a sign, else converted.
+pub fn integers<'py>(given: &Bound<'py, PyAny>, what: &str) -> PyResult<Integers<'py>> {
     let py = given.py();
     let numpy = py.import(intern!(py, "numpy"))?;
     let array = numpy.call_method1("asarray", (given,))?;
@@ -62,24 +100,12 @@ pub fn integers(given: &Bound<'_, PyAny>, what: &str) -> PyResult<(Vec<i64>, Vec
             format!("{what}: an array of {dtype} was given; whole numbers are needed"),
         ));
     }
+    let contiguous = numpy.call_method1("ascontiguousarray", (&array,))?;
+    if let Ok(array) = contiguous.extract() {
+        return Ok(Integers::Narrow(array));
+    }
     let array = numpy.call_method1("ascontiguousarray", (array, "int64"))?;
-    let array = array.extract::<PyReadonlyArrayDyn<'_, i64>>()?;
-    let values = array.as_slice().map_err(|e| wrong(py, e.to_string()))?;
-    Ok((values.to_vec(), array.shape().to_vec()))
-}
-
-/// Indices from 0, with the shape of their array.
-pub fn indices(given: &Bound<'_, PyAny>, what: &str) -> PyResult<(Vec<usize>, Vec<usize>)> {
-    let (values, shape) = integers(given, what)?;
-    let checked = values.iter().enumerate().map(|(at, &value)| {
-        usize::try_from(value).map_err(|_| {
-            wrong(
-                given.py(),
-                format!("{what}: entry {at} is {value}; numbers count from 0"),
-            )
-        })
-    });
-    Ok((checked.collect::<PyResult<_>>()?, shape))
+    Ok(Integers::Wide(array.extract()?))
 }
 
 /// Keywords as one of brinell's own types: unknown keys and wrong types are errors.

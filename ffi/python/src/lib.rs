@@ -1,10 +1,11 @@
 //! Python bindings of brinell: elastoplastic contact without friction.
 //!
 //! The module `brinell._brinell`; the package `brinell` beside it adds the exceptions. Arrays come in as they lie in memory and
-//! leave as numpy arrays that own what the analysis computed. The interpreter is free while the analysis works.
+//! leave as numpy's views of what the analysis computed. The interpreter is free while the analysis works.
 
 mod arrays;
 mod errors;
+mod lent;
 mod model;
 mod observer;
 mod run;

@@ -1,6 +1,6 @@
 //! Models from arrays.
 
-use crate::arrays::{backend, doubles, indices, keywords, rows_of_two, shape, values};
+use crate::arrays::{backend, doubles, each_width, integers, keywords, rows_of_two, shape, values};
 use crate::errors::{Raise, wrong};
 use crate::run::{RunResult, Source, Way, execute};
 use brinell::mesh::{Curve, Shape};
@@ -117,24 +117,28 @@ impl Model {
             )
         })?;
         let what = format!("nodes of the elements of `{body}`");
-        let (nodes, given) = indices(nodes, &what)?;
-        crate::arrays::shape(py, &given, &[of.n_nodes()], &what)?;
-        self.change(py, |b| b.elements(of, body, &nodes).map(drop))
+        let nodes = integers(nodes, &what)?;
+        crate::arrays::shape(py, nodes.shape(), &[of.n_nodes()], &what)?;
+        each_width!(py, nodes, |nodes| self
+            .change(py, |b| b.elements(of, body, nodes).map(drop)))
     }
 
     /// Names some nodes.
     fn node_set(&mut self, py: Python<'_>, name: &str, nodes: &Bound<'_, PyAny>) -> PyResult<()> {
-        let (nodes, _) = indices(nodes, &format!("node set `{name}`"))?;
-        self.change(py, |b| b.node_set(name, &nodes).map(drop))
+        let nodes = integers(nodes, &format!("node set `{name}`"))?;
+        each_width!(py, nodes, |nodes| self
+            .change(py, |b| b.node_set(name, nodes).map(drop)))
     }
 
     /// Names a surface by facets (n, 2): element, and its facet k between corners k and k + 1.
     fn surface(&mut self, py: Python<'_>, name: &str, facets: &Bound<'_, PyAny>) -> PyResult<()> {
         let what = format!("facets of surface `{name}`");
-        let (facets, given) = indices(facets, &what)?;
-        shape(py, &given, &[2], &what)?;
-        let facets: Vec<_> = facets.chunks_exact(2).map(|f| (f[0], f[1])).collect();
-        self.change(py, |b| b.surface(name, &facets).map(drop))
+        let facets = integers(facets, &what)?;
+        shape(py, facets.shape(), &[2], &what)?;
+        each_width!(py, facets, |facets| {
+            let facets = facets.chunks_exact(2).map(|f| (f[0], f[1]));
+            self.change(py, |b| b.surface(name, facets).map(drop))
+        })
     }
 
     /// Names a surface by its nodes, mid-side nodes included: the facets of the boundary all whose nodes are among them.
@@ -144,8 +148,9 @@ impl Model {
         name: &str,
         nodes: &Bound<'_, PyAny>,
     ) -> PyResult<()> {
-        let (nodes, _) = indices(nodes, &format!("nodes of surface `{name}`"))?;
-        self.change(py, |b| b.surface_of_nodes(name, &nodes).map(drop))
+        let nodes = integers(nodes, &format!("nodes of surface `{name}`"))?;
+        each_width!(py, nodes, |nodes| self
+            .change(py, |b| b.surface_of_nodes(name, nodes).map(drop)))
     }
 
     /// States that a surface is a circle: the body lies inside, or outside of it (outward=False, a hole). Normals are then exact.
@@ -231,9 +236,9 @@ impl Model {
                 Ok(())
             });
         };
-        let (nodes, given) = indices(pairs, "pairs")?;
-        shape(py, &given, &[2], "pairs")?;
-        let n = given[0];
+        let nodes = integers(pairs, "pairs")?;
+        shape(py, nodes.shape(), &[2], "pairs")?;
+        let n = nodes.shape()[0];
         let count = |found: usize, what: &str| match found == n {
             true => Ok(()),
             false => Err(wrong(
@@ -262,17 +267,19 @@ impl Model {
         if normal.is_some() {
             count(normals.len(), "normals")?;
         }
-        let pairs: Vec<NodePair> = nodes
-            .chunks_exact(2)
-            .enumerate()
-            .map(|(k, pair)| NodePair {
-                first: pair[0],
-                second: pair[1],
-                normal: normals.get(k).copied(),
-                gap: gaps.get(k).copied(),
-            })
-            .collect();
-        self.change(py, |b| b.contact_pairs(contact, &pairs).map(drop))
+        each_width!(py, nodes, |nodes| self.change(py, |b| {
+            let pairs = nodes.chunks_exact(2).enumerate().map(|(k, pair)| {
+                let node = |node| b.node(|| format!("pair {k}: one"), node);
+                Ok(NodePair {
+                    first: node(pair[0])?,
+                    second: node(pair[1])?,
+                    normal: normals.get(k).copied(),
+                    gap: gaps.get(k).copied(),
+                })
+            });
+            let pairs = pairs.collect::<brinell::Result<Vec<_>>>()?;
+            b.contact_pairs(contact, &pairs).map(drop)
+        }))
     }
 
     /// Holds a node set or surface along "x", "y" or "xy", in axes turned counter-clockwise by `angle` degrees.
@@ -324,7 +331,7 @@ impl Model {
         history: Option<&Bound<'py, PyAny>>,
     ) -> PyResult<()> {
         let what = format!("load `{name}`");
-        let (nodes, _) = indices(nodes, &what)?;
+        let nodes = integers(nodes, &what)?;
         let forces = rows_of_two(forces, &what)?;
         let history = match history {
             None => History::default(),
@@ -334,9 +341,9 @@ impl Model {
                 keywords::<Load>(&entry, &what)?.history
             }
         };
-        self.change(py, |b| {
-            b.nodal_load(name, &nodes, &forces, history).map(drop)
-        })
+        each_width!(py, nodes, |nodes| self.change(py, |b| {
+            b.nodal_load(name, nodes, &forces, history).map(drop)
+        }))
     }
 
     /// Adds a target of the load program, which leaves a state: one of load_factor=..., half_width=..., displacement={"on", "direction",
@@ -386,19 +393,23 @@ impl Model {
     /// may be changed and run again.
     #[pyo3(signature = (*, solver = None, callback = None))]
     fn run(
-        &self,
-        py: Python<'_>,
+        slf: &Bound<'_, Self>,
         solver: Option<&str>,
         callback: Option<Py<PyAny>>,
     ) -> PyResult<Py<RunResult>> {
-        let mut builder = self.builder.clone();
-        builder.program(self.program.clone());
+        let py = slf.py();
         let way = Way {
             backend: backend(py, solver)?,
             callback,
             estimate: false,
         };
-        execute(py, Source::Builder(Box::new(builder)), way)
+        let model = {
+            let mut own = slf.try_borrow_mut()?;
+            let program = own.program.clone();
+            let builder: &ModelBuilder = own.builder.program(program);
+            py.detach(|| contained(|| builder.build())).raise(py)?
+        };
+        execute(py, Source::Model(Box::new(model)), way)
     }
 
     fn __repr__(&self) -> String {

@@ -2,27 +2,30 @@
 
 use crate::arrays::backend;
 use crate::errors::{Raise, exception, wrong};
+use crate::lent::{lent, read_only};
 use crate::observer::Watcher;
 use crate::tables;
 use brinell::accuracy::{self, Extent};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
-use brinell::model::{Model, ModelBuilder};
+use brinell::model::Model;
 use brinell::output::{self, RunHeader};
 use brinell::panics::contained;
 use brinell::results::{self, Results};
 use brinell::scene::Scene;
 use brinell::{Error, ErrorKind};
+use numpy::PyArray1;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 /// What is run.
 pub enum Source {
     Scene(Box<Scene>),
-    Builder(Box<ModelBuilder>),
+    Model(Box<Model>),
 }
 
 /// How.
@@ -64,13 +67,13 @@ pub fn execute(py: Python<'_>, source: Source, way: Way) -> PyResult<Py<RunResul
     let backend = way.backend;
     let done = py.detach(|| {
         contained(|| {
-            let model = match &source {
+            let model = match source {
                 Source::Scene(scene) if scene.accuracy.is_some() => {
-                    let found = accuracy::reach(scene, backend, Extent::Program, &mut watcher)?;
+                    let found = accuracy::reach(&scene, backend, Extent::Program, &mut watcher)?;
                     return Ok((found.analysis.model().clone(), found.results));
                 }
-                Source::Scene(scene) => Model::new(scene)?,
-                Source::Builder(builder) => builder.build()?,
+                Source::Scene(scene) => Model::new(&scene)?,
+                Source::Model(model) => *model,
             };
             let mut analysis = Analysis::new(model, backend)?;
             let mut results = analysis.run(&mut watcher)?;
@@ -114,63 +117,26 @@ pub fn execute(py: Python<'_>, source: Source, way: Way) -> PyResult<Py<RunResul
 /// `len(result)` is the number of states; `result[i]` or `result["name"]` is one.
 #[pyclass(frozen, name = "Result", module = "brinell")]
 pub struct RunResult {
-    /// Without its states.
-    results: Results,
-    model: Model,
+    results: Arc<Results>,
+    model: Arc<Model>,
     header: RunHeader,
-    states: Vec<Py<State>>,
     summary: Py<PyAny>,
-    mesh: Py<PyDict>,
 }
 
 impl RunResult {
     fn new(py: Python<'_>, results: Results, model: Model, header: RunHeader) -> PyResult<Self> {
-        let summary = pythonize::pythonize(py, &output::summary(&header, &results))?.unbind();
-        let mut results = results;
-        let states = std::mem::take(&mut results.states)
-            .into_iter()
-            .map(|state| Py::new(py, State::new(py, state)?))
-            .collect::<PyResult<_>>()?;
-        let mesh = mesh(py, &model)?.unbind();
         Ok(RunResult {
-            results,
-            model,
+            summary: pythonize::pythonize(py, &output::summary(&header, &results))?.unbind(),
+            results: Arc::new(results),
+            model: Arc::new(model),
             header,
-            states,
-            summary,
-            mesh,
         })
     }
-}
 
-fn mesh<'py>(py: Python<'py>, model: &Model) -> PyResult<Bound<'py, PyDict>> {
-    let mesh = &model.mesh;
-    let table = PyDict::new(py);
-    table.set_item(
-        "coordinates",
-        tables::kept(py, mesh.coordinates.clone(), Some(2))?,
-    )?;
-    table.set_item(
-        "connectivity",
-        tables::kept(py, mesh.connectivity.clone(), None)?,
-    )?;
-    let offsets = mesh.offsets.iter().map(|n| *n as i64).collect();
-    table.set_item("offsets", tables::kept::<i64>(py, offsets, None)?)?;
-    table.set_item(
-        "element_body",
-        tables::kept(py, mesh.element_body.clone(), None)?,
-    )?;
-    let shapes: Vec<&str> = mesh.shapes.iter().map(|s| s.name()).collect();
-    table.set_item("shapes", shapes)?;
-    table.set_item("bodies", &mesh.bodies)?;
-    let sets = PyDict::new(py);
-    for name in mesh.set_names() {
-        let nodes = mesh.set_nodes(name).unwrap_or_default();
-        let nodes = nodes.iter().map(|n| *n as i64).collect();
-        sets.set_item(name, tables::kept::<i64>(py, nodes, None)?)?;
+    fn names(&self) -> Vec<&str> {
+        let states = self.results.states.iter();
+        states.map(|state| state.name.as_str()).collect()
     }
-    table.set_item("node_sets", sets)?;
-    Ok(table)
 }
 
 #[pymethods]
@@ -184,20 +150,38 @@ impl RunResult {
     /// Columns of figures, a row per state.
     #[getter]
     fn states<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let states: Vec<&results::State> = self.states.iter().map(|s| &s.get().state).collect();
-        tables::states(py, &states)
+        tables::states(py, &self.results)
     }
 
     /// Columns of figures, a row per accepted increment.
     #[getter]
     fn history<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        tables::history(py, &self.results.history)
+        tables::history(py, &self.results)
     }
 
     /// The mesh: `coordinates` (n, 2), `connectivity` and `offsets`, `element_body`, `shapes`, `bodies`, `node_sets` (surfaces among them).
     #[getter]
-    fn mesh(&self, py: Python<'_>) -> Py<PyDict> {
-        self.mesh.clone_ref(py)
+    fn mesh<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (model, mesh) = (&self.model, &self.model.mesh);
+        let table = PyDict::new(py);
+        let coordinates = lent(py, model, |m| &m.mesh.coordinates[..], Some(2))?;
+        table.set_item("coordinates", coordinates)?;
+        let connectivity = lent(py, model, |m| &m.mesh.connectivity[..], None)?;
+        table.set_item("connectivity", connectivity)?;
+        table.set_item("offsets", lent(py, model, |m| &m.mesh.offsets[..], None)?)?;
+        let bodies = lent(py, model, |m| &m.mesh.element_body[..], None)?;
+        table.set_item("element_body", bodies)?;
+        let shapes: Vec<&str> = mesh.shapes.iter().map(|s| s.name()).collect();
+        table.set_item("shapes", shapes)?;
+        table.set_item("bodies", &mesh.bodies)?;
+        let sets = PyDict::new(py);
+        for name in mesh.set_names() {
+            let nodes = mesh.set_nodes(name).unwrap_or_default();
+            let nodes = PyArray1::from_iter(py, nodes.into_iter().map(|n| n as isize));
+            sets.set_item(name, read_only(nodes.into_any())?)?;
+        }
+        table.set_item("node_sets", sets)?;
+        Ok(table)
     }
 
     /// What `summary.json` says, as a dictionary.
@@ -233,31 +217,22 @@ impl RunResult {
 
     /// Writes the result directory that the program writes: tables, fields, report.
     fn write(&self, py: Python<'_>, directory: PathBuf) -> PyResult<()> {
-        let mut results = self.results.clone();
-        let states = self.states.iter().map(|s| s.get().whole(py));
-        results.states = states.collect::<PyResult<_>>()?;
         let to: &Path = &directory;
         py.detach(|| {
-            contained(|| output::write_with_report(to, &self.header, &self.model, &results))
+            contained(|| output::write_with_report(to, &self.header, &self.model, &self.results))
         })
         .raise(py)
     }
 
     fn __len__(&self) -> usize {
-        self.states.len()
+        self.results.states.len()
     }
 
-    fn __getitem__(&self, py: Python<'_>, which: &Bound<'_, PyAny>) -> PyResult<Py<State>> {
-        let n = self.states.len();
-        let found = if let Ok(name) = which.extract::<String>() {
-            let named = |s: &&Py<State>| s.get().state.name == name;
-            let found = self.states.iter().find(named);
-            let names: Vec<&str> = self
-                .states
-                .iter()
-                .map(|s| s.get().state.name.as_str())
-                .collect();
-            found.ok_or_else(|| {
+    fn __getitem__(&self, py: Python<'_>, which: &Bound<'_, PyAny>) -> PyResult<State> {
+        let n = self.results.states.len();
+        let index = if let Ok(name) = which.extract::<String>() {
+            let names = self.names();
+            names.iter().position(|n| *n == name).ok_or_else(|| {
                 wrong(
                     py,
                     format!("there is no state {name:?}; there are {names:?}"),
@@ -266,23 +241,20 @@ impl RunResult {
         } else {
             let index: isize = which.extract()?;
             let place = if index < 0 { index + n as isize } else { index };
-            usize::try_from(place)
-                .ok()
-                .and_then(|place| self.states.get(place))
-                .ok_or_else(|| PyIndexError::new_err(format!("state {index} of {n}")))?
+            let place = usize::try_from(place).ok().filter(|place| *place < n);
+            place.ok_or_else(|| PyIndexError::new_err(format!("state {index} of {n}")))?
         };
-        Ok(found.clone_ref(py))
+        Ok(State {
+            results: Arc::clone(&self.results),
+            index,
+        })
     }
 
     fn __repr__(&self) -> String {
-        let names: Vec<&str> = self
-            .states
-            .iter()
-            .map(|s| s.get().state.name.as_str())
-            .collect();
         format!(
-            "<brinell.Result: {} increments, states {names:?}{}>",
+            "<brinell.Result: {} increments, states {:?}{}>",
             self.results.history.len(),
+            self.names(),
             if self.results.incomplete.is_some() {
                 ", incomplete"
             } else {
@@ -295,27 +267,13 @@ impl RunResult {
 /// The state at a target.
 #[pyclass(frozen, module = "brinell")]
 pub struct State {
-    /// Without its fields.
-    state: results::State,
-    fields: Option<Py<PyDict>>,
+    results: Arc<Results>,
+    index: usize,
 }
 
 impl State {
-    fn new(py: Python<'_>, mut state: results::State) -> PyResult<Self> {
-        let fields = match state.fields.take() {
-            Some(fields) => Some(tables::fields(py, fields)?.unbind()),
-            None => None,
-        };
-        Ok(State { state, fields })
-    }
-
-    /// With its fields, copied.
-    fn whole(&self, py: Python<'_>) -> PyResult<results::State> {
-        let mut state = self.state.clone();
-        if let Some(fields) = &self.fields {
-            state.fields = Some(tables::fields_of(fields.bind(py))?);
-        }
-        Ok(state)
+    fn state(&self) -> &results::State {
+        &self.results.states[self.index]
     }
 }
 
@@ -324,92 +282,93 @@ impl State {
     /// Name, from the scene or made from the target.
     #[getter]
     fn name(&self) -> &str {
-        &self.state.name
+        &self.state().name
     }
 
     /// Load factor in the program's unit.
     #[getter]
     fn alpha(&self) -> f64 {
-        self.state.alpha
+        self.state().alpha
     }
 
     /// Total load.
     #[getter]
     fn load(&self) -> f64 {
-        self.state.load
+        self.state().load
     }
 
     /// Sum of the contact forces.
     #[getter]
     fn contact_force(&self) -> f64 {
-        self.state.contact_force
+        self.state().contact_force
     }
 
     /// Largest contact pressure.
     #[getter]
     fn max_pressure(&self) -> f64 {
-        self.state.max_pressure
+        self.state().max_pressure
     }
 
     /// Contact half width.
     #[getter]
     fn half_width(&self) -> f64 {
-        self.state.half_width
+        self.state().half_width
     }
 
     /// The dent that stays.
     #[getter]
     fn residual_depth(&self) -> f64 {
-        self.state.residual_depth
+        self.state().residual_depth
     }
 
     /// Displacement of the loaded surface along the load.
     #[getter]
     fn approach(&self) -> f64 {
-        self.state.approach
+        self.state().approach
     }
 
     /// Gauss points with plastic strain.
     #[getter]
     fn plastic_points(&self) -> usize {
-        self.state.plastic_points
+        self.state().plastic_points
     }
 
     /// Largest equivalent plastic strain.
     #[getter]
     fn max_equivalent_plastic_strain(&self) -> f64 {
-        self.state.max_equivalent_plastic_strain
+        self.state().max_equivalent_plastic_strain
     }
 
     /// Begin and end of a contact on a circle, in degrees from its middle; None elsewhere.
     #[getter]
     fn contact_arc(&self) -> Option<[f64; 2]> {
-        self.state.contact_arc
+        self.state().contact_arc
     }
 
     /// Columns of the contact pairs: `pair`, `contact`, `x`, `y`, `gap`, `force`, `area`, `pressure`, `closed`.
     #[getter]
     fn pairs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        tables::pairs(py, &self.state.pairs)
+        tables::pairs(py, &self.results, self.index)
     }
 
     /// Fields on the whole mesh, not copied and not to be written to: `displacement` (n_nodes, 2), `stress` (n_elements, 4) as xx, yy, zz, xy,
     /// `von_mises`, `plastic_strain`, `yielded`, `error`; None where the target asks for none.
     #[getter]
-    fn fields(&self, py: Python<'_>) -> Option<Py<PyDict>> {
-        self.fields.as_ref().map(|fields| fields.clone_ref(py))
+    fn fields<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        tables::fields(py, &self.results, self.index)
     }
 
     /// Quality figures, all relative.
     #[getter]
     fn quality<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        Ok(pythonize::pythonize(py, &self.state.quality)?)
+        Ok(pythonize::pythonize(py, &self.state().quality)?)
     }
 
     fn __repr__(&self) -> String {
         format!(
             "<brinell.State {:?}: alpha {}>",
-            self.state.name, self.state.alpha
+            self.state().name,
+            self.state().alpha
         )
     }
 }

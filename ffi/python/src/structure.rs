@@ -1,12 +1,13 @@
 //! The lower level: a stiffness and contact rows of the caller.
 
-use crate::arrays::{backend, doubles, integers, values};
+use crate::arrays::{Integers, backend, doubles, each_width, integers, values};
 use crate::errors::{Raise, wrong};
-use crate::tables::kept;
+use crate::lent::{lent, read_only};
 use brinell::constrained::{ConstrainedStructure, Triangle, rows_from_csr, stiffness_from_csc};
 use brinell::contact::Change;
+use brinell::linalg::SymmetricCsc;
 use brinell::panics::contained;
-use numpy::{PyArray1, PyReadwriteArray1, PyUntypedArrayMethods};
+use numpy::{PyArray1, PyReadonlyArrayDyn, PyReadwriteArray1, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use std::sync::{Mutex, MutexGuard};
@@ -15,7 +16,7 @@ use std::sync::{Mutex, MutexGuard};
 ///
 ///     K u = f - B' r,   g = gaps - B u >= 0,   r >= 0,   g . r = 0
 ///
-/// stiffness: K as a scipy sparse matrix, or (data, indices, indptr) compressed by column.
+/// stiffness: K as a scipy sparse matrix, or (data, indices, indptr) compressed by column, read where it lies; its upper triangle is kept.
 /// rows: B as a scipy sparse matrix, (data, indices, indptr) compressed by row, or a dense array; None for none.
 /// gaps: a value for each row; negative is interference.
 /// triangle: which entries are given, "both", "upper" or "lower".
@@ -30,15 +31,20 @@ pub struct Structure {
     n_rows: usize,
 }
 
-struct Compressed {
-    data: Vec<f64>,
-    indices: Vec<i64>,
-    starts: Vec<i64>,
+/// A sparse matrix where it lies.
+struct Compressed<'py> {
+    data: PyReadonlyArrayDyn<'py, f64>,
+    indices: Integers<'py>,
+    starts: Integers<'py>,
     /// Rows and columns where they are known.
     shape: Option<(usize, usize)>,
 }
 
-fn compressed(given: &Bound<'_, PyAny>, convert: &str, what: &str) -> PyResult<Compressed> {
+fn compressed<'py>(
+    given: &Bound<'py, PyAny>,
+    convert: &str,
+    what: &str,
+) -> PyResult<Compressed<'py>> {
     let py = given.py();
     let (parts, shape) = if let Ok(parts) = given.cast::<PyTuple>() {
         if parts.len() != 3 {
@@ -53,6 +59,7 @@ fn compressed(given: &Bound<'_, PyAny>, convert: &str, what: &str) -> PyResult<C
         let parts = [parts.get_item(0)?, parts.get_item(1)?, parts.get_item(2)?];
         (parts, None)
     } else if given.hasattr(convert)? {
+        // scipy hands out the matrix itself where it is of this kind.
         let matrix = given.call_method0(convert)?;
         let part = |name: &str| matrix.getattr(name);
         let shape = part("shape")?.extract()?;
@@ -66,38 +73,70 @@ fn compressed(given: &Bound<'_, PyAny>, convert: &str, what: &str) -> PyResult<C
             format!("{what}: give a scipy sparse matrix or (data, indices, indptr)"),
         ));
     };
-    let data = doubles(&parts[0], what)?;
     Ok(Compressed {
-        data: values(py, &data)?.to_vec(),
-        indices: integers(&parts[1], what)?.0,
-        starts: integers(&parts[2], what)?.0,
+        data: doubles(&parts[0], what)?,
+        indices: integers(&parts[1], what)?,
+        starts: integers(&parts[2], what)?,
         shape,
     })
 }
 
-/// Dense rows, compressed.
-fn compress(given: &Bound<'_, PyAny>) -> PyResult<Compressed> {
-    let array = doubles(given, "rows")?;
-    let &[n_rows, n] = array.shape() else {
-        return Err(wrong(given.py(), "rows: a matrix is needed".to_string()));
-    };
-    let mut out = Compressed {
-        data: Vec::new(),
-        indices: Vec::new(),
-        starts: vec![0],
-        shape: Some((n_rows, n)),
-    };
-    let values = values(given.py(), &array)?;
-    for row in 0..n_rows {
-        for (freedom, &value) in values[row * n..(row + 1) * n].iter().enumerate() {
-            if value != 0.0 {
-                out.data.push(value);
-                out.indices.push(freedom as i64);
-            }
-        }
-        out.starts.push(out.data.len() as i64);
+/// The upper triangle of a stiffness and its size.
+fn stiffness(given: &Bound<'_, PyAny>, triangle: Triangle) -> PyResult<SymmetricCsc> {
+    let py = given.py();
+    let k = compressed(given, "tocsc", "stiffness")?;
+    if let Some((rows, columns)) = k.shape.filter(|s| s.0 != s.1) {
+        return Err(wrong(
+            py,
+            format!("stiffness: {rows} x {columns} is not square"),
+        ));
     }
-    Ok(out)
+    let data = values(py, &k.data)?;
+    each_width!(py, k.starts, |starts| each_width!(
+        py,
+        k.indices,
+        |indices| {
+            let n = starts.len().saturating_sub(1);
+            let read = || stiffness_from_csc(n, starts, indices, data, triangle);
+            py.detach(|| contained(read)).raise(py)
+        }
+    ))
+}
+
+/// Contact rows on `n` freedoms.
+fn contact_rows(given: Option<&Bound<'_, PyAny>>, n: usize) -> PyResult<Vec<Vec<(usize, f64)>>> {
+    let Some(given) = given else {
+        return Ok(Vec::new());
+    };
+    let py = given.py();
+    let fits = |columns: usize| match columns == n {
+        true => Ok(()),
+        false => Err(wrong(
+            py,
+            format!("rows: {columns} columns were given for {n} freedoms"),
+        )),
+    };
+    if given.cast::<PyTuple>().is_ok() || given.hasattr("tocsr")? {
+        let b = compressed(given, "tocsr", "rows")?;
+        b.shape.map_or(Ok(()), |(_, columns)| fits(columns))?;
+        let data = values(py, &b.data)?;
+        return each_width!(py, b.starts, |starts| each_width!(
+            py,
+            b.indices,
+            |indices| rows_from_csr(n, starts, indices, data).raise(py)
+        ));
+    }
+    let array = doubles(given, "rows")?;
+    let &[n_rows, columns] = array.shape() else {
+        return Err(wrong(py, "rows: a matrix is needed".to_string()));
+    };
+    fits(columns)?;
+    let dense = values(py, &array)?;
+    let row = |row: usize| {
+        let row = dense[row * columns..(row + 1) * columns].iter().copied();
+        row.enumerate().filter(|(_, value)| *value != 0.0).collect()
+    };
+    Ok((0..n_rows).map(row).collect())
 }
 
 impl Structure {
@@ -156,52 +195,25 @@ impl Structure {
                 ));
             }
         };
-        let k = compressed(stiffness, "tocsc", "stiffness")?;
-        let n = k.shape.map_or(k.starts.len().saturating_sub(1), |s| s.1);
-        if let Some((rows, columns)) = k.shape.filter(|s| s.0 != s.1) {
-            return Err(wrong(
-                py,
-                format!("stiffness: {rows} x {columns} is not square"),
-            ));
-        }
-        let b = match rows {
-            None => Compressed {
-                data: Vec::new(),
-                indices: Vec::new(),
-                starts: vec![0],
-                shape: None,
-            },
-            Some(rows) if rows.cast::<PyTuple>().is_ok() || rows.hasattr("tocsr")? => {
-                compressed(rows, "tocsr", "rows")?
-            }
-            Some(rows) => compress(rows)?,
-        };
-        if let Some((_, columns)) = b.shape.filter(|s| s.1 != n) {
-            return Err(wrong(
-                py,
-                format!("rows: {columns} columns were given for {n} freedoms"),
-            ));
-        }
-        let gaps = match gaps {
-            None => Vec::new(),
-            Some(gaps) => values(py, &doubles(gaps, "gaps")?)?.to_vec(),
-        };
-        let structure = py
-            .detach(|| {
-                contained(|| {
-                    let stiffness =
-                        stiffness_from_csc(n, &k.starts, &k.indices, &k.data, triangle)?;
-                    let rows = rows_from_csr(n, &b.starts, &b.indices, &b.data)?;
-                    ConstrainedStructure::new(backend, &stiffness, &rows, &gaps)
-                })
-            })
-            .raise(py)?;
-        let c = structure.condensed_stiffness();
+        let stiffness = self::stiffness(stiffness, triangle)?;
+        let rows = contact_rows(rows, stiffness.cols())?;
+        let gaps = gaps.map(|gaps| doubles(gaps, "gaps")).transpose()?;
+        let gaps = gaps.as_ref().map_or(Ok(&[][..]), |gaps| values(py, gaps))?;
+        let make = || ConstrainedStructure::with_owned(backend, stiffness, &rows, gaps);
+        let structure = py.detach(|| contained(make)).raise(py)?;
+        let factored = structure.shared_condensation();
+        let n_contact = structure.contact_freedoms().len();
         let freedoms = structure.contact_freedoms().iter().map(|f| *f as i64);
-        let freedoms: Vec<i64> = freedoms.collect();
+        let freedoms = PyArray1::from_iter(py, freedoms).into_any();
         Ok(Structure {
-            condensed: kept(py, c.as_slice().to_vec(), Some(c.ncols()))?.unbind(),
-            contact_freedoms: kept(py, freedoms, None)?.unbind(),
+            condensed: lent(
+                py,
+                &factored,
+                |f| f.contact_stiffness().as_slice(),
+                Some(n_contact),
+            )?
+            .unbind(),
+            contact_freedoms: read_only(freedoms)?.unbind(),
             n: structure.n_freedoms(),
             n_rows: structure.n_rows(),
             inner: Mutex::new(structure),
@@ -227,7 +239,7 @@ impl Structure {
         self.contact_freedoms.clone_ref(py)
     }
 
-    /// The stiffness condensed on the contact freedoms, symmetric; one array for all calls, not to be written to.
+    /// The stiffness condensed on the contact freedoms, symmetric: a view of brinell's own, not to be written to.
     #[getter]
     fn condensed_stiffness(&self, py: Python<'_>) -> Py<PyAny> {
         self.condensed.clone_ref(py)
@@ -255,16 +267,18 @@ impl Structure {
         Ok((event.t, changes.collect()))
     }
 
-    /// Gaps of the rows, >= 0, in the state at hand.
+    /// Gaps of the rows, >= 0, in the state at hand: a view of it that stays as it is when the state changes, not to be written to.
     #[getter]
-    fn gaps<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, self.lock().gaps())
+    fn gaps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let gaps = self.lock().shared_gaps();
+        lent(py, &gaps, |gaps| &gaps[..], None)
     }
 
-    /// Forces of the rows, compressive positive, in the state at hand.
+    /// Forces of the rows, compressive positive, in the state at hand: as `gaps`.
     #[getter]
-    fn forces<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, self.lock().forces())
+    fn forces<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let forces = self.lock().shared_forces();
+        lent(py, &forces, |forces| &forces[..], None)
     }
 
     /// Which rows are closed.

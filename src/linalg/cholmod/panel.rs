@@ -73,7 +73,11 @@ fn store_strip<'a>(
 ) {
     for top in (0..rows).step_by(TILE) {
         for k in strip.clone() {
-            out.extend_from_slice(&column(k)[top..(top + TILE).min(rows)]);
+            let rest = &column(k)[top..rows];
+            match rest.first_chunk::<TILE>() {
+                Some(tile) => out.extend_from_slice(tile),
+                None => out.extend_from_slice(rest),
+            }
         }
     }
 }

@@ -212,15 +212,15 @@ impl Trailing {
             previous = below;
             listed = rows.clone();
             let values = self.values.len();
-            panel::store_triangle(
-                width,
-                |k| &columns.get(j + k).values[..width - k],
-                &mut self.values,
-            );
+            let mut own: [&[f64]; PANEL_WIDTH] = [&[]; PANEL_WIDTH];
+            for (k, column) in own[..width].iter_mut().enumerate() {
+                *column = columns.get(j + k).values;
+            }
+            panel::store_triangle(width, |k| &own[k][..width - k], &mut self.values);
             panel::store_rectangle(
                 below.len(),
                 width,
-                |k| &columns.get(j + k).values[width - k..],
+                |k| &own[k][width - k..],
                 &mut self.values,
             );
             self.panels.push(Panel {

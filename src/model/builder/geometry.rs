@@ -2,6 +2,7 @@
 
 use super::ModelBuilder;
 use crate::error::{Error, Result};
+use crate::index::Index;
 use crate::mesh::{Curve, Facet, Shape, Surface};
 use std::collections::BTreeMap;
 
@@ -14,6 +15,21 @@ impl ModelBuilder {
     /// Number of elements so far.
     pub fn n_elements(&self) -> usize {
         self.mesh.n_elements()
+    }
+
+    /// The index of a node that there is; `what` names it in a message.
+    ///
+    /// # Errors
+    /// An index of no node.
+    pub fn node<I: Index>(&self, what: impl Fn() -> String, node: I) -> Result<usize> {
+        let n = self.n_nodes();
+        node.below(n).ok_or_else(|| {
+            Error::input(format!(
+                "{} is node {node}, but there are {n} nodes (0 to {}); give the nodes first",
+                what(),
+                n.saturating_sub(1)
+            ))
+        })
     }
 
     /// Adds nodes: `n x 2` coordinates, node by node; (r, z) in an axisymmetric model.
@@ -51,11 +67,11 @@ impl ModelBuilder {
     ///
     /// # Errors
     /// A number of indices that is no multiple of the shape's nodes; an index of no node, by element.
-    pub fn elements(
+    pub fn elements<I: Index>(
         &mut self,
         shape: Shape,
         body: &str,
-        connectivity: &[usize],
+        connectivity: &[I],
     ) -> Result<&mut Self> {
         let (each, n_nodes) = (shape.n_nodes(), self.n_nodes());
         if !connectivity.len().is_multiple_of(each) {
@@ -65,7 +81,7 @@ impl ModelBuilder {
                 shape.name()
             )));
         }
-        if let Some(at) = connectivity.iter().position(|&n| n >= n_nodes) {
+        if let Some(at) = connectivity.iter().position(|n| n.below(n_nodes).is_none()) {
             return Err(Error::input(format!(
                 "element {} (body `{body}`): node {} is {}, but there are {n_nodes} nodes (0 to {}); give the nodes first",
                 self.n_elements() + at / each,
@@ -85,7 +101,7 @@ impl ModelBuilder {
             let mut own = [0u32; 8];
             for (own, &node) in own.iter_mut().zip(nodes) {
                 // Below the number of nodes, which `nodes` keeps within u32.
-                *own = node as u32;
+                *own = node.below(n_nodes).unwrap_or_default() as u32;
             }
             self.mesh.push_element(shape, number, &own[..each]);
         }
@@ -96,7 +112,7 @@ impl ModelBuilder {
     ///
     /// # Errors
     /// An empty set, an index of no node, a name that is taken.
-    pub fn node_set(&mut self, name: &str, nodes: &[usize]) -> Result<&mut Self> {
+    pub fn node_set<I: Index>(&mut self, name: &str, nodes: &[I]) -> Result<&mut Self> {
         self.is_new(name)?;
         let mut sorted = self.known_nodes(name, nodes)?;
         sorted.sort_unstable();
@@ -105,28 +121,37 @@ impl ModelBuilder {
         Ok(self)
     }
 
-    /// Names a surface by (element, local facet): facet k lies between corners k and k + 1 ([`Shape::facet`]).
+    /// Names a surface by the element and the local number of each facet: facet k lies between corners k and k + 1
+    /// ([`Shape::facet`]).
     ///
     /// # Errors
     /// An empty surface, a facet of no element, a name that is taken.
-    pub fn surface(&mut self, name: &str, facets: &[(usize, usize)]) -> Result<&mut Self> {
+    pub fn surface<I: Index>(
+        &mut self,
+        name: &str,
+        facets: impl IntoIterator<Item = (I, I)>,
+    ) -> Result<&mut Self> {
         self.is_new(name)?;
         let n_elements = self.n_elements();
-        let mut out = Vec::with_capacity(facets.len());
-        for (k, &(element, local)) in facets.iter().enumerate() {
-            let shape = self.mesh.shapes.get(element).ok_or_else(|| {
+        let mut out = Vec::new();
+        for (k, (element, local)) in facets.into_iter().enumerate() {
+            let known = element.below(n_elements).ok_or_else(|| {
                 Error::input(format!(
                     "surface `{name}`: facet {k} is of element {element}, but there are {n_elements} elements; give the elements first"
                 ))
             })?;
-            if local >= shape.n_corners() {
-                return Err(Error::input(format!(
+            let shape = self.mesh.shapes[known];
+            let local = local.below(shape.n_corners()).ok_or_else(|| {
+                Error::input(format!(
                     "surface `{name}`: facet {k} is facet {local} of element {element}, a {}: it has {}",
                     shape.name(),
                     shape.n_corners()
-                )));
-            }
-            out.push(Facet { element, local });
+                ))
+            })?;
+            out.push(Facet {
+                element: known,
+                local,
+            });
         }
         self.keep_surface(name, out)
     }
@@ -135,7 +160,7 @@ impl ModelBuilder {
     ///
     /// # Errors
     /// A node that belongs to no such facet, an index of no node, a name that is taken.
-    pub fn surface_of_nodes(&mut self, name: &str, nodes: &[usize]) -> Result<&mut Self> {
+    pub fn surface_of_nodes<I: Index>(&mut self, name: &str, nodes: &[I]) -> Result<&mut Self> {
         self.is_new(name)?;
         let nodes = self.known_nodes(name, nodes)?;
         let mut among = vec![false; self.n_nodes()];
@@ -211,19 +236,14 @@ impl ModelBuilder {
         Ok(())
     }
 
-    fn known_nodes(&self, name: &str, nodes: &[usize]) -> Result<Vec<usize>> {
-        let n = self.n_nodes();
+    pub(super) fn known_nodes<I: Index>(&self, name: &str, nodes: &[I]) -> Result<Vec<usize>> {
         if nodes.is_empty() {
             return Err(Error::input(format!("`{name}` has no nodes")));
         }
-        match nodes.iter().position(|&node| node >= n) {
-            Some(at) => Err(Error::input(format!(
-                "`{name}`: entry {at} is node {}, but there are {n} nodes (0 to {}); give the nodes first",
-                nodes[at],
-                n.saturating_sub(1)
-            ))),
-            None => Ok(nodes.to_vec()),
-        }
+        let nodes = nodes.iter().enumerate();
+        nodes
+            .map(|(at, &node)| self.node(|| format!("`{name}`: entry {at}"), node))
+            .collect()
     }
 
     fn keep_surface(&mut self, name: &str, facets: Vec<Facet>) -> Result<&mut Self> {

@@ -19,7 +19,7 @@ fn squares() -> ModelBuilder {
         .and_then(|b| b.elements(Shape::Quad4, "upper", &[4, 5, 6, 7]))
         .and_then(|b| b.surface_of_nodes("floor", &[0, 1]))
         .and_then(|b| b.surface_of_nodes("face", &[2, 3]))
-        .and_then(|b| b.surface("opposite", &[(1, 0)]))
+        .and_then(|b| b.surface("opposite", [(1, 0)]))
         .and_then(|b| b.surface_of_nodes("top", &[7, 6]))
         .and_then(|b| b.node_set("left", &[7, 0, 3, 4, 0]))
         .and_then(|b| b.material("steel", steel_values(0.3)))
@@ -198,26 +198,22 @@ fn bad_nodes_and_elements_are_refused_by_index() {
 fn bad_sets_and_surfaces_are_refused_by_index() {
     use ErrorKind::Input;
     let b = squares;
-    refused(b().node_set("s", &[]).map(drop), Input, &["`s`"]);
+    refused(b().node_set("s", &[0; 0]).map(drop), Input, &["`s`"]);
     refused(
         b().node_set("s", &[1, 88]).map(drop),
         Input,
         &["entry 1", "88", "8 nodes"],
     );
     refused(b().node_set("left", &[1]).map(drop), Input, &["already"]);
+    refused(b().surface("left", [(0, 0)]).map(drop), Input, &["already"]);
+    refused(b().surface("s", [(0, 0); 0]).map(drop), Input, &["`s`"]);
     refused(
-        b().surface("left", &[(0, 0)]).map(drop),
-        Input,
-        &["already"],
-    );
-    refused(b().surface("s", &[]).map(drop), Input, &["`s`"]);
-    refused(
-        b().surface("s", &[(0, 0), (7, 0)]).map(drop),
+        b().surface("s", [(0, 0), (7, 0)]).map(drop),
         Input,
         &["facet 1", "element 7", "2 elements"],
     );
     refused(
-        b().surface("s", &[(0, 4)]).map(drop),
+        b().surface("s", [(0, 4)]).map(drop),
         Input,
         &["facet 4", "element 0", "quad4"],
     );

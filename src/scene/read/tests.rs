@@ -64,6 +64,23 @@ fn targets_without_a_name_get_one_and_repeated_ones_a_number() {
     assert_eq!(Target::default().label(4), "target 5");
 }
 
+#[test]
+fn a_material_that_there_is_not_is_one_problem_for_each_body() {
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/data/scenes/cylinder_on_half_plane.toml"
+    );
+    let text = std::fs::read_to_string(path).unwrap();
+    let text = text.replace("material = \"steel\"", "material = \"stell\"");
+    let error = Scene::parse(&text, "bad.toml").unwrap_err().to_string();
+    assert_eq!(error.lines().count(), 2, "{error}");
+    for line in error.lines() {
+        let meant =
+            "there is no material \"stell\", did you mean \"steel\"? Known materials: steel";
+        assert!(line.contains(meant), "{error}");
+    }
+}
+
 /// Each row: text to replace in the good scene, its replacement, and what the message must hold.
 #[test]
 fn a_bad_scene_is_refused_with_place_key_and_advice() {
@@ -92,6 +109,13 @@ fn a_bad_scene_is_refused_with_place_key_and_advice() {
             &["bad.toml:2:8: kind: unknown value \"plane_strian\", did you mean \"plane_strain\"?"],
         ),
         ("\"plane_strain\"", "3", &["bad.toml:2:8: kind: wrong type"]),
+        (
+            "[[load]]",
+            "[load]",
+            &[
+                "load: a single table, expected a list of them: write its head with two brackets, [[...]]",
+            ],
+        ),
         (
             "youngs_modulus = 210000\n",
             "",

@@ -77,7 +77,7 @@ impl Checks {
                 );
             }
             None => self.require(
-                scene.any_can_yield(),
+                super::may_yield(scene),
                 key("half_width"),
                 "is missing, and cannot be computed because no body can yield: give it, \
                  or a yield_stress to a material",

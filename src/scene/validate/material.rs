@@ -1,6 +1,7 @@
 //! Materials and bodies.
 
 use super::Checks;
+use crate::scene::read::closest;
 use crate::scene::{Material, Plastic, Scene};
 
 impl Checks {
@@ -17,13 +18,14 @@ impl Checks {
             match scene.materials.get(&body.material) {
                 None => {
                     let known: Vec<&str> = scene.materials.keys().map(String::as_str).collect();
+                    let meant = match closest(&body.material, &known) {
+                        Some(close) => format!(", did you mean \"{close}\"? Known"),
+                        None => "; known".to_string(),
+                    };
+                    let wrong = format!("there is no material \"{}\"", body.material);
                     self.problem(
                         format!("bodies.{name}.material"),
-                        format!(
-                            "there is no material \"{}\"; known materials: {}",
-                            body.material,
-                            known.join(", ")
-                        ),
+                        format!("{wrong}{meant} materials: {}", known.join(", ")),
                     );
                 }
                 Some(material) => self.require(

@@ -93,6 +93,12 @@ fn problems_without_mesh(scene: &Scene) -> Vec<Problem> {
     Checks::of(scene, |_, _| {})
 }
 
+/// Can any body yield, as far as is known? A material that there is not is a problem of its own, not one of all that needs it.
+fn may_yield(scene: &Scene) -> bool {
+    let mut bodies = scene.bodies.values();
+    scene.any_can_yield() || bodies.any(|body| !scene.materials.contains_key(&body.material))
+}
+
 /// Collects problems.
 #[derive(Default)]
 struct Checks {

@@ -93,7 +93,7 @@ impl Checks {
     /// What refers to first yield needs a body that can yield and a load that brings it there.
     fn needs_yield(&mut self, key: &str, what: &str, scene: &Scene) {
         self.require(
-            scene.any_can_yield(),
+            super::may_yield(scene),
             key,
             format!(
                 "{what}, but no body can yield: give a material a yield_stress, \

@@ -1,0 +1,190 @@
+//! Everything else is small: reading a mesh, starting the program, writing the results.
+//!
+//! `cargo bench --bench reading` prints the speed of reading an ASCII mesh of a million nodes in either version of the format, the time
+//! of commands that compute nothing, and the share of a run that its states (stresses, quality) and its files take. The figures go to
+//! `bench-results/reading.json`.
+
+use brinell::analysis::Analysis;
+use brinell::linalg::Backend;
+use brinell::mesh::{Mesh, Shape, gmsh};
+use brinell::model::Model;
+use brinell::output::{self, RunHeader};
+use brinell::progress::Silent;
+use brinell::scene::Scene;
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Instant;
+
+type Failure = Box<dyn std::error::Error>;
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+/// Elements along each side of the mesh.
+const SIDE: usize = 1000;
+
+fn main() -> Result<(), Failure> {
+    let all = json!({
+        "reading": reading()?,
+        "starting": starting()?,
+        "output": output()?,
+    });
+    let folder = Path::new(ROOT).join("bench-results");
+    std::fs::create_dir_all(&folder)?;
+    std::fs::write(folder.join("reading.json"), format!("{all:#}\n"))?;
+    Ok(())
+}
+
+/// The least of several times, in seconds.
+fn least<T>(times: usize, mut act: impl FnMut() -> Result<T, Failure>) -> Result<f64, Failure> {
+    let mut least = f64::INFINITY;
+    for _ in 0..times {
+        let start = Instant::now();
+        act()?;
+        least = least.min(start.elapsed().as_secs_f64());
+    }
+    Ok(least)
+}
+
+fn reading() -> Result<Value, Failure> {
+    let mesh = square();
+    let mut version2 = Vec::new();
+    gmsh::write(&mesh, &mut version2)?;
+    let version4 = version4(&mesh)?;
+    println!("| format | MB | s | MB/s |\n|---|---|---|---|");
+    let mut out = Vec::new();
+    for (name, text) in [("2.2", &version2), ("4.1", &version4)] {
+        let read = gmsh::parse(text, name)?;
+        assert_eq!(read.coordinates, mesh.coordinates, "read back bit for bit");
+        assert_eq!(read.connectivity, mesh.connectivity);
+        let seconds = least(5, || Ok(gmsh::parse(text, name)?))?;
+        let size = text.len() as f64 / 1e6;
+        println!(
+            "| {name} | {size:.0} | {seconds:.3} | {:.0} |",
+            size / seconds
+        );
+        out.push(json!({ "version": name, "megabytes": size, "seconds": seconds }));
+    }
+    Ok(out.into())
+}
+
+/// A square whose coordinates have all their digits, as generators write them.
+fn square() -> Mesh {
+    let n = SIDE + 1;
+    let mut mesh = Mesh {
+        dimension: 2,
+        bodies: vec!["square".into()],
+        ..Mesh::default()
+    };
+    for k in 0..n * n {
+        let [x, y] = [k % n, k / n].map(|i| (i as f64 / SIDE as f64).powf(1.1));
+        mesh.coordinates.extend([x, y]);
+    }
+    for corner in (0..SIDE * n).filter(|k| k % n < SIDE) {
+        let nodes = [corner, corner + 1, corner + n + 1, corner + n].map(|k| k as u32);
+        mesh.push_element(Shape::Quad4, 0, &nodes);
+    }
+    mesh
+}
+
+/// The mesh as Gmsh writes it now.
+fn version4(mesh: &Mesh) -> Result<Vec<u8>, Failure> {
+    let (nodes, elements) = (mesh.n_nodes(), mesh.n_elements());
+    let mut text = String::from("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n");
+    text += "$PhysicalNames\n1\n2 1 \"square\"\n$EndPhysicalNames\n";
+    text += "$Entities\n0 0 1 0\n1 0 0 0 1 1 0 1 1 0\n$EndEntities\n";
+    writeln!(text, "$Nodes\n1 {nodes} 1 {nodes}\n2 1 0 {nodes}")?;
+    for node in 0..nodes {
+        writeln!(text, "{}", node + 1)?;
+    }
+    for node in 0..nodes {
+        let [x, y] = mesh.point(node);
+        writeln!(text, "{x:?} {y:?} 0")?;
+    }
+    writeln!(
+        text,
+        "$EndNodes\n$Elements\n1 {elements} 1 {elements}\n2 1 3 {elements}"
+    )?;
+    for element in 0..elements {
+        write!(text, "{}", element + 1)?;
+        for node in mesh.nodes(element) {
+            write!(text, " {}", node + 1)?;
+        }
+        text.push('\n');
+    }
+    text += "$EndElements\n";
+    Ok(text.into_bytes())
+}
+
+fn starting() -> Result<Value, Failure> {
+    println!("\n| command | ms |\n|---|---|");
+    let tiny = format!("{ROOT}/data/scenes/contact_patch.toml");
+    let mut out = Vec::new();
+    for arguments in [
+        &["--version"] as &[&str],
+        &["schema"],
+        &["check", &tiny],
+        &["yield", "-q", "--no-estimate", &tiny],
+        &["run", "-q", "--no-estimate", "--no-report", &tiny],
+    ] {
+        let folder = tempfile::tempdir()?;
+        let seconds = least(20, || {
+            let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+            command
+                .args(arguments)
+                .stdout(Stdio::null())
+                .stderr(Stdio::null());
+            if arguments[0] == "run" {
+                command.arg("--out").arg(folder.path().join("out"));
+            }
+            Ok(command.status()?)
+        })?;
+        println!("| {} | {:.1} |", arguments[0], 1e3 * seconds);
+        out.push(json!({ "command": arguments[0], "milliseconds": 1e3 * seconds }));
+    }
+    Ok(out.into())
+}
+
+/// The cylinder of the paper with fields of one state, as a user with a large model would ask for, and of all ten.
+fn output() -> Result<Value, Failure> {
+    println!(
+        "\n| freedoms | states with fields | run, s | states, s | files, s | report, s | states and files |\n|---|---|---|---|---|---|---|"
+    );
+    let mut out = Vec::new();
+    for one in [true, false] {
+        let path = format!("{ROOT}/data/scenes/cylinder_on_half_plane.toml");
+        let changes =
+            ["resolution=32", "growth=1.08"].map(|c| format!("mesh.cylinder_on_half_plane.{c}"));
+        let mut scene = Scene::load_with(path, &changes)?;
+        for target in &mut scene.program.targets {
+            target.fields = !one || target.name.as_deref() == Some("1.5 b*");
+        }
+        let folder = tempfile::tempdir()?;
+        let start = Instant::now();
+        let mut analysis = Analysis::new(Model::new(&scene)?, Backend::default())?;
+        let results = analysis.run(&mut Silent)?;
+        let model = analysis.model();
+        let header = RunHeader::new(model, Backend::default(), 0.0);
+        let computed = start.elapsed().as_secs_f64();
+        output::write_without_report(&folder.path().join("a"), &header, model, &results)?;
+        let total = start.elapsed().as_secs_f64();
+        output::write_with_report(&folder.path().join("b"), &header, model, &results)?;
+        let report = start.elapsed().as_secs_f64() - total - (total - computed);
+        let states: f64 = (results.timings.iter())
+            .filter(|(phase, _)| phase == "states")
+            .map(|(_, seconds)| seconds)
+            .sum();
+        let (files, with) = (total - computed, if one { 1 } else { results.states.len() });
+        let share = (states + files) / total;
+        println!(
+            "| {} | {with} | {total:.2} | {states:.2} | {files:.2} | {report:.2} | {:.0} % |",
+            results.sizes.freedoms,
+            100.0 * share
+        );
+        out.push(json!({
+            "freedoms": results.sizes.freedoms, "states_with_fields": with, "run": total, "states": states, "files": files,
+            "report": report, "share": share,
+        }));
+    }
+    Ok(out.into())
+}

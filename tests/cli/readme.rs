@@ -1,0 +1,135 @@
+//! What the README shows is what the program does.
+
+use super::brinell;
+use std::process::Command;
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+
+/// The section of the README under a heading.
+fn section(heading: &str) -> String {
+    let text = std::fs::read_to_string(format!("{ROOT}/README.md")).unwrap();
+    let from = text
+        .find(&format!("\n## {heading}\n"))
+        .unwrap_or_else(|| panic!("there is no section {heading:?}"));
+    let rest = &text[from + 4..];
+    rest[..rest.find("\n## ").unwrap_or(rest.len())].to_string()
+}
+
+/// The bearing ball: the table is what its commands give, to the last digit.
+#[test]
+#[cfg(feature = "cholmod")]
+fn the_bearing_ball_dents_its_race_as_the_table_says() {
+    let text = section("A bearing ball on its race");
+    let command = text
+        .lines()
+        .find(|l| l.starts_with("brinell new "))
+        .unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("race.toml");
+    let scene = scene.to_str().unwrap();
+    let arguments: Vec<&str> = command
+        .split_whitespace()
+        .skip(1)
+        .map(|word| if word == "race.toml" { scene } else { word })
+        .collect();
+    let made = brinell(&arguments);
+    assert!(made.status.success(), "{made:?}");
+    let rows: Vec<Vec<&str>> = text
+        .lines()
+        .filter(|l| l.starts_with("| ") && l[2..].starts_with(|c: char| c.is_ascii_digit()))
+        .map(|l| l.trim_matches('|').split('|').map(str::trim).collect())
+        .collect();
+    assert_eq!(rows.len(), 3);
+    for row in rows {
+        let stress = format!("materials.steel.yield_stress={}", row[0]);
+        let out = folder.path().join(row[0]);
+        let run = brinell(&[
+            "run",
+            scene,
+            "--set",
+            &stress,
+            "-q",
+            "--no-estimate",
+            "--no-report",
+            "--json",
+            "--out",
+            out.to_str().unwrap(),
+        ]);
+        assert!(run.status.success(), "{run:?}");
+        let summary: serde_json::Value = serde_json::from_slice(&run.stdout).unwrap();
+        let states = summary["states"].as_array().unwrap();
+        let pressed = states.iter().find(|s| s["name"] == "pressed").unwrap();
+        let unloaded = states.last().unwrap();
+        assert_eq!(unloaded["load"], 0.0);
+        let number = |value: &serde_json::Value| value.as_f64().unwrap();
+        let computed = [
+            format!("{:.0}", number(&summary["yield"]["load"])),
+            format!("{:.0}", number(&pressed["max_pressure"])),
+            format!("{:.2}", 1e3 * number(&unloaded["residual_depth"])),
+        ];
+        assert_eq!(row[1..], computed, "yield stress {}", row[0]);
+    }
+}
+
+/// Whether all that `part` says stands in `whole`; entries of a list may be left out.
+fn holds(whole: &toml::Value, part: &toml::Value) -> bool {
+    use toml::Value::{Array, Table};
+    match (whole, part) {
+        (Table(whole), Table(part)) => part
+            .iter()
+            .all(|(key, value)| whole.get(key).is_some_and(|w| holds(w, value))),
+        (Array(whole), Array(part)) => part.iter().all(|p| whole.iter().any(|w| holds(w, p))),
+        _ => whole == part,
+    }
+}
+
+/// The worked example says what the scene of the repository says.
+#[test]
+fn the_worked_example_is_the_scene() {
+    let text = section("A worked example");
+    let block = text.split("```toml\n").nth(1).unwrap();
+    let block: toml::Value = toml::from_str(block.split("```").next().unwrap()).unwrap();
+    let path = format!("{ROOT}/data/scenes/cylinder_on_half_plane.toml");
+    let scene: toml::Value = toml::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    for (key, value) in block.as_table().unwrap() {
+        assert!(holds(&scene[key], value), "{key}: {value}");
+    }
+    let different = toml::from_str("steel = { yield_stress = 501.0 }").unwrap();
+    assert!(!holds(&scene["materials"], &different));
+}
+
+/// Without features nothing in another language is compiled or linked.
+#[test]
+fn a_build_without_features_is_pure_rust() {
+    let tree = |features: &[&str]| -> Vec<String> {
+        let output = Command::new(env!("CARGO"))
+            .current_dir(ROOT)
+            .args(["tree", "-e", "normal,build", "--prefix", "none", "--locked"])
+            .args(features)
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{output:?}");
+        let text = String::from_utf8(output.stdout).unwrap();
+        let names = text.lines().filter_map(|line| line.split(' ').next());
+        names.map(str::to_string).collect()
+    };
+    let foreign = |name: &&String| {
+        ["bindgen", "cc", "cmake", "pkg-config"].contains(&name.as_str())
+            || name.starts_with("suitesparse")
+            || name.ends_with("-sys")
+    };
+    let without = tree(&["--no-default-features"]);
+    assert!(without.len() > 20, "{without:?}");
+    // Of the kernel's and the terminal's own interface there are declarations only.
+    let declared = |name: &String| ["linux-raw-sys", "windows-sys"].contains(&name.as_str());
+    let found: Vec<&String> = without
+        .iter()
+        .filter(foreign)
+        .filter(|n| !declared(n))
+        .collect();
+    assert!(found.is_empty(), "{found:?}");
+    assert!(
+        tree(&[]).iter().any(|n| foreign(&n)),
+        "the default has CHOLMOD"
+    );
+}
