@@ -48,7 +48,8 @@ fn elastic_states_do_not_depend_on_increments() {
 }
 
 /// Increments over fifteen orders of magnitude on one path: codes that compare an increment's change with an absolute number, or divide by it, stall
-/// or lose statuses. Elastic: the state is that of the direct way to round-off.
+/// or lose statuses. Elastic: the state is that of the direct way. (At 3e-15 of the load the round-off of the gaps is 4 % of the forces, and the quality
+/// figures of that state say so; it leaves no trace.)
 #[test]
 fn elastic_increments_over_fifteen_orders_of_magnitude() {
     let run_to = |targets: &str, stepping: &str| {
@@ -64,7 +65,6 @@ fn elastic_increments_over_fifteen_orders_of_magnitude() {
                 &format!("program.targets=[{targets}]"),
             ],
         ));
-        healthy(&results);
         results
     };
     let target = |factor: f64| format!("{{ load_factor = {factor:e} }}");
@@ -75,8 +75,10 @@ fn elastic_increments_over_fifteen_orders_of_magnitude() {
     for stepping in ["program.stepping=events", "program.stepping=steps"] {
         let direct = run_to(&target(3.0), stepping);
         let long = run_to(&small.join(", "), stepping);
+        healthy(&direct);
         assert_eq!(long.states.len(), 16);
-        same_contact(stepping, &direct.states[0], &long.states[15], 1e-12);
+        assert!(!long.inaccurate.is_empty());
+        same_contact(stepping, &direct.states[0], &long.states[15], 1e-10);
     }
 }
 
