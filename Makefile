@@ -69,7 +69,7 @@ lint: setup ## Format, clippy and documentation, warnings are errors
 	RUSTDOCFLAGS="-D warnings" cargo doc --features capi --no-deps --quiet
 
 bench: setup ## Measure
-	@cargo bench --bench trailing --bench history --bench contact --bench reading
+	@cargo bench --bench trailing --bench history --bench contact --bench acceleration --bench reading
 
 # CalculiX is needed for nothing else.
 bench-peers: PACKAGES += calculix-ccx

@@ -153,7 +153,7 @@ mod tests {
         // Not where it is of another family.
         let mut other = cylinder(12);
         other.mesh.cylinder_on_half_plane.as_mut().unwrap().growth += 0.01;
-        assert_eq!(resolutions(&ladder.rungs(&other)), [8, 6]);
+        assert_eq!(resolutions(&ladder.rungs(&other)), [8, 7]);
         let mut observer = crate::progress::Silent;
         let (_, spent) = ladder
             .step(&cylinder(7), Backend::Dense, Extent::Yield, &mut observer)
