@@ -137,7 +137,7 @@ impl Engine<'_> {
         for (b, r) in out_of_balance.iter().zip(&touched) {
             worst = worst.max((b - r).abs());
         }
-        quality.equilibrium = self.share_of_forces(worst, u);
+        quality.equilibrium = self.share_of_forces(worst);
 
         let delta = self.delta(&self.at);
         let gap_scale = delta
@@ -153,8 +153,8 @@ impl Engine<'_> {
                 .max(ratio(-gap, self.displacement_scale));
             for force in forces {
                 let (tension, size) = (-force, force.abs());
-                quality.adhesion = quality.adhesion.max(self.share_of_forces(tension, u));
-                let product = ratio(gap.abs(), gap_scale) * self.share_of_forces(size, u);
+                quality.adhesion = quality.adhesion.max(self.share_of_forces(tension));
+                let product = ratio(gap.abs(), gap_scale) * self.share_of_forces(size);
                 quality.complementarity = quality.complementarity.max(product);
             }
         }
@@ -163,9 +163,8 @@ impl Engine<'_> {
 
     /// A force over the largest of the run. Where nothing has acted yet (a body that an interference lifted) what the stresses leave over is the round-off of
     /// stiffness times displacement, and no force.
-    fn share_of_forces(&self, force: f64, u: &Displacements) -> f64 {
-        let moved = largest(&u.total).max(self.displacement_scale);
-        let round_off = 16.0 * f64::EPSILON * self.system.norm * moved;
+    fn share_of_forces(&self, force: f64) -> f64 {
+        let round_off = 16.0 * f64::EPSILON * self.system.norm * self.displacement_scale;
         if self.force_scale <= round_off && force.abs() <= round_off {
             return 0.0;
         }
