@@ -63,6 +63,10 @@ const SIZES: [(&str, &[&str]); 4] = [
     ),
 ];
 
+/// Pairs of runs of which the medians count, where bare CHOLMOD takes less than `LONG` seconds.
+const REPEATED: usize = 7;
+const LONG: f64 = 5.0;
+
 fn main() -> Result<(), Failure> {
     let arguments: Vec<String> = std::env::args()
         .skip(1)
@@ -231,8 +235,7 @@ fn compare(names: &[&str], always: &[&str]) -> Result<(), Failure> {
             .ok_or("a temporary directory with an odd name")?;
         let changes = [changes, always].concat().join(";");
         child(&["matrix", &changes, path], None)?;
-        let bare: Value = serde_json::from_str(&child(&["cholmod", path], None)?)?;
-        let run: Value = serde_json::from_str(&child(&["run", &changes, path], None)?)?;
+        let (bare, run) = median_pair(&["cholmod", path], &["run", &changes, path])?;
         report(name, &changes, &bare, &run);
         all.push(json!({"size": name, "changes": changes, "cholmod": bare, "brinell": run}));
     }
@@ -251,6 +254,25 @@ fn compare(names: &[&str], always: &[&str]) -> Result<(), Failure> {
     }))?;
     std::fs::write(&file, text + "\n")?;
     Ok(())
+}
+
+/// Both programs in turn, as often as their time allows: the median of each.
+fn median_pair(bare: &[&str], run: &[&str]) -> Result<(Value, Value), Failure> {
+    let mut pairs: [Vec<Value>; 2] = Default::default();
+    let seconds = |value: &Value| value["seconds"].as_f64().unwrap_or(f64::NAN);
+    loop {
+        for (values, arguments) in pairs.iter_mut().zip([bare, run]) {
+            values.push(serde_json::from_str(&child(arguments, None)?)?);
+        }
+        if pairs[0].len() == REPEATED || seconds(&pairs[0][0]) > LONG {
+            break;
+        }
+    }
+    let [bare, run] = pairs.map(|mut values| {
+        values.sort_by(|a, b| seconds(a).total_cmp(&seconds(b)));
+        values.swap_remove(values.len() / 2)
+    });
+    Ok((bare, run))
 }
 
 fn report(name: &str, changes: &str, bare: &Value, run: &Value) {

@@ -64,7 +64,7 @@ fn report(threads: usize, runs: &[Value]) {
         .map(|run| number(&run["sizes"]["freedoms"]))
         .collect();
     let row = |what: &str, values: Vec<f64>, theory: &str| {
-        print!("{what:26}");
+        print!("{what:33}");
         for value in &values {
             print!(" {value:10.4}");
         }
@@ -91,7 +91,7 @@ fn report(threads: usize, runs: &[Value]) {
         let name = runs[0]["phases"][phase][0].as_str().unwrap_or("?");
         let seconds = runs.iter().map(|run| number(&run["phases"][phase][1]));
         let theory = match name {
-            "factorisation" => "n^1.5 flops, n log n order",
+            "factorisation and condensation" => "n^1.5 flops, n log n order",
             "mesh and model" | "assembly" | "states" | "output" => "n",
             _ => "",
         };
