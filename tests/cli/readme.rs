@@ -1,5 +1,6 @@
 //! What the README shows is what the program does.
 
+#[cfg(feature = "cholmod")]
 use super::brinell;
 use std::process::Command;
 

@@ -53,7 +53,7 @@ fn elastic_states_do_not_depend_on_increments() {
 #[test]
 fn elastic_increments_over_fifteen_orders_of_magnitude() {
     let run_to = |targets: &str, stepping: &str| {
-        let results = run(&load(
+        run(&load(
             "hard/unload_reload",
             &[
                 "bodies.cylinder.plastic=false",
@@ -64,8 +64,7 @@ fn elastic_increments_over_fifteen_orders_of_magnitude() {
                 "program.steps=1",
                 &format!("program.targets=[{targets}]"),
             ],
-        ));
-        results
+        ))
     };
     let target = |factor: f64| format!("{{ load_factor = {factor:e} }}");
     let small: Vec<String> = (0..=15)
