@@ -57,8 +57,8 @@ impl Ladder {
         Ok((results, spent))
     }
 
-    /// The coarser meshes, two or for the lowest run one, from which a run is judged, those that were run already first. A ladder goes up from meshes so coarse that they
-    /// must not lean on yet coarser ones, nor, with its price in mind, on finer ones.
+    /// The coarser meshes, two or for the lowest run one, from which a run is judged, those that were run already first. A ladder goes up
+    /// from meshes so coarse that they must not lean on yet coarser ones, nor, with its price in mind, on finer ones.
     pub(super) fn rungs(&self, scene: &Scene) -> Vec<Level> {
         let Some(count) = spacings(scene) else {
             return Vec::new();

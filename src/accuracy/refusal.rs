@@ -30,8 +30,8 @@ pub(super) fn refuse_round_off(demand: f64, algebraic: f64) -> Result<()> {
     )))
 }
 
-/// Refuses what does not fit into the free memory, with its price. Memory and time of a mesh as a power of its fineness, from those predicted so far (two unknowns of the plane's factor: it
-/// fills a little faster than the mesh).
+/// Refuses what does not fit into the free memory, with its price. Memory and time of a mesh as a power of its fineness, from those
+/// predicted so far (two unknowns of the plane's factor: it fills a little faster than the mesh).
 pub(super) fn refuse_beyond_memory(
     demand: f64,
     fineness: f64,
