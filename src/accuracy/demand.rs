@@ -17,7 +17,7 @@
 use super::estimate::{Extent, SAFETY, estimate_on};
 use super::grading::{balanced, risen};
 use super::knobs::resolution;
-use super::ladder::{Ladder, foot, spacings};
+use super::ladder::{Ladder, PILOT, once_subdivided, spacings};
 use super::meter::{Pace, forecast, work};
 use super::pilot::pilot;
 use super::quantities::quantities;
@@ -78,7 +78,8 @@ pub fn reach(
     let Some(demand) = scene.accuracy.map(|a| a.relative()) else {
         return Err(Error::input("the scene demands no accuracy"));
     };
-    let Some(mut factor) = foot(scene) else {
+    let first = once_subdivided(scene).or_else(|| spacings(scene).map(|count| PILOT / count));
+    let Some(mut factor) = first else {
         return Err(Error::input(
             "`accuracy`: the mesh of this scene cannot be refined; take the key out",
         ));

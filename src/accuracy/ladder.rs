@@ -103,13 +103,11 @@ impl Ladder {
     }
 }
 
-/// How many times as fine as the scene's the mesh at the foot of its ladder is: the coarsest that is judged. That of a file is the file
-/// once subdivided, by the file itself; `None` where the mesh has no family.
-pub(super) fn foot(scene: &Scene) -> Option<f64> {
-    match scene.mesh.file {
-        Some(_) => Some(2.0 * 0.5f64.powi(scene.mesh.subdivisions.try_into().ok()?)),
-        None => spacings(scene).map(|count| PILOT / count),
-    }
+/// How many times as fine as the scene's its file once subdivided is, the coarsest mesh of a file that is judged: by the file itself. `None`
+/// for a generated mesh.
+pub(super) fn once_subdivided(scene: &Scene) -> Option<f64> {
+    scene.mesh.file.as_ref()?;
+    Some(2.0 * 0.5f64.powi(scene.mesh.subdivisions.try_into().ok()?))
 }
 
 /// Node spacings over what governs the result.
@@ -145,12 +143,13 @@ mod tests {
             let scenes = levels.iter().map(|l| &l.scene);
             scenes.map(|s| s.mesh.subdivisions).collect()
         };
-        assert_eq!(foot(&scene), Some(2.0));
+        assert_eq!(once_subdivided(&scene), Some(2.0));
         for (times, wanted) in [(0, vec![]), (1, vec![0]), (2, vec![1, 0]), (4, vec![3, 2])] {
             scene.mesh.subdivisions = times;
             assert_eq!(subdivisions(&Ladder::default().rungs(&scene)), wanted);
         }
-        assert_eq!(foot(&scene), Some(0.125));
+        assert_eq!(once_subdivided(&scene), Some(0.125));
+        assert_eq!(once_subdivided(&cylinder(7)), None);
     }
 
     fn cylinder(n: usize) -> Scene {
