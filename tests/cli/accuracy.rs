@@ -200,7 +200,7 @@ fn the_papers_disc_to_ten_percent() {
     to_ten_percent(
         "disc_in_plate",
         &[
-            "program.targets=[{ yield = true }, { load_factor = 1.5 }, { load_factor = 2.0 }, { name = \"unloaded\", load_factor = 0.0 }]",
+            "program.targets=[{ yield = true }, { load_factor = 2.0 }, { name = \"unloaded\", load_factor = 0.0 }]",
         ],
         &[
             "mesh.disc_in_plate.resolution=120",
