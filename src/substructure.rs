@@ -53,9 +53,13 @@ impl Trailing {
     /// `self += factor * other`.
     pub fn add(&mut self, factor: f64, other: &Trailing) {
         if factor != 0.0 {
-            for (a, b) in self.iter_mut().zip(other.iter()) {
-                *a += factor * b;
-            }
+            let add = |own: &mut [f64], other: &[f64]| {
+                for (a, b) in own.iter_mut().zip(other) {
+                    *a += factor * b;
+                }
+            };
+            add(&mut self.zone, &other.zone);
+            add(&mut self.contact, &other.contact);
         }
     }
 

@@ -1,5 +1,6 @@
 //! The structure under load: everything an increment works with.
 
+use super::equilibrium::{EliminatedLoad, Equilibrium};
 use super::gather::Places;
 use super::zone::Zone;
 use super::zone_choice::zone_freedoms;
@@ -43,30 +44,6 @@ impl LoadPoint {
     }
 }
 
-/// Displacements, gaps and contact forces in equilibrium with a load point and initial loads, for the
-/// contact statuses in the tableau.
-#[derive(Debug, Clone)]
-pub struct Equilibrium {
-    /// Initial loads J of the plastic strains.
-    pub initial: Trailing,
-    /// Displacements.
-    pub u: Trailing,
-    /// Gap of each pair.
-    pub gap: Vec<f64>,
-    /// Contact force of each pair, compressive positive.
-    pub force: Vec<f64>,
-}
-
-impl Equilibrium {
-    /// Takes over the values of another one of the same sizes.
-    pub fn copy_from(&mut self, other: &Equilibrium) {
-        self.initial.copy_from(&other.initial);
-        self.u.copy_from(&other.u);
-        self.gap.copy_from_slice(&other.gap);
-        self.force.copy_from_slice(&other.force);
-    }
-}
-
 /// The factored structure with its contact statuses, plastic zone and current state.
 pub struct Engine<'m> {
     /// The model.
@@ -89,7 +66,7 @@ pub struct Engine<'m> {
     /// Loads at factor 1, reduced.
     pub(super) reduced_loads: Vec<Vec<f64>>,
     /// Condensed loads at factor 1.
-    loads: Vec<Trailing>,
+    pub(super) loads: Vec<EliminatedLoad>,
     /// Forces `t` of the tied pairs for each load at factor 1.
     pub(super) load_forces: Vec<Vec<f64>>,
     gap: Vec<f64>,
@@ -100,6 +77,8 @@ pub struct Engine<'m> {
     pub unit: f64,
     /// Cost so far.
     pub counts: Counts,
+    /// Whether half a trailing solve has been counted for a whole one.
+    pub(super) half: bool,
     /// Largest nodal force seen (applied or contact): what residuals are measured against.
     pub force_scale: f64,
     /// Largest displacement seen (of a state, or of the nodes of a pair against each other).
@@ -114,6 +93,8 @@ pub struct Engine<'m> {
     pub border: Vec<usize>,
     /// Change of the load point over the piece of the last increment: tells loading from unloading.
     pub last_step: Vec<f64>,
+    /// Change of the initial loads over the last increment, for a load factor that changes by 1: the next one's are much the same.
+    pub pace: Option<EliminatedLoad>,
     /// A state on the way to which the next increment leads, found before: it predicts the increment.
     pub ahead: Option<(LoadPoint, Equilibrium)>,
     /// Elements outside the zone in which the last [`Engine::state`] found stress beyond yield.
@@ -164,6 +145,7 @@ impl<'m> Engine<'m> {
                 factorizations,
                 ..Counts::default()
             },
+            half: false,
             force_scale: 0.0,
             displacement_scale: 0.0,
             at: LoadPoint {
@@ -172,14 +154,13 @@ impl<'m> Engine<'m> {
                 interference: 0.0,
             },
             now: Equilibrium {
-                initial: sub.zeros(),
-                u: sub.zeros(),
                 gap: gap.clone(),
-                force: vec![0.0; n],
+                ..Equilibrium::none(&sub.zeros(), n)
             },
             fresh: true,
             border: Vec::new(),
             last_step: vec![0.0; model.loads.len() + 1],
+            pace: None,
             ahead: None,
             beyond_yield_outside: Vec::new(),
             gap,
@@ -221,8 +202,10 @@ impl<'m> Engine<'m> {
         zone.set_factors(&self.at.factors);
         (self.zone, self.elements) = (zone, elements.into());
         let initial = self.zone.initial_load(self.sub.zeros());
-        self.now = self.respond(&self.at.clone(), &initial);
+        let initial = self.eliminate(initial);
+        self.now = self.respond(&self.at.clone(), initial);
         self.fresh = true;
+        self.pace = None;
         Ok(())
     }
 
@@ -238,24 +221,16 @@ impl<'m> Engine<'m> {
         self.reduced_loads = reduced?;
         self.counts.full_solves += self.reduced_loads.len();
         self.condense_loads()?;
-        self.load_forces.clear();
-        for load in &self.loads {
-            let mut forces = vec![0.0; self.gap.len()];
-            self.sub.eliminate(&mut load.clone(), &mut forces);
-            self.counts.trailing_solves += 1;
-            self.load_forces.push(forces);
-        }
+        self.load_forces = self.loads.iter().map(|l| l.forces.clone()).collect();
         Ok(())
     }
 
     /// What loads at factor 1 do to the zone, after it was chosen.
     fn condense_loads(&mut self) -> Result<()> {
-        let condensed: Result<Vec<_>> = self
-            .reduced_loads
-            .iter()
-            .map(|l| self.sub.condense(l))
-            .collect();
-        self.loads = condensed?;
+        let reduced = self.reduced_loads.iter();
+        let condensed: Result<Vec<_>> = reduced.map(|l| self.sub.condense(l)).collect();
+        let condensed = condensed?.into_iter();
+        self.loads = condensed.map(|load| self.eliminate(load)).collect();
         Ok(())
     }
 
@@ -277,7 +252,7 @@ impl<'m> Engine<'m> {
     pub fn external(&self, point: &LoadPoint) -> Trailing {
         let mut out = self.sub.zeros();
         for (load, &factor) in self.loads.iter().zip(&point.factors) {
-            out.add(factor, load);
+            out.add(factor, &load.load);
         }
         out
     }
@@ -336,23 +311,31 @@ impl<'m> Engine<'m> {
             .fold(0.0, f64::max)
     }
 
-    /// Forces `t` of the tied pairs under initial loads alone.
-    pub fn initial_forces(&mut self, initial: &Trailing) -> Vec<f64> {
-        let mut forces = vec![0.0; self.gap.len()];
-        if initial.largest() > 0.0 {
-            self.sub.eliminate(&mut initial.clone(), &mut forces);
-            self.counts.trailing_solves += 1;
+    /// The first half of the solve with a load.
+    pub fn eliminate(&mut self, load: Trailing) -> EliminatedLoad {
+        let mut out = EliminatedLoad {
+            eliminated: load.clone(),
+            load,
+            forces: vec![0.0; self.gap.len()],
+        };
+        if out.load.largest() > 0.0 {
+            self.sub.eliminate(&mut out.eliminated, &mut out.forces);
+            self.count_half();
         }
-        forces
+        out
     }
 
-    /// Equilibrium for a load point and initial loads with the current statuses (paper 4.2): one trailing solve.
-    pub fn respond(&mut self, point: &LoadPoint, initial: &Trailing) -> Equilibrium {
+    /// Equilibrium for a load point and initial loads with the current statuses (paper 4.2): the second half of a trailing solve.
+    pub fn respond(&mut self, point: &LoadPoint, initial: EliminatedLoad) -> Equilibrium {
         let n = self.gap.len();
-        let mut u = self.external(point);
-        u.add(1.0, initial);
-        let mut q = vec![0.0; n];
-        self.sub.eliminate(&mut u, &mut q);
+        let mut u = initial.eliminated.clone();
+        let mut q = initial.forces.clone();
+        for (load, &factor) in self.loads.iter().zip(&point.factors) {
+            u.add(factor, &load.eliminated);
+            for (q, t) in q.iter_mut().zip(&load.forces) {
+                *q += factor * t;
+            }
+        }
         for k in 0..n {
             q[k] += point.interference * self.gap_forces[1][k] - self.gap_forces[0][k];
         }
@@ -365,27 +348,38 @@ impl<'m> Engine<'m> {
             .map(|(d, g)| d - g)
             .collect();
         self.sub.recover(&mut u, &slip);
-        self.counts.trailing_solves += 1;
+        self.count_half();
         Equilibrium {
-            initial: initial.clone(),
+            initial,
             u,
             gap,
             force,
         }
     }
 
-    /// Response to a load alone, closed pairs staying closed: on entry a load, on return displacements; the changes of
-    /// gap and force go to `gap` and `force`. One trailing solve.
-    pub fn respond_homogeneous(&mut self, v: &mut Trailing, gap: &mut [f64], force: &mut [f64]) {
-        let n = gap.len();
-        let mut q = vec![0.0; n];
-        self.sub.eliminate(v, &mut q);
-        self.tableau.solve(&q, gap, force);
-        for (q, g) in q.iter_mut().zip(gap.iter()) {
-            *q = -g;
-        }
-        self.sub.recover(v, &q);
-        self.counts.trailing_solves += 1;
+    /// Completes a change of state that follows from its initial loads alone, closed pairs staying closed. One trailing solve.
+    pub fn respond_homogeneous(&mut self, change: &mut Equilibrium) {
+        let Equilibrium {
+            initial,
+            u,
+            gap,
+            force,
+        } = change;
+        initial.eliminated.copy_from(&initial.load);
+        self.sub
+            .eliminate(&mut initial.eliminated, &mut initial.forces);
+        self.count_half();
+        self.tableau.solve(&initial.forces, gap, force);
+        u.copy_from(&initial.eliminated);
+        let slip: Vec<f64> = gap.iter().map(|g| -g).collect();
+        self.sub.recover(u, &slip);
+        self.count_half();
+    }
+
+    /// Two halves count as a trailing solve.
+    pub fn count_half(&mut self) {
+        self.half = !self.half;
+        self.counts.trailing_solves += usize::from(self.half);
     }
 
     /// Makes the displacements belong to the current gaps and forces.
@@ -393,7 +387,7 @@ impl<'m> Engine<'m> {
         if !self.fresh {
             let point = self.at.clone();
             let initial = self.now.initial.clone();
-            self.now = self.respond(&point, &initial);
+            self.now = self.respond(&point, initial);
             self.fresh = true;
             // Zero within round-off is zero; what is more than that stays to be seen.
             let gap = self.gap.iter().fold(0.0f64, |m, g| m.max(g.abs()));
@@ -406,6 +400,12 @@ impl<'m> Engine<'m> {
                 }
             }
         }
+    }
+
+    /// The next increment is predicted as if no point flowed.
+    pub fn assume_elastic(&mut self) {
+        self.zone.assume_elastic();
+        self.pace = None;
     }
 
     /// Relative displacement `u_second - u_first` of each pair.
