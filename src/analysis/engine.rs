@@ -7,7 +7,7 @@ use super::zone_choice::zone_freedoms;
 use crate::assembly::System;
 use crate::contact::Tableau;
 use crate::error::{Error, Result};
-use crate::linalg::Backend;
+use crate::linalg::{Backend, ZonePart};
 use crate::model::Model;
 use crate::results::Counts;
 use crate::substructure::{Substructure, Trailing};
@@ -357,22 +357,24 @@ impl<'m> Engine<'m> {
         }
     }
 
-    /// Completes a change of state that follows from its initial loads alone, closed pairs staying closed. One trailing solve.
-    pub fn respond_homogeneous(&mut self, change: &mut Equilibrium) {
-        let Equilibrium {
-            initial,
-            u,
-            gap,
-            force,
-        } = change;
+    /// Completes a change of state that follows from its initial loads alone, closed pairs staying closed; its displacements in a part of
+    /// the zone where only these are asked for. One trailing solve.
+    pub fn respond_homogeneous(&mut self, change: &mut Equilibrium, part: &ZonePart) {
+        let initial = &mut change.initial;
         initial.eliminated.copy_from(&initial.load);
         self.sub
             .eliminate(&mut initial.eliminated, &mut initial.forces);
         self.count_half();
-        self.tableau.solve(&initial.forces, gap, force);
-        u.copy_from(&initial.eliminated);
-        let slip: Vec<f64> = gap.iter().map(|g| -g).collect();
-        self.sub.recover(u, &slip);
+        self.tableau
+            .solve(&initial.forces, &mut change.gap, &mut change.force);
+        self.recover_change(change, part);
+    }
+
+    /// The displacements of a change of state from its other parts: the second half of a trailing solve.
+    pub fn recover_change(&mut self, change: &mut Equilibrium, part: &ZonePart) {
+        change.u.copy_from(&change.initial.eliminated);
+        let slip: Vec<f64> = change.gap.iter().map(|g| -g).collect();
+        self.sub.recover_part(part, &mut change.u, &slip);
         self.count_half();
     }
 

@@ -6,6 +6,7 @@
 
 use super::engine::Engine;
 use super::equilibrium::Equilibrium;
+use crate::linalg::ZonePart;
 use crate::substructure::Trailing;
 
 /// Most iterations of a solve: enough for perfect plasticity near collapse; a solve that needs more has no useful direction.
@@ -16,7 +17,7 @@ impl Engine<'_> {
     pub fn direction(&mut self, initial: Trailing) -> Equilibrium {
         let mut out = Equilibrium::none(&initial, self.now.gap.len());
         out.initial.load = initial;
-        self.respond_homogeneous(&mut out);
+        self.respond_homogeneous(&mut out, &ZonePart::default());
         out
     }
 
@@ -24,14 +25,16 @@ impl Engine<'_> {
     /// the direction are `S du`, what the direction asks the plastic strains to become. `keep = 1` is the tangent, 0 the plain
     /// iteration; in between the condition is at most `1/(1 - keep)`, also where the material has no stiffness left.
     ///
-    /// The search directions carry their gaps and forces along, and the last preconditioned residual `z = S^-1 r` is
-    /// taken as a step of the plain iteration on top, so that no trailing solve but those of the iteration is needed.
+    /// The search directions carry their gaps, forces and eliminated loads along, and the last preconditioned residual `z = S^-1 r` is
+    /// taken as a step of the plain iteration on top: beside the iteration's trailing solves the direction costs half a solve. In the iteration
+    /// the second halves go through the part of the zone that counts.
     pub fn solve_tangent(&mut self, residual: &Trailing, tolerance: f64, keep: f64) -> Equilibrium {
         let mut softened = self.sub.zeros();
+        let part = self.part_that_counts(residual);
         // The residual that is left is the load of z.
         let mut z = Equilibrium::none(residual, self.now.gap.len());
         z.initial.load.copy_from(residual);
-        self.respond_homogeneous(&mut z);
+        self.respond_homogeneous(&mut z, &part);
         let mut total = Equilibrium::none(residual, z.gap.len());
         let mut p = z.clone();
         let mut rz = z.initial.load.dot(&z.u);
@@ -50,12 +53,20 @@ impl Engine<'_> {
             total.add(step, &p);
             z.initial.load.add(-step, &p.initial.load);
             z.initial.load.add(step * keep, &softened);
-            self.respond_homogeneous(&mut z);
+            self.respond_homogeneous(&mut z, &part);
             let next = z.initial.load.dot(&z.u);
             p.turn(next / rz, &z);
             rz = next;
         }
         total.add(1.0, &z);
+        self.recover_change(&mut total, &ZonePart::default());
         total
+    }
+
+    /// Where the displacements of search directions enter a tangent solve: where the material flows and where the residual acts.
+    fn part_that_counts(&self, residual: &Trailing) -> ZonePart {
+        let mut marks: Vec<bool> = residual.zone.iter().map(|r| *r != 0.0).collect();
+        self.zone.mark_active(&mut marks);
+        self.sub.part_of_zone(&marks)
     }
 }
