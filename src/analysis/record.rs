@@ -100,6 +100,7 @@ pub(super) struct EngineRecord {
     counts: Counts,
     half: bool,
     force_scale: f64,
+    condition: f64,
     displacement_scale: f64,
     at: LoadPoint,
     now: EquilibriumRecord,
@@ -136,6 +137,7 @@ impl<'m> Engine<'m> {
             counts: self.counts,
             half: self.half,
             force_scale: self.force_scale,
+            condition: self.condition,
             displacement_scale: self.displacement_scale,
             at: self.at.clone(),
             now: EquilibriumRecord::of(&self.now),
@@ -187,6 +189,7 @@ impl<'m> Engine<'m> {
         engine.counts = record.counts;
         engine.half = record.half;
         engine.force_scale = record.force_scale;
+        engine.condition = record.condition;
         engine.displacement_scale = record.displacement_scale;
         engine.at = record.at.clone();
         engine.fresh = record.fresh;
