@@ -137,6 +137,7 @@ pub struct ZonePart {
     blocks: Vec<bool>,
 }
 
+#[cfg(feature = "cholmod")]
 impl ZonePart {
     fn has(&self, block: usize) -> bool {
         self.blocks.is_empty() || self.blocks[block]
