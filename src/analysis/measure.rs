@@ -312,7 +312,7 @@ impl Engine<'_> {
     pub fn contact_forces(&self) -> Cow<'_, [f64]> {
         let force = &self.now.force;
         let imbalance = self.model.scene.analysis.tolerance * self.force_scale;
-        if self.now.initial.largest() > 0.0 && sum(force) <= imbalance {
+        if self.now.initial.load.largest() > 0.0 && sum(force) <= imbalance {
             return Cow::Owned(vec![0.0; force.len()]);
         }
         Cow::Borrowed(force)
@@ -358,15 +358,14 @@ impl Engine<'_> {
     /// taken away; where a body is held by contact alone (its rigid motion then is free) relative to the pair with the largest
     /// initial gap of the same contact.
     pub fn residual_depth(&mut self) -> f64 {
-        if self.now.initial.largest() == 0.0 || self.now.gap.is_empty() {
+        if self.now.initial.load.largest() == 0.0 || self.now.gap.is_empty() {
             return 0.0;
         }
-        let initial = self.now.initial.clone();
-        let forces = self.initial_forces(&initial);
+        let forces = &self.now.initial.forces;
         let mut unloaded = self.sub.tableau();
         unloaded.reset(&vec![true; forces.len()]);
         let (mut gap, mut force) = (vec![0.0; forces.len()], vec![0.0; forces.len()]);
-        unloaded.solve(&forces, &mut gap, &mut force);
+        unloaded.solve(forces, &mut gap, &mut force);
         let floating = !self.model.floating.bodies.is_empty();
         let deepest = |range: std::ops::Range<usize>| {
             let outermost = range

@@ -148,7 +148,7 @@ impl Run<'_, '_> {
                 let probe = self.engine.point(alpha + 1e-3 * alpha.abs().max(1.0));
                 let saved = (self.engine.at.clone(), self.engine.now.clone());
                 let initial = self.engine.now.initial.clone();
-                self.engine.now = self.engine.respond(&probe, &initial);
+                self.engine.now = self.engine.respond(&probe, initial);
                 self.engine.at = probe;
                 let value = monitor(&mut self.engine);
                 (self.engine.at, self.engine.now) = saved;
