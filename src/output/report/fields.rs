@@ -176,6 +176,11 @@ impl<'a> Gallery<'a> {
             }
         }
         picture.raster.outline(1, ink);
+        for contact in &self.model.contacts {
+            for pairs in self.model.pairs[contact.range.clone()].windows(2) {
+                picture.crack([&pairs[0], &pairs[1]], ink);
+            }
+        }
         let labels = self.units.axes(self.model.kind);
         let drawing = picture.finish([&labels[0], &labels[1]], Some(&bands), |_| Ok(()))?;
         Ok((drawing, own))

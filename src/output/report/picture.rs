@@ -6,6 +6,7 @@ use super::theme::{INK, Scale};
 use super::window::Window;
 use crate::error::Result;
 use crate::mesh::Mesh;
+use crate::model::Pair;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -155,6 +156,34 @@ impl<'a> Picture<'a> {
                 self.raster.triangle(corners, part, |w| {
                     color(w[0] * a + w[1] * b + w[2] * middle)
                 });
+            }
+        }
+    }
+
+    /// Draws the surfaces from one pair of a contact to the next as far as they are less than a pixel apart: whether the middle of a pixel
+    /// lies in a crack thinner than that is chance, and it would show in dashes.
+    pub(super) fn crack(&mut self, pairs: [&Pair; 2], color: u8) {
+        let pixel = self.window.size()[0] / self.raster.width as f64;
+        let apart = pairs.map(|pair| {
+            let (a, b) = (self.node(pair.first), self.node(pair.second));
+            let along = (a[0] - b[0]) * pair.normal[0] + (a[1] - b[1]) * pair.normal[1];
+            along.abs() / pixel
+        });
+        // Shares of the way between which it is thin.
+        let border = (1.0 - apart[0]) / (apart[1] - apart[0]);
+        let [from, to] = match apart.map(|gap| gap < 1.0) {
+            [true, true] => [0.0, 1.0],
+            [true, false] => [0.0, border],
+            [false, true] => [border, 1.0],
+            [false, false] => return,
+        };
+        for ends in [pairs.map(|p| p.first), pairs.map(|p| p.second)] {
+            let [a, b] = ends.map(|node| self.node(node));
+            for sign in self.signs() {
+                let at = |share: f64| {
+                    self.spot([0, 1].map(|d| sign[d] * (a[d] + share * (b[d] - a[d]))))
+                };
+                self.raster.line(at(from), at(to), color);
             }
         }
     }
