@@ -1,7 +1,8 @@
 //! Pictures of a state: von Mises stress, pressure, plastic zone, on the deformed contour.
 
+use super::bands::Bands;
 use super::drawing::Drawing;
-use super::picture::{Bands, Picture};
+use super::picture::Picture;
 use super::theme::Scale;
 use super::units::Units;
 use super::window::Window;
