@@ -62,7 +62,7 @@ impl ConstrainedStructure {
     /// Goes on to `t = end` or to the next change of contact, whichever comes first.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] where no piece was started or `end` lies behind; [`ErrorKind::Unheld`] naming the row where the
+    /// [`crate::ErrorKind::Input`] where no piece was started or `end` lies behind; [`crate::ErrorKind::Unheld`] naming the row where the
     /// load pushes a body away from every contact.
     pub fn step(&mut self, end: f64) -> Result<Event> {
         let Some(way) = &mut self.way else {
