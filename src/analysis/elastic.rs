@@ -37,7 +37,7 @@ impl ElasticPiece {
             .iter()
             .fold(0.0f64, |m, d| m.max(d.abs()));
         let (gap, force) = (engine.now.gap.clone(), engine.now.force.clone());
-        let terms = engine.closed_forces_terms(&start);
+        let terms = engine.closed_forces_size(&start);
         let path = Path::new(&mut engine.tableau, q0, rate, gap, force, gap_scale, terms)
             .map_err(|u| engine.unbounded(u.pair, start.alpha))?;
         engine.counts.contact_changes += path.changes;

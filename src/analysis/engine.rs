@@ -283,35 +283,27 @@ impl<'m> Engine<'m> {
             .collect()
     }
 
+    /// What the force of tied pair `k` is the sum of at a load point without initial loads: `t` of each load, and `-T delta`.
+    fn closed_force_terms(&self, point: &LoadPoint, k: usize) -> impl Iterator<Item = f64> {
+        let loads = self.load_forces.iter().zip(&point.factors);
+        let of_gaps = [
+            -self.gap_forces[0][k],
+            point.interference * self.gap_forces[1][k],
+        ];
+        loads.map(move |(t, factor)| factor * t[k]).chain(of_gaps)
+    }
+
     /// `q` of the contact problem for a load point without initial loads: `t - T delta`.
     pub fn closed_forces(&self, point: &LoadPoint) -> Vec<f64> {
         (0..self.gap.len())
-            .map(|k| {
-                let loads: f64 = self
-                    .load_forces
-                    .iter()
-                    .zip(&point.factors)
-                    .map(|(t, f)| f * t[k])
-                    .sum();
-                loads - self.gap_forces[0][k] + point.interference * self.gap_forces[1][k]
-            })
+            .map(|k| self.closed_force_terms(point, k).sum())
             .collect()
     }
 
     /// The largest sum of absolute values of the terms of [`Engine::closed_forces`]: what its round-off is a share of.
-    pub fn closed_forces_terms(&self, point: &LoadPoint) -> f64 {
+    pub fn closed_forces_size(&self, point: &LoadPoint) -> f64 {
         (0..self.gap.len())
-            .map(|k| {
-                let loads: f64 = self
-                    .load_forces
-                    .iter()
-                    .zip(&point.factors)
-                    .map(|(t, f)| (f * t[k]).abs())
-                    .sum();
-                loads
-                    + self.gap_forces[0][k].abs()
-                    + (point.interference * self.gap_forces[1][k]).abs()
-            })
+            .map(|k| self.closed_force_terms(point, k).map(f64::abs).sum())
             .fold(0.0, f64::max)
     }
 
