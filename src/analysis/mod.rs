@@ -17,6 +17,7 @@
 mod acceleration;
 mod aim;
 mod check;
+mod contact_edge;
 mod drive;
 mod elastic;
 mod engine;
