@@ -49,7 +49,7 @@ pub struct Results {
     /// Worst figures over all states.
     pub quality: Quality,
     /// Lower bound of the condition of the factored matrix, rows and columns scaled to a unit diagonal: the largest loss of a pivot to
-    /// cancellation. Relative errors of displacements may be this times round-off.
+    /// cancellation, of all the run's factorisations. Relative errors of displacements may be this times round-off.
     pub condition: f64,
     /// Estimated condition of the same matrix, usually right to a factor of three: where the scene asks for it (`analysis.condition`), a state is
     /// inaccurate, or the lower bound is beyond 1e10. It takes about six full solves.

@@ -102,6 +102,9 @@ pub struct Engine<'m> {
     pub counts: Counts,
     /// Largest nodal force seen (applied or contact): what residuals are measured against.
     pub force_scale: f64,
+    /// Largest lower bound of the condition among the factorisations so far ([`Substructure::condition`]): an inaccurate one is not forgotten
+    /// when another zone asks for the next.
+    pub condition: f64,
     /// Largest displacement seen (of a state, or of the nodes of a pair against each other).
     pub displacement_scale: f64,
     /// Current load point.
@@ -137,10 +140,12 @@ impl<'m> Engine<'m> {
         let mut sub = Substructure::new(model, system, zone_freedoms(model, within), backend)?;
         let mut factored: Arc<[usize]> = within.into();
         let mut factorizations = 1;
+        let mut condition = sub.condition();
         if elements != within {
             let zone = zone_freedoms(model, &elements);
             if sub.set_zone(model, system, zone, backend)? {
                 factorizations += 1;
+                condition = sub.condition().max(condition);
                 factored = elements.as_slice().into();
             }
         }
@@ -165,6 +170,7 @@ impl<'m> Engine<'m> {
                 ..Counts::default()
             },
             force_scale: 0.0,
+            condition,
             displacement_scale: 0.0,
             at: LoadPoint {
                 alpha: 0.0,
@@ -207,6 +213,7 @@ impl<'m> Engine<'m> {
             .set_zone(self.model, self.system, freedoms, self.backend)?
         {
             self.counts.factorizations += 1;
+            self.condition = self.sub.condition().max(self.condition);
             self.factored = elements.as_slice().into();
             let open = self.tableau.open().to_vec();
             self.tableau = self.sub.tableau();

@@ -403,7 +403,7 @@ impl<'m, 'o> Run<'m, 'o> {
         };
         results.counts = self.engine.counts;
         results.factor = self.engine.sub.cost();
-        results.condition = self.engine.sub.condition();
+        results.condition = self.engine.condition;
         let tolerances = quality::tolerances(model);
         let states = results.states.iter().map(|s| (s.name.as_str(), s.quality));
         let judged: Vec<(&str, Quality)> =

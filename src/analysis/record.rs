@@ -70,6 +70,7 @@ pub(super) struct EngineRecord {
     unit: f64,
     counts: Counts,
     force_scale: f64,
+    condition: f64,
     displacement_scale: f64,
     at: LoadPoint,
     now: EquilibriumRecord,
@@ -104,6 +105,7 @@ impl<'m> Engine<'m> {
             unit: self.unit,
             counts: self.counts,
             force_scale: self.force_scale,
+            condition: self.condition,
             displacement_scale: self.displacement_scale,
             at: self.at.clone(),
             now: EquilibriumRecord::of(&self.now),
@@ -149,6 +151,7 @@ impl<'m> Engine<'m> {
         engine.unit = record.unit;
         engine.counts = record.counts;
         engine.force_scale = record.force_scale;
+        engine.condition = record.condition;
         engine.displacement_scale = record.displacement_scale;
         engine.at = record.at.clone();
         engine.fresh = record.fresh;

@@ -155,3 +155,30 @@ fn a_flipped_status_is_caught() {
         );
     }
 }
+
+/// A run keeps the worst condition of all its factorisations, not the last one's, and a run that goes on from a checkpoint knows it too.
+#[test]
+fn the_condition_of_an_earlier_factorisation_is_not_forgotten() {
+    let (model, system) = model();
+    let backend = Backend::default();
+    let elements = [0, model.mesh.n_elements() - 1];
+    let bound = |within: usize| {
+        let engine = Engine::new(&model, &system, backend, &[within], vec![within], &[false]);
+        engine.expect("engine").sub.condition()
+    };
+    // Which freedoms come last in the factor is all that differs: so do the pivots.
+    let mut ordered = elements.map(|element| (bound(element), element));
+    ordered.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let [(worst, first), (least, last)] = ordered;
+    assert!(worst > least, "{worst} {least}");
+    let mut engine =
+        Engine::new(&model, &system, backend, &[first], vec![first], &[false]).expect("engine");
+    assert_eq!(engine.condition, worst);
+    engine.set_zone(vec![last], &[false]).expect("zone");
+    assert_eq!(engine.counts.factorizations, 2);
+    assert_eq!((engine.sub.condition(), engine.condition), (least, worst));
+    let record = engine.record(&[false], engine.fingerprint());
+    let (resumed, same) = Engine::recall(&model, &system, backend, &record).expect("resumed");
+    assert!(same);
+    assert_eq!((resumed.sub.condition(), resumed.condition), (least, worst));
+}
