@@ -1,9 +1,11 @@
 //! What `accuracy = x` costs beside the cheapest setting that a user could have picked by hand, and graded meshes beside uniform ones:
 //! in floating point operations, which no busy machine disturbs.
 //!
-//! Not every demand keeps to twice the cheapest. The hand knows the true error and needs one run; the program states twice an estimate and
-//! needs a coarser run to make it. Where a coarse mesh happens to lie just within the demand (Hertz line at 1 %: 0.6 %) or an estimate
-//! scatters (the half width in the disc's hole), that is several times as much. The bounds hold what was measured, with a third to spare.
+//! The cheapest is that of the uniform meshes of the study from which on all are as accurate; the graded ones, which no hand picks, are told
+//! beside it, and so is the time. Nine of the sixteen demands keep to twice the cheapest, four take up to four times as much. The hand knows the true error and needs one run; the program states 1.5 times an estimate and needs two
+//! coarser runs to make it. Beyond that lie the disc at 1 and 0.3 %, whose half width scatters by a tenth of an element, so that only a
+//! mesh as fine as that is proven to keep them (9 and 44 times; the hand knows that 0.7 and 0.2 % came out by luck), and the point at 0.3 %,
+//! whose pressure on the axis has no clear order (7 times). The bounds hold what was measured, with a third to spare.
 
 use crate::running;
 use brinell::accuracy::{Extent, Knob, Meter, Plan, Study, StudyRun, reach, study};
@@ -50,7 +52,7 @@ fn cases() -> Vec<Case> {
                 "mesh.cylinder_on_half_plane.far_size=20000.0",
             ),
             quantities: CONTACT,
-            demands: &[(0.1, 2.0), (0.03, 2.0), (0.01, 10.0), (0.003, 6.0)],
+            demands: &[(0.1, 2.0), (0.03, 2.0), (0.01, 2.0), (0.003, 3.0)],
             levels: 5,
             graded: 0.75,
         },
@@ -62,7 +64,7 @@ fn cases() -> Vec<Case> {
                 "mesh.cylinder_on_half_plane.far_size=2000.0",
             ),
             quantities: CONTACT,
-            demands: &[(0.1, 2.7), (0.03, 5.3), (0.01, 2.0), (0.003, 2.0)],
+            demands: &[(0.1, 2.0), (0.03, 3.7), (0.01, 2.0), (0.003, 10.0)],
             levels: 6,
             graded: 0.4,
         },
@@ -77,7 +79,7 @@ fn cases() -> Vec<Case> {
                 ],
             ),
             quantities: &["yield.load", "yield.half_width"],
-            demands: &[(0.1, 12.0), (0.03, 83.0), (0.01, 2.0), (0.003, 2.0)],
+            demands: &[(0.1, 2.0), (0.03, 5.3), (0.01, 12.5), (0.003, 59.0)],
             levels: 5,
             graded: 0.75,
         },
@@ -85,7 +87,7 @@ fn cases() -> Vec<Case> {
             name: "thick cylinder",
             scene: running::load("thick_cylinder", &[yielding]),
             quantities: &["yield.alpha"],
-            demands: &[(0.1, 2.0), (0.03, 2.0), (0.01, 3.3), (0.003, 5.7)],
+            demands: &[(0.1, 2.0), (0.03, 2.0), (0.01, 2.0), (0.003, 4.7)],
             levels: 5,
             graded: 1.3,
         },
@@ -173,24 +175,22 @@ fn a_demand_costs_little_more_than_the_cheapest_setting_picked_by_hand() {
                 .filter(|r| case.quantities.contains(&r.quantity.as_str()))
                 .map(|r| (r.ratio - 1.0).abs())
                 .fold(0.0, f64::max);
-            let hand = cheapest(&uniform, accuracy);
-            let by_hand = hand.map_or(f64::NAN, |h| h.1);
-            let in_time = seconds / hand.map_or(f64::NAN, |h| h.2.usage.undisturbed_seconds());
+            let (_, by_hand, run) = cheapest(&uniform, accuracy).unwrap();
+            let in_time = seconds / run.usage.undisturbed_seconds();
             let graded_by_hand = cheapest(&graded, accuracy).map_or(f64::NAN, |h| h.1);
             let ratio = demand.work / by_hand;
             println!(
-                "  PRICE {} {accuracy}: ratio {ratio:.2}, of graded {:.2}, in time {in_time:.2} of {seconds:.3}",
-                case.name,
-                demand.work / graded_by_hand
-            );
-            println!(
-                "  {accuracy}: stated {:.2e}, true {actual:.2e}, {:.2e} operations, {ratio:.2} of {by_hand:.2e}\n  {:#?}",
-                demand.stated, demand.work, demand.choices
+                "  {accuracy}: stated {:.2e}, true {actual:.2e}, {:.2e} operations, {ratio:.2} of {by_hand:.2e}, {:.2} of the graded \
+                 {graded_by_hand:.2e}, {in_time:.2} in time, {seconds:.3} s\n  {:#?}",
+                demand.stated,
+                demand.work,
+                demand.work / graded_by_hand,
+                demand.choices
             );
             if !(demand.reached && actual <= accuracy) {
                 missed.push(format!("{} {accuracy}: true {actual}", case.name));
             }
-            if !(ratio <= most) {
+            if ratio > most {
                 missed.push(format!("{} {accuracy}: {ratio}", case.name));
             }
             ratios.push(ratio);
@@ -208,6 +208,6 @@ fn a_demand_costs_little_more_than_the_cheapest_setting_picked_by_hand() {
         }
     }
     let kept = ratios.iter().filter(|r| **r <= 2.0).count();
-    assert!(missed.is_empty(), "{missed:#?}");
     println!("{kept} of {} cost at most twice the cheapest", ratios.len());
+    assert!(missed.is_empty(), "{missed:#?}");
 }
