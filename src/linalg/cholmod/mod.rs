@@ -25,6 +25,7 @@ mod openmp;
 mod ordering;
 mod panel;
 mod sparse;
+mod supervariables;
 #[cfg(test)]
 mod tests;
 mod trailing;

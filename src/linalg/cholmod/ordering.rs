@@ -5,10 +5,11 @@
 //! | `CAMD` | approximate minimum degree, the groups as constraints | plane meshes |
 //! | `nested dissection + CAMD` | separators of the interior as further constraints | solid meshes |
 //!
-//! The candidate with the fewest floating point operations is kept.
+//! The candidate with the fewest floating point operations is kept. Both order supervariables (`supervariables`).
 
 use super::common::Common;
 use super::sparse::SymmetricView;
+use super::supervariables::Supervariables;
 use crate::error::Result;
 use crate::linalg::Partition;
 use std::ptr::null_mut;
@@ -48,15 +49,21 @@ impl Groups {
         for &freedom in &partition.contact {
             member[freedom] = 2;
         }
-        let trailing = partition.zone.len() + partition.contact.len();
-        Groups {
-            member,
-            sizes: [
-                partition.n - trailing,
-                partition.zone.len(),
-                partition.contact.len(),
-            ],
+        Groups::from_members(member)
+    }
+
+    /// The groups of freedoms, each given as the number of its group.
+    pub(super) fn from_members(member: Vec<u8>) -> Self {
+        let mut sizes = [0; 3];
+        for &group in &member {
+            sizes[usize::from(group)] += 1;
         }
+        Groups { member, sizes }
+    }
+
+    /// The number of a freedom's group.
+    pub(super) fn of(&self, freedom: usize) -> u8 {
+        self.member[freedom]
     }
 
     /// First column of each group, and the number of freedoms.
@@ -117,20 +124,24 @@ pub(super) fn choose(
     groups: &Groups,
     method: Method,
 ) -> Result<Ordering> {
-    if method == Method::Dissection {
-        return dissection(common, matrix, groups);
-    }
-    let degree = minimum_degree(common, matrix, groups)?;
+    let compressed = Supervariables::find(matrix, groups);
+    let (pattern, groups) = (compressed.pattern(), compressed.groups());
+    // As many operations has the whole matrix for one of the pattern.
+    let scale = compressed.size().powi(3);
     let entries = matrix.rows().len() as f64;
-    if method == Method::MinimumDegree || degree.flops <= TRY_DISSECTION_ABOVE * entries {
-        return Ok(degree);
+    let dear = |order: &Ordering| scale * order.flops > TRY_DISSECTION_ABOVE * entries;
+    let mut order = match method {
+        Method::Dissection => dissection(common, &pattern, groups)?,
+        _ => minimum_degree(common, &pattern, groups)?,
+    };
+    if method == Method::Automatic && dear(&order) {
+        let other = dissection(common, &pattern, groups)?;
+        if other.flops < order.flops {
+            order = other;
+        }
     }
-    let dissection = dissection(common, matrix, groups)?;
-    Ok(if dissection.flops < degree.flops {
-        dissection
-    } else {
-        degree
-    })
+    order.permutation = compressed.expand(&order.permutation);
+    Ok(order)
 }
 
 /// Puts the groups of an order together, counts its operations, and postorders it.
