@@ -30,7 +30,7 @@ const RISE: f64 = 0.25;
 /// What a rising growth saves far away is spent near: this power of the growth there. Measured on the contact of a line, a mesh so graded
 /// has the errors of the uniform one, from 6 to 16 elements over the contact, at half the operations.
 const NEAR: f64 = 2.0 / 3.0;
-/// The same under a point, where stresses decay with `1/r^2`: twice that, for a third of the operations at the same error of the pressure.
+/// The same under a point, where stresses decay with `1/r^2`: twice that, for half of the operations at the same error of the pressure.
 const NEAR_POINT: f64 = 2.0 * NEAR;
 /// The far part of the pilot is this much coarser in the run that tells its share.
 const COARSER: f64 = 1.5;

@@ -21,6 +21,7 @@ const GAUSS: [(f64, f64); 4] = [
 const SINGULAR: f64 = 1e-12;
 /// Halvings of an element in the search for the edge: to round-off.
 const HALVINGS: usize = 50;
+
 /// A pair before the last ones of a contact.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct EdgePoint {
@@ -111,5 +112,63 @@ impl Tail<'_> {
             (m11 * r0 - m01 * r1) / determinant,
             (m00 * r1 - m01 * r0) / determinant / edge_squared,
         ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Average of a pressure over the elements of size 1 beside a node, weighted with its shape function.
+    fn nodal(pressure: &dyn Fn(f64) -> f64, node: f64) -> f64 {
+        const N: usize = 4000;
+        let points = (0..N).map(|i| 2.0 * (i as f64 + 0.5) / N as f64 - 1.0);
+        let sum: f64 = points.map(|x| (1.0 - x.abs()) * pressure(node + x)).sum();
+        sum * 2.0 / N as f64
+    }
+
+    #[test]
+    fn the_edge_is_found_wherever_in_its_element_it_lies() {
+        for bend in [0.0, -0.1, -0.3] {
+            for edge in [8.2, 8.4, 8.6, 8.8, 9.0] {
+                let pressure = |s: f64| {
+                    let x = (s / edge) * (s / edge);
+                    ((1.0 - x) * (1.0 + bend * x)).max(0.0).sqrt()
+                };
+                let points = [7.0, 6.0, 5.0, 4.0].map(|s| EdgePoint {
+                    squared: s * s,
+                    pressure_squared: nodal(&pressure, s).powi(2),
+                    area: 1.0,
+                });
+                let tail = Tail {
+                    points: &points,
+                    from: 8.0,
+                    near: [(8.0, 1.0), (9.0, 1.0)],
+                    length: 1.0,
+                };
+                let force = nodal(&pressure, 8.0) + nodal(&pressure, 9.0);
+                let found = tail.edge(force, [8.5, 10.0].map(|e| e - 0.5));
+                // The averages before the last pairs fall short of the pressures, by a hundredth of an element of the edge.
+                assert!((found - edge).abs() < 0.015, "{bend} {edge}: {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn one_point_makes_it_hertzian() {
+        let pressure_squared = |s: f64| 9.0 - s * s;
+        let points = [EdgePoint {
+            squared: 1.0,
+            pressure_squared: pressure_squared(1.0),
+            area: 1.0,
+        }];
+        let tail = Tail {
+            points: &points,
+            from: 2.0,
+            near: [(2.0, 1.0), (3.0, 1.0)],
+            length: 1.0,
+        };
+        let [c0, c1] = tail.constants(9.0);
+        assert!((c0 - 1.0).abs() < 1e-15 && c1 == 0.0);
     }
 }
