@@ -14,10 +14,10 @@
 //! reaches the demand. A mesh from a file is subdivided, once, twice, ..., and judged by the file and its subdivisions before. Memory and time of a mesh are predicted from the symbolic factorisation before it is run: what
 //! does not fit is refused with its price.
 
-use super::estimate::{Extent, SAFETY, estimate_on};
+use super::estimate::{Extent, SAFETY_OF_LAW, estimate_on};
 use super::grading::{balanced, risen};
 use super::knobs::resolution;
-use super::ladder::{Ladder, PILOT, once_subdivided, spacings};
+use super::ladder::{Ladder, foot, once_subdivided, spacings};
 use super::meter::{Pace, forecast, work};
 use super::pilot::pilot;
 use super::quantities::quantities;
@@ -43,11 +43,13 @@ const LOOSEST: f64 = 1e-6;
 const PATH_SHARE: f64 = 1.0 / 3.0;
 /// A mesh is at most this many times finer than the one it is aimed from: beyond, an observed order is a guess. Each
 /// is judged by the two before it, which cost nothing again, so that all together cost about 1.5 times the last.
-const STRIDE: f64 = 1.6;
+const STRIDE: f64 = 1.9;
 /// And at least this many times: one that is hardly finer says nothing new.
-const LEAST_STEP: f64 = 1.2;
+const LEAST_STEP: f64 = 1.25;
+/// The same from the foot, whose error is stated from one other mesh: its mesh for comparison must tell something there too.
+const FIRST_STEP: f64 = 1.4;
 /// What is aimed at, of what is demanded: the error of a contact edge scatters.
-const AIM: f64 = 0.8;
+const AIM: f64 = 0.85;
 /// Runs before the demand is given up.
 const ROUNDS: usize = 12;
 /// Rounds from which on the prediction of the mesh that will do is believed.
@@ -78,7 +80,8 @@ pub fn reach(
     let Some(demand) = scene.accuracy.map(|a| a.relative()) else {
         return Err(Error::input("the scene demands no accuracy"));
     };
-    let first = once_subdivided(scene).or_else(|| spacings(scene).map(|count| PILOT / count));
+    let first =
+        once_subdivided(scene).or_else(|| spacings(scene).map(|count| foot(scene, extent) / count));
     let Some(mut factor) = first else {
         return Err(Error::input(
             "`accuracy`: the mesh of this scene cannot be refined; take the key out",
@@ -162,7 +165,7 @@ pub fn reach(
             && let Some(pilot) = pilot(&level, backend, extent, &results, &found, observer)
         {
             spent += pilot.work;
-            let aim = AIM * outcome.mesh_share * demand / SAFETY;
+            let aim = AIM * outcome.mesh_share * demand / SAFETY_OF_LAW;
             if let Some((shaped, needed)) = balanced(&level, &pilot.shares(aim), STRIDE) {
                 let shape = resolution(&shaped, 1.0);
                 if shape != settings {
@@ -243,12 +246,21 @@ impl Outcome {
             }
             out.path = out.path.max(errors.path.unwrap_or(0.0) / quantity.scale);
             out.algebraic = out.algebraic.max(errors.algebraic / quantity.scale);
-            let mesh = SAFETY * errors.discretisation.unwrap_or(0.0) / quantity.scale;
+            let mesh = relative - (errors.path.unwrap_or(0.0) + errors.algebraic) / quantity.scale;
             let share = match errors.path {
                 Some(path) if path > 0.0 => 1.0 - PATH_SHARE,
                 _ => 1.0,
             };
             out.mesh_share = out.mesh_share.min(share);
+            // One coarser mesh states with the lowest order, which is not that with which finer ones will be judged.
+            let mesh = match found.companions.as_slice() {
+                [other] => {
+                    let r = other.ratio;
+                    let judged = SAFETY_OF_LAW * errors.discretisation.unwrap_or(0.0);
+                    judged * (r - 1.0) / (r.powf(highest) - 1.0) / quantity.scale
+                }
+                _ => mesh,
+            };
             let needed = mesh / (AIM * share * demand);
             if relative > demand {
                 let least = errors.discretisation.unwrap_or(0.0) / quantity.scale / demand;
@@ -260,7 +272,11 @@ impl Outcome {
         }
         // A mesh that is not finer says nothing new.
         if out.stated > demand {
-            out.refinement = out.refinement.max(LEAST_STEP);
+            let least = match found.companions.len() {
+                0 | 1 => FIRST_STEP,
+                _ => LEAST_STEP,
+            };
+            out.refinement = out.refinement.max(least);
         }
         out
     }

@@ -12,6 +12,10 @@ use crate::scene::Scene;
 
 /// Node spacings over what governs in the lowest run that is judged, by one rung below it.
 pub(super) const PILOT: f64 = 1.4 * FEWEST;
+/// The same up to first yield of a contact, where nothing flows and the edge is known to a share of an element.
+const LOW: f64 = 5.0;
+/// Node spacings over a contact below which its pressure and edge cannot be read off (those of the disc in a plate rounded).
+const LOWEST: f64 = 3.9;
 /// From so many spacings on rungs far apart tell more than near ones, and with less than so many one rung has to do: a contact edge
 /// cannot be read off fewer than [`FEWEST`].
 const FINE: f64 = 13.0;
@@ -22,6 +26,8 @@ const SUBDIVISIONS_BELOW: [i32; 2] = [1, 2];
 const LEAST_CHANGE: f64 = 1.1;
 /// A rung that was run already serves where its elements are so many times larger.
 const REUSED: [f64; 2] = [1.25, 3.0];
+/// The same from [`FINE`] spacings on.
+const REUSED_FAR: [f64; 2] = [1.5, 3.0];
 /// Growths that agree to so many digits make one mesh: they come by different ways.
 const DIGITS: f64 = 1e9;
 
@@ -72,10 +78,16 @@ impl Ladder {
         let Some(count) = spacings(scene) else {
             return Vec::new();
         };
+        let fewest = if scene.contact.is_empty() {
+            FEWEST
+        } else {
+            LOWEST
+        };
+        let [near, far] = if count >= FINE { REUSED_FAR } else { REUSED };
         let known = self.finished.iter().filter_map(|(other, _)| {
             let factor = spacings(other)? / count;
             let level = refined(scene, factor)?;
-            let serves = (REUSED[0]..=REUSED[1]).contains(&level.ratio) && factor * count >= FEWEST;
+            let serves = (near..=far).contains(&level.ratio) && factor * count >= fewest;
             (serves && key(&level.scene) == key(other)).then_some(level)
         });
         let mut known: Vec<Level> = known.collect();
@@ -83,7 +95,10 @@ impl Ladder {
         let (most, factors) = match count {
             n if n >= FINE => (2, [1.0 / 2.0, 3.0 / 8.0, 2.0 / 3.0, 1.0 / 4.0]),
             n if n >= COARSE => (2, [2.0 / 3.0, 5.0 / 9.0, 1.0 / 2.0, 3.0 / 4.0]),
-            _ => (1, [6.0 / 7.0, 2.0 / 3.0, 1.0 / 2.0, 1.0 / 3.0]),
+            _ => (
+                known.len().clamp(1, 2),
+                [6.0 / 7.0, 2.0 / 3.0, 1.0 / 2.0, 1.0 / 3.0],
+            ),
         };
         let mut out: Vec<Level> = Vec::new();
         let others = factors.into_iter().filter_map(|f| refined(scene, f));
@@ -108,6 +123,14 @@ impl Ladder {
 pub(super) fn once_subdivided(scene: &Scene) -> Option<f64> {
     scene.mesh.file.as_ref()?;
     Some(2.0 * 0.5f64.powi(scene.mesh.subdivisions.try_into().ok()?))
+}
+
+/// Node spacings over what governs in the lowest run of a scene that is judged.
+pub(super) fn foot(scene: &Scene, extent: Extent) -> f64 {
+    match extent {
+        Extent::Yield if !scene.contact.is_empty() => LOW,
+        _ => PILOT,
+    }
 }
 
 /// Node spacings over what governs the result.

@@ -20,7 +20,7 @@
 //!   the quantity itself: contact edges, yielding and the way there are in it. The energy norm of the recovered
 //!   stress error ([`crate::results::State::energy_error`], per element in the VTU files) says *where* the mesh is too coarse; it
 //!   stands in as a rough figure where a mesh from a file is too large to be subdivided in passing.
-//!   The stated error takes the estimate [`SAFETY`] times.
+//!   The stated error takes the estimate [`SAFETY`] times, [`SAFETY_OF_LAW`] times where three meshes follow a power law.
 //! - **path**: the coarsest of these meshes is run with twice the increments, and with other tolerances of the plastic iteration
 //!   and of contact events (a mesh from a file without such companions with half the increments); see `path`.
 //! - **algebraic**: backward error, equilibrium and complementarity of the state, relative to the largest size of the quantity.
@@ -61,7 +61,7 @@ mod study;
 mod verdict;
 
 pub use demand::{Reached, reach};
-pub use estimate::{Extent, SAFETY, estimate};
+pub use estimate::{Extent, SAFETY, SAFETY_OF_LAW, estimate};
 pub use extrapolation::{Extrapolation, extrapolate};
 pub use knobs::{Knob, Setting, settings};
 pub use meter::{Forecast, Meter, Pace, PhaseUsage, Usage, available_memory, forecast, work};

@@ -11,12 +11,13 @@
 //! | `program`, `targets`, `drive`, `stepping` | from target to target, loading and unloading | 5.1, 5.2 |
 //! | `keeper`, `resume`, `place`, `record`, `saved`, `packed` | checkpoints, and going on from them | |
 //! | `aim` | how much of the way to a target lies behind | |
-//! | `measure`, `state`, `quality` | pressure, half width, dent, quality of a state | 5 |
+//! | `measure`, `contact_edge`, `state`, `quality` | pressure, half width, dent, quality of a state | 5 |
 //! | `indicator` | discretisation error of the stresses, element by element | |
 
 mod acceleration;
 mod aim;
 mod check;
+mod contact_edge;
 mod drive;
 mod elastic;
 mod engine;

@@ -30,9 +30,6 @@ pub struct Pair {
     pub interference: f64,
     /// Area that belongs to the pair: integral of the node's shape function over the second surface.
     pub area: f64,
-    /// Mean squared distance from the node over the area, weighted with the shape function: the nodal pressure is the
-    /// average of the pressure with these weights.
-    pub spread: f64,
     /// Distance along the second surface from its begin.
     pub arc: f64,
 }
@@ -176,7 +173,7 @@ fn resolve_contact(
         match partners[j] {
             Some(partner) if !taken[partner.first] => {
                 taken[partner.first] = true;
-                let area = areas.get(&node).copied().unwrap_or([0.0; 2]);
+                let area = areas.get(&node).copied().unwrap_or(0.0);
                 let y = mesh.point(first_nodes[partner.first]);
                 let geometric = dot([y[0] - x[0], y[1] - x[1]], partner.normal);
                 pairs.push(Pair {
@@ -186,12 +183,7 @@ fn resolve_contact(
                     normal: partner.normal,
                     gap: partner.gap.unwrap_or(geometric),
                     interference: contact.interference,
-                    area: area[0],
-                    spread: if area[0] != 0.0 {
-                        area[1] / area[0]
-                    } else {
-                        0.0
-                    },
+                    area,
                     arc,
                 });
             }
@@ -279,19 +271,15 @@ fn take_axis_pair(
     None
 }
 
-/// Integrals of each node's shape function over a surface, plain and times the squared distance from the node.
-fn nodal_areas(scene: &Scene, mesh: &Mesh, surface: &Surface) -> BTreeMap<usize, [f64; 2]> {
-    let mut areas: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+/// Integrals of each node's shape function over a surface.
+fn nodal_areas(scene: &Scene, mesh: &Mesh, surface: &Surface) -> BTreeMap<usize, f64> {
+    let mut areas: BTreeMap<usize, f64> = BTreeMap::new();
     for &facet in &surface.facets {
         let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
         let x: Vec<[f64; 2]> = nodes.iter().map(|&n| mesh.point(n)).collect();
         for point in facet_points(scene.kind, &x) {
-            for (i, &node) in nodes.iter().enumerate() {
-                let d = [point.position[0] - x[i][0], point.position[1] - x[i][1]];
-                let share = point.weight * point.values[i];
-                let sums = areas.entry(node).or_insert([0.0; 2]);
-                sums[0] += share;
-                sums[1] += share * dot(d, d);
+            for (&node, value) in nodes.iter().zip(&point.values) {
+                *areas.entry(node).or_default() += point.weight * value;
             }
         }
     }

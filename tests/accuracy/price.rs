@@ -1,12 +1,14 @@
 //! What `accuracy = x` costs beside the cheapest setting that a user could have picked by hand, and graded meshes beside uniform ones:
 //! in floating point operations, which no busy machine disturbs.
 //!
-//! Not every demand keeps to twice the cheapest. The hand knows the true error and needs one run; the program states twice an estimate and
-//! needs a coarser run to make it. Where a coarse mesh happens to lie just within the demand (Hertz line at 1 %: 0.6 %) or an estimate
-//! scatters (the half width in the disc's hole), that is several times as much. The bounds hold what was measured, with a third to spare.
+//! The cheapest is that of the uniform meshes of the study from which on all are as accurate; the graded ones, which no hand picks, are told
+//! beside it, and so is the time. Nine of the sixteen demands keep to twice the cheapest, four take up to four times as much. The hand knows the true error and needs one run; the program states 1.5 times an estimate and needs two
+//! coarser runs to make it. Beyond that lie the disc at 1 and 0.3 %, whose half width scatters by a tenth of an element, so that only a
+//! mesh as fine as that is proven to keep them (9 and 44 times; the hand knows that 0.7 and 0.2 % came out by luck), and the point at 0.3 %,
+//! whose pressure on the axis has no clear order (7 times). The bounds hold what was measured, with a third to spare.
 
 use crate::running;
-use brinell::accuracy::{Extent, Knob, Plan, Study, StudyRun, reach, study};
+use brinell::accuracy::{Extent, Knob, Meter, Plan, Study, StudyRun, reach, study};
 use brinell::linalg::Backend;
 use brinell::progress::Silent;
 use brinell::scene::{AccuracyDemand, Scene};
@@ -18,6 +20,8 @@ struct Case {
     quantities: &'static [&'static str],
     /// Accuracies, and what they may cost over the cheapest uniform mesh that is as accurate.
     demands: &'static [(f64, f64)],
+    /// Meshes in a series.
+    levels: usize,
     /// What graded meshes may cost over uniform ones of the same error.
     graded: f64,
 }
@@ -26,14 +30,15 @@ const CONTACT: &[&str] = &["yield.load", "yield.max_pressure", "yield.half_width
 
 fn cases() -> Vec<Case> {
     let yielding = "program.targets=[{ yield = true }]";
-    let contact = |name: &str, far: &str| {
+    let contact = |name: &str, resolution: usize, far: &str| {
+        let growth = 1.2048f64.powf(12.0 / resolution as f64);
         running::load(
             name,
             &[
                 yielding,
                 "materials.steel.yield_stress=50.0",
-                "mesh.cylinder_on_half_plane.resolution=12",
-                "mesh.cylinder_on_half_plane.growth=1.2048",
+                &format!("mesh.cylinder_on_half_plane.resolution={resolution}"),
+                &format!("mesh.cylinder_on_half_plane.growth={growth}"),
                 far,
             ],
         )
@@ -43,20 +48,24 @@ fn cases() -> Vec<Case> {
             name: "Hertz line",
             scene: contact(
                 "cylinder_on_half_plane",
+                12,
                 "mesh.cylinder_on_half_plane.far_size=20000.0",
             ),
             quantities: CONTACT,
-            demands: &[(0.1, 2.0), (0.03, 2.0), (0.01, 10.0), (0.003, 6.0)],
+            demands: &[(0.1, 2.0), (0.03, 2.0), (0.01, 2.0), (0.003, 3.0)],
+            levels: 5,
             graded: 0.75,
         },
         Case {
             name: "Hertz point",
             scene: contact(
                 "ball_on_half_space",
+                17,
                 "mesh.cylinder_on_half_plane.far_size=2000.0",
             ),
             quantities: CONTACT,
-            demands: &[(0.1, 2.7), (0.03, 5.3), (0.01, 2.0)],
+            demands: &[(0.1, 2.0), (0.03, 3.7), (0.01, 2.0), (0.003, 10.0)],
+            levels: 6,
             graded: 0.4,
         },
         Case {
@@ -70,14 +79,16 @@ fn cases() -> Vec<Case> {
                 ],
             ),
             quantities: &["yield.load", "yield.half_width"],
-            demands: &[(0.1, 12.0), (0.03, 83.0), (0.01, 2.0)],
+            demands: &[(0.1, 2.0), (0.03, 5.3), (0.01, 12.5), (0.003, 59.0)],
+            levels: 5,
             graded: 0.75,
         },
         Case {
             name: "thick cylinder",
             scene: running::load("thick_cylinder", &[yielding]),
             quantities: &["yield.alpha"],
-            demands: &[(0.1, 2.0), (0.03, 2.0), (0.01, 3.3), (0.003, 5.7)],
+            demands: &[(0.1, 2.0), (0.03, 2.0), (0.01, 2.0), (0.003, 4.7)],
+            levels: 5,
             graded: 1.3,
         },
     ]
@@ -109,9 +120,12 @@ fn series<'s>(found: &'s Study, case: &Case, knob: Knob) -> Vec<(f64, f64, &'s S
 }
 
 /// The coarsest run from which on all are as accurate: not by chance.
-fn cheapest(runs: &[(f64, f64, &StudyRun)], accuracy: f64) -> Option<f64> {
+fn cheapest<'s>(
+    runs: &[(f64, f64, &'s StudyRun)],
+    accuracy: f64,
+) -> Option<(f64, f64, &'s StudyRun)> {
     let missed = runs.iter().rposition(|r| r.0 > accuracy);
-    runs.get(missed.map_or(0, |i| i + 1)).map(|r| r.1)
+    runs.get(missed.map_or(0, |i| i + 1)).copied()
 }
 
 /// Operations at which a series reaches an error, between its runs along a power law.
@@ -126,11 +140,12 @@ fn price(runs: &[(f64, f64, &StudyRun)], error: f64) -> Option<f64> {
 #[test]
 fn a_demand_costs_little_more_than_the_cheapest_setting_picked_by_hand() {
     let mut ratios: Vec<f64> = Vec::new();
+    let mut missed: Vec<String> = Vec::new();
     for case in cases() {
         println!("{}", case.name);
         let plan = Plan {
             knobs: vec![Knob::Resolution, Knob::Grading],
-            levels: 5,
+            levels: case.levels,
             budget: None,
         };
         let found = study(&case.scene, Backend::default(), &plan, &mut Silent).unwrap();
@@ -151,25 +166,33 @@ fn a_demand_costs_little_more_than_the_cheapest_setting_picked_by_hand() {
         for &(accuracy, most) in case.demands {
             let mut scene = case.scene.clone();
             scene.accuracy = Some(AccuracyDemand::new(accuracy).unwrap());
+            let meter = Meter::start();
             let reached = reach(&scene, Backend::default(), Extent::Yield, &mut Silent).unwrap();
+            let seconds = meter.stop().undisturbed_seconds();
             let demand = reached.results.accuracy.unwrap().demand.unwrap();
             let rows = reached.results.reference.iter();
             let actual = rows
                 .filter(|r| case.quantities.contains(&r.quantity.as_str()))
                 .map(|r| (r.ratio - 1.0).abs())
                 .fold(0.0, f64::max);
-            let by_hand = cheapest(&uniform, accuracy).unwrap();
+            let (_, by_hand, run) = cheapest(&uniform, accuracy).unwrap();
+            let in_time = seconds / run.usage.undisturbed_seconds();
+            let graded_by_hand = cheapest(&graded, accuracy).map_or(f64::NAN, |h| h.1);
             let ratio = demand.work / by_hand;
             println!(
-                "  {accuracy}: stated {:.2e}, true {actual:.2e}, {:.2e} operations, {ratio:.2} of {by_hand:.2e}\n  {:#?}",
-                demand.stated, demand.work, demand.choices
+                "  {accuracy}: stated {:.2e}, true {actual:.2e}, {:.2e} operations, {ratio:.2} of {by_hand:.2e}, {:.2} of the graded \
+                 {graded_by_hand:.2e}, {in_time:.2} in time, {seconds:.3} s\n  {:#?}",
+                demand.stated,
+                demand.work,
+                demand.work / graded_by_hand,
+                demand.choices
             );
-            assert!(
-                demand.reached && actual <= accuracy,
-                "{} {accuracy}",
-                case.name
-            );
-            assert!(ratio <= most, "{} {accuracy}: {ratio}", case.name);
+            if !(demand.reached && actual <= accuracy) {
+                missed.push(format!("{} {accuracy}: true {actual}", case.name));
+            }
+            if ratio > most {
+                missed.push(format!("{} {accuracy}: {ratio}", case.name));
+            }
             ratios.push(ratio);
         }
         // Where the grading pays, and that it never costs much, at the error of a mesh in the middle.
@@ -179,9 +202,12 @@ fn a_demand_costs_little_more_than_the_cheapest_setting_picked_by_hand() {
                 "  graded for {error:.2e}: {:.2} of the operations",
                 price / own
             );
-            assert!(price <= case.graded * own, "{}: {}", case.name, price / own);
+            if price > case.graded * own {
+                missed.push(format!("{} graded: {}", case.name, price / own));
+            }
         }
     }
     let kept = ratios.iter().filter(|r| **r <= 2.0).count();
     println!("{kept} of {} cost at most twice the cheapest", ratios.len());
+    assert!(missed.is_empty(), "{missed:#?}");
 }
