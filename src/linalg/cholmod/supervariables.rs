@@ -169,7 +169,8 @@ mod tests {
     /// Neighbours that differ above or right of the diagonal, or that do not touch each other, stay apart.
     #[test]
     fn freedoms_with_other_neighbours_stay_apart() {
-        let cases: [(&[(usize, usize)], &[usize]); 5] = [
+        type Case<'a> = (&'a [(usize, usize)], &'a [usize]);
+        let cases: [Case; 5] = [
             (&[(1, 2), (0, 1), (0, 2)], &[0, 3, 4]),
             (&[(0, 1), (1, 2)], &[0, 1, 2, 3, 4]),
             (&[(0, 2), (0, 1), (1, 3)], &[0, 1, 2, 3, 4]),
