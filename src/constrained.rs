@@ -19,16 +19,19 @@
 //! is the problem of [`crate::contact`]. Plastic strains are loads like any others: `f + sum of B_e' D eps_p` over elements.
 
 mod arrays;
+mod displacements;
 mod held;
-mod refined;
+mod path;
 
 pub use arrays::{Triangle, rows_from_csr, stiffness_from_csc};
+pub use path::Event;
 
-use crate::contact::{self, Change, Path, PathEnd, Tableau};
+use crate::contact::{self, Tableau};
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::{self, Backend, Condensed, Partition, SymmetricCsc};
 use held::{condense, pushed_away};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use path::Way;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -102,25 +105,6 @@ struct State {
     force: Arc<Vec<f64>>,
 }
 
-/// A piece of the load path.
-struct Way {
-    path: Path,
-    start: State,
-    rate: Vec<f64>,
-    condensed_rate: DVector<f64>,
-    /// Whether the path stands at an event whose statuses are still to be settled.
-    at_event: bool,
-}
-
-/// Where [`ConstrainedStructure::step`] stopped.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Event {
-    /// Position on the piece: the load is `start + t rate`.
-    pub t: f64,
-    /// The changes of contact there; empty at the end of the piece.
-    pub changes: Vec<Change>,
-}
-
 impl ConstrainedStructure {
     /// Factors `stiffness` (upper triangle) and condenses it on the freedoms of `rows`. Each row lists (freedom,
     /// coefficient) of `B`; `gaps` holds `delta`, one value for each row. The state is that without load.
@@ -167,18 +151,7 @@ impl ConstrainedStructure {
             }
         }
         let c = condensed.contact_stiffness();
-        let size = c.diagonal().amax();
-        let shift = DVector::from_fn(rows.len(), |i, _| {
-            let b = b.row(i);
-            // Stiffness of the row's own freedoms: what `S` must be comparable with.
-            let own: f64 = b.iter().enumerate().map(|(k, v)| v * v * c[(k, k)]).sum();
-            let norm = b.norm_squared();
-            if own > 1e-9 * size * norm {
-                own / (norm * norm)
-            } else {
-                size / norm
-            }
-        });
+        let shift = shift(c, &b);
         let mut m = c.clone_owned();
         for i in 0..rows.len() {
             m += b.row(i).transpose() * b.row(i) * shift[i];
@@ -205,18 +178,6 @@ impl ConstrainedStructure {
                 .ok_or_else(dependent)?
                 .inverse(),
         };
-        let mut matrix = inverse.clone();
-        for i in 0..rows.len() {
-            matrix[(i, i)] -= shift[i];
-        }
-        let mut matrix = 0.5 * (&matrix + matrix.transpose());
-        for i in 0..rows.len() {
-            // Where nothing but this row holds a body, T is zero: the difference of equals leaves round-off.
-            if matrix[(i, i)] <= CANCELLED * shift[i] {
-                matrix.row_mut(i).fill(0.0);
-                matrix.column_mut(i).fill(0.0);
-            }
-        }
         let mut structure = ConstrainedStructure {
             norm: linalg::norm(&stiffness),
             stiffness,
@@ -230,10 +191,10 @@ impl ConstrainedStructure {
             condensed: Arc::from(condensed),
             rows: b,
             gaps: DVector::from_column_slice(gaps),
+            tableau: Tableau::new(tied(&inverse, &shift)),
             shift,
             held,
             inverse,
-            tableau: Tableau::new(matrix),
             way: None,
         };
         structure.solve(&vec![0.0; n])?;
@@ -287,81 +248,6 @@ impl ConstrainedStructure {
         Ok(())
     }
 
-    /// Starts a piece of the load path: from the state at hand the load goes on as `f + t rate`, `t` from 0.
-    ///
-    /// # Errors
-    /// As [`ConstrainedStructure::solve`].
-    pub fn start(&mut self, rate: &[f64]) -> Result<()> {
-        self.check_load(rate)?;
-        let condensed_rate = self.condense(rate)?;
-        let begin = self.forces_if_tied(&self.state.condensed, 1.0);
-        let change = self.forces_if_tied(&condensed_rate, 0.0);
-        let scale = self.gaps.iter().fold(0.0f64, |m, g| m.max(g.abs()));
-        // `q` is what is left of the load's part and that of the gaps.
-        let terms = (self.tableau.matrix() * &self.gaps).amax() + begin.amax();
-        let path = Path::new(
-            &mut self.tableau,
-            begin.as_slice().to_vec(),
-            change.as_slice().to_vec(),
-            self.state.gap.to_vec(),
-            self.state.force.to_vec(),
-            scale,
-            terms,
-        )
-        .map_err(pushed_away)?;
-        self.way = Some(Way {
-            path,
-            start: self.state.clone(),
-            rate: rate.to_vec(),
-            condensed_rate,
-            at_event: false,
-        });
-        Ok(())
-    }
-
-    /// Goes on to `t = end` or to the next change of contact, whichever comes first.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Input`] where no piece was started or `end` lies behind; [`ErrorKind::Unheld`] naming the row where the
-    /// load pushes a body away from every contact.
-    pub fn step(&mut self, end: f64) -> Result<Event> {
-        let Some(way) = &mut self.way else {
-            return Err(Error::input("no piece of the load path was started"));
-        };
-        if end.is_nan() || end < way.path.t {
-            return Err(Error::input(format!(
-                "the end {end} of the step lies behind t = {}",
-                way.path.t
-            )));
-        }
-        if way.at_event {
-            way.path.turn(&mut self.tableau).map_err(pushed_away)?;
-            way.at_event = false;
-        }
-        let outcome = way.path.advance(&mut self.tableau, end);
-        let t = way.path.t;
-        let changes = match outcome {
-            PathEnd::Target => Vec::new(),
-            PathEnd::Event(changes) => {
-                way.at_event = true;
-                changes
-            }
-        };
-        for ((load, start), rate) in self
-            .state
-            .load
-            .iter_mut()
-            .zip(&way.start.load)
-            .zip(&way.rate)
-        {
-            *load = start + t * rate;
-        }
-        self.state.condensed = &way.start.condensed + t * &way.condensed_rate;
-        replace(&mut self.state.gap, &way.path.gap);
-        replace(&mut self.state.force, &way.path.force);
-        Ok(Event { t, changes })
-    }
-
     /// Gaps of the rows, >= 0.
     pub fn gaps(&self) -> &[f64] {
         &self.state.gap
@@ -390,42 +276,6 @@ impl ConstrainedStructure {
     /// Which rows are open.
     pub fn open(&self) -> &[bool] {
         self.tableau.open()
-    }
-
-    /// Displacements of all freedoms (`n`) in the state at hand. Returns `|K u - f + B' r| / (|K| |u| + |f|)`. Costs one full solve.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Input`] where `out` has the wrong length; failure of the backend's solve.
-    pub fn displacements(&self, out: &mut [f64]) -> Result<f64> {
-        if out.len() != self.partition.n {
-            return Err(Error::input(format!(
-                "{} values were given for the displacements of {} freedoms",
-                out.len(),
-                self.partition.n
-            )));
-        }
-        let force = DVector::from_column_slice(self.forces());
-        let gap = DVector::from_column_slice(self.gaps());
-        let pushed = self.rows.tr_mul(&force);
-        let tied = self.shift.component_mul(&(&self.gaps - gap));
-        let contact = self
-            .held
-            .solve(&(&self.state.condensed + self.rows.tr_mul(&tied) - &pushed));
-        let mut load = self.state.load.clone();
-        for (&freedom, force) in self.partition.contact.iter().zip(pushed.iter()) {
-            load[freedom] -= force;
-        }
-        let reduced = self.condensed.reduce_load(&self.state.load)?;
-        let found = linalg::recover_refined(
-            self.condensed.as_ref(),
-            &self.stiffness,
-            self.norm,
-            &load,
-            [&reduced, &[], contact.as_slice()],
-            &self.partition,
-        )?;
-        out.copy_from_slice(&found.u);
-        Ok(found.backward_error)
     }
 
     fn condense(&self, load: &[f64]) -> Result<DVector<f64>> {
@@ -460,12 +310,36 @@ impl ConstrainedStructure {
     }
 }
 
-/// Puts new values in the place of those that nobody else keeps.
-fn replace(kept: &mut Arc<Vec<f64>>, values: &[f64]) {
-    match Arc::get_mut(kept) {
-        Some(own) => own.copy_from_slice(values),
-        None => *kept = Arc::new(values.to_vec()),
+/// The diagonal of `S`: the stiffness of each row's own freedoms in the condensed stiffness `c`, which it must be comparable with.
+fn shift(c: &DMatrix<f64>, rows: &DMatrix<f64>) -> DVector<f64> {
+    let size = c.diagonal().amax();
+    DVector::from_fn(rows.nrows(), |i, _| {
+        let b = rows.row(i);
+        let own: f64 = b.iter().enumerate().map(|(k, v)| v * v * c[(k, k)]).sum();
+        let norm = b.norm_squared();
+        if own > 1e-9 * size * norm {
+            own / (norm * norm)
+        } else {
+            size / norm
+        }
+    })
+}
+
+/// `T = A^-1 - S`, symmetric to the bit.
+fn tied(inverse: &DMatrix<f64>, shift: &DVector<f64>) -> DMatrix<f64> {
+    let mut matrix = inverse.clone();
+    for i in 0..shift.len() {
+        matrix[(i, i)] -= shift[i];
     }
+    let mut matrix = 0.5 * (&matrix + matrix.transpose());
+    for i in 0..shift.len() {
+        // Where nothing but this row holds a body, T is zero: the difference of equals leaves round-off.
+        if matrix[(i, i)] <= CANCELLED * shift[i] {
+            matrix.row_mut(i).fill(0.0);
+            matrix.column_mut(i).fill(0.0);
+        }
+    }
+    matrix
 }
 
 #[cfg(test)]

@@ -248,7 +248,7 @@ pub struct HistoryRow {
 pub struct Counts {
     /// Numerical factorisations of the sparse stiffness.
     pub factorizations: usize,
-    /// Solves with the trailing block.
+    /// Solves with the trailing block, forward and backward substitution a half each.
     pub trailing_solves: usize,
     /// Solves with the whole factor.
     pub full_solves: usize,

@@ -17,7 +17,7 @@ mod tied;
 use crate::assembly::System;
 use crate::contact::Tableau;
 use crate::error::{Error, Result};
-use crate::linalg::{self, Backend, Condensed, NotDefinite, Partition, Recovered};
+use crate::linalg::{self, Backend, Condensed, NotDefinite, Partition, Recovered, ZonePart};
 use crate::model::{Model, RigidMotion};
 use nalgebra::{DMatrix, DVector};
 use tied::{Tied, Trace};
@@ -53,9 +53,13 @@ impl Trailing {
     /// `self += factor * other`.
     pub fn add(&mut self, factor: f64, other: &Trailing) {
         if factor != 0.0 {
-            for (a, b) in self.iter_mut().zip(other.iter()) {
-                *a += factor * b;
-            }
+            let add = |own: &mut [f64], other: &[f64]| {
+                for (a, b) in own.iter_mut().zip(other) {
+                    *a += factor * b;
+                }
+            };
+            add(&mut self.zone, &other.zone);
+            add(&mut self.contact, &other.contact);
         }
     }
 
@@ -226,10 +230,21 @@ impl Substructure {
 
     /// Recovers the displacements for relative displacements `slip = delta - g` of the pairs (paper's u^2 - u^1).
     pub fn recover(&self, load: &mut Trailing, slip: &[f64]) {
+        self.recover_part(&ZonePart::default(), load, slip);
+    }
+
+    /// [`Substructure::recover`] where only the displacements in a part of the zone are asked for.
+    pub fn recover_part(&self, part: &ZonePart, load: &mut Trailing, slip: &[f64]) {
         if let Some(tied) = &self.tied {
             tied.recover(&mut load.contact, slip);
         }
-        self.condensed.recover_zone(&mut load.zone, &load.contact);
+        self.condensed
+            .recover_part(part, &mut load.zone, &load.contact);
+    }
+
+    /// The part of the zone with the marked freedoms.
+    pub fn part_of_zone(&self, marked: &[bool]) -> ZonePart {
+        self.condensed.part_of_zone(marked)
     }
 
     /// Estimated condition of the factored matrix ([`linalg::condition`]). Costs about six full solves and a factor of the condensed

@@ -11,13 +11,13 @@
 //!
 //! A pilot run on a coarse mesh states its error and its order, and a second one which part of the mesh it comes from (`grading`):
 //! from them the next mesh is aimed at, graded so that the demand costs the fewest elements, at most [`STRIDE`] times finer, until one
-//! reaches the demand. Memory and time of a mesh are predicted from the symbolic factorisation before it is run: what
+//! reaches the demand. A mesh from a file is subdivided, once, twice, ..., and judged by the file and its subdivisions before. Memory and time of a mesh are predicted from the symbolic factorisation before it is run: what
 //! does not fit is refused with its price.
 
 use super::estimate::{Extent, SAFETY_OF_LAW, estimate_on};
 use super::grading::{balanced, risen};
 use super::knobs::resolution;
-use super::ladder::{Ladder, foot, spacings};
+use super::ladder::{Ladder, foot, once_subdivided, spacings};
 use super::meter::{Pace, forecast, work};
 use super::pilot::pilot;
 use super::quantities::quantities;
@@ -80,9 +80,11 @@ pub fn reach(
     let Some(demand) = scene.accuracy.map(|a| a.relative()) else {
         return Err(Error::input("the scene demands no accuracy"));
     };
-    let Some(count) = spacings(scene) else {
+    let first =
+        once_subdivided(scene).or_else(|| spacings(scene).map(|count| foot(scene, extent) / count));
+    let Some(mut factor) = first else {
         return Err(Error::input(
-            "`accuracy`: the mesh comes from a file and cannot be refined; take the key out, or use a generator",
+            "`accuracy`: the mesh of this scene cannot be refined; take the key out",
         ));
     };
     let mut wanted = risen(&with_tolerances(scene, demand));
@@ -90,17 +92,16 @@ pub fn reach(
         "tolerance {:.1e} and gamma {:.1e}: a 300th of the demand, the former at most {LOOSEST:e}",
         wanted.analysis.tolerance, wanted.program.gamma
     )];
-    let mut factor = foot(scene, extent) / count;
     let mut pace = Pace::default();
     let mut costs: Vec<Cost> = Vec::new();
     let mut spent = 0.0;
     let mut ladder = Ladder::default();
     for round in 1..=ROUNDS {
         let level = nearest(&wanted, factor)?;
-        let settings = resolution(&level, 1.0);
+        let settings = resolution(&level, 1.0 / factor);
         observer.phase(&format!("accuracy {}: {settings}", percent(demand)));
         let cost = forecast(&level, backend)?;
-        let fineness = spacings(&level).unwrap_or(count * factor);
+        let fineness = spacings(&level).unwrap_or(factor);
         costs.push(Cost {
             fineness,
             memory: cost.factor.memory_bytes,
@@ -184,7 +185,7 @@ pub fn reach(
                 percent(outcome.path)
             ));
         }
-        let step = stride(finer);
+        let step = stride(&wanted, finer);
         // What a coarse mesh says of a fine one is a guess: at first only what no order of convergence could reach is refused.
         let certain = match round < TRUSTED {
             true => outcome.least.max(step),
@@ -196,8 +197,12 @@ pub fn reach(
     Err(Error::internal("the rounds of a demand end in the loop"))
 }
 
-/// How much finer the next mesh is made on the way to one that is `finer`: equal strides, none longer than [`STRIDE`].
-fn stride(finer: f64) -> f64 {
+/// How much finer the next mesh is made on the way to one that is `finer`: equal strides, none longer than [`STRIDE`]; a mesh from a
+/// file is cut in halves.
+fn stride(scene: &Scene, finer: f64) -> f64 {
+    if scene.mesh.file.is_some() {
+        return 2.0;
+    }
     let strides = (finer.ln() / STRIDE.ln()).ceil().max(1.0);
     finer.powf(1.0 / strides)
 }
@@ -279,6 +284,9 @@ impl Outcome {
 
 /// The member of the family nearest to `factor` that can be made.
 fn nearest(scene: &Scene, factor: f64) -> Result<Scene> {
+    if let (Some(_), Some(level)) = (&scene.mesh.file, refined(scene, factor)) {
+        return Ok(level.scene);
+    }
     let tries = [1.0, 1.1, 1.25, 1.5, 2.0];
     tries
         .iter()
@@ -318,8 +326,13 @@ mod tests {
 
     #[test]
     fn strides_are_equal_and_none_too_long() {
-        assert!((stride(1.5) - 1.5).abs() < 1e-12);
-        assert!((stride(2.25) - 1.5).abs() < 1e-12);
-        assert!((stride(1.0) - 1.0).abs() < 1e-12);
+        let text = include_str!("../../data/scenes/cylinder_on_half_plane.toml");
+        let scene = Scene::parse(text, "scene.toml").unwrap();
+        for (finer, wanted) in [(1.5, 1.5), (2.25, 1.5), (1.0, 1.0)] {
+            assert!((stride(&scene, finer) - wanted).abs() < 1e-12);
+        }
+        let text = include_str!("../../data/scenes/gmsh_blocks.toml");
+        let file = Scene::parse(text, "scene.toml").unwrap();
+        assert_eq!(stride(&file, 1.5), 2.0);
     }
 }

@@ -3,6 +3,7 @@
 use super::ladder::{Ladder, spacings};
 use super::path::{self, Base, PathErrors};
 use super::quantities::{Quantity, quantities, value_of};
+use super::refusal::percent;
 use super::{Level, companions, extrapolate, largest_order};
 use crate::analysis::Analysis;
 use crate::error::Result;
@@ -140,26 +141,25 @@ pub(super) fn estimate_on(
         (true, Some(_)) if results.incomplete.is_none() => EstimateMethod::EnergyNorm,
         _ => EstimateMethod::None,
     };
+    let own = Base {
+        scene,
+        results,
+        quantities: &quantities,
+        alone: others.is_empty(),
+    };
     let path = if results.incomplete.is_some() {
         PathErrors::Unknown
     } else if extent == Extent::Yield || !path::matters(results) {
         PathErrors::None
-    } else if let Some(coarsest) = others.last() {
-        let base = match coarsest.ratio > 1.0 {
-            true => Base {
-                scene: &coarsest.scene,
-                results: &coarsest.results,
-                quantities: &coarsest.quantities,
-            },
-            false => Base {
-                scene,
-                results,
-                quantities: &quantities,
-            },
-        };
-        path::errors(&base, backend, results, observer, &mut out.notes)
     } else {
-        PathErrors::Unknown
+        let coarsest = others.last().filter(|other| other.ratio > 1.0);
+        let base = coarsest.map_or(own, |coarsest| Base {
+            scene: &coarsest.scene,
+            results: &coarsest.results,
+            quantities: &coarsest.quantities,
+            alone: false,
+        });
+        path::errors(&base, backend, results, observer, &mut out.notes)
     };
     out.work += path.work();
     for quantity in &quantities {
@@ -212,8 +212,33 @@ pub(super) fn estimate_on(
             order,
         });
     }
+    if extent == Extent::Program {
+        out.notes.extend(told_by_width(scene, &out.quantities));
+    }
     out.seconds = start.elapsed().as_secs_f64();
     out
+}
+
+/// What is to be known of targets by half width: the load at which a mesh reaches them is a result, and its error one of all that is
+/// told of the state and of those after it.
+fn told_by_width(scene: &Scene, quantities: &[QuantityError]) -> Option<String> {
+    let labels = scene.program.labels();
+    let targets = scene.program.targets.iter().zip(&labels);
+    let names: Vec<String> = targets
+        .filter(|(target, _)| target.half_width.is_some())
+        .filter_map(|(_, label)| {
+            let path = format!("states.{label}.load");
+            let row = quantities.iter().find(|q| q.quantity == path)?;
+            Some(format!("`{label}`: {}", percent(row.relative_error?)))
+        })
+        .collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "a half width as target is reached at another load on each mesh: the error of that load ({}) is in the other figures of the \
+             state and of those after it, the dent among them; a load factor as target leaves it out",
+            names.join(", ")
+        )
+    })
 }
 
 /// What a contact half width at first yield is off by at least and at most, over its value: see [`EDGE`]. Measured on `quad4`, and known where

@@ -20,6 +20,8 @@ const LOWEST: f64 = 3.9;
 /// cannot be read off fewer than [`FEWEST`].
 const FINE: f64 = 13.0;
 const COARSE: f64 = 8.0;
+/// The rungs of a mesh from a file have so many subdivisions less.
+const SUBDIVISIONS_BELOW: [i32; 2] = [1, 2];
 /// Least change of the element size from rung to rung.
 const LEAST_CHANGE: f64 = 1.1;
 /// A rung that was run already serves where its elements are so many times larger.
@@ -66,6 +68,13 @@ impl Ladder {
     /// The coarser meshes, two or for the lowest run one, from which a run is judged, those that were run already first. A ladder goes up
     /// from meshes so coarse that they must not lean on yet coarser ones, nor, with its price in mind, on finer ones.
     pub(super) fn rungs(&self, scene: &Scene) -> Vec<Level> {
+        if scene.mesh.file.is_some() {
+            let below = SUBDIVISIONS_BELOW.map(|times| 0.5f64.powi(times));
+            return below
+                .into_iter()
+                .filter_map(|f| refined(scene, f))
+                .collect();
+        }
         let Some(count) = spacings(scene) else {
             return Vec::new();
         };
@@ -109,6 +118,13 @@ impl Ladder {
     }
 }
 
+/// How many times as fine as the scene's its file once subdivided is, the coarsest mesh of a file that is judged: by the file itself. `None`
+/// for a generated mesh.
+pub(super) fn once_subdivided(scene: &Scene) -> Option<f64> {
+    scene.mesh.file.as_ref()?;
+    Some(2.0 * 0.5f64.powi(scene.mesh.subdivisions.try_into().ok()?))
+}
+
 /// Node spacings over what governs in the lowest run of a scene that is judged.
 pub(super) fn foot(scene: &Scene, extent: Extent) -> f64 {
     match extent {
@@ -141,6 +157,23 @@ fn key(scene: &Scene) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_mesh_from_a_file_is_judged_by_its_subdivisions() {
+        let text = include_str!("../../data/scenes/gmsh_blocks.toml");
+        let mut scene = Scene::parse(text, "scene.toml").unwrap();
+        let subdivisions = |levels: &[Level]| -> Vec<usize> {
+            let scenes = levels.iter().map(|l| &l.scene);
+            scenes.map(|s| s.mesh.subdivisions).collect()
+        };
+        assert_eq!(once_subdivided(&scene), Some(2.0));
+        for (times, wanted) in [(0, vec![]), (1, vec![0]), (2, vec![1, 0]), (4, vec![3, 2])] {
+            scene.mesh.subdivisions = times;
+            assert_eq!(subdivisions(&Ladder::default().rungs(&scene)), wanted);
+        }
+        assert_eq!(once_subdivided(&scene), Some(0.125));
+        assert_eq!(once_subdivided(&cylinder(7)), None);
+    }
 
     fn cylinder(n: usize) -> Scene {
         let text = include_str!("../../data/scenes/cylinder_on_half_plane.toml");

@@ -270,6 +270,7 @@ mod tests {
             assert!(peak >= 64 << 20, "{peak}");
         }
     }
+
     #[test]
     fn phases_are_told_apart_and_summed() {
         let mut silent = crate::progress::Silent;
@@ -281,8 +282,8 @@ mod tests {
         let phases = meter.stop();
         let names: Vec<&str> = phases.iter().map(|p| p.phase.as_str()).collect();
         assert_eq!(names, ["assembly", "factorisation", "load program"]);
-        assert!(phases[1].wall_seconds >= 0.02 && phases[0].wall_seconds < 0.02);
-        // Asleep it takes no processor time of its own; other tests may run beside it.
+        assert!(phases[1].wall_seconds >= 0.02);
+        // How much processor time that is depends on the tests beside it.
         assert_eq!(phases[1].cpu_seconds.is_some(), cfg!(unix));
     }
 

@@ -5,7 +5,8 @@
 //! there are `m`, twice as many, or [`FEWEST`] where there were so few that first order is not to be seen yet. The changes of contact
 //! end the increments where the stepping is `events`, so there is nothing to divide; the scene is then run with fixed steps. Both are
 //! done on the coarsest of the meshes of the estimate, where they cost little: the error of the path hardly depends on the
-//! mesh, but for the number of increments, by whose ratio it is scaled.
+//! mesh, but for the number of increments, by whose ratio it is scaled. A mesh from a file that is too large to be subdivided in passing
+//! has no coarser one: the run itself is repeated, with half as many increments where those are enough to show first order.
 //!
 //! Where nothing flows there is no such error: elastic contact follows its path exactly from event to event, and a state depends
 //! on its load alone.
@@ -60,10 +61,13 @@ impl PathErrors {
 }
 
 /// A finished run that is repeated with another path.
+#[derive(Clone, Copy)]
 pub(super) struct Base<'r> {
     pub scene: &'r Scene,
     pub results: &'r Results,
     pub quantities: &'r [Quantity],
+    /// Whether there is no other mesh, so that the run itself has to be repeated, however large.
+    pub alone: bool,
 }
 
 impl Base<'_> {
@@ -95,7 +99,11 @@ pub(super) fn errors(
     let mut out = BTreeMap::new();
     let mut spent = 0.0;
     let tolerances = with_other_tolerances(base.scene);
-    let increments = with_more_increments(base.scene, base.results);
+    let increments = match base.alone {
+        true => with_fewer_increments(base.scene, base.results),
+        false => None,
+    };
+    let increments = increments.unwrap_or_else(|| with_more_increments(base.scene, base.results));
     let grown = base.results.history.len() as f64 / results.history.len().max(1) as f64;
     let changed = increments.1 * grown.min(1.0);
     for (what, scene, share) in [
@@ -135,9 +143,8 @@ fn with_other_tolerances(scene: &Scene) -> (Scene, f64) {
     }
 }
 
-/// The scene with more increments than its run took from target to target, and what multiple of the difference is their error.
-fn with_more_increments(scene: &Scene, results: &Results) -> (Scene, f64) {
-    let mut out = scene.clone();
+/// Increments that a run took from target to target.
+fn taken(scene: &Scene, results: &Results) -> usize {
     let taken = match scene.program.stepping {
         Stepping::Steps => scene.program.steps,
         Stepping::Events => results
@@ -145,10 +152,26 @@ fn with_more_increments(scene: &Scene, results: &Results) -> (Scene, f64) {
             .len()
             .div_ceil(scene.program.targets.len().max(1)),
     };
-    let taken = taken.max(1);
+    taken.max(1)
+}
+
+/// The scene with `steps` increments from target to target instead of `taken`, and what multiple of the difference is the error of those
+/// taken: the difference is that from `c/taken` to `c/steps`.
+fn with_increments(scene: &Scene, taken: usize, steps: usize) -> (Scene, f64) {
+    let mut out = scene.clone();
     out.program.stepping = Stepping::Steps;
-    out.program.steps = FEWEST.max(2 * taken);
-    // From c/n to c/m.
-    let share = 1.0 / (1.0 - taken as f64 / out.program.steps as f64);
-    (out, share)
+    out.program.steps = steps;
+    (out, 1.0 / (1.0 - taken as f64 / steps as f64).abs())
+}
+
+/// The scene with more increments than its run took, and what multiple of the difference is their error.
+fn with_more_increments(scene: &Scene, results: &Results) -> (Scene, f64) {
+    let taken = taken(scene, results);
+    with_increments(scene, taken, FEWEST.max(2 * taken))
+}
+
+/// The same with half as many, at half the price; `None` where those would be too few to show first order.
+fn with_fewer_increments(scene: &Scene, results: &Results) -> Option<(Scene, f64)> {
+    let taken = taken(scene, results);
+    (taken >= 2 * FEWEST).then(|| with_increments(scene, taken, taken.div_ceil(2)))
 }

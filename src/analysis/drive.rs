@@ -220,9 +220,19 @@ impl Engine<'_> {
             };
             if (leg.following.is_some() || self.zone.is_idle())
                 && stepper.stepping == Stepping::Events
-                && let Some(arrival) = self.follow_elastic(end, monitor, &mut leg, watcher)?
             {
-                return Ok(arrival);
+                if let Some(arrival) = self.follow_elastic(end, monitor, &mut leg, watcher)? {
+                    return Ok(arrival);
+                }
+                if self.at.distance(end) < ARRIVED * leg.whole {
+                    let solves = self.counts.trailing_solves;
+                    self.arrive(end);
+                    return Ok(if self.note(watcher, "target", solves)? {
+                        Arrival::End
+                    } else {
+                        Arrival::Stopped
+                    });
+                }
             }
             let distance = self.at.distance(end);
             let trusted = if leg.trust < left * distance {
@@ -299,7 +309,7 @@ impl Engine<'_> {
             self.force_scale = self.external(end).largest();
         }
         if self.turns_back(end) {
-            self.zone.assume_elastic();
+            self.assume_elastic();
         }
         PlasticLeg {
             watched: monitor.map(|m| m(self)),
@@ -313,7 +323,8 @@ impl Engine<'_> {
     /// Goes the last bit to `end` with the statuses and plastic strains at hand.
     fn arrive(&mut self, end: &LoadPoint) {
         let initial = self.now.initial.clone();
-        self.now = self.respond(end, &initial);
+        self.now = self.respond(end, initial);
+        self.at = end.clone();
         for value in self.now.gap.iter_mut().chain(&mut self.now.force) {
             *value = value.max(0.0);
         }
@@ -334,6 +345,13 @@ impl Engine<'_> {
                 }
             })
             .collect();
+        let way = increment.t * start.distance(end);
+        self.pace = (way > 0.0 && !self.zone.is_idle()).then(|| {
+            let mut pace = increment.state.initial.clone();
+            pace.add(-1.0, &self.now.initial);
+            pace.scale(1.0 / way);
+            pace
+        });
         self.at = start.towards(end, increment.t);
         self.now = increment.state;
         self.fresh = true;

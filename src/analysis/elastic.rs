@@ -26,8 +26,7 @@ impl ElasticPiece {
         let mut q0 = engine.closed_forces(&start);
         let q1 = engine.closed_forces(end);
         let rate: Vec<f64> = q1.iter().zip(&q0).map(|(b, a)| b - a).collect();
-        let initial = engine.now.initial.clone();
-        for (q, t) in q0.iter_mut().zip(engine.initial_forces(&initial)) {
+        for (q, t) in q0.iter_mut().zip(&engine.now.initial.forces) {
             *q += t;
         }
         if engine.now.force.iter().all(|r| *r == 0.0) {
@@ -38,7 +37,7 @@ impl ElasticPiece {
             .iter()
             .fold(0.0f64, |m, d| m.max(d.abs()));
         let (gap, force) = (engine.now.gap.clone(), engine.now.force.clone());
-        let terms = engine.closed_forces_terms(&start);
+        let terms = engine.closed_forces_size(&start);
         let path = Path::new(&mut engine.tableau, q0, rate, gap, force, gap_scale, terms)
             .map_err(|u| engine.unbounded(u.pair, start.alpha))?;
         engine.counts.contact_changes += path.changes;
@@ -144,7 +143,7 @@ impl Engine<'_> {
         let mut eliminated = self.external(&start);
         let mut change = self.external(end);
         change.add(-1.0, &eliminated);
-        eliminated.add(1.0, &self.now.initial);
+        eliminated.add(1.0, &self.now.initial.load);
         self.sub.eliminate(&mut eliminated, &mut forces);
         self.sub.eliminate(&mut change, &mut forces);
         let mut balance = self.sub.zeros();
@@ -152,7 +151,8 @@ impl Engine<'_> {
         let mut solves = match solves {
             Some(solves) => solves,
             None => {
-                self.counts.trailing_solves += 2;
+                self.count_half();
+                self.count_half();
                 self.counts.trailing_solves
             }
         };
@@ -173,12 +173,12 @@ impl Engine<'_> {
                 .map(|(d, g)| d - g)
                 .collect();
             self.sub.recover(&mut u, &slip);
-            self.counts.trailing_solves += 1;
+            self.count_half();
             self.zone.set_factors(&self.at.factors);
             let evaluation = self.zone.evaluate(&u, &mut balance);
             self.counts.plastic_iterations += 1;
             if evaluation.flowing > 0 {
-                self.zone.assume_elastic();
+                self.assume_elastic();
                 (self.at, self.now.gap, self.now.force) = saved;
                 self.set_statuses(&open, border);
                 return Ok(None);
@@ -187,7 +187,7 @@ impl Engine<'_> {
             self.fresh = true;
             self.last_step = start.step_to(end);
             self.update_scales();
-            balance.add(-1.0, &self.now.initial);
+            balance.add(-1.0, &self.now.initial.load);
             let mut reported = IncrementReport {
                 event: "target".to_string(),
                 iterations: 1,

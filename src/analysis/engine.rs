@@ -1,5 +1,6 @@
 //! The structure under load: everything an increment works with.
 
+use super::equilibrium::{EliminatedLoad, Equilibrium};
 use super::gather::Places;
 use super::zone::Zone;
 use super::zone_choice::zone_freedoms;
@@ -11,9 +12,6 @@ use crate::model::Model;
 use crate::results::Counts;
 use crate::substructure::{Substructure, Trailing};
 use std::sync::Arc;
-
-/// Share of the largest gap and force that is the round-off of their sums.
-const ZERO: f64 = 1e-14;
 
 /// A point of the load path: the factor of each load and the share of the interference that is applied.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -43,30 +41,6 @@ impl LoadPoint {
     }
 }
 
-/// Displacements, gaps and contact forces in equilibrium with a load point and initial loads, for the
-/// contact statuses in the tableau.
-#[derive(Debug, Clone)]
-pub struct Equilibrium {
-    /// Initial loads J of the plastic strains.
-    pub initial: Trailing,
-    /// Displacements.
-    pub u: Trailing,
-    /// Gap of each pair.
-    pub gap: Vec<f64>,
-    /// Contact force of each pair, compressive positive.
-    pub force: Vec<f64>,
-}
-
-impl Equilibrium {
-    /// Takes over the values of another one of the same sizes.
-    pub fn copy_from(&mut self, other: &Equilibrium) {
-        self.initial.copy_from(&other.initial);
-        self.u.copy_from(&other.u);
-        self.gap.copy_from_slice(&other.gap);
-        self.force.copy_from_slice(&other.force);
-    }
-}
-
 /// The factored structure with its contact statuses, plastic zone and current state.
 pub struct Engine<'m> {
     /// The model.
@@ -89,17 +63,19 @@ pub struct Engine<'m> {
     /// Loads at factor 1, reduced.
     pub(super) reduced_loads: Vec<Vec<f64>>,
     /// Condensed loads at factor 1.
-    loads: Vec<Trailing>,
+    pub(super) loads: Vec<EliminatedLoad>,
     /// Forces `t` of the tied pairs for each load at factor 1.
     pub(super) load_forces: Vec<Vec<f64>>,
-    gap: Vec<f64>,
+    pub(super) gap: Vec<f64>,
     interference: Vec<f64>,
     /// `T gap` and `T interference`.
-    gap_forces: [Vec<f64>; 2],
+    pub(super) gap_forces: [Vec<f64>; 2],
     /// Factor on proportional loads that `alpha = 1` stands for.
     pub unit: f64,
     /// Cost so far.
     pub counts: Counts,
+    /// Whether half a trailing solve has been counted for a whole one.
+    pub(super) half: bool,
     /// Largest nodal force seen (applied or contact): what residuals are measured against.
     pub force_scale: f64,
     /// Largest lower bound of the condition among the factorisations so far ([`Substructure::condition`]): an inaccurate one is not forgotten
@@ -117,6 +93,8 @@ pub struct Engine<'m> {
     pub border: Vec<usize>,
     /// Change of the load point over the piece of the last increment: tells loading from unloading.
     pub last_step: Vec<f64>,
+    /// Change of the initial loads over the last increment, for a load factor that changes by 1: the next one's are much the same.
+    pub pace: Option<EliminatedLoad>,
     /// A state on the way to which the next increment leads, found before: it predicts the increment.
     pub ahead: Option<(LoadPoint, Equilibrium)>,
     /// Elements outside the zone in which the last [`Engine::state`] found stress beyond yield.
@@ -169,6 +147,7 @@ impl<'m> Engine<'m> {
                 factorizations,
                 ..Counts::default()
             },
+            half: false,
             force_scale: 0.0,
             condition,
             displacement_scale: 0.0,
@@ -178,14 +157,13 @@ impl<'m> Engine<'m> {
                 interference: 0.0,
             },
             now: Equilibrium {
-                initial: sub.zeros(),
-                u: sub.zeros(),
                 gap: gap.clone(),
-                force: vec![0.0; n],
+                ..Equilibrium::none(&sub.zeros(), n)
             },
             fresh: true,
             border: Vec::new(),
             last_step: vec![0.0; model.loads.len() + 1],
+            pace: None,
             ahead: None,
             beyond_yield_outside: Vec::new(),
             gap,
@@ -228,8 +206,10 @@ impl<'m> Engine<'m> {
         zone.set_factors(&self.at.factors);
         (self.zone, self.elements) = (zone, elements.into());
         let initial = self.zone.initial_load(self.sub.zeros());
-        self.now = self.respond(&self.at.clone(), &initial);
+        let initial = self.eliminate(initial);
+        self.now = self.respond(&self.at.clone(), initial);
         self.fresh = true;
+        self.pace = None;
         Ok(())
     }
 
@@ -245,24 +225,16 @@ impl<'m> Engine<'m> {
         self.reduced_loads = reduced?;
         self.counts.full_solves += self.reduced_loads.len();
         self.condense_loads()?;
-        self.load_forces.clear();
-        for load in &self.loads {
-            let mut forces = vec![0.0; self.gap.len()];
-            self.sub.eliminate(&mut load.clone(), &mut forces);
-            self.counts.trailing_solves += 1;
-            self.load_forces.push(forces);
-        }
+        self.load_forces = self.loads.iter().map(|l| l.forces.clone()).collect();
         Ok(())
     }
 
     /// What loads at factor 1 do to the zone, after it was chosen.
     fn condense_loads(&mut self) -> Result<()> {
-        let condensed: Result<Vec<_>> = self
-            .reduced_loads
-            .iter()
-            .map(|l| self.sub.condense(l))
-            .collect();
-        self.loads = condensed?;
+        let reduced = self.reduced_loads.iter();
+        let condensed: Result<Vec<_>> = reduced.map(|l| self.sub.condense(l)).collect();
+        let condensed = condensed?.into_iter();
+        self.loads = condensed.map(|load| self.eliminate(load)).collect();
         Ok(())
     }
 
@@ -284,7 +256,7 @@ impl<'m> Engine<'m> {
     pub fn external(&self, point: &LoadPoint) -> Trailing {
         let mut out = self.sub.zeros();
         for (load, &factor) in self.loads.iter().zip(&point.factors) {
-            out.add(factor, load);
+            out.add(factor, &load.load);
         }
         out
     }
@@ -311,108 +283,34 @@ impl<'m> Engine<'m> {
             .collect()
     }
 
+    /// What the force of tied pair `k` is the sum of at a load point without initial loads: `t` of each load, and `-T delta`.
+    fn closed_force_terms(&self, point: &LoadPoint, k: usize) -> impl Iterator<Item = f64> {
+        let loads = self.load_forces.iter().zip(&point.factors);
+        let of_gaps = [
+            -self.gap_forces[0][k],
+            point.interference * self.gap_forces[1][k],
+        ];
+        loads.map(move |(t, factor)| factor * t[k]).chain(of_gaps)
+    }
+
     /// `q` of the contact problem for a load point without initial loads: `t - T delta`.
     pub fn closed_forces(&self, point: &LoadPoint) -> Vec<f64> {
         (0..self.gap.len())
-            .map(|k| {
-                let loads: f64 = self
-                    .load_forces
-                    .iter()
-                    .zip(&point.factors)
-                    .map(|(t, f)| f * t[k])
-                    .sum();
-                loads - self.gap_forces[0][k] + point.interference * self.gap_forces[1][k]
-            })
+            .map(|k| self.closed_force_terms(point, k).sum())
             .collect()
     }
 
     /// The largest sum of absolute values of the terms of [`Engine::closed_forces`]: what its round-off is a share of.
-    pub fn closed_forces_terms(&self, point: &LoadPoint) -> f64 {
+    pub fn closed_forces_size(&self, point: &LoadPoint) -> f64 {
         (0..self.gap.len())
-            .map(|k| {
-                let loads: f64 = self
-                    .load_forces
-                    .iter()
-                    .zip(&point.factors)
-                    .map(|(t, f)| (f * t[k]).abs())
-                    .sum();
-                loads
-                    + self.gap_forces[0][k].abs()
-                    + (point.interference * self.gap_forces[1][k]).abs()
-            })
+            .map(|k| self.closed_force_terms(point, k).map(f64::abs).sum())
             .fold(0.0, f64::max)
     }
 
-    /// Forces `t` of the tied pairs under initial loads alone.
-    pub fn initial_forces(&mut self, initial: &Trailing) -> Vec<f64> {
-        let mut forces = vec![0.0; self.gap.len()];
-        if initial.largest() > 0.0 {
-            self.sub.eliminate(&mut initial.clone(), &mut forces);
-            self.counts.trailing_solves += 1;
-        }
-        forces
-    }
-
-    /// Equilibrium for a load point and initial loads with the current statuses (paper 4.2): one trailing solve.
-    pub fn respond(&mut self, point: &LoadPoint, initial: &Trailing) -> Equilibrium {
-        let n = self.gap.len();
-        let mut u = self.external(point);
-        u.add(1.0, initial);
-        let mut q = vec![0.0; n];
-        self.sub.eliminate(&mut u, &mut q);
-        for k in 0..n {
-            q[k] += point.interference * self.gap_forces[1][k] - self.gap_forces[0][k];
-        }
-        let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
-        self.tableau.solve(&q, &mut gap, &mut force);
-        let slip: Vec<f64> = self
-            .delta(point)
-            .iter()
-            .zip(&gap)
-            .map(|(d, g)| d - g)
-            .collect();
-        self.sub.recover(&mut u, &slip);
-        self.counts.trailing_solves += 1;
-        Equilibrium {
-            initial: initial.clone(),
-            u,
-            gap,
-            force,
-        }
-    }
-
-    /// Response to a load alone, closed pairs staying closed: on entry a load, on return displacements; the changes of
-    /// gap and force go to `gap` and `force`. One trailing solve.
-    pub fn respond_homogeneous(&mut self, v: &mut Trailing, gap: &mut [f64], force: &mut [f64]) {
-        let n = gap.len();
-        let mut q = vec![0.0; n];
-        self.sub.eliminate(v, &mut q);
-        self.tableau.solve(&q, gap, force);
-        for (q, g) in q.iter_mut().zip(gap.iter()) {
-            *q = -g;
-        }
-        self.sub.recover(v, &q);
-        self.counts.trailing_solves += 1;
-    }
-
-    /// Makes the displacements belong to the current gaps and forces.
-    pub fn refresh(&mut self) {
-        if !self.fresh {
-            let point = self.at.clone();
-            let initial = self.now.initial.clone();
-            self.now = self.respond(&point, &initial);
-            self.fresh = true;
-            // Zero within round-off is zero; what is more than that stays to be seen.
-            let gap = self.gap.iter().fold(0.0f64, |m, g| m.max(g.abs()));
-            let force = (self.now.force.iter()).fold(self.force_scale, |m, r| m.max(*r));
-            for (values, scale) in [(&mut self.now.gap, gap), (&mut self.now.force, force)] {
-                for value in values.iter_mut() {
-                    if (-ZERO * scale..0.0).contains(value) {
-                        *value = 0.0;
-                    }
-                }
-            }
-        }
+    /// The next increment is predicted as if no point flowed.
+    pub fn assume_elastic(&mut self) {
+        self.zone.assume_elastic();
+        self.pace = None;
     }
 
     /// Relative displacement `u_second - u_first` of each pair.

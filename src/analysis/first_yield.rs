@@ -1,7 +1,8 @@
 //! First yield of the program: where it lies, and that the zone did not miss it.
 
 use super::drive::{Arrival, IncrementReport, stopped};
-use super::engine::{Engine, Equilibrium, LoadPoint};
+use super::engine::{Engine, LoadPoint};
+use super::equilibrium::{EliminatedLoad, Equilibrium};
 use super::program::{DOUBLINGS, Run, ZONE_ATTEMPTS};
 use super::recovery::Peak;
 use super::zone_choice::{self, Choice};
@@ -81,7 +82,7 @@ impl Run<'_, '_> {
         engine.at = at.clone();
         engine.now.gap.clone_from(&now.gap);
         engine.now.force.clone_from(&now.force);
-        engine.now.initial.fill(0.0);
+        engine.now.initial = EliminatedLoad::none(&engine.now.u, engine.now.gap.len());
         engine.border.clear();
         // Where nothing acts yet the displacements are zero; a body held by contact alone must not be moved to it.
         engine.fresh = now.u.largest() == 0.0;

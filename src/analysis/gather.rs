@@ -232,6 +232,15 @@ impl GatheredElements {
         }
     }
 
+    /// Marks the zone freedoms of element `i`.
+    pub fn mark(&self, i: usize, marks: &mut [bool]) {
+        for &place in self.places_of(&self.list[i]) {
+            if let Some(mark) = marks.get_mut(place as usize) {
+                *mark = true;
+            }
+        }
+    }
+
     fn places_of(&self, packed: &Packed) -> &[u32] {
         &self.places[packed.first_place..][..2 * usize::from(packed.form.n_nodes)]
     }

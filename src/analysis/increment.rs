@@ -6,9 +6,9 @@
 //! contact (4.17, 4.22).
 
 use super::acceleration::Anderson;
-use super::engine::{Engine, Equilibrium, LoadPoint};
+use super::engine::{Engine, LoadPoint};
+use super::equilibrium::Equilibrium;
 use super::step_length::{StepLimit, step_limit};
-use super::tangent::Direction;
 use super::zone::Evaluation;
 use crate::scene::{PlasticIteration, Settings};
 use crate::substructure::Trailing;
@@ -92,7 +92,7 @@ impl Engine<'_> {
         let start = self.at.clone();
         let before = self.now.clone();
         let rates = match self.ahead.take() {
-            Some(ahead) => self.secant(end, &ahead),
+            Some(ahead) => self.secant(end, ahead),
             None => self.rates(end, settings.plastic_iteration == PlasticIteration::Newton),
         };
         let follows = matches!(ends_at, EndsAt::NextChange { .. });
@@ -124,7 +124,7 @@ impl Engine<'_> {
             };
         }
         let mut state = before.clone();
-        advance(&mut state, t, &rates);
+        state.add(t, &rates);
 
         let mut anderson = Anderson::default();
         let mut balance = self.sub.zeros();
@@ -187,8 +187,7 @@ impl Engine<'_> {
                     Vec::new()
                 };
                 let at_end = start.towards(end, t);
-                let polished = self.respond(&at_end, &state.initial);
-                state = polished;
+                state = self.respond(&at_end, state.initial);
                 return Ok(Increment {
                     t,
                     state,
@@ -229,12 +228,12 @@ impl Engine<'_> {
                         }
                     }
                     PlasticIteration::Anderson => {
-                        let change = anderson.change(&state.initial, &balance);
+                        let change = anderson.change(&state.initial.load, &balance);
                         (self.direction(change), 1.0)
                     }
                     PlasticIteration::Plain => (self.direction(balance.clone()), 1.0),
                 };
-                advance(&mut state, length, &direction);
+                state.add(length, &direction);
                 last = residual;
             }
             if follows {
@@ -251,7 +250,7 @@ impl Engine<'_> {
                     } else {
                         reach * t
                     };
-                    rescale(&mut state, &before, reach);
+                    state.rescale(&before, reach);
                     known = None;
                     anderson.restart();
                 }
@@ -268,14 +267,20 @@ impl Engine<'_> {
         }
     }
 
-    /// Rates of everything with the share of the piece: elastic, plus plastic where points flow (tangent).
-    fn rates(&mut self, end: &LoadPoint, tangent: bool) -> Direction {
-        let ahead = self.respond_rate(end);
-        let mut rates = Direction {
-            initial: self.sub.zeros(),
-            ..ahead
-        };
-        if tangent && !self.zone.is_idle() {
+    /// Rates of everything with the share of the piece: elastic, plus plastic where points flow. The plastic part goes on as in the last
+    /// increment; after none it is that of the tangent.
+    fn rates(&mut self, end: &LoadPoint, tangent: bool) -> Equilibrium {
+        let flows = tangent && !self.zone.is_idle();
+        let pace = self.pace.as_ref().filter(|_| flows);
+        let needs_tangent = flows && pace.is_none();
+        let mut initial = self.now.initial.clone();
+        if let Some(pace) = pace {
+            initial.add(self.at.distance(end), pace);
+        }
+        // `now` may have been in equilibrium with other statuses, or off by gamma: its own statuses decide.
+        let mut rates = self.respond(end, initial);
+        rates.add(-1.0, &self.now);
+        if needs_tangent {
             let mut driven = self.sub.zeros();
             self.zone.softening_times(&rates.u, &mut driven);
             let plastic = self.solve_tangent(&driven, PREDICTION, 1.0);
@@ -285,49 +290,11 @@ impl Engine<'_> {
     }
 
     /// Rates that lead to a state which is known already, statuses being the same.
-    fn secant(&self, end: &LoadPoint, ahead: &(LoadPoint, Equilibrium)) -> Direction {
-        let (at, state) = ahead;
-        let per_piece = 1.0 / self.at.share_of(at, end);
-        let mut rates = Direction {
-            u: self.sub.zeros(),
-            initial: self.sub.zeros(),
-            gap: vec![0.0; state.gap.len()],
-            force: vec![0.0; state.force.len()],
-        };
-        for (sign, from) in [(per_piece, state), (-per_piece, &self.now)] {
-            rates.u.add(sign, &from.u);
-            rates.initial.add(sign, &from.initial);
-            for (rate, gap) in rates.gap.iter_mut().zip(&from.gap) {
-                *rate += sign * gap;
-            }
-            for (rate, force) in rates.force.iter_mut().zip(&from.force) {
-                *rate += sign * force;
-            }
-        }
+    fn secant(&self, end: &LoadPoint, (at, state): (LoadPoint, Equilibrium)) -> Equilibrium {
+        let mut rates = state;
+        rates.rescale(&self.now, 1.0 / self.at.share_of(&at, end));
+        rates.add(-1.0, &self.now);
         rates
-    }
-
-    /// Elastic change over the whole piece with the current statuses.
-    fn respond_rate(&mut self, end: &LoadPoint) -> Direction {
-        let initial = self.now.initial.clone();
-        let from = self.now.clone();
-        let to = self.respond(end, &initial);
-        // `now` may have been in equilibrium with other statuses, or off by gamma: its own statuses decide.
-        let mut u = to.u;
-        u.add(-1.0, &from.u);
-        let gap = to.gap.iter().zip(&from.gap).map(|(a, b)| a - b).collect();
-        let force = to
-            .force
-            .iter()
-            .zip(&from.force)
-            .map(|(a, b)| a - b)
-            .collect();
-        Direction {
-            u,
-            initial: self.sub.zeros(),
-            gap,
-            force,
-        }
     }
 
     /// What must stay positive: gaps of open pairs, forces of closed ones.
@@ -358,7 +325,7 @@ impl Engine<'_> {
             .collect()
     }
 
-    fn wrong_at_border(&self, rates: &Direction) -> Vec<usize> {
+    fn wrong_at_border(&self, rates: &Equilibrium) -> Vec<usize> {
         let values = self.values(&rates.gap, &rates.force);
         let largest_gap = rates.gap.iter().fold(0.0f64, |m, g| m.max(g.abs()));
         let largest_force = rates.force.iter().fold(0.0f64, |m, r| m.max(r.abs()));
@@ -383,7 +350,7 @@ impl Engine<'_> {
     fn line_search(
         &mut self,
         state: &Equilibrium,
-        direction: &Direction,
+        direction: &Equilibrium,
         balance: &Trailing,
         (trial, out): &mut (Equilibrium, Trailing),
     ) -> Option<(f64, Evaluation)> {
@@ -394,7 +361,7 @@ impl Engine<'_> {
         let mut length = 1.0;
         for _ in 0..BACKTRACKS {
             trial.copy_from(state);
-            advance(trial, length, direction);
+            trial.add(length, direction);
             let evaluation = self.out_of_balance_at(trial, out);
             let there = out.dot(&direction.u);
             if there >= -OVERSHOOT * slope {
@@ -415,7 +382,7 @@ impl Engine<'_> {
     /// the initial loads that the state is in equilibrium with.
     fn out_of_balance_at(&mut self, state: &Equilibrium, balance: &mut Trailing) -> Evaluation {
         let evaluation = self.zone.evaluate(&state.u, balance);
-        balance.add(-1.0, &state.initial);
+        balance.add(-1.0, &state.initial.load);
         self.counts.plastic_iterations += 1;
         evaluation
     }
@@ -430,40 +397,4 @@ fn next_damping(damping: f64, length: f64) -> f64 {
     } else {
         damping
     }
-}
-
-fn advance(state: &mut Equilibrium, length: f64, direction: &Direction) {
-    state.u.add(length, &direction.u);
-    state.initial.add(length, &direction.initial);
-    for (g, d) in state.gap.iter_mut().zip(&direction.gap) {
-        *g += length * d;
-    }
-    for (r, d) in state.force.iter_mut().zip(&direction.force) {
-        *r += length * d;
-    }
-}
-
-/// Scales the increment since `before` by `share`.
-fn rescale(state: &mut Equilibrium, before: &Equilibrium, share: f64) {
-    let mix = |a: &mut f64, b: f64| *a = b + share * (*a - b);
-    state
-        .u
-        .iter_mut()
-        .zip(before.u.iter())
-        .for_each(|(a, b)| mix(a, *b));
-    state
-        .initial
-        .iter_mut()
-        .zip(before.initial.iter())
-        .for_each(|(a, b)| mix(a, *b));
-    state
-        .gap
-        .iter_mut()
-        .zip(&before.gap)
-        .for_each(|(a, b)| mix(a, *b));
-    state
-        .force
-        .iter_mut()
-        .zip(&before.force)
-        .for_each(|(a, b)| mix(a, *b));
 }

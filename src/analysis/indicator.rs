@@ -14,7 +14,7 @@
 //! Int. J. Numer. Meth. Engng 33 (1992) 1331-1382, doi:10.1002/nme.1620330702.
 
 use crate::assembly::gauss_points_of;
-use crate::element::{AtPoints, MAX_POINTS, shape_functions};
+use crate::element::{AtPoints, MAX_POINTS, n_gauss_points, shape_functions};
 use crate::material::Material;
 use crate::model::Model;
 use crate::scene::Kind;
@@ -40,11 +40,7 @@ pub(super) fn indicator<'s>(
     stress: impl Fn(usize) -> &'s AtPoints + Sync,
 ) -> Indicator {
     let neighbours = Neighbours::new(model);
-    let samples: Vec<Samples> = (0..model.mesh.n_elements())
-        .into_par_iter()
-        .with_min_len(256)
-        .map(|e| Samples::new(model, e, stress(e)))
-        .collect();
+    let samples = Samples::new(model, &stress);
     let energies: Vec<[f64; 2]> = (0..model.mesh.n_elements())
         .into_par_iter()
         .with_min_len(64)
@@ -107,40 +103,75 @@ impl Neighbours {
     }
 }
 
-/// Stresses of an element at its superconvergent points.
+/// Stress at a superconvergent point.
+#[derive(Clone, Copy, Default)]
+struct Sample {
+    position: [f64; 2],
+    stress: [f64; 4],
+}
+
+/// The samples of all elements, element by element.
 struct Samples {
-    n: usize,
-    positions: [[f64; 2]; MAX_POINTS],
-    stresses: AtPoints,
+    first: Vec<u32>,
+    list: Vec<Sample>,
 }
 
 impl Samples {
-    /// The centre of a linear element carries its mean, the Gauss points of a quadratic one are superconvergent themselves.
-    fn new(model: &Model, e: usize, stress: &AtPoints) -> Self {
-        let points = gauss_points_of(model, e);
-        let mut out = Samples {
-            n: points.len(),
-            positions: [[0.0; 2]; MAX_POINTS],
-            stresses: *stress,
-        };
-        out.positions[..points.len()].copy_from_slice(points.positions());
-        if degree(model, e) == 1 {
-            let (mut at, mut mean, mut volume) = ([0.0; 2], [0.0; 4], 0.0);
-            for ((weight, position), stress) in points.weights().zip(points.positions()).zip(stress)
-            {
-                volume += weight;
-                for d in 0..2 {
-                    at[d] += weight * position[d];
-                }
-                for c in 0..4 {
-                    mean[c] += weight * stress[c];
-                }
-            }
-            out.n = 1;
-            out.positions[0] = at.map(|x| x / volume);
-            out.stresses[0] = mean.map(|s| s / volume);
+    fn new<'s>(model: &Model, stress: &(impl Fn(usize) -> &'s AtPoints + Sync)) -> Self {
+        let mesh = &model.mesh;
+        let mut first = vec![0u32];
+        for (e, shape) in mesh.shapes.iter().enumerate() {
+            let own = match degree(model, e) {
+                1 => 1,
+                _ => n_gauss_points(*shape),
+            };
+            first.push(first[e] + own as u32);
         }
-        out
+        let mut list = vec![Sample::default(); first[mesh.n_elements()] as usize];
+        let mut of_elements = Vec::with_capacity(mesh.n_elements());
+        let mut rest = list.as_mut_slice();
+        for e in 0..mesh.n_elements() {
+            let (own, tail) = rest.split_at_mut((first[e + 1] - first[e]) as usize);
+            of_elements.push(own);
+            rest = tail;
+        }
+        of_elements
+            .into_par_iter()
+            .enumerate()
+            .with_min_len(256)
+            .for_each(|(e, samples)| sample(model, e, stress(e), samples));
+        Samples { first, list }
+    }
+
+    fn of(&self, element: u32) -> &[Sample] {
+        let e = element as usize;
+        &self.list[self.first[e] as usize..self.first[e + 1] as usize]
+    }
+}
+
+/// The centre of a linear element carries its mean, the Gauss points of a quadratic one are superconvergent themselves.
+fn sample(model: &Model, e: usize, stresses: &AtPoints, out: &mut [Sample]) {
+    let points = gauss_points_of(model, e);
+    if let [mean] = out {
+        let mut volume = 0.0;
+        for ((weight, at), stress) in points.weights().zip(points.positions()).zip(stresses) {
+            volume += weight;
+            for d in 0..2 {
+                mean.position[d] += weight * at[d];
+            }
+            for c in 0..4 {
+                mean.stress[c] += weight * stress[c];
+            }
+        }
+        mean.position = mean.position.map(|x| x / volume);
+        mean.stress = mean.stress.map(|s| s / volume);
+        return;
+    }
+    for ((sample, position), stress) in out.iter_mut().zip(points.positions()).zip(stresses) {
+        *sample = Sample {
+            position: *position,
+            stress: *stress,
+        };
     }
 }
 
@@ -246,21 +277,25 @@ fn energies(
     e: usize,
     stress: &AtPoints,
     patch: &[u32],
-    samples: &[Samples],
+    samples: &Samples,
 ) -> [f64; 2] {
     let material = &model.materials[model.mesh.element_body[e] as usize];
     let frame = Frame::new(model, e);
-    let most = if degree(model, e) == 1 { 3 } else { MOST_TERMS };
     // A patch that does not determine the polynomial (a single element, a row of them) takes a lower degree.
-    let fit = [most, 3, 1]
-        .into_iter()
-        .find_map(|n| fit(&frame, patch, samples, n));
+    let fit = match degree(model, e) {
+        1 => None,
+        _ => fit_of::<MOST_TERMS>(&frame, patch, samples),
+    };
+    let fit = fit
+        .or_else(|| fit_of::<3>(&frame, patch, samples))
+        .or_else(|| fit_of::<1>(&frame, patch, samples));
     let mut out = [0.0; 2];
     quadrature(model, e, stress, |(position, weight, computed)| {
         let recovered = match &fit {
-            Some((n, coefficients)) => {
+            Some(fit) => {
                 let terms = frame.terms(position);
-                std::array::from_fn(|c| (0..*n).map(|a| terms[a] * coefficients[(a, c)]).sum())
+                let pairs = || terms.iter().zip(&fit.coefficients[..fit.n]);
+                std::array::from_fn(|c| pairs().map(|(term, a)| term * a[c]).sum())
             }
             None => computed,
         };
@@ -313,58 +348,50 @@ fn weight(x: f64, y: f64) -> f64 {
     1.0 / (1.0 + (x * x + y * y).powi(2))
 }
 
-/// Coefficients of the weighted least-squares polynomial with `n` terms, `n x 4`; `None` where the samples do not determine it.
-fn fit(
-    frame: &Frame,
-    patch: &[u32],
-    samples: &[Samples],
+/// A polynomial with `n` terms for each component.
+struct Fit {
     n: usize,
-) -> Option<(usize, SMatrix<f64, MOST_TERMS, 4>)> {
-    let mut gram = SMatrix::<f64, MOST_TERMS, MOST_TERMS>::zeros();
-    let mut right = SMatrix::<f64, MOST_TERMS, 4>::zeros();
+    coefficients: [[f64; 4]; MOST_TERMS],
+}
+
+/// The weighted least-squares polynomial with `N` terms; `None` where the samples do not determine it.
+fn fit_of<const N: usize>(frame: &Frame, patch: &[u32], samples: &Samples) -> Option<Fit> {
+    let mut gram = SMatrix::<f64, N, N>::zeros();
+    let mut right = SMatrix::<f64, N, 4>::zeros();
     let mut used = 0;
     for &member in patch {
-        let sample = &samples[member as usize];
-        for (position, stress) in sample.positions.iter().zip(&sample.stresses).take(sample.n) {
+        for sample in samples.of(member) {
             used += 1;
-            let terms = frame.terms(*position);
+            let terms = frame.terms(sample.position);
             let weight = weight(terms[1], terms[2]);
-            for a in 0..n {
-                for b in 0..n {
+            for a in 0..N {
+                for b in 0..=a {
                     gram[(a, b)] += weight * terms[a] * terms[b];
                 }
                 for c in 0..4 {
-                    right[(a, c)] += weight * terms[a] * stress[c];
+                    right[(a, c)] += weight * terms[a] * sample.stress[c];
                 }
             }
         }
     }
     // As many samples as terms would be interpolated, noise and all.
-    if used <= n && n > 1 {
+    if used <= N && N > 1 {
         return None;
     }
-    let scaling: [f64; MOST_TERMS] = std::array::from_fn(|i| {
-        if i < n {
-            1.0 / gram[(i, i)].sqrt()
-        } else {
-            1.0
-        }
-    });
-    // Terms that are left out are held at zero by a unit diagonal.
-    let scaled = SMatrix::<f64, MOST_TERMS, MOST_TERMS>::from_fn(|i, j| match i.max(j) < n {
-        true => gram[(i, j)] * scaling[i] * scaling[j],
-        false => f64::from(u8::from(i == j)),
-    });
+    let scaling: [f64; N] = std::array::from_fn(|i| 1.0 / gram[(i, i)].sqrt());
+    // Of the matrix Cholesky reads the lower triangle.
+    let scaled = SMatrix::<f64, N, N>::from_fn(|i, j| gram[(i, j)] * scaling[i] * scaling[j]);
     let factor = scaled.cholesky()?;
-    if (0..n).any(|i| factor.l_dirty()[(i, i)] < DETERMINED) {
+    if (0..N).any(|i| factor.l_dirty()[(i, i)] < DETERMINED) {
         return None;
     }
     for (i, mut row) in right.row_iter_mut().enumerate() {
         row *= scaling[i];
     }
     factor.solve_mut(&mut right);
-    for (i, mut row) in right.row_iter_mut().enumerate() {
-        row *= scaling[i];
+    let mut coefficients = [[0.0; 4]; MOST_TERMS];
+    for i in 0..N {
+        coefficients[i] = std::array::from_fn(|c| right[(i, c)] * scaling[i]);
     }
-    Some((n, right))
+    Some(Fit { n: N, coefficients })
 }

@@ -2,7 +2,7 @@
 //!
 //! | file | what | paper |
 //! |---|---|---|
-//! | `engine` | structure under load, response to loads and initial loads | 3.7, 4.1 to 4.6 |
+//! | `engine`, `equilibrium`, `response` | structure under load, response to loads and initial loads | 3.7, 4.1 to 4.6 |
 //! | `first_yield`, `yield_load`, `recovery`, `patch`, `mirror` | load at first yield, stress between the points | 3.11 to 3.14 |
 //! | `elastic` | contact along an elastic path, from event to event | 3.9, 3.10 |
 //! | `increment`, `step_length` | one elastoplastic increment that ends at the next change of contact | 4.7 to 4.23 |
@@ -21,6 +21,7 @@ mod contact_edge;
 mod drive;
 mod elastic;
 mod engine;
+mod equilibrium;
 mod first_yield;
 mod gather;
 mod increment;
@@ -36,6 +37,7 @@ mod quality;
 mod record;
 mod recovery;
 mod reference;
+mod response;
 mod resume;
 mod saved;
 mod state;

@@ -71,7 +71,7 @@ impl Engine<'_> {
         let reduced = self.reduced_external(&self.at);
         let load = self.total_load();
         let mut condensed = self.external(&self.at);
-        condensed.add(1.0, &self.now.initial);
+        condensed.add(1.0, &self.now.initial.load);
         let (found, amplitudes) =
             self.sub
                 .recover_deformation(self.system, &load, &reduced, condensed, &self.slip())?;

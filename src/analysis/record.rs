@@ -4,7 +4,8 @@
 //! operations on the same numbers. What depends on the way here is kept: state, history, and the pivots that the
 //! tableau went through.
 
-use super::engine::{Engine, Equilibrium, LoadPoint};
+use super::engine::{Engine, LoadPoint};
+use super::equilibrium::{EliminatedLoad, Equilibrium};
 use super::packed::{Ascending, SparseHistory, SparseTrailing};
 use super::saved::Saved;
 use super::zone::ZoneRecord;
@@ -20,10 +21,38 @@ use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use xxhash_rust::xxh3::Xxh3;
 
+/// A load that was eliminated piece by piece: not what eliminating it at once gives, to the last bit.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+struct EliminatedRecord {
+    load: SparseTrailing,
+    eliminated: SparseTrailing,
+    forces: Vec<f64>,
+}
+
+impl EliminatedRecord {
+    fn of(load: &EliminatedLoad) -> Self {
+        EliminatedRecord {
+            load: SparseTrailing::new(&load.load),
+            eliminated: SparseTrailing::new(&load.eliminated),
+            forces: load.forces.clone(),
+        }
+    }
+
+    /// `zeros` has the size that it must have; `None` where it has another.
+    fn unpack(&self, zeros: &Trailing, n_pairs: usize) -> Option<EliminatedLoad> {
+        let mut out = EliminatedLoad::none(zeros, n_pairs);
+        let fits = self.load.unpack(&mut out.load)
+            && self.eliminated.unpack(&mut out.eliminated)
+            && self.forces.len() == n_pairs;
+        out.forces.clone_from(&self.forces);
+        fits.then_some(out)
+    }
+}
+
 /// An equilibrium.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 struct EquilibriumRecord {
-    initial: SparseTrailing,
+    initial: EliminatedRecord,
     u: Trailing,
     gap: Vec<f64>,
     force: Vec<f64>,
@@ -32,7 +61,7 @@ struct EquilibriumRecord {
 impl EquilibriumRecord {
     fn of(now: &Equilibrium) -> Self {
         EquilibriumRecord {
-            initial: SparseTrailing::new(&now.initial),
+            initial: EliminatedRecord::of(&now.initial),
             u: now.u.clone(),
             gap: now.gap.clone(),
             force: now.force.clone(),
@@ -40,14 +69,14 @@ impl EquilibriumRecord {
     }
 
     /// `zeros` has the size that it must have; `None` where it has another.
-    fn unpack(&self, mut zeros: Trailing, n_pairs: usize) -> Option<Equilibrium> {
+    fn unpack(&self, zeros: &Trailing, n_pairs: usize) -> Option<Equilibrium> {
+        let initial = self.initial.unpack(zeros, n_pairs)?;
         let fits = self.u.zone.len() == zeros.zone.len()
             && self.u.contact.len() == zeros.contact.len()
-            && self.initial.unpack(&mut zeros)
             && self.gap.len() == n_pairs
             && self.force.len() == n_pairs;
         fits.then(|| Equilibrium {
-            initial: zeros,
+            initial,
             u: self.u.clone(),
             gap: self.gap.clone(),
             force: self.force.clone(),
@@ -69,6 +98,7 @@ pub(super) struct EngineRecord {
     load_forces: Vec<Vec<f64>>,
     unit: f64,
     counts: Counts,
+    half: bool,
     force_scale: f64,
     condition: f64,
     displacement_scale: f64,
@@ -77,6 +107,7 @@ pub(super) struct EngineRecord {
     fresh: bool,
     border: Vec<usize>,
     last_step: Vec<f64>,
+    pace: Option<EliminatedRecord>,
 }
 
 impl EngineRecord {
@@ -104,6 +135,7 @@ impl<'m> Engine<'m> {
             load_forces: self.load_forces.clone(),
             unit: self.unit,
             counts: self.counts,
+            half: self.half,
             force_scale: self.force_scale,
             condition: self.condition,
             displacement_scale: self.displacement_scale,
@@ -112,6 +144,7 @@ impl<'m> Engine<'m> {
             fresh: self.fresh,
             border: self.border.clone(),
             last_step: self.last_step.clone(),
+            pace: self.pace.as_ref().map(EliminatedRecord::of),
         }
     }
 
@@ -135,7 +168,11 @@ impl<'m> Engine<'m> {
         let same = engine.fingerprint() == record.fingerprint;
         let n = model.pairs.len();
         let zeros = engine.sub.zeros();
-        engine.now = record.now.unpack(zeros, n).ok_or_else(unfit)?;
+        engine.now = record.now.unpack(&zeros, n).ok_or_else(unfit)?;
+        engine.pace = match &record.pace {
+            Some(pace) => Some(pace.unpack(&zeros, n).ok_or_else(unfit)?),
+            None => None,
+        };
         let fits = engine.zone.recall(&record.zone)
             && engine.tableau.replay(&record.tableau)
             && record.load_forces.len() == engine.load_forces.len()
@@ -150,6 +187,7 @@ impl<'m> Engine<'m> {
         engine.load_forces.clone_from(&record.load_forces);
         engine.unit = record.unit;
         engine.counts = record.counts;
+        engine.half = record.half;
         engine.force_scale = record.force_scale;
         engine.condition = record.condition;
         engine.displacement_scale = record.displacement_scale;
@@ -218,7 +256,7 @@ impl Saved {
         };
         let mut history = vec![PlasticState::default(); record.points];
         let fits = record.history.unpack(&mut history) && record.open.len() == n;
-        let now = record.now.unpack(zeros, n).filter(|_| fits);
+        let now = record.now.unpack(&zeros, n).filter(|_| fits);
         Ok(Saved {
             at: record.at.clone(),
             now: now.ok_or_else(unfit)?,

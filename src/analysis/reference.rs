@@ -2,7 +2,7 @@
 
 use crate::analytical::{self, DiscInPlate, HertzLine, HertzPoint, Plane};
 use crate::model::Model;
-use crate::results::{ReferenceRow, Results, State};
+use crate::results::{ReferenceRow, Results, State, YieldPoint};
 use crate::scene::Kind;
 
 /// Rows of all reference entries of the scene.
@@ -43,6 +43,12 @@ fn row(
         published_ratio: published,
         source: source.to_string(),
     }
+}
+
+/// The coordinate `y` of first yield at a depth below the surface, which is at 0: bodies of one material yield alike on either side,
+/// and the point is that of the body that was named.
+fn along_y(depth: f64, first: &YieldPoint) -> f64 {
+    depth.copysign(first.location[1])
 }
 
 /// Contact modulus of the first two bodies, and nu and yield stress of the one that yields first.
@@ -89,8 +95,8 @@ fn hertz_line(model: &Model, results: &Results, radius: f64) -> Option<Vec<Refer
         ),
         row(
             "yield.location.y",
-            hertz.yield_depth(nu, y),
-            first.location[1].abs(),
+            along_y(hertz.yield_depth(nu, y), &first),
+            first.location[1],
             Some(0.94),
             table,
         ),
@@ -126,8 +132,8 @@ fn hertz_point(model: &Model, results: &Results, radius: f64) -> Option<Vec<Refe
         ),
         row(
             "yield.location.y",
-            hertz.yield_depth(nu, y),
-            first.location[1].abs(),
+            along_y(hertz.yield_depth(nu, y), &first),
+            first.location[1],
             None,
             source,
         ),
@@ -193,6 +199,8 @@ fn lookup(results: &Results, path: &str) -> Option<f64> {
             "load" => Some(first.load),
             "max_pressure" => Some(first.max_pressure),
             "half_width" => Some(first.half_width),
+            "location.x" => Some(first.location[0]),
+            "location.y" => Some(first.location[1]),
             _ => None,
         };
     }

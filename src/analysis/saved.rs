@@ -1,6 +1,7 @@
 //! A committed state to go back to, and the way from one load point to another.
 
-use super::engine::{Engine, Equilibrium, LoadPoint};
+use super::engine::{Engine, LoadPoint};
+use super::equilibrium::Equilibrium;
 use crate::material::PlasticState;
 use std::sync::Arc;
 
@@ -32,6 +33,7 @@ impl Saved {
     pub(super) fn put_back(&self, engine: &mut Engine) {
         engine.at = self.at.clone();
         engine.border = self.border.clone();
+        engine.pace = None;
         if Arc::ptr_eq(&self.elements, &engine.elements) {
             engine.zone.restore(&self.history);
             engine.now.copy_from(&self.now);
@@ -40,7 +42,8 @@ impl Saved {
             engine.zone.restore_of(&self.elements, &self.history);
             engine.now.gap.copy_from_slice(&self.now.gap);
             engine.now.force.copy_from_slice(&self.now.force);
-            engine.now.initial = engine.zone.initial_load(engine.sub.zeros());
+            let initial = engine.zone.initial_load(engine.sub.zeros());
+            engine.now.initial = engine.eliminate(initial);
             engine.fresh = false;
         }
         // Closing first: a pair whose opening would free a motion can open once others are closed.

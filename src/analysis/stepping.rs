@@ -82,7 +82,7 @@ impl Engine<'_> {
                     }
                     most *= CUT;
                     // The points flow as in the state that failed: its tangent, often singular, must not predict the next.
-                    self.zone.assume_elastic();
+                    self.assume_elastic();
                 }
             }
         }

@@ -46,6 +46,7 @@ pub(super) struct ElementStress {
 struct Evaluated {
     force: [f64; MAX_FREEDOMS],
     points: AtPoints,
+    mean: [f64; 4],
     von_mises: f64,
     plastic_points: usize,
     plastic_volume: f64,
@@ -80,14 +81,20 @@ impl Stresses {
             let mut out = Evaluated {
                 force: [0.0; MAX_FREEDOMS],
                 points: points.strains(&u),
+                mean: [0.0; 4],
                 von_mises: 0.0,
                 plastic_points: 0,
                 plastic_volume: 0.0,
                 plastic_strain: 0.0,
             };
+            let mut volume = 0.0;
             for (g, weight) in points.weights().enumerate() {
                 let past = past.get(g).copied().unwrap_or(PlasticState::default());
                 out.points[g] = stress(elastic, &out.points[g], &past.strain);
+                volume += weight;
+                for (mean, s) in out.mean.iter_mut().zip(&out.points[g]) {
+                    *mean += weight * s;
+                }
                 out.von_mises = out.von_mises.max(von_mises(&out.points[g]));
                 out.plastic_strain = out.plastic_strain.max(past.equivalent);
                 if past.equivalent > 0.0 {
@@ -95,6 +102,7 @@ impl Stresses {
                     out.plastic_volume += weight;
                 }
             }
+            out.mean = out.mean.map(|sum| sum / volume);
             out.force = points.forces(&out.points);
             out
         };
@@ -130,7 +138,12 @@ impl Stresses {
                     out.beyond_yield_outside.push(e);
                 }
                 if with_elements {
-                    out.elements.push(ElementStress::new(model, e, element));
+                    out.elements.push(ElementStress {
+                        points: element.points,
+                        mean: element.mean,
+                        von_mises: element.von_mises,
+                        plastic_strain: element.plastic_strain,
+                    });
                 }
             }
         }
@@ -145,24 +158,5 @@ impl Stresses {
             }
         }
         out
-    }
-}
-
-impl ElementStress {
-    fn new(model: &Model, e: usize, element: &Evaluated) -> Self {
-        let points = gauss_points_of(model, e);
-        let volume: f64 = points.weights().sum();
-        let mut mean = [0.0; 4];
-        for (weight, stress) in points.weights().zip(&element.points) {
-            for (mean, s) in mean.iter_mut().zip(stress) {
-                *mean += weight / volume * s;
-            }
-        }
-        ElementStress {
-            points: element.points,
-            mean,
-            von_mises: element.von_mises,
-            plastic_strain: element.plastic_strain,
-        }
     }
 }

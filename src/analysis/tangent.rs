@@ -5,108 +5,68 @@
 //! never needed because `S p` follows from the recurrence of the search directions.
 
 use super::engine::Engine;
+use super::equilibrium::Equilibrium;
+use crate::linalg::ZonePart;
 use crate::substructure::Trailing;
 
 /// Most iterations of a solve: enough for perfect plasticity near collapse; a solve that needs more has no useful direction.
 const MOST: usize = 400;
 
-/// A change of displacements with what follows from it.
-#[derive(Debug, Clone)]
-pub struct Direction {
-    /// Change of displacements.
-    pub u: Trailing,
-    /// Change of initial loads.
-    pub initial: Trailing,
-    /// Change of gaps.
-    pub gap: Vec<f64>,
-    /// Change of contact forces.
-    pub force: Vec<f64>,
-}
-
 impl Engine<'_> {
     /// The direction of initial loads `initial`, closed pairs staying closed.
-    pub fn direction(&mut self, initial: Trailing) -> Direction {
-        let n = self.now.gap.len();
-        let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
-        let mut u = initial.clone();
-        self.respond_homogeneous(&mut u, &mut gap, &mut force);
-        Direction {
-            u,
-            initial,
-            gap,
-            force,
-        }
+    pub fn direction(&mut self, initial: Trailing) -> Equilibrium {
+        let mut out = Equilibrium::none(&initial, self.now.gap.len());
+        out.initial.load = initial;
+        self.respond_homogeneous(&mut out, &ZonePart::default());
+        out
     }
 
     /// Newton's direction: solves `(S - keep K_p) du = residual` to `tolerance` (energy norm, relative). The initial loads of
     /// the direction are `S du`, what the direction asks the plastic strains to become. `keep = 1` is the tangent, 0 the plain
     /// iteration; in between the condition is at most `1/(1 - keep)`, also where the material has no stiffness left.
     ///
-    /// The search directions carry their gaps and forces along, and the last preconditioned residual `z = S^-1 r` is
-    /// taken as a step of the plain iteration on top, so that no trailing solve but those of the iteration is needed.
-    pub fn solve_tangent(&mut self, residual: &Trailing, tolerance: f64, keep: f64) -> Direction {
+    /// The search directions carry their gaps, forces and eliminated loads along, and the last preconditioned residual `z = S^-1 r` is
+    /// taken as a step of the plain iteration on top: beside the iteration's trailing solves the direction costs half a solve. In the iteration
+    /// the second halves go through the part of the zone that counts.
+    pub fn solve_tangent(&mut self, residual: &Trailing, tolerance: f64, keep: f64) -> Equilibrium {
         let mut softened = self.sub.zeros();
-        let mut r = residual.clone();
-        let mut z = self.direction(r.clone());
-        let mut total = Direction {
-            u: self.sub.zeros(),
-            initial: self.sub.zeros(),
-            gap: vec![0.0; z.gap.len()],
-            force: vec![0.0; z.force.len()],
-        };
+        let part = self.part_that_counts(residual);
+        // The residual that is left is the load of z.
+        let mut z = Equilibrium::none(residual, self.now.gap.len());
+        z.initial.load.copy_from(residual);
+        self.respond_homogeneous(&mut z, &part);
+        let mut total = Equilibrium::none(residual, z.gap.len());
         let mut p = z.clone();
-        let mut rz = r.dot(&z.u);
+        let mut rz = z.initial.load.dot(&z.u);
         let target = tolerance * tolerance * rz;
         for _ in 0..MOST {
             if rz <= target || rz <= 0.0 {
                 break;
             }
             self.zone.softening_times(&p.u, &mut softened);
-            for value in softened.iter_mut() {
-                *value *= keep;
-            }
-            let stiffness = p.initial.dot(&p.u);
-            let curvature = stiffness - softened.dot(&p.u);
+            let stiffness = p.initial.load.dot(&p.u);
+            let curvature = stiffness - keep * softened.dot(&p.u);
             if curvature <= 1e-14 * stiffness {
                 break;
             }
             let step = rz / curvature;
             total.add(step, &p);
-            r.add(-step, &p.initial);
-            r.add(step, &softened);
-            z.u.copy_from(&r);
-            z.initial.copy_from(&r);
-            self.respond_homogeneous(&mut z.u, &mut z.gap, &mut z.force);
-            let next = r.dot(&z.u);
+            z.initial.load.add(-step, &p.initial.load);
+            z.initial.load.add(step * keep, &softened);
+            self.respond_homogeneous(&mut z, &part);
+            let next = z.initial.load.dot(&z.u);
             p.turn(next / rz, &z);
             rz = next;
         }
         total.add(1.0, &z);
+        self.recover_change(&mut total, &ZonePart::default());
         total
     }
-}
 
-impl Direction {
-    /// `self += factor * other`.
-    pub fn add(&mut self, factor: f64, other: &Direction) {
-        self.u.add(factor, &other.u);
-        self.initial.add(factor, &other.initial);
-        for (a, b) in self.gap.iter_mut().zip(&other.gap) {
-            *a += factor * b;
-        }
-        for (a, b) in self.force.iter_mut().zip(&other.force) {
-            *a += factor * b;
-        }
-    }
-
-    /// `self = other + factor * self`.
-    fn turn(&mut self, factor: f64, other: &Direction) {
-        let values = self.u.iter_mut().chain(self.initial.iter_mut());
-        let others = other.u.iter().chain(other.initial.iter());
-        let pairs = self.gap.iter_mut().chain(&mut self.force);
-        let other_pairs = other.gap.iter().chain(&other.force);
-        for (a, b) in values.chain(pairs).zip(others.chain(other_pairs)) {
-            *a = b + factor * *a;
-        }
+    /// Where the displacements of search directions enter a tangent solve: where the material flows and where the residual acts.
+    fn part_that_counts(&self, residual: &Trailing) -> ZonePart {
+        let mut marks: Vec<bool> = residual.zone.iter().map(|r| *r != 0.0).collect();
+        self.zone.mark_active(&mut marks);
+        self.sub.part_of_zone(&marks)
     }
 }

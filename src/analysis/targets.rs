@@ -6,7 +6,7 @@ use super::engine::Engine;
 use super::place::Search;
 use super::program::{DOUBLINGS, Run};
 use crate::error::{Error, Result};
-use crate::scene::{Direction, Target};
+use crate::scene::{Direction, DisplacementTarget, Target};
 
 impl Run<'_, '_> {
     /// Ends of the straight pieces from the current load factor to `alpha`: the kinks of the loads' histories in between.
@@ -106,58 +106,63 @@ impl Run<'_, '_> {
             let upward = self.engine.contact_figures().half_width < goal;
             return self.search(&monitor, upward, 1.0, label);
         }
-        if let Some(goal) = &target.displacement {
-            let nodes = self.model().mesh.set_nodes(&goal.on).ok_or_else(|| {
-                Error::input(format!(
-                    "target `{label}`: the mesh has no set `{}`",
-                    goal.on
-                ))
-            })?;
-            let direction = usize::from(goal.direction == Direction::Y);
-            let value = goal.value;
-            let distance = move |engine: &mut Engine| match engine.all_displacements() {
-                Ok(u) => {
-                    let sum: f64 = nodes
-                        .iter()
-                        .map(|&n| {
-                            engine
-                                .model
-                                .freedoms
-                                .displacement(n, &u, &engine.at.factors)[direction]
-                        })
-                        .sum();
-                    sum / nodes.len() as f64 - value
-                }
-                Err(_) => f64::NAN,
-            };
-            let resumed = self.resumed.as_ref().and_then(|place| place.search);
-            let scale = match resumed {
-                Some(search) => search.scale,
-                None => value.abs().max(distance(&mut self.engine).abs()),
-            };
-            let monitor = move |engine: &mut Engine| {
-                let off = distance(engine);
-                if scale > 0.0 { off / scale } else { off }
-            };
-            if let Some(search) = resumed {
-                return self.search(&monitor, search.upward, scale, label);
-            }
-            let here = monitor(&mut self.engine);
-            let ahead = {
-                let alpha = self.engine.at.alpha;
-                let probe = self.engine.point(alpha + 1e-3 * alpha.abs().max(1.0));
-                let saved = (self.engine.at.clone(), self.engine.now.clone());
-                let initial = self.engine.now.initial.clone();
-                self.engine.now = self.engine.respond(&probe, &initial);
-                self.engine.at = probe;
-                let value = monitor(&mut self.engine);
-                (self.engine.at, self.engine.now) = saved;
-                value
-            };
-            let upward = (ahead - here) * here <= 0.0;
-            return self.search(&monitor, upward, scale, label);
+        match &target.displacement {
+            Some(goal) => self.reach_displacement(goal, label),
+            None => Err(Error::input(format!("target `{label}` has no condition"))),
         }
-        Err(Error::input(format!("target `{label}` has no condition")))
+    }
+
+    /// Moves on until the mean displacement of a set has a value.
+    fn reach_displacement(&mut self, goal: &DisplacementTarget, label: &str) -> Result<()> {
+        let nodes = self.model().mesh.set_nodes(&goal.on).ok_or_else(|| {
+            Error::input(format!(
+                "target `{label}`: the mesh has no set `{}`",
+                goal.on
+            ))
+        })?;
+        let direction = usize::from(goal.direction == Direction::Y);
+        let value = goal.value;
+        let distance = move |engine: &mut Engine| match engine.all_displacements() {
+            Ok(u) => {
+                let sum: f64 = nodes
+                    .iter()
+                    .map(|&n| {
+                        engine
+                            .model
+                            .freedoms
+                            .displacement(n, &u, &engine.at.factors)[direction]
+                    })
+                    .sum();
+                sum / nodes.len() as f64 - value
+            }
+            Err(_) => f64::NAN,
+        };
+        let resumed = self.resumed.as_ref().and_then(|place| place.search);
+        let scale = match resumed {
+            Some(search) => search.scale,
+            None => value.abs().max(distance(&mut self.engine).abs()),
+        };
+        let monitor = move |engine: &mut Engine| {
+            let off = distance(engine);
+            if scale > 0.0 { off / scale } else { off }
+        };
+        if let Some(search) = resumed {
+            return self.search(&monitor, search.upward, scale, label);
+        }
+        let here = monitor(&mut self.engine);
+        let ahead = {
+            let alpha = self.engine.at.alpha;
+            let probe = self.engine.point(alpha + 1e-3 * alpha.abs().max(1.0));
+            let saved = (self.engine.at.clone(), self.engine.now.clone());
+            let initial = self.engine.now.initial.clone();
+            self.engine.now = self.engine.respond(&probe, initial);
+            self.engine.at = probe;
+            let value = monitor(&mut self.engine);
+            (self.engine.at, self.engine.now) = saved;
+            value
+        };
+        let upward = (ahead - here) * here <= 0.0;
+        self.search(&monitor, upward, scale, label)
     }
 
     /// Moves the load factor up (doubling) or down to zero until the monitored quantity, measured against `scale`, vanishes.

@@ -89,8 +89,7 @@ impl Engine<'_> {
     /// A load that drives a body away from every contact.
     pub fn solve_contact_at(&mut self, point: &LoadPoint) -> Result<()> {
         let mut q = self.closed_forces(point);
-        let initial = self.now.initial.clone();
-        for (q, t) in q.iter_mut().zip(self.initial_forces(&initial)) {
+        for (q, t) in q.iter_mut().zip(&self.now.initial.forces) {
             *q += t;
         }
         let n = q.len();

@@ -194,6 +194,13 @@ impl Zone {
         self.sums.sum_into(out);
     }
 
+    /// Marks the zone freedoms of elements in which a point flowed at the last evaluated state.
+    pub fn mark_active(&self, marks: &mut [bool]) {
+        for &i in &self.active {
+            self.elements.mark(i as usize, marks);
+        }
+    }
+
     /// True where no point flowed at the last evaluated state.
     pub fn is_idle(&self) -> bool {
         self.active.is_empty()

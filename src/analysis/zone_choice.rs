@@ -244,13 +244,13 @@ impl Engine<'_> {
             }
         }
         let partition = &self.sub.partition;
-        for (&f, j) in partition.zone.iter().zip(&self.now.initial.zone) {
+        for (&f, j) in partition.zone.iter().zip(&self.now.initial.load.zone) {
             load[f] += j;
         }
         let n = self.now.force.len();
         for (i, &f) in partition.contact.iter().enumerate() {
             let sign = if i < n { 1.0 } else { -1.0 };
-            load[f] += self.now.initial.contact[i] + sign * self.now.force[i % n];
+            load[f] += self.now.initial.load.contact[i] + sign * self.now.force[i % n];
         }
         load
     }

@@ -4,6 +4,7 @@ use crate::element::{Points, gauss_points, packed, sampling};
 use crate::model::Model;
 
 /// The Gauss points of an element.
+#[inline]
 pub fn gauss_points_of(model: &Model, element: usize) -> Points {
     let x = model.element_coordinates(element);
     gauss_points(model.kind, model.mesh.shapes[element], &x)

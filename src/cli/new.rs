@@ -37,16 +37,16 @@ pub(super) enum Problem {
 #[derive(Debug, Args)]
 pub(super) struct Steel {
     /// Young's modulus [MPa]
-    #[arg(long, value_name = "E", default_value_t = 210_000.0)]
+    #[arg(long, value_name = "E", default_value_t = 210_000.0, value_parser = positive, allow_negative_numbers = true)]
     pub youngs_modulus: f64,
     /// Poisson's ratio
-    #[arg(long, value_name = "NU", default_value_t = 0.3)]
+    #[arg(long, value_name = "NU", default_value_t = 0.3, value_parser = poissons_ratio, allow_negative_numbers = true)]
     pub poissons_ratio: f64,
     /// Yield stress [MPa]
-    #[arg(long, value_name = "Y", default_value_t = 500.0)]
+    #[arg(long, value_name = "Y", default_value_t = 500.0, value_parser = positive, allow_negative_numbers = true)]
     pub yield_stress: f64,
     /// Plastic modulus, d(yield stress)/d(plastic strain) [MPa]; 0 is perfectly plastic
-    #[arg(long, value_name = "H", default_value_t = 2000.0)]
+    #[arg(long, value_name = "H", default_value_t = 2000.0, value_parser = not_negative, allow_negative_numbers = true)]
     pub plastic_modulus: f64,
 }
 
@@ -57,10 +57,10 @@ pub(super) struct Steel {
 )]
 pub(super) struct Pressed {
     /// Radius [mm]
-    #[arg(long, value_name = "R", default_value_t = 10.0)]
+    #[arg(long, value_name = "R", default_value_t = 10.0, value_parser = positive, allow_negative_numbers = true)]
     pub radius: f64,
     /// Largest load [N; roller: N/mm]; by default three times the load at first yield
-    #[arg(long, value_name = "P")]
+    #[arg(long, value_name = "P", value_parser = positive, allow_negative_numbers = true)]
     pub load: Option<f64>,
     /// Elements over the contact half width at first yield
     #[arg(long, value_name = "N", default_value_t = 12)]
@@ -76,13 +76,13 @@ pub(super) struct Pressed {
 )]
 pub(super) struct Fit {
     /// Radius of the shaft and the bore [mm]
-    #[arg(long, value_name = "A", default_value_t = 50.0)]
+    #[arg(long, value_name = "A", default_value_t = 50.0, value_parser = positive, allow_negative_numbers = true)]
     pub radius: f64,
     /// Outer radius of the ring [mm]; by default twice the bore's
-    #[arg(long, value_name = "B")]
+    #[arg(long, value_name = "B", value_parser = positive, allow_negative_numbers = true)]
     pub outer_radius: Option<f64>,
     /// How much thicker the shaft's radius is [mm]
-    #[arg(long, value_name = "D", default_value_t = 0.05)]
+    #[arg(long, value_name = "D", default_value_t = 0.05, value_parser = positive, allow_negative_numbers = true)]
     pub interference: f64,
     /// Elements over a quarter circle (even)
     #[arg(long, value_name = "N", default_value_t = 24)]
@@ -96,16 +96,40 @@ pub(super) struct Fit {
 #[command(after_help = "Example: brinell new punch --half-width 2 --depth 0.05")]
 pub(super) struct Punch {
     /// Half width of the punch [mm]
-    #[arg(long, value_name = "A", default_value_t = 1.0)]
+    #[arg(long, value_name = "A", default_value_t = 1.0, value_parser = positive, allow_negative_numbers = true)]
     pub half_width: f64,
     /// How deep it is pressed [mm]; by default a fiftieth of its half width
-    #[arg(long, value_name = "D")]
+    #[arg(long, value_name = "D", value_parser = positive, allow_negative_numbers = true)]
     pub depth: Option<f64>,
     /// Elements over the half width
     #[arg(long, value_name = "N", default_value_t = 8)]
     pub resolution: usize,
     #[command(flatten)]
     pub steel: Steel,
+}
+
+fn positive(text: &str) -> std::result::Result<f64, String> {
+    within(text, |v| v > 0.0, "greater than 0")
+}
+
+fn not_negative(text: &str) -> std::result::Result<f64, String> {
+    within(text, |v| v >= 0.0, "not less than 0")
+}
+
+fn poissons_ratio(text: &str) -> std::result::Result<f64, String> {
+    within(text, |v| -1.0 < v && v < 0.5, "between -1 and 0.5")
+}
+
+/// A finite number that `holds`.
+fn within(
+    text: &str,
+    holds: impl Fn(f64) -> bool,
+    range: &str,
+) -> std::result::Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() && holds(value) => Ok(value),
+        _ => Err(format!("a number {range} is wanted")),
+    }
 }
 
 /// Writes the scene of a problem.

@@ -1,4 +1,5 @@
 use super::*;
+use crate::contact::Change;
 
 /// Upper triangle of a chain of unit springs between `n` freedoms, those of `held` tied to the ground by another.
 fn chain(n: usize, held: &[usize]) -> SymmetricCsc {

@@ -122,8 +122,10 @@ pub fn n_gauss_points(shape: Shape) -> usize {
 }
 
 /// The Gauss points of an element.
+#[inline]
 pub fn gauss_points(kind: Kind, shape: Shape, coordinates: &[[f64; 2]]) -> Points {
-    let mut out = at_points(kind, shape, coordinates, rule(shape));
+    let mut out = Points::none(kind, shape, rule(shape).len());
+    out.evaluate(shape, coordinates, rule(shape));
     if out.form.has_mean {
         let mean = mean_dilatation(&out);
         out.set_mean(&mean);
@@ -133,59 +135,60 @@ pub fn gauss_points(kind: Kind, shape: Shape, coordinates: &[[f64; 2]]) -> Point
 
 /// The points at which stress is most accurate, with the same treatment of the dilatation.
 pub fn sampling(kind: Kind, shape: Shape, coordinates: &[[f64; 2]]) -> Points {
-    let mut out = at_points(kind, shape, coordinates, sampling_points(shape));
+    let points = sampling_points(shape);
+    let mut out = Points::none(kind, shape, points.len());
+    out.evaluate(shape, coordinates, points);
     if out.form.has_mean {
-        let mean = mean_dilatation(&at_points(kind, shape, coordinates, rule(shape)));
+        let mean = mean_dilatation(&gauss_points(kind, shape, coordinates));
         out.set_mean(&mean);
     }
     out
 }
 
-fn at_points(
-    kind: Kind,
-    shape: Shape,
-    coordinates: &[[f64; 2]],
-    rule: &[([f64; 2], f64)],
-) -> Points {
-    let n = shape.n_nodes();
-    let form = Form {
-        n_nodes: n as u8,
-        n_points: rule.len() as u8,
-        is_axisymmetric: kind == Kind::Axisymmetric,
-        has_mean: shape == Shape::Quad4 && kind != Kind::PlaneStress,
-    };
-    let mut out = Points {
-        form,
-        values: [0.0; MAX_VALUES],
-        positions: [[0.0; 2]; MAX_POINTS],
-    };
-    let points = out.values.chunks_exact_mut(form.stride());
-    for ((point, position), (reference, weight)) in points.zip(&mut out.positions).zip(rule) {
-        let (values, gradients) = shape_functions(shape, *reference);
-        let mut x = [0.0; 2];
-        let mut jacobian = [[0.0; 2]; 2];
-        for (i, c) in coordinates.iter().enumerate().take(n) {
-            for d in 0..2 {
-                x[d] += values[i] * c[d];
-                jacobian[0][d] += gradients[i][0] * c[d];
-                jacobian[1][d] += gradients[i][1] * c[d];
-            }
+impl Points {
+    fn none(kind: Kind, shape: Shape, n_points: usize) -> Self {
+        Points {
+            form: Form {
+                n_nodes: shape.n_nodes() as u8,
+                n_points: n_points as u8,
+                is_axisymmetric: kind == Kind::Axisymmetric,
+                has_mean: shape == Shape::Quad4 && kind != Kind::PlaneStress,
+            },
+            values: [0.0; MAX_VALUES],
+            positions: [[0.0; 2]; MAX_POINTS],
         }
-        let determinant = jacobian[0][0] * jacobian[1][1] - jacobian[0][1] * jacobian[1][0];
-        for (i, [a, b]) in gradients.into_iter().enumerate().take(n) {
-            point[1 + i] = (jacobian[1][1] * a - jacobian[0][1] * b) / determinant;
-            point[1 + n + i] = (jacobian[0][0] * b - jacobian[1][0] * a) / determinant;
-        }
-        point[0] = weight * determinant;
-        if form.is_axisymmetric {
-            point[0] *= 2.0 * std::f64::consts::PI * x[0];
-            for (r, value) in point[1 + 2 * n..].iter_mut().zip(values) {
-                *r = value / x[0];
-            }
-        }
-        *position = x;
     }
-    out
+
+    /// Weights, gradients and positions at the points of a rule.
+    fn evaluate(&mut self, shape: Shape, coordinates: &[[f64; 2]], rule: &[([f64; 2], f64)]) {
+        let (form, n) = (self.form, shape.n_nodes());
+        let points = self.values.chunks_exact_mut(form.stride());
+        for ((point, position), (reference, weight)) in points.zip(&mut self.positions).zip(rule) {
+            let (values, gradients) = shape_functions(shape, *reference);
+            let mut x = [0.0; 2];
+            let mut jacobian = [[0.0; 2]; 2];
+            for (i, c) in coordinates.iter().enumerate().take(n) {
+                for d in 0..2 {
+                    x[d] += values[i] * c[d];
+                    jacobian[0][d] += gradients[i][0] * c[d];
+                    jacobian[1][d] += gradients[i][1] * c[d];
+                }
+            }
+            let determinant = jacobian[0][0] * jacobian[1][1] - jacobian[0][1] * jacobian[1][0];
+            for (i, [a, b]) in gradients.into_iter().enumerate().take(n) {
+                point[1 + i] = (jacobian[1][1] * a - jacobian[0][1] * b) / determinant;
+                point[1 + n + i] = (jacobian[0][0] * b - jacobian[1][0] * a) / determinant;
+            }
+            point[0] = weight * determinant;
+            if form.is_axisymmetric {
+                point[0] *= 2.0 * std::f64::consts::PI * x[0];
+                for (r, value) in point[1 + 2 * n..].iter_mut().zip(values) {
+                    *r = value / x[0];
+                }
+            }
+            *position = x;
+        }
+    }
 }
 
 /// B-bar: the mean over the element of `tr B`, `m_x` of all nodes, then `m_y`.

@@ -105,6 +105,16 @@ pub trait Condensed: Send + Sync {
     /// `u_z = S_zz^-1 (f_z - S_zc u_c)`.
     fn recover_zone(&self, zone: &mut [f64], u_contact: &[f64]);
 
+    /// The part of the zone that the marked zone freedoms are in.
+    fn part_of_zone(&self, _marked: &[bool]) -> ZonePart {
+        ZonePart::default()
+    }
+
+    /// As [`Condensed::recover_zone`] where only the displacements in a part of the zone are asked for; what the others are is left open.
+    fn recover_part(&self, _part: &ZonePart, zone: &mut [f64], u_contact: &[f64]) {
+        self.recover_zone(zone, u_contact);
+    }
+
     /// All freedoms for a reduced load, given the displacements of zone and contact freedoms (loads on these have no part
     /// in it): `u_i = K_ii^-1 (load_i - K_it u_t)`. Costs about half a full solve.
     ///
@@ -118,6 +128,20 @@ pub trait Condensed: Send + Sync {
     /// The pivot that lost most to cancellation. Near [`smallest_pivot_ratio`] the model is
     /// barely held at that freedom.
     fn weakest_pivot(&self) -> Pivot;
+}
+
+/// What a backend must go through to recover some of the zone freedoms; by default all of them.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct ZonePart {
+    /// Which blocks of the backend's own; empty for all.
+    blocks: Vec<bool>,
+}
+
+#[cfg(feature = "cholmod")]
+impl ZonePart {
+    fn has(&self, block: usize) -> bool {
+        self.blocks.is_empty() || self.blocks[block]
+    }
 }
 
 /// A pivot of the factorisation of `A = K + diag(shift)`, relative to its diagonal entry: in (0, 1], small

@@ -13,6 +13,7 @@ pub mod surface;
 mod validate;
 
 pub use crate::shape::Shape;
+pub use circles::lay_on_circle;
 pub use subdivision::subdivided;
 pub use validate::validate;
 

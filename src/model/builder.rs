@@ -8,8 +8,8 @@ use crate::error::{Error, Result};
 use crate::index::Index;
 use crate::mesh::Mesh;
 use crate::scene::{
-    Body, Contact, History, Kind, Load, Material, MeshSource, Program, Scene, Settings, Support,
-    Target,
+    Body, Contact, History, KeyPlaces, Kind, Load, Material, MeshSource, Program, Scene, Settings,
+    Support, Target,
 };
 use std::collections::BTreeMap;
 
@@ -77,6 +77,7 @@ impl ModelBuilder {
                 accuracy: None,
                 reference: Vec::new(),
                 file: None,
+                places: KeyPlaces::default(),
             },
             mesh: Mesh {
                 dimension: 2,

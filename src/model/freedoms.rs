@@ -1,6 +1,7 @@
 //! Freedoms: two per node, in local axes where a contact normal or a turned support asks for it.
 
 use super::Pair;
+use super::names::Entry;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::scene::{Direction, Kind, Scene};
@@ -73,26 +74,34 @@ impl Freedoms {
             let node = held.node;
             if contact_of[node].is_none() && !is_aligned(axes[node], held.direction) {
                 if slots[node].contains(&Slot::Fixed) {
-                    return Err(Error::input(format!(
-                        "node {} is held in directions that are not at right angles; the last is support {} on `{}`",
-                        mesh.node_label(node),
-                        held.support + 1,
-                        scene.support[held.support].on
-                    )));
+                    return Err(held.refused(
+                        scene,
+                        format!(
+                            "node {} is held in directions that are not at right angles; the last is {}",
+                            mesh.node_label(node),
+                            held.by(scene)
+                        ),
+                    ));
                 }
                 axes[node] = held.direction;
             }
             let along = dot(axes[node], held.direction).abs();
             if contact_of[node].is_some() && along > ALIGNED {
-                return Err(Error::input(format!(
-                    "node {} belongs to a contact surface and support {} on `{}` acts along its contact normal ({}, {}): \
-                     contact and support cannot hold the same freedom; take the node out of one of the two sets",
-                    mesh.node_label(node),
-                    held.support + 1,
-                    scene.support[held.support].on,
-                    axes[node][0],
-                    axes[node][1]
-                )));
+                return Err(held.refused(
+                    scene,
+                    format!(
+                        "node {} belongs to a contact surface and {} acts along its contact normal ({}, {}): \
+                         contact and support cannot hold the same freedom; {}",
+                        mesh.node_label(node),
+                        held.by(scene),
+                        axes[node][0],
+                        axes[node][1],
+                        match held.support {
+                            Some(_) => "take the node out of one of the two sets",
+                            None => "give the contact a `normal` along the axis",
+                        }
+                    ),
+                ));
             }
             slots[node][usize::from(along < 0.5)] = Slot::Fixed;
         }
@@ -128,31 +137,31 @@ impl Freedoms {
             } else {
                 continue;
             };
-            for node in named_nodes(mesh, &load.on, &format!("load {} on", index + 1))? {
+            let entry = Entry::of_list(scene, "load", index);
+            for node in entry.nodes(mesh, &load.on)? {
+                let refused = |why: String| {
+                    entry.refused(Error::input(format!(
+                        "load {} on `{}`: node {} {why}",
+                        index + 1,
+                        load.on,
+                        mesh.node_label(node)
+                    )))
+                };
+                let touches = contact_of[node].is_some();
                 for &(direction, value) in &directions {
+                    let name = ["x", "y"][direction];
                     let local = self.local_axis(node, direction).ok_or_else(|| {
-                        Error::input(format!(
-                            "load {} on `{}`: node {} has {} and cannot be moved along {}",
-                            index + 1,
-                            load.on,
-                            mesh.node_label(node),
-                            if contact_of[node].is_some() {
-                                "a contact normal"
-                            } else {
-                                "a turned support"
-                            },
-                            ["x", "y"][direction]
-                        ))
+                        let has = match touches {
+                            true => "a contact normal",
+                            false => "a turned support",
+                        };
+                        refused(format!("has {has} and cannot be moved along {name}"))
                     })?;
                     let sign = dot(self.local(node)[local], unit(direction)).signum();
                     if self.slots[node][local] != Slot::Free(0) || ties.contains_key(&(node, local))
                     {
-                        return Err(Error::input(format!(
-                            "load {} on `{}`: node {} is already held or prescribed along {}",
-                            index + 1,
-                            load.on,
-                            mesh.node_label(node),
-                            ["x", "y"][direction]
+                        return Err(refused(format!(
+                            "is already held or prescribed along {name}"
                         )));
                     }
                     match value {
@@ -164,13 +173,9 @@ impl Freedoms {
                                 value: sign * value,
                             });
                         }
-                        None if sign < 0.0 || contact_of[node].is_some() => {
-                            return Err(Error::input(format!(
-                                "load {} on `{}`: node {} belongs to a contact surface, which cannot be held plane",
-                                index + 1,
-                                load.on,
-                                mesh.node_label(node)
-                            )));
+                        None if sign < 0.0 || touches => {
+                            let why = "belongs to a contact surface, which cannot be held plane";
+                            return Err(refused(why.to_string()));
                         }
                         None => {
                             ties.insert((node, local), index);
@@ -293,7 +298,25 @@ type Ties = std::collections::BTreeMap<(usize, usize), usize>;
 struct Held {
     node: usize,
     direction: [f64; 2],
-    support: usize,
+    /// Index of the support; `None` on the axis of revolution, which holds by itself.
+    support: Option<usize>,
+}
+
+impl Held {
+    /// What holds the node.
+    fn by(&self, scene: &Scene) -> String {
+        match self.support {
+            Some(index) => format!("support {} on `{}`", index + 1, scene.support[index].on),
+            None => "the axis of revolution".to_string(),
+        }
+    }
+
+    fn refused(&self, scene: &Scene, why: String) -> Error {
+        match self.support {
+            Some(index) => Entry::of_list(scene, "support", index).refused(Error::input(why)),
+            None => Error::input(why),
+        }
+    }
 }
 
 struct Supports {
@@ -305,7 +328,7 @@ impl Supports {
         let mut held = Vec::new();
         for (support, entry) in scene.support.iter().enumerate() {
             let (sin, cos) = entry.angle.unwrap_or(0.0).to_radians().sin_cos();
-            for node in named_nodes(mesh, &entry.on, &format!("support {} on", support + 1))? {
+            for node in Entry::of_list(scene, "support", support).nodes(mesh, &entry.on)? {
                 for &d in &entry.fix {
                     let direction = match (entry.angle, d) {
                         (None, d) => unit(axis(d)),
@@ -315,7 +338,7 @@ impl Supports {
                     held.push(Held {
                         node,
                         direction,
-                        support,
+                        support: Some(support),
                     });
                 }
             }
@@ -331,7 +354,7 @@ impl Supports {
                     .map(|node| Held {
                         node,
                         direction: [1.0, 0.0],
-                        support: usize::MAX,
+                        support: None,
                     }),
             );
         }
@@ -359,29 +382,6 @@ fn turn_normals_into_supports(pairs: &mut [Pair], supports: &Supports) {
             }
         }
     }
-}
-
-/// Nodes of a named set, with an error that lists the names there are.
-pub(super) fn named_nodes(mesh: &Mesh, name: &str, what: &str) -> Result<Vec<usize>> {
-    match mesh.set_nodes(name) {
-        Some(nodes) if !nodes.is_empty() => Ok(nodes),
-        Some(_) => Err(Error::input(format!("{what} `{name}`: the set is empty"))),
-        None => Err(unknown_name(name, what, &mesh.set_names())),
-    }
-}
-
-/// An error for an unknown name, with the closest known one.
-pub(super) fn unknown_name(name: &str, what: &str, known: &[&str]) -> Error {
-    let closest = known
-        .iter()
-        .map(|k| (strsim::damerau_levenshtein(name, k), k))
-        .min()
-        .filter(|(distance, _)| *distance <= 4)
-        .map_or(String::new(), |(_, k)| format!(", did you mean `{k}`?"));
-    Error::input(format!(
-        "{what} `{name}`: the mesh has no such set{closest} It has: {}",
-        known.join(", ")
-    ))
 }
 
 fn is_aligned(axis: [f64; 2], direction: [f64; 2]) -> bool {

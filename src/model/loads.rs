@@ -1,7 +1,8 @@
 //! Load vectors on the free freedoms.
 
-use super::freedoms::{dot, named_nodes};
+use super::freedoms::dot;
 use super::given::Given;
+use super::names::Entry;
 use super::{Freedoms, Slot};
 use crate::analytical::KirschField;
 use crate::element::facet_points;
@@ -110,8 +111,8 @@ pub(super) fn renumber(mut loads: Vec<LoadCase>, freedoms: &Freedoms) -> Vec<Loa
 }
 
 fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) -> Result<LoadCase> {
-    let what = format!("load {} on", index + 1);
-    let nodes = named_nodes(mesh, &load.on, &what)?;
+    let entry = Entry::of_list(scene, "load", index);
+    let nodes = entry.nodes(mesh, &load.on)?;
     let symmetry = scene.symmetry as f64;
     let mut case = LoadCase {
         name: if load.name.is_empty() {
@@ -130,10 +131,11 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
     };
     let surface = |key: &str| {
         mesh.surfaces.get(&load.on).ok_or_else(|| {
-            Error::input(format!(
-                "{what} `{}`: `{key}` needs a surface, this is a node set",
+            entry.refused(Error::input(format!(
+                "load {} on `{}`: `{key}` needs a surface, this is a node set",
+                index + 1,
                 load.on
-            ))
+            )))
         })
     };
     if let Some(force) = load.force {
@@ -190,10 +192,11 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
         // The nodes share one freedom: the whole force may act on any of them.
         case.nodal = vec![(case.nodes[0], [force[0] / symmetry, force[1] / symmetry])];
     } else {
-        return Err(Error::input(format!(
-            "{what} `{}`: no kind of load is given",
+        return Err(entry.refused(Error::input(format!(
+            "load {} on `{}`: no kind of load is given",
+            index + 1,
             load.on
-        )));
+        ))));
     }
     Ok(case)
 }

@@ -9,6 +9,7 @@ mod given;
 mod held;
 mod loads;
 mod motions;
+mod names;
 mod pairs;
 mod recipe;
 
@@ -25,6 +26,7 @@ use crate::material::Material;
 use crate::mesh::{self, Mesh, Shape};
 use crate::scene::{Kind, Plastic, Scene};
 use given::Given;
+use names::Entry;
 pub(crate) use recipe::Recipe;
 
 /// A model ready to be assembled.
@@ -110,7 +112,10 @@ impl Model {
             Origin::Scene => &none,
             Origin::Arrays(given) => given,
         };
-        mesh::validate(&mesh)?;
+        mesh::validate(&mesh).map_err(|error| match (&origin, &scene.mesh.file) {
+            (Origin::Scene, Some(file)) => error.within(file.display()),
+            _ => error,
+        })?;
         let kind = scene.kind;
         let mut warnings = Vec::new();
         let (materials, may_yield) = resolve_bodies(scene, &mesh)?;
@@ -121,6 +126,7 @@ impl Model {
         let (mut pairs, contacts) = pairs::resolve(scene, &mesh, given)?;
         let mut freedoms = Freedoms::new(scene, &mesh, &mut pairs)?;
         let loads = loads::resolve(scene, &mesh, given, &freedoms)?;
+        check_targets(scene, &mesh)?;
         let floating = held::resolve(kind, &mesh, &mut freedoms, &pairs, &loads, &mut warnings)?;
         let loads = loads::renumber(loads, &freedoms);
         Ok(Model {
@@ -179,8 +185,19 @@ impl Model {
 
 fn build_mesh(scene: &Scene) -> Result<Mesh> {
     let folder = scene.file.as_deref().and_then(std::path::Path::parent);
-    let mesh =
-        mesh::generate::from_source(&scene.mesh, folder, |p| yield_half_width(scene, p.radius))?;
+    let made =
+        mesh::generate::from_source(&scene.mesh, folder, |p| yield_half_width(scene, p.radius));
+    let mut mesh = made.map_err(|error| match scene.mesh.file {
+        Some(_) => scene.places.in_front("mesh.file", error),
+        None => scene.places.in_front("mesh", error),
+    })?;
+    for (index, circle) in scene.mesh.circles.iter().enumerate() {
+        let key = format!("mesh.circles.{index}");
+        mesh::lay_on_circle(&mut mesh, circle).map_err(|error| {
+            let error = error.within(format!("{key} (`{}`)", circle.on));
+            scene.places.in_front(&key, error)
+        })?;
+    }
     let times = scene.mesh.subdivisions;
     if times == 0 {
         return Ok(mesh);
@@ -233,28 +250,41 @@ fn yield_half_width(scene: &Scene, radius: f64) -> Result<f64> {
     })
 }
 
+/// Sets that targets name are looked up before the way to them begins.
+fn check_targets(scene: &Scene, mesh: &Mesh) -> Result<()> {
+    for (index, target) in scene.program.targets.iter().enumerate() {
+        if let Some(goal) = &target.displacement {
+            Entry::of_target(scene, index).nodes(mesh, &goal.on)?;
+        }
+    }
+    Ok(())
+}
+
 fn resolve_bodies(scene: &Scene, mesh: &Mesh) -> Result<(Vec<Material>, Vec<bool>)> {
     for name in scene.bodies.keys() {
         if !mesh.bodies.contains(name) {
-            return Err(Error::input(format!(
+            let error = Error::input(format!(
                 "bodies.{name}: the mesh has no body of this name; it has {}",
                 mesh.bodies.join(", ")
-            )));
+            ));
+            return Err(scene.places.in_front(&format!("bodies.{name}"), error));
         }
     }
     let mut materials = Vec::new();
     let mut may_yield = Vec::new();
     for name in &mesh.bodies {
         let body = scene.bodies.get(name).ok_or_else(|| {
-            Error::input(format!(
+            let error = Error::input(format!(
                 "body `{name}` of the mesh has no [bodies.{name}] entry with its material"
-            ))
+            ));
+            scene.places.in_front("bodies", error)
         })?;
         let data = scene.materials.get(&body.material).ok_or_else(|| {
-            Error::input(format!(
+            let error = Error::input(format!(
                 "bodies.{name}: there is no material `{}`",
                 body.material
-            ))
+            ));
+            scene.places.in_front(&format!("bodies.{name}"), error)
         })?;
         let material = Material::new(&body.material, data, scene.kind);
         may_yield.push(body.plastic != Plastic::No && material.hardening.is_some());

@@ -3,8 +3,9 @@
 //! The gap of a pair is `g = delta - (u_second - u_first) . n >= 0` with
 //! `delta = (x_first - x_second) . n` and `n` the unit vector from the second body to the first.
 
-use super::freedoms::{dot, unknown_name};
+use super::freedoms::dot;
 use super::given::{Given, NodePair, Partner, partners};
+use super::names::Entry;
 use crate::element::facet_points;
 use crate::error::{Error, Result};
 use crate::mesh::surface::{PAIRING, facing, longest_facet, normals, ordered_nodes};
@@ -76,18 +77,24 @@ pub(super) fn resolve(
     for (index, contact) in scene.contact.iter().enumerate() {
         let start = pairs.len();
         let given = given.pairs.get(&index).map(Vec::as_slice);
-        let surface = resolve_contact(index, contact, given, mesh, scene, &mut pairs)?;
+        let entry = Entry::of_list(scene, "contact", index);
+        let surfaces = [
+            entry.surface(mesh, "first", &contact.first)?,
+            entry.surface(mesh, "second", &contact.second)?,
+        ];
+        let surface = resolve_contact(index, contact, surfaces, given, mesh, scene, &mut pairs)
+            .map_err(|error| entry.refused(error))?;
         for pair in &pairs[start..] {
             for node in [pair.first, pair.second] {
                 if let Some(other) = used.insert(node, index) {
-                    return Err(Error::input(format!(
+                    return Err(entry.refused(Error::input(format!(
                         "node {} is in two contact pairs: of contact {} and contact {} (`{}` on `{}`); a node may belong to one",
                         mesh.node_label(node),
                         other + 1,
                         index + 1,
                         contact.first,
                         contact.second
-                    )));
+                    ))));
                 }
             }
         }
@@ -99,6 +106,7 @@ pub(super) fn resolve(
 fn resolve_contact(
     index: usize,
     contact: &Contact,
+    [first, second]: [&Surface; 2],
     given: Option<&[NodePair]>,
     mesh: &Mesh,
     scene: &Scene,
@@ -110,13 +118,6 @@ fn resolve_contact(
         contact.first,
         contact.second
     );
-    let find = |name: &str| -> Result<&Surface> {
-        let names: Vec<&str> = mesh.surfaces.keys().map(String::as_str).collect();
-        mesh.surfaces
-            .get(name)
-            .ok_or_else(|| unknown_name(name, &format!("contact {} surface", index + 1), &names))
-    };
-    let (first, second) = (find(&contact.first)?, find(&contact.second)?);
     let context = |e: Error| e.within(&what);
     let first_nodes = ordered_nodes(mesh, first).map_err(context)?;
     let second_nodes = ordered_nodes(mesh, second).map_err(context)?;

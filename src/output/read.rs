@@ -279,18 +279,19 @@ fn history(rows: &Rows) -> Result<Vec<HistoryRow>> {
     (0..rows.len())
         .map(|row| {
             let number = |name: &str| rows.number(row, name);
+            let count = |name: &str| rows.count(row, name);
             Ok(HistoryRow {
-                increment: number("increment")? as usize,
+                increment: count("increment")?,
                 alpha: number("alpha")?,
                 load: number("load")?,
                 max_pressure: number("max_pressure")?,
                 half_width: number("half_width")?,
                 contact_force: number("contact_force")?,
-                closed_pairs: number("closed_pairs")? as usize,
-                plastic_points: number("plastic_points")? as usize,
+                closed_pairs: count("closed_pairs")?,
+                plastic_points: count("plastic_points")?,
                 max_equivalent_plastic_strain: number("max_equivalent_plastic_strain")?,
-                iterations: number("iterations")? as usize,
-                trailing_solves: number("trailing_solves")? as usize,
+                iterations: count("iterations")?,
+                trailing_solves: count("trailing_solves")?,
                 residual: number("residual")?,
                 event: rows.text(row, "event")?.to_string(),
             })
@@ -300,13 +301,18 @@ fn history(rows: &Rows) -> Result<Vec<HistoryRow>> {
 
 /// The pairs, each with the index of its state.
 fn pairs(rows: &Rows, model: &Model) -> Result<Vec<(usize, PairState)>> {
+    // Points on the axis that are no pairs are numbered after them.
+    let on_axis = model.contacts.iter().filter(|c| c.axis.is_some()).count();
+    let n_points = model.pairs.len() + on_axis;
     (0..rows.len())
         .map(|row| {
             let number = |name: &str| rows.number(row, name);
-            let pair = number("pair")? as usize;
-            let contact = number("contact")? as usize;
-            let state = number("state")? as usize;
-            if pair >= model.pairs.len() || contact >= model.contacts.len() || state == 0 {
+            let [pair, contact, state] = [
+                rows.count(row, "pair")?,
+                rows.count(row, "contact")?,
+                rows.count(row, "state")?,
+            ];
+            if pair >= n_points || contact >= model.contacts.len() || state == 0 {
                 return Err(Error::input(format!(
                     "{}: row {}: pair {pair} of contact {contact} in state {state} does not belong to this model",
                     rows.path().display(),
@@ -323,7 +329,10 @@ fn pairs(rows: &Rows, model: &Model) -> Result<Vec<(usize, PairState)>> {
                 pressure: number("pressure")?,
                 status: match rows.text(row, "status")? {
                     "closed" => Status::Closed,
-                    _ => Status::Open,
+                    "open" => Status::Open,
+                    other => {
+                        return Err(rows.refused(row, "status", other, "neither open nor closed"));
+                    }
                 },
             };
             Ok((state - 1, pair))

@@ -82,17 +82,28 @@ impl Rows {
     /// # Errors
     /// A column that there is not, a cell that holds something else.
     pub(super) fn number(&self, row: usize, name: &str) -> Result<f64> {
-        let cell = self.text(row, name)?;
-        if cell.is_empty() {
-            return Ok(f64::NAN);
+        match self.text(row, name)? {
+            "" => Ok(f64::NAN),
+            cell => (cell.parse()).map_err(|_| self.refused(row, name, cell, "no number")),
         }
-        cell.parse().map_err(|_| {
-            Error::input(format!(
-                "{}: row {}: `{name}` is {cell:?}, which is no number",
-                self.path.display(),
-                row + 1
-            ))
-        })
+    }
+
+    /// The count or index in a row and a column.
+    ///
+    /// # Errors
+    /// A column that there is not, a cell that holds something else.
+    pub(super) fn count(&self, row: usize, name: &str) -> Result<usize> {
+        let cell = self.text(row, name)?;
+        (cell.parse()).map_err(|_| self.refused(row, name, cell, "no whole number"))
+    }
+
+    /// What is wrong with a cell.
+    pub(super) fn refused(&self, row: usize, name: &str, cell: &str, why: &str) -> Error {
+        Error::input(format!(
+            "{}: row {}: `{name}` is {cell:?}, which is {why}",
+            self.path.display(),
+            row + 1
+        ))
     }
 
     /// The numbers of a column.

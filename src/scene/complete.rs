@@ -4,8 +4,8 @@
 //! end of an array of fixed length, without a word. So the scene is written out again and held against the document:
 //! every array must come back as an array of the same length, every table as a table.
 
-use super::Scene;
-use super::document::{Places, join};
+use super::document::join;
+use super::{KeyPlaces, Scene};
 use crate::error::{Error, Result};
 use toml::Value;
 use toml::de::{DeTable, DeValue};
@@ -14,13 +14,13 @@ use toml::de::{DeTable, DeValue};
 ///
 /// # Errors
 /// The key and place of an array that is too long, or stands where a table belongs.
-pub(super) fn check(scene: &Scene, document: &DeTable<'_>, places: &Places) -> Result<()> {
+pub(super) fn check(scene: &Scene, document: &DeTable<'_>, places: &KeyPlaces) -> Result<()> {
     let written = Value::try_from(scene)
         .map_err(|cause| Error::internal("a scene cannot be written as TOML").because(cause))?;
     table(document, &written, "", places)
 }
 
-fn table(document: &DeTable<'_>, written: &Value, path: &str, places: &Places) -> Result<()> {
+fn table(document: &DeTable<'_>, written: &Value, path: &str, places: &KeyPlaces) -> Result<()> {
     for (key, value) in document {
         let key = key.get_ref();
         if let Some(written) = written.get(key.as_ref()) {
@@ -30,16 +30,16 @@ fn table(document: &DeTable<'_>, written: &Value, path: &str, places: &Places) -
     Ok(())
 }
 
-fn compare(document: &DeValue<'_>, written: &Value, path: &str, places: &Places) -> Result<()> {
+fn compare(document: &DeValue<'_>, written: &Value, path: &str, places: &KeyPlaces) -> Result<()> {
     match (document, written) {
         (DeValue::Table(inner), _) => table(inner, written, path, places),
         (DeValue::Array(_), Value::Table(keys)) => {
             let known: Vec<&str> = keys.keys().map(String::as_str).collect();
-            Err(Error::input(format!(
-                "{}: {path}: wrong type: array, expected a table with keys such as {}",
-                places.of_path(path),
+            let error = Error::input(format!(
+                "{path}: wrong type: array, expected a table with keys such as {}",
                 known.join(", ")
-            )))
+            ));
+            Err(places.in_front(path, error))
         }
         (DeValue::Array(items), Value::Array(kept)) if items.len() == kept.len() => {
             for (index, (item, kept)) in items.iter().zip(kept).enumerate() {
@@ -52,12 +52,14 @@ fn compare(document: &DeValue<'_>, written: &Value, path: &str, places: &Places)
             }
             Ok(())
         }
-        (DeValue::Array(items), Value::Array(kept)) => Err(Error::input(format!(
-            "{}: {path}: wrong number of values: {}, expected {}",
-            places.of_path(path),
-            items.len(),
-            kept.len()
-        ))),
+        (DeValue::Array(items), Value::Array(kept)) => {
+            let error = Error::input(format!(
+                "{path}: wrong number of values: {}, expected {}",
+                items.len(),
+                kept.len()
+            ));
+            Err(places.in_front(path, error))
+        }
         _ => Ok(()),
     }
 }

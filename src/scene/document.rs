@@ -5,8 +5,8 @@
 //! number of its node: the span of an error then names the node exactly, also for values that
 //! came from an override and stand in no file.
 
+use super::KeyPlaces;
 use crate::error::{Error, Result};
-use std::collections::BTreeMap;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -18,9 +18,21 @@ pub(super) struct Source<'t> {
     pub text: &'t str,
     /// Overrides as given, `key=value`.
     pub overrides: &'t [String],
+    /// Where the lines of the text begin.
+    lines: Vec<usize>,
 }
 
-impl Source<'_> {
+impl<'t> Source<'t> {
+    pub fn new(name: &'t str, text: &'t str, overrides: &'t [String]) -> Self {
+        let ends = text.match_indices('\n').map(|(at, _)| at + 1);
+        Source {
+            name,
+            text,
+            overrides,
+            lines: std::iter::once(0).chain(ends).collect(),
+        }
+    }
+
     /// `FILE:LINE:COLUMN` or `--set KEY=VALUE` of a place.
     fn describe(&self, place: usize) -> String {
         if let Some(number) = place.checked_sub(self.override_place(0))
@@ -32,9 +44,8 @@ impl Source<'_> {
         while !self.text.is_char_boundary(end) {
             end -= 1;
         }
-        let before = &self.text[..end];
-        let line = before.matches('\n').count() + 1;
-        let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
+        let line = self.lines.partition_point(|&begin| begin <= end);
+        let column = self.text[self.lines[line - 1]..end].chars().count() + 1;
         format!("{}:{line}:{column}", self.name)
     }
 
@@ -58,17 +69,13 @@ impl Source<'_> {
 struct Node {
     /// Key path, as overrides take it: `contact.0.gap`.
     path: String,
-    /// Byte offset, or an override's place.
-    place: usize,
+    /// Its place in words.
+    place: String,
 }
 
-/// Where every key path of a scene stands.
+/// Where every key and value of a document stands.
 pub(super) struct Places {
     nodes: Vec<Node>,
-    /// First node of each path: its key, where it has one.
-    by_path: BTreeMap<String, usize>,
-    /// Places in words: resolved on demand would need the source, which does not live as long.
-    described: Vec<String>,
 }
 
 impl Places {
@@ -80,48 +87,32 @@ impl Places {
         source: &Source<'_>,
         root: DeTable<'i>,
     ) -> Result<(Places, Spanned<DeTable<'i>>)> {
-        let mut places = Places {
-            nodes: Vec::new(),
-            by_path: BTreeMap::new(),
-            described: Vec::new(),
-        };
-        let id = places.add("", 0);
+        let mut places = Places { nodes: Vec::new() };
+        let id = places.add("", source.describe(0));
         let root = places.table(root, "", source)?;
-        places.described = places
-            .nodes
-            .iter()
-            .map(|node| source.describe(node.place))
-            .collect();
         Ok((places, Spanned::new(id..id, root)))
     }
 
     /// Place and key path of the node that an error of serde points at.
     pub fn of_error(&self, error: &toml::de::Error) -> (&str, &str) {
         let id = error.span().map_or(0, |span| span.start);
-        let id = id.min(self.nodes.len() - 1);
-        (&self.described[id], &self.nodes[id].path)
+        let node = &self.nodes[id.min(self.nodes.len() - 1)];
+        (&node.place, &node.path)
     }
 
-    /// Place of a key path, or of the closest part of it that the document has.
-    pub fn of_path(&self, path: &str) -> &str {
-        let mut path = path;
-        loop {
-            if let Some(&id) = self.by_path.get(path) {
-                return &self.described[id];
-            }
-            // The root has the path "", so that this ends.
-            path = path.rfind('.').map_or("", |dot| &path[..dot]);
-        }
+    /// The place of each key path: that of its key, where it has one.
+    pub fn by_key(self) -> KeyPlaces {
+        // A key comes before its value, and of equals the last one stays.
+        let nodes = self.nodes.into_iter().rev();
+        KeyPlaces::new(nodes.map(|node| (node.path, node.place)).collect())
     }
 
-    fn add(&mut self, path: &str, place: usize) -> usize {
-        let id = self.nodes.len();
+    fn add(&mut self, path: &str, place: String) -> usize {
         self.nodes.push(Node {
             path: path.to_string(),
             place,
         });
-        self.by_path.entry(path.to_string()).or_insert(id);
-        id
+        self.nodes.len() - 1
     }
 
     fn table<'i>(
@@ -133,7 +124,7 @@ impl Places {
         let mut numbered = DeTable::new();
         for (key, value) in table {
             let path = join(path, key.get_ref());
-            let id = self.add(&path, key.span().start);
+            let id = self.add(&path, source.describe(key.span().start));
             let value = self.value(value, &path, source)?;
             numbered.insert(Spanned::new(id..id, key.into_inner()), value);
         }
@@ -147,7 +138,7 @@ impl Places {
         source: &Source<'_>,
     ) -> Result<Spanned<DeValue<'i>>> {
         let place = value.span().start;
-        let id = self.add(path, place);
+        let id = self.add(path, source.describe(place));
         let numbered = match value.into_inner() {
             DeValue::Table(table) => DeValue::Table(self.table(table, path, source)?),
             DeValue::Array(array) => {

@@ -16,6 +16,7 @@ mod complete;
 mod defaults;
 mod document;
 mod geometry;
+mod key_places;
 mod material;
 mod overrides;
 mod program;
@@ -31,10 +32,12 @@ pub use boundary::{Contact, Direction, Displacement, History, Kirsch, Load, Plan
 pub use geometry::{
     Block, CylinderOnHalfPlane, Disc, DiscInPlate, MeshSource, Part, Piece, Ring, SurfaceCircle,
 };
+pub use key_places::KeyPlaces;
 pub use material::{Body, Material, Plastic};
 pub use program::{
     DisplacementTarget, PlasticIteration, Program, Settings, Stepping, Target, Unit, YieldMethod,
 };
+pub(crate) use read::closest;
 pub use reference::{NoParameters, RadiusOnly, Reference};
 pub use schema::schema;
 pub use units::Units;
@@ -89,6 +92,9 @@ pub struct Scene {
     /// The file the scene was read from, and what relative paths in it are relative to.
     #[serde(skip)]
     pub file: Option<PathBuf>,
+    /// Where its keys stand in that file or among the overrides, for messages.
+    #[serde(skip)]
+    pub places: KeyPlaces,
 }
 
 /// The two-dimensional idealisation.

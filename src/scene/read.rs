@@ -43,11 +43,8 @@ impl Scene {
             }
             _ => Error::io("read the scene", path, cause),
         })?;
-        let mut scene = parse(&Source {
-            name: &path.display().to_string(),
-            text: &text,
-            overrides,
-        })?;
+        let name = path.display().to_string();
+        let mut scene = parse(&Source::new(&name, &text, overrides))?;
         scene.file = Some(path.to_path_buf());
         Ok(scene)
     }
@@ -74,11 +71,7 @@ impl Scene {
     /// # Errors
     /// As [`Scene::load_with`].
     pub fn parse_with(text: &str, name: &str, overrides: &[String]) -> Result<Scene> {
-        parse(&Source {
-            name,
-            text,
-            overrides,
-        })
+        parse(&Source::new(name, text, overrides))
     }
 
     /// The scene as TOML: [`Scene::parse`] reads it back.
@@ -99,14 +92,15 @@ fn parse(source: &Source<'_>) -> Result<Scene> {
     let (places, root) = Places::number(source, root)?;
     let mut scene = Scene::deserialize(toml::de::Deserializer::from(root.clone()))
         .map_err(|error| explain(&error, &places))?;
-    complete::check(&scene, root.get_ref(), &places)?;
+    scene.places = places.by_key();
+    complete::check(&scene, root.get_ref(), &scene.places)?;
     let problems = validate::problems(&scene);
     if !problems.is_empty() {
-        let lines: Vec<String> = problems
-            .iter()
-            .map(|p| format!("{}: {p}", places.of_path(&p.key)))
-            .collect();
-        return Err(Error::input(lines.join("\n")));
+        let lines = problems.iter().map(|problem| {
+            let place = scene.places.of(&problem.key).unwrap_or(source.name);
+            format!("{place}: {problem}")
+        });
+        return Err(Error::input(lines.collect::<Vec<_>>().join("\n")));
     }
     let labels = scene.program.labels();
     for (target, label) in scene.program.targets.iter_mut().zip(labels) {
@@ -181,7 +175,7 @@ fn unknown_word(word: &str, known: &[&str], path: &str) -> (ErrorKind, String) {
 }
 
 /// The known word closest to `word`, if it is close: at most a third of its letters differ.
-pub(super) fn closest<'k>(word: &str, known: &[&'k str]) -> Option<&'k str> {
+pub(crate) fn closest<'k>(word: &str, known: &[&'k str]) -> Option<&'k str> {
     let word = word.to_lowercase();
     known
         .iter()

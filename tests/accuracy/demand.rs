@@ -7,13 +7,13 @@ use brinell::progress::Silent;
 use brinell::results::Results;
 use brinell::scene::{AccuracyDemand, Scene};
 
-fn demanded(scene: &Scene, accuracy: f64) -> Scene {
+pub fn demanded(scene: &Scene, accuracy: f64) -> Scene {
     let mut scene = scene.clone();
     scene.accuracy = Some(AccuracyDemand::new(accuracy).unwrap());
     scene
 }
 
-fn reached(scene: &Scene, accuracy: f64, extent: Extent) -> Reached {
+pub fn reached(scene: &Scene, accuracy: f64, extent: Extent) -> Reached {
     let found = reach(
         &demanded(scene, accuracy),
         Backend::default(),
@@ -108,12 +108,4 @@ fn what_cannot_be_reached_is_refused() {
             "{text}"
         );
     }
-    let file = running::load("gmsh_blocks", &[]);
-    let error = reach(
-        &demanded(&file, 0.01),
-        Backend::default(),
-        Extent::Program,
-        &mut Silent,
-    );
-    assert!(error.err().unwrap().to_string().contains("file"));
 }

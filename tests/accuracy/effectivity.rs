@@ -52,6 +52,64 @@ pub fn hertz(name: &str, n: usize, far_size: f64) -> Scene {
     )
 }
 
+/// The dent after a half width as target carries the error of the load at which each mesh reaches that width, and the run says so; with
+/// the load as target there is nothing to say, and the dent is known better.
+#[test]
+fn a_half_width_as_target_says_what_it_adds() {
+    let estimated = |target: &str| {
+        let targets =
+            format!("program.targets=[{{ name = \"wide\", {target} }}, {{ load_factor = 0.0 }}]");
+        let scene = running::load(
+            "cylinder_on_half_plane",
+            &[
+                &targets,
+                "mesh.cylinder_on_half_plane.resolution=8",
+                "mesh.cylinder_on_half_plane.growth=1.32",
+            ],
+        );
+        let mut analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::default()).unwrap();
+        let results = analysis.run(&mut Silent).unwrap();
+        estimate(
+            &scene,
+            Backend::default(),
+            &results,
+            Extent::Program,
+            &mut Silent,
+        )
+    };
+    let dent = |accuracy: &Accuracy| {
+        let rows = &accuracy.quantities;
+        let row = rows
+            .iter()
+            .find(|q| q.quantity == "states.alpha 0.residual_depth");
+        row.unwrap().relative_error.unwrap()
+    };
+    let by_width = estimated("half_width = 1.4");
+    let by_load = estimated("load_factor = 2.2");
+    println!(
+        "{:?} {} {}",
+        by_width.notes,
+        dent(&by_width),
+        dent(&by_load)
+    );
+    let note = by_width
+        .notes
+        .iter()
+        .find(|n| n.starts_with("a half width as target"));
+    let load = by_width
+        .quantities
+        .iter()
+        .find(|q| q.quantity == "states.wide.load")
+        .unwrap();
+    assert!(load.relative_error.unwrap() > 0.0);
+    assert!(
+        note.is_some_and(|n| n.contains("`wide`: ") && n.contains(" %")),
+        "{note:?}"
+    );
+    assert_eq!(by_load.notes, Vec::<String>::new());
+    assert!(dent(&by_load) < dent(&by_width));
+}
+
 /// Meshes from the coarsest that tells anything to one that is right to less than the model is.
 const RESOLUTIONS: [usize; 9] = [4, 6, 8, 10, 12, 16, 20, 24, 32];
 

@@ -1,8 +1,10 @@
 //! Meshes from files: subdivided, with new nodes on circles where the scene gives them, they converge as generated meshes do.
 
+use crate::demand::{demanded, reached};
 use crate::effectivity::estimated;
 use crate::running;
-use brinell::accuracy::{Extent, Knob, Plan, Study, study};
+use brinell::accuracy::{Extent, Knob, Plan, Study, estimate, reach, study};
+use brinell::analysis::Analysis;
 use brinell::analytical::{Plane, ThickCylinder};
 use brinell::linalg::Backend;
 use brinell::mesh::gmsh;
@@ -138,6 +140,97 @@ fn a_run_on_a_mesh_from_a_file_states_its_errors() {
     assert!((0.5..=2.0).contains(&found), "{found}");
 }
 
+/// `accuracy = x` subdivides a file as often as it takes.
+#[test]
+fn a_demand_chooses_how_often_a_file_is_subdivided() {
+    let folder = tempfile::tempdir().unwrap();
+    let tube = tube("quad4", folder.path(), CIRCLES);
+    let exact = ThickCylinder::new(100.0, 200.0, 210e3, 0.3, Plane::Strain)
+        .unwrap()
+        .yield_pressure(240.0);
+    let mut chosen = Vec::new();
+    for accuracy in [0.1, 0.01, 0.003] {
+        let found = reached(&tube, accuracy, Extent::Yield);
+        let load = found.results.first_yield.unwrap().load;
+        assert!(
+            (load / exact - 1.0).abs() <= accuracy,
+            "{accuracy}: {load} {exact}"
+        );
+        println!("{accuracy}: {:e}", load / exact - 1.0);
+        chosen.push(found.scene.mesh.subdivisions);
+    }
+    // Judged by the file itself at least; thirty times less takes more than one halving, with the second order two and a half.
+    assert!(chosen.is_sorted() && chosen[0] >= 1, "{chosen:?}");
+    assert!(
+        chosen[2] > chosen[0] && chosen[2] <= chosen[0] + 3,
+        "{chosen:?}"
+    );
+    // Where the scene stands on the ladder does not matter.
+    let mut finer = tube.clone();
+    finer.mesh.subdivisions = 2;
+    let found = reached(&finer, 0.1, Extent::Yield);
+    assert_eq!(found.scene.mesh.subdivisions, chosen[0]);
+    let refused = |accuracy: f64| {
+        let scene = demanded(&tube, accuracy);
+        match reach(&scene, Backend::default(), Extent::Yield, &mut Silent) {
+            Ok(_) => panic!("{accuracy} was reached"),
+            Err(error) => error.to_string(),
+        }
+    };
+    if cfg!(target_os = "linux") {
+        let text = refused(1e-8);
+        assert!(
+            text.contains("would take about") && text.contains("GB"),
+            "{text}"
+        );
+    }
+}
+
+/// A file that is too large to be subdivided in passing states the error of its path all the same, from the run itself.
+#[test]
+fn a_large_file_states_the_error_of_its_path() {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = |steps: usize| {
+        let scene = running::load(
+            "thick_cylinder",
+            &[
+                "mesh.parts.0.element=quad4",
+                "mesh.parts.0.ring.elements=[46,46]",
+                "program.targets=[{ name = \"opened\", load_factor = 170.0 }]",
+                "program.stepping=steps",
+                &format!("program.steps={steps}"),
+            ],
+        );
+        from_file(scene, folder.path(), CIRCLES)
+    };
+    // Increments until the path's error is far below that of the runs that are judged; the rule is of first order.
+    let exact = running::run(&mesh(400)).states[0].approach;
+    for steps in [1, 16] {
+        let scene = mesh(steps);
+        let mut analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::default()).unwrap();
+        let results = analysis.run(&mut Silent).unwrap();
+        let accuracy = estimate(
+            &scene,
+            Backend::default(),
+            &results,
+            Extent::Program,
+            &mut Silent,
+        );
+        assert_eq!(accuracy.method, EstimateMethod::EnergyNorm);
+        let rows = &accuracy.quantities;
+        let row = rows
+            .iter()
+            .find(|q| q.quantity == "states.opened.approach")
+            .unwrap();
+        let found = row.path.unwrap() / (row.value - exact).abs();
+        println!(
+            "{steps} steps: path {:e}, over the true one {found:.2}",
+            row.path.unwrap()
+        );
+        assert!((0.5..=2.0).contains(&found), "{steps}: {found}");
+    }
+}
+
 /// The contact of the paper's cylinder from a file, subdivided, is that of the generator with as many elements.
 #[test]
 fn a_contact_from_a_file_keeps_its_pairs_and_gaps() {
@@ -181,4 +274,8 @@ fn a_contact_from_a_file_keeps_its_pairs_and_gaps() {
     let (a, b) = (load(&file), load(&generated));
     // The meshes differ where they grow; both are within the error of 16 elements, 0.1 %.
     assert!((a / b - 1.0).abs() < 1e-3, "{a} {b}");
+    file.mesh.subdivisions = 0;
+    let found = reached(&file, 0.03, Extent::Yield);
+    let c = found.results.first_yield.unwrap().load;
+    assert!((c / b - 1.0).abs() < 0.03 + 1e-3, "{c} {b}");
 }

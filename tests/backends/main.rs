@@ -5,6 +5,7 @@
 #![cfg(feature = "cholmod")]
 
 mod agreement;
+mod parts;
 mod random;
 #[path = "../running/mod.rs"]
 mod running;

@@ -18,18 +18,18 @@ mod frd;
 mod hard;
 #[path = "peers/plot.rs"]
 mod plot;
+mod process;
 
 use brinell::analytical::{HertzLine, contact_modulus};
 use brinell::model::Model;
 use brinell::scene::Scene;
 use deck::Settings;
 use frd::Frd;
+use process::{Failure, TICK, children_seconds};
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-
-type Failure = Box<dyn std::error::Error>;
 
 const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/data/peers/line_contact.toml");
 /// Elements over the contact half width at first yield.
@@ -40,9 +40,8 @@ const FINEST: [usize; 2] = [64, 96];
 const REPEATED: usize = 5;
 const REPEATED_LONG: usize = 3;
 const LONG: f64 = 10.0;
-/// The kernel counts processor time in hundredths of a second: so many of them are wanted in a measurement.
+/// Ticks of the clock that are wanted in a measurement.
 const TICKS: f64 = 50.0;
-const TICK: f64 = 0.01;
 
 /// What a run says, and what it took.
 #[derive(Debug, Clone, Copy)]
@@ -118,20 +117,6 @@ fn hertz() -> Result<Hertz, Failure> {
         half_width: line.yield_half_width(nu, steel.yield_stress.ok_or("no yield stress")?),
         pressure_elastic: line.max_pressure(0.8 * force),
     })
-}
-
-/// Processor seconds of all children that have been waited for (Linux).
-fn children_seconds() -> Result<f64, Failure> {
-    let stat = std::fs::read_to_string("/proc/self/stat")?;
-    // The name of the program, in parentheses, may contain spaces.
-    let fields = stat.rsplit(')').next().unwrap_or_default();
-    let ticks: Vec<f64> = fields
-        .split_whitespace()
-        .skip(13)
-        .take(2)
-        .flat_map(str::parse)
-        .collect();
-    Ok(ticks.iter().sum::<f64>() * TICK)
 }
 
 /// Processor seconds of a command: the median of several measurements, each over as many runs as the clock needs.

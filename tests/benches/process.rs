@@ -24,19 +24,31 @@ pub fn peak_memory() -> Result<f64, Failure> {
     Ok(1024.0 * kilobytes)
 }
 
-/// Processor time of this process in seconds, all threads together: what a busy machine does not change. Linux counts
-/// it in hundredths.
+/// Linux counts processor time in hundredths of a second.
+pub const TICK: f64 = 0.01;
+
+/// Processor time of this process in seconds, all threads together: what a busy machine does not change.
 pub fn processor_seconds() -> Result<f64, Failure> {
+    user_and_system(11)
+}
+
+/// Processor time of all children that have been waited for.
+pub fn children_seconds() -> Result<f64, Failure> {
+    user_and_system(13)
+}
+
+/// Two neighbouring times of `/proc/self/stat`, the first after so many fields behind the name.
+fn user_and_system(first: usize) -> Result<f64, Failure> {
     let stat = std::fs::read_to_string("/proc/self/stat")?;
     // The name of the program, in parentheses, may contain spaces.
     let fields = stat.rsplit(')').next().unwrap_or_default();
     let ticks: Vec<f64> = fields
         .split_whitespace()
-        .skip(11)
+        .skip(first)
         .take(2)
         .flat_map(str::parse)
         .collect();
-    Ok(ticks.iter().sum::<f64>() / 100.0)
+    Ok(ticks.iter().sum::<f64>() * TICK)
 }
 
 /// What this program prints when it is called with the arguments, in a process of its own; `threads` for brinell's loops and for the BLAS.

@@ -1,5 +1,6 @@
 //! The program from the outside: what it prints where, and its exit codes.
 
+mod accuracy;
 mod interruption;
 mod mutations;
 mod outputs;

@@ -153,7 +153,7 @@ fn elements_that_are_turned_inside_out_are_named() {
     gmsh("\n13\n14\n15\n1 -1 0\n", "\n13\n14\n15\n1 9 0\n").refused(
         2,
         &[
-            "element ",
+            "mesh.msh: element ",
             "(quad4, body `lower`)",
             "Jacobian",
             "near node ",
@@ -163,27 +163,31 @@ fn elements_that_are_turned_inside_out_are_named() {
 
 #[test]
 fn sets_that_are_missing_or_empty() {
-    refused_with(
-        "contact_patch",
-        &["support.0.on=lower.botom"],
-        &[],
-        2,
-        &["support 1 on `lower.botom`", "did you mean `lower.bottom`?"],
-    );
-    refused_with(
-        "contact_patch",
-        &["contact.0.second=lower.tip"],
-        &[],
-        2,
-        &["contact 1", "`lower.tip`", "did you mean `lower.top`?"],
-    );
-    refused_with(
-        "contact_patch",
-        &["load.0.on=upper.tp"],
-        &[],
-        2,
-        &["`upper.tp`", "`upper.top`"],
-    );
+    for (set, words) in [
+        (
+            "support.0.on=lower.botom",
+            "support 1 on `lower.botom`: the mesh has no such set, did you mean `lower.bottom`?",
+        ),
+        (
+            "contact.0.second=lower.tip",
+            "contact 1 surface `lower.tip`: the mesh has no such set, did you mean `lower.top`?",
+        ),
+        (
+            "load.0.on=upper.tp",
+            "load 1 on `upper.tp`: the mesh has no such set, did you mean `upper.top`?",
+        ),
+        (
+            "load.0.on=rim",
+            "load 1 on `rim`: the mesh has no such set. It has: ",
+        ),
+        (
+            "program.targets=[{displacement={on=\"upper.lop\",direction=\"y\",value=-1e-3}}]",
+            "target 1 displacement on `upper.lop`: the mesh has no such set, did you mean `upper.top`?",
+        ),
+    ] {
+        let place = format!("error: --set {set}: {words}");
+        refused_with("contact_patch", &[set], &[], 2, &[&place]);
+    }
     // A piece of a side that holds no facet.
     patch(
         "block = { x = [0.0, 2.0], y = [1.0, 2.0], elements = [8, 4] }",
@@ -191,6 +195,79 @@ fn sets_that_are_missing_or_empty() {
          pieces = [{ name = \"pad\", side = \"top\", from = 0.1, to = 0.2 }] }",
     )
     .refused(2, &["pad"]);
+}
+
+/// What is only found with the mesh is told with its line and column too.
+#[test]
+fn what_does_not_fit_the_mesh_is_told_with_its_place_in_the_scene() {
+    // Lines of the scene that the key stands in.
+    let line = |key: &str| {
+        let text = std::fs::read_to_string(scene("contact_patch")).unwrap();
+        1 + text.lines().position(|l| l.starts_with(key)).unwrap()
+    };
+    let place = |key: &str, column: usize| format!("scene.toml:{}:{column}: ", line(key));
+    for (old, new, place, words) in [
+        (
+            "on = \"upper.top\"",
+            "on = \"upper.up\"",
+            place("on = \"upper.top\"", 1),
+            "load 1 on `upper.up`",
+        ),
+        (
+            "first = \"upper.bottom\"",
+            "first = \"upper.base\"",
+            place("first", 1),
+            "contact 1 surface `upper.base`",
+        ),
+        (
+            "[bodies.lower]",
+            "[bodies.lowest]",
+            place("[bodies.lower]", 9),
+            "bodies.lowest",
+        ),
+        (
+            "elements = [8, 4] }\n\n[materials",
+            "elements = [7, 4] }\n\n[materials",
+            place("[[contact]]", 1),
+            "contact 1 (`upper.bottom` on `lower.top`)",
+        ),
+    ] {
+        patch(old, new).refused(2, &[&format!("{place}{words}")]);
+    }
+    let missing = Folder::with_changes("gmsh_blocks", &[("../meshes/two_blocks.msh", "none.msh")]);
+    missing.refused(
+        3,
+        &["scene.toml:7:1: cannot read the mesh file ", "none.msh"],
+    );
+    let circle = "circles = [{ on = \"lower.bottom\", radius = 1.0 }]";
+    let file = "file = \"../meshes/two_blocks.msh\"\n";
+    let mesh = concat!(env!("CARGO_MANIFEST_DIR"), "/data/meshes/two_blocks.msh");
+    let flat = format!("file = \"{mesh}\"\n{circle}\n");
+    Folder::with_changes("gmsh_blocks", &[(file, &flat)]).refused(
+        2,
+        &[
+            "scene.toml:8:",
+            "mesh.circles.0 (`lower.bottom`): node ",
+            "off the circle",
+        ],
+    );
+}
+
+#[test]
+fn a_support_across_the_axis_of_revolution() {
+    refused_with(
+        "contact_patch",
+        &[
+            "kind=axisymmetric",
+            "support=[{on=\"lower.left\",fix=[\"x\"],angle=30.0}]",
+        ],
+        &[],
+        2,
+        &[
+            "directions that are not at right angles",
+            "the axis of revolution",
+        ],
+    );
 }
 
 #[test]

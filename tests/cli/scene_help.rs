@@ -205,9 +205,12 @@ fn a_new_scene_overwrites_nothing_and_refuses_nonsense() {
     assert_eq!(std::fs::read_to_string(&path).unwrap(), "mine");
     for arguments in [
         ["ball-on-flat", "--radius", "-1"],
+        ["ball-on-flat", "--load", "-300"],
         ["roller-on-flat", "--poissons-ratio", "0.7"],
         ["shaft-in-bore", "--outer-radius", "10"],
+        ["shaft-in-bore", "--interference", "0"],
         ["punch", "--half-width", "inf"],
+        ["punch", "--depth", "-1"],
         ["ball-on-flat", "--load", "NaN"],
     ] {
         let refused = brinell(&[&["new"], &arguments[..]].concat());
@@ -218,6 +221,9 @@ fn a_new_scene_overwrites_nothing_and_refuses_nonsense() {
             stdout(&refused)
         );
         assert!(refused.stdout.is_empty(), "{arguments:?}");
+        let why = String::from_utf8_lossy(&refused.stderr);
+        let named = why.contains(arguments[1]) || why.contains("outer radius");
+        assert!(named && why.contains(arguments[2]), "{arguments:?}: {why}");
     }
 }
 

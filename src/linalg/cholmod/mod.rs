@@ -36,7 +36,8 @@ pub use common::cholmod_version;
 pub use ordering::Method;
 
 use super::{
-    Condensed, NotDefinite, Partition, Pivot, Prediction, SymmetricCsc, check, smallest_pivot_ratio,
+    Condensed, NotDefinite, Partition, Pivot, Prediction, SymmetricCsc, ZonePart, check,
+    smallest_pivot_ratio,
 };
 use crate::error::{Error, Result};
 use backward::Backward;
@@ -206,7 +207,15 @@ impl Condensed for CholmodCondensed {
     }
 
     fn recover_zone(&self, zone: &mut [f64], u_contact: &[f64]) {
-        self.trailing.recover_zone(zone, u_contact);
+        self.recover_part(&ZonePart::default(), zone, u_contact);
+    }
+
+    fn part_of_zone(&self, marked: &[bool]) -> ZonePart {
+        self.trailing.part_of_zone(marked)
+    }
+
+    fn recover_part(&self, part: &ZonePart, zone: &mut [f64], u_contact: &[f64]) {
+        self.trailing.recover_zone(part, zone, u_contact);
     }
 
     // L_ii^T u_i = y_i - L_ti^T u_t, since y_i = L_ii^-1 load_i and L_ii L_ti^T = K_it.

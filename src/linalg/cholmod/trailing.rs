@@ -74,6 +74,8 @@ pub(super) struct Trailing {
     contact: Vec<u32>,
     panels: Vec<Panel>,
     n_zone_panels: usize,
+    /// Of each zone panel the one that its first row below is in; `usize::MAX` where that is a contact freedom or there is none.
+    parents: Vec<usize>,
     /// Disjoint subtrees of the zone's panels, ascending.
     subtrees: Vec<Subtree>,
     rows: Vec<u32>,
@@ -127,6 +129,7 @@ impl Trailing {
             contact: places(&kept[n_zone..]),
             panels: Vec::new(),
             n_zone_panels: 0,
+            parents: Vec::new(),
             subtrees: Vec::new(),
             rows: Vec::new(),
             values: Vec::new(),

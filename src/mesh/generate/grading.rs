@@ -287,6 +287,7 @@ mod tests {
             }
         }
     }
+
     #[test]
     fn a_growth_rises_with_the_distance_to_that_of_the_far_end() {
         for (origin, n_even) in [(0.0, 20), (0.0, 8), (10.0, 0)] {

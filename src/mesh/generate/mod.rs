@@ -21,7 +21,6 @@ pub use cylinder::cylinder_on_half_plane;
 pub use disc::disc_in_plate;
 pub use parts::parts;
 
-use super::circles::lay_on_circles;
 use super::{Mesh, gmsh};
 use crate::scene::{CylinderOnHalfPlane, MeshSource};
 use crate::{Error, Result};
@@ -31,7 +30,8 @@ use std::path::Path;
 ///
 /// A relative `file` is looked up in `directory` (the scene file's). `half_width` gives the contact
 /// half width at first yield of a cylinder on a half plane; it is only called for that geometry, where the
-/// source does not give one. Subdivisions are not made here: they depend on which surfaces touch ([`super::subdivided`]).
+/// source does not give one. What is made of the mesh of a file comes after: circles ([`super::lay_on_circle`]) and subdivisions
+/// ([`super::subdivided`]).
 ///
 /// # Errors
 /// Input errors if not exactly one source is given, and those of the source itself.
@@ -65,11 +65,9 @@ pub fn from_source(
         parts(p)
     } else {
         let file = source.file.as_deref().unwrap_or(Path::new(""));
-        let mut mesh = match directory {
-            Some(directory) => gmsh::read(&directory.join(file))?,
-            None => gmsh::read(file)?,
-        };
-        lay_on_circles(&mut mesh, &source.circles)?;
-        Ok(mesh)
+        match directory {
+            Some(directory) => gmsh::read(&directory.join(file)),
+            None => gmsh::read(file),
+        }
     }
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::mesh::circles::lay_on_circles;
+use crate::mesh::circles::lay_on_circle;
 use crate::mesh::generate;
 use crate::mesh::validate;
 use crate::scene::{CylinderOnHalfPlane, Part, Ring, SurfaceCircle};
@@ -107,7 +107,7 @@ fn new_nodes_lie_on_the_circle_that_is_known_and_on_the_side_else() {
             "{shape:?}"
         );
         assert!(off(&polygon, "tube.inner", 1.0) > 1e-6);
-        lay_on_circles(&mut mesh, &[circle("tube.inner", [0.0; 2], 1.0)]).unwrap();
+        lay_on_circle(&mut mesh, &circle("tube.inner", [0.0; 2], 1.0)).unwrap();
         let round = subdivided(mesh, 3, &[]).unwrap();
         validate(&round).unwrap();
         assert!(
@@ -134,7 +134,7 @@ fn nodes_that_face_each_other_have_new_ones_that_do() {
         };
         let mut mesh = generate::cylinder_on_half_plane(&parameters, 0.5).unwrap();
         mesh.surfaces.values_mut().for_each(|s| s.curve = None);
-        lay_on_circles(&mut mesh, &[circle("cylinder.contact", [0.0, 10.0], 10.0)]).unwrap();
+        lay_on_circle(&mut mesh, &circle("cylinder.contact", [0.0, 10.0], 10.0)).unwrap();
         for [first, second] in [
             ["cylinder.contact", "half_plane.contact"],
             ["half_plane.contact", "cylinder.contact"],
@@ -233,12 +233,12 @@ fn what_cannot_be_subdivided_is_named() {
 #[test]
 fn a_surface_that_is_not_on_its_circle_is_named() {
     let refused = |given: SurfaceCircle| {
-        let error = lay_on_circles(&mut ring(Shape::Quad4), &[given]).unwrap_err();
+        let error = lay_on_circle(&mut ring(Shape::Quad4), &given).unwrap_err();
         error.message().to_string()
     };
     let error = refused(circle("tube.inside", [0.0; 2], 1.0));
     assert!(
-        error.contains("`tube.inside`") && error.contains("tube.inner"),
+        error.contains("no such surface") && error.contains("tube.inner"),
         "{error}"
     );
     let error = refused(circle("tube.inner", [0.0; 2], 1.1));
@@ -250,7 +250,7 @@ fn a_surface_that_is_not_on_its_circle_is_named() {
     mesh.coordinates
         .iter_mut()
         .for_each(|c| *c = (*c * 1e6).round() / 1e6);
-    lay_on_circles(&mut mesh, &[circle("tube.outer", [0.0; 2], 2.0)]).unwrap();
+    lay_on_circle(&mut mesh, &circle("tube.outer", [0.0; 2], 2.0)).unwrap();
     for node in mesh.set_nodes("tube.outer").unwrap() {
         let [x, y] = mesh.point(node);
         assert!((x.hypot(y) - 2.0).abs() < 1e-15);

@@ -1,7 +1,8 @@
 //! Pictures of a state: von Mises stress, pressure, plastic zone, on the deformed contour.
 
+use super::bands::Bands;
 use super::drawing::Drawing;
-use super::picture::{Bands, Picture};
+use super::picture::Picture;
 use super::theme::Scale;
 use super::units::Units;
 use super::window::Window;
@@ -176,6 +177,11 @@ impl<'a> Gallery<'a> {
             }
         }
         picture.raster.outline(1, ink);
+        for contact in &self.model.contacts {
+            for pairs in self.model.pairs[contact.range.clone()].windows(2) {
+                picture.crack([&pairs[0], &pairs[1]], ink);
+            }
+        }
         let labels = self.units.axes(self.model.kind);
         let drawing = picture.finish([&labels[0], &labels[1]], Some(&bands), |_| Ok(()))?;
         Ok((drawing, own))

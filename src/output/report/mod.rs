@@ -7,11 +7,12 @@
 //! | `page`, `tables`, `trust` | the page |
 //! | `curves`, `chart` | charts: which, and how they are drawn |
 //! | `fields`, `sketch` | pictures of states; the scene drawn |
-//! | `picture`, `raster`, `window` | elements as pixels under axes; what is shown |
+//! | `picture`, `raster`, `bands`, `window` | elements as pixels under axes, their scale of colours; what is shown |
 //! | `drawing`, `theme`, `units` | SVG text, colours for light and dark, names of units |
 //!
 //! What a picture costs is set by its pixels: a mesh of a million freedoms adds a pass over its elements.
 
+mod bands;
 mod chart;
 mod curves;
 mod drawing;

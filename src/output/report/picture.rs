@@ -1,13 +1,13 @@
 //! Pictures of the mesh: elements painted in their place under axes of one scale.
 
-use super::drawing::{Drawing, FINE, Place, axes, failed, nice_step, stroke, tick, units, write};
+use super::bands::Bands;
+use super::drawing::{Drawing, FINE, Place, axes, failed};
 use super::raster::{Palette, Raster, Spot};
-use super::theme::{INK, Scale};
 use super::window::Window;
 use crate::error::Result;
 use crate::mesh::Mesh;
+use crate::model::Pair;
 use plotters::prelude::*;
-use plotters::style::text_anchor::{HPos, VPos};
 
 /// Room for axes and colours, in pixels.
 const LEFT: u32 = 66;
@@ -159,6 +159,34 @@ impl<'a> Picture<'a> {
         }
     }
 
+    /// Draws the surfaces from one pair of a contact to the next as far as they are less than a pixel apart: whether the middle of a pixel
+    /// lies in a crack thinner than that is chance, and it would show in dashes.
+    pub(super) fn crack(&mut self, pairs: [&Pair; 2], color: u8) {
+        let pixel = self.window.size()[0] / self.raster.width as f64;
+        let apart = pairs.map(|pair| {
+            let (a, b) = (self.node(pair.first), self.node(pair.second));
+            let along = (a[0] - b[0]) * pair.normal[0] + (a[1] - b[1]) * pair.normal[1];
+            along.abs() / pixel
+        });
+        // Shares of the way between which it is thin.
+        let border = (1.0 - apart[0]) / (apart[1] - apart[0]);
+        let [from, to] = match apart.map(|gap| gap < 1.0) {
+            [true, true] => [0.0, 1.0],
+            [true, false] => [0.0, border],
+            [false, true] => [border, 1.0],
+            [false, false] => return,
+        };
+        for ends in [pairs.map(|p| p.first), pairs.map(|p| p.second)] {
+            let [a, b] = ends.map(|node| self.node(node));
+            for sign in self.signs() {
+                let at = |share: f64| {
+                    self.spot([0, 1].map(|d| sign[d] * (a[d] + share * (b[d] - a[d]))))
+                };
+                self.raster.line(at(from), at(to), color);
+            }
+        }
+    }
+
     /// Draws the sides of elements. Of those that are smaller than a few pixels only a grey would be seen: they are left out.
     /// Returns the share of the elements' area whose sides are drawn.
     pub(super) fn sides(&mut self, elements: &[usize], color: u8) -> f64 {
@@ -267,131 +295,47 @@ fn ring(mesh: &Mesh, element: usize) -> ([usize; 8], usize) {
     (out, 2 * corners)
 }
 
-/// Bands of equal colour between nice numbers.
-pub(super) struct Bands {
-    low: f64,
-    step: f64,
-    count: usize,
-    scale: Scale,
-    /// What the numbers are.
-    unit: String,
-    first_color: u8,
-}
-
-impl Bands {
-    /// Bands that cover `values`; colours go into `palette`.
-    pub(super) fn new(values: [f64; 2], scale: Scale, unit: &str, palette: &mut Palette) -> Self {
-        let [low, high] = values;
-        let extent = if high > low {
-            high - low
-        } else {
-            1.0_f64.max(high.abs())
-        };
-        let step = nice_step(extent, 14);
-        let low = (low / step + 1e-9).floor() * step;
-        let count = ((high - low) / step - 1e-9).ceil().clamp(1.0, 24.0) as usize;
-        let mut bands = Bands {
-            low,
-            step,
-            count,
-            scale,
-            unit: unit.to_string(),
-            first_color: 0,
-        };
-        let indices: Vec<u8> = (0..count)
-            .map(|band| palette.add(bands.color(band), 1.0))
-            .collect();
-        bands.first_color = indices.first().copied().unwrap_or(0);
-        bands
-    }
-
-    fn color(&self, band: usize) -> RGBColor {
-        let middle = self.low + (band as f64 + 0.5) * self.step;
-        let last = 0.5 * self.step;
-        let high = self.low + self.count as f64 * self.step;
-        match self.scale {
-            Scale::Diverging => self.scale.color(middle, self.low, high),
-            _ => self.scale.color(middle, self.low + last, high - last),
-        }
-    }
-
-    /// The palette's index for a value.
-    pub(super) fn index(&self, value: f64) -> u8 {
-        let band = ((value - self.low) / self.step).max(0.0) as usize;
-        self.first_color + band.min(self.count - 1) as u8
-    }
-
-    /// A column of the colours with the numbers between them, from `at` down.
-    fn draw(&self, area: &super::drawing::Area, at: [f64; 2], height: f64) -> Result<()> {
-        let (left, right) = (at[0] + 14.0, at[0] + 28.0);
-        let line = 18.0;
-        let (top, bottom) = (at[1] + line, at[1] + height);
-        write(
-            area,
-            &self.unit,
-            [left - 4.0, at[1] - 4.0],
-            (HPos::Left, VPos::Top),
-            INK,
-        )?;
-        let band = (bottom - top) / self.count as f64;
-        // Numbers that would touch are left out.
-        let every = (line / band).ceil().max(1.0) as usize;
-        for i in 0..=self.count {
-            let y = bottom - i as f64 * band;
-            if i < self.count {
-                let corners = [(units(left), units(y - band)), (units(right), units(y))];
-                area.draw(&Rectangle::new(corners, self.color(i).filled()))
-                    .map_err(failed)?;
-            }
-            if i % every == 0 {
-                let value = self.low + i as f64 * self.step;
-                let value = if value.abs() < 1e-9 * self.step {
-                    0.0
-                } else {
-                    value
-                };
-                write(
-                    area,
-                    &tick(value),
-                    [right + 5.0, y],
-                    (HPos::Left, VPos::Center),
-                    INK,
-                )?;
-            }
-        }
-        let frame = [(units(left), units(top)), (units(right), units(bottom))];
-        area.draw(&Rectangle::new(frame, stroke(INK, 0.75)))
-            .map_err(failed)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Model;
+    use crate::scene::Scene;
 
+    /// The gap beside a contact opens slowly: as long as it is thinner than a pixel, pixels in it would be empty here and there.
     #[test]
-    fn bands_cover_all_values_between_nice_numbers() {
-        for values in [
-            [0.0, 1.0],
-            [-3.7, 911.3],
-            [5.0, 5.0],
-            [0.0, 0.0],
-            [1e-7, 3e-7],
-        ] {
-            let mut palette = Palette::new();
-            let bands = Bands::new(values, Scale::Rising, "MPa", &mut palette);
-            assert!(
-                bands.count >= 1 && bands.count <= 16,
-                "{values:?}: {}",
-                bands.count
-            );
-            let high = bands.low + bands.count as f64 * bands.step;
-            let round_off = 1e-8 * bands.step;
-            assert!(bands.low <= values[0] + round_off, "{values:?}");
-            assert!(high >= values[1] - round_off, "{values:?}");
-            assert_eq!(bands.index(values[0]), 1);
-            assert_eq!(bands.index(f64::INFINITY), bands.count as u8);
-            assert_eq!(bands.index(f64::NAN), 1);
+    fn a_gap_is_shown_from_one_place_on_and_not_in_dashes() {
+        let text = include_str!("../../../data/scenes/cylinder_on_half_plane.toml");
+        let model = Model::new(&Scene::parse(text, "scene.toml").unwrap()).unwrap();
+        let window = Window {
+            low: [0.0, -0.2],
+            high: [0.3, 0.2],
+        };
+        // Both surfaces fall across the rows of pixels, as they do round a dent.
+        let tilted: Vec<f64> = (0..model.mesh.n_nodes())
+            .flat_map(|node| [0.0, -0.15 * model.mesh.point(node)[0]])
+            .collect();
+        let mut picture = Picture::new(&model.mesh, Some(&tilted), window, [false; 2]);
+        for element in picture.visible() {
+            let part = 1 + model.mesh.element_body[element] as u16;
+            picture.element(element, part, |_| 0.0, 0.0, |_| 1);
         }
+        picture.raster.outline(1, 2);
+        let [width, height] = [picture.raster.width, picture.raster.height];
+        // Where the gap shows, from left to right.
+        let open = |picture: &Picture| -> Vec<bool> {
+            let shows = |x: usize| (0..height).any(|y| picture.raster.color_at(x, y) == 0);
+            (0..width).map(shows).collect()
+        };
+        let changes = |open: &[bool]| open.windows(2).filter(|p| p[0] != p[1]).count();
+        let dashes = changes(&open(&picture));
+        assert!(dashes > 1, "{dashes}");
+        for pairs in model.pairs.windows(2) {
+            picture.crack([&pairs[0], &pairs[1]], 2);
+        }
+        let after = open(&picture);
+        assert_eq!(
+            (changes(&after), after[0], after[width - 1]),
+            (1, false, true)
+        );
     }
 }

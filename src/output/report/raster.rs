@@ -71,6 +71,12 @@ impl Raster {
         }
     }
 
+    /// The colour of a pixel.
+    #[cfg(test)]
+    pub(super) fn color_at(&self, column: usize, row: usize) -> u8 {
+        self.color[row * self.width + column]
+    }
+
     /// Draws a line one pixel wide.
     pub(super) fn line(&mut self, from: Spot, to: Spot, color: u8) {
         let length = (to[0] - from[0]).abs().max((to[1] - from[1]).abs());

@@ -6,6 +6,7 @@
 use super::super::panel;
 use super::super::tree::Forest;
 use super::{Panel, Trailing, Work};
+use crate::linalg::ZonePart;
 use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::PoisonError;
@@ -36,7 +37,7 @@ impl Trailing {
     pub(super) fn find_subtrees(&mut self) {
         let zone = &self.panels[..self.n_zone_panels];
         let panel_of = |column: u32| zone.partition_point(|p| p.first + p.width <= column as usize);
-        let parent: Vec<usize> = zone
+        self.parents = zone
             .iter()
             .map(|p| match self.rows[p.rows.clone()].first() {
                 Some(&row) if (row as usize) < self.n_zone => panel_of(row),
@@ -48,7 +49,7 @@ impl Trailing {
             .map(|p| (p.rectangle().end - p.values) as u64)
             .collect();
         let forest = Forest {
-            parent: &parent,
+            parent: &self.parents,
             work: &work,
         };
         for panels in forest.subtrees() {
@@ -82,24 +83,37 @@ impl Trailing {
         self.subtrees.len()
     }
 
+    /// The panels of the marked zone freedoms and all that these depend on: their ancestors in the elimination tree.
+    pub(in super::super) fn part_of_zone(&self, marked: &[bool]) -> ZonePart {
+        let mut blocks = vec![false; self.n_zone_panels];
+        for k in 0..self.n_zone_panels {
+            let p = &self.panels[k];
+            let mut places = self.zone[p.first..p.first + p.width].iter();
+            blocks[k] |= places.any(|&place| marked[place as usize]);
+            if blocks[k] && self.parents[k] != usize::MAX {
+                blocks[self.parents[k]] = true;
+            }
+        }
+        ZonePart { blocks }
+    }
+
     /// The zone's panels that are in no subtree, in their order.
-    fn top(&self) -> impl DoubleEndedIterator<Item = &Panel> {
+    fn top(&self) -> impl DoubleEndedIterator<Item = usize> {
         let begins = [0]
             .into_iter()
             .chain(self.subtrees.iter().map(|t| t.panels.end));
         let ends = self.subtrees.iter().map(|t| t.panels.start);
         let gaps: Vec<_> = begins.zip(ends.chain([self.n_zone_panels])).collect();
-        gaps.into_iter()
-            .flat_map(|(begin, end)| &self.panels[begin..end])
+        gaps.into_iter().flat_map(|(begin, end)| begin..end)
     }
 
     /// The panels of a subtree with their rows.
     fn panels_of<'a>(
         &'a self,
         tree: &'a Subtree,
-    ) -> impl DoubleEndedIterator<Item = (&'a Panel, &'a [u32])> {
-        let panels = self.panels[tree.panels.clone()].iter().zip(&tree.starts);
-        panels.map(|(p, &start)| (p, &tree.own_rows[start..start + p.rows.len()]))
+    ) -> impl DoubleEndedIterator<Item = (usize, &'a [u32])> {
+        let panels = tree.panels.clone().zip(&tree.starts);
+        panels.map(|(k, &start)| (k, &tree.own_rows[start..start + self.panels[k].rows.len()]))
     }
 
     /// Forward substitution with the columns of a panel: `own = L^-1 own`, and `below -= L own` for its rows, which `rows` number
@@ -189,7 +203,8 @@ impl Trailing {
                 let (own, outer) = work.vector.split_at_mut(tree.columns.len());
                 own.copy_from_slice(&whole[tree.columns.clone()]);
                 outer.fill(0.0);
-                for (p, rows) in self.panels_of(tree) {
+                for (k, rows) in self.panels_of(tree) {
+                    let p = &self.panels[k];
                     let end = p.first + p.width - tree.columns.start;
                     let (done, below) = work.vector.split_at_mut(end);
                     let own = &mut done[end - p.width..];
@@ -203,7 +218,8 @@ impl Trailing {
                 vector[row as usize] += value;
             }
         }
-        for p in self.top() {
+        for k in self.top() {
+            let p = &self.panels[k];
             let end = p.first + p.width;
             let (done, below) = vector.split_at_mut(end);
             let own = (&mut done[p.first..], below);
@@ -214,8 +230,13 @@ impl Trailing {
         scatter(&self.contact, v_contact, contact);
     }
 
-    /// `u_z = L_zz^-T (y_z - L_cz' u_c)`, with `zone` as [`Trailing::eliminate_zone`] left it.
-    pub(in super::super) fn recover_zone(&self, zone: &mut [f64], u_contact: &[f64]) {
+    /// `u_z = L_zz^-T (y_z - L_cz' u_c)` in a part of the zone and zero elsewhere, with `zone` as [`Trailing::eliminate_zone`] left it.
+    pub(in super::super) fn recover_zone(
+        &self,
+        part: &ZonePart,
+        zone: &mut [f64],
+        u_contact: &[f64],
+    ) {
         let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
         let Work {
             vector,
@@ -225,9 +246,14 @@ impl Trailing {
         let (v_zone, v_contact) = vector.split_at_mut(self.n_zone);
         v_zone.copy_from_slice(zone);
         gather(&self.contact, u_contact, v_contact);
-        for p in self.top().rev() {
+        for k in self.top().rev() {
+            let p = &self.panels[k];
             let end = p.first + p.width;
             let (done, below) = vector.split_at_mut(end);
+            if !part.has(k) {
+                done[p.first..].fill(0.0);
+                continue;
+            }
             let own = (&mut done[p.first..], below);
             self.backward(p, &self.rows[p.rows.clone()], own, end, rows);
         }
@@ -241,10 +267,15 @@ impl Trailing {
                 for (value, &row) in outer.iter_mut().zip(&self.rows[tree.outer.clone()]) {
                     *value = whole[row as usize];
                 }
-                for (p, rows) in self.panels_of(tree).rev() {
+                for (k, rows) in self.panels_of(tree).rev() {
+                    let p = &self.panels[k];
                     let end = p.first + p.width - tree.columns.start;
                     let (done, below) = work.vector.split_at_mut(end);
                     let own = &mut done[end - p.width..];
+                    if !part.has(k) {
+                        own.fill(0.0);
+                        continue;
+                    }
                     self.backward(p, rows, (own, below), end, &mut work.rows);
                 }
             });

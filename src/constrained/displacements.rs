@@ -1,4 +1,4 @@
-//! Displacements of a badly conditioned structure to the last digits.
+//! Displacements of the state at hand, of a badly conditioned structure to the last digits.
 
 use super::ConstrainedStructure;
 use crate::error::{Error, ErrorKind, Result};
@@ -6,6 +6,47 @@ use crate::linalg::{self, Refinement};
 use nalgebra::{Cholesky, DVector};
 
 impl ConstrainedStructure {
+    /// Displacements of all freedoms (`n`) in the state at hand. Returns `|K u - f + B' r| / (|K| |u| + |f|)`. Costs one full solve.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Input`] where `out` has the wrong length; failure of the backend's solve.
+    pub fn displacements(&self, out: &mut [f64]) -> Result<f64> {
+        if out.len() != self.partition.n {
+            return Err(Error::input(format!(
+                "{} values were given for the displacements of {} freedoms",
+                out.len(),
+                self.partition.n
+            )));
+        }
+        let gap = DVector::from_column_slice(self.gaps());
+        let (pushed, load) = self.contact_forces();
+        let tied = self.shift.component_mul(&(&self.gaps - gap));
+        let contact = self
+            .held
+            .solve(&(&self.state.condensed + self.rows.tr_mul(&tied) - &pushed));
+        let reduced = self.condensed.reduce_load(&self.state.load)?;
+        let found = linalg::recover_refined(
+            self.condensed.as_ref(),
+            &self.stiffness,
+            self.norm,
+            &load,
+            [&reduced, &[], contact.as_slice()],
+            &self.partition,
+        )?;
+        out.copy_from_slice(&found.u);
+        Ok(found.backward_error)
+    }
+
+    /// `B' r` on the contact freedoms, and `f - B' r` on all.
+    fn contact_forces(&self) -> (DVector<f64>, Vec<f64>) {
+        let pushed = self.rows.tr_mul(&DVector::from_column_slice(self.forces()));
+        let mut load = self.state.load.clone();
+        for (&freedom, force) in self.partition.contact.iter().zip(pushed.iter()) {
+            load[freedom] -= force;
+        }
+        (pushed, load)
+    }
+
     /// As [`ConstrainedStructure::displacements`] with the residual in twice the working precision ([`linalg::refine`]): for a stiffness whose
     /// entries are exact and whose condition is bad. Right to the last digits for the gaps and forces at hand, where the plain solution
     /// is off by round-off times the condition. Returns what the refinement did. Costs a full solve for each step and a factor of the
@@ -16,12 +57,7 @@ impl ConstrainedStructure {
     pub fn refined_displacements(&self, out: &mut [f64]) -> Result<Refinement> {
         self.displacements(out)?;
         let contact = &self.partition.contact;
-        let force = DVector::from_column_slice(self.forces());
-        let pushed = self.rows.tr_mul(&force);
-        let mut load = self.state.load.clone();
-        for (&freedom, force) in contact.iter().zip(pushed.iter()) {
-            load[freedom] -= force;
-        }
+        let (_, load) = self.contact_forces();
         // (K + B' S B) u = f - B' r + B' S delta with the closed rows, whose gap is zero without round-off: definite also where K alone is not.
         let open = self.tableau.open();
         let spring = DVector::from_fn(open.len(), |i, _| if open[i] { 0.0 } else { self.shift[i] });
