@@ -29,8 +29,8 @@ pub(super) struct EdgePoint {
     pub squared: f64,
     /// Squared pressure.
     pub pressure_squared: f64,
-    /// Area that belongs to the pair: its weight.
-    pub area: f64,
+    /// Its weight: the width of the surface there.
+    pub weight: f64,
 }
 
 /// The end of a contact: its last pairs, and those before from which the pressure there is known.
@@ -91,13 +91,13 @@ impl Tail<'_> {
         span * sum + more.max(0.0) * width(begin)
     }
 
-    /// Least squares of the pressure squared over the area; with one point `c1 = 0`.
+    /// Least squares of the pressure squared, weighted with the width; with one point `c1 = 0`.
     fn constants(&self, edge_squared: f64) -> [f64; 2] {
         // Rows (e^2 - x) (c0 + c1 x) = p^2.
         let (mut m00, mut m01, mut m11, mut r0, mut r1) = (0.0, 0.0, 0.0, 0.0, 0.0);
         for point in self.points {
             let (x, a) = (point.squared / edge_squared, edge_squared - point.squared);
-            let weight = point.area * a;
+            let weight = point.weight * a;
             m00 += weight * a;
             m01 += weight * a * x;
             m11 += weight * a * x * x;
@@ -138,7 +138,7 @@ mod tests {
                 let points = [7.0, 6.0, 5.0, 4.0].map(|s| EdgePoint {
                     squared: s * s,
                     pressure_squared: nodal(&pressure, s).powi(2),
-                    area: 1.0,
+                    weight: 1.0,
                 });
                 let tail = Tail {
                     points: &points,
@@ -160,7 +160,7 @@ mod tests {
         let points = [EdgePoint {
             squared: 1.0,
             pressure_squared: pressure_squared(1.0),
-            area: 1.0,
+            weight: 1.0,
         }];
         let tail = Tail {
             points: &points,

@@ -241,14 +241,19 @@ impl Patch<'_> {
         let closed = |step: isize| {
             neighbour(last, -step * way).filter(|k| (self.begin..self.end).contains(k))
         };
-        let inner = (EDGE_SKIP..EDGE_SKIP + EDGE_POINTS).filter_map(closed);
+        // This side of the middle, as in half a model, and not on an axis, where next to no area belongs to a pair.
+        let beside =
+            |k: &usize| way as f64 * (arc(*k) - middle) > -0.25 * spacing && self.width(*k) > 0.0;
+        let inner = (EDGE_SKIP..EDGE_SKIP + EDGE_POINTS)
+            .filter_map(closed)
+            .filter(beside);
         let mut points = [EdgePoint::default(); EDGE_POINTS as usize];
         let mut n = 0;
         for k in inner {
             points[n] = EdgePoint {
                 squared: (arc(k) - middle).powi(2),
                 pressure_squared: self.pressure[k].powi(2),
-                area: self.model.pairs[k].area,
+                weight: self.width(k),
             };
             n += 1;
         }
