@@ -41,7 +41,7 @@ const CARRIED: usize = 16;
 const PAIRS_PER_CARRIED: usize = 32;
 /// In place of their number where there are no rates yet.
 const NEVER: usize = usize::MAX;
-/// Share of these by which a pair may be beyond its condition at the end of a piece: round-off of an event that is due there.
+/// Share of a tie by which a pair may be beyond its condition at the end of a piece: round-off of an event that is due there.
 const AT_END: f64 = 1e-2;
 /// The same for the last pair that holds a body, as a share of its force at the begin.
 const LAST: f64 = 1e-7;
@@ -103,9 +103,9 @@ impl Path {
         Ok(path)
     }
 
-    /// Gap and force that count as zero: a small share of the largest, at least their round-off. That is a share of what they are the
+    /// Gap and force that count as zero: `share` of those that make a tie, at least their round-off. That is a share of what they are the
     /// sum of: all forces may have been zero so far.
-    fn zero(&self, tableau: &Tableau) -> (f64, f64) {
+    fn zero(&self, tableau: &Tableau, share: f64) -> (f64, f64) {
         let q: Vec<f64> = self
             .start
             .iter()
@@ -118,8 +118,8 @@ impl Path {
         let gap = TIE * self.gap.iter().fold(self.gap_scale, |m, g| m.max(*g)) * 1e-2;
         let force = TIE * self.force.iter().fold(self.force_scale, |m, r| m.max(*r));
         (
-            gap.max(tableau.gap_tolerance(round_off)),
-            force.max(round_off),
+            (share * gap).max(tableau.gap_tolerance(round_off)),
+            (share * force).max(round_off),
         )
     }
 
@@ -131,7 +131,7 @@ impl Path {
     /// Settles the statuses of pairs at the border by the complementarity problem of the rates, then computes all rates.
     fn settle(&mut self, tableau: &mut Tableau) -> Result<(), Unbounded> {
         let n = tableau.len();
-        let (zero_gap, zero_force) = self.zero(tableau);
+        let (zero_gap, zero_force) = self.zero(tableau, 1.0);
         self.force_scale = self.force.iter().fold(self.force_scale, |m, r| m.max(*r));
         let border: Vec<usize> = (0..n)
             .filter(|&k| self.gap[k] <= zero_gap && self.force[k] <= zero_force)
@@ -202,17 +202,17 @@ impl Path {
         let room = end - self.t;
         let mut step = room;
         let mut first = None;
-        let (zero_gap, zero_force) = self.zero(tableau);
+        let (end_gap, end_force) = self.zero(tableau, AT_END);
         for k in 0..tableau.len() {
             let (value, rate) = self.value_and_rate(tableau, k);
             if rate < 0.0 && value + step * rate < 0.0 {
                 let at_end = if tableau.open()[k] {
-                    AT_END * zero_gap
+                    end_gap
                 } else if tableau.would_free(k) {
                     // The last pair that holds a body cannot open: unloaded to nothing its force vanishes near the end.
                     LAST * value
                 } else {
-                    AT_END * zero_force
+                    end_force
                 };
                 if value + room * rate < -at_end {
                     step = value / -rate;
@@ -242,7 +242,7 @@ impl Path {
             };
             *value = 0.0;
         }
-        let (zero_gap, zero_force) = self.zero(tableau);
+        let (zero_gap, zero_force) = self.zero(tableau, 1.0);
         let changes = (0..tableau.len())
             .filter_map(|k| {
                 let (_, rate) = self.value_and_rate(tableau, k);
