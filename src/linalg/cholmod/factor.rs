@@ -1,6 +1,7 @@
 //! `cholmod_factor`: analyse, factorise, read columns, solve.
 
 use super::common::Common;
+use super::pages::prefer_large;
 use super::sparse::SymmetricView;
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::NotDefinite;
@@ -85,6 +86,29 @@ impl Factor {
         };
         factor.common.check("symbolic analysis", n)?;
         Ok(factor)
+    }
+
+    /// Allocates the values of a supernodal factor, which its factorisation does otherwise, on large pages where there are any.
+    pub(super) fn allocate(&mut self) -> Result<()> {
+        if !self.is_supernodal() {
+            return Ok(());
+        }
+        // SAFETY: the factor is valid and symbolic; on success `x` holds `xsize` doubles.
+        let raw = unsafe {
+            sys::cholmod_l_change_factor(
+                sys::CHOLMOD_REAL as i32,
+                1,
+                1,
+                1,
+                1,
+                self.raw.as_ptr(),
+                self.common.as_mut(),
+            );
+            self.raw.as_ref()
+        };
+        self.common.check("factorisation", raw.n)?;
+        prefer_large(raw.x, raw.xsize * size_of::<f64>());
+        Ok(())
     }
 
     /// Numerical factorisation of a matrix with the analysed pattern.

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! `D = diag(shift)` acts on contact freedoms only, so it enters `L_cc` alone: `L_cc L_cc' = C + D`.
-//! Of the whole module only `common`, `sparse`, `ordering`, `factor`, `blas` and `openmp` call C.
+//! Of the whole module only `common`, `sparse`, `ordering`, `factor`, `blas` and `openmp` call C, and `pages` the system.
 //!
 //! The same BLAS with the same number of threads gives the same bits in every run; another number of threads may
 //! add in another order and differ by round-off ([`set_blas_threads`]).
@@ -23,6 +23,7 @@ mod common;
 mod factor;
 mod openmp;
 mod ordering;
+mod pages;
 mod panel;
 mod sparse;
 mod supervariables;
@@ -117,6 +118,7 @@ impl CholmodCondensed {
         }
         {
             let _serial = Serial::new();
+            factor.allocate()?;
             factor.factorize(&SymmetricView::with_values(matrix, &values))?;
         }
         let weakest = weakest_pivot(&factor, |freedom| values[diagonal(freedom)]);
