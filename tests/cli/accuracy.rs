@@ -27,6 +27,7 @@ fn quantity<'j>(json: &'j Value, name: &str) -> &'j Value {
 }
 
 #[test]
+#[cfg_attr(not(feature = "cholmod"), ignore = "needs the build with CHOLMOD")]
 fn graded_meshes_are_studied_beside_uniform_ones() {
     let folder = tempfile::tempdir().unwrap();
     let (text, json) = told(
@@ -182,6 +183,7 @@ fn to_ten_percent(name: &str, settings: &[&str], fine: &[&str]) {
 }
 
 #[test]
+#[cfg_attr(not(feature = "cholmod"), ignore = "needs the build with CHOLMOD")]
 fn the_papers_cylinder_to_ten_percent() {
     to_ten_percent(
         "cylinder_on_half_plane",
@@ -196,6 +198,7 @@ fn the_papers_cylinder_to_ten_percent() {
 /// The states in the midst of unloading are left out: there the pressure peaks at the edge of the dent, the higher the finer the mesh, and
 /// `accuracy` refuses to promise it.
 #[test]
+#[cfg_attr(not(feature = "cholmod"), ignore = "needs the build with CHOLMOD")]
 fn the_papers_disc_to_ten_percent() {
     to_ten_percent(
         "disc_in_plate",
