@@ -11,8 +11,8 @@
 //!
 //! A pilot run on a coarse mesh states its error and its order, and a second one which part of the mesh it comes from (`grading`):
 //! from them the next mesh is aimed at, graded so that the demand costs the fewest elements, at most [`STRIDE`] times finer, until one
-//! reaches the demand. A mesh from a file is subdivided, once, twice, ..., and judged by the file and its subdivisions before. Memory and time of a mesh are predicted from the symbolic factorisation before it is run: what
-//! does not fit is refused with its price.
+//! reaches the demand. A mesh from a file is subdivided, once, twice, ..., and judged by the file and its subdivisions before. Memory
+//! and time of a mesh are predicted from the symbolic factorisation before it is run: what does not fit is refused with its price.
 
 use super::estimate::{Extent, SAFETY_OF_LAW, estimate_on};
 use super::grading::{balanced, risen};
