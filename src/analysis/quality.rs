@@ -73,9 +73,14 @@ impl Engine<'_> {
         let load = self.total_load();
         let mut condensed = self.external(&self.at);
         condensed.add(1.0, &self.now.initial.load);
-        let (found, amplitudes) =
-            self.sub
-                .recover_deformation(self.system, &load, &reduced, condensed, &self.slip())?;
+        let (found, amplitudes) = self.sub.recover_deformation(
+            self.system,
+            &load,
+            &reduced,
+            condensed,
+            &self.slip(),
+            [self.displacement_scale, self.force_scale],
+        )?;
         self.counts.full_solves += 1;
         self.counts.trailing_solves += 1;
         let mut out = Displacements {
