@@ -179,7 +179,7 @@ fn the_pass_in_parts_gives_every_row_its_own() {
             for _ in 0..6 {
                 let i = numbers.integer() as usize % n;
                 // Every third row knows only its like.
-                if i < j && (i % 3 == 0) == (j % 3 == 0) {
+                if i < j && i.is_multiple_of(3) == j.is_multiple_of(3) {
                     k.add_triplet(i, j, numbers.next());
                 }
             }
