@@ -2,6 +2,7 @@
 
 use super::elastic::{ElasticPiece, describe};
 use super::engine::{Engine, LoadPoint};
+use super::equilibrium::Equilibrium;
 use super::increment::Increment;
 use super::place::{Leg, PlasticLeg, Watcher};
 use super::recovery::{Peak, Recovery};
@@ -138,7 +139,8 @@ impl Engine<'_> {
                 if is == 0.0 || (is > 0.0) != (was > 0.0) {
                     let (from, to) = (before, piece.t());
                     let sign = if is > was { 1.0 } else { -1.0 };
-                    let t = bracketed_root(from, to, MONITOR_ACCURACY, |t| {
+                    let ends = [(from, sign * was), (to, sign * is)];
+                    let t = bracketed_root(ends[0], ends[1], MONITOR_ACCURACY, |t| {
                         piece.go_back(self, t);
                         sign * monitor(self)
                     });
@@ -269,7 +271,7 @@ impl Engine<'_> {
             if let (Some(monitor), Some(was)) = (monitor, leg.watched) {
                 let is = monitor(self);
                 if is == 0.0 || (is > 0.0) != (was > 0.0) {
-                    self.hit(end, &saved, stepper, monitor, was, &mut reported)?;
+                    self.hit(end, &saved, stepper, monitor, [was, is], &mut reported)?;
                     reported.trailing_solves = self.counts.trailing_solves - solves;
                     reported.event = "target".to_string();
                     watcher.increment(self, &reported)?;
@@ -377,22 +379,18 @@ impl Engine<'_> {
         saved: &Saved,
         stepper: Stepper,
         monitor: &Monitor,
-        was: f64,
+        [was, is]: [f64; 2],
         reported: &mut IncrementReport,
     ) -> Result<()> {
         let reached = saved.at.share_of(&self.at, end);
         let sign = if was < 0.0 { 1.0 } else { -1.0 };
         let mut failure = None;
-        let last = std::cell::Cell::new(-1.0);
-        // Trials lie close together: each is predicted from the one before.
-        let mut found = Some((self.at.clone(), self.now.clone()));
+        let last = Cell::new(-1.0);
+        let mut known = vec![(0.0, saved.now.clone()), (reached, self.now.clone())];
         let mut value_at = |t: f64| {
-            if t <= 0.0 {
-                return sign * was;
-            }
             saved.put_back(self);
             let goal = saved.at.towards(end, t);
-            self.ahead = found.take();
+            self.ahead = Some((goal.clone(), between(&mut known, t)));
             // An increment may be cut short: the way to the goal then takes several.
             loop {
                 match self.find_increment(&goal, 1.0, SMALLEST_CUT, stepper) {
@@ -403,7 +401,9 @@ impl Engine<'_> {
                         let at_once = self.at == saved.at;
                         self.accept(&goal, increment, reported);
                         if arrived {
-                            found = at_once.then(|| (self.at.clone(), self.now.clone()));
+                            if at_once {
+                                known.push((t, self.now.clone()));
+                            }
                             last.set(t);
                             return sign * monitor(self);
                         }
@@ -415,7 +415,8 @@ impl Engine<'_> {
                 }
             }
         };
-        let t = bracketed_root(0.0, reached, MONITOR_ACCURACY, &mut value_at);
+        let ends = [(0.0, sign * was), (reached, sign * is)];
+        let t = bracketed_root(ends[0], ends[1], MONITOR_ACCURACY, &mut value_at);
         if t != last.get() {
             value_at(t);
         }
@@ -424,6 +425,24 @@ impl Engine<'_> {
             None => Ok(()),
         }
     }
+}
+
+/// The state at `t` on the parabola through the nearest three of the known ones; states add up to states, the statuses being the same.
+fn between(known: &mut [(f64, Equilibrium)], t: f64) -> Equilibrium {
+    known.sort_by(|a, b| (a.0 - t).abs().total_cmp(&(b.0 - t).abs()));
+    let nearest = &known[..known.len().min(3)];
+    let weight = |i: usize| -> f64 {
+        let others = (0..nearest.len()).filter(|&j| j != i);
+        others
+            .map(|j| (t - nearest[j].0) / (nearest[i].0 - nearest[j].0))
+            .product()
+    };
+    let mut state = nearest[0].1.clone();
+    for (i, (_, other)) in nearest.iter().enumerate().skip(1) {
+        state.add(weight(i), other);
+        state.add(-weight(i), &nearest[0].1);
+    }
+    state
 }
 
 /// The error of a run that its caller stopped.

@@ -60,8 +60,9 @@ pub enum NoIncrement {
 const PREDICTION: f64 = 0.02;
 /// See [`PREDICTION`].
 const FORCING: f64 = 0.05;
-/// Share of the tolerance to which the last Newton direction is solved.
-const REST: f64 = 0.3;
+/// What of the tolerance the last Newton direction is solved to, in the energy norm: its last step, that of the plain iteration, is not counted
+/// there and takes more than the rest. 0.3 costs 5 % more trailing solves, 5 more material evaluations.
+const REST: f64 = 2.0;
 /// Cuts of a line search.
 const BACKTRACKS: usize = 12;
 /// Share of the slope at the begin to which the slope beyond a minimum may grow: nearly the minimum.
@@ -211,7 +212,8 @@ impl Engine<'_> {
                 let (direction, length) = match settings.plastic_iteration {
                     PlasticIteration::Newton => {
                         let goal = REST * settings.tolerance / residual;
-                        let forcing = (residual / last).powi(2).max(goal).min(FORCING);
+                        // Where points begin or cease to flow convergence is linear: no direction is solved for more than the last one brought.
+                        let forcing = (residual / last).max(goal).min(FORCING);
                         let newton = self.solve_tangent(&balance, forcing, 1.0 - damping);
                         match self.line_search(&state, &newton, &balance, &mut trial) {
                             Some((length, evaluation)) => {
