@@ -75,7 +75,9 @@ const CANCELLED: f64 = 1e-12;
 /// # }
 /// ```
 pub struct ConstrainedStructure {
-    condensed: Arc<dyn Condensed>,
+    condensed: Box<dyn Condensed>,
+    /// C.
+    condensed_stiffness: Arc<DMatrix<f64>>,
     stiffness: SymmetricCsc,
     /// Its infinity norm.
     norm: f64,
@@ -150,8 +152,8 @@ impl ConstrainedStructure {
                 b[(i, place[freedom])] += coefficient;
             }
         }
-        let c = condensed.contact_stiffness();
-        let shift = shift(c, &b);
+        let c = condensed.contact_stiffness().dense();
+        let shift = shift(&c, &b);
         let mut m = c.clone_owned();
         for i in 0..rows.len() {
             m += b.row(i).transpose() * b.row(i) * shift[i];
@@ -188,7 +190,8 @@ impl ConstrainedStructure {
                 force: Arc::new(vec![0.0; rows.len()]),
             },
             partition,
-            condensed: Arc::from(condensed),
+            condensed,
+            condensed_stiffness: Arc::new(c),
             rows: b,
             gaps: DVector::from_column_slice(gaps),
             tableau: Tableau::new(tied(&inverse, &shift)),
@@ -218,7 +221,7 @@ impl ConstrainedStructure {
 
     /// `C = K_cc - K_ci K_ii^-1 K_ic`, `n_contact x n_contact`, symmetric, column-major.
     pub fn condensed_stiffness(&self) -> &DMatrix<f64> {
-        self.condensed.contact_stiffness()
+        &self.condensed_stiffness
     }
 
     /// `T`, `n_rows x n_rows`, symmetric: forces of the rows per gap.
@@ -268,9 +271,9 @@ impl ConstrainedStructure {
         Arc::clone(&self.state.force)
     }
 
-    /// The factored stiffness, which holds [`ConstrainedStructure::condensed_stiffness`], to be kept without a copy.
-    pub fn shared_condensation(&self) -> Arc<dyn Condensed> {
-        Arc::clone(&self.condensed)
+    /// [`ConstrainedStructure::condensed_stiffness`] to be kept without a copy.
+    pub fn shared_condensed_stiffness(&self) -> Arc<DMatrix<f64>> {
+        Arc::clone(&self.condensed_stiffness)
     }
 
     /// Which rows are open.

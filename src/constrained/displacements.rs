@@ -3,7 +3,7 @@
 use super::ConstrainedStructure;
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::{self, Refinement};
-use nalgebra::{Cholesky, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector};
 
 impl ConstrainedStructure {
     /// Displacements of all freedoms (`n`) in the state at hand. Returns `|K u - f + B' r| / (|K| |u| + |f|)`. Costs one full solve.
@@ -61,7 +61,7 @@ impl ConstrainedStructure {
         // (K + B' S B) u = f - B' r + B' S delta with the closed rows, whose gap is zero without round-off: definite also where K alone is not.
         let open = self.tableau.open();
         let spring = DVector::from_fn(open.len(), |i, _| if open[i] { 0.0 } else { self.shift[i] });
-        let mut stiffness = self.condensed.contact_stiffness().clone();
+        let mut stiffness = DMatrix::clone(&self.condensed_stiffness);
         for i in (0..open.len()).filter(|&i| !open[i]) {
             let row = self.rows.row(i);
             stiffness += row.transpose() * row * spring[i];

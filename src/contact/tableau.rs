@@ -4,6 +4,7 @@ use super::swept::Swept;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// Share of the original diagonal below which a pivot counts as zero: opening the pair would free a rigid motion.
 const SINGULAR: f64 = 1e-11;
@@ -22,7 +23,7 @@ const REBUILD: usize = 2000;
 /// R. W. Cottle, J.-S. Pang, R. E. Stone, *The Linear Complementarity Problem* (1992), section 2.3.
 #[derive(Debug, Clone)]
 pub struct Tableau {
-    matrix: DMatrix<f64>,
+    matrix: Arc<DMatrix<f64>>,
     swept: Swept,
     open: Vec<bool>,
     way: TableauRecord,
@@ -40,10 +41,11 @@ pub struct TableauRecord {
 
 impl Tableau {
     /// The symmetric positive semidefinite matrix `T` with every pair closed.
-    pub fn new(matrix: DMatrix<f64>) -> Self {
+    pub fn new(matrix: impl Into<Arc<DMatrix<f64>>>) -> Self {
+        let matrix = matrix.into();
         let n = matrix.nrows();
         Tableau {
-            swept: Swept::new(matrix.clone()),
+            swept: Swept::new(DMatrix::clone(&matrix)),
             matrix,
             open: vec![false; n],
             way: TableauRecord {

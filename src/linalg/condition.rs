@@ -49,7 +49,7 @@ pub fn condition(
     if diagonal.iter().any(|a| *a <= 0.0) {
         return Ok(f64::INFINITY);
     }
-    let mut stiffness = condensed.contact_stiffness().clone();
+    let mut stiffness = condensed.contact_stiffness().dense();
     for (k, d) in shift.iter().enumerate() {
         stiffness[(k, k)] += d;
     }

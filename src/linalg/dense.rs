@@ -13,7 +13,7 @@
 //! 2013, algorithm 4.2.7 (blocked Cholesky).
 
 use super::*;
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 /// The largest model that this backend takes: 6000 freedoms need 0.6 GB and about ten seconds.
 pub const LARGEST: usize = 6000;
@@ -114,8 +114,10 @@ impl DenseCondensed {
 }
 
 impl Condensed for DenseCondensed {
-    fn contact_stiffness(&self) -> &DMatrix<f64> {
-        &self.contact_stiffness
+    fn contact_stiffness(&self) -> ContactStiffness {
+        let freedoms = (0..self.partition.contact.len()).collect();
+        let matrix = self.contact_stiffness.clone();
+        ContactStiffness::new(vec![ContactBlock { freedoms, matrix }])
     }
 
     fn choose_zone(&mut self, wanted: &[usize]) -> Result<Option<Vec<usize>>> {

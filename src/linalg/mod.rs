@@ -22,6 +22,7 @@ mod check;
 #[cfg(feature = "cholmod")]
 pub mod cholmod;
 mod condition;
+mod contact_stiffness;
 pub mod dense;
 mod refinement;
 mod residual;
@@ -30,13 +31,13 @@ mod tests;
 mod whole;
 
 pub use condition::condition;
+pub use contact_stiffness::{ContactBlock, ContactStiffness};
 pub use refinement::{Refinement, componentwise_backward_error, refine, twofold_residual};
 pub(crate) use residual::largest;
 pub use residual::{Recovered, multiply, norm, recover_refined};
 pub use whole::solve_whole;
 
 use crate::error::{Error, Result};
-use nalgebra::DMatrix;
 
 /// Upper triangle (row <= column) of a symmetric matrix, compressed by column, rows sorted.
 pub type SymmetricCsc = sprs::CsMatI<f64, i64>;
@@ -71,8 +72,8 @@ pub struct Prediction {
 /// in the order of [`Partition::contact`], or none at all) and is taken off again: every result is that of `K` itself, so `K` may be singular as long as fixing its contact
 /// freedoms makes it definite.
 pub trait Condensed: Send + Sync {
-    /// `C = S_cc - S_cz S_zz^-1 S_zc` of `K` (the shift taken off), `n_contact x n_contact`, symmetric.
-    fn contact_stiffness(&self) -> &DMatrix<f64>;
+    /// `C = S_cc - S_cz S_zz^-1 S_zc` of `K` (the shift taken off), `n_contact x n_contact`, symmetric; formed anew at each call.
+    fn contact_stiffness(&self) -> ContactStiffness;
 
     /// Makes a part of the factored zone the zone: the freedoms `wanted` (ascending) and those that the backend
     /// cannot do without. Returns the zone freedoms from now on, the order of all zone vectors, or `None` where one of those wanted was not

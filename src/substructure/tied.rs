@@ -23,8 +23,9 @@
 //! doi:10.1007/BF02165096, and N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., theorem 10.5 (scaling).
 
 use crate::error::{Error, Result};
-use crate::linalg::blocked;
+use crate::linalg::{ContactStiffness, blocked};
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use rayon::prelude::*;
 
 /// A rigid motion on the contact freedoms: first nodes of all pairs, then second nodes.
 #[derive(Debug, Clone)]
@@ -71,8 +72,9 @@ pub(super) struct Tied {
     rigid: Vec<Trace>,
     /// Part of each contact freedom.
     part: Vec<usize>,
+    /// `L L' = [Z R]' S_vv [Z R]`.
     factor: Cholesky<f64, Dyn>,
-    /// `[Z R]' S_vs`, unknowns by followers.
+    /// `L^-1 [Z R]' S_vs`, unknowns by followers.
     coupling: DMatrix<f64>,
 }
 
@@ -83,12 +85,12 @@ impl Tied {
     /// # Errors
     /// Internal, where the tied structure is not held.
     pub(super) fn new(
-        stiffness: &DMatrix<f64>,
+        stiffness: &ContactStiffness,
         traces: &[Trace],
         part: &[usize],
     ) -> Result<(Self, DMatrix<f64>)> {
-        let n = stiffness.nrows() / 2;
-        let second_leads = |k: usize| stiffness[(n + k, n + k)] > STIFFER * stiffness[(k, k)];
+        let n = stiffness.n_contact() / 2;
+        let second_leads = |k| stiffness.diagonal(n + k) > STIFFER * stiffness.diagonal(k);
         let (lead, follow): (Vec<usize>, Vec<usize>) = (0..n)
             .map(|k| {
                 if second_leads(k) {
@@ -111,50 +113,66 @@ impl Tied {
         for (mut column, mut share) in lifted.column_iter_mut().zip(rigid_share.column_iter_mut()) {
             take_rigid(column.as_mut_slice(), share.as_mut_slice(), &rigid, part);
         }
-        let forces = stiffness * &lifted;
+        let forces = stiffness.times(&lifted);
 
-        let both = |i: usize, k: usize| stiffness[(i, k)] + stiffness[(n + i, k)];
         let (n_w, n_a) = (kept.len(), motions.ncols());
-        let mut tied = DMatrix::zeros(n_w + n_a, n_w + n_a);
-        let mut coupling = DMatrix::zeros(n_w + n_a, n);
-        for (j, &k) in kept.iter().enumerate() {
-            for (i, &l) in kept.iter().enumerate().skip(j) {
-                tied[(i, j)] = both(l, k) + both(l, n + k);
-            }
-            for a in 0..n_a {
-                tied[(n_w + a, j)] = forces[(k, a)] + forces[(n + k, a)];
-            }
+        let mut unknown = vec![usize::MAX; n];
+        for (i, &k) in kept.iter().enumerate() {
+            unknown[k] = i;
         }
+        // Adds the column of a contact freedom to what the pairs' unknowns feel of it.
+        let add = |freedom: usize, column: &mut [f64]| {
+            for (row, entry) in stiffness.column(freedom) {
+                if let Some(sum) = column.get_mut(unknown[row % n]) {
+                    *sum += entry;
+                }
+            }
+        };
+        let mut tied = DMatrix::zeros(n_w + n_a, n_w + n_a);
+        let columns = tied.as_mut_slice().par_chunks_mut((n_w + n_a).max(1));
+        columns.zip(&kept).for_each(|(column, &k)| {
+            let (own, moved) = column.split_at_mut(n_w);
+            add(k, own);
+            add(n + k, own);
+            for (a, moved) in moved.iter_mut().enumerate() {
+                *moved = forces[(k, a)] + forces[(n + k, a)];
+            }
+        });
+        let mut coupling = DMatrix::zeros(n_w + n_a, n);
+        let columns = coupling.as_mut_slice().par_chunks_mut((n_w + n_a).max(1));
+        columns.zip(&follow).for_each(|(column, &f)| {
+            let (own, moved) = column.split_at_mut(n_w);
+            add(f, own);
+            for (a, moved) in moved.iter_mut().enumerate() {
+                *moved = forces[(f, a)];
+            }
+        });
         let energy = lifted.tr_mul(&forces);
         tied.view_mut((n_w, n_w), (n_a, n_a)).copy_from(&energy);
-        for (j, &f) in follow.iter().enumerate() {
-            for (i, &l) in kept.iter().enumerate() {
-                coupling[(i, j)] = both(l, f);
-            }
-            for a in 0..n_a {
-                coupling[(n_w + a, j)] = forces[(f, a)];
-            }
-        }
         let factor = blocked::cholesky(tied).ok_or_else(|| {
             Error::internal(
                 "the bodies are not held even with all contact pairs closed: the condensed stiffness of the tied structure is \
                  not positive definite",
             )
         })?;
-        let mut half = coupling.clone();
-        blocked::solve_lower(&factor, &mut half);
+        blocked::solve_lower(&factor, &mut coupling);
         let factor = Cholesky::pack_dirty(factor);
-        let softer = DMatrix::from_fn(n, n, |i, j| stiffness[(follow[i], follow[j])]);
-        let eliminated = blocked::gram(half.as_view(), |_| half.nrows());
-        let mut matrix = softer;
-        for j in 0..n {
-            for i in j..n {
-                // C is symmetric to the last bit.
-                let value = sign[i] * sign[j] * (matrix[(i, j)] - eliminated[(i, j)]);
-                matrix[(i, j)] = value;
-                matrix[(j, i)] = value;
+        // T = S_ss - C' C, its lower triangle.
+        let mut matrix = blocked::outer(&coupling.transpose(), |_| n_w + n_a);
+        let columns = matrix.as_mut_slice().par_chunks_mut(n.max(1)).enumerate();
+        columns.for_each(|(j, column)| {
+            column.iter_mut().for_each(|entry| *entry = -*entry);
+            for (row, entry) in stiffness.column(follow[j]) {
+                if follow[row % n] == row {
+                    column[row % n] += entry;
+                }
             }
-        }
+            for (entry, of_row) in column.iter_mut().zip(&sign) {
+                *entry *= sign[j] * of_row;
+            }
+        });
+        // Symmetric to the last bit.
+        matrix.fill_upper_triangle_with_lower_triangle();
         let tied = Tied {
             n,
             lead,
@@ -185,11 +203,13 @@ impl Tied {
         for (a, motion) in self.motions.column_iter().enumerate() {
             unknowns[n_w + a] = motion.dot(&total);
         }
-        self.factor.solve_mut(&mut unknowns);
+        let factor = self.factor.l_dirty();
+        factor.solve_lower_triangular_unchecked_mut(&mut unknowns);
         for k in 0..n {
             let carried = contact[self.follow[k]] - self.coupling.column(k).dot(&unknowns);
             forces[k] = self.sign[k] * carried;
         }
+        factor.tr_solve_lower_triangular_unchecked_mut(&mut unknowns);
         contact[..n].fill(0.0);
         contact[..unknowns.len()].copy_from_slice(unknowns.as_slice());
     }
@@ -278,7 +298,8 @@ impl Tied {
         for (k, &s) in slip.iter().enumerate().filter(|(_, s)| **s != 0.0) {
             change.axpy(self.sign[k] * s, &self.coupling.column(k), 1.0);
         }
-        self.factor.solve_mut(&mut change);
+        let factor = self.factor.l_dirty();
+        factor.tr_solve_lower_triangular_unchecked_mut(&mut change);
         DVector::from_column_slice(&contact[..change.len()]) - change
     }
 

@@ -9,7 +9,7 @@ mod process;
 
 use brinell::analysis::Analysis;
 use brinell::linalg::cholmod::{CholmodCondensed, blas_name, cholmod_version, solve_unconstrained};
-use brinell::linalg::{Backend, Partition};
+use brinell::linalg::{Backend, Condensed, Partition};
 use brinell::model::Model;
 use brinell::progress::Silent;
 use brinell::scene::Scene;
@@ -109,7 +109,7 @@ fn measure(pairs: usize, rows: usize) -> Result<Value, Failure> {
     let condensed = CholmodCondensed::new(&held, &partition, &[])?;
     let all = start.elapsed().as_secs_f64();
     let start = Instant::now();
-    let _ = condensed.extract_contact_stiffness();
+    let _ = condensed.contact_stiffness();
     let extraction = start.elapsed().as_secs_f64();
     drop(condensed);
     let by_solves = bare.solve_seconds * partition.contact.len() as f64;

@@ -106,7 +106,7 @@ fn trailing(body: &Body) -> Result<(), brinell::Error> {
         let (all, condensed) = timed(1, || CholmodCondensed::new(&body.matrix, partition, &[]));
         let condensed = condensed?;
         let cost = condensed.cost();
-        let (stiffness, _) = timed(2, || condensed.extract_contact_stiffness());
+        let (stiffness, _) = timed(2, || condensed.contact_stiffness());
         let (n_zone, n_contact) = (partition.zone.len(), partition.contact.len());
         let load = vec![1.0; n_zone];
         let (mut zone, mut contact) = (load.clone(), vec![0.0; n_contact]);

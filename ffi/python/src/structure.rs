@@ -201,15 +201,15 @@ impl Structure {
         let gaps = gaps.as_ref().map_or(Ok(&[][..]), |gaps| values(py, gaps))?;
         let make = || ConstrainedStructure::with_owned(backend, stiffness, &rows, gaps);
         let structure = py.detach(|| contained(make)).raise(py)?;
-        let factored = structure.shared_condensation();
+        let condensed = structure.shared_condensed_stiffness();
         let n_contact = structure.contact_freedoms().len();
         let freedoms = structure.contact_freedoms().iter().map(|f| *f as i64);
         let freedoms = PyArray1::from_iter(py, freedoms).into_any();
         Ok(Structure {
             condensed: lent(
                 py,
-                &factored,
-                |f| f.contact_stiffness().as_slice(),
+                &condensed,
+                |c| c.as_slice(),
                 Some(n_contact),
             )?
             .unbind(),

@@ -37,14 +37,13 @@ pub use common::cholmod_version;
 pub use ordering::Method;
 
 use super::{
-    Condensed, NotDefinite, Partition, Pivot, Prediction, SymmetricCsc, ZonePart, check,
-    smallest_pivot_ratio,
+    Condensed, ContactStiffness, NotDefinite, Partition, Pivot, Prediction, SymmetricCsc, ZonePart,
+    check, smallest_pivot_ratio,
 };
 use crate::error::{Error, Result};
 use backward::Backward;
 use common::Common;
 use factor::{Factor, System};
-use nalgebra::DMatrix;
 use openmp::Serial;
 use ordering::{Groups, Ordering};
 use sparse::SymmetricView;
@@ -59,7 +58,6 @@ pub struct CholmodCondensed {
     zone: Vec<usize>,
     shift: Vec<f64>,
     trailing: Trailing,
-    contact_stiffness: DMatrix<f64>,
     solver: Mutex<Solver>,
     cost: Prediction,
     weakest: Pivot,
@@ -132,7 +130,6 @@ impl CholmodCondensed {
 
         let (trailing, zone) = Trailing::extract(&factor, &groups, partition, &partition.zone)?;
         Ok(CholmodCondensed {
-            contact_stiffness: trailing.contact_stiffness(shift),
             trailing,
             zone,
             partition: partition.clone(),
@@ -149,11 +146,6 @@ impl CholmodCondensed {
         })
     }
 
-    /// Forms `L_cc L_cc' - diag(shift)` again; [`Condensed::contact_stiffness`] has it from the factorisation.
-    pub fn extract_contact_stiffness(&self) -> DMatrix<f64> {
-        self.trailing.contact_stiffness(&self.shift)
-    }
-
     /// Number of interior freedoms as factored.
     fn interior(&self) -> usize {
         self.partition.n - self.partition.zone.len() - self.partition.contact.len()
@@ -165,8 +157,8 @@ impl CholmodCondensed {
 }
 
 impl Condensed for CholmodCondensed {
-    fn contact_stiffness(&self) -> &DMatrix<f64> {
-        &self.contact_stiffness
+    fn contact_stiffness(&self) -> ContactStiffness {
+        self.trailing.contact_stiffness(&self.shift)
     }
 
     fn choose_zone(&mut self, wanted: &[usize]) -> Result<Option<Vec<usize>>> {

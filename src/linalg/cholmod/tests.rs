@@ -28,11 +28,11 @@ fn assert_agrees(sample: &Sample, condensed: &CholmodCondensed) {
     } = sample;
     let dense = DenseCondensed::new(matrix, partition, shift).unwrap();
     let tolerance = sample.tolerance();
-    let c = condensed.contact_stiffness();
+    let c = condensed.contact_stiffness().dense();
     // Errors in C + D, which is as large as K + D, stay when D is taken off.
-    let difference = (c - dense.contact_stiffness()).norm();
+    let difference = (&c - dense.contact_stiffness().dense()).norm();
     assert!(difference <= tolerance * sample.largest);
-    assert_eq!(c, &c.transpose());
+    assert_eq!(c, c.transpose());
 
     let (n_zone, n_contact) = (partition.zone.len(), partition.contact.len());
     let mut numbers = Numbers::new(77);
@@ -109,6 +109,43 @@ fn all_of_it_agrees_with_the_dense_backend() {
             assert_eq!(answers[..3], answers[3..]);
         }
     }
+}
+
+/// Two bodies whose freedoms alternate: contact freedoms of one are not coupled with those of the other.
+#[test]
+fn bodies_that_only_touch_have_blocks_of_their_own() {
+    let grid = Grid::<2>::new([12, 7], Support::Bottom);
+    let one = grid.stiffness(|_| 1.0);
+    let mut both = sprs::TriMatI::<f64, i64>::new((2 * grid.n, 2 * grid.n));
+    for (value, (row, column)) in one.iter() {
+        for body in 0..2 {
+            let at = |freedom: i64| 2 * freedom as usize + body;
+            both.add_triplet(at(row), at(column), (1 + body) as f64 * value);
+        }
+    }
+    let top = grid.freedoms(1..2, |[_, y]| y == 7);
+    let below = grid.freedoms(0..2, |[x, y]| y > 3 && y < 7 && x > 2);
+    let twice = |freedoms: &[usize]| freedoms.iter().flat_map(|f| [2 * f, 2 * f + 1]).collect();
+    let partition = Partition {
+        n: 2 * grid.n,
+        zone: twice(&below),
+        contact: twice(&top),
+    };
+    let shift = (0..2 * top.len()).map(|k| k as f64).collect();
+    let sample = Sample::new(both.to_csc(), partition, shift);
+    let condensed =
+        CholmodCondensed::new(&sample.matrix, &sample.partition, &sample.shift).unwrap();
+    assert_agrees(&sample, &condensed);
+    let stiffness = condensed.contact_stiffness();
+    let mut freedoms: Vec<&[usize]> = stiffness.blocks().map(|b| &b.freedoms[..]).collect();
+    freedoms.sort();
+    let of_body = |body: usize| -> Vec<usize> { (body..2 * top.len()).step_by(2).collect() };
+    assert_eq!(freedoms, [of_body(0), of_body(1)]);
+    let x = nalgebra::DMatrix::from_fn(2 * top.len(), 3, |i, j| (i + j) as f64);
+    let round_off = 2.0 * top.len() as f64 * f64::EPSILON;
+    let whole = stiffness.dense();
+    let difference = stiffness.times(&x) - &whole * &x;
+    assert!(difference.norm() <= round_off * whole.norm() * x.norm());
 }
 
 #[test]
@@ -220,7 +257,7 @@ fn the_trailing_solve_is_the_full_solve_on_a_large_grid() {
     let right = nalgebra::DVector::from_column_slice(&contact);
     let u_c = condensed
         .contact_stiffness()
-        .clone()
+        .dense()
         .cholesky()
         .unwrap()
         .solve(&right);
@@ -343,7 +380,8 @@ fn subtrees_are_solved_like_the_whole() {
         let (z, c) = trailing(1);
         assert!(distance(&z, &u_z) <= tolerance * norm(&whole));
         // C u_c is what is left on the contact freedoms.
-        let force = condensed.contact_stiffness() * nalgebra::DVector::from_column_slice(&u_c);
+        let force =
+            condensed.contact_stiffness().dense() * nalgebra::DVector::from_column_slice(&u_c);
         assert!(distance(force.as_slice(), &c) <= tolerance * norm(&load));
         assert_eq!((z, c), trailing(3));
     }

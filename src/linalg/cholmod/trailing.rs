@@ -20,7 +20,7 @@ use super::factor::{Columns, Factor};
 use super::ordering::Groups;
 use super::panel;
 use crate::error::{Error, Result};
-use crate::linalg::{Partition, blocked};
+use crate::linalg::{ContactBlock, ContactStiffness, Partition, blocked};
 use nalgebra::DMatrix;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -248,15 +248,49 @@ impl Trailing {
     }
 
     /// `L_cc L_cc' - diag(shift)`, symmetric to the last bit.
-    pub(super) fn contact_stiffness(&self, shift: &[f64]) -> DMatrix<f64> {
-        let n = self.contact.len();
-        // U = L_cc': the columns of U are the rows of L, so products of rows run through memory.
-        let mut upper = DMatrix::zeros(n, n);
+    pub(super) fn contact_stiffness(&self, shift: &[f64]) -> ContactStiffness {
+        let bodies = self.uncoupled_contact().into_iter();
+        let blocks = bodies.map(|panels| self.contact_block(&panels, shift));
+        ContactStiffness::new(blocks.collect())
+    }
+
+    /// The panels of contact columns (ascending) of each tree of the elimination forest: columns of different ones are not coupled.
+    fn uncoupled_contact(&self) -> Vec<Vec<&Panel>> {
+        let panels = &self.panels[self.n_zone_panels..];
+        let mut tree_of_column = vec![0; self.contact.len()];
+        let mut trees: Vec<Vec<&Panel>> = Vec::new();
+        for p in panels.iter().rev() {
+            let tree = match self.rows[p.rows.clone()].first() {
+                Some(&parent) => tree_of_column[parent as usize - self.n_zone],
+                None => {
+                    trees.push(Vec::new());
+                    trees.len() - 1
+                }
+            };
+            trees[tree].push(p);
+            let first = p.first - self.n_zone;
+            tree_of_column[first..first + p.width].fill(tree);
+        }
+        trees.iter_mut().for_each(|tree| tree.reverse());
+        trees.reverse();
+        trees
+    }
+
+    /// The block of `L_cc L_cc' - diag(shift)` of the columns in `panels`.
+    fn contact_block(&self, panels: &[&Panel], shift: &[f64]) -> ContactBlock {
+        let columns = panels.iter().flat_map(|p| p.first..p.first + p.width);
+        let columns: Vec<usize> = columns.map(|column| column - self.n_zone).collect();
+        let n = columns.len();
+        let mut number = vec![usize::MAX; self.contact.len()];
+        for (k, &column) in columns.iter().enumerate() {
+            number[column] = k;
+        }
+        let mut lower = DMatrix::zeros(n, n);
         let mut unit = [0.0; PANEL_WIDTH];
         let mut below = vec![0.0; n];
-        for p in &self.panels[self.n_zone_panels..] {
+        for p in panels {
             let list = &self.rows[p.rows.clone()];
-            let first = p.first - self.n_zone;
+            let first = number[p.first - self.n_zone];
             for k in 0..p.width {
                 // Column k is L times a unit vector: exact, and the storage stays the kernels' own affair.
                 let column = &mut unit[..p.width];
@@ -269,28 +303,37 @@ impl Trailing {
                 );
                 panel::multiply_lower(&self.values[p.triangle()], column);
                 for i in k..p.width {
-                    upper[(first + k, first + i)] = column[i];
+                    lower[(first + i, first + k)] = column[i];
                 }
                 for (&row, &value) in list.iter().zip(&below) {
-                    upper[(first + k, row as usize - self.n_zone)] = value;
+                    lower[(number[row as usize - self.n_zone], first + k)] = value;
                 }
             }
         }
-        // (L L')_ij for j <= i: only the first rows of U, up to j, contribute.
-        let product = blocked::gram(upper.as_view(), |j| j);
-        drop(upper);
-        let mut stiffness = DMatrix::zeros(n, n);
+        // (L L')_ij for j <= i: only the first columns of L, up to j, contribute.
+        let product = blocked::outer(&lower, |j| j);
+        drop(lower);
+        let freedom_of = |&column: &usize| self.contact[column] as usize;
+        let mut freedoms: Vec<usize> = columns.iter().map(freedom_of).collect();
+        freedoms.sort_unstable();
+        let mut place = number;
+        for (k, &freedom) in freedoms.iter().enumerate() {
+            place[freedom] = k;
+        }
+        let place: Vec<usize> = columns.iter().map(|c| place[freedom_of(c)]).collect();
+        let mut matrix = DMatrix::zeros(n, n);
         for j in 0..n {
             for i in j..n {
-                let (a, b) = (self.contact[i] as usize, self.contact[j] as usize);
-                stiffness[(a, b)] = product[(i, j)];
-                stiffness[(b, a)] = product[(i, j)];
+                matrix[(place[i], place[j])] = product[(i, j)];
+                matrix[(place[j], place[i])] = product[(i, j)];
             }
         }
-        for (k, &d) in shift.iter().enumerate() {
-            stiffness[(k, k)] -= d;
+        for (k, &freedom) in freedoms.iter().enumerate() {
+            if let Some(d) = shift.get(freedom) {
+                matrix[(k, k)] -= d;
+            }
         }
-        stiffness
+        ContactBlock { freedoms, matrix }
     }
 }
 

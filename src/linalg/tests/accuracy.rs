@@ -57,7 +57,7 @@ fn refinement_goes_on_where_the_plain_one_stalls() {
     for backend in backends() {
         let partition = whole(600);
         let condensed = condense(backend, &k, &partition, &[]).unwrap();
-        let held = condensed.contact_stiffness().clone().cholesky();
+        let held = condensed.contact_stiffness().dense().cholesky();
         let solve = |x: &mut [f64]| solve_whole(&*condensed, &partition, held.as_ref(), x);
         let mut u = load.clone();
         solve(&mut u).unwrap();
