@@ -2,7 +2,6 @@
 
 use super::elastic::{ElasticPiece, describe};
 use super::engine::{Engine, LoadPoint};
-use super::equilibrium::Equilibrium;
 use super::increment::Increment;
 use super::place::{Leg, PlasticLeg, Watcher};
 use super::recovery::{Peak, Recovery};
@@ -72,7 +71,7 @@ pub(super) const MONITOR_ACCURACY: f64 = 1e-10;
 const ARRIVED: f64 = 1e-9;
 /// Share of a piece of the load path below which increments are not cut: the load has passed the limit load, which is then
 /// known to this share.
-const SMALLEST_CUT: f64 = 1e-6;
+pub(super) const SMALLEST_CUT: f64 = 1e-6;
 
 impl Engine<'_> {
     /// Elastic drive: contact changes alone. With `recovery` it stops at first yield. With `leg` it goes on from there.
@@ -333,7 +332,12 @@ impl Engine<'_> {
     }
 
     /// Takes a found increment: history, state, and the statuses beyond it.
-    fn accept(&mut self, end: &LoadPoint, increment: Increment, reported: &mut IncrementReport) {
+    pub(super) fn accept(
+        &mut self,
+        end: &LoadPoint,
+        increment: Increment,
+        reported: &mut IncrementReport,
+    ) {
         let start = self.at.clone();
         self.last_step = self.at.step_to(end);
         let changes: Vec<Change> = increment
@@ -371,78 +375,6 @@ impl Engine<'_> {
         self.update_scales();
         reported.event = describe(&changes);
     }
-
-    /// Repeats the last increment so that it ends where the monitored quantity is zero.
-    fn hit(
-        &mut self,
-        end: &LoadPoint,
-        saved: &Saved,
-        stepper: Stepper,
-        monitor: &Monitor,
-        [was, is]: [f64; 2],
-        reported: &mut IncrementReport,
-    ) -> Result<()> {
-        let reached = saved.at.share_of(&self.at, end);
-        let sign = if was < 0.0 { 1.0 } else { -1.0 };
-        let mut failure = None;
-        let last = Cell::new(-1.0);
-        let mut known = vec![(0.0, saved.now.clone()), (reached, self.now.clone())];
-        let mut value_at = |t: f64| {
-            saved.put_back(self);
-            let goal = saved.at.towards(end, t);
-            self.ahead = Some((goal.clone(), between(&mut known, t)));
-            // An increment may be cut short: the way to the goal then takes several.
-            loop {
-                match self.find_increment(&goal, 1.0, SMALLEST_CUT, stepper) {
-                    Ok((increment, _)) => {
-                        let arrived = increment.t >= 1.0;
-                        reported.residual = increment.residual;
-                        reported.iterations += increment.iterations;
-                        let at_once = self.at == saved.at;
-                        self.accept(&goal, increment, reported);
-                        if arrived {
-                            if at_once {
-                                known.push((t, self.now.clone()));
-                            }
-                            last.set(t);
-                            return sign * monitor(self);
-                        }
-                    }
-                    Err(error) => {
-                        failure = Some(error);
-                        return 0.0;
-                    }
-                }
-            }
-        };
-        let ends = [(0.0, sign * was), (reached, sign * is)];
-        let t = bracketed_root(ends[0], ends[1], MONITOR_ACCURACY, &mut value_at);
-        if t != last.get() {
-            value_at(t);
-        }
-        match failure {
-            Some(error) => Err(error),
-            None => Ok(()),
-        }
-    }
-}
-
-/// The state at `t` on the parabola through the nearest three of the known ones; states add up to states, the statuses being the same.
-fn between(known: &mut [(f64, Equilibrium)], t: f64) -> Equilibrium {
-    known.sort_by(|a, b| (a.0 - t).abs().total_cmp(&(b.0 - t).abs()));
-    let nearest = &known[..known.len().min(3)];
-    let weight = |i: usize| -> f64 {
-        let others = (0..nearest.len()).filter(|&j| j != i);
-        others
-            .map(|j| (t - nearest[j].0) / (nearest[i].0 - nearest[j].0))
-            .product()
-    };
-    let mut state = nearest[0].1.clone();
-    for (i, (_, other)) in nearest.iter().enumerate().skip(1) {
-        state.add(weight(i), other);
-        state.add(-weight(i), &nearest[0].1);
-    }
-    state
 }
 
 /// The error of a run that its caller stopped.
