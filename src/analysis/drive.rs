@@ -71,7 +71,7 @@ pub(super) const MONITOR_ACCURACY: f64 = 1e-10;
 const ARRIVED: f64 = 1e-9;
 /// Share of a piece of the load path below which increments are not cut: the load has passed the limit load, which is then
 /// known to this share.
-const SMALLEST_CUT: f64 = 1e-6;
+pub(super) const SMALLEST_CUT: f64 = 1e-6;
 
 impl Engine<'_> {
     /// Elastic drive: contact changes alone. With `recovery` it stops at first yield. With `leg` it goes on from there.
@@ -138,7 +138,8 @@ impl Engine<'_> {
                 if is == 0.0 || (is > 0.0) != (was > 0.0) {
                     let (from, to) = (before, piece.t());
                     let sign = if is > was { 1.0 } else { -1.0 };
-                    let t = bracketed_root(from, to, MONITOR_ACCURACY, |t| {
+                    let ends = [(from, sign * was), (to, sign * is)];
+                    let t = bracketed_root(ends[0], ends[1], MONITOR_ACCURACY, |t| {
                         piece.go_back(self, t);
                         sign * monitor(self)
                     });
@@ -269,7 +270,7 @@ impl Engine<'_> {
             if let (Some(monitor), Some(was)) = (monitor, leg.watched) {
                 let is = monitor(self);
                 if is == 0.0 || (is > 0.0) != (was > 0.0) {
-                    self.hit(end, &saved, stepper, monitor, was, &mut reported)?;
+                    self.hit(end, &saved, stepper, monitor, [was, is], &mut reported)?;
                     reported.trailing_solves = self.counts.trailing_solves - solves;
                     reported.event = "target".to_string();
                     watcher.increment(self, &reported)?;
@@ -331,7 +332,12 @@ impl Engine<'_> {
     }
 
     /// Takes a found increment: history, state, and the statuses beyond it.
-    fn accept(&mut self, end: &LoadPoint, increment: Increment, reported: &mut IncrementReport) {
+    pub(super) fn accept(
+        &mut self,
+        end: &LoadPoint,
+        increment: Increment,
+        reported: &mut IncrementReport,
+    ) {
         let start = self.at.clone();
         self.last_step = self.at.step_to(end);
         let changes: Vec<Change> = increment
@@ -368,61 +374,6 @@ impl Engine<'_> {
         }
         self.update_scales();
         reported.event = describe(&changes);
-    }
-
-    /// Repeats the last increment so that it ends where the monitored quantity is zero.
-    fn hit(
-        &mut self,
-        end: &LoadPoint,
-        saved: &Saved,
-        stepper: Stepper,
-        monitor: &Monitor,
-        was: f64,
-        reported: &mut IncrementReport,
-    ) -> Result<()> {
-        let reached = saved.at.share_of(&self.at, end);
-        let sign = if was < 0.0 { 1.0 } else { -1.0 };
-        let mut failure = None;
-        let last = std::cell::Cell::new(-1.0);
-        // Trials lie close together: each is predicted from the one before.
-        let mut found = Some((self.at.clone(), self.now.clone()));
-        let mut value_at = |t: f64| {
-            if t <= 0.0 {
-                return sign * was;
-            }
-            saved.put_back(self);
-            let goal = saved.at.towards(end, t);
-            self.ahead = found.take();
-            // An increment may be cut short: the way to the goal then takes several.
-            loop {
-                match self.find_increment(&goal, 1.0, SMALLEST_CUT, stepper) {
-                    Ok((increment, _)) => {
-                        let arrived = increment.t >= 1.0;
-                        reported.residual = increment.residual;
-                        reported.iterations += increment.iterations;
-                        let at_once = self.at == saved.at;
-                        self.accept(&goal, increment, reported);
-                        if arrived {
-                            found = at_once.then(|| (self.at.clone(), self.now.clone()));
-                            last.set(t);
-                            return sign * monitor(self);
-                        }
-                    }
-                    Err(error) => {
-                        failure = Some(error);
-                        return 0.0;
-                    }
-                }
-            }
-        };
-        let t = bracketed_root(0.0, reached, MONITOR_ACCURACY, &mut value_at);
-        if t != last.get() {
-            value_at(t);
-        }
-        match failure {
-            Some(error) => Err(error),
-            None => Ok(()),
-        }
     }
 }
 

@@ -201,7 +201,8 @@ impl Engine<'_> {
                     let (from, to) = (before, piece.t());
                     let sign = if is > was { 1.0 } else { -1.0 };
                     let accuracy = MONITOR_ACCURACY * (to - from).abs().max(f64::MIN_POSITIVE);
-                    let t = bracketed_root(from, to, accuracy, |t| {
+                    let ends = [(from, sign * was), (to, sign * is)];
+                    let t = bracketed_root(ends[0], ends[1], accuracy, |t| {
                         piece.go_back(self, t);
                         sign * monitor(self)
                     });

@@ -25,6 +25,7 @@ mod engine;
 mod equilibrium;
 mod first_yield;
 mod gather;
+mod hit;
 mod increment;
 mod indicator;
 mod keeper;

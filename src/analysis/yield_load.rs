@@ -15,6 +15,8 @@ const ACCURACY: f64 = 1e-14;
 const BEFORE: f64 = 1e-9;
 /// Most iterations of a bracketed root search.
 const MOST: usize = 200;
+/// Steps of such a search that may leave more than half of the bracket before it is halved.
+const PATIENCE: usize = 3;
 
 /// Finds `s` in `[0, 1]` with a recovered stress ratio of 1 between two sampled stress fields, linear in between.
 /// The ratio is at most 1 at `s = 0`, at least 1 at `s = 1`.
@@ -34,50 +36,67 @@ pub fn yield_share(
         recovery.peak(engine.model, &mixed)
     };
     let mut found = None;
-    let share = bracketed_root(0.0, 1.0, ACCURACY, |s| {
+    let mut beyond = |s: f64| {
         let peak = at(s);
         // On a coarse mesh the recovered maximum may jump where another place is searched: what yields is what lies beyond the jump.
         if peak.is_some_and(|p| p.ratio >= 1.0 - BEFORE) {
             found = peak;
         }
         peak.map_or(-1.0, |p| p.ratio - 1.0)
-    });
+    };
+    let ends = [0.0, 1.0].map(|s| (s, beyond(s)));
+    let share = bracketed_root(ends[0], ends[1], ACCURACY, beyond);
     (share, found)
 }
 
-/// Illinois regula falsi for an increasing sign change in `[low, high]`.
-pub fn bracketed_root(low: f64, high: f64, accuracy: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
-    let (mut a, mut fa) = (low, f(low));
-    let (mut b, mut fb) = (high, f(high));
+/// The root between two places (with the values there) of a function that is negative at the first and positive at the second: by inverse
+/// quadratic interpolation, halving where that is slow. Returns an end whose value has not the sign it should have.
+///
+/// # Source
+/// R. P. Brent, *Algorithms for Minimization Without Derivatives* (1973), chapter 4.
+pub fn bracketed_root(
+    (mut a, mut fa): (f64, f64),
+    (mut b, mut fb): (f64, f64),
+    accuracy: f64,
+    mut f: impl FnMut(f64) -> f64,
+) -> f64 {
     if fa >= 0.0 {
         return a;
     }
     if fb <= 0.0 {
         return b;
     }
-    let mut side = 0;
+    // The end before last, and how many steps have not halved the bracket.
+    let (mut c, mut fc) = (b, fb);
+    let mut slow = 0;
     for _ in 0..MOST {
-        let mut x = b - fb * (b - a) / (fb - fa);
-        if !(x > a && x < b) {
+        let width = b - a;
+        let mut x = if fc != fa && fc != fb {
+            a * fb / (fa - fb) * fc / (fa - fc)
+                + b * fa / (fb - fa) * fc / (fb - fc)
+                + c * fa / (fc - fa) * fb / (fc - fb)
+        } else {
+            b - fb * width / (fb - fa)
+        };
+        if slow == PATIENCE || !(x > a && x < b) {
             x = 0.5 * (a + b);
         }
         let y = f(x);
-        if y.abs() <= accuracy || b - a <= accuracy * b.abs().max(a.abs()) {
+        if y.abs() <= accuracy || width <= accuracy * b.abs().max(a.abs()) {
             return x;
         }
         if y < 0.0 {
+            (c, fc) = (a, fa);
             (a, fa) = (x, y);
-            if side == -1 {
-                fb *= 0.5;
-            }
-            side = -1;
         } else {
+            (c, fc) = (b, fb);
             (b, fb) = (x, y);
-            if side == 1 {
-                fa *= 0.5;
-            }
-            side = 1;
         }
+        slow = if b - a <= 0.5 * width || slow == PATIENCE {
+            0
+        } else {
+            slow + 1
+        };
     }
     0.5 * (a + b)
 }
@@ -175,8 +194,24 @@ mod tests {
     #[test]
     fn root_of_a_kinked_function() {
         let f = |x: f64| if x < 0.3 { x - 0.5 } else { 20.0 * (x - 0.31) };
-        assert!((bracketed_root(0.0, 1.0, 1e-15, f) - 0.31).abs() < 1e-14);
-        assert_eq!(bracketed_root(0.0, 1.0, 1e-15, |x| x), 0.0);
-        assert_eq!(bracketed_root(0.0, 1.0, 1e-15, |x| x - 2.0), 1.0);
+        let root = |f: &dyn Fn(f64) -> f64| {
+            let mut calls = 0;
+            let counted = |x| {
+                calls += 1;
+                f(x)
+            };
+            (
+                bracketed_root((0.0, f(0.0)), (1.0, f(1.0)), 1e-15, counted),
+                calls,
+            )
+        };
+        assert!((root(&f).0 - 0.31).abs() < 1e-14);
+        assert_eq!(root(&|x| x), (0.0, 0));
+        assert_eq!(root(&|x| x - 2.0), (1.0, 0));
+        // Few calls where the function is smooth, and no more than halving takes four times over where it jumps.
+        let (x, calls) = root(&|x: f64| x.exp() - 1.5);
+        assert!((x - 1.5f64.ln()).abs() < 1e-14 && calls <= 7, "{x} {calls}");
+        let (x, calls) = root(&|x: f64| if x < 0.31 { -1e-3 } else { 1.0 });
+        assert!((x - 0.31).abs() < 1e-14 && calls <= 200, "{x} {calls}");
     }
 }

@@ -129,7 +129,12 @@ fn subtract_strip_transposed(strip: &[f64], y: &[f64], x: &mut [f64]) {
     let (strip, end) = strip.split_at(x.len() * whole);
     let mut sums = [[0.0; LANES]; STRIP];
     if x.len() == STRIP {
-        for (tile, y) in strip.chunks_exact(STRIP * TILE).zip(y.chunks_exact(TILE)) {
+        // From the bottom up: in the triangle of a panel the values at the top are the last to be known.
+        for (tile, y) in strip
+            .chunks_exact(STRIP * TILE)
+            .zip(y.chunks_exact(TILE))
+            .rev()
+        {
             for half in (0..TILE).step_by(LANES) {
                 for (k, sum) in sums.iter_mut().enumerate() {
                     for lane in 0..LANES {
@@ -268,10 +273,12 @@ fn multiply_by_strips(rectangle: &[f64], x: &[f64], y: &mut [f64]) {
 
 #[inline(always)]
 fn subtract_transposed_by_strips(rectangle: &[f64], y: &[f64], x: &mut [f64]) {
+    // From the last strip to the first, the way that a backward substitution goes through the memory.
     let mut rest = rectangle;
-    for x in x.chunks_mut(STRIP) {
-        let (strip, next) = rest.split_at(x.len() * y.len());
-        rest = next;
+    for strip in strips(x.len()).rev() {
+        let x = &mut x[strip];
+        let (head, strip) = rest.split_at(rest.len() - x.len() * y.len());
+        rest = head;
         subtract_strip_transposed(strip, y, x);
     }
 }

@@ -1,0 +1,99 @@
+//! The last increment again, so that it ends where a monitored quantity is zero.
+
+use super::drive::{IncrementReport, MONITOR_ACCURACY, Monitor, SMALLEST_CUT, Stepper};
+use super::engine::{Engine, LoadPoint};
+use super::equilibrium::Equilibrium;
+use super::saved::Saved;
+use super::yield_load::bracketed_root;
+use crate::error::Result;
+use std::cell::Cell;
+
+impl Engine<'_> {
+    /// Repeats the increment from `saved` so that it ends where the monitored quantity, `was` there and `is` now, is zero.
+    pub(super) fn hit(
+        &mut self,
+        end: &LoadPoint,
+        saved: &Saved,
+        stepper: Stepper,
+        monitor: &Monitor,
+        [was, is]: [f64; 2],
+        reported: &mut IncrementReport,
+    ) -> Result<()> {
+        let reached = saved.at.share_of(&self.at, end);
+        let sign = if was < 0.0 { 1.0 } else { -1.0 };
+        let mut failure = None;
+        let last = Cell::new(-1.0);
+        // Trials lie close together: each is predicted from those before.
+        let mut known = vec![(0.0, saved.now.clone())];
+        if self.kept_statuses(saved) {
+            known.push((reached, self.now.clone()));
+        }
+        let mut value_at = |t: f64| {
+            saved.put_back(self);
+            let goal = saved.at.towards(end, t);
+            if known.len() > 1 {
+                self.ahead = Some((goal.clone(), between(&mut known, t)));
+            }
+            // An increment may be cut short: the way to the goal then takes several.
+            loop {
+                match self.find_increment(&goal, 1.0, SMALLEST_CUT, stepper) {
+                    Ok((increment, _)) => {
+                        let arrived = increment.t >= 1.0;
+                        reported.residual = increment.residual;
+                        reported.iterations += increment.iterations;
+                        let at_once = self.at == saved.at;
+                        self.accept(&goal, increment, reported);
+                        if arrived {
+                            if at_once && self.kept_statuses(saved) {
+                                known.push((t, self.now.clone()));
+                            }
+                            last.set(t);
+                            return sign * monitor(self);
+                        }
+                    }
+                    Err(error) => {
+                        failure = Some(error);
+                        return 0.0;
+                    }
+                }
+            }
+        };
+        let ends = [(0.0, sign * was), (reached, sign * is)];
+        let t = bracketed_root(ends[0], ends[1], MONITOR_ACCURACY, &mut value_at);
+        if t != last.get() {
+            value_at(t);
+        }
+        match failure {
+            Some(error) => Err(error),
+            None => Ok(()),
+        }
+    }
+
+    /// Whether the increment just taken had the statuses that it began with from `saved`; those beyond its end may be others.
+    fn kept_statuses(&self, saved: &Saved) -> bool {
+        let mut open = self.tableau.open().to_vec();
+        for &k in &self.border {
+            open[k] = !open[k];
+        }
+        open == saved.open
+    }
+}
+
+/// The state at `t` on the parabola through the nearest three of the known ones; states add up to states, the statuses being the same.
+fn between(known: &mut [(f64, Equilibrium)], t: f64) -> Equilibrium {
+    known.sort_by(|a, b| (a.0 - t).abs().total_cmp(&(b.0 - t).abs()));
+    let nearest = &known[..known.len().min(3)];
+    let weight = |i: usize| -> f64 {
+        let others = (0..nearest.len()).filter(|&j| j != i);
+        others
+            .map(|j| (t - nearest[j].0) / (nearest[i].0 - nearest[j].0))
+            .product()
+    };
+    let mut state = nearest[0].1.clone();
+    for (i, (_, other)) in nearest.iter().enumerate().skip(1) {
+        let weight = weight(i);
+        state.add(weight, other);
+        state.add(-weight, &nearest[0].1);
+    }
+    state
+}
