@@ -177,7 +177,12 @@ pub(super) fn estimate_on(
         let mut safety = SAFETY;
         let (discretisation, order) = match out.method {
             EstimateMethod::CoarserMeshes => {
-                let highest = highest_order(results, &quantity.path);
+                // A run that is itself too coarse is compared with finer meshes, which no longer show it.
+                let highest = match values.iter().all(|v| v.0 >= 1.0) {
+                    true => highest_order(results, &quantity.path),
+                    false if is_smooth(results, &quantity.path) => SMOOTH_ORDER,
+                    false => largest_order(scene),
+                };
                 if let [_, (ratio, _)] = values.as_slice() {
                     safety = safety_of_two(*ratio, largest_order(scene));
                 }

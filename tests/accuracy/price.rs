@@ -2,9 +2,9 @@
 //! in floating point operations, which no busy machine disturbs.
 //!
 //! The cheapest is that of the uniform meshes of the study from which on all are as accurate; one that is so by chance, and the graded ones, which no hand
-//! picks, are told beside it, and so is the time. Thirteen of the sixteen demands keep to twice the cheapest. The hand knows the true error and needs one run; the
+//! picks, are told beside it, and so is the time. Fourteen of the sixteen demands keep to twice the cheapest. The hand knows the true error and needs one run; the
 //! program states 1.5 times an estimate and needs coarser runs to make it. Beyond twice lie the disc at 3 % (2.8: the hand's coarsest mesh does it, two
-//! meshes that coarse prove 5.6 %), the tube at 0.3 % (2.6: its order is still rising), the line at 1 % (2.2). Over all even resolutions of the disc, not the study's five, 62 elements are within 0.3 % by chance: 86 are 0.53 % off.
+//! meshes that coarse prove 5.6 %), the tube at 0.3 % (2.6: its order is still rising). Over all even resolutions of the disc, not the study's five, 62 elements are within 0.3 % by chance: 86 are 0.53 % off.
 //! The bounds hold what was measured, with a third to spare.
 
 use crate::running;
@@ -52,7 +52,7 @@ fn cases() -> Vec<Case> {
                 "mesh.cylinder_on_half_plane.far_size=20000.0",
             ),
             quantities: CONTACT,
-            demands: &[(0.1, 2.0), (0.03, 2.0), (0.01, 2.5), (0.003, 2.2)],
+            demands: &[(0.1, 2.0), (0.03, 2.0), (0.01, 2.4), (0.003, 2.2)],
             levels: 5,
             graded: 0.56,
         },
