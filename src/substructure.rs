@@ -268,7 +268,8 @@ impl Substructure {
 
     /// All freedoms without the rigid motions of floating bodies, and the amplitude of each of these motions: strains of the first
     /// are free of the cancellation that those of the sum suffer. `load` is on all freedoms and includes initial loads and
-    /// contact forces; `reduced` are the external loads, `condensed` these and the initial loads on zone and contact freedoms.
+    /// contact forces; `reduced` are the external loads, `condensed` these and the initial loads on zone and contact freedoms. `beside` as in
+    /// [`linalg::recover_refined`].
     ///
     /// # Errors
     /// Failure of the backend's solve.
@@ -279,6 +280,7 @@ impl Substructure {
         reduced: &[f64],
         mut condensed: Trailing,
         slip: &[f64],
+        beside: [f64; 2],
     ) -> Result<(Recovered, Vec<f64>)> {
         let mut forces = vec![0.0; self.n_pairs];
         self.eliminate(&mut condensed, &mut forces);
@@ -297,6 +299,7 @@ impl Substructure {
             load,
             [reduced, zone, contact],
             &self.partition,
+            beside,
         )?;
         Ok((recovered, motions))
     }

@@ -11,7 +11,11 @@ use crate::linalg::Backend;
 use crate::model::Model;
 use crate::results::Counts;
 use crate::substructure::{Substructure, Trailing};
+use rayon::prelude::*;
 use std::sync::Arc;
+
+/// Freedoms that a thread takes at a time.
+const GRAIN: usize = 1 << 14;
 
 /// A point of the load path: the factor of each load and the share of the interference that is applied.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -263,15 +267,7 @@ impl<'m> Engine<'m> {
 
     /// Reduced external load at a load point.
     pub fn reduced_external(&self, point: &LoadPoint) -> Vec<f64> {
-        let mut out = vec![0.0; self.model.freedoms.n];
-        for (load, &factor) in self.reduced_loads.iter().zip(&point.factors) {
-            if factor != 0.0 {
-                for (sum, value) in out.iter_mut().zip(load) {
-                    *sum += factor * value;
-                }
-            }
-        }
-        out
+        combination(self.model.freedoms.n, &self.reduced_loads, &point.factors)
     }
 
     /// Initial gaps less the applied interference.
@@ -362,6 +358,21 @@ impl<'m> Engine<'m> {
             ),
         )
     }
+}
+
+/// `sum factor * vector`, of the length `n`.
+pub(super) fn combination(n: usize, vectors: &[Vec<f64>], factors: &[f64]) -> Vec<f64> {
+    let acting: Vec<_> = vectors
+        .iter()
+        .zip(factors)
+        .filter(|(_, f)| **f != 0.0)
+        .collect();
+    let sum = |i| acting.iter().fold(0.0, |sum, (v, f)| sum + *f * v[i]);
+    (0..n)
+        .into_par_iter()
+        .with_min_len(GRAIN)
+        .map(sum)
+        .collect()
 }
 
 fn places(model: &Model, sub: &Substructure) -> Places {

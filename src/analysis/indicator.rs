@@ -13,8 +13,8 @@
 //! O. C. Zienkiewicz, J. Z. Zhu, The superconvergent patch recovery and a posteriori error estimates, parts 1 and 2,
 //! Int. J. Numer. Meth. Engng 33 (1992) 1331-1382, doi:10.1002/nme.1620330702.
 
-use crate::assembly::gauss_points_of;
-use crate::element::{AtPoints, MAX_POINTS, n_gauss_points, shape_functions};
+use super::stress_field::{ElementStress, StressField};
+use crate::element::{n_gauss_points, shape_functions};
 use crate::material::Material;
 use crate::model::Model;
 use crate::scene::Kind;
@@ -34,19 +34,17 @@ pub(super) struct Indicator {
     pub total: f64,
 }
 
-/// The indicator of a stress field: `stress` gives the Gauss points of an element.
-pub(super) fn indicator<'s>(
-    model: &Model,
-    stress: impl Fn(usize) -> &'s AtPoints + Sync,
-) -> Indicator {
+/// The indicator of a stress field.
+pub(super) fn indicator(field: &StressField) -> Indicator {
+    let model = field.model;
     let neighbours = Neighbours::new(model);
-    let samples = Samples::new(model, &stress);
+    let samples = Samples::new(field);
     let energies: Vec<[f64; 2]> = (0..model.mesh.n_elements())
         .into_par_iter()
         .with_min_len(64)
         .map_init(Vec::new, |patch, e| {
             neighbours.patch(model, e, patch);
-            energies(model, e, stress(e), patch, &samples)
+            energies(model, e, &field.at(e), patch, &samples)
         })
         .collect();
     let sum = |i: usize| energies.iter().fold(0.0, |sum, e| sum + e[i]);
@@ -117,8 +115,8 @@ struct Samples {
 }
 
 impl Samples {
-    fn new<'s>(model: &Model, stress: &(impl Fn(usize) -> &'s AtPoints + Sync)) -> Self {
-        let mesh = &model.mesh;
+    fn new(field: &StressField) -> Self {
+        let (model, mesh) = (field.model, &field.model.mesh);
         let mut first = vec![0u32];
         for (e, shape) in mesh.shapes.iter().enumerate() {
             let own = match degree(model, e) {
@@ -139,7 +137,7 @@ impl Samples {
             .into_par_iter()
             .enumerate()
             .with_min_len(256)
-            .for_each(|(e, samples)| sample(model, e, stress(e), samples));
+            .for_each(|(e, samples)| sample(model, e, &field.at(e), samples));
         Samples { first, list }
     }
 
@@ -150,27 +148,20 @@ impl Samples {
 }
 
 /// The centre of a linear element carries its mean, the Gauss points of a quadratic one are superconvergent themselves.
-fn sample(model: &Model, e: usize, stresses: &AtPoints, out: &mut [Sample]) {
-    let points = gauss_points_of(model, e);
+fn sample(model: &Model, e: usize, element: &ElementStress, out: &mut [Sample]) {
+    let (mapping, stress) = (&element.mapping, &element.stress);
+    let position = mapping.positions(&model.element_coordinates(e));
     if let [mean] = out {
-        let mut volume = 0.0;
-        for ((weight, at), stress) in points.weights().zip(points.positions()).zip(stresses) {
-            volume += weight;
-            for d in 0..2 {
-                mean.position[d] += weight * at[d];
-            }
-            for c in 0..4 {
-                mean.stress[c] += weight * stress[c];
-            }
-        }
-        mean.position = mean.position.map(|x| x / volume);
-        mean.stress = mean.stress.map(|s| s / volume);
+        *mean = Sample {
+            position: mapping.mean(&position),
+            stress: mapping.mean(stress),
+        };
         return;
     }
-    for ((sample, position), stress) in out.iter_mut().zip(points.positions()).zip(stresses) {
+    for (g, sample) in out.iter_mut().enumerate() {
         *sample = Sample {
-            position: *position,
-            stress: *stress,
+            position: position.each_ref().map(|lanes| lanes[g]),
+            stress: stress.each_ref().map(|lanes| lanes[g]),
         };
     }
 }
@@ -224,16 +215,18 @@ type Point = ([f64; 2], f64, [f64; 4]);
 
 /// Calls `visit` for each point at which the stresses are compared. Quadratic elements have their stress at the Gauss points,
 /// where it is superconvergent and its error all but vanishes: between them it is the polynomial through them.
-fn quadrature(model: &Model, e: usize, stress: &AtPoints, mut visit: impl FnMut(Point)) {
+fn quadrature(model: &Model, e: usize, element: &ElementStress, mut visit: impl FnMut(Point)) {
+    let coordinates = model.element_coordinates(e);
+    let stress = &element.stress;
     if degree(model, e) == 1 {
-        let points = gauss_points_of(model, e);
-        for ((weight, position), stress) in points.weights().zip(points.positions()).zip(stress) {
-            visit((*position, weight, *stress));
+        let position = element.mapping.positions(&coordinates);
+        for (g, &weight) in element.mapping.weights().iter().enumerate() {
+            let at = position.each_ref().map(|lanes| lanes[g]);
+            visit((at, weight, stress.each_ref().map(|lanes| lanes[g])));
         }
         return;
     }
     let shape = model.mesh.shapes[e];
-    let coordinates = model.element_coordinates(e);
     let triangle = shape.n_corners() == 3;
     let rule: &[([f64; 2], f64)] = if triangle { &TRIANGLE } else { &QUADRILATERAL };
     for &(reference, weight) in rule {
@@ -265,8 +258,9 @@ fn quadrature(model: &Model, e: usize, stress: &AtPoints, mut visit: impl FnMut(
             ]
             .map(|n| 0.25 * n)
         };
-        let between =
-            std::array::from_fn(|c| (0..MAX_POINTS).map(|g| shares[g] * stress[g][c]).sum());
+        let between = stress
+            .each_ref()
+            .map(|lanes| shares.iter().zip(lanes).map(|(share, s)| share * s).sum());
         visit((x, weight * determinant * around, between));
     }
 }
@@ -275,7 +269,7 @@ fn quadrature(model: &Model, e: usize, stress: &AtPoints, mut visit: impl FnMut(
 fn energies(
     model: &Model,
     e: usize,
-    stress: &AtPoints,
+    element: &ElementStress,
     patch: &[u32],
     samples: &Samples,
 ) -> [f64; 2] {
@@ -290,7 +284,7 @@ fn energies(
         .or_else(|| fit_of::<3>(&frame, patch, samples))
         .or_else(|| fit_of::<1>(&frame, patch, samples));
     let mut out = [0.0; 2];
-    quadrature(model, e, stress, |(position, weight, computed)| {
+    quadrature(model, e, element, |(position, weight, computed)| {
         let recovered = match &fit {
             Some(fit) => {
                 let terms = frame.terms(position);

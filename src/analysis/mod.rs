@@ -12,6 +12,7 @@
 //! | `keeper`, `resume`, `place`, `record`, `saved`, `packed` | checkpoints, and going on from them | |
 //! | `aim` | how much of the way to a target lies behind | |
 //! | `measure`, `contact_edge`, `state`, `quality` | pressure, half width, dent, quality of a state | 5 |
+//! | `stress_field`, `stresses` | stresses of all elements, the forces they exert | |
 //! | `indicator` | discretisation error of the stresses, element by element | |
 
 mod acceleration;
@@ -43,6 +44,7 @@ mod saved;
 mod state;
 mod step_length;
 mod stepping;
+mod stress_field;
 mod stresses;
 mod tangent;
 mod targets;

@@ -11,6 +11,7 @@
 mod tests;
 
 use super::engine::Engine;
+use super::stress_field::StressField;
 use super::stresses::Stresses;
 use crate::linalg::largest;
 use crate::model::Model;
@@ -72,9 +73,14 @@ impl Engine<'_> {
         let load = self.total_load();
         let mut condensed = self.external(&self.at);
         condensed.add(1.0, &self.now.initial.load);
-        let (found, amplitudes) =
-            self.sub
-                .recover_deformation(self.system, &load, &reduced, condensed, &self.slip())?;
+        let (found, amplitudes) = self.sub.recover_deformation(
+            self.system,
+            &load,
+            &reduced,
+            condensed,
+            &self.slip(),
+            [self.displacement_scale, self.force_scale],
+        )?;
         self.counts.full_solves += 1;
         self.counts.trailing_solves += 1;
         let mut out = Displacements {
@@ -102,52 +108,49 @@ impl Engine<'_> {
     pub(super) fn quality_here(&mut self) -> crate::Result<Quality> {
         let u = self.displacements()?;
         let nodal = self.model.nodal(u.deformation(), &self.at.factors);
-        let stresses = Stresses::new(self.model, &self.zone, &self.elements, &nodal, false);
-        Ok(self.quality(&u, &stresses))
+        let field = StressField::new(self.model, &self.zone, &self.elements, nodal);
+        let stresses = Stresses::new(&field);
+        Ok(self.quality(&u, stresses.internal, &stresses.reactions))
     }
 
-    /// Quality of the current state.
-    pub(super) fn quality(&mut self, u: &Displacements, stresses: &Stresses) -> Quality {
+    /// Quality of the current state with its `internal` forces and the `reactions` on prescribed displacements.
+    pub(super) fn quality(
+        &mut self,
+        u: &Displacements,
+        internal: Vec<f64>,
+        reactions: &[f64],
+    ) -> Quality {
         let external = self.external_forces();
-        let applied = largest(&external);
+        let applied = external.iter().fold(0.0f64, |m, (_, f)| m.max(f.abs()));
         self.update_scales();
         // Reactions measure the load where displacements are prescribed.
-        let reaction = largest(&stresses.reactions);
-        self.force_scale = self.force_scale.max(applied).max(reaction);
+        self.force_scale = self.force_scale.max(applied).max(largest(reactions));
         self.displacement_scale = self.displacement_scale.max(largest(&u.total));
-        let out_of_balance: Vec<f64> = stresses
-            .internal
-            .iter()
-            .zip(&external)
-            .map(|(i, e)| i - e)
-            .collect();
+        let mut out_of_balance = internal;
+        for (freedom, force) in external {
+            out_of_balance[freedom] -= force;
+        }
+        let contact = &self.sub.partition.contact;
+        let left_over: Vec<f64> = contact.iter().map(|&f| out_of_balance[f]).collect();
+        let n = self.now.force.len();
+        for (i, &f) in contact.iter().enumerate() {
+            let sign = if i < n { 1.0 } else { -1.0 };
+            out_of_balance[f] -= sign * self.now.force[i % n];
+        }
 
         let mut quality = Quality {
             backward_error: self.backward_error(u),
             componentwise_error: Some(u.componentwise_error),
+            equilibrium: self.share_of_forces(largest(&out_of_balance)),
             ..Quality::default()
         };
-        let n = self.now.force.len();
-        let mut worst = 0.0f64;
-        let mut touched = vec![0.0; out_of_balance.len()];
-        for (i, &f) in self.sub.partition.contact.iter().enumerate() {
-            let sign = if i < n { 1.0 } else { -1.0 };
-            touched[f] = sign * self.now.force[i % n];
-        }
-        for (b, r) in out_of_balance.iter().zip(&touched) {
-            worst = worst.max((b - r).abs());
-        }
-        quality.equilibrium = self.share_of_forces(worst);
-
         let delta = self.delta(&self.at);
         let gap_scale = delta
             .iter()
             .fold(self.displacement_scale, |m, d| m.max(d.abs()));
-        let contact = &self.sub.partition.contact;
         for k in 0..n {
-            let (first, second) = (contact[k], contact[n + k]);
-            let gap = delta[k] - (u.total[second] - u.total[first]);
-            let forces = [out_of_balance[first], -out_of_balance[second]];
+            let gap = delta[k] - (u.total[contact[n + k]] - u.total[contact[k]]);
+            let forces = [left_over[k], -left_over[n + k]];
             quality.penetration = quality
                 .penetration
                 .max(ratio(-gap, self.displacement_scale));
@@ -171,14 +174,21 @@ impl Engine<'_> {
         ratio(force, self.force_scale)
     }
 
-    fn external_forces(&self) -> Vec<f64> {
-        let mut external = vec![0.0; self.model.freedoms.n];
-        for (load, &factor) in self.model.loads.iter().zip(&self.at.factors) {
-            for &(f, force) in &load.forces {
-                external[f] += factor * force;
+    /// The applied force of each freedom that one acts on.
+    fn external_forces(&self) -> Vec<(usize, f64)> {
+        let loads = self.model.loads.iter().zip(&self.at.factors);
+        let mut forces: Vec<(usize, f64)> = loads
+            .flat_map(|(load, &factor)| load.forces.iter().map(move |&(f, v)| (f, factor * v)))
+            .collect();
+        forces.sort_by_key(|&(freedom, _)| freedom);
+        forces.dedup_by(|next, kept| {
+            let same = next.0 == kept.0;
+            if same {
+                kept.1 += next.1;
             }
-        }
-        external
+            same
+        });
+        forces
     }
 
     /// `|f - K u| / (|K| |u| + |f|)` in infinity norms, `u` and `f` the run's largest.

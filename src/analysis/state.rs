@@ -1,13 +1,15 @@
 //! The state at a target: fields on the whole mesh and figures.
 
 use super::engine::Engine;
-use super::indicator::{Indicator, indicator};
+use super::indicator::indicator;
 use super::measure::pair_states;
-use super::stresses::{ElementStress, Stresses};
+use super::stress_field::StressField;
+use super::stresses::Stresses;
 use crate::error::Result;
 use crate::model::{Magnitude, Model, Slot};
 use crate::results::{Fields, State};
 use crate::scene::History;
+use rayon::prelude::*;
 
 impl Engine<'_> {
     /// The current state with its quality; fields where asked for. Costs half a full solve.
@@ -16,37 +18,51 @@ impl Engine<'_> {
     /// Failure of the backend's solve.
     pub fn state(&mut self, name: &str, with_fields: bool) -> Result<State> {
         let displacements = self.displacements()?;
+        let u = &displacements.total;
         let nodal = self
             .model
             .nodal(displacements.deformation(), &self.at.factors);
-        let stresses = Stresses::new(self.model, &self.zone, &self.elements, &nodal, with_fields);
-        self.beyond_yield_outside
-            .clone_from(&stresses.beyond_yield_outside);
+        let field = StressField::new(self.model, &self.zone, &self.elements, nodal);
+        let stresses = Stresses::new(&field);
+        let errors = with_fields.then(|| indicator(&field));
+        let energy_error = errors.as_ref().map(|errors| errors.total);
+        let fields = errors.map(|errors| {
+            let nodal = self.model.nodal(u, &self.at.factors);
+            fields(&field, nodal, errors.by_element)
+        });
         let figures = self.contact_figures();
         let residual_depth = self.residual_depth();
-        let quality = self.quality(&displacements, &stresses);
-        let u = &displacements.total;
         let arc = figures
             .patch
             .and_then(|patch| contact_arc(self.model, figures.contact, patch));
-        let errors = with_fields.then(|| indicator(self.model, |e| &stresses.elements[e].points));
+        let load = self
+            .reaction(&stresses.reactions)
+            .unwrap_or_else(|| self.total_load_size());
+        let Stresses {
+            internal,
+            reactions,
+            beyond_yield_outside,
+            plastic_points,
+            plastic_volume,
+            plastic_strain,
+        } = stresses;
+        self.beyond_yield_outside = beyond_yield_outside;
+        let quality = self.quality(&displacements, internal, &reactions);
         Ok(State {
             name: name.to_string(),
             alpha: self.at.alpha,
-            load: self
-                .reaction(&stresses.reactions)
-                .unwrap_or_else(|| self.total_load_size()),
+            load,
             contact_force: figures.force * self.model.symmetry,
             max_pressure: figures.max_pressure,
             pole_pressure: figures.pole_pressure,
             half_width: figures.half_width,
             contact_arc: arc,
             residual_depth,
-            plastic_points: stresses.plastic_points.iter().sum(),
-            plastic_points_by_body: stresses.plastic_points,
-            max_equivalent_plastic_strain: stresses.plastic_strain,
-            plastic_zone_size: stresses.plastic_volume * self.model.symmetry,
-            energy_error: errors.as_ref().map(|i| i.total),
+            plastic_points: plastic_points.iter().sum(),
+            plastic_points_by_body: plastic_points,
+            max_equivalent_plastic_strain: plastic_strain,
+            plastic_zone_size: plastic_volume * self.model.symmetry,
+            energy_error,
             approach: self.approach(u),
             pairs: pair_states(
                 self.model,
@@ -54,7 +70,7 @@ impl Engine<'_> {
                 &self.contact_forces(),
                 self.tableau.open(),
             ),
-            fields: errors.map(|errors| self.fields(u, &stresses.elements, errors)),
+            fields,
             quality,
         })
     }
@@ -84,21 +100,34 @@ impl Engine<'_> {
         }
         Some(sum * self.at.factors[leading].signum() * model.symmetry)
     }
+}
 
-    fn fields(&self, u: &[f64], elements: &[ElementStress], errors: Indicator) -> Fields {
-        let nodal = self.model.nodal(u, &self.at.factors);
-        Fields {
-            displacement: nodal.into_iter().flatten().collect(),
-            stress: elements.iter().flat_map(|e| e.mean).collect(),
-            von_mises: elements.iter().map(|e| e.von_mises).collect(),
-            plastic_strain: elements.iter().map(|e| e.plastic_strain).collect(),
-            yielded: elements
-                .iter()
-                .map(|e| u8::from(e.plastic_strain > 0.0))
-                .collect(),
-            error: errors.by_element,
-        }
-    }
+/// Fields on the whole mesh, for the displacements of its nodes and the error of its elements.
+fn fields(field: &StressField, nodal: Vec<[f64; 2]>, error: Vec<f64>) -> Fields {
+    let n = field.model.mesh.n_elements();
+    let mut out = Fields {
+        displacement: nodal.into_iter().flatten().collect(),
+        stress: vec![0.0; 4 * n],
+        von_mises: vec![0.0; n],
+        plastic_strain: vec![0.0; n],
+        yielded: vec![0; n],
+        error,
+    };
+    let elements = (
+        out.stress.par_chunks_exact_mut(4),
+        &mut out.von_mises,
+        &mut out.plastic_strain,
+        &mut out.yielded,
+    );
+    let elements = elements.into_par_iter().enumerate().with_min_len(256);
+    elements.for_each(|(e, (stress, von_mises, plastic_strain, yielded))| {
+        let element = field.at(e);
+        stress.copy_from_slice(&element.mapping.mean(&element.stress));
+        *von_mises = element.von_mises();
+        *plastic_strain = element.plastic_strain();
+        *yielded = u8::from(*plastic_strain > 0.0);
+    });
+    out
 }
 
 /// Begin and end of a patch in degrees about the centre of a circular surface: from the symmetry plane at the surface's

@@ -1,18 +1,18 @@
-//! Stresses of all elements, and the forces that they exert on the nodes.
+//! What the stresses of all elements amount to: the forces that they exert on the nodes, and what has yielded.
 
-use super::zone::Zone;
-use crate::assembly::gauss_points_of;
-use crate::element::{AtPoints, MAX_FREEDOMS};
-use crate::material::{PlasticState, stress, von_mises};
-use crate::model::{Model, Slot};
+use super::stress_field::StressField;
+use crate::element::MAX_NODES;
+use crate::model::Slot;
 use rayon::prelude::*;
 
 /// Elements that are evaluated before their forces are summed: few enough to stay in the processor's cache.
-const BLOCK: usize = 4096;
+const BLOCK: usize = 2048;
+/// Elements that a thread takes at a time.
+const GRAIN: usize = 128;
 /// Share by which a stress must be beyond yield to count: the accuracy of the equilibrium iteration.
 const BEYOND: f64 = 1e-8;
 
-/// What the stresses of all elements amount to.
+/// Sums and largest values over all elements.
 pub(super) struct Stresses {
     /// Internal forces on the free freedoms.
     pub(super) internal: Vec<f64>,
@@ -26,129 +26,29 @@ pub(super) struct Stresses {
     pub(super) plastic_volume: f64,
     /// Largest equivalent plastic strain.
     pub(super) plastic_strain: f64,
-    /// The elements one by one, where asked for.
-    pub(super) elements: Vec<ElementStress>,
-}
-
-/// Stresses of an element.
-pub(super) struct ElementStress {
-    /// At the Gauss points.
-    pub(super) points: AtPoints,
-    /// Mean over the element.
-    pub(super) mean: [f64; 4],
-    /// Largest von Mises stress at a Gauss point.
-    pub(super) von_mises: f64,
-    /// Largest equivalent plastic strain at a Gauss point.
-    pub(super) plastic_strain: f64,
 }
 
 /// An element as it comes out of a block.
 struct Evaluated {
-    force: [f64; MAX_FREEDOMS],
-    points: AtPoints,
-    mean: [f64; 4],
-    von_mises: f64,
-    plastic_points: usize,
-    plastic_volume: f64,
-    plastic_strain: f64,
+    forces: [[f64; 2]; MAX_NODES],
+    beyond_yield_outside: bool,
 }
 
 impl Stresses {
-    /// Evaluates all elements for nodal displacements in global axes and the committed history of the zone, whose elements are
-    /// `in_zone` (ascending). Sums run in ascending element order: the bits do not depend on the number of threads.
-    pub(super) fn new(
-        model: &Model,
-        zone: &Zone,
-        in_zone: &[usize],
-        displacements: &[[f64; 2]],
-        with_elements: bool,
-    ) -> Self {
-        let mesh = &model.mesh;
-        let elastic: Vec<_> = model.materials.iter().map(|m| m.elastic_matrix()).collect();
-        let history = |e: usize| {
-            in_zone
-                .binary_search(&e)
-                .map_or(&[][..], |i| zone.states(i))
-        };
-        let evaluate = |e: usize| {
-            let points = gauss_points_of(model, e);
-            let mut u = [0.0; MAX_FREEDOMS];
-            for (pair, &node) in u.chunks_exact_mut(2).zip(mesh.nodes(e)) {
-                pair.copy_from_slice(&displacements[node as usize]);
-            }
-            let elastic = &elastic[mesh.element_body[e] as usize];
-            let past = history(e);
-            let mut out = Evaluated {
-                force: [0.0; MAX_FREEDOMS],
-                points: points.strains(&u),
-                mean: [0.0; 4],
-                von_mises: 0.0,
-                plastic_points: 0,
-                plastic_volume: 0.0,
-                plastic_strain: 0.0,
-            };
-            let mut volume = 0.0;
-            for (g, weight) in points.weights().enumerate() {
-                let past = past.get(g).copied().unwrap_or(PlasticState::default());
-                out.points[g] = stress(elastic, &out.points[g], &past.strain);
-                volume += weight;
-                for (mean, s) in out.mean.iter_mut().zip(&out.points[g]) {
-                    *mean += weight * s;
-                }
-                out.von_mises = out.von_mises.max(von_mises(&out.points[g]));
-                out.plastic_strain = out.plastic_strain.max(past.equivalent);
-                if past.equivalent > 0.0 {
-                    out.plastic_points += 1;
-                    out.plastic_volume += weight;
-                }
-            }
-            out.mean = out.mean.map(|sum| sum / volume);
-            out.force = points.forces(&out.points);
-            out
-        };
-
+    /// Evaluates all elements. Sums run in ascending element order: the bits do not depend on the number of threads.
+    pub(super) fn new(field: &StressField) -> Self {
+        let (forces, beyond_yield_outside) = nodal_forces(field);
+        let model = field.model;
         let mut out = Stresses {
             internal: vec![0.0; model.freedoms.n],
             reactions: vec![0.0; model.freedoms.prescribed.len()],
-            beyond_yield_outside: Vec::new(),
-            plastic_points: vec![0; mesh.bodies.len()],
+            beyond_yield_outside,
+            plastic_points: vec![0; model.mesh.bodies.len()],
             plastic_volume: 0.0,
             plastic_strain: 0.0,
-            elements: Vec::with_capacity(if with_elements { mesh.n_elements() } else { 0 }),
         };
-        let mut forces = vec![[0.0; 2]; mesh.n_nodes()];
-        let mut block = Vec::with_capacity(BLOCK);
-        for start in (0..mesh.n_elements()).step_by(BLOCK) {
-            let elements = start..(start + BLOCK).min(mesh.n_elements());
-            let evaluated = elements.clone().into_par_iter().with_min_len(128);
-            evaluated.map(evaluate).collect_into_vec(&mut block);
-            for (e, element) in elements.zip(&block) {
-                for (force, &node) in element.force.chunks_exact(2).zip(mesh.nodes(e)) {
-                    forces[node as usize][0] += force[0];
-                    forces[node as usize][1] += force[1];
-                }
-                let body = mesh.element_body[e] as usize;
-                out.plastic_points[body] += element.plastic_points;
-                out.plastic_volume += element.plastic_volume;
-                out.plastic_strain = out.plastic_strain.max(element.plastic_strain);
-                if model.may_yield[body]
-                    && element.von_mises > model.materials[body].yield_stress() * (1.0 + BEYOND)
-                    && in_zone.binary_search(&e).is_err()
-                {
-                    out.beyond_yield_outside.push(e);
-                }
-                if with_elements {
-                    out.elements.push(ElementStress {
-                        points: element.points,
-                        mean: element.mean,
-                        von_mises: element.von_mises,
-                        plastic_strain: element.plastic_strain,
-                    });
-                }
-            }
-        }
-        for (node, force) in forces.iter().enumerate() {
-            let force = model.freedoms.to_local(node, *force);
+        for (node, force) in forces.into_iter().enumerate() {
+            let force = model.freedoms.to_local(node, force);
             for (slot, force) in model.freedoms.slots[node].iter().zip(force) {
                 match slot {
                     Slot::Free(f) => out.internal[*f as usize] += force,
@@ -157,6 +57,65 @@ impl Stresses {
                 }
             }
         }
+        for (e, history) in field.flowed() {
+            let mapping = field.mapping(e);
+            let body = model.mesh.element_body[e] as usize;
+            for (past, weight) in history.iter().zip(mapping.weights()) {
+                if past.equivalent > 0.0 {
+                    out.plastic_points[body] += 1;
+                    out.plastic_volume += weight;
+                    out.plastic_strain = out.plastic_strain.max(past.equivalent);
+                }
+            }
+        }
         out
     }
+}
+
+/// Forces on the nodes in global axes, and the elements outside the zone that are beyond yield. While the forces of one block are summed
+/// the next is evaluated.
+fn nodal_forces(field: &StressField) -> (Vec<[f64; 2]>, Vec<usize>) {
+    let mesh = &field.model.mesh;
+    let n = mesh.n_elements();
+    let limits: Vec<f64> = (field.model.materials.iter().zip(&field.model.may_yield))
+        .map(|(material, may_yield)| match may_yield {
+            true => material.yield_stress() * (1.0 + BEYOND),
+            false => f64::INFINITY,
+        })
+        .collect();
+    let evaluate = |start: usize, block: &mut Vec<Evaluated>| {
+        (start..(start + BLOCK).min(n))
+            .into_par_iter()
+            .with_min_len(GRAIN)
+            .map(|e| {
+                let element = field.at(e);
+                let limit = limits[mesh.element_body[e] as usize];
+                Evaluated {
+                    forces: element.mapping.forces(&element.stress),
+                    beyond_yield_outside: element.von_mises() > limit
+                        && field.place_in_zone(e).is_none(),
+                }
+            })
+            .collect_into_vec(block);
+    };
+    let mut forces = vec![[0.0; 2]; mesh.n_nodes()];
+    let mut beyond = Vec::new();
+    let (mut block, mut next) = (Vec::with_capacity(BLOCK), Vec::with_capacity(BLOCK));
+    evaluate(0, &mut block);
+    for start in (0..n).step_by(BLOCK) {
+        let add = || {
+            for (i, element) in block.iter().enumerate() {
+                for (force, &node) in element.forces.iter().zip(mesh.nodes(start + i)) {
+                    let sum = &mut forces[node as usize];
+                    *sum = [sum[0] + force[0], sum[1] + force[1]];
+                }
+                if element.beyond_yield_outside {
+                    beyond.push(start + i);
+                }
+            }
+        };
+        rayon::join(add, || evaluate((start + BLOCK).min(n), &mut next));
+        std::mem::swap(&mut block, &mut next);
+    }
+    (forces, beyond)
 }

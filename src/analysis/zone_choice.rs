@@ -4,10 +4,10 @@
 //! program's extreme loads then predicts how far yielding spreads; a guard layer round the prediction
 //! watches, and when it flows the zone grows.
 
-use super::engine::Engine;
-use crate::assembly::sampling_points_of;
+use super::engine::{Engine, combination};
+use super::stress_field::{largest_von_mises, stress};
+use crate::element::{MAX_NODES, sampled_strains};
 use crate::error::Result;
-use crate::material::{stress, von_mises};
 use crate::model::{Model, Slot};
 use crate::scene::Kind;
 use rayon::prelude::*;
@@ -202,6 +202,7 @@ fn widen(model: &Model, mut marked: Vec<bool>, layers: usize) -> Vec<bool> {
 /// for displacements of the whole model.
 pub fn stress_ratios(model: &Model, u: &[f64], factors: &[f64]) -> Vec<f64> {
     let elastic: Vec<_> = model.materials.iter().map(|m| m.elastic_matrix()).collect();
+    let displacements = model.nodal(u, factors);
     (0..model.mesh.n_elements())
         .into_par_iter()
         .with_min_len(256)
@@ -209,14 +210,15 @@ pub fn stress_ratios(model: &Model, u: &[f64], factors: &[f64]) -> Vec<f64> {
             if !may_yield(model, e) {
                 return 0.0;
             }
+            let mut u = [[0.0; 2]; MAX_NODES];
+            for (u, &node) in u.iter_mut().zip(model.mesh.nodes(e)) {
+                *u = displacements[node as usize];
+            }
+            let nodes = model.element_coordinates(e);
+            let (strains, n) = sampled_strains(model.kind, model.mesh.shapes[e], &nodes, &u);
             let body = model.mesh.element_body[e] as usize;
-            let points = sampling_points_of(model, e);
-            let strains = points.strains(&model.element_displacement(e, u, factors));
-            let y = model.materials[body].yield_stress();
-            strains[..points.len()]
-                .iter()
-                .map(|strain| von_mises(&stress(&elastic[body], strain, &[0.0; 4])) / y)
-                .fold(0.0, f64::max)
+            let largest = largest_von_mises(&stress(&elastic[body], &strains), n);
+            largest / model.materials[body].yield_stress()
         })
         .collect()
 }
@@ -235,14 +237,7 @@ impl Engine<'_> {
 
     /// Applied loads, contact forces and initial loads on all freedoms.
     pub fn total_load(&self) -> Vec<f64> {
-        let mut load = vec![0.0; self.model.freedoms.n];
-        for (vector, &factor) in self.system.loads.iter().zip(&self.at.factors) {
-            if factor != 0.0 {
-                for (l, v) in load.iter_mut().zip(vector) {
-                    *l += factor * v;
-                }
-            }
-        }
+        let mut load = combination(self.model.freedoms.n, &self.system.loads, &self.at.factors);
         let partition = &self.sub.partition;
         for (&f, j) in partition.zone.iter().zip(&self.now.initial.load.zone) {
             load[f] += j;

@@ -32,6 +32,7 @@ impl ConstrainedStructure {
             &load,
             [&reduced, &[], contact.as_slice()],
             &self.partition,
+            [0.0; 2],
         )?;
         out.copy_from_slice(&found.u);
         Ok(found.backward_error)

@@ -8,10 +8,12 @@
 //! plastic flow. `tri3` does.
 
 mod facet;
+mod mapping;
 mod operator;
 mod shape_functions;
 
 pub use facet::{FacetPoint, facet_points};
+pub use mapping::{Components, Lanes, Mapping, sampled_strains};
 pub use operator::{AtPoints, Form, packed};
 pub use shape_functions::shape_functions;
 
@@ -88,6 +90,11 @@ impl Points {
     }
 }
 
+/// Whether the dilatation of an element is replaced by its mean (B-bar).
+fn has_mean(kind: Kind, shape: Shape) -> bool {
+    shape == Shape::Quad4 && kind != Kind::PlaneStress
+}
+
 /// Gauss rule: reference coordinates and weight.
 fn rule(shape: Shape) -> &'static [([f64; 2], f64)] {
     const G: f64 = 0.577_350_269_189_625_8;
@@ -152,7 +159,7 @@ impl Points {
                 n_nodes: shape.n_nodes() as u8,
                 n_points: n_points as u8,
                 is_axisymmetric: kind == Kind::Axisymmetric,
-                has_mean: shape == Shape::Quad4 && kind != Kind::PlaneStress,
+                has_mean: has_mean(kind, shape),
             },
             values: [0.0; MAX_VALUES],
             positions: [[0.0; 2]; MAX_POINTS],

@@ -216,3 +216,75 @@ fn facets_integrate_length_and_point_outward() {
     let corner: f64 = axis.iter().map(|p| p.weight * p.values[0]).sum();
     assert!(corner.abs() < 1e-14);
 }
+
+/// Without an operator strains, forces, weights and places are those with it, to the round-off of their sums: any shape, any kinematics,
+/// elements pulled out of shape at random.
+#[test]
+fn a_mapping_gives_what_the_operator_gives() {
+    let mut number = {
+        let mut state = 1u64;
+        move || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            (state >> 33) as f64 / 2f64.powi(30) - 1.0
+        }
+    };
+    for shape in SHAPES {
+        for kind in KINDS {
+            for _ in 0..20 {
+                let mut nodes = [[0.0; 2]; MAX_NODES];
+                for (node, x) in nodes.iter_mut().zip(coordinates(shape)) {
+                    *node = x.map(|x| x + 0.1 * number());
+                }
+                let mut moved = [[0.0; 2]; MAX_NODES];
+                for u in &mut moved[..shape.n_nodes()] {
+                    *u = [number(), number()];
+                }
+                let u = full(moved[..shape.n_nodes()].as_flattened());
+                let points = gauss_points(kind, shape, &nodes);
+                let mapping = Mapping::gauss(kind, shape, &nodes);
+                let name = format!("{shape:?} {kind:?}");
+                assert_eq!(mapping.n_points(), points.len());
+                // Sums of two dozen terms; no gradient is larger than the largest number of the operator.
+                let size = points.values().iter().fold(1.0f64, |m, b| m.max(b.abs()));
+                let round_off = 64.0 * f64::EPSILON * size;
+                let compare = |a: &Components, b: &AtPoints, n: usize| {
+                    for g in 0..n {
+                        for c in 0..4 {
+                            assert!(
+                                (a[c][g] - b[g][c]).abs() <= round_off,
+                                "{name}: strain {g} {c}"
+                            );
+                        }
+                    }
+                };
+                compare(&mapping.strains(&moved), &points.strains(&u), points.len());
+                let (sampled, n) = sampled_strains(kind, shape, &nodes, &moved);
+                let samples = sampling(kind, shape, &nodes);
+                assert_eq!(n, samples.len());
+                compare(&sampled, &samples.strains(&u), n);
+
+                let position = mapping.positions(&nodes);
+                for (g, (weight, at)) in points.weights().zip(points.positions()).enumerate() {
+                    assert!((mapping.weights()[g] - weight).abs() <= round_off * weight.abs());
+                    for d in 0..2 {
+                        assert!((position[d][g] - at[d]).abs() <= 64.0 * f64::EPSILON);
+                    }
+                }
+                let stress: Components = std::array::from_fn(|_| std::array::from_fn(|_| number()));
+                let by_point = std::array::from_fn(|g| stress.map(|lanes| lanes[g]));
+                let volume: f64 = points.weights().sum();
+                let forces = mapping.forces(&stress);
+                let expected = points.forces(&by_point);
+                for (a, b) in forces.as_flattened().iter().zip(&expected) {
+                    assert!((a - b).abs() <= round_off * volume, "{name}: force {a} {b}");
+                }
+                for (mean, lanes) in mapping.mean(&stress).iter().zip(&stress) {
+                    let sum: f64 = points.weights().zip(lanes).map(|(w, s)| w * s).sum();
+                    assert!((mean - sum / volume).abs() <= round_off, "{name}: mean");
+                }
+            }
+        }
+    }
+}

@@ -5,7 +5,7 @@
 //! # Source
 //! G. H. Golub, C. F. Van Loan, *Matrix Computations*, 4th ed., 2013, sections 3.1.7 and 4.2.9.
 
-use nalgebra::{DMatrix, DMatrixView, DMatrixViewMut};
+use nalgebra::{DMatrix, DMatrixViewMut};
 use rayon::prelude::*;
 
 /// Columns of a block.
@@ -64,25 +64,27 @@ pub(crate) fn solve_lower(l: &DMatrix<f64>, b: &mut DMatrix<f64>) {
         });
 }
 
-/// The lower triangle of `a' a`, by blocks: above the diagonal only within blocks of it. `depth(j)` says how many rows of the columns from
-/// `j` on count, all where it is not less.
-pub(crate) fn gram(a: DMatrixView<f64>, depth: impl Fn(usize) -> usize + Sync) -> DMatrix<f64> {
-    let n = a.ncols();
+/// The lower triangle of `a a'`, by strips of columns: above the diagonal only within them. `depth(i)` says how many columns of the rows
+/// before `i` count, all where it is not less.
+pub(crate) fn outer(a: &DMatrix<f64>, depth: impl Fn(usize) -> usize + Sync) -> DMatrix<f64> {
+    let n = a.nrows();
     let mut product = DMatrix::zeros(n, n);
     if n == 0 {
         return product;
     }
+    // Wide strips: the kernel copies what stands left of a product into its own order once for each.
+    let strip = (n / 8).clamp(BLOCK, 4 * BLOCK);
     product
         .as_mut_slice()
-        .par_chunks_mut(BLOCK * n)
+        .par_chunks_mut(strip * n)
         .enumerate()
         .for_each(|(k, columns)| {
-            let (first, width) = (k * BLOCK, columns.len() / n);
-            let rows = depth(first + width).min(a.nrows());
-            let left = a.view((0, first), (rows, n - first)).transpose();
+            let (first, width) = (k * strip, columns.len() / n);
+            let m = depth(first + width).min(a.ncols());
+            let right = a.view((first, 0), (width, m)).transpose();
             DMatrixViewMut::from_slice(columns, n, width)
                 .rows_mut(first, n - first)
-                .gemm(1.0, &left, &a.view((0, first), (rows, width)), 0.0);
+                .gemm(1.0, &a.view((first, 0), (n - first, m)), &right, 0.0);
         });
     product
 }
@@ -106,7 +108,7 @@ mod tests {
             let mut x = b.clone();
             solve_lower(&l, &mut x);
             assert!((&l * x - &b).amax() <= 4.0 * n as f64 * f64::EPSILON + 0.0);
-            let c = gram(b.as_view(), |_| n);
+            let c = outer(&b.transpose(), |_| n);
             let expected = b.tr_mul(&b);
             for j in 0..130 {
                 for i in j..130 {

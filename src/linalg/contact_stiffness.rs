@@ -40,6 +40,11 @@ impl ContactStiffness {
         self.place.len()
     }
 
+    /// The blocks.
+    pub fn blocks(&self) -> impl Iterator<Item = &ContactBlock> {
+        self.blocks.iter()
+    }
+
     /// Diagonal entry of a freedom.
     pub fn diagonal(&self, freedom: usize) -> f64 {
         let (block, k) = self.place[freedom];

@@ -2,10 +2,20 @@
 
 use super::{Condensed, Partition, SymmetricCsc};
 use crate::error::Result;
+use rayon::prelude::*;
+use std::ops::Range;
 
-/// A refinement step is tried where the backward error is above this: a few rounding errors per freedom
-/// are the best that a solve in double precision does.
-pub(super) const REFINE_ABOVE: f64 = 4.0 * f64::EPSILON;
+/// Parts of the matrix that are gone through side by side: their number, not that of the threads, decides what is added to what.
+const PARTS: usize = 4;
+/// Rows that a thread takes at a time.
+const GRAIN: usize = 1 << 14;
+
+/// A refinement step is tried where the backward error is above this: a rounding error for each entry of a row, as many as rows have in the
+/// mean. A smaller residual may be all round-off of its own, and a step that follows from it gains nothing.
+pub(super) fn refine_above(matrix: &SymmetricCsc) -> f64 {
+    let (n, upper) = (matrix.rows().max(1) as f64, matrix.nnz() as f64);
+    (2.0 * upper / n - 1.0).max(1.0) * f64::EPSILON
+}
 
 /// `y = K x` for the stored upper triangle.
 pub fn multiply(matrix: &SymmetricCsc, x: &[f64], y: &mut [f64]) {
@@ -38,13 +48,26 @@ pub fn norm(matrix: &SymmetricCsc) -> f64 {
 
 /// Largest absolute value; NaN where there is one.
 pub(crate) fn largest(values: &[f64]) -> f64 {
-    values.iter().fold(0.0f64, |m, v| {
-        if v.abs() > m || v.is_nan() {
-            v.abs()
-        } else {
-            m
+    largest_of(values.len(), |i| values[i].abs())
+}
+
+/// The largest of `n` values that are not negative; NaN where there is one.
+fn largest_of(n: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
+    let of = |rows: Range<usize>| {
+        let (mut largest, mut lost) = (0.0, false);
+        for i in rows {
+            let value = value(i);
+            lost |= value.is_nan();
+            largest = if value > largest { value } else { largest };
         }
-    })
+        if lost { f64::NAN } else { largest }
+    };
+    if n <= GRAIN {
+        return of(0..n);
+    }
+    let parts = (0..n.div_ceil(GRAIN)).into_par_iter();
+    let parts = parts.map(|part| of(part * GRAIN..((part + 1) * GRAIN).min(n)));
+    parts.reduce(|| 0.0, |a, b| if a > b || a.is_nan() { a } else { b })
 }
 
 /// What one pass over `K` tells of a solution `u` of `K u = f`.
@@ -57,30 +80,61 @@ pub(super) struct Rows {
     pub stiffness: Vec<f64>,
 }
 
+/// The rows that have the numbers of a part's columns.
+struct Part<'a> {
+    columns: Range<usize>,
+    residual: &'a mut [f64],
+    terms: &'a mut [f64],
+    stiffness: &'a mut [f64],
+    /// What the columns add to rows before these, `K u`, `|K| |u|` and `|K|`: of row `columns.start - 1 - i` at place `i`.
+    before: Vec<[f64; 3]>,
+}
+
 impl Rows {
     pub(super) fn new(matrix: &SymmetricCsc, f: &[f64], u: &[f64]) -> Self {
+        let (n, pointers) = (u.len(), matrix.proper_indptr());
         let mut rows = Rows {
             residual: f.to_vec(),
-            terms: vec![0.0; u.len()],
-            stiffness: vec![0.0; u.len()],
+            terms: vec![0.0; n],
+            stiffness: vec![0.0; n],
         };
-        for (j, column) in matrix.outer_iterator().enumerate() {
-            let (mut sum, mut terms, mut stiffness) = (0.0, 0.0, 0.0);
-            for (i, &a) in column.iter() {
-                let (product, size) = (a * u[i], a.abs());
-                sum += product;
-                terms += product.abs();
-                stiffness += size;
-                if i != j {
-                    let product = a * u[j];
-                    rows.residual[i] -= product;
-                    rows.terms[i] += product.abs();
-                    rows.stiffness[i] += size;
-                }
+        // As many entries for each part.
+        let bound = |part: usize| {
+            let entry = (matrix.nnz() * part / PARTS) as i64;
+            pointers[..n].partition_point(|p| *p < entry)
+        };
+        let mut parts = Vec::with_capacity(PARTS);
+        let (mut residual, mut terms) = (rows.residual.as_mut_slice(), rows.terms.as_mut_slice());
+        let mut stiffness = rows.stiffness.as_mut_slice();
+        for part in 0..PARTS {
+            let columns = bound(part)..if part + 1 == PARTS {
+                n
+            } else {
+                bound(part + 1)
+            };
+            let own = columns.len();
+            parts.push(Part {
+                columns,
+                residual: residual.split_off_mut(..own).unwrap_or_default(),
+                terms: terms.split_off_mut(..own).unwrap_or_default(),
+                stiffness: stiffness.split_off_mut(..own).unwrap_or_default(),
+                before: Vec::new(),
+            });
+        }
+        parts
+            .par_iter_mut()
+            .for_each(|part| part.subtract_products(matrix, &pointers, u));
+        let before: Vec<_> = parts
+            .into_iter()
+            .map(|part| (part.columns.start, part.before))
+            .collect();
+        for (first, sums) in before {
+            for (i, [product, terms, stiffness]) in sums.into_iter().enumerate() {
+                let row = first - 1 - i;
+                rows.residual[row] -= product;
+                rows.terms[row] += terms;
+                rows.stiffness[row] += stiffness;
             }
-            rows.residual[j] -= sum;
-            rows.terms[j] += terms;
-            rows.stiffness[j] += stiffness;
         }
         rows
     }
@@ -90,7 +144,7 @@ impl Rows {
     pub(super) fn componentwise_error(&self, f: &[f64], u: &[f64]) -> f64 {
         let moved = largest(u);
         let tiny = 1000.0 * u.len() as f64 * f64::EPSILON;
-        (0..u.len()).fold(0.0f64, |worst, i| {
+        largest_of(u.len(), |i| {
             let own = self.terms[i] + f[i].abs();
             let scale = if own > tiny * (self.stiffness[i] * moved + f[i].abs()) {
                 own
@@ -98,11 +152,54 @@ impl Rows {
                 self.terms[i] + self.stiffness[i] * moved
             };
             match self.residual[i].abs() {
-                r if r.is_nan() => f64::NAN,
-                0.0 => worst,
-                r => worst.max(r / scale),
+                0.0 => 0.0,
+                r => r / scale,
             }
         })
+    }
+}
+
+impl Part<'_> {
+    /// Subtracts the products of the part's columns of the upper triangle, and of the rows that mirror them, from the residual and adds up
+    /// their sizes.
+    fn subtract_products(&mut self, matrix: &SymmetricCsc, pointers: &[i64], u: &[f64]) {
+        let (rows, values) = (matrix.indices(), matrix.data());
+        let first = self.columns.start;
+        for j in self.columns.clone() {
+            let [begin, end] = [pointers[j], pointers[j + 1]].map(|p| p as usize);
+            let u_j = u[j];
+            let (mut sum, mut terms, mut stiffness) = (0.0, 0.0, 0.0);
+            for (&i, &a) in rows[begin..end].iter().zip(&values[begin..end]) {
+                let i = i as usize;
+                let (product, size) = (a * u[i], a.abs());
+                sum += product;
+                terms += product.abs();
+                stiffness += size;
+                if i == j {
+                    continue;
+                }
+                let mirrored = a * u_j;
+                if i >= first {
+                    self.residual[i - first] -= mirrored;
+                    self.terms[i - first] += mirrored.abs();
+                    self.stiffness[i - first] += size;
+                } else {
+                    let place = first - 1 - i;
+                    if place >= self.before.len() {
+                        self.before.resize(place + 1, [0.0; 3]);
+                    }
+                    let before = &mut self.before[place];
+                    *before = [
+                        before[0] + mirrored,
+                        before[1] + mirrored.abs(),
+                        before[2] + size,
+                    ];
+                }
+            }
+            self.residual[j - first] -= sum;
+            self.terms[j - first] += terms;
+            self.stiffness[j - first] += stiffness;
+        }
     }
 }
 
@@ -140,7 +237,8 @@ impl Recovered {
 }
 
 /// [`Condensed::recover_all`] with its residual for the load `f` on all freedoms (contact forces included), and a step of iterative
-/// refinement of interior and zone where that lowers it. `norm` is that of `matrix` ([`norm`]).
+/// refinement of interior and zone where that lowers it. `norm` is that of `matrix` ([`norm`]); `beside` are a displacement and a load that the
+/// residual need only be small against, where they are larger than those of this solution: zeros, or the largest of others that go with it.
 ///
 /// # Errors
 /// Those of [`Condensed::recover_all`].
@@ -151,11 +249,13 @@ pub fn recover_refined(
     f: &[f64],
     [reduced, zone, contact]: [&[f64]; 3],
     partition: &Partition,
+    beside: [f64; 2],
 ) -> Result<Recovered> {
     let u = condensed.recover_all(reduced, zone, contact)?;
     let (found, mut r) = Recovered::new(matrix, norm, f, u);
+    let scale = norm * largest(&found.u).max(beside[0]) + largest(f).max(beside[1]);
     // What is not a number is not refined either.
-    if found.backward_error.is_nan() || found.backward_error <= REFINE_ABOVE {
+    if found.backward_error.is_nan() || found.residual <= refine_above(matrix) * scale {
         return Ok(found);
     }
     // The contact displacements are given: the step leaves them alone.

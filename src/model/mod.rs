@@ -27,6 +27,7 @@ use crate::mesh::{self, Mesh, Shape};
 use crate::scene::{Kind, Plastic, Scene};
 use given::Given;
 use names::Entry;
+use rayon::prelude::*;
 pub(crate) use recipe::Recipe;
 
 /// A model ready to be assembled.
@@ -171,8 +172,9 @@ impl Model {
 
     /// Displacements of all nodes in global axes, from free freedoms and load factors.
     pub fn nodal(&self, u: &[f64], factors: &[f64]) -> Vec<[f64; 2]> {
-        let nodes = 0..self.mesh.n_nodes();
+        let nodes = (0..self.mesh.n_nodes()).into_par_iter();
         nodes
+            .with_min_len(1 << 14)
             .map(|node| self.freedoms.displacement(node, u, factors))
             .collect()
     }

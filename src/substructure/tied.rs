@@ -158,7 +158,7 @@ impl Tied {
         blocked::solve_lower(&factor, &mut coupling);
         let factor = Cholesky::pack_dirty(factor);
         // T = S_ss - C' C, its lower triangle.
-        let mut matrix = blocked::gram(coupling.as_view(), |_| n_w + n_a);
+        let mut matrix = blocked::outer(&coupling.transpose(), |_| n_w + n_a);
         let columns = matrix.as_mut_slice().par_chunks_mut(n.max(1)).enumerate();
         columns.for_each(|(j, column)| {
             column.iter_mut().for_each(|entry| *entry = -*entry);

@@ -1,5 +1,7 @@
 //! What only the CHOLMOD backend must do; the dense backend is the reference.
 
+mod bodies;
+
 use super::*;
 use crate::linalg::dense::DenseCondensed;
 use crate::linalg::tests::matrices::{Grid, Support};

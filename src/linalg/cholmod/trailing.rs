@@ -285,8 +285,7 @@ impl Trailing {
         for (k, &column) in columns.iter().enumerate() {
             number[column] = k;
         }
-        // U = L_cc': the columns of U are the rows of L, so products of rows run through memory.
-        let mut upper = DMatrix::zeros(n, n);
+        let mut lower = DMatrix::zeros(n, n);
         let mut unit = [0.0; PANEL_WIDTH];
         let mut below = vec![0.0; n];
         for p in panels {
@@ -304,16 +303,16 @@ impl Trailing {
                 );
                 panel::multiply_lower(&self.values[p.triangle()], column);
                 for i in k..p.width {
-                    upper[(first + k, first + i)] = column[i];
+                    lower[(first + i, first + k)] = column[i];
                 }
                 for (&row, &value) in list.iter().zip(&below) {
-                    upper[(first + k, number[row as usize - self.n_zone])] = value;
+                    lower[(number[row as usize - self.n_zone], first + k)] = value;
                 }
             }
         }
-        // (L L')_ij for j <= i: only the first rows of U, up to j, contribute.
-        let product = blocked::gram(upper.as_view(), |j| j);
-        drop(upper);
+        // (L L')_ij for j <= i: only the first columns of L, up to j, contribute.
+        let product = blocked::outer(&lower, |j| j);
+        drop(lower);
         let freedom_of = |&column: &usize| self.contact[column] as usize;
         let mut freedoms: Vec<usize> = columns.iter().map(freedom_of).collect();
         freedoms.sort_unstable();

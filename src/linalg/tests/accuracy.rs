@@ -165,3 +165,72 @@ fn the_componentwise_error_sees_a_small_row() {
     // Next to no load, next to no displacement: round-off there is no error.
     assert!(componentwise_backward_error(&k, &[1e12, 0.0], &[1.0, 1e-17]) < 1e-16);
 }
+
+/// The pass over the matrix in parts gives each row what its own entries give it, however far from the diagonal they lie: to the round-off of
+/// the row. Where a row hardly moves the error is measured by its own stiffness.
+#[test]
+fn the_pass_in_parts_gives_every_row_its_own() {
+    use crate::linalg::residual::Rows;
+    let mut numbers = Numbers::new(3);
+    for n in [1, 2, 3, 7, 400] {
+        let mut k = sprs::TriMatI::<f64, i64>::new((n, n));
+        for j in 0..n {
+            k.add_triplet(j, j, 4.0 + numbers.next());
+            for _ in 0..6 {
+                let i = numbers.integer() as usize % n;
+                // Every third row knows only its like.
+                if i < j && i.is_multiple_of(3) == j.is_multiple_of(3) {
+                    k.add_triplet(i, j, numbers.next());
+                }
+            }
+        }
+        let k: SymmetricCsc = k.to_csc();
+        let whole = full(&k);
+        for still in [false, true] {
+            let mut u: Vec<f64> = (0..n).map(|_| numbers.next()).collect();
+            if still {
+                (0..n).step_by(3).for_each(|i| u[i] *= 1e-17);
+            }
+            let mut f = vec![0.0; n];
+            multiply(&k, &u, &mut f);
+            f.iter_mut().for_each(|f| *f *= 1.0 + 1e-6 * numbers.next());
+            if still {
+                // What moves in a third of the rows is round-off: nothing acts there.
+                (0..n).step_by(3).for_each(|i| f[i] = 0.0);
+            }
+            let rows = Rows::new(&k, &f, &u);
+            let moved = u.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+            let tiny = 1000.0 * n as f64 * f64::EPSILON;
+            let mut worst = 0.0f64;
+            for i in 0..n {
+                let row = whole.row(i);
+                let products = || row.iter().zip(&u).map(|(a, u)| a * u);
+                let terms: f64 = products().map(f64::abs).sum();
+                let residual = f[i] - products().sum::<f64>();
+                let round_off = 2.0 * n as f64 * f64::EPSILON * (terms + f[i].abs());
+                assert!((rows.terms[i] - terms).abs() <= round_off, "{n} {i}");
+                assert!((rows.residual[i] - residual).abs() <= round_off, "{n} {i}");
+                let stiffness: f64 = row.iter().map(|a| a.abs()).sum();
+                let own = rows.terms[i] + f[i].abs();
+                let scale = if own > tiny * (stiffness * moved + f[i].abs()) {
+                    own
+                } else {
+                    rows.terms[i] + stiffness * moved
+                };
+                if rows.residual[i] != 0.0 {
+                    worst = worst.max(rows.residual[i].abs() / scale);
+                }
+            }
+            let found = rows.componentwise_error(&f, &u);
+            // Row sums are added up in another order.
+            let slack = 8.0 * n as f64 * f64::EPSILON;
+            assert!(
+                (found / worst - 1.0).abs() <= slack,
+                "{n} {still}: {found} {worst}"
+            );
+            u[n / 2] = f64::NAN;
+            let lost = Rows::new(&k, &f, &u);
+            assert!(lost.componentwise_error(&f, &u).is_nan());
+        }
+    }
+}

@@ -252,6 +252,7 @@ pub(super) fn solved(
         load,
         parts,
         partition,
+        [0.0; 2],
     )
     .unwrap()
 }

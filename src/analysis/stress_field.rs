@@ -1,0 +1,146 @@
+//! The stresses of a state, evaluated element by element where they are looked at.
+//!
+//! Nothing is stored: an element is quickly evaluated again, while the stresses of all take a tenth of the factor's memory.
+
+use super::zone::Zone;
+use crate::element::{Components, MAX_NODES, MAX_POINTS, Mapping};
+use crate::material::{Matrix4, PlasticState};
+use crate::model::Model;
+
+/// Elements of the mesh that share an entry in the list of where the zone's begin.
+const GROUP: usize = 64;
+
+/// Stresses as a function of the element.
+pub(super) struct StressField<'a> {
+    pub(super) model: &'a Model,
+    zone: &'a Zone,
+    /// Elements of the zone, ascending.
+    in_zone: &'a [usize],
+    /// The first of them in each group of elements of the mesh.
+    first_of_group: Vec<u32>,
+    /// Of the nodes, in global axes.
+    displacements: Vec<[f64; 2]>,
+    elastic: Vec<Matrix4>,
+}
+
+/// An element and the stresses at its Gauss points.
+pub(super) struct ElementStress<'a> {
+    pub(super) mapping: Mapping,
+    pub(super) stress: Components,
+    /// Of its points; empty outside the zone.
+    pub(super) history: &'a [PlasticState],
+}
+
+impl<'a> StressField<'a> {
+    /// The stresses for nodal displacements in global axes and the committed history of the zone, whose elements are `in_zone`
+    /// (ascending).
+    pub(super) fn new(
+        model: &'a Model,
+        zone: &'a Zone,
+        in_zone: &'a [usize],
+        displacements: Vec<[f64; 2]>,
+    ) -> Self {
+        let n_groups = model.mesh.n_elements().div_ceil(GROUP);
+        let mut first_of_group = vec![0u32; n_groups + 1];
+        for &e in in_zone {
+            first_of_group[e / GROUP + 1] += 1;
+        }
+        for group in 0..n_groups {
+            first_of_group[group + 1] += first_of_group[group];
+        }
+        StressField {
+            model,
+            zone,
+            in_zone,
+            first_of_group,
+            displacements,
+            elastic: model.materials.iter().map(|m| m.elastic_matrix()).collect(),
+        }
+    }
+
+    /// Place of an element in the zone.
+    pub(super) fn place_in_zone(&self, e: usize) -> Option<usize> {
+        let [first, end] = [0, 1].map(|i| self.first_of_group[e / GROUP + i] as usize);
+        let place = self.in_zone[first..end].binary_search(&e).ok()?;
+        Some(first + place)
+    }
+
+    /// The elements of the zone that have flowed, ascending, with their history.
+    pub(super) fn flowed(&self) -> impl Iterator<Item = (usize, &'a [PlasticState])> {
+        let zone = self.zone;
+        let elements = self.in_zone.iter().enumerate();
+        elements
+            .map(move |(i, &e)| (e, zone.states(i)))
+            .filter(|(_, history)| history.iter().any(|past| past.equivalent > 0.0))
+    }
+
+    /// The map of an element.
+    #[inline]
+    pub(super) fn mapping(&self, e: usize) -> Mapping {
+        let nodes = self.model.element_coordinates(e);
+        Mapping::gauss(self.model.kind, self.model.mesh.shapes[e], &nodes)
+    }
+
+    /// The stresses of an element.
+    #[inline]
+    pub(super) fn at(&self, e: usize) -> ElementStress<'a> {
+        let mesh = &self.model.mesh;
+        let mapping = self.mapping(e);
+        let mut u = [[0.0; 2]; MAX_NODES];
+        for (u, &node) in u.iter_mut().zip(mesh.nodes(e)) {
+            *u = self.displacements[node as usize];
+        }
+        let mut strain = mapping.strains(&u);
+        let history = self
+            .place_in_zone(e)
+            .map_or(&[][..], |i| self.zone.states(i));
+        for (g, past) in history.iter().enumerate() {
+            for (strain, plastic) in strain.iter_mut().zip(&past.strain) {
+                strain[g] -= plastic;
+            }
+        }
+        ElementStress {
+            stress: stress(&self.elastic[mesh.element_body[e] as usize], &strain),
+            mapping,
+            history,
+        }
+    }
+}
+
+impl ElementStress<'_> {
+    /// Largest von Mises stress at a point.
+    #[inline]
+    pub(super) fn von_mises(&self) -> f64 {
+        largest_von_mises(&self.stress, self.mapping.n_points())
+    }
+
+    /// Largest equivalent plastic strain at a point.
+    pub(super) fn plastic_strain(&self) -> f64 {
+        let points = self.history.iter();
+        points.fold(0.0, |m, past| m.max(past.equivalent))
+    }
+}
+
+/// `sigma = D eps` at all points, for an isotropic elastic matrix: normal strains and shear know nothing of each other.
+#[inline]
+pub(super) fn stress(elastic: &Matrix4, [x, y, z, shear]: &Components) -> Components {
+    let mut out = Components::default();
+    for (out, d) in out.iter_mut().zip(elastic).take(3) {
+        for g in 0..MAX_POINTS {
+            out[g] = d[0] * x[g] + d[1] * y[g] + d[2] * z[g];
+        }
+    }
+    out[3] = shear.map(|shear| elastic[3][3] * shear);
+    out
+}
+
+/// The largest von Mises stress at the first `n` points.
+#[inline]
+pub(super) fn largest_von_mises([x, y, z, xy]: &Components, n: usize) -> f64 {
+    let mut square = 0.0f64;
+    for g in 0..n {
+        let [a, b, c] = [x[g] - y[g], y[g] - z[g], z[g] - x[g]];
+        square = square.max(0.5 * (a * a + b * b + c * c) + 3.0 * xy[g] * xy[g]);
+    }
+    square.sqrt()
+}
