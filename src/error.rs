@@ -22,7 +22,7 @@ pub enum ErrorKind {
     Analysis,
     /// The load passed the limit load; what was held before is in the message. Exit code 6.
     Collapse,
-    /// The run ended, but a state's quality misses its tolerance. Exit code 7.
+    /// The run ended, but a state's quality misses its tolerance, or a demanded accuracy was not reached. Exit code 7.
     Inaccurate,
     /// The caller or the user stopped the run. Exit code 130.
     Stopped,

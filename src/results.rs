@@ -367,9 +367,12 @@ pub struct Demand {
     /// The largest relative error that was demanded.
     #[serde(deserialize_with = "null_is_not_a_number")]
     pub accuracy: f64,
-    /// Whether every stated error is within it.
+    /// Whether every stated error is within it, that of every quantity that governs.
     pub reached: bool,
-    /// The largest stated relative error of the quantities that govern.
+    /// Quantities that govern and whose error was never estimated: nothing can be said of them, so that the demand is not reached.
+    #[serde(default)]
+    pub unknown: Vec<String>,
+    /// The largest stated relative error of the quantities that govern, as far as they were estimated.
     #[serde(deserialize_with = "null_is_not_a_number")]
     pub stated: f64,
     /// What was chosen, and why.

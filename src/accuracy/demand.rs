@@ -12,23 +12,28 @@
 //! A pilot run on a coarse mesh states its error and its order, and a second one which part of the mesh it comes from (`grading`):
 //! from them the next mesh is aimed at, graded so that the demand costs the fewest elements, at most [`STRIDE`] times finer, until one
 //! reaches the demand. A mesh from a file is subdivided, once, twice, ..., and judged by the file and its subdivisions before. Memory
-//! and time of a mesh are predicted from the symbolic factorisation before it is run: what does not fit is refused with its price.
+//! and time of a mesh are predicted from those run before it, and where that leaves doubt from its symbolic factorisation: what does not fit
+//! is refused with its price.
+//!
+//! A quantity whose error could not be estimated, because coarser meshes do not have it, counts as not reached: finer meshes are tried, and if none
+//! mends that it is named in [`Demand::unknown`].
 
+use super::edge::well_read;
 use super::estimate::{Extent, SAFETY_OF_LAW, estimate_on};
 use super::grading::{balanced, risen};
 use super::knobs::resolution;
-use super::ladder::{Ladder, foot, once_subdivided, spacings};
+use super::ladder::{Ladder, fineness, foot, once_subdivided, spacings};
 use super::meter::{Pace, forecast, work};
+use super::outcome::{AIM, LEAST_STEP, Outcome, PATH_SHARE, Trial, told};
 use super::pilot::pilot;
-use super::quantities::quantities;
 use super::refinement::{largest_order, refined};
-use super::refusal::{Cost, percent, refuse_beyond_memory, refuse_round_off};
+use super::refusal::{Cost, in_doubt, percent, refuse_beyond_memory, refuse_round_off};
 use crate::analysis::Analysis;
 use crate::error::{Error, Result};
 use crate::linalg::Backend;
 use crate::model::Model;
 use crate::progress::Observer;
-use crate::results::{Accuracy, Demand, Results};
+use crate::results::{Demand, Results};
 use crate::scene::{Scene, Stepping};
 use std::time::Instant;
 
@@ -39,17 +44,11 @@ const TIGHTEST: f64 = 1e-10;
 /// Loosest tolerance of the plastic iteration that is chosen. A half width as target is read off a state that must not
 /// scatter: with 1e-4 a target was missed.
 const LOOSEST: f64 = 1e-6;
-/// Share of the demand that the path may take.
-const PATH_SHARE: f64 = 1.0 / 3.0;
 /// A mesh is at most this many times finer than the one it is aimed from: beyond, an observed order is a guess. Each
 /// is judged by the two before it, which cost nothing again, so that all together cost about 1.5 times the last.
 const STRIDE: f64 = 1.9;
-/// And at least this many times: one that is hardly finer says nothing new.
-const LEAST_STEP: f64 = 1.25;
-/// The same from the foot, whose error is stated from one other mesh: its mesh for comparison must tell something there too.
-const FIRST_STEP: f64 = 1.4;
-/// What is aimed at, of what is demanded: the error of a contact edge scatters.
-const AIM: f64 = 0.85;
+/// Elements up to which a mesh is run without asking what it takes: a tenth of a second, and well below 100 MB.
+const SMALL: usize = 5000;
 /// Runs before the demand is given up.
 const ROUNDS: usize = 12;
 /// Rounds from which on the prediction of the mesh that will do is believed.
@@ -96,20 +95,25 @@ pub fn reach(
     let mut costs: Vec<Cost> = Vec::new();
     let mut spent = 0.0;
     let mut ladder = Ladder::default();
+    let mut last: Option<(Scene, f64)> = None;
     for round in 1..=ROUNDS {
-        let level = nearest(&wanted, factor)?;
+        let coarser = last.as_ref().map(|(scene, width)| (scene, *width));
+        let (level, model) = nearest(&wanted, factor, demand, coarser)?;
         let settings = resolution(&level, 1.0 / factor);
         observer.phase(&format!("accuracy {}: {settings}", percent(demand)));
-        let cost = forecast(&level, backend)?;
-        let fineness = spacings(&level).unwrap_or(factor);
-        costs.push(Cost {
-            fineness,
-            memory: cost.factor.memory_bytes,
-            forecast: cost.seconds,
-        });
-        refuse_beyond_memory(demand, fineness, &costs, &pace)?;
+        let fine = fineness(&level).unwrap_or(factor);
+        if model.mesh.n_elements() > SMALL && in_doubt(fine, &costs) {
+            let cost = forecast(&level, backend)?;
+            costs.push(Cost {
+                fineness: fine,
+                memory: cost.factor.memory_bytes,
+                forecast: cost.seconds,
+            });
+            refuse_beyond_memory(demand, fine, &costs, &pace)?;
+            costs.pop();
+        }
         let begun = Instant::now();
-        let mut analysis = Analysis::new(Model::new(&level)?, backend)?;
+        let mut analysis = Analysis::new(model, backend)?;
         let mut results = match extent {
             Extent::Yield => analysis.yield_load(observer)?,
             Extent::Program => analysis.run(observer)?,
@@ -126,26 +130,34 @@ pub fn reach(
         ladder.keep(&level, &results);
         let seconds = begun.elapsed().as_secs_f64();
         spent += work(&results) + found.work;
-        pace.learn(cost.seconds, seconds);
-        let outcome = Outcome::of(&results, &found, demand, largest_order(scene));
+        let cost = Cost::of(fine, &results);
+        pace.learn(cost.forecast, seconds);
+        costs.push(cost);
+        let trial = Trial {
+            results: &results,
+            found: &found,
+            demand,
+            order: largest_order(scene),
+        };
+        let outcome = Outcome::of(&trial);
         choices.push(format!(
-            "{settings}: stated error {} in {seconds:.2} s{}",
-            percent(outcome.stated),
-            outcome
-                .worst
-                .as_ref()
-                .map_or(String::new(), |w| format!(" ({w})"))
+            "{settings}: stated error {} in {seconds:.2} s",
+            told(&outcome)
         ));
-        let reached = outcome.stated <= demand;
-        let stop = reached
+        let within = outcome.within(demand);
+        let stop = within
             || round == ROUNDS
             || observer.stop_requested()
             || results.incomplete.is_some()
-            || !outcome.stated.is_finite();
+            || found.companions.is_empty();
         if stop {
             found.demand = Some(Demand {
                 accuracy: demand,
-                reached,
+                reached: within,
+                unknown: match results.incomplete {
+                    None => outcome.unknown,
+                    Some(_) => Vec::new(),
+                },
                 stated: outcome.stated,
                 choices,
                 work: spent,
@@ -174,7 +186,6 @@ pub fn reach(
                     ));
                 }
                 wanted = shaped;
-                factor = 1.0;
                 finer = needed.max(LEAST_STEP);
             }
         }
@@ -191,8 +202,12 @@ pub fn reach(
             true => outcome.least.max(step),
             false => finer,
         };
-        refuse_beyond_memory(demand, fineness * certain, &costs, &pace)?;
-        factor *= step;
+        refuse_beyond_memory(demand, fine * certain, &costs, &pace)?;
+        // From the mesh that was made, which rounding may have made another than was wanted.
+        let made = fineness(&wanted).map_or(factor, |count| fine / count);
+        factor = made * step;
+        let width = results.first_yield.as_ref().map_or(0.0, |y| y.half_width);
+        last = Some((level, width));
     }
     Err(Error::internal("the rounds of a demand end in the loop"))
 }
@@ -207,97 +222,33 @@ fn stride(scene: &Scene, finer: f64) -> f64 {
     finer.powf(1.0 / strides)
 }
 
-/// What a run says about the next.
-struct Outcome {
-    /// Largest stated relative error of the governing quantities; NaN where none is known.
-    stated: f64,
-    /// Which quantity has it.
-    worst: Option<String>,
-    /// Largest part of the path.
-    path: f64,
-    /// Largest part of the algebra.
-    algebraic: f64,
-    /// How many times finer the mesh must be.
-    refinement: f64,
-    /// The same with the highest order and the safety factor left out.
-    least: f64,
-    /// Share of the demand that is left to the mesh.
-    mesh_share: f64,
-}
-
-impl Outcome {
-    fn of(results: &Results, found: &Accuracy, demand: f64, highest: f64) -> Self {
-        let mut out = Outcome {
-            stated: f64::NAN,
-            worst: None,
-            path: 0.0,
-            algebraic: 0.0,
-            refinement: 1.0,
-            least: 1.0,
-            mesh_share: 1.0,
+/// The member of the family nearest to `factor` that can be made and is finer than the last one, with its model.
+fn nearest(
+    scene: &Scene,
+    factor: f64,
+    demand: f64,
+    last: Option<(&Scene, f64)>,
+) -> Result<(Scene, Model)> {
+    let least = last.and_then(|(scene, _)| fineness(scene)).unwrap_or(0.0);
+    let is_finer = |scene: &Scene| fineness(scene).is_none_or(|n| n > least);
+    for more in [1.0, 1.1, 1.25, 1.5, 2.0] {
+        let Some(level) = refined(scene, factor * more) else {
+            continue;
         };
-        for (quantity, errors) in quantities(results).iter().zip(&found.quantities) {
-            let Some(relative) = errors.relative_error.filter(|_| quantity.governs) else {
-                continue;
-            };
-            if out.stated.is_nan() || relative > out.stated {
-                out.stated = relative;
-                out.worst = Some(errors.quantity.clone());
-            }
-            out.path = out.path.max(errors.path.unwrap_or(0.0) / quantity.scale);
-            out.algebraic = out.algebraic.max(errors.algebraic / quantity.scale);
-            let mesh = relative - (errors.path.unwrap_or(0.0) + errors.algebraic) / quantity.scale;
-            let share = match errors.path {
-                Some(path) if path > 0.0 => 1.0 - PATH_SHARE,
-                _ => 1.0,
-            };
-            out.mesh_share = out.mesh_share.min(share);
-            // One coarser mesh states with the lowest order, which is not that with which finer ones will be judged.
-            let mesh = match found.companions.as_slice() {
-                [other] => {
-                    let r = other.ratio;
-                    let judged = SAFETY_OF_LAW * errors.discretisation.unwrap_or(0.0);
-                    judged * (r - 1.0) / (r.powf(highest) - 1.0) / quantity.scale
-                }
-                _ => mesh,
-            };
-            let needed = mesh / (AIM * share * demand);
-            if relative > demand {
-                let least = errors.discretisation.unwrap_or(0.0) / quantity.scale / demand;
-                out.least = out.least.max(least.powf(1.0 / highest));
-                out.refinement = out
-                    .refinement
-                    .max(needed.powf(1.0 / errors.order.unwrap_or(highest)));
-            }
+        let level = well_read(&level.scene, demand, last);
+        if let Ok(model) = Model::new(&level)
+            && is_finer(&level)
+        {
+            return Ok((level, model));
         }
-        // A mesh that is not finer says nothing new.
-        if out.stated > demand {
-            let least = match found.companions.len() {
-                0 | 1 => FIRST_STEP,
-                _ => LEAST_STEP,
-            };
-            out.refinement = out.refinement.max(least);
-        }
-        out
     }
-}
-
-/// The member of the family nearest to `factor` that can be made.
-fn nearest(scene: &Scene, factor: f64) -> Result<Scene> {
-    if let (Some(_), Some(level)) = (&scene.mesh.file, refined(scene, factor)) {
-        return Ok(level.scene);
+    let own = refined(scene, 1.0).filter(|level| is_finer(&level.scene));
+    match own {
+        Some(level) => Model::new(&level.scene).map(|model| (level.scene, model)),
+        None => Err(Error::input(
+            "`accuracy`: the mesh of this scene has no finer members of its family",
+        )),
     }
-    let tries = [1.0, 1.1, 1.25, 1.5, 2.0];
-    tries
-        .iter()
-        .find_map(|more| {
-            let level = refined(scene, factor * more)?;
-            Model::new(&level.scene).is_ok().then_some(level.scene)
-        })
-        .or_else(|| refined(scene, 1.0).map(|l| l.scene))
-        .ok_or_else(|| {
-            Error::input("`accuracy`: the mesh of this scene has no finer members of its family")
-        })
 }
 
 fn with_tolerances(scene: &Scene, demand: f64) -> Scene {

@@ -28,6 +28,9 @@ const LEAST_CHANGE: f64 = 1.1;
 const REUSED: [f64; 2] = [1.25, 3.0];
 /// The same from [`FINE`] spacings on.
 const REUSED_FAR: [f64; 2] = [1.5, 3.0];
+/// The same with contact: the largest pressure moves from the axis to pairs beside it as the mesh gets finer, and near rungs take that for
+/// a lower order.
+const REUSED_IN_CONTACT: [f64; 2] = [1.7, 3.4];
 /// Growths that agree to so many digits make one mesh: they come by different ways.
 const DIGITS: f64 = 1e9;
 
@@ -83,7 +86,11 @@ impl Ladder {
         } else {
             LOWEST
         };
-        let [near, far] = if count >= FINE { REUSED_FAR } else { REUSED };
+        let [near, far] = match count >= FINE {
+            true if scene.contact.is_empty() => REUSED_FAR,
+            true => REUSED_IN_CONTACT,
+            false => REUSED,
+        };
         let known = self.finished.iter().filter_map(|(other, _)| {
             let factor = spacings(other)? / count;
             let level = refined(scene, factor)?;
@@ -137,6 +144,11 @@ pub(super) fn foot(scene: &Scene, extent: Extent) -> f64 {
 pub(super) fn spacings(scene: &Scene) -> Option<f64> {
     let each = if all_quadratic(scene) { 2.0 } else { 1.0 };
     governing_count(&scene.mesh).map(|n| each * n)
+}
+
+/// Elements along a line over those of the coarsest member of the family: node spacings over what governs, subdivisions of a file.
+pub(super) fn fineness(scene: &Scene) -> Option<f64> {
+    spacings(scene).or_else(|| Some(2f64.powi(scene.mesh.subdivisions.try_into().ok()?)))
 }
 
 /// What tells scenes apart, round-off of the growths left out.

@@ -7,8 +7,8 @@
 //! | `extrapolation` | the error of a value from those on other meshes |
 //! | `estimate` | discretisation, path and algebraic error of every quantity of a run |
 //! | `path` | the error of increments and tolerances |
-//! | `demand`, `refusal` | the cheapest settings that reach a demanded accuracy; what cannot be reached |
-//! | `ladder` | the meshes on the way to a demand |
+//! | `demand`, `outcome`, `refusal` | the cheapest settings that reach a demanded accuracy; what a trial says; what cannot be reached |
+//! | `ladder`, `edge` | the meshes on the way to a demand; where in an element a contact ends on them |
 //! | `grading`, `pilot` | resolution where it counts: which part of a mesh the errors come from |
 //! | `knobs`, `meter`, `study`, `verdict` | a study: what to turn, what it takes, the runs, what they say |
 //!
@@ -20,7 +20,8 @@
 //!   the quantity itself: contact edges, yielding and the way there are in it. The energy norm of the recovered
 //!   stress error ([`crate::results::State::energy_error`], per element in the VTU files) says *where* the mesh is too coarse; it
 //!   stands in as a rough figure where a mesh from a file is too large to be subdivided in passing.
-//!   The stated error takes the estimate [`SAFETY`] times, [`SAFETY_OF_LAW`] times where three meshes follow a power law.
+//!   The stated error takes the estimate [`SAFETY`] times, [`SAFETY_OF_LAW`] times where three meshes follow a power law; two meshes state three times
+//!   the error of the order of their elements, or 1.25 times that of first order.
 //! - **path**: the coarsest of these meshes is run with twice the increments, and with other tolerances of the plastic iteration
 //!   and of contact events (a mesh from a file without such companions with half the increments); see `path`.
 //! - **algebraic**: backward error, equilibrium and complementarity of the state, relative to the largest size of the quantity.
@@ -46,12 +47,14 @@
 //! them all; where refinement pays for a goal is measured by coarsening a part of the mesh (`grading`).
 
 mod demand;
+mod edge;
 mod estimate;
 mod extrapolation;
 mod grading;
 mod knobs;
 mod ladder;
 mod meter;
+mod outcome;
 mod path;
 mod pilot;
 mod quantities;

@@ -12,7 +12,7 @@ use crate::scene::{Block, MeshSource, Part, Scene};
 /// nothing about the next one.
 pub(super) const FEWEST: f64 = 5.0;
 /// Share of the quarter circle over which a disc in a plate stays in contact.
-const CONTACT_OF_QUARTER: f64 = 19.625 / 90.0;
+pub(super) const CONTACT_OF_QUARTER: f64 = 19.625 / 90.0;
 /// Most by which rounding to whole elements may distort a part of the mesh against the others.
 const DISTORTION: f64 = 0.2;
 /// Least change of the element size that makes another level of it.

@@ -1,12 +1,16 @@
 //! What cannot be reached is refused before it is tried, with its price.
 
-use super::meter::{Pace, available_memory};
+use super::meter::{Pace, available_memory, factor_seconds};
 use crate::error::{Error, ErrorKind, Result};
+use crate::results::Results;
 
 /// Share of the free memory that a run may take.
 const MEMORY_SHARE: f64 = 0.9;
 /// Bytes of the results, mesh and assembly per byte of the factor at its peak.
 const BESIDE_FACTOR: f64 = 2.0;
+
+/// Share of the free memory from which on a prediction from coarser meshes is not enough.
+const DOUBT: f64 = 0.2;
 
 /// Predicted cost of a mesh.
 pub(super) struct Cost {
@@ -16,6 +20,43 @@ pub(super) struct Cost {
     pub memory: f64,
     /// Forecast seconds.
     pub forecast: f64,
+}
+
+impl Cost {
+    /// That of a finished run.
+    pub(super) fn of(fineness: f64, results: &Results) -> Self {
+        Cost {
+            fineness,
+            memory: results.factor.memory_bytes,
+            forecast: factor_seconds(&results.factor),
+        }
+    }
+}
+
+/// Whether the symbolic factorisation of a mesh has to be asked before it is run: it takes as long as assembly and ordering in the
+/// run itself, which is most of the time of a small mesh.
+pub(super) fn in_doubt(fineness: f64, costs: &[Cost]) -> bool {
+    let Some(last) = costs.last() else {
+        return true;
+    };
+    let memory = predicted_memory(fineness, costs, last);
+    available_memory().is_none_or(|free| memory > DOUBT * free)
+}
+
+/// A power of the fineness through the first and the last of those known.
+fn power(costs: &[Cost], last: &Cost, of: fn(&Cost) -> f64, [low, high]: [f64; 2]) -> f64 {
+    match costs.first() {
+        Some(first) if last.fineness > 1.3 * first.fineness => {
+            ((of(last) / of(first)).ln() / (last.fineness / first.fineness).ln()).clamp(low, high)
+        }
+        _ => high,
+    }
+}
+
+fn predicted_memory(fineness: f64, costs: &[Cost], last: &Cost) -> f64 {
+    let finer = (fineness / last.fineness).max(1.0);
+    let power = power(costs, last, |c| c.memory, [2.0, 2.4]);
+    BESIDE_FACTOR * last.memory * finer.powf(power)
 }
 
 /// Refuses a demand that the algebra alone misses.
@@ -41,15 +82,10 @@ pub(super) fn refuse_beyond_memory(
     let Some(last) = costs.last() else {
         return Ok(());
     };
-    let power = |f: &dyn Fn(&Cost) -> f64, low: f64, high: f64| match costs.first() {
-        Some(first) if last.fineness > 1.3 * first.fineness => {
-            ((f(last) / f(first)).ln() / (last.fineness / first.fineness).ln()).clamp(low, high)
-        }
-        _ => high,
-    };
     let finer = (fineness / last.fineness).max(1.0);
-    let memory = BESIDE_FACTOR * last.memory * finer.powf(power(&|c| c.memory, 2.0, 2.4));
-    let seconds = pace.seconds(last.forecast * finer.powf(power(&|c| c.forecast, 2.0, 3.2)));
+    let memory = predicted_memory(fineness, costs, last);
+    let power = power(costs, last, |c| c.forecast, [2.0, 3.2]);
+    let seconds = pace.seconds(last.forecast * finer.powf(power));
     match available_memory() {
         Some(free) if memory > MEMORY_SHARE * free => Err(Error::new(
             ErrorKind::Input,

@@ -22,7 +22,8 @@ Exit codes:
     4  a body is not held: it can move freely
     5  the analysis failed: a solve did not converge or a target was not reached
     6  the load passed the limit load of the bodies
-    7  inaccurate: a state's quality misses its tolerance; the results are written, do not trust them
+    7  inaccurate: a state's quality misses its tolerance (do not trust it), or a demanded accuracy was not
+       reached; the results are written
    70  internal error, please report
   130  stopped (Ctrl-C); what was computed so far is written";
 

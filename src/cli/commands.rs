@@ -106,7 +106,13 @@ fn analyse(
             ErrorKind::Inaccurate,
             results.inaccurate.join("\n"),
         )),
-        None => Ok(()),
+        None => match results.accuracy.as_ref().and_then(|a| a.demand.as_ref()) {
+            Some(demand) if !demand.reached => Err(Error::new(
+                ErrorKind::Inaccurate,
+                crate::output::stated_errors::demand(demand),
+            )),
+            _ => Ok(()),
+        },
         Some(why) => Err(Error::new(
             results.incomplete_kind.unwrap_or(ErrorKind::Analysis),
             format!("the run ended before its program did: {why}"),

@@ -88,7 +88,7 @@ fn method(accuracy: &Accuracy) -> String {
     let ratios = accuracy.companions.iter().map(|c| significant(c.ratio, 3));
     match accuracy.method {
         EstimateMethod::CoarserMeshes => format!(
-            "The mesh's part is extrapolated from runs with elements {} times as large; it counts twice.",
+            "The mesh's part is extrapolated from runs with elements {} times as large; it counts up to twice.",
             ratios.collect::<Vec<_>>().join(" and ")
         ),
         _ => "The mesh's part is the energy norm of the stress error, a rough figure: this mesh is not refined in passing. \
@@ -97,16 +97,23 @@ fn method(accuracy: &Accuracy) -> String {
     }
 }
 
-/// A demanded accuracy in a line.
+/// A demanded accuracy in a sentence.
 pub(crate) fn demand(demand: &Demand) -> String {
+    let stated = match demand.stated.is_finite() {
+        true => format!(
+            "the largest stated error is {} %",
+            significant(100.0 * demand.stated, 2)
+        ),
+        false => "no error was stated".to_string(),
+    };
+    let became = match (demand.reached, demand.unknown.as_slice()) {
+        (true, _) => "reached".to_string(),
+        (false, []) => "NOT reached".to_string(),
+        (false, unknown) => format!("NOT reached, no error is known of {}", unknown.join(", ")),
+    };
     format!(
-        "Demanded accuracy {} %: {}, the largest stated error is {} %",
-        significant(100.0 * demand.accuracy, 2),
-        match demand.reached {
-            true => "reached",
-            false => "NOT reached",
-        },
-        significant(100.0 * demand.stated, 2)
+        "Demanded accuracy {} %: {became}, {stated}",
+        significant(100.0 * demand.accuracy, 2)
     )
 }
 

@@ -1,11 +1,11 @@
 //! What `accuracy = x` costs beside the cheapest setting that a user could have picked by hand, and graded meshes beside uniform ones:
 //! in floating point operations, which no busy machine disturbs.
 //!
-//! The cheapest is that of the uniform meshes of the study from which on all are as accurate; the graded ones, which no hand picks, are told
-//! beside it, and so is the time. Nine of the sixteen demands keep to twice the cheapest, four take up to four times as much. The hand knows the true error and needs one run; the program states 1.5 times an estimate and needs two
-//! coarser runs to make it. Beyond that lie the disc at 1 and 0.3 %, whose half width scatters by a tenth of an element, so that only a
-//! mesh as fine as that is proven to keep them (9 and 44 times; the hand knows that 0.7 and 0.2 % came out by luck), and the point at 0.3 %,
-//! whose pressure on the axis has no clear order (7 times). The bounds hold what was measured, with a third to spare.
+//! The cheapest is that of the uniform meshes of the study from which on all are as accurate; one that is so by chance, and the graded ones, which no hand
+//! picks, are told beside it, and so is the time. Fourteen of the sixteen demands keep to twice the cheapest. The hand knows the true error and needs one run; the
+//! program states 1.5 times an estimate and needs coarser runs to make it. Beyond twice lie the disc at 3 % (2.8: the hand's coarsest mesh does it, two
+//! meshes that coarse prove 5.6 %), the tube at 0.3 % (2.6: its order is still rising). Over all even resolutions of the disc, not the study's five, 62 elements are within 0.3 % by chance: 86 are 0.53 % off.
+//! The bounds hold what was measured, with a third to spare.
 
 use crate::running;
 use brinell::accuracy::{Extent, Knob, Meter, Plan, Study, StudyRun, reach, study};
@@ -52,9 +52,9 @@ fn cases() -> Vec<Case> {
                 "mesh.cylinder_on_half_plane.far_size=20000.0",
             ),
             quantities: CONTACT,
-            demands: &[(0.1, 2.0), (0.03, 2.0), (0.01, 2.0), (0.003, 3.0)],
+            demands: &[(0.1, 2.0), (0.03, 2.0), (0.01, 2.4), (0.003, 2.2)],
             levels: 5,
-            graded: 0.75,
+            graded: 0.56,
         },
         Case {
             name: "Hertz point",
@@ -64,7 +64,7 @@ fn cases() -> Vec<Case> {
                 "mesh.cylinder_on_half_plane.far_size=2000.0",
             ),
             quantities: CONTACT,
-            demands: &[(0.1, 2.0), (0.03, 3.7), (0.01, 2.0), (0.003, 10.0)],
+            demands: &[(0.1, 2.0), (0.03, 2.5), (0.01, 2.0), (0.003, 2.0)],
             levels: 6,
             graded: 0.4,
         },
@@ -79,15 +79,15 @@ fn cases() -> Vec<Case> {
                 ],
             ),
             quantities: &["yield.load", "yield.half_width"],
-            demands: &[(0.1, 2.0), (0.03, 5.3), (0.01, 12.5), (0.003, 59.0)],
+            demands: &[(0.1, 2.0), (0.03, 3.7), (0.01, 2.0), (0.003, 2.0)],
             levels: 5,
-            graded: 0.75,
+            graded: 1.0,
         },
         Case {
             name: "thick cylinder",
             scene: running::load("thick_cylinder", &[yielding]),
             quantities: &["yield.alpha"],
-            demands: &[(0.1, 2.0), (0.03, 2.0), (0.01, 2.0), (0.003, 4.7)],
+            demands: &[(0.1, 2.0), (0.03, 2.0), (0.01, 2.0), (0.003, 3.5)],
             levels: 5,
             graded: 1.3,
         },
@@ -119,6 +119,11 @@ fn series<'s>(found: &'s Study, case: &Case, knob: Knob) -> Vec<(f64, f64, &'s S
     out
 }
 
+/// The coarsest run that is as accurate, be it by chance: an error that crosses zero, an edge that falls well.
+fn luckiest(runs: &[(f64, f64, &StudyRun)], accuracy: f64) -> Option<f64> {
+    runs.iter().find(|r| r.0 <= accuracy).map(|r| r.1)
+}
+
 /// The coarsest run from which on all are as accurate: not by chance.
 fn cheapest<'s>(
     runs: &[(f64, f64, &'s StudyRun)],
@@ -141,6 +146,7 @@ fn price(runs: &[(f64, f64, &StudyRun)], error: f64) -> Option<f64> {
 fn a_demand_costs_little_more_than_the_cheapest_setting_picked_by_hand() {
     let mut ratios: Vec<f64> = Vec::new();
     let mut missed: Vec<String> = Vec::new();
+    let mut table = "| scene | accuracy | over the cheapest | over one by chance | over the graded | in time |\n".to_string();
     for case in cases() {
         println!("{}", case.name);
         let plan = Plan {
@@ -179,13 +185,20 @@ fn a_demand_costs_little_more_than_the_cheapest_setting_picked_by_hand() {
             let in_time = seconds / run.usage.undisturbed_seconds();
             let graded_by_hand = cheapest(&graded, accuracy).map_or(f64::NAN, |h| h.1);
             let ratio = demand.work / by_hand;
+            let lucky = demand.work / luckiest(&uniform, accuracy).unwrap();
             println!(
-                "  {accuracy}: stated {:.2e}, true {actual:.2e}, {:.2e} operations, {ratio:.2} of {by_hand:.2e}, {:.2} of the graded \
-                 {graded_by_hand:.2e}, {in_time:.2} in time, {seconds:.3} s\n  {:#?}",
+                "  {accuracy}: stated {:.2e}, true {actual:.2e}, {:.2e} operations, {ratio:.2} of {by_hand:.2e} ({lucky:.2} of one by chance), \
+                 {:.2} of the graded {graded_by_hand:.2e}, {in_time:.2} in time, {seconds:.3} s\n  {:#?}",
                 demand.stated,
                 demand.work,
                 demand.work / graded_by_hand,
                 demand.choices
+            );
+            table += &format!(
+                "| {} | {} % | {ratio:.2} | {lucky:.2} | {:.2} | {in_time:.2} |\n",
+                case.name,
+                100.0 * accuracy,
+                demand.work / graded_by_hand
             );
             if !(demand.reached && actual <= accuracy) {
                 missed.push(format!("{} {accuracy}: true {actual}", case.name));
@@ -208,6 +221,9 @@ fn a_demand_costs_little_more_than_the_cheapest_setting_picked_by_hand() {
         }
     }
     let kept = ratios.iter().filter(|r| **r <= 2.0).count();
-    println!("{kept} of {} cost at most twice the cheapest", ratios.len());
+    println!(
+        "{table}{kept} of {} cost at most twice the cheapest",
+        ratios.len()
+    );
     assert!(missed.is_empty(), "{missed:#?}");
 }

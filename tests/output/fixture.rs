@@ -198,7 +198,8 @@ pub fn results(mesh: &Mesh) -> Results {
             }],
             demand: Some(Demand {
                 accuracy: 0.01,
-                reached: true,
+                reached: false,
+                unknown: vec!["states.s.load".into()],
                 stated: 0.005,
                 choices: vec!["resolution 16".into()],
                 work: 3e9,

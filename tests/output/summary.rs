@@ -102,7 +102,7 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
                 "discretisation": 0.4, "path": 0.09, "algebraic": 0.01, "order": null
             }],
             "demand": {
-                "accuracy": 0.01, "reached": true, "stated": 0.005, "choices": ["resolution 16"], "work": 3e9
+                "accuracy": 0.01, "reached": false, "unknown": ["states.s.load"], "stated": 0.005, "choices": ["resolution 16"], "work": 3e9
             },
             "seconds": 0.5, "work": 1e9,
             "notes": ["a mesh failed"]
