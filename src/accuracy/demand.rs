@@ -54,6 +54,11 @@ const ROUNDS: usize = 12;
 /// Rounds from which on the prediction of the mesh that will do is believed.
 const TRUSTED: usize = 4;
 
+/// The error has fallen where it is this share of the least before; refinement is given up on a mesh that is so many times finer than the
+/// last one on which it had: an order of 1/4 would bring it to 0.76.
+const FALLEN: f64 = 0.8;
+const BEYOND_BEST: f64 = 3.0;
+
 /// A run that was made to a demand.
 pub struct Reached {
     /// The scene with the settings that were chosen.
@@ -68,8 +73,8 @@ pub struct Reached {
 ///
 /// # Errors
 /// `Input` where the scene demands none, where its mesh cannot be refined, and with the price where the demand lies below
-/// round-off or beyond the memory; else those of the runs. A demand that was not reached within the rounds is no
-/// error: [`Demand::reached`] says so.
+/// round-off or beyond the memory; else those of the runs. A demand that was not reached within the rounds, or
+/// that refinement does not bring nearer, is no error: [`Demand::reached`] says so.
 pub fn reach(
     scene: &Scene,
     backend: Backend,
@@ -96,6 +101,7 @@ pub fn reach(
     let mut spent = 0.0;
     let mut ladder = Ladder::default();
     let mut last: Option<(Scene, f64)> = None;
+    let mut best = Best::default();
     for round in 1..=ROUNDS {
         let coarser = last.as_ref().map(|(scene, width)| (scene, *width));
         let (level, model) = nearest(&wanted, factor, demand, coarser)?;
@@ -145,7 +151,15 @@ pub fn reach(
             told(&outcome)
         ));
         let within = outcome.within(demand);
+        let stalled = !within && best.is_no_longer_bettered(outcome.stated, fine);
+        if stalled {
+            choices.push(format!(
+                "no better than on a mesh {BEYOND_BEST:.0} times coarser: refinement does not bring {} nearer",
+                outcome.worst.as_deref().unwrap_or("it")
+            ));
+        }
         let stop = within
+            || stalled
             || round == ROUNDS
             || observer.stop_requested()
             || results.incomplete.is_some()
@@ -212,6 +226,24 @@ pub fn reach(
     Err(Error::internal("the rounds of a demand end in the loop"))
 }
 
+/// The least error stated on the way to a demand, and how fine the mesh was.
+#[derive(Default)]
+struct Best(Option<(f64, f64)>);
+
+impl Best {
+    /// Whether the error does not fall any more: a peak that grows with the mesh, as at a re-entrant corner or the edge of a dent, has no limit.
+    fn is_no_longer_bettered(&mut self, stated: f64, fine: f64) -> bool {
+        match self.0 {
+            Some((least, then)) if stated >= FALLEN * least => fine >= BEYOND_BEST * then,
+            _ if stated.is_nan() => false,
+            _ => {
+                self.0 = Some((stated, fine));
+                false
+            }
+        }
+    }
+}
+
 /// How much finer the next mesh is made on the way to one that is `finer`: equal strides, none longer than [`STRIDE`]; a mesh from a
 /// file is cut in halves.
 fn stride(scene: &Scene, finer: f64) -> f64 {
@@ -274,6 +306,21 @@ fn more_steps(scene: &mut Scene, results: &Results, factor: f64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_error_that_does_not_fall_ends_the_climb() {
+        let mut falls = Best::default();
+        let mut stalls = Best::default();
+        for k in 0..12 {
+            let fine = 1.5f64.powi(k);
+            // Even the slowest convergence, of order 1/4, goes on.
+            assert!(!falls.is_no_longer_bettered(fine.powf(-0.25), fine));
+            let wavers = if k % 2 == 0 { 0.5 } else { 0.7 };
+            let too_fine = fine >= BEYOND_BEST;
+            assert_eq!(stalls.is_no_longer_bettered(wavers, fine), too_fine, "{k}");
+        }
+        assert!(!Best::default().is_no_longer_bettered(f64::NAN, 1.0));
+    }
 
     #[test]
     fn strides_are_equal_and_none_too_long() {

@@ -103,6 +103,8 @@ pub struct Engine<'m> {
     pub ahead: Option<(LoadPoint, Equilibrium)>,
     /// Elements outside the zone in which the last [`Engine::state`] found stress beyond yield.
     pub beyond_yield_outside: Vec<usize>,
+    /// Seconds spent on the stresses of all elements in the last state: forces, fields, error indicator.
+    pub stress_seconds: f64,
 }
 
 impl<'m> Engine<'m> {
@@ -170,6 +172,7 @@ impl<'m> Engine<'m> {
             pace: None,
             ahead: None,
             beyond_yield_outside: Vec::new(),
+            stress_seconds: 0.0,
             gap,
             interference,
             sub,

@@ -94,6 +94,7 @@ pub(super) struct Seconds {
     pub(super) contact: f64,
     pub(super) plasticity: f64,
     pub(super) states: f64,
+    pub(super) stresses: f64,
     pub(super) condensation: f64,
     pub(super) yield_load: f64,
 }
@@ -219,7 +220,8 @@ impl<'m, 'o> Run<'m, 'o> {
             self.resumed = None;
             let start = Instant::now();
             let state = self.engine.state(label, target.fields)?;
-            self.seconds.states += start.elapsed().as_secs_f64();
+            self.seconds.stresses += self.engine.stress_seconds;
+            self.seconds.states += start.elapsed().as_secs_f64() - self.engine.stress_seconds;
             let missed = std::mem::take(&mut self.engine.beyond_yield_outside);
             let start = self.start.take();
             if missed.is_empty() {
@@ -438,6 +440,7 @@ impl<'m, 'o> Run<'m, 'o> {
             ("elastic increments", self.seconds.contact),
             ("elastoplastic increments", self.seconds.plasticity),
             ("states", self.seconds.states),
+            ("stresses", self.seconds.stresses),
         ] {
             results.timings.push((name.to_string(), seconds));
         }

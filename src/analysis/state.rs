@@ -10,6 +10,7 @@ use crate::model::{Magnitude, Model, Slot};
 use crate::results::{Fields, State};
 use crate::scene::History;
 use rayon::prelude::*;
+use std::time::Instant;
 
 impl Engine<'_> {
     /// The current state with its quality; fields where asked for. Costs half a full solve.
@@ -19,6 +20,7 @@ impl Engine<'_> {
     pub fn state(&mut self, name: &str, with_fields: bool) -> Result<State> {
         let displacements = self.displacements()?;
         let u = &displacements.total;
+        let begun = Instant::now();
         let nodal = self
             .model
             .nodal(displacements.deformation(), &self.at.factors);
@@ -30,6 +32,7 @@ impl Engine<'_> {
             let nodal = self.model.nodal(u, &self.at.factors);
             fields(&field, nodal, errors.by_element)
         });
+        self.stress_seconds = begun.elapsed().as_secs_f64();
         let figures = self.contact_figures();
         let residual_depth = self.residual_depth();
         let arc = figures

@@ -143,10 +143,11 @@ impl Backward {
     }
 }
 
+/// Read from the end, as the columns are taken: the memory delivers one stream.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; LANES];
-    let (a_lanes, b_lanes) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
-    let tail: f64 = a_lanes
+    let (a_lanes, b_lanes) = (a.rchunks_exact(LANES), b.rchunks_exact(LANES));
+    let head: f64 = a_lanes
         .remainder()
         .iter()
         .zip(b_lanes.remainder())
@@ -157,5 +158,5 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
             sums[lane] += a[lane] * b[lane];
         }
     }
-    sums.iter().sum::<f64>() + tail
+    sums.iter().sum::<f64>() + head
 }

@@ -92,7 +92,7 @@ fn report(threads: usize, runs: &[Value]) {
         let seconds = runs.iter().map(|run| number(&run["phases"][phase][1]));
         let theory = match name {
             "factorisation and condensation" => "n^1.5 flops, n log n order",
-            "mesh and model" | "assembly" | "states" | "output" => "n",
+            "mesh and model" | "assembly" | "states" | "stresses" | "output" => "n",
             _ => "",
         };
         row(&format!("{name}, s"), seconds.collect(), theory);
