@@ -206,13 +206,7 @@ impl Structure {
         let freedoms = structure.contact_freedoms().iter().map(|f| *f as i64);
         let freedoms = PyArray1::from_iter(py, freedoms).into_any();
         Ok(Structure {
-            condensed: lent(
-                py,
-                &condensed,
-                |c| c.as_slice(),
-                Some(n_contact),
-            )?
-            .unbind(),
+            condensed: lent(py, &condensed, |c| c.as_slice(), Some(n_contact))?.unbind(),
             contact_freedoms: read_only(freedoms)?.unbind(),
             n: structure.n_freedoms(),
             n_rows: structure.n_rows(),
