@@ -147,18 +147,19 @@ impl Recovery {
                 body,
             });
         }
-        // A smooth field has its maximum in or beside an element whose sample is a local maximum.
-        let mut peaks: Vec<Peak> = Vec::new();
+        // A smooth field has its maximum in or beside an element whose sample is a local maximum. Of equal samples (all round a bore) each counts as
+        // one: which is the largest is for round-off to say, and what is recovered beside them is not the same.
+        let mut candidates: Vec<u32> = Vec::new();
         for i in (0..raw.len()).filter(|&i| raw[i] >= CANDIDATE * raw[top]) {
             let around = self.neighbours_of(model, i);
-            if around.iter().all(|&j| raw[j as usize] <= raw[i]) {
-                peaks.push(self.climb(model, &around, samples));
+            let equal = raw[i] * (1.0 + TIE);
+            if around.iter().all(|&j| raw[j as usize] <= equal) {
+                candidates.extend(around);
             }
         }
-        let ratio = peaks.iter().map(|p| p.ratio).reduce(f64::max)?;
-        // Like bodies yield together: the first is named, not that of the larger round-off.
-        let first = peaks.iter().find(|p| p.ratio >= ratio * (1.0 - TIE))?;
-        Some(Peak { ratio, ..*first })
+        candidates.sort_unstable();
+        candidates.dedup();
+        self.climb(model, &candidates, samples)
     }
 
     /// Elements of the same body that share a node with element `i`, itself included.
@@ -179,7 +180,7 @@ impl Recovery {
 
     /// The maximum over some elements: a grid in each, then smaller and smaller steps round its best point. The recovered field is
     /// smooth in an element but not across: following the best grid point of all alone would let round-off choose the element.
-    fn climb(&mut self, model: &Model, elements: &[u32], samples: &Samples) -> Peak {
+    fn climb(&mut self, model: &Model, elements: &[u32], samples: &Samples) -> Option<Peak> {
         let mut tops: Vec<Top> = Vec::with_capacity(elements.len());
         for &i in elements {
             self.cache_patch(model, i);
@@ -192,25 +193,24 @@ impl Recovery {
             self.look_around(model, samples, &mut top, 0.5, 2);
             tops.push(top);
         }
+        let highest = |tops: &[Top]| tops.iter().fold(f64::NEG_INFINITY, |m, t| m.max(t.value));
         let mut step = 0.25;
         while step > FINEST {
             for top in &mut tops {
                 while self.look_around(model, samples, top, step, 1) {}
             }
-            let highest = tops.iter().fold(f64::NEG_INFINITY, |m, t| m.max(t.value));
-            tops.retain(|t| t.value >= highest * (1.0 - CURVATURE * step * step));
+            let least = highest(&tops) * (1.0 - CURVATURE * step * step);
+            tops.retain(|t| t.value >= least);
             step *= 0.5;
         }
-        // The first of equals: elements are in ascending order.
-        let best = tops.iter().fold(
-            tops[0],
-            |best, t| if t.value > best.value { *t } else { best },
-        );
-        Peak {
-            ratio: best.value,
-            location: best.point,
-            body: self.elements.list[best.element as usize].body as usize,
-        }
+        // Like bodies yield together: the first of equals is named (elements are in ascending order), not that of the larger round-off.
+        let ratio = highest(&tops);
+        let first = tops.iter().find(|t| t.value >= ratio * (1.0 - TIE))?;
+        Some(Peak {
+            ratio,
+            location: first.point,
+            body: self.elements.list[first.element as usize].body as usize,
+        })
     }
 
     /// Moves to the highest of the points `step` apart round the current one; whether any is higher.

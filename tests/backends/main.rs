@@ -7,6 +7,7 @@
 mod agreement;
 mod parts;
 mod random;
+mod round;
 #[path = "../running/mod.rs"]
 mod running;
 mod scenes;
