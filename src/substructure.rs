@@ -70,9 +70,14 @@ impl Trailing {
         sum(&self.zone, &other.zone) + sum(&self.contact, &other.contact)
     }
 
-    /// Largest absolute value.
+    /// Largest absolute value; NaN where there is one.
     pub fn largest(&self) -> f64 {
-        self.iter().fold(0.0f64, |m, v| m.max(v.abs()))
+        let [zone, contact] = [&self.zone, &self.contact].map(|part| linalg::largest(part));
+        if zone > contact || zone.is_nan() {
+            zone
+        } else {
+            contact
+        }
     }
 
     /// Takes over the values of another vector of the same size.
