@@ -109,6 +109,9 @@ impl Engine<'_> {
             Some(resumed) => resumed,
             None => {
                 let watched = monitor.map(|m| m(self));
+                if is_hit(watched) {
+                    return Ok(Arrival::Monitor);
+                }
                 (ElasticPiece::new(self, end)?, watched)
             }
         };
@@ -206,7 +209,13 @@ impl Engine<'_> {
     ) -> Result<Arrival> {
         let mut leg = match leg {
             Some(Leg::Plastic(leg)) => leg,
-            _ => self.begin_plastic(end, monitor),
+            _ => {
+                let leg = self.begin_plastic(end, monitor);
+                if is_hit(leg.watched) {
+                    return Ok(Arrival::Monitor);
+                }
+                leg
+            }
         };
         let smallest = SMALLEST_CUT * leg.whole;
         loop {
@@ -375,6 +384,11 @@ impl Engine<'_> {
         self.update_scales();
         reported.event = describe(&changes);
     }
+}
+
+/// Whether a drive begins where the monitored quantity is zero already: on the way it would not change its sign there.
+fn is_hit(watched: Option<f64>) -> bool {
+    watched.is_some_and(|value| value.abs() <= MONITOR_ACCURACY)
 }
 
 /// The error of a run that its caller stopped.

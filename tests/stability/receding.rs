@@ -115,3 +115,21 @@ fn a_load_in_one_step_pairs_the_whole_surface() {
     assert!(path.history.len() >= 10);
     same_contact("one step", &path.states[0], pressed, 1e-10);
 }
+
+/// The extent hardly depends on the load: the one at first yield is there already when it is asked for. (Once the load went down to nothing in search of
+/// it.)
+#[test]
+fn a_half_width_that_is_there_already_needs_no_way() {
+    let results = run(&load(
+        "disc_in_plate",
+        &[
+            "mesh.disc_in_plate.resolution=12",
+            "program.targets=[{ yield = true }, { half_width = 1.0 }]",
+        ],
+    ));
+    healthy(&results);
+    let [at_yield, there] = &results.states[..] else {
+        panic!("two states")
+    };
+    close("load", there.load, at_yield.load, at_yield.load, 1e-9);
+}
