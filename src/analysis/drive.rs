@@ -112,6 +112,14 @@ impl Engine<'_> {
                 if is_hit(watched) {
                     return Ok(Arrival::Monitor);
                 }
+                if self.rests_at(end) {
+                    let goes_on = self.note(watcher, "target", self.counts.trailing_solves)?;
+                    return Ok(if goes_on {
+                        Arrival::End
+                    } else {
+                        Arrival::Stopped
+                    });
+                }
                 (ElasticPiece::new(self, end)?, watched)
             }
         };
@@ -397,6 +405,13 @@ pub fn stopped() -> Error {
 }
 
 impl Engine<'_> {
+    /// Whether nothing has moved yet and nothing is to, on the way to `end`: what a solve would find there is round-off.
+    fn rests_at(&self, end: &LoadPoint) -> bool {
+        let still = self.now.u.largest() == 0.0 && self.now.force.iter().all(|r| *r == 0.0);
+        let apart = self.now.gap.iter().all(|g| *g >= 0.0);
+        self.at == *end && self.fresh && still && apart && self.now.gap == self.delta(end)
+    }
+
     /// Whether the way to `end` leads back against the last increment: then the material unloads elastically at first.
     fn turns_back(&self, end: &LoadPoint) -> bool {
         let step = self.at.step_to(end);

@@ -142,3 +142,21 @@ fn complete_separation_at_no_load_leaves_the_dent() {
     assert!(loaded.plastic_points > 0);
     assert!(unloaded.residual_depth.abs() > 0.0);
 }
+
+/// The state before anything acts is the one that the scene describes, not the round-off of finding it: its quality is no ratio of two of these.
+#[test]
+fn where_nothing_acts_nothing_moves() {
+    let results = run_file(
+        "hard/one_pair",
+        &["program.targets=[{ load_factor = 0.0 }]"],
+    );
+    healthy(&results);
+    let [state] = &results.states[..] else {
+        panic!("one state")
+    };
+    assert_eq!(
+        (state.load, state.contact_force, state.approach),
+        (0.0, 0.0, 0.0)
+    );
+    assert!(results.inaccurate.is_empty(), "{:?}", results.inaccurate);
+}
