@@ -186,6 +186,26 @@ impl<'m> Engine<'m> {
         Ok(engine)
     }
 
+    /// Back to where nothing acts, with the zone at hand and no history.
+    pub(super) fn begin_anew(&mut self) {
+        let n = self.gap.len();
+        self.at = LoadPoint {
+            alpha: 0.0,
+            factors: vec![0.0; self.model.loads.len()],
+            interference: 0.0,
+        };
+        self.now = Equilibrium {
+            gap: self.gap.clone(),
+            ..Equilibrium::none(&self.sub.zeros(), n)
+        };
+        let open: Vec<bool> = self.gap.iter().map(|g| *g > 0.0).collect();
+        self.tableau.reset(&open);
+        self.border.clear();
+        self.last_step.fill(0.0);
+        self.pace = None;
+        self.fresh = true;
+    }
+
     /// Changes the zone to the given elements, factoring the structure again only where it must. State, statuses and history
     /// are kept.
     ///

@@ -3,12 +3,23 @@
 use super::drive::{Arrival, IncrementReport, stopped};
 use super::engine::{Engine, LoadPoint};
 use super::equilibrium::{EliminatedLoad, Equilibrium};
+use super::place::Place;
 use super::program::{DOUBLINGS, Run, ZONE_ATTEMPTS};
 use super::recovery::Peak;
 use super::zone_choice::{self, Choice};
 use crate::error::{Error, Result};
 use crate::results::YieldPoint;
 use crate::scene::{Unit, YieldMethod};
+
+/// What a search for first yield came to.
+pub(super) enum Search {
+    /// First yield at this load factor.
+    Found(f64, Peak),
+    /// Nothing yields up to the program's largest load factor.
+    Nothing,
+    /// Something else than what was searched yields: a choice that holds it.
+    Outside(Choice),
+}
 
 impl Run<'_, '_> {
     /// Finds the yield load on the path of growing load factor and comes back to the start; with `judge` takes note of the quality there.
@@ -35,13 +46,22 @@ impl Run<'_, '_> {
                     self.recovery();
                     let recovery = self.recovery.as_mut();
                     let recovery = recovery.ok_or_else(|| Error::internal("no recovery"))?;
-                    Some(self.engine.secant_yield_load(recovery)?)
+                    let (alpha, peak) = self.engine.secant_yield_load(recovery)?;
+                    Search::Found(alpha, peak)
                 }
-                YieldMethod::Secant => None,
+                YieldMethod::Secant => Search::Nothing,
             };
-            let missed = match &found {
-                Some(_) => self.missed_outside()?,
-                None => None,
+            if let Search::Found(alpha, _) = found
+                && alpha == origin.0.alpha
+            {
+                // The preload alone: the place was not looked at, so that it was gone through as if elastic.
+                self.preload_anew()?;
+                return self.find_yield(required, judge);
+            }
+            let (found, missed) = match found {
+                Search::Found(alpha, peak) => (Some((alpha, peak)), self.missed_outside()?),
+                Search::Nothing => (None, None),
+                Search::Outside(choice) => (None, Some(choice)),
             };
             if missed.is_none() {
                 if let Some((alpha, peak)) = found {
@@ -75,6 +95,21 @@ impl Run<'_, '_> {
         ))
     }
 
+    /// Applies the preload from the begin, with the zone at hand.
+    fn preload_anew(&mut self) -> Result<()> {
+        self.engine.begin_anew();
+        self.results.history.clear();
+        self.place.preload = true;
+        self.preload()?;
+        self.place = Place::default();
+        if self.plastic {
+            return Ok(());
+        }
+        Err(Error::internal(
+            "the material yields under the preload, and does not when that is applied anew",
+        ))
+    }
+
     /// Puts an elastic state back, also after the zone was chosen anew.
     pub(super) fn come_back(&mut self, (at, now, open): &(LoadPoint, Equilibrium, Vec<bool>)) {
         let engine = &mut self.engine;
@@ -91,8 +126,9 @@ impl Run<'_, '_> {
         self.plastic = false;
     }
 
-    /// First yield along the path of growing load factor, up to the largest the program asks for unless yield is required.
-    pub(super) fn exact_yield(&mut self, required: bool) -> Result<Option<(f64, Peak)>> {
+    /// First yield along the path of growing load factor, up to the largest the program asks for unless yield is required. At the end of each
+    /// straight piece, where the stresses of a load that turns back are largest, those outside the zone are looked at too.
+    fn exact_yield(&mut self, required: bool) -> Result<Search> {
         let limit = if required {
             None
         } else {
@@ -114,11 +150,14 @@ impl Run<'_, '_> {
                     None,
                     &mut quiet,
                 )? {
-                    return Ok(Some((self.engine.at.alpha, peak)));
+                    return Ok(Search::Found(self.engine.at.alpha, peak));
+                }
+                if let Some(choice) = self.missed_outside()? {
+                    return Ok(Search::Outside(choice));
                 }
             }
             if limit.is_some() {
-                return Ok(None);
+                return Ok(Search::Nothing);
             }
             end *= 2.0;
             if self.observer.stop_requested() {
@@ -168,9 +207,12 @@ impl Run<'_, '_> {
         Ok(())
     }
 
-    /// At first yield nothing outside the zone may be beyond yield: else the zone missed the place, and a better one is
+    /// Up to first yield nothing outside the zone may be beyond yield: else the zone missed the place, and a better one is
     /// returned.
-    pub(super) fn missed_outside(&mut self) -> Result<Option<Choice>> {
+    fn missed_outside(&mut self) -> Result<Option<Choice>> {
+        if self.choice.holds_all(self.model()) {
+            return Ok(None);
+        }
         let u = self.engine.all_displacements()?;
         let ratios = zone_choice::stress_ratios(self.model(), &u, &self.engine.at.factors);
         let outside = (0..ratios.len())

@@ -232,6 +232,8 @@ impl<'m, 'o> Run<'m, 'o> {
             (self.plastic, self.yield_alpha, self.results.first_yield) =
                 (start.plastic, start.yield_alpha, start.first_yield);
             self.results.history.truncate(start.increments);
+            // What was searched for first yield did not hold all that yields: the way is watched from its begin.
+            self.elastic_range = [0.0; 2];
             let wider = zone_choice::including(self.model(), &self.choice, &missed);
             self.set_zone(wider)?;
         }

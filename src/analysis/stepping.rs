@@ -69,7 +69,9 @@ impl Engine<'_> {
                 }
                 Err(NoIncrement::Stopped) => return Err(stopped()),
                 Err(NoIncrement::NotConverged(residual)) => {
-                    if CUT * most < smallest {
+                    // Written so that a way of no length, of which nothing is a share, ends here too.
+                    let worth_cutting = CUT * most >= smallest;
+                    if !worth_cutting {
                         return Err(Error::new(
                             ErrorKind::Collapse,
                             format!(

@@ -42,6 +42,12 @@ impl Choice {
         let guard = elements.iter().map(|&e| !core[e]).collect();
         Choice { elements, guard }
     }
+
+    /// Whether it holds all elements that may yield. (That none of it watches does not say so: another body may be out of reach.)
+    pub fn holds_all(&self, model: &Model) -> bool {
+        let n = model.mesh.n_elements();
+        self.elements.len() == (0..n).filter(|&e| may_yield(model, e)).count()
+    }
 }
 
 /// Free freedoms of the elements that are not contact freedoms, ascending.

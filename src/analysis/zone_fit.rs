@@ -25,7 +25,7 @@ impl Run<'_, '_> {
     /// Chooses the zone for the program's extreme loads from the elastic stress there. What was factored as zone usually holds
     /// it; else this is the second factorisation, and the last.
     pub(super) fn fit_zone(&mut self) -> Result<()> {
-        if self.choice.guard.iter().all(|g| !g) {
+        if self.choice.holds_all(self.model()) {
             return Ok(());
         }
         let Some(at_yield) = self.yield_alpha else {
@@ -90,7 +90,8 @@ impl Run<'_, '_> {
         self.set_zone(next)
     }
 
-    /// Load factors between which the program moves; a target half width of m times that at yield stands for m^2.
+    /// Load factors between which the program moves, and those on the way at which a load turns; a target half width of m times that at yield
+    /// stands for m^2.
     fn extreme_factors(&self, at_yield: f64) -> Vec<f64> {
         let mut all: Vec<f64> = Vec::new();
         for target in &self.model().scene.program.targets {
@@ -99,11 +100,11 @@ impl Run<'_, '_> {
         }
         let high = all.iter().copied().fold(at_yield, f64::max);
         let low = all.iter().copied().fold(0.0, f64::min);
-        if low < 0.0 {
-            vec![high, low]
-        } else {
-            vec![high]
-        }
+        let mut extremes = vec![high];
+        extremes.extend((low < 0.0).then_some(low));
+        let kinks = self.model().loads.iter().flat_map(|load| load.kinks());
+        extremes.extend(kinks.filter(|k| (at_yield..high).contains(k) || (low..0.0).contains(k)));
+        extremes
     }
 
     /// Goes on with another zone; state and history are kept.

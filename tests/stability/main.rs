@@ -4,6 +4,7 @@
 
 mod checkpoint;
 mod cycles;
+mod elsewhere;
 mod flow;
 mod held_by_contact;
 mod incompressible;
