@@ -287,11 +287,7 @@ fn note_failure(
         Ok(()) => keeper.failed = false,
         Err(error) if !keeper.failed => {
             keeper.failed = true;
-            let cause = std::error::Error::source(&error).map(|c| format!(": {c}"));
-            let text = format!(
-                "no checkpoint: {error}{}; the run goes on",
-                cause.unwrap_or_default()
-            );
+            let text = format!("no checkpoint: {}; the run goes on", error.in_full());
             observer.warning(&text);
             results.warnings.push(text);
         }

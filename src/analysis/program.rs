@@ -47,7 +47,7 @@ pub(super) fn complete(mut run: Run, yield_only: bool) -> Result<Results> {
         Ok(()) => {}
         Err(error) if results.states.is_empty() && results.history.is_empty() => return Err(error),
         Err(error) => {
-            results.incomplete = Some(error.message().to_string());
+            results.incomplete = Some(error.in_full());
             results.incomplete_kind = Some(error.kind());
         }
     }
@@ -292,14 +292,14 @@ impl<'m, 'o> Run<'m, 'o> {
         let remembering = monitor.map(|monitor| {
             let last = &last;
             move |engine: &mut Engine| {
-                last.set(monitor(engine));
-                last.get()
+                last.set(monitor(engine)?);
+                Ok(last.get())
             }
         });
         let monitor = remembering.as_ref().map(|m| m as &Monitor);
         let mut watched = match leg {
             Some(_) => None,
-            None => monitor.map(|m| m(&mut self.engine)),
+            None => monitor.map(|m| m(&mut self.engine)).transpose()?,
         };
         if let (Aim::Monitored { at_first }, Some(value)) = (&mut self.aim, watched) {
             at_first.get_or_insert(value.abs());
@@ -318,7 +318,7 @@ impl<'m, 'o> Run<'m, 'o> {
             }
             if let (Some(monitor), Some(was)) = (monitor, watched) {
                 // Another zone puts the state in equilibrium anew, within the tolerance: that may be all that was missing.
-                let is = monitor(&mut self.engine);
+                let is = monitor(&mut self.engine)?;
                 if is != was && (is > 0.0) != (was > 0.0) {
                     return Ok(Arrival::Monitor);
                 }
@@ -380,7 +380,7 @@ impl<'m, 'o> Run<'m, 'o> {
                 self.seconds.contact += spent;
             }
             let arrival = arrival?;
-            watched = monitor.map(|m| m(&mut self.engine));
+            watched = monitor.map(|m| m(&mut self.engine)).transpose()?;
             match arrival {
                 Arrival::ZoneTooSmall => {
                     let larger = zone_choice::grown(model, &self.choice);

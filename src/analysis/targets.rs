@@ -102,7 +102,7 @@ impl Run<'_, '_> {
             let goal = multiple * at_yield;
             // Relative, so that the accuracy of the search does not depend on units.
             let monitor =
-                move |engine: &mut Engine| engine.contact_figures().half_width / goal - 1.0;
+                move |engine: &mut Engine| Ok(engine.contact_figures().half_width / goal - 1.0);
             let upward = self.engine.contact_figures().half_width < goal;
             return self.search(&monitor, upward, 1.0, label);
         }
@@ -122,34 +122,25 @@ impl Run<'_, '_> {
         })?;
         let direction = usize::from(goal.direction == Direction::Y);
         let value = goal.value;
-        let distance = move |engine: &mut Engine| match engine.all_displacements() {
-            Ok(u) => {
-                let sum: f64 = nodes
-                    .iter()
-                    .map(|&n| {
-                        engine
-                            .model
-                            .freedoms
-                            .displacement(n, &u, &engine.at.factors)[direction]
-                    })
-                    .sum();
-                sum / nodes.len() as f64 - value
-            }
-            Err(_) => f64::NAN,
+        let distance = move |engine: &mut Engine| -> Result<f64> {
+            let u = engine.all_displacements()?;
+            let (freedoms, factors) = (&engine.model.freedoms, &engine.at.factors);
+            let along = |&n: &usize| freedoms.displacement(n, &u, factors)[direction];
+            Ok(nodes.iter().map(along).sum::<f64>() / nodes.len() as f64 - value)
         };
         let resumed = self.resumed.as_ref().and_then(|place| place.search);
         let scale = match resumed {
             Some(search) => search.scale,
-            None => value.abs().max(distance(&mut self.engine).abs()),
+            None => value.abs().max(distance(&mut self.engine)?.abs()),
         };
         let monitor = move |engine: &mut Engine| {
-            let off = distance(engine);
-            if scale > 0.0 { off / scale } else { off }
+            let off = distance(engine)?;
+            Ok(if scale > 0.0 { off / scale } else { off })
         };
         if let Some(search) = resumed {
             return self.search(&monitor, search.upward, scale, label);
         }
-        let here = monitor(&mut self.engine);
+        let here = monitor(&mut self.engine)?;
         let ahead = {
             let alpha = self.engine.at.alpha;
             let probe = self.engine.point(alpha + 1e-3 * alpha.abs().max(1.0));
@@ -159,7 +150,7 @@ impl Run<'_, '_> {
             self.engine.at = probe;
             let value = monitor(&mut self.engine);
             (self.engine.at, self.engine.now) = saved;
-            value
+            value?
         };
         let upward = (ahead - here) * here <= 0.0;
         self.search(&monitor, upward, scale, label)
@@ -200,7 +191,7 @@ impl Run<'_, '_> {
                 _ => return Err(stopped()),
             }
         }
-        let off = monitor(&mut self.engine);
+        let off = monitor(&mut self.engine)?;
         Err(Error::analysis(format!(
             "target `{label}` was never reached: the load factor went to {:.6} and the target quantity is still off by {off:.6e}",
             self.engine.at.alpha

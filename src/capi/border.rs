@@ -3,7 +3,6 @@
 use crate::error::{Error, ErrorKind, Result};
 use crate::panics::contained;
 use std::cell::RefCell;
-use std::error::Error as _;
 use std::ffi::{CStr, CString, c_char};
 
 /// Done.
@@ -63,10 +62,8 @@ pub(super) fn guarded(act: impl FnOnce() -> Result<()>) -> i32 {
 /// Keeps an error for [`brinell_last_error`] and returns its status.
 pub(super) fn note(error: &Error) -> i32 {
     let mut text = error.to_string();
-    let mut cause = error.source();
-    while let Some(reason) = cause {
-        text.push_str(&format!("\ncaused by: {reason}"));
-        cause = reason.source();
+    for cause in error.causes() {
+        text.push_str(&format!("\ncaused by: {cause}"));
     }
     let text = CString::new(text.replace('\0', " ")).unwrap_or_default();
     LAST_ERROR.set(text);
