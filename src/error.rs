@@ -113,8 +113,9 @@ impl Error {
 
     /// The message with its causes behind it, in one line.
     pub fn in_full(&self) -> String {
-        self.causes()
-            .fold(self.message.clone(), |text, cause| format!("{text}: {cause}"))
+        self.causes().fold(self.message.clone(), |text, cause| {
+            format!("{text}: {cause}")
+        })
     }
 }
 

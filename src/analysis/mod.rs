@@ -9,7 +9,7 @@
 //! | `zone`, `gather`, `zone_choice`, `zone_fit` | elements that may yield, initial loads, their choice and growth | 4.1 |
 //! | `tangent`, `acceleration` | acceleration of the plastic iteration | |
 //! | `program`, `targets`, `drive`, `stepping` | from target to target, loading and unloading | 5.1, 5.2 |
-//! | `keeper`, `resume`, `place`, `record`, `saved`, `packed` | checkpoints, and going on from them | |
+//! | `keeper`, `resume`, `place`, `standing`, `record`, `saved`, `packed` | checkpoints, and going on from them | |
 //! | `aim` | how much of the way to a target lies behind | |
 //! | `measure`, `contact_edge`, `state`, `quality` | pressure, half width, dent, quality of a state | 5 |
 //! | `stress_field`, `stresses` | stresses of all elements, the forces they exert | |
@@ -42,6 +42,7 @@ mod reference;
 mod response;
 mod resume;
 mod saved;
+mod standing;
 mod state;
 mod step_length;
 mod stepping;

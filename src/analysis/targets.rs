@@ -17,7 +17,7 @@ impl Run<'_, '_> {
             .loads
             .iter()
             .flat_map(|l| l.kinks())
-            .chain(self.yield_alpha.filter(|_| !self.plastic))
+            .chain(self.standing.yield_alpha.filter(|_| !self.standing.plastic))
             .filter(|k| (*k - from) * (alpha - *k) > 0.0)
             .collect();
         stops.sort_by(|a, b| a.total_cmp(b));
@@ -47,23 +47,26 @@ impl Run<'_, '_> {
             self.place.stops = stops[i..].to_vec();
             let end = self.engine.point(stop);
             loop {
-                let [low, high] = self.elastic_range;
+                let [low, high] = self.standing.elastic_range;
                 let from = self.engine.at.alpha;
                 let known = from.min(stop) >= low && from.max(stop) <= high;
                 let resumed = self.resumed.as_ref().and_then(|place| place.drive.as_ref());
-                let watch_yield = resumed.map_or(!self.plastic && !known, |d| d.watch_yield);
+                let watch_yield =
+                    resumed.map_or(!self.standing.plastic && !known, |d| d.watch_yield);
                 match self.drive(&end, monitor, watch_yield)? {
                     Arrival::End => break,
                     Arrival::Yield(peak) => {
                         self.record_yield(peak)?;
-                        self.yield_alpha.get_or_insert(self.engine.at.alpha);
+                        self.standing
+                            .yield_alpha
+                            .get_or_insert(self.engine.at.alpha);
                     }
                     Arrival::Stopped => return Err(stopped()),
                     other => return Ok(other),
                 }
             }
-            if self.yield_alpha == Some(stop) {
-                self.plastic = true;
+            if self.standing.yield_alpha == Some(stop) {
+                self.standing.plastic = true;
             }
         }
         Ok(Arrival::End)
@@ -76,7 +79,7 @@ impl Run<'_, '_> {
 
     pub(super) fn reach(&mut self, target: &Target, label: &str) -> Result<()> {
         if target.first_yield {
-            let alpha = self.yield_alpha.ok_or_else(|| {
+            let alpha = self.standing.yield_alpha.ok_or_else(|| {
                 Error::analysis(format!("target `{label}`: no yield load was found before the program's largest load factor"))
             })?;
             self.aim_at_factor(alpha);
@@ -177,7 +180,11 @@ impl Run<'_, '_> {
         while search.rounds < DOUBLINGS {
             if !under_way {
                 search.end = match (search.upward, search.end > 0.0) {
-                    (true, _) => 2.0 * search.end.max(0.5 * self.yield_alpha.unwrap_or(1.0)),
+                    (true, _) => {
+                        2.0 * search
+                            .end
+                            .max(0.5 * self.standing.yield_alpha.unwrap_or(1.0))
+                    }
                     (false, true) => 0.0,
                     (false, false) => break,
                 };

@@ -256,7 +256,7 @@ fn a_search_ends_with_the_error_of_what_it_looks_at() {
             Ok(engine.at.alpha - 0.9)
         };
         let found = run.search(&monitor, true, 1.0, "pulled");
-        found.map(|()| (run.engine.at.alpha, run.plastic, calls.get()))
+        found.map(|()| (run.engine.at.alpha, run.standing.plastic, calls.get()))
     };
     let (alpha, plastic, calls) = search(usize::MAX).unwrap();
     assert!((alpha - 0.9).abs() < 1e-9 && plastic, "{alpha}");

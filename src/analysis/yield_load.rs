@@ -46,8 +46,9 @@ pub fn yield_share(
         peak.map_or(-1.0, |p| p.ratio - 1.0)
     };
     let ends = [0.0, 1.0].map(|s| (s, beyond(s)));
-    let Ok(share) =
-        bracketed_root(ends[0], ends[1], ACCURACY, |s| Ok::<_, Infallible>(beyond(s)));
+    let Ok(share) = bracketed_root(ends[0], ends[1], ACCURACY, |s| {
+        Ok::<_, Infallible>(beyond(s))
+    });
     (share, found)
 }
 
