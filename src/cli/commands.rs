@@ -7,7 +7,7 @@ use super::{completions, example, interrupt, new, print, report, schema, study, 
 use crate::accuracy::{self, Extent};
 use crate::analysis::{self, Analysis, Check};
 use crate::checkpoint::Checkpoints;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::linalg::Backend;
 use crate::model::Model;
 use crate::output::{self, RunHeader};
@@ -101,23 +101,7 @@ fn analyse(
         report::results(&scene, &header.bodies, &results, seconds(), out.as_deref())
     };
     print(&text)?;
-    match &results.incomplete {
-        None if !results.inaccurate.is_empty() => Err(Error::new(
-            ErrorKind::Inaccurate,
-            results.inaccurate.join("\n"),
-        )),
-        None => match results.accuracy.as_ref().and_then(|a| a.demand.as_ref()) {
-            Some(demand) if !demand.reached => Err(Error::new(
-                ErrorKind::Inaccurate,
-                crate::output::stated_errors::demand(demand),
-            )),
-            _ => Ok(()),
-        },
-        Some(why) => Err(Error::new(
-            results.incomplete_kind.unwrap_or(ErrorKind::Analysis),
-            format!("the run ended before its program did: {why}"),
-        )),
-    }
+    output::ending(&results)
 }
 
 /// Runs the scene as it stands, and estimates the errors.
