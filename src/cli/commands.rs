@@ -53,7 +53,8 @@ fn analyse(
     start: Instant,
 ) -> Result<()> {
     let common = &arguments.common;
-    let scene = prepare(common)?;
+    let demand = arguments.accuracy.as_ref();
+    let scene = prepare(common, demand.map(|a| format!("accuracy={a}")))?;
     if let Some(out) = &out {
         // A directory that cannot be written is better found before an hour's run than after it.
         output::check_directory(out)?;
@@ -164,7 +165,7 @@ pub(super) fn header(
 
 /// What a run would do and cost.
 fn predict(common: &CommonArguments) -> Result<()> {
-    let scene = prepare(common)?;
+    let scene = prepare(common, None)?;
     let model = Model::new(&scene)?;
     let check: Check = analysis::check(&model, common.solver.into())?;
     print(&if common.json {
@@ -174,9 +175,9 @@ fn predict(common: &CommonArguments) -> Result<()> {
     })
 }
 
-pub(super) fn prepare(common: &CommonArguments) -> Result<Scene> {
-    let mut overrides = common.overrides.clone();
-    overrides.extend(common.accuracy.iter().map(|a| format!("accuracy={a}")));
+/// The scene with all that is put over it, `last` after the rest.
+pub(super) fn prepare(common: &CommonArguments, last: Option<String>) -> Result<Scene> {
+    let overrides: Vec<String> = common.overrides.iter().cloned().chain(last).collect();
     let scene = Scene::load_with(&common.scene, &overrides)?;
     start_threads(common.threads.map(usize::from))?;
     Ok(scene)
