@@ -28,6 +28,7 @@ use super::outcome::{AIM, LEAST_STEP, Outcome, PATH_SHARE, Trial, told};
 use super::pilot::pilot;
 use super::refinement::{largest_order, refined};
 use super::refusal::{Cost, in_doubt, percent, refuse_beyond_memory, refuse_round_off};
+use super::stall::{BEYOND_BEST, Best};
 use crate::analysis::Analysis;
 use crate::error::{Error, Result};
 use crate::linalg::Backend;
@@ -49,15 +50,14 @@ const LOOSEST: f64 = 1e-6;
 const STRIDE: f64 = 1.9;
 /// Elements up to which a mesh is run without asking what it takes: a tenth of a second, and well below 100 MB.
 const SMALL: usize = 5000;
+/// The lowest mesh may have so many times the elements of the foot of the ladder: rounded to what can be made.
+const AT_FOOT: f64 = 0.9;
+/// The next mesh is finer than the last by at least this.
+const BARELY_FINER: f64 = 1.0 + 1e-9;
 /// Runs before the demand is given up.
 const ROUNDS: usize = 12;
 /// Rounds from which on the prediction of the mesh that will do is believed.
 const TRUSTED: usize = 4;
-
-/// The error has fallen where it is this share of the least before; refinement is given up on a mesh that is so many times finer than the
-/// last one on which it had: an order of 1/4 would bring it to 0.76.
-const FALLEN: f64 = 0.8;
-const BEYOND_BEST: f64 = 3.0;
 
 /// A run that was made to a demand.
 pub struct Reached {
@@ -84,8 +84,8 @@ pub fn reach(
     let Some(demand) = scene.accuracy.map(|a| a.relative()) else {
         return Err(Error::input("the scene demands no accuracy"));
     };
-    let first =
-        once_subdivided(scene).or_else(|| spacings(scene).map(|count| foot(scene, extent) / count));
+    let foot = foot(scene, extent);
+    let first = once_subdivided(scene).or_else(|| spacings(scene).map(|count| foot / count));
     let Some(mut factor) = first else {
         return Err(Error::input(
             "`accuracy`: the mesh of this scene cannot be refined; take the key out",
@@ -101,10 +101,11 @@ pub fn reach(
     let mut spent = 0.0;
     let mut ladder = Ladder::default();
     let mut last: Option<(Scene, f64)> = None;
+    let mut least = spacings(scene).map_or(0.0, |_| AT_FOOT * foot);
     let mut best = Best::default();
     for round in 1..=ROUNDS {
         let coarser = last.as_ref().map(|(scene, width)| (scene, *width));
-        let (level, model) = nearest(&wanted, factor, demand, coarser)?;
+        let (level, model) = nearest(&wanted, factor, demand, coarser, least)?;
         let settings = resolution(&level, 1.0 / factor);
         observer.phase(&format!("accuracy {}: {settings}", percent(demand)));
         let fine = fineness(&level).unwrap_or(factor);
@@ -222,26 +223,9 @@ pub fn reach(
         factor = made * step;
         let width = results.first_yield.as_ref().map_or(0.0, |y| y.half_width);
         last = Some((level, width));
+        least = fine * BARELY_FINER;
     }
     Err(Error::internal("the rounds of a demand end in the loop"))
-}
-
-/// The least error stated on the way to a demand, and how fine the mesh was.
-#[derive(Default)]
-struct Best(Option<(f64, f64)>);
-
-impl Best {
-    /// Whether the error does not fall any more: a peak that grows with the mesh, as at a re-entrant corner or the edge of a dent, has no limit.
-    fn is_no_longer_bettered(&mut self, stated: f64, fine: f64) -> bool {
-        match self.0 {
-            Some((least, then)) if stated >= FALLEN * least => fine >= BEYOND_BEST * then,
-            _ if stated.is_nan() => false,
-            _ => {
-                self.0 = Some((stated, fine));
-                false
-            }
-        }
-    }
 }
 
 /// How much finer the next mesh is made on the way to one that is `finer`: equal strides, none longer than [`STRIDE`]; a mesh from a
@@ -254,15 +238,15 @@ fn stride(scene: &Scene, finer: f64) -> f64 {
     finer.powf(1.0 / strides)
 }
 
-/// The member of the family nearest to `factor` that can be made and is finer than the last one, with its model.
+/// The member of the family nearest to `factor` that can be made and is at least so fine, with its model.
 fn nearest(
     scene: &Scene,
     factor: f64,
     demand: f64,
     last: Option<(&Scene, f64)>,
+    least: f64,
 ) -> Result<(Scene, Model)> {
-    let least = last.and_then(|(scene, _)| fineness(scene)).unwrap_or(0.0);
-    let is_finer = |scene: &Scene| fineness(scene).is_none_or(|n| n > least);
+    let is_finer = |scene: &Scene| fineness(scene).is_none_or(|n| n >= least);
     for more in [1.0, 1.1, 1.25, 1.5, 2.0] {
         let Some(level) = refined(scene, factor * more) else {
             continue;
@@ -306,21 +290,6 @@ fn more_steps(scene: &mut Scene, results: &Results, factor: f64) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn an_error_that_does_not_fall_ends_the_climb() {
-        let mut falls = Best::default();
-        let mut stalls = Best::default();
-        for k in 0..12 {
-            let fine = 1.5f64.powi(k);
-            // Even the slowest convergence, of order 1/4, goes on.
-            assert!(!falls.is_no_longer_bettered(fine.powf(-0.25), fine));
-            let wavers = if k % 2 == 0 { 0.5 } else { 0.7 };
-            let too_fine = fine >= BEYOND_BEST;
-            assert_eq!(stalls.is_no_longer_bettered(wavers, fine), too_fine, "{k}");
-        }
-        assert!(!Best::default().is_no_longer_bettered(f64::NAN, 1.0));
-    }
 
     #[test]
     fn strides_are_equal_and_none_too_long() {

@@ -7,7 +7,8 @@
 //! | `extrapolation` | the error of a value from those on other meshes |
 //! | `estimate` | discretisation, path and algebraic error of every quantity of a run |
 //! | `path` | the error of increments and tolerances |
-//! | `demand`, `outcome`, `refusal` | the cheapest settings that reach a demanded accuracy; what a trial says; what cannot be reached |
+//! | `demand`, `outcome` | the cheapest settings that reach a demanded accuracy; what a trial says |
+//! | `refusal`, `stall` | what is beyond the memory or round-off; what refinement does not bring nearer |
 //! | `ladder`, `edge` | the meshes on the way to a demand; where in an element a contact ends on them |
 //! | `grading`, `pilot` | resolution where it counts: which part of a mesh the errors come from |
 //! | `knobs`, `meter`, `study`, `verdict` | a study: what to turn, what it takes, the runs, what they say |
@@ -60,6 +61,7 @@ mod pilot;
 mod quantities;
 mod refinement;
 mod refusal;
+mod stall;
 mod study;
 mod verdict;
 

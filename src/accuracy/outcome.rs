@@ -5,6 +5,8 @@ use super::quantities::{Quantity, quantities};
 use super::refusal::percent;
 use crate::results::{Accuracy, QuantityError, Results};
 
+/// What is left to the path beside the mesh: so many times what it takes on this one.
+const PATH_MARGIN: f64 = 2.0;
 /// Share of the demand that the path may take.
 pub(super) const PATH_SHARE: f64 = 1.0 / 3.0;
 /// What is aimed at, of what is demanded: the error of a contact edge scatters.
@@ -99,13 +101,11 @@ impl Outcome {
         if quantity.scale == 0.0 {
             return;
         }
-        self.path = self.path.max(errors.path.unwrap_or(0.0) / quantity.scale);
+        let path = errors.path.unwrap_or(0.0) / quantity.scale;
+        let mesh = relative - path - errors.algebraic / quantity.scale;
+        self.path = self.path.max(path);
         self.algebraic = self.algebraic.max(errors.algebraic / quantity.scale);
-        let mesh = relative - (errors.path.unwrap_or(0.0) + errors.algebraic) / quantity.scale;
-        let share = match errors.path {
-            Some(path) if path > 0.0 => 1.0 - PATH_SHARE,
-            _ => 1.0,
-        };
+        let share = 1.0 - (PATH_MARGIN * path / demand).min(PATH_SHARE);
         self.mesh_share = self.mesh_share.min(share);
         if relative <= demand {
             return;

@@ -6,7 +6,7 @@
 
 use crate::error::Result;
 use crate::mesh::{Shape, generate};
-use crate::scene::{Block, MeshSource, Part, Scene};
+use crate::scene::{MeshSource, Part, Scene};
 
 /// Elements over the part of the mesh that governs the result (the contact, the thickness of a part) below which a mesh tells
 /// nothing about the next one.
@@ -21,6 +21,8 @@ const LEAST_CHANGE: f64 = 1.15;
 pub(super) const MOST_GROWTH: f64 = 100.0;
 /// Distance between a piece's end and a node, in elements, up to which they coincide.
 const ON_NODE: f64 = 1e-6;
+/// Largest number that element counts are made multiples of, but for the scene's own.
+const LARGEST_STEP: usize = 1000;
 /// Elements over what governs the result that a coarser mesh must have to tell the error of a finer one: below, the errors of the
 /// recovered stress and of the elements, of different order and sign, cancel by chance (Hertz' point contact: at five).
 const TELLING: f64 = 6.0;
@@ -62,14 +64,14 @@ pub struct Level {
     pub ratio: f64,
 }
 
-/// The scene with `factor` times as many elements along each line, rounded to what the generator can make; `None` where there is
-/// no such member of the family (a piece of a block that would end between nodes; a mesh from a file has those that are
-/// 2, 4, ... times as fine as the file).
+/// The scene with `factor` times as many elements along each line, rounded to what the generator can make and to nodes at the ends of
+/// pieces of blocks; `None` where there is no such member of the family (pieces of a block whose elements grow; a mesh from a file has
+/// those that are 2, 4, ... times as fine as the file).
 pub fn refined(scene: &Scene, factor: f64) -> Option<Level> {
     let mut out = scene.clone();
     let count = |n: usize, step: usize| -> usize {
         let steps = (n as f64 * factor / step as f64).round().max(1.0);
-        steps.min(1e9) as usize * step
+        (steps.min(1e9) as usize).saturating_mul(step)
     };
     let ratio = if let Some(p) = &mut out.mesh.cylinder_on_half_plane {
         let n = count(p.resolution, 1);
@@ -87,12 +89,11 @@ pub fn refined(scene: &Scene, factor: f64) -> Option<Level> {
         ratio
     } else if let Some(parts) = &mut out.mesh.parts {
         let mut ratios = Vec::new();
-        for part in parts.iter_mut() {
-            for (n, step) in counts_of(part) {
-                let new = count(*n, step);
-                ratios.push((*n as f64 / new as f64, *n));
-                *n = new;
-            }
+        let family = parts.clone();
+        for n in parts.iter_mut().flat_map(counts_of) {
+            let new = count(*n, step(&family, *n));
+            ratios.push((*n as f64 / new as f64, *n));
+            *n = new;
         }
         let (ratio, _) = ratios.iter().max_by_key(|r| r.1)?;
         if ratios
@@ -101,11 +102,8 @@ pub fn refined(scene: &Scene, factor: f64) -> Option<Level> {
         {
             return None;
         }
-        if parts
-            .iter()
-            .filter_map(|p| p.block.as_ref())
-            .any(|b| !pieces_end_on_nodes(b))
-        {
+        let fits = |part: &Part| (0..2).all(|axis| ends_on_nodes(part, axis, None));
+        if !parts.iter().all(fits) {
             return None;
         }
         *ratio
@@ -217,36 +215,58 @@ pub(super) fn governing_count(mesh: &MeshSource) -> Option<f64> {
     } else if let Some(p) = &mesh.disc_in_plate {
         Some(p.resolution as f64 * CONTACT_OF_QUARTER)
     } else {
-        let parts = mesh.parts.clone()?;
-        let counts = parts.into_iter().flat_map(|mut part| {
-            let counts: Vec<usize> = counts_of(&mut part).into_iter().map(|c| *c.0).collect();
-            counts
-        });
+        let mut parts = mesh.parts.clone()?;
+        let counts = parts.iter_mut().flat_map(counts_of).map(|n| *n);
         counts.max().map(|n| n as f64)
     }
 }
 
-/// The element counts of a part, each with the number it must be a multiple of.
-fn counts_of(part: &mut Part) -> Vec<(&mut usize, usize)> {
+/// The element counts of a part: of a block along x and y.
+fn counts_of(part: &mut Part) -> Vec<&mut usize> {
     let mut out = Vec::new();
     if let Some(block) = &mut part.block {
-        out.extend(block.elements.iter_mut().map(|n| (n, 1)));
+        out.extend(block.elements.iter_mut());
     }
     if let Some(ring) = &mut part.ring {
-        out.extend(ring.elements.iter_mut().map(|n| (n, 1)));
+        out.extend(ring.elements.iter_mut());
     }
     if let Some(disc) = &mut part.disc {
-        out.push((&mut disc.elements, 2));
+        out.push(&mut disc.elements);
     }
     out
 }
 
-/// Whether every piece of the block's sides begins and ends at a node: else it would be longer or shorter than in the scene.
-fn pieces_end_on_nodes(block: &Block) -> bool {
-    block.pieces.iter().all(|piece| {
-        let axis = usize::from(matches!(piece.side.as_str(), "left" | "right"));
-        let [from, to] = if axis == 0 { block.x } else { block.y };
-        let n = block.elements[axis] as f64;
+/// The number of which a count of `n` elements may become a multiple: the same for all that are `n`, because surfaces in contact face
+/// each other node by node.
+fn step(parts: &[Part], n: usize) -> usize {
+    let fits = |part: &Part, step: usize| {
+        let even = part
+            .disc
+            .as_ref()
+            .is_none_or(|d| d.elements != n || step % 2 == 0);
+        let counts = part.block.as_ref().map(|b| b.elements);
+        let on_nodes = |axis: usize| {
+            counts.is_none_or(|counts| counts[axis] != n) || ends_on_nodes(part, axis, Some(step))
+        };
+        even && on_nodes(0) && on_nodes(1)
+    };
+    let mut steps = 1..n.min(LARGEST_STEP);
+    steps
+        .find(|&step| parts.iter().all(|part| fits(part, step)))
+        .unwrap_or(n)
+}
+
+/// Whether every piece of the sides of a block along an axis begins and ends at a node, with its own number of elements along it or
+/// another: else it would be longer or shorter than in the scene.
+fn ends_on_nodes(part: &Part, axis: usize, elements: Option<usize>) -> bool {
+    let Some(block) = &part.block else {
+        return true;
+    };
+    let n = elements.unwrap_or(block.elements[axis]) as f64;
+    let [from, to] = if axis == 0 { block.x } else { block.y };
+    let along = |side: &str| usize::from(matches!(side, "left" | "right")) == axis;
+    let mut pieces = block.pieces.iter().filter(|piece| along(&piece.side));
+    pieces.all(|piece| {
         block.bias[axis] == 1.0
             && [piece.from, piece.to].iter().all(|end| {
                 let at = (end - from) / (to - from) * n;
@@ -344,12 +364,23 @@ mod tests {
                      pieces = [{ name = \"p\", side = \"top\", from = 0.0, to = 1.0 }] }";
         let scene = scene(block);
         assert!(refined(&scene, 0.5).is_some());
-        assert!(
-            refined(&scene, 0.4).is_none(),
-            "16 elements over 5 leave no node at 1"
-        );
+        let elements = |factor: f64| -> [usize; 2] {
+            let level = refined(&scene, factor).unwrap();
+            level.scene.mesh.parts.unwrap()[0]
+                .block
+                .as_ref()
+                .unwrap()
+                .elements
+        };
+        // 16 or 121 elements over 5 would leave no node at 1; what lies beside them has the same number and keeps it.
+        assert_eq!([0.4, 3.03].map(elements), [[15, 15], [120, 120]]);
         let counts: Vec<f64> = companions(&scene, 1600).iter().map(|l| l.ratio).collect();
         assert_eq!(counts, [2.0, 40.0 / 15.0]);
+        let thirds = block.replace("to = 1.0", "to = 1.7");
+        assert!(
+            refined(&self::scene(&thirds), 0.5).is_none(),
+            "1.7 lies between nodes as it is"
+        );
     }
 
     #[test]

@@ -2,9 +2,11 @@
 //! in floating point operations, which no busy machine disturbs.
 //!
 //! The cheapest is that of the uniform meshes of the study from which on all are as accurate; one that is so by chance, and the graded ones, which no hand
-//! picks, are told beside it, and so is the time. Fourteen of the sixteen demands keep to twice the cheapest. The hand knows the true error and needs one run; the
+//! picks, are told beside it, and so is the time. Fourteen of the eighteen demands keep to twice the cheapest. The hand knows the true error and needs one run; the
 //! program states 1.5 times an estimate and needs coarser runs to make it. Beyond twice lie the disc at 3 % (2.8: the hand's coarsest mesh does it, two
-//! meshes that coarse prove 5.6 %), the tube at 0.3 % (2.6: its order is still rising). Over all even resolutions of the disc, not the study's five, 62 elements are within 0.3 % by chance: 86 are 0.53 % off.
+//! meshes that coarse prove 5.6 %), the tube at 0.3 % (2.6: its order is still rising), and the
+//! whole program of the flat punch: at first order 1.5 times the estimate takes a mesh 1.5 times finer at least (2.5 at 3 %), and at 10 % (24, of a fiftieth of a second) four
+//! small meshes with their trials of tolerances and increments stand against one. Over all even resolutions of the disc, not the study's five, 62 elements are within 0.3 % by chance: 86 are 0.53 % off.
 //! The bounds hold what was measured, with a third to spare.
 
 use crate::running;
@@ -13,17 +15,18 @@ use brinell::linalg::Backend;
 use brinell::progress::Silent;
 use brinell::scene::{AccuracyDemand, Scene};
 
-/// A reference scene to first yield, where closed forms tell the true error.
+/// A reference scene, where closed forms tell the true error.
 struct Case {
     name: &'static str,
     scene: Scene,
+    extent: Extent,
     quantities: &'static [&'static str],
     /// Accuracies, and what they may cost over the cheapest uniform mesh that is as accurate.
     demands: &'static [(f64, f64)],
     /// Meshes in a series.
     levels: usize,
-    /// What graded meshes may cost over uniform ones of the same error.
-    graded: f64,
+    /// What graded meshes may cost over uniform ones of the same error; `None` where the generator has none.
+    graded: Option<f64>,
 }
 
 const CONTACT: &[&str] = &["yield.load", "yield.max_pressure", "yield.half_width"];
@@ -51,10 +54,11 @@ fn cases() -> Vec<Case> {
                 12,
                 "mesh.cylinder_on_half_plane.far_size=20000.0",
             ),
+            extent: Extent::Yield,
             quantities: CONTACT,
             demands: &[(0.1, 2.0), (0.03, 2.0), (0.01, 2.4), (0.003, 2.2)],
             levels: 5,
-            graded: 0.56,
+            graded: Some(0.56),
         },
         Case {
             name: "Hertz point",
@@ -63,10 +67,11 @@ fn cases() -> Vec<Case> {
                 17,
                 "mesh.cylinder_on_half_plane.far_size=2000.0",
             ),
+            extent: Extent::Yield,
             quantities: CONTACT,
             demands: &[(0.1, 2.0), (0.03, 2.5), (0.01, 2.0), (0.003, 2.0)],
             levels: 6,
-            graded: 0.4,
+            graded: Some(0.4),
         },
         Case {
             name: "disc in a plate",
@@ -78,18 +83,29 @@ fn cases() -> Vec<Case> {
                     "mesh.disc_in_plate.growth=1.10",
                 ],
             ),
+            extent: Extent::Yield,
             quantities: &["yield.load", "yield.half_width"],
             demands: &[(0.1, 2.0), (0.03, 3.7), (0.01, 2.0), (0.003, 2.0)],
             levels: 5,
-            graded: 1.0,
+            graded: Some(1.0),
         },
         Case {
             name: "thick cylinder",
             scene: running::load("thick_cylinder", &[yielding]),
+            extent: Extent::Yield,
             quantities: &["yield.alpha"],
             demands: &[(0.1, 2.0), (0.03, 2.0), (0.01, 2.0), (0.003, 3.5)],
             levels: 5,
-            graded: 1.3,
+            graded: Some(1.3),
+        },
+        Case {
+            name: "flat punch, limit load",
+            scene: running::load("flat_punch", &[]),
+            extent: Extent::Program,
+            quantities: &["states.flow.load"],
+            demands: &[(0.1, 32.0), (0.03, 3.4)],
+            levels: 6,
+            graded: None,
         },
     ]
 }
@@ -150,7 +166,10 @@ fn a_demand_costs_little_more_than_the_cheapest_setting_picked_by_hand() {
     for case in cases() {
         println!("{}", case.name);
         let plan = Plan {
-            knobs: vec![Knob::Resolution, Knob::Grading],
+            knobs: match case.graded {
+                Some(_) => vec![Knob::Resolution, Knob::Grading],
+                None => vec![Knob::Resolution],
+            },
             levels: case.levels,
             budget: None,
         };
@@ -158,8 +177,10 @@ fn a_demand_costs_little_more_than_the_cheapest_setting_picked_by_hand() {
         let uniform = series(&found, &case, Knob::Resolution);
         let graded = series(&found, &case, Knob::Grading);
         println!("  {:?}", found.grading);
-        assert_eq!(graded.len(), uniform.len(), "{}", case.name);
-        assert!(found.grading.as_ref().unwrap().work < uniform.last().unwrap().1);
+        if case.graded.is_some() {
+            assert_eq!(graded.len(), uniform.len(), "{}", case.name);
+            assert!(found.grading.as_ref().unwrap().work < uniform.last().unwrap().1);
+        }
         for run in &found.runs {
             let names: Vec<&str> = run.phases.iter().map(|p| p.phase.as_str()).collect();
             assert!(
@@ -173,7 +194,7 @@ fn a_demand_costs_little_more_than_the_cheapest_setting_picked_by_hand() {
             let mut scene = case.scene.clone();
             scene.accuracy = Some(AccuracyDemand::new(accuracy).unwrap());
             let meter = Meter::start();
-            let reached = reach(&scene, Backend::default(), Extent::Yield, &mut Silent).unwrap();
+            let reached = reach(&scene, Backend::default(), case.extent, &mut Silent).unwrap();
             let seconds = meter.stop().undisturbed_seconds();
             let demand = reached.results.accuracy.unwrap().demand.unwrap();
             let rows = reached.results.reference.iter();
@@ -210,12 +231,12 @@ fn a_demand_costs_little_more_than_the_cheapest_setting_picked_by_hand() {
         }
         // Where the grading pays, and that it never costs much, at the error of a mesh in the middle.
         let (error, own) = (uniform[2].0, uniform[2].1);
-        if let Some(price) = price(&graded, error) {
+        if let (Some(price), Some(most)) = (price(&graded, error), case.graded) {
             println!(
                 "  graded for {error:.2e}: {:.2} of the operations",
                 price / own
             );
-            if price > case.graded * own {
+            if price > most * own {
                 missed.push(format!("{} graded: {}", case.name, price / own));
             }
         }

@@ -164,44 +164,52 @@ fn difference(a: &Value, b: &Value) -> f64 {
     most
 }
 
-/// A whole program of the paper, loading and unloading, to 10 %: reached, and within 10 % of the run on a mesh that is finer by far.
-fn to_ten_percent(name: &str, settings: &[&str], fine: &[&str]) {
+/// A whole program to a demanded accuracy: reached, and as near as that to the run on a mesh that is finer by far.
+fn to_accuracy(demanded: f64, name: &str, settings: &[&str], fine: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
     let file = scene(name);
     let mut arguments = vec!["run", &file];
     arguments.extend(settings.iter().flat_map(|s| ["--set", s]));
-    let asked = [&arguments[..], &["--accuracy", "10%"]].concat();
+    let percent = format!("{demanded}%");
+    let asked = [&arguments[..], &["--accuracy", &percent]].concat();
     let (text, asked) = told(&asked, &folder.path().join("asked"), "summary.json");
     let demand = &asked["accuracy"]["demand"];
     println!("{demand:#}");
     assert_eq!(demand["reached"], true, "{demand}");
-    assert!(demand["stated"].as_f64().unwrap() <= 0.1);
-    assert!(text.contains("Demanded accuracy 10 %: reached"), "{text}");
+    assert!(demand["stated"].as_f64().unwrap() <= demanded / 100.0);
+    assert!(
+        text.contains(" %: reached, the largest stated error is "),
+        "{text}"
+    );
     arguments.push("--no-estimate");
     arguments.extend(fine.iter().flat_map(|s| ["--set", s]));
     let (_, fine) = told(&arguments, &folder.path().join("fine"), "summary.json");
     let off = difference(&asked, &fine);
-    assert!(off <= 0.1, "{name}: {off}");
+    assert!(off <= demanded / 100.0, "{name} to {demanded} %: {off}");
 }
 
 #[test]
 #[cfg_attr(not(feature = "cholmod"), ignore = "needs the build with CHOLMOD")]
-fn the_papers_cylinder_to_ten_percent() {
-    to_ten_percent(
-        "cylinder_on_half_plane",
-        &[],
-        &[
-            "mesh.cylinder_on_half_plane.resolution=32",
-            "mesh.cylinder_on_half_plane.growth=1.07",
-        ],
-    );
+fn the_papers_cylinder_to_ten_and_three_percent() {
+    for demanded in [10.0, 3.0] {
+        to_accuracy(
+            demanded,
+            "cylinder_on_half_plane",
+            &[],
+            &[
+                "mesh.cylinder_on_half_plane.resolution=32",
+                "mesh.cylinder_on_half_plane.growth=1.07",
+            ],
+        );
+    }
 }
 
 /// The states in the midst of unloading are left out: see the next test.
 #[test]
 #[cfg_attr(not(feature = "cholmod"), ignore = "needs the build with CHOLMOD")]
 fn the_papers_disc_to_ten_percent() {
-    to_ten_percent(
+    to_accuracy(
+        10.0,
         "disc_in_plate",
         &[
             "program.targets=[{ yield = true }, { load_factor = 2.0 }, { name = \"unloaded\", load_factor = 0.0 }]",
@@ -211,6 +219,37 @@ fn the_papers_disc_to_ten_percent() {
             "mesh.disc_in_plate.growth=1.035",
         ],
     );
+}
+
+/// Near collapse displacements run away, and errors of coarse meshes change their sign.
+#[test]
+#[cfg_attr(not(feature = "cholmod"), ignore = "needs the build with CHOLMOD")]
+fn the_tube_to_one_percent_and_less() {
+    for demanded in [1.0, 0.3] {
+        let fine = ["mesh.parts.0.ring.elements=[96,96]"];
+        to_accuracy(demanded, "thick_cylinder", &[], &fine);
+    }
+}
+
+/// A piece of a block must end on a node of every mesh on the way.
+#[test]
+#[cfg_attr(not(feature = "cholmod"), ignore = "needs the build with CHOLMOD")]
+fn the_punch_to_ten_percent() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = scene("flat_punch");
+    let arguments = ["run", &file, "--accuracy", "10%"];
+    let (_, json) = told(&arguments, &folder.path().join("out"), "summary.json");
+    assert_eq!(
+        json["accuracy"]["demand"]["reached"], true,
+        "{}",
+        json["accuracy"]
+    );
+    let limit = json["states"].as_array().unwrap().last().unwrap()["load"]
+        .as_f64()
+        .unwrap();
+    // Prandtl's mean pressure on the half model's width of 1: from above.
+    let exact = (2.0 + std::f64::consts::PI) * 100.0 / 3f64.sqrt();
+    assert!((1.0..1.1).contains(&(limit / exact)), "{limit} {exact}");
 }
 
 /// In the midst of unloading the disc's pressure peaks at the edge of the dent, the higher the finer the mesh: the climb ends, with the
