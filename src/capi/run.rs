@@ -116,7 +116,10 @@ pub unsafe extern "C" fn brinell_run(
     // SAFETY: as vouched for by the caller.
     unsafe {
         execute(
-            || Ok(Task::Scene(shared(scene, "the scene")?.scene.clone())),
+            || {
+                let scene = shared(scene, "the scene")?.scene.clone();
+                Ok(Task::Scene(Box::new(scene)))
+            },
             options,
             callback,
             user,
@@ -128,7 +131,7 @@ pub unsafe extern "C" fn brinell_run(
 /// What is run.
 pub(super) enum Task {
     /// A scene, to the accuracy it demands if it does.
-    Scene(Scene),
+    Scene(Box<Scene>),
     /// A model on the mesh that it has.
     Model(Box<Model>),
 }
