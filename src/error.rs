@@ -105,6 +105,18 @@ impl Error {
     pub fn message(&self) -> &str {
         &self.message
     }
+
+    /// What caused it, what caused that, and so on.
+    pub fn causes(&self) -> impl Iterator<Item = &(dyn StdError + 'static)> {
+        std::iter::successors(self.source(), |&cause| cause.source())
+    }
+
+    /// The message with its causes behind it, in one line.
+    pub fn in_full(&self) -> String {
+        self.causes().fold(self.message.clone(), |text, cause| {
+            format!("{text}: {cause}")
+        })
+    }
 }
 
 impl fmt::Display for Error {

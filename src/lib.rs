@@ -37,7 +37,8 @@
 //! | watch a run, or stop it | [`progress::Observer`] |
 //! | read what came out | [`results::Results`]; as files [`output`] |
 //! | solve contact on a stiffness of one's own | [`constrained::ConstrainedStructure`] |
-//! | know how wrong a number is | [`accuracy`] |
+//! | know how wrong a number is, or say how wrong it may be | [`accuracy::estimate()`], [`accuracy::reach()`] |
+//! | know whether a run kept what was asked of it | [`output::ending()`] |
 //! | compare with closed forms | [`analytical`] |
 //!
 //! The library never prints, never ends the process and holds no global state; everything that can fail returns [`Error`], whose

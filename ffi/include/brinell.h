@@ -35,7 +35,7 @@
 // The load passed the limit load.
 #define BRINELL_COLLAPSE 6
 
-// The run is complete, but a state's quality misses its tolerance.
+// The run is complete, but a state's quality misses its tolerance, or an accuracy that the scene demands was not reached.
 #define BRINELL_INACCURATE 7
 
 // A fault of brinell itself.
@@ -556,8 +556,12 @@ int32_t brinell_model_program(struct brinell_model *model, const struct brinell_
 // Runs a scene's load program. `callback` (NULL for none) is called after each increment with `user`.
 //
 // A run that was stopped, collapsed or failed after increments were accepted returns BRINELL_STOPPED, BRINELL_COLLAPSE or
-// BRINELL_ANALYSIS *and* results: what was computed before; a complete one with a state whose quality misses its tolerance
-// returns BRINELL_INACCURATE and results. After any other failure `*out` is NULL.
+// BRINELL_ANALYSIS *and* results: what was computed before; a complete one with a state whose quality misses its tolerance,
+// or that does not reach the accuracy its scene demands, returns BRINELL_INACCURATE and results. After any other failure
+// `*out` is NULL.
+//
+// A scene with the key `accuracy` is run on finer and finer meshes until their stated errors are within it: the callback sees
+// the increments of each, counted from 1 anew, and the results are those of the last.
 int32_t brinell_run(const struct brinell_scene *scene,
                     const struct brinell_options *options,
                     brinell_callback callback,

@@ -243,7 +243,7 @@ fn step(parts: &[Part], n: usize) -> usize {
         let even = part
             .disc
             .as_ref()
-            .is_none_or(|d| d.elements != n || step % 2 == 0);
+            .is_none_or(|d| d.elements != n || step.is_multiple_of(2));
         let counts = part.block.as_ref().map(|b| b.elements);
         let on_nodes = |axis: usize| {
             counts.is_none_or(|counts| counts[axis] != n) || ends_on_nodes(part, axis, Some(step))

@@ -9,16 +9,19 @@ use super::pilot::fly;
 use super::quantities::quantities;
 use super::refinement::refined;
 use super::verdict::{QuantityStudy, judge};
-use crate::error::Result;
+use crate::error::{ErrorKind, Result};
 use crate::linalg::Backend;
-use crate::progress::Observer;
-use crate::results::{Counts, ReferenceRow, Results};
+use crate::progress::{Flow, Observer};
+use crate::results::{Counts, HistoryRow, ReferenceRow, Results};
 use crate::scene::Scene;
 use serde::Serialize;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Runs after which the remaining time is told: fewer say little of the machine and the scene.
 const TRUSTED: usize = 4;
+
+/// Share of the budget that may be spent on finding graded meshes.
+const PILOT_SHARE: f64 = 0.25;
 
 /// What to study.
 #[derive(Debug, Clone)]
@@ -27,7 +30,8 @@ pub struct Plan {
     pub knobs: Vec<Knob>,
     /// Meshes in a series.
     pub levels: usize,
-    /// Seconds that the study may take; runs that would not fit are left out.
+    /// Seconds that the study may take, but for its cheapest run, which is always made: runs that would not fit are left out, one that
+    /// is under way at the end is given up.
     pub budget: Option<f64>,
 }
 
@@ -122,9 +126,17 @@ pub fn study(
     let mut all = settings(scene, backend, &plan.knobs, plan.levels);
     if plan.knobs.contains(&Knob::Grading) {
         observer.phase("study: a pilot for the graded meshes");
-        if let Some((shaped, found)) = shaped(scene, backend, observer) {
-            all.extend(graded(scene, &shaped, backend, plan.levels));
-            out.grading = Some(found);
+        let mut hurried = Hurried::new(observer, start, plan.budget.map(|b| PILOT_SHARE * b));
+        match shaped(scene, backend, &mut hurried) {
+            Some((shaped, found)) => {
+                all.extend(graded(scene, &shaped, backend, plan.levels));
+                out.grading = Some(found);
+            }
+            None if hurried.is_late() => out.left_out.push(
+                "graded meshes: the pilot that finds them takes more than a quarter of the budget"
+                    .to_string(),
+            ),
+            None => {}
         }
     }
     for setting in all {
@@ -176,17 +188,20 @@ pub fn study(
             .sum();
         let left = match out.runs.len() < TRUSTED {
             true => String::new(),
-            false => format!("; about {left:.0} s left"),
+            false => format!(" (about {left:.0} s left)"),
         };
         let name = format!(
-            "run {} of {n}: {}, {}{left}",
+            "run {} of {n}{left}: {}, {}",
             i + 1,
             setting.series,
             setting.value
         );
         observer.phase_of(&name, expected);
         let meter = Meter::start();
-        let mut phases = PhaseMeter::start("assembly", observer);
+        // The cheapest run is made whatever the budget: else there would be nothing to go by.
+        let budget = plan.budget.filter(|_| !out.runs.is_empty());
+        let mut hurried = Hurried::new(observer, start, budget);
+        let mut phases = PhaseMeter::start("assembly", &mut hurried);
         let found = run_observed(
             &setting.scene,
             setting.backend,
@@ -195,9 +210,17 @@ pub fn study(
         );
         let phases = phases.stop();
         let usage = meter.stop();
+        let late = hurried.is_late();
         if observer.stop_requested() {
             out.stopped = true;
             break;
+        }
+        if late && matches!(&found, Err(error) if error.kind() == ErrorKind::Stopped) {
+            out.left_out.push(format!(
+                "{}, {}: under way when the budget was spent",
+                setting.series, setting.value
+            ));
+            continue;
         }
         pace.learn(cost.seconds, usage.undisturbed_seconds());
         if let Ok(results) = &found
@@ -213,6 +236,52 @@ pub fn study(
     out.quantities = judge(&out.runs, &references, scene);
     out.seconds = start.elapsed().as_secs_f64();
     Ok(out)
+}
+
+/// Passes everything on, and asks to stop when it is late.
+struct Hurried<'o> {
+    observer: &'o mut dyn Observer,
+    end: Option<Instant>,
+}
+
+impl<'o> Hurried<'o> {
+    fn new(observer: &'o mut dyn Observer, start: Instant, seconds: Option<f64>) -> Self {
+        // A time beyond what the clock knows is none.
+        let end = seconds
+            .and_then(|s| Duration::try_from_secs_f64(s).ok())
+            .and_then(|s| start.checked_add(s));
+        Hurried { observer, end }
+    }
+
+    fn is_late(&self) -> bool {
+        self.end.is_some_and(|end| Instant::now() >= end)
+    }
+}
+
+impl Observer for Hurried<'_> {
+    fn phase(&mut self, name: &str) {
+        self.observer.phase(name);
+    }
+
+    fn phase_of(&mut self, name: &str, seconds: f64) {
+        self.observer.phase_of(name, seconds);
+    }
+
+    fn model(&mut self, freedoms: usize, contact_pairs: usize) {
+        self.observer.model(freedoms, contact_pairs);
+    }
+
+    fn increment(&mut self, row: &HistoryRow, fraction: f64) -> Flow {
+        self.observer.increment(row, fraction)
+    }
+
+    fn warning(&mut self, message: &str) {
+        self.observer.warning(message);
+    }
+
+    fn stop_requested(&self) -> bool {
+        self.observer.stop_requested() || self.is_late()
+    }
 }
 
 /// The scene's mesh graded for its quantities, as fine as the pilot by which that was found.

@@ -60,6 +60,10 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
         zone_elements: choice.elements.len(),
     };
     let plastic = !choice.elements.is_empty();
+    let mut notes = model.warnings.clone();
+    if model.scene.accuracy.is_some() {
+        notes.push("the scene demands an accuracy: a run chooses its meshes itself, the figures here are of the scene's own".to_string());
+    }
     Ok(Check {
         effects: effects(model, plastic),
         sizes,
@@ -67,7 +71,7 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
         predicted_seconds: prediction.flops / TYPICAL_FLOPS
             + prediction.factor_nonzeros / TYPICAL_ANALYSIS,
         blas: linalg::blas_name(),
-        notes: model.warnings.clone(),
+        notes,
     })
 }
 

@@ -26,7 +26,7 @@ pub struct IncrementReport {
 }
 
 /// A measured quantity that ends a drive when it changes sign.
-pub type Monitor<'a> = dyn Fn(&mut Engine) -> f64 + 'a;
+pub type Monitor<'a> = dyn Fn(&mut Engine) -> Result<f64> + 'a;
 
 /// How a drive ended.
 #[derive(Debug, Clone, PartialEq)]
@@ -77,7 +77,7 @@ impl Engine<'_> {
     /// Elastic drive: contact changes alone. With `recovery` it stops at first yield. With `leg` it goes on from there.
     ///
     /// # Errors
-    /// A load that drives a body away from every contact.
+    /// A load that drives a body away from every contact; those of the monitor.
     pub fn drive_elastic(
         &mut self,
         end: &LoadPoint,
@@ -108,7 +108,7 @@ impl Engine<'_> {
         let (mut piece, mut watched) = match resumed {
             Some(resumed) => resumed,
             None => {
-                let watched = monitor.map(|m| m(self));
+                let watched = monitor.map(|m| m(self)).transpose()?;
                 if is_hit(watched) {
                     return Ok(Arrival::Monitor);
                 }
@@ -145,15 +145,15 @@ impl Engine<'_> {
                 *from = to;
             }
             if let (Some(monitor), Some(was)) = (monitor, watched) {
-                let is = monitor(self);
+                let is = monitor(self)?;
                 if is == 0.0 || (is > 0.0) != (was > 0.0) {
                     let (from, to) = (before, piece.t());
                     let sign = if is > was { 1.0 } else { -1.0 };
                     let ends = [(from, sign * was), (to, sign * is)];
                     let t = bracketed_root(ends[0], ends[1], MONITOR_ACCURACY, |t| {
                         piece.go_back(self, t);
-                        sign * monitor(self)
-                    });
+                        monitor(self).map(|value| sign * value)
+                    })?;
                     piece.go_back(self, t);
                     self.refresh();
                     self.note(watcher, "target", solves)?;
@@ -206,7 +206,7 @@ impl Engine<'_> {
     /// Elastoplastic drive to `end`. With `leg` it goes on from there.
     ///
     /// # Errors
-    /// [`ErrorKind::Collapse`] with the load factor that was held; statuses that cycle.
+    /// [`ErrorKind::Collapse`] with the load factor that was held; statuses that cycle; those of the monitor.
     pub fn drive_plastic(
         &mut self,
         end: &LoadPoint,
@@ -218,7 +218,7 @@ impl Engine<'_> {
         let mut leg = match leg {
             Some(Leg::Plastic(leg)) => leg,
             _ => {
-                let leg = self.begin_plastic(end, monitor);
+                let leg = self.begin_plastic(end, monitor)?;
                 if is_hit(leg.watched) {
                     return Ok(Arrival::Monitor);
                 }
@@ -285,7 +285,7 @@ impl Engine<'_> {
                 at_end = true;
             }
             if let (Some(monitor), Some(was)) = (monitor, leg.watched) {
-                let is = monitor(self);
+                let is = monitor(self)?;
                 if is == 0.0 || (is > 0.0) != (was > 0.0) {
                     self.hit(end, &saved, stepper, monitor, [was, is], &mut reported)?;
                     reported.trailing_solves = self.counts.trailing_solves - solves;
@@ -319,7 +319,7 @@ impl Engine<'_> {
     }
 
     /// What an elastoplastic drive begins with.
-    fn begin_plastic(&mut self, end: &LoadPoint, monitor: Option<&Monitor>) -> PlasticLeg {
+    fn begin_plastic(&mut self, end: &LoadPoint, monitor: Option<&Monitor>) -> Result<PlasticLeg> {
         self.refresh();
         self.update_scales();
         if self.force_scale == 0.0 {
@@ -329,13 +329,13 @@ impl Engine<'_> {
         if self.turns_back(end) {
             self.assume_elastic();
         }
-        PlasticLeg {
-            watched: monitor.map(|m| m(self)),
+        Ok(PlasticLeg {
+            watched: monitor.map(|m| m(self)).transpose()?,
             whole: self.at.distance(end),
             // After an increment that did not converge the next ones are short, and grow again while they succeed.
             trust: f64::INFINITY,
             following: None,
-        }
+        })
     }
 
     /// Goes the last bit to `end` with the statuses and plastic strains at hand.

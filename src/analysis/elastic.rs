@@ -196,7 +196,7 @@ impl Engine<'_> {
             };
             solves = self.counts.trailing_solves;
             if let (Some(monitor), Some(was)) = (monitor, leg.watched) {
-                let is = monitor(self);
+                let is = monitor(self)?;
                 if is == 0.0 || (is > 0.0) != (was > 0.0) {
                     let (from, to) = (before, piece.t());
                     let sign = if is > was { 1.0 } else { -1.0 };
@@ -204,8 +204,8 @@ impl Engine<'_> {
                     let ends = [(from, sign * was), (to, sign * is)];
                     let t = bracketed_root(ends[0], ends[1], accuracy, |t| {
                         piece.go_back(self, t);
-                        sign * monitor(self)
-                    });
+                        monitor(self).map(|value| sign * value)
+                    })?;
                     piece.go_back(self, t);
                     self.refresh();
                     watcher.increment(self, &reported)?;

@@ -25,7 +25,7 @@ impl Run<'_, '_> {
     /// Finds the yield load on the path of growing load factor and comes back to the start; with `judge` takes note of the quality there.
     pub(super) fn find_yield(&mut self, required: bool, judge: bool) -> Result<()> {
         let unit_is_yield = self.model().scene.program.unit == Unit::Yield;
-        if self.plastic {
+        if self.standing.plastic {
             return if unit_is_yield {
                 Err(Error::analysis(
                     "`unit = \"yield\"`: the preload alone makes the material yield, so there is no yield load to count in; use `unit = \"load\"`",
@@ -69,20 +69,21 @@ impl Run<'_, '_> {
                     if judge {
                         self.at_yield = Some(self.engine.quality_here()?);
                     }
-                    self.yield_alpha = Some(if unit_is_yield { 1.0 } else { alpha });
+                    self.standing.yield_alpha = Some(if unit_is_yield { 1.0 } else { alpha });
                     if unit_is_yield {
                         self.engine.unit = alpha;
                     }
                 }
-                self.elastic_range[1] = match (self.yield_alpha, self.largest_factor()) {
-                    (Some(alpha), _) => alpha,
-                    (None, Some(largest))
-                        if self.model().scene.analysis.yield_load == YieldMethod::Exact =>
-                    {
-                        largest
-                    }
-                    _ => 0.0,
-                };
+                self.standing.elastic_range[1] =
+                    match (self.standing.yield_alpha, self.largest_factor()) {
+                        (Some(alpha), _) => alpha,
+                        (None, Some(largest))
+                            if self.model().scene.analysis.yield_load == YieldMethod::Exact =>
+                        {
+                            largest
+                        }
+                        _ => 0.0,
+                    };
             }
             self.come_back(&origin);
             match missed {
@@ -102,7 +103,7 @@ impl Run<'_, '_> {
         self.place.preload = true;
         self.preload()?;
         self.place = Place::default();
-        if self.plastic {
+        if self.standing.plastic {
             return Ok(());
         }
         Err(Error::internal(
@@ -123,7 +124,7 @@ impl Run<'_, '_> {
         engine.fresh = now.u.largest() == 0.0;
         engine.now.u.fill(0.0);
         engine.refresh();
-        self.plastic = false;
+        self.standing.plastic = false;
     }
 
     /// First yield along the path of growing load factor, up to the largest the program asks for unless yield is required. At the end of each
@@ -191,7 +192,7 @@ impl Run<'_, '_> {
     }
 
     pub(super) fn record_yield(&mut self, peak: Peak) -> Result<()> {
-        self.plastic = true;
+        self.standing.plastic = true;
         if self.results.first_yield.is_some() {
             return Ok(());
         }

@@ -21,14 +21,13 @@ impl Engine<'_> {
     ) -> Result<()> {
         let reached = saved.at.share_of(&self.at, end);
         let sign = if was < 0.0 { 1.0 } else { -1.0 };
-        let mut failure = None;
         let last = Cell::new(-1.0);
         // Trials lie close together: each is predicted from those before.
         let mut known = vec![(0.0, saved.now.clone())];
         if self.kept_statuses(saved) {
             known.push((reached, self.now.clone()));
         }
-        let mut value_at = |t: f64| {
+        let mut value_at = |t: f64| -> Result<f64> {
             saved.put_back(self);
             let goal = saved.at.towards(end, t);
             if known.len() > 1 {
@@ -36,37 +35,27 @@ impl Engine<'_> {
             }
             // An increment may be cut short: the way to the goal then takes several.
             loop {
-                match self.find_increment(&goal, 1.0, SMALLEST_CUT, stepper) {
-                    Ok((increment, _)) => {
-                        let arrived = increment.t >= 1.0;
-                        reported.residual = increment.residual;
-                        reported.iterations += increment.iterations;
-                        let at_once = self.at == saved.at;
-                        self.accept(&goal, increment, reported);
-                        if arrived {
-                            if at_once && self.kept_statuses(saved) {
-                                known.push((t, self.now.clone()));
-                            }
-                            last.set(t);
-                            return sign * monitor(self);
-                        }
+                let (increment, _) = self.find_increment(&goal, 1.0, SMALLEST_CUT, stepper)?;
+                let arrived = increment.t >= 1.0;
+                reported.residual = increment.residual;
+                reported.iterations += increment.iterations;
+                let at_once = self.at == saved.at;
+                self.accept(&goal, increment, reported);
+                if arrived {
+                    if at_once && self.kept_statuses(saved) {
+                        known.push((t, self.now.clone()));
                     }
-                    Err(error) => {
-                        failure = Some(error);
-                        return 0.0;
-                    }
+                    last.set(t);
+                    return monitor(self).map(|value| sign * value);
                 }
             }
         };
         let ends = [(0.0, sign * was), (reached, sign * is)];
-        let t = bracketed_root(ends[0], ends[1], MONITOR_ACCURACY, &mut value_at);
+        let t = bracketed_root(ends[0], ends[1], MONITOR_ACCURACY, &mut value_at)?;
         if t != last.get() {
-            value_at(t);
+            value_at(t)?;
         }
-        match failure {
-            Some(error) => Err(error),
-            None => Ok(()),
-        }
+        Ok(())
     }
 
     /// Whether the increment just taken had the statuses that it began with from `saved`; those beyond its end may be others.

@@ -7,9 +7,10 @@ use super::drive::IncrementReport;
 use super::engine::Engine;
 use super::packed::Ascending;
 use super::place::{DrivePlace, Leg, Place, Watcher};
-use super::program::{Run, Seconds};
+use super::program::Run;
 use super::record::{EngineRecord, SavedRecord};
 use super::saved::Saved;
+use super::standing::Standing;
 use super::zone_choice::PREDICTED;
 use super::zone_fit::Spread;
 use crate::checkpoint::{PartId, Store};
@@ -54,11 +55,7 @@ pub(super) struct RunRecord {
     pub(super) engine: EngineRecord,
     /// The part with the elastic stress, the largest load factor and the one up to which the zone was chosen.
     pub(super) spread: Option<(PartId, f64, f64)>,
-    pub(super) plastic: bool,
-    pub(super) yield_alpha: Option<f64>,
-    pub(super) elastic_range: [f64; 2],
-    pub(super) done: usize,
-    pub(super) seconds: Seconds,
+    pub(super) standing: Standing,
     pub(super) first_yield: Option<YieldPoint>,
     pub(super) resumed: usize,
     /// States and the rows up to the last of them.
@@ -70,14 +67,11 @@ pub(super) struct RunRecord {
 }
 
 /// What a checkpoint holds beside engine, results and place.
-pub(super) struct Standing<'r> {
+#[derive(Clone, Copy)]
+pub(super) struct Kept<'r> {
+    pub(super) standing: Standing,
     pub(super) guard: &'r [bool],
     pub(super) spread: Option<&'r Spread>,
-    pub(super) plastic: bool,
-    pub(super) yield_alpha: Option<f64>,
-    pub(super) elastic_range: [f64; 2],
-    pub(super) done: usize,
-    pub(super) seconds: Seconds,
     pub(super) start: Option<&'r Start>,
 }
 
@@ -128,7 +122,7 @@ impl Keeper {
         &mut self,
         engine: &Engine,
         results: &Results,
-        standing: &Standing,
+        kept: Kept,
         place: Place,
     ) -> Result<()> {
         if results.states.len() > self.n_states {
@@ -138,7 +132,7 @@ impl Keeper {
             self.n_states = results.states.len();
             self.n_rows = self.rows_of_states;
         }
-        let spread = match (standing.spread, self.spread) {
+        let spread = match (kept.spread, self.spread) {
             (Some(spread), None) => {
                 let hot = |e: &usize| spread.ratios[*e] >= PREDICTED;
                 let elements: Vec<usize> = (0..spread.ratios.len()).filter(hot).collect();
@@ -152,7 +146,7 @@ impl Keeper {
             (Some(spread), Some(part)) => Some((part, spread.highest, spread.until)),
             (None, _) => None,
         };
-        let start = match (standing.start, self.start) {
+        let start = match (kept.start, self.start) {
             (Some(start), None) => Some((start, self.store.add(&start.record())?)),
             (Some(start), Some(part)) => Some((start, part)),
             (None, _) => None,
@@ -165,13 +159,9 @@ impl Keeper {
         self.fingerprint = Some((engine.counts.factorizations, fingerprint));
         let record = RunRecord {
             place,
-            engine: engine.record(standing.guard, fingerprint),
+            engine: engine.record(kept.guard, fingerprint),
             spread,
-            plastic: standing.plastic,
-            yield_alpha: standing.yield_alpha,
-            elastic_range: standing.elastic_range,
-            done: standing.done,
-            seconds: standing.seconds,
+            standing: kept.standing,
             first_yield: results.first_yield,
             resumed: results.resumed,
             states: self.states.clone(),
@@ -224,7 +214,7 @@ pub(super) struct Recorder<'r, 'o> {
     pub(super) observer: &'r RefCell<&'r mut (dyn Observer + 'o)>,
     pub(super) progress: Behind<'r>,
     pub(super) keeper: Option<&'r mut Keeper>,
-    pub(super) standing: Standing<'r>,
+    pub(super) kept: Kept<'r>,
     pub(super) place: &'r Place,
     pub(super) watch_yield: bool,
     pub(super) taken: &'r Cell<usize>,
@@ -258,14 +248,12 @@ impl Watcher for Recorder<'_, '_> {
             }),
             ..self.place.clone()
         };
-        let before = self.standing.seconds;
+        let drive = place.drive.as_ref();
+        let plastic = drive.is_some_and(|drive| matches!(drive.leg, Leg::Plastic(_)));
+        let mut kept = self.kept;
         let spent = self.since.elapsed().as_secs_f64();
-        match place.drive.as_ref().map(|drive| &drive.leg) {
-            Some(Leg::Plastic(_)) => self.standing.seconds.plasticity += spent,
-            _ => self.standing.seconds.contact += spent,
-        }
-        let outcome = keeper.write(engine, self.results, &self.standing, place);
-        self.standing.seconds = before;
+        kept.standing.seconds.add_drive(plastic, spent);
+        let outcome = keeper.write(engine, self.results, kept, place);
         note_failure(
             keeper,
             outcome,
@@ -287,11 +275,7 @@ fn note_failure(
         Ok(()) => keeper.failed = false,
         Err(error) if !keeper.failed => {
             keeper.failed = true;
-            let cause = std::error::Error::source(&error).map(|c| format!(": {c}"));
-            let text = format!(
-                "no checkpoint: {error}{}; the run goes on",
-                cause.unwrap_or_default()
-            );
+            let text = format!("no checkpoint: {}; the run goes on", error.in_full());
             observer.warning(&text);
             results.warnings.push(text);
         }
@@ -312,8 +296,8 @@ impl Run<'_, '_> {
     pub(super) fn set_start(&mut self) {
         self.start = Some(Start {
             saved: Saved::of(&self.engine),
-            plastic: self.plastic,
-            yield_alpha: self.yield_alpha,
+            plastic: self.standing.plastic,
+            yield_alpha: self.standing.yield_alpha,
             first_yield: self.results.first_yield,
             increments: self.results.history.len(),
         });
@@ -331,17 +315,13 @@ impl Run<'_, '_> {
         if !keeper.is_due() {
             return;
         }
-        let standing = Standing {
+        let kept = Kept {
+            standing: self.standing,
             guard: &self.choice.guard,
             spread: self.spread.as_ref(),
-            plastic: self.plastic,
-            yield_alpha: self.yield_alpha,
-            elastic_range: self.elastic_range,
-            done: self.done,
-            seconds: self.seconds,
             start: None,
         };
-        let outcome = keeper.write(&self.engine, &self.results, &standing, Place::default());
+        let outcome = keeper.write(&self.engine, &self.results, kept, Place::default());
         note_failure(keeper, outcome, &mut *self.observer, &mut self.results);
     }
 }

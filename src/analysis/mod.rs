@@ -8,12 +8,13 @@
 //! | `increment`, `step_length` | one elastoplastic increment that ends at the next change of contact | 4.7 to 4.23 |
 //! | `zone`, `gather`, `zone_choice`, `zone_fit` | elements that may yield, initial loads, their choice and growth | 4.1 |
 //! | `tangent`, `acceleration` | acceleration of the plastic iteration | |
-//! | `program`, `targets`, `drive`, `stepping` | from target to target, loading and unloading | 5.1, 5.2 |
-//! | `keeper`, `resume`, `place`, `record`, `saved`, `packed` | checkpoints, and going on from them | |
+//! | `program`, `targets`, `drive`, `stepping`, `hit` | from target to target, loading and unloading | 5.1, 5.2 |
+//! | `keeper`, `resume`, `place`, `standing`, `record`, `saved`, `packed` | checkpoints, and going on from them | |
 //! | `aim` | how much of the way to a target lies behind | |
 //! | `measure`, `contact_edge`, `state`, `quality` | pressure, half width, dent, quality of a state | 5 |
 //! | `stress_field`, `stresses` | stresses of all elements, the forces they exert | |
 //! | `indicator` | discretisation error of the stresses, element by element | |
+//! | `check`, `reference` | effects and cost before a run; published values beside the computed ones | 5.1, 5.2 |
 
 mod acceleration;
 mod aim;
@@ -42,6 +43,7 @@ mod reference;
 mod response;
 mod resume;
 mod saved;
+mod standing;
 mod state;
 mod step_length;
 mod stepping;

@@ -3,9 +3,10 @@
 use super::aim::Aim;
 use super::drive::{Arrival, Monitor, Stepper, stopped};
 use super::engine::{Engine, LoadPoint};
-use super::keeper::{Behind, Keeper, Recorder, Standing, Start};
+use super::keeper::{Behind, Keeper, Kept, Recorder, Start};
 use super::place::Place;
 use super::recovery::Recovery;
+use super::standing::{Seconds, Standing};
 use super::zone_choice::{self, Choice};
 use super::zone_fit::Spread;
 use super::{check, quality, reference};
@@ -16,7 +17,6 @@ use crate::model::Model;
 use crate::progress::Observer;
 use crate::results::{Quality, Results, Sizes, State};
 use crate::scene::{Target, Unit};
-use serde::{Deserialize, Serialize};
 use std::cell::{Cell, RefCell};
 use std::time::Instant;
 
@@ -47,7 +47,7 @@ pub(super) fn complete(mut run: Run, yield_only: bool) -> Result<Results> {
         Ok(()) => {}
         Err(error) if results.states.is_empty() && results.history.is_empty() => return Err(error),
         Err(error) => {
-            results.incomplete = Some(error.message().to_string());
+            results.incomplete = Some(error.in_full());
             results.incomplete_kind = Some(error.kind());
         }
     }
@@ -65,19 +65,11 @@ pub(super) struct Run<'m, 'o> {
     pub(super) spread: Option<Spread>,
     pub(super) observer: &'o mut dyn Observer,
     pub(super) results: Results,
-    /// Whether the material has yielded, so that increments are elastoplastic.
-    pub(super) plastic: bool,
-    /// Load factor (program's unit) at first yield.
-    pub(super) yield_alpha: Option<f64>,
-    /// Load factors (program's unit) between which the virgin structure is known to stay elastic.
-    pub(super) elastic_range: [f64; 2],
-    /// Number of targets behind.
-    pub(super) done: usize,
+    pub(super) standing: Standing,
     /// What the way to the next target is measured by.
     pub(super) aim: Aim,
     /// Share of the load program that lies behind, as far as it was reported: it never falls.
     pub(super) fraction: f64,
-    pub(super) seconds: Seconds,
     /// Where the way to the target at hand began: to be gone again with a wider zone.
     pub(super) start: Option<Start>,
     /// Where the run is on its way.
@@ -86,17 +78,6 @@ pub(super) struct Run<'m, 'o> {
     pub(super) resumed: Option<Place>,
     /// Writes checkpoints.
     pub(super) keeper: Option<Keeper>,
-}
-
-/// Seconds by effect.
-#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-pub(super) struct Seconds {
-    pub(super) contact: f64,
-    pub(super) plasticity: f64,
-    pub(super) states: f64,
-    pub(super) stresses: f64,
-    pub(super) condensation: f64,
-    pub(super) yield_load: f64,
 }
 
 impl<'m, 'o> Run<'m, 'o> {
@@ -136,16 +117,15 @@ impl<'m, 'o> Run<'m, 'o> {
             spread: None,
             observer,
             results,
-            plastic: false,
-            yield_alpha: None,
-            elastic_range: [0.0; 2],
-            done: 0,
+            standing: Standing {
+                seconds: Seconds {
+                    condensation: start.elapsed().as_secs_f64(),
+                    ..Seconds::default()
+                },
+                ..Standing::default()
+            },
             aim: Aim::Nothing,
             fraction: 0.0,
-            seconds: Seconds {
-                condensation: start.elapsed().as_secs_f64(),
-                ..Seconds::default()
-            },
             start: None,
             place: Place::default(),
             resumed: None,
@@ -170,9 +150,9 @@ impl<'m, 'o> Run<'m, 'o> {
         self.observer.phase("load program");
         let targets = &self.model().scene.program.targets;
         let labels = self.model().scene.program.labels();
-        for index in self.done..targets.len() {
+        for index in self.standing.done..targets.len() {
             let state = self.reach_with_right_zone(&targets[index], &labels[index])?;
-            self.done = index + 1;
+            self.standing.done = index + 1;
             self.results.states.push(state);
             self.keep_target();
         }
@@ -192,7 +172,7 @@ impl<'m, 'o> Run<'m, 'o> {
             self.observer.phase("yield load");
             let start = Instant::now();
             self.find_yield(required, yield_only)?;
-            self.seconds.yield_load = start.elapsed().as_secs_f64();
+            self.standing.seconds.yield_load = start.elapsed().as_secs_f64();
         }
         if yield_only {
             return match self.results.first_yield {
@@ -220,8 +200,9 @@ impl<'m, 'o> Run<'m, 'o> {
             self.resumed = None;
             let start = Instant::now();
             let state = self.engine.state(label, target.fields)?;
-            self.seconds.stresses += self.engine.stress_seconds;
-            self.seconds.states += start.elapsed().as_secs_f64() - self.engine.stress_seconds;
+            self.standing.seconds.stresses += self.engine.stress_seconds;
+            self.standing.seconds.states +=
+                start.elapsed().as_secs_f64() - self.engine.stress_seconds;
             let missed = std::mem::take(&mut self.engine.beyond_yield_outside);
             let start = self.start.take();
             if missed.is_empty() {
@@ -229,11 +210,11 @@ impl<'m, 'o> Run<'m, 'o> {
             }
             let start = start.ok_or_else(|| Error::internal("the way to a target has no begin"))?;
             start.saved.put_back(&mut self.engine);
-            (self.plastic, self.yield_alpha, self.results.first_yield) =
-                (start.plastic, start.yield_alpha, start.first_yield);
+            (self.standing.plastic, self.standing.yield_alpha) = (start.plastic, start.yield_alpha);
+            self.results.first_yield = start.first_yield;
             self.results.history.truncate(start.increments);
             // What was searched for first yield did not hold all that yields: the way is watched from its begin.
-            self.elastic_range = [0.0; 2];
+            self.standing.elastic_range = [0.0; 2];
             let wider = zone_choice::including(self.model(), &self.choice, &missed);
             self.set_zone(wider)?;
         }
@@ -294,25 +275,25 @@ impl<'m, 'o> Run<'m, 'o> {
         let remembering = monitor.map(|monitor| {
             let last = &last;
             move |engine: &mut Engine| {
-                last.set(monitor(engine));
-                last.get()
+                last.set(monitor(engine)?);
+                Ok(last.get())
             }
         });
         let monitor = remembering.as_ref().map(|m| m as &Monitor);
         let mut watched = match leg {
             Some(_) => None,
-            None => monitor.map(|m| m(&mut self.engine)),
+            None => monitor.map(|m| m(&mut self.engine)).transpose()?,
         };
         if let (Aim::Monitored { at_first }, Some(value)) = (&mut self.aim, watched) {
             at_first.get_or_insert(value.abs());
         }
         let (aim, done, n_targets) = (
             self.aim,
-            self.done as f64,
+            self.standing.done as f64,
             program.targets.len().max(1) as f64,
         );
         loop {
-            let plastic = self.plastic && !self.choice.elements.is_empty();
+            let plastic = self.standing.plastic && !self.choice.elements.is_empty();
             if plastic && leg.is_none() {
                 self.follow_load()?;
             } else if !plastic && watch_yield {
@@ -320,7 +301,7 @@ impl<'m, 'o> Run<'m, 'o> {
             }
             if let (Some(monitor), Some(was)) = (monitor, watched) {
                 // Another zone puts the state in equilibrium anew, within the tolerance: that may be all that was missing.
-                let is = monitor(&mut self.engine);
+                let is = monitor(&mut self.engine)?;
                 if is != was && (is > 0.0) != (was > 0.0) {
                     return Ok(Arrival::Monitor);
                 }
@@ -348,14 +329,10 @@ impl<'m, 'o> Run<'m, 'o> {
                     n_targets,
                 },
                 keeper: self.keeper.as_mut(),
-                standing: Standing {
+                kept: Kept {
+                    standing: self.standing,
                     guard: &self.choice.guard,
                     spread: self.spread.as_ref(),
-                    plastic: self.plastic,
-                    yield_alpha: self.yield_alpha,
-                    elastic_range: self.elastic_range,
-                    done: self.done,
-                    seconds: self.seconds,
                     start: self.start.as_ref(),
                 },
                 place: &self.place,
@@ -376,13 +353,9 @@ impl<'m, 'o> Run<'m, 'o> {
                     .drive_elastic(end, recovery, monitor, leg.take(), &mut recorder)
             };
             let spent = start.elapsed().as_secs_f64();
-            if plastic {
-                self.seconds.plasticity += spent;
-            } else {
-                self.seconds.contact += spent;
-            }
+            self.standing.seconds.add_drive(plastic, spent);
             let arrival = arrival?;
-            watched = monitor.map(|m| m(&mut self.engine));
+            watched = monitor.map(|m| m(&mut self.engine)).transpose()?;
             match arrival {
                 Arrival::ZoneTooSmall => {
                     let larger = zone_choice::grown(model, &self.choice);
@@ -406,6 +379,11 @@ impl<'m, 'o> Run<'m, 'o> {
             zone_elements: self.choice.elements.len(),
         };
         results.counts = self.engine.counts;
+        let Standing {
+            seconds,
+            yield_alpha,
+            ..
+        } = self.standing;
         results.factor = self.engine.sub.cost();
         results.condition = self.engine.condition;
         let tolerances = quality::tolerances(model);
@@ -437,24 +415,24 @@ impl<'m, 'o> Run<'m, 'o> {
         let qualities = judged.iter().map(|(_, q)| q);
         results.quality = qualities.fold(Quality::default(), |w, q| w.worse(q));
         for (name, seconds) in [
-            ("factorisation and condensation", self.seconds.condensation),
-            ("yield load", self.seconds.yield_load),
-            ("elastic increments", self.seconds.contact),
-            ("elastoplastic increments", self.seconds.plasticity),
-            ("states", self.seconds.states),
-            ("stresses", self.seconds.stresses),
+            ("factorisation and condensation", seconds.condensation),
+            ("yield load", seconds.yield_load),
+            ("elastic increments", seconds.contact),
+            ("elastoplastic increments", seconds.plasticity),
+            ("states", seconds.states),
+            ("stresses", seconds.stresses),
         ] {
             results.timings.push((name.to_string(), seconds));
         }
-        results.effects = check::effects(model, self.yield_alpha.is_some());
+        results.effects = check::effects(model, yield_alpha.is_some());
         for effect in &mut results.effects {
             match effect.name.as_str() {
                 "contact" => {
-                    effect.seconds = self.seconds.contact + self.seconds.yield_load;
+                    effect.seconds = seconds.contact + seconds.yield_load;
                     effect.memory_bytes = self.engine.sub.contact_bytes();
                 }
                 "plasticity" if effect.on => {
-                    effect.seconds = self.seconds.plasticity;
+                    effect.seconds = seconds.plasticity;
                     effect.memory_bytes = self.engine.zone.bytes();
                 }
                 _ => {}

@@ -123,8 +123,9 @@ impl Recovery {
         out
     }
 
-    /// The recovered maximum of von Mises stress over yield stress. Where the largest sample is far below yield it is
-    /// returned as it is: its exact size does not matter.
+    /// The recovered maximum of von Mises stress over yield stress; `None` where there is no stress, and so no place of the largest.
+    /// Where the largest sample is far below yield it is returned as it is, with its own place: neither needs to be more exact.
+    /// Of equal maxima the first is named, in the order of the elements.
     pub fn peak(&mut self, model: &Model, samples: &Samples) -> Option<Peak> {
         let raw: Vec<f64> = (0..self.elements.list.len())
             .map(|i| {
@@ -137,20 +138,14 @@ impl Recovery {
                     .fold(0.0, f64::max)
             })
             .collect();
-        let top = (0..raw.len()).max_by(|&a, &b| raw[a].total_cmp(&raw[b]))?;
-        if raw[top] < FAR_BELOW {
-            let location = self.positions[self.first[top]];
-            let body = self.elements.list[top].body as usize;
-            return Some(Peak {
-                ratio: raw[top],
-                location,
-                body,
-            });
+        let highest = raw.iter().copied().reduce(f64::max).filter(|r| *r > 0.0)?;
+        if highest < FAR_BELOW {
+            return self.largest_sample(samples, &raw, highest);
         }
         // A smooth field has its maximum in or beside an element whose sample is a local maximum. Of equal samples (all round a bore) each counts as
         // one: which is the largest is for round-off to say, and what is recovered beside them is not the same.
         let mut candidates: Vec<u32> = Vec::new();
-        for i in (0..raw.len()).filter(|&i| raw[i] >= CANDIDATE * raw[top]) {
+        for i in (0..raw.len()).filter(|&i| raw[i] >= CANDIDATE * highest) {
             let around = self.neighbours_of(model, i);
             let equal = raw[i] * (1.0 + TIE);
             if around.iter().all(|&j| raw[j as usize] <= equal) {
@@ -160,6 +155,21 @@ impl Recovery {
         candidates.sort_unstable();
         candidates.dedup();
         self.climb(model, &candidates, samples)
+    }
+
+    /// The first sample that is as large as the largest.
+    fn largest_sample(&self, samples: &Samples, by_element: &[f64], ratio: f64) -> Option<Peak> {
+        let least = ratio * (1.0 - TIE);
+        let i = by_element.iter().position(|r| *r >= least)?;
+        let body = self.elements.list[i].body as usize;
+        let yield_stress = self.materials[body].0.yield_stress();
+        let place = (self.first[i]..self.first[i + 1])
+            .find(|&place| von_mises(&samples[place]) / yield_stress >= least)?;
+        Some(Peak {
+            ratio,
+            location: self.positions[place],
+            body,
+        })
     }
 
     /// Elements of the same body that share a node with element `i`, itself included.
@@ -356,6 +366,45 @@ impl Recovery {
             scale,
             reach,
             samples,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Analysis;
+    use super::super::program::Run;
+    use super::*;
+    use crate::linalg::Backend;
+    use crate::progress::Silent;
+    use crate::scene::Scene;
+
+    /// The largest sample with its own place, the first of equal ones whatever their round-off, none where there is no stress.
+    #[test]
+    fn far_below_yield_the_first_of_the_largest_samples_is_the_peak() {
+        let scene = Scene::load("data/scenes/thick_cylinder.toml").unwrap();
+        let analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::Dense).unwrap();
+        let (model, mut observer) = (analysis.model(), Silent);
+        let system = analysis.system();
+        let mut run = Run::new(model, system, Backend::Dense, &[], &mut observer).unwrap();
+        let recovery = run.recovery().unwrap();
+        let n = recovery.positions.len();
+        let yield_stress = recovery.materials[0].0.yield_stress();
+        let pulled = |shares: &dyn Fn(usize) -> f64| -> Samples {
+            let stress = |i| [shares(i) * yield_stress, 0.0, 0.0, 0.0];
+            (0..n).map(stress).collect()
+        };
+        assert!(n > 100);
+        assert_eq!(recovery.peak(model, &pulled(&|_| 0.0)), None);
+        let equal = pulled(&|i| 0.5 + 1e-14 * i as f64);
+        let peak = recovery.peak(model, &equal).unwrap();
+        assert_eq!(peak.location, recovery.positions[0]);
+        assert!((peak.ratio - 0.5).abs() < 1e-9);
+        for largest in [1, 2, n / 2 + 1, n - 1] {
+            let samples = pulled(&|i| if i == largest { 0.6 } else { 0.5 });
+            let peak = recovery.peak(model, &samples).unwrap();
+            assert_eq!(peak.location, recovery.positions[largest]);
+            assert!((peak.ratio - 0.6).abs() < 1e-12);
         }
     }
 }

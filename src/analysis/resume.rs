@@ -96,9 +96,10 @@ impl<'m, 'o> Run<'m, 'o> {
             results.history.len(),
             engine.at.alpha
         ));
-        let mut seconds = record.seconds;
-        seconds.condensation += begin.elapsed().as_secs_f64();
-        if record.done > model.scene.program.targets.len() || record.done != results.states.len() {
+        let mut standing = record.standing;
+        standing.seconds.condensation += begin.elapsed().as_secs_f64();
+        let n_targets = model.scene.program.targets.len();
+        if standing.done > n_targets || standing.done != results.states.len() {
             return Err(Error::input(
                 "the checkpoint names more targets than there are: run the scene again from its beginning",
             ));
@@ -115,13 +116,9 @@ impl<'m, 'o> Run<'m, 'o> {
             at_yield: None,
             spread,
             observer,
-            plastic: record.plastic,
-            yield_alpha: record.yield_alpha,
-            elastic_range: record.elastic_range,
-            done: record.done,
+            standing,
             aim: Aim::Nothing,
-            fraction: record.done as f64 / model.scene.program.targets.len().max(1) as f64,
-            seconds,
+            fraction: standing.done as f64 / n_targets.max(1) as f64,
             keeper: Some(keeper),
             start,
             place: Place {

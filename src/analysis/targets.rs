@@ -17,7 +17,7 @@ impl Run<'_, '_> {
             .loads
             .iter()
             .flat_map(|l| l.kinks())
-            .chain(self.yield_alpha.filter(|_| !self.plastic))
+            .chain(self.standing.yield_alpha.filter(|_| !self.standing.plastic))
             .filter(|k| (*k - from) * (alpha - *k) > 0.0)
             .collect();
         stops.sort_by(|a, b| a.total_cmp(b));
@@ -47,23 +47,26 @@ impl Run<'_, '_> {
             self.place.stops = stops[i..].to_vec();
             let end = self.engine.point(stop);
             loop {
-                let [low, high] = self.elastic_range;
+                let [low, high] = self.standing.elastic_range;
                 let from = self.engine.at.alpha;
                 let known = from.min(stop) >= low && from.max(stop) <= high;
                 let resumed = self.resumed.as_ref().and_then(|place| place.drive.as_ref());
-                let watch_yield = resumed.map_or(!self.plastic && !known, |d| d.watch_yield);
+                let watch_yield =
+                    resumed.map_or(!self.standing.plastic && !known, |d| d.watch_yield);
                 match self.drive(&end, monitor, watch_yield)? {
                     Arrival::End => break,
                     Arrival::Yield(peak) => {
                         self.record_yield(peak)?;
-                        self.yield_alpha.get_or_insert(self.engine.at.alpha);
+                        self.standing
+                            .yield_alpha
+                            .get_or_insert(self.engine.at.alpha);
                     }
                     Arrival::Stopped => return Err(stopped()),
                     other => return Ok(other),
                 }
             }
-            if self.yield_alpha == Some(stop) {
-                self.plastic = true;
+            if self.standing.yield_alpha == Some(stop) {
+                self.standing.plastic = true;
             }
         }
         Ok(Arrival::End)
@@ -76,7 +79,7 @@ impl Run<'_, '_> {
 
     pub(super) fn reach(&mut self, target: &Target, label: &str) -> Result<()> {
         if target.first_yield {
-            let alpha = self.yield_alpha.ok_or_else(|| {
+            let alpha = self.standing.yield_alpha.ok_or_else(|| {
                 Error::analysis(format!("target `{label}`: no yield load was found before the program's largest load factor"))
             })?;
             self.aim_at_factor(alpha);
@@ -102,7 +105,7 @@ impl Run<'_, '_> {
             let goal = multiple * at_yield;
             // Relative, so that the accuracy of the search does not depend on units.
             let monitor =
-                move |engine: &mut Engine| engine.contact_figures().half_width / goal - 1.0;
+                move |engine: &mut Engine| Ok(engine.contact_figures().half_width / goal - 1.0);
             let upward = self.engine.contact_figures().half_width < goal;
             return self.search(&monitor, upward, 1.0, label);
         }
@@ -122,34 +125,25 @@ impl Run<'_, '_> {
         })?;
         let direction = usize::from(goal.direction == Direction::Y);
         let value = goal.value;
-        let distance = move |engine: &mut Engine| match engine.all_displacements() {
-            Ok(u) => {
-                let sum: f64 = nodes
-                    .iter()
-                    .map(|&n| {
-                        engine
-                            .model
-                            .freedoms
-                            .displacement(n, &u, &engine.at.factors)[direction]
-                    })
-                    .sum();
-                sum / nodes.len() as f64 - value
-            }
-            Err(_) => f64::NAN,
+        let distance = move |engine: &mut Engine| -> Result<f64> {
+            let u = engine.all_displacements()?;
+            let (freedoms, factors) = (&engine.model.freedoms, &engine.at.factors);
+            let along = |&n: &usize| freedoms.displacement(n, &u, factors)[direction];
+            Ok(nodes.iter().map(along).sum::<f64>() / nodes.len() as f64 - value)
         };
         let resumed = self.resumed.as_ref().and_then(|place| place.search);
         let scale = match resumed {
             Some(search) => search.scale,
-            None => value.abs().max(distance(&mut self.engine).abs()),
+            None => value.abs().max(distance(&mut self.engine)?.abs()),
         };
         let monitor = move |engine: &mut Engine| {
-            let off = distance(engine);
-            if scale > 0.0 { off / scale } else { off }
+            let off = distance(engine)?;
+            Ok(if scale > 0.0 { off / scale } else { off })
         };
         if let Some(search) = resumed {
             return self.search(&monitor, search.upward, scale, label);
         }
-        let here = monitor(&mut self.engine);
+        let here = monitor(&mut self.engine)?;
         let ahead = {
             let alpha = self.engine.at.alpha;
             let probe = self.engine.point(alpha + 1e-3 * alpha.abs().max(1.0));
@@ -159,7 +153,7 @@ impl Run<'_, '_> {
             self.engine.at = probe;
             let value = monitor(&mut self.engine);
             (self.engine.at, self.engine.now) = saved;
-            value
+            value?
         };
         let upward = (ahead - here) * here <= 0.0;
         self.search(&monitor, upward, scale, label)
@@ -186,7 +180,11 @@ impl Run<'_, '_> {
         while search.rounds < DOUBLINGS {
             if !under_way {
                 search.end = match (search.upward, search.end > 0.0) {
-                    (true, _) => 2.0 * search.end.max(0.5 * self.yield_alpha.unwrap_or(1.0)),
+                    (true, _) => {
+                        2.0 * search
+                            .end
+                            .max(0.5 * self.standing.yield_alpha.unwrap_or(1.0))
+                    }
                     (false, true) => 0.0,
                     (false, false) => break,
                 };
@@ -200,7 +198,7 @@ impl Run<'_, '_> {
                 _ => return Err(stopped()),
             }
         }
-        let off = monitor(&mut self.engine);
+        let off = monitor(&mut self.engine)?;
         Err(Error::analysis(format!(
             "target `{label}` was never reached: the load factor went to {:.6} and the target quantity is still off by {off:.6e}",
             self.engine.at.alpha

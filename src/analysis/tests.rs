@@ -2,11 +2,16 @@
 //! that fall or turn, yielding far from the contact.
 
 use super::Analysis;
+use super::engine::Engine;
+use super::program::Run;
+use crate::error::{Error, ErrorKind};
 use crate::linalg::Backend;
 use crate::model::Model;
 use crate::progress::Silent;
 use crate::results::Results;
 use crate::scene::Scene;
+use std::cell::Cell;
+use std::error::Error as _;
 
 fn run(text: &str) -> Results {
     let scene = Scene::parse(text, "test").expect("scene");
@@ -228,4 +233,38 @@ fn yielding_far_from_the_contact_is_noticed_without_a_yield_load() {
         "{}",
         state.max_equivalent_plastic_strain
     );
+}
+
+/// A solve that what is looked for needs may fail: the search ends with that error and its cause, wherever on the way that is.
+#[test]
+fn a_search_ends_with_the_error_of_what_it_looks_at() {
+    let text = bar("", PULLED, "[program]\ntargets = [{ load_factor = 0.3 }]");
+    let model = Model::new(&Scene::parse(&text, "test").unwrap()).unwrap();
+    let analysis = Analysis::new(model, Backend::Dense).unwrap();
+    let search = |fails_at: usize| {
+        let mut observer = Silent;
+        let (model, system) = (analysis.model(), analysis.system());
+        let mut run = Run::new(model, system, Backend::Dense, &[], &mut observer).unwrap();
+        run.execute(false).unwrap();
+        let calls = Cell::new(0);
+        let monitor = |engine: &mut Engine| {
+            calls.set(calls.get() + 1);
+            if calls.get() == fails_at {
+                let cause = std::io::Error::other("no memory");
+                return Err(Error::internal("a solve failed").because(cause));
+            }
+            Ok(engine.at.alpha - 0.9)
+        };
+        let found = run.search(&monitor, true, 1.0, "pulled");
+        found.map(|()| (run.engine.at.alpha, run.standing.plastic, calls.get()))
+    };
+    let (alpha, plastic, calls) = search(usize::MAX).unwrap();
+    assert!((alpha - 0.9).abs() < 1e-9 && plastic, "{alpha}");
+    assert!(calls > 3, "elastic, plastic and at the end: {calls}");
+    for fails_at in 1..=calls {
+        let error = search(fails_at).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::Internal, "call {fails_at}");
+        assert_eq!(error.in_full(), "a solve failed: no memory");
+        assert!(error.source().is_some());
+    }
 }

@@ -8,6 +8,7 @@ use super::engine::{Engine, LoadPoint};
 use super::recovery::{Peak, Recovery, Samples};
 use crate::contact;
 use crate::error::{Error, Result};
+use std::convert::Infallible;
 
 /// Relative accuracy of the yield load.
 const ACCURACY: f64 = 1e-14;
@@ -45,26 +46,31 @@ pub fn yield_share(
         peak.map_or(-1.0, |p| p.ratio - 1.0)
     };
     let ends = [0.0, 1.0].map(|s| (s, beyond(s)));
-    let share = bracketed_root(ends[0], ends[1], ACCURACY, beyond);
+    let Ok(share) = bracketed_root(ends[0], ends[1], ACCURACY, |s| {
+        Ok::<_, Infallible>(beyond(s))
+    });
     (share, found)
 }
 
 /// The root between two places (with the values there) of a function that is negative at the first and positive at the second: by inverse
 /// quadratic interpolation, halving where that is slow. Returns an end whose value has not the sign it should have.
 ///
+/// # Errors
+/// The first of the function's own.
+///
 /// # Source
 /// R. P. Brent, *Algorithms for Minimization Without Derivatives* (1973), chapter 4.
-pub fn bracketed_root(
+pub fn bracketed_root<E>(
     (mut a, mut fa): (f64, f64),
     (mut b, mut fb): (f64, f64),
     accuracy: f64,
-    mut f: impl FnMut(f64) -> f64,
-) -> f64 {
+    mut f: impl FnMut(f64) -> std::result::Result<f64, E>,
+) -> std::result::Result<f64, E> {
     if fa >= 0.0 {
-        return a;
+        return Ok(a);
     }
     if fb <= 0.0 {
-        return b;
+        return Ok(b);
     }
     // The end before last, and how many steps have not halved the bracket.
     let (mut c, mut fc) = (b, fb);
@@ -81,9 +87,9 @@ pub fn bracketed_root(
         if slow == PATIENCE || !(x > a && x < b) {
             x = 0.5 * (a + b);
         }
-        let y = f(x);
+        let y = f(x)?;
         if y.abs() <= accuracy || width <= accuracy * b.abs().max(a.abs()) {
-            return x;
+            return Ok(x);
         }
         if y < 0.0 {
             (c, fc) = (a, fa);
@@ -98,7 +104,7 @@ pub fn bracketed_root(
             slow + 1
         };
     }
-    0.5 * (a + b)
+    Ok(0.5 * (a + b))
 }
 
 impl Engine<'_> {
@@ -190,6 +196,7 @@ impl Engine<'_> {
 #[cfg(test)]
 mod tests {
     use super::bracketed_root;
+    use std::convert::Infallible;
 
     #[test]
     fn root_of_a_kinked_function() {
@@ -198,12 +205,10 @@ mod tests {
             let mut calls = 0;
             let counted = |x| {
                 calls += 1;
-                f(x)
+                Ok::<_, Infallible>(f(x))
             };
-            (
-                bracketed_root((0.0, f(0.0)), (1.0, f(1.0)), 1e-15, counted),
-                calls,
-            )
+            let Ok(x) = bracketed_root((0.0, f(0.0)), (1.0, f(1.0)), 1e-15, counted);
+            (x, calls)
         };
         assert!((root(&f).0 - 0.31).abs() < 1e-14);
         assert_eq!(root(&|x| x), (0.0, 0));

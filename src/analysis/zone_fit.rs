@@ -28,7 +28,7 @@ impl Run<'_, '_> {
         if self.choice.holds_all(self.model()) {
             return Ok(());
         }
-        let Some(at_yield) = self.yield_alpha else {
+        let Some(at_yield) = self.standing.yield_alpha else {
             // Nothing yields: the elastic path needs no zone at all.
             return Ok(());
         };
@@ -117,7 +117,7 @@ impl Run<'_, '_> {
         self.engine
             .set_zone(choice.elements.clone(), &choice.guard)?;
         self.choice = choice;
-        self.seconds.condensation += start.elapsed().as_secs_f64();
+        self.standing.seconds.condensation += start.elapsed().as_secs_f64();
         Ok(())
     }
 

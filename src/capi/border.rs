@@ -1,9 +1,8 @@
 //! What holds at the border: statuses, messages, pointers, structures that know their size.
 
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::panics::contained;
 use std::cell::RefCell;
-use std::error::Error as _;
 use std::ffi::{CStr, CString, c_char};
 
 /// Done.
@@ -18,7 +17,7 @@ pub const BRINELL_UNHELD: i32 = 4;
 pub const BRINELL_ANALYSIS: i32 = 5;
 /// The load passed the limit load.
 pub const BRINELL_COLLAPSE: i32 = 6;
-/// The run is complete, but a state's quality misses its tolerance.
+/// The run is complete, but a state's quality misses its tolerance, or an accuracy that the scene demands was not reached.
 pub const BRINELL_INACCURATE: i32 = 7;
 /// A fault of brinell itself.
 pub const BRINELL_INTERNAL: i32 = 70;
@@ -63,19 +62,12 @@ pub(super) fn guarded(act: impl FnOnce() -> Result<()>) -> i32 {
 /// Keeps an error for [`brinell_last_error`] and returns its status.
 pub(super) fn note(error: &Error) -> i32 {
     let mut text = error.to_string();
-    let mut cause = error.source();
-    while let Some(reason) = cause {
-        text.push_str(&format!("\ncaused by: {reason}"));
-        cause = reason.source();
+    for cause in error.causes() {
+        text.push_str(&format!("\ncaused by: {cause}"));
     }
     let text = CString::new(text.replace('\0', " ")).unwrap_or_default();
     LAST_ERROR.set(text);
-    status(error.kind())
-}
-
-/// The status of a kind of error.
-pub(super) fn status(kind: ErrorKind) -> i32 {
-    i32::from(kind.exit_code())
+    i32::from(error.kind().exit_code())
 }
 
 /// Refuses NULL and lengths that no memory holds.

@@ -3,7 +3,7 @@
 use super::border::{exclusive, free, guarded, hand_out, shared, slice, text};
 use super::options::brinell_options;
 use super::results::brinell_results;
-use super::run::{brinell_callback, execute};
+use super::run::{Task, brinell_callback, execute};
 use crate::error::{Error, Result};
 use crate::mesh::{Curve, Shape};
 use crate::model::ModelBuilder;
@@ -245,7 +245,7 @@ pub unsafe extern "C" fn brinell_model_run(
                 let model = shared(model, "the model")?;
                 let mut builder = model.builder.clone();
                 builder.program(model.program.clone());
-                builder.build()
+                Ok(Task::Model(Box::new(builder.build()?)))
             },
             options,
             callback,

@@ -1,18 +1,19 @@
 //! Running a scene.
 
-use super::border::{
-    BRINELL_INACCURATE, BRINELL_OK, SizePrefixed, guarded, hand_out, note, shared, status,
-};
+use super::border::{BRINELL_OK, SizePrefixed, guarded, hand_out, note, shared};
 use super::options::{backend, brinell_options};
 use super::results::brinell_results;
 use super::scene::brinell_scene;
+use crate::accuracy::{self, Extent};
 use crate::analysis::Analysis;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::Result;
+use crate::linalg::Backend;
 use crate::model::Model;
-use crate::output::RunHeader;
+use crate::output::{self, RunHeader};
 use crate::panics::outside;
 use crate::progress::{Flow, Observer};
-use crate::results::HistoryRow;
+use crate::results::{HistoryRow, Results};
+use crate::scene::Scene;
 use std::ffi::{CString, c_char, c_void};
 use std::time::Instant;
 
@@ -95,8 +96,12 @@ impl Observer for Caller {
 /// Runs a scene's load program. `callback` (NULL for none) is called after each increment with `user`.
 ///
 /// A run that was stopped, collapsed or failed after increments were accepted returns BRINELL_STOPPED, BRINELL_COLLAPSE or
-/// BRINELL_ANALYSIS *and* results: what was computed before; a complete one with a state whose quality misses its tolerance
-/// returns BRINELL_INACCURATE and results. After any other failure `*out` is NULL.
+/// BRINELL_ANALYSIS *and* results: what was computed before; a complete one with a state whose quality misses its tolerance,
+/// or that does not reach the accuracy its scene demands, returns BRINELL_INACCURATE and results. After any other failure
+/// `*out` is NULL.
+///
+/// A scene with the key `accuracy` is run on finer and finer meshes until their stated errors are within it: the callback sees
+/// the increments of each, counted from 1 anew, and the results are those of the last.
 ///
 /// # Safety
 /// `scene` is a living scene, `options` NULL or as long as it says, `out` may be written to; `callback` does not unwind.
@@ -111,7 +116,10 @@ pub unsafe extern "C" fn brinell_run(
     // SAFETY: as vouched for by the caller.
     unsafe {
         execute(
-            || Model::new(&shared(scene, "the scene")?.scene),
+            || {
+                let scene = shared(scene, "the scene")?.scene.clone();
+                Ok(Task::Scene(Box::new(scene)))
+            },
             options,
             callback,
             user,
@@ -120,12 +128,20 @@ pub unsafe extern "C" fn brinell_run(
     }
 }
 
-/// Runs the load program of a model.
+/// What is run.
+pub(super) enum Task {
+    /// A scene, to the accuracy it demands if it does.
+    Scene(Box<Scene>),
+    /// A model on the mesh that it has.
+    Model(Box<Model>),
+}
+
+/// Runs a load program.
 ///
 /// # Safety
 /// As [`brinell_run`].
 pub(super) unsafe fn execute(
-    model: impl FnOnce() -> Result<Model>,
+    task: impl FnOnce() -> Result<Task>,
     options: *const brinell_options,
     callback: brinell_callback,
     user: *mut c_void,
@@ -138,23 +154,32 @@ pub(super) unsafe fn execute(
             *super::border::exclusive(out, "the place for the results")? = std::ptr::null_mut();
             let backend = backend(options)?;
             let start = Instant::now();
-            let mut analysis = Analysis::new(model()?, backend)?;
-            let results = analysis.run(&mut Caller { callback, user })?;
+            let caller = &mut Caller { callback, user };
+            let (analysis, results) = match task()? {
+                Task::Scene(scene) if scene.accuracy.is_some() => {
+                    let found = accuracy::reach(&scene, backend, Extent::Program, caller)?;
+                    (found.analysis, found.results)
+                }
+                Task::Scene(scene) => as_it_stands(Model::new(&scene)?, backend, caller)?,
+                Task::Model(model) => as_it_stands(*model, backend, caller)?,
+            };
             let model = analysis.model();
             let header = RunHeader::new(model, backend, start.elapsed().as_secs_f64());
-            if let Some(why) = &results.incomplete {
-                let kind = results.incomplete_kind.unwrap_or(ErrorKind::Analysis);
-                ended = status(kind);
-                note(&Error::new(kind, why.clone()));
-            } else if !results.inaccurate.is_empty() {
-                ended = BRINELL_INACCURATE;
-                note(&Error::new(
-                    ErrorKind::Inaccurate,
-                    results.inaccurate.join("\n"),
-                ));
+            if let Err(short) = output::ending(&results) {
+                ended = note(&short);
             }
             hand_out(out, brinell_results::new(results, model.clone(), header))
         }
     });
     if done == BRINELL_OK { ended } else { done }
+}
+
+fn as_it_stands(
+    model: Model,
+    backend: Backend,
+    observer: &mut dyn Observer,
+) -> Result<(Analysis, Results)> {
+    let mut analysis = Analysis::new(model, backend)?;
+    let results = analysis.run(observer)?;
+    Ok((analysis, results))
 }

@@ -12,18 +12,19 @@ Examples:
   brinell run long.toml --checkpoint=10 --resume
   brinell run press.toml --out results --set materials.steel.yield_stress=400 --set program.steps=40
   brinell yield press.toml --json
-  brinell new ball-on-flat --radius 5 --load 300 > ball.toml
+  brinell new ball-on-flat --radius 5 --load 20 > ball.toml
   brinell view press.out
 
 Exit codes:
     0  done
-    2  the command line, the scene or the mesh is wrong, or asks for an effect that brinell does not have
+    2  the command line, the scene or the mesh is wrong, or asks for an effect
+       that brinell does not have
     3  a file could not be read or written
     4  a body is not held: it can move freely
     5  the analysis failed: a solve did not converge or a target was not reached
     6  the load passed the limit load of the bodies
-    7  inaccurate: a state's quality misses its tolerance (do not trust it), or a demanded accuracy was not
-       reached; the results are written
+    7  inaccurate: a state's quality misses its tolerance (do not trust it), or
+       a demanded accuracy was not reached; the results are written
    70  internal error, please report
   130  stopped (Ctrl-C); what was computed so far is written";
 
@@ -131,7 +132,10 @@ pub(super) struct RunArguments {
     /// Directory for the results; `run` takes SCENE with the ending .out if it is not given
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Do not estimate the errors: leaves out the runs on coarser meshes
+    /// Choose mesh and tolerances so that the stated errors stay within this, such as 1%; like the scene's key `accuracy`
+    #[arg(long, value_name = "PERCENT")]
+    pub accuracy: Option<String>,
+    /// Do not estimate the errors: leaves out the runs on other meshes
     #[arg(long)]
     pub no_estimate: bool,
     /// Write no report.html and no figures
@@ -169,9 +173,6 @@ pub(super) struct CommonArguments {
     /// Number of threads; by default as many as there are processors
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
-    /// Choose mesh and tolerances so that the stated errors stay within this, such as 1%; like the scene's key `accuracy`
-    #[arg(long, value_name = "PERCENT")]
-    pub accuracy: Option<String>,
     /// Print one JSON object (the content of summary.json) instead of tables
     #[arg(long)]
     pub json: bool,
@@ -237,6 +238,8 @@ mod tests {
             .lines()
             .filter_map(|line| line.split_whitespace().next()?.parse().ok())
             .collect();
+        // As wide as the help is where there is no terminal.
+        assert!(AFTER_HELP.lines().all(|line| line.len() <= 100));
         for kind in [
             Input,
             Io,

@@ -7,7 +7,7 @@ use super::{completions, example, interrupt, new, print, report, schema, study, 
 use crate::accuracy::{self, Extent};
 use crate::analysis::{self, Analysis, Check};
 use crate::checkpoint::Checkpoints;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::linalg::Backend;
 use crate::model::Model;
 use crate::output::{self, RunHeader};
@@ -53,7 +53,8 @@ fn analyse(
     start: Instant,
 ) -> Result<()> {
     let common = &arguments.common;
-    let scene = prepare(common)?;
+    let demand = arguments.accuracy.as_ref();
+    let scene = prepare(common, demand.map(|a| format!("accuracy={a}")))?;
     if let Some(out) = &out {
         // A directory that cannot be written is better found before an hour's run than after it.
         output::check_directory(out)?;
@@ -101,23 +102,7 @@ fn analyse(
         report::results(&scene, &header.bodies, &results, seconds(), out.as_deref())
     };
     print(&text)?;
-    match &results.incomplete {
-        None if !results.inaccurate.is_empty() => Err(Error::new(
-            ErrorKind::Inaccurate,
-            results.inaccurate.join("\n"),
-        )),
-        None => match results.accuracy.as_ref().and_then(|a| a.demand.as_ref()) {
-            Some(demand) if !demand.reached => Err(Error::new(
-                ErrorKind::Inaccurate,
-                crate::output::stated_errors::demand(demand),
-            )),
-            _ => Ok(()),
-        },
-        Some(why) => Err(Error::new(
-            results.incomplete_kind.unwrap_or(ErrorKind::Analysis),
-            format!("the run ended before its program did: {why}"),
-        )),
-    }
+    output::ending(&results)
 }
 
 /// Runs the scene as it stands, and estimates the errors.
@@ -180,7 +165,7 @@ pub(super) fn header(
 
 /// What a run would do and cost.
 fn predict(common: &CommonArguments) -> Result<()> {
-    let scene = prepare(common)?;
+    let scene = prepare(common, None)?;
     let model = Model::new(&scene)?;
     let check: Check = analysis::check(&model, common.solver.into())?;
     print(&if common.json {
@@ -190,9 +175,9 @@ fn predict(common: &CommonArguments) -> Result<()> {
     })
 }
 
-pub(super) fn prepare(common: &CommonArguments) -> Result<Scene> {
-    let mut overrides = common.overrides.clone();
-    overrides.extend(common.accuracy.iter().map(|a| format!("accuracy={a}")));
+/// The scene with all that is put over it, `last` after the rest.
+pub(super) fn prepare(common: &CommonArguments, last: Option<String>) -> Result<Scene> {
+    let overrides: Vec<String> = common.overrides.iter().cloned().chain(last).collect();
     let scene = Scene::load_with(&common.scene, &overrides)?;
     start_threads(common.threads.map(usize::from))?;
     Ok(scene)

@@ -24,7 +24,6 @@ use crate::output::number;
 use arguments::Arguments;
 use clap::Parser;
 use serde_json::json;
-use std::error::Error as StdError;
 use std::io::{self, Write};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -74,10 +73,8 @@ pub fn check_command_line(
 /// An error with its causes, as lines for a reader.
 fn explain(error: &Error) -> String {
     let mut text = format!("error: {}\n", error.to_string().replace('\n', "\n       "));
-    let mut cause = error.source();
-    while let Some(reason) = cause {
-        text.push_str(&format!("  caused by: {reason}\n"));
-        cause = reason.source();
+    for cause in error.causes() {
+        text.push_str(&format!("  caused by: {cause}\n"));
     }
     text
 }

@@ -24,14 +24,23 @@ pub(super) struct NewArguments {
 #[derive(Debug, Subcommand)]
 pub(super) enum Problem {
     /// A ball is pressed on a flat and let go (axisymmetric)
+    #[command(
+        after_help = "Example: brinell new ball-on-flat --radius 5 --load 20 --out ball.toml && brinell run ball.toml"
+    )]
     BallOnFlat(Pressed),
     /// A roller is pressed on a flat and let go (plane strain; the load is per mm of length)
+    #[command(
+        after_help = "Example: brinell new roller-on-flat --radius 5 --load 400 --out roller.toml && brinell run roller.toml"
+    )]
     RollerOnFlat(Pressed),
     /// A shaft that is too thick for its bore: an interference fit (plane stress)
     ShaftInBore(Fit),
     /// A flat rigid punch goes into a block (plane strain)
     Punch(Punch),
 }
+
+/// Loads so many times that of first yield may take minutes: more and more of the material flows.
+const FAR: f64 = 6.0;
 
 /// What bodies are made of.
 #[derive(Debug, Args)]
@@ -52,9 +61,6 @@ pub(super) struct Steel {
 
 /// A round body on a flat.
 #[derive(Debug, Args)]
-#[command(
-    after_help = "Example: brinell new ball-on-flat --radius 5 --load 300 --out ball.toml && brinell run ball.toml"
-)]
 pub(super) struct Pressed {
     /// Radius [mm]
     #[arg(long, value_name = "R", default_value_t = 10.0, value_parser = positive, allow_negative_numbers = true)]
@@ -62,8 +68,8 @@ pub(super) struct Pressed {
     /// Largest load [N; roller: N/mm]; by default three times the load at first yield
     #[arg(long, value_name = "P", value_parser = positive, allow_negative_numbers = true)]
     pub load: Option<f64>,
-    /// Elements over the contact half width at first yield
-    #[arg(long, value_name = "N", default_value_t = 12)]
+    /// Elements over the contact half width at first yield; with fewer than 16 errors are estimated on finer meshes, which costs more
+    #[arg(long, value_name = "N", default_value_t = 16)]
     pub resolution: usize,
     #[command(flatten)]
     pub steel: Steel,
@@ -234,6 +240,13 @@ fn pressed_scene(pressed: &Pressed, ball: bool) -> Result<String> {
         true => ("Ball", "axisymmetric", "N over the full circle"),
         false => ("Roller", "plane_strain", "N per mm of length"),
     };
+    let times = load / yield_load;
+    let patience = match times > FAR {
+        true => {
+            "# So far beyond it a run may take minutes, and the estimate of its errors more: `--no-estimate` leaves that out.\n"
+        }
+        false => "",
+    };
     let first = match load > yield_load {
         true => "    { yield = true },                    # first yield\n",
         false => "",
@@ -251,15 +264,15 @@ fn pressed_scene(pressed: &Pressed, ball: bool) -> Result<String> {
     let material = material(steel, &["cylinder", "half_plane"]);
     Ok(format!(
         "{HEAD}#
-# By Hertz the material first yields at a load of {yields} {per}.
-title = \"{shape} on a flat\"
+# By Hertz the material first yields at a load of {yields} {per}; the largest load is {times} times that.
+{patience}title = \"{shape} on a flat\"
 kind = \"{kind}\"
 {UNITS}
 {symmetry}
 # The generator's names are `cylinder` for the upper body and `half_plane` for the lower one, whatever they stand for.
 [mesh.cylinder_on_half_plane]
 radius = {radius}
-resolution = {resolution}              # elements over the contact half width at first yield: 8 coarse, 16 fine
+resolution = {resolution}              # elements over the contact half width at first yield: 8 coarse, 32 fine
 fine_width = {fine_width}            # how far the fine mesh reaches, in half widths at first yield
 fine_depth = {fine_depth}
 {far}
@@ -294,6 +307,7 @@ targets = [
 ]
 ",
         yields = significant(yield_load, 4),
+        times = significant(times, 3),
         radius = toml(pressed.radius),
         resolution = pressed.resolution,
         fine_width = significant(fine_width, 3),

@@ -22,7 +22,7 @@ pub(super) struct StudyArguments {
     /// Directory for accuracy.json, accuracy.csv and the plots; SCENE with the ending .accuracy if it is not given
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Time that the study may take, such as 60s or 10min; runs that would not fit are left out
+    /// Time that the study may take, such as 60s or 10min; runs that would not fit are left out, but for the cheapest
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub budget: Option<f64>,
     /// Meshes in a series: the finest has twice as many elements along a line as the scene, the next each 1/sqrt(2) of that
@@ -38,23 +38,25 @@ pub(super) struct StudyArguments {
 
 /// `60`, `60s`, `2min`, `1h` in seconds.
 fn duration(text: &str) -> std::result::Result<f64, String> {
+    let wanted = "give a positive time, such as 60s or 10min";
     let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
     let unit = match &text[digits.len()..] {
         "" | "s" => 1.0,
         "min" | "m" => 60.0,
         "h" => 3600.0,
+        _ if digits.is_empty() => return Err(wanted.to_string()),
         other => return Err(format!("unknown unit `{other}`; give s, min or h")),
     };
     match digits.trim().parse::<f64>() {
         Ok(value) if value > 0.0 && value.is_finite() => Ok(value * unit),
-        _ => Err("give a positive time, such as 60s".to_string()),
+        _ => Err(wanted.to_string()),
     }
 }
 
 /// Runs the study, writes it and says what it found.
 pub(super) fn execute(arguments: &StudyArguments) -> Result<()> {
     let common = &arguments.common;
-    let scene = prepare(common)?;
+    let scene = prepare(common, None)?;
     let mut plan = Plan {
         levels: usize::from(arguments.levels),
         budget: arguments.budget,

@@ -28,6 +28,7 @@
 
 mod atomic;
 mod contact;
+mod ending;
 mod fields;
 mod history;
 pub(crate) mod number;
@@ -43,6 +44,7 @@ mod vtu;
 mod vtu_read;
 mod work_precision;
 
+pub use ending::ending;
 pub use read::{Recorded, read};
 pub use study::{study_json, write_study};
 pub use summary::summary;

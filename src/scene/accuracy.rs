@@ -4,9 +4,9 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
-/// A demanded relative accuracy, read from `"1 %"` or `"0.01"`.
+/// A demanded relative accuracy, read from `"1 %"` or `0.01`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "String", into = "String")]
+#[serde(try_from = "Written", into = "String")]
 pub struct AccuracyDemand(f64);
 
 impl AccuracyDemand {
@@ -40,10 +40,31 @@ impl JsonSchema for AccuracyDemand {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({
-            "description": "Largest error of each quantity relative to its size, above 0 and up to 50 %: \"1 %\" or \"0.01\".",
-            "type": "string",
+            "description": "Largest error of each quantity relative to its size, above 0 and up to 50 %: \"1 %\" or 0.01.",
+            "type": ["string", "number"],
+            "exclusiveMinimum": 0,
+            "maximum": Self::LARGEST,
             "pattern": "^\\s*[0-9.eE+-]+\\s*%?\\s*$",
         })
+    }
+}
+
+/// As it stands in a scene.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "an accuracy such as \"1 %\"")]
+enum Written {
+    Text(String),
+    Number(f64),
+}
+
+impl TryFrom<Written> for AccuracyDemand {
+    type Error = String;
+
+    fn try_from(written: Written) -> Result<Self, String> {
+        match written {
+            Written::Text(text) => Self::try_from(text),
+            Written::Number(value) => Self::new(value),
+        }
     }
 }
 
@@ -89,6 +110,23 @@ mod tests {
                 AccuracyDemand::try_from(wrong.to_string()).is_err(),
                 "{wrong}"
             );
+        }
+    }
+
+    #[test]
+    fn a_number_is_a_share() {
+        let read =
+            |text: &str| toml::from_str::<std::collections::BTreeMap<String, AccuracyDemand>>(text);
+        let shares = read("accuracy = 0.01").unwrap();
+        assert_eq!(shares["accuracy"].relative(), 0.01);
+        assert_eq!(read("accuracy = \"1 %\"").unwrap(), shares);
+        for (wrong, says) in [
+            ("0", "such as \"1 %\""),
+            ("1", "up to 50 %"),
+            ("true", "an accuracy such as"),
+        ] {
+            let error = read(&format!("accuracy = {wrong}")).unwrap_err();
+            assert!(error.to_string().contains(says), "{error}");
         }
     }
 }

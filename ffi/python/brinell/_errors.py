@@ -44,7 +44,7 @@ class InternalError(Error):
 
 
 class InaccurateWarning(UserWarning):
-    """A state's quality misses its tolerance: the result is not to be trusted."""
+    """A state's quality misses its tolerance (the result is not to be trusted), or a demanded accuracy was not reached."""
 
 
 _KINDS = {

@@ -17,7 +17,8 @@ def run(scene, overrides=None, *, solver=None, callback=None, estimate=False, **
     estimate: estimate the errors of all figures too (summary["accuracy"]); this runs the scene on coarser meshes.
 
     Raises `Error` (`InputError`, `UnheldError`, `CollapseError`, ...) with `kind`, `status` and, where the run failed on its way,
-    `result`. A state whose quality misses its tolerance is told by an `InaccurateWarning`.
+    `result`. A state whose quality misses its tolerance, or an accuracy that the scene demands (accuracy="1 %") and that was not
+    reached, is told by an `InaccurateWarning`; a scene with `accuracy` is run on finer and finer meshes, and the result is that of the last.
     """
     is_path = not isinstance(scene, str) or "\n" not in scene
     values = dict(overrides or {})

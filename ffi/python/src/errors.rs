@@ -2,7 +2,6 @@
 
 use brinell::{Error, ErrorKind};
 use pyo3::prelude::*;
-use std::error::Error as _;
 
 /// The exception of an error (`brinell.Error` or one of its kinds), with what was computed before, if anything was.
 pub fn exception(py: Python<'_>, error: &Error, result: Option<Py<PyAny>>) -> PyErr {
@@ -18,10 +17,8 @@ pub fn exception(py: Python<'_>, error: &Error, result: Option<Py<PyAny>>) -> Py
         _ => "internal",
     };
     let mut text = error.to_string();
-    let mut cause = error.source();
-    while let Some(reason) = cause {
-        text.push_str(&format!("\ncaused by: {reason}"));
-        cause = reason.source();
+    for cause in error.causes() {
+        text.push_str(&format!("\ncaused by: {cause}"));
     }
     let made = || -> PyResult<PyErr> {
         let make = py.import("brinell._errors")?.getattr("make")?;

@@ -5,6 +5,7 @@ use crate::errors::{Raise, exception, wrong};
 use crate::lent::{lent, read_only};
 use crate::observer::Watcher;
 use crate::tables;
+use brinell::ErrorKind;
 use brinell::accuracy::{self, Extent};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
@@ -13,7 +14,6 @@ use brinell::output::{self, RunHeader};
 use brinell::panics::contained;
 use brinell::results::{self, Results};
 use brinell::scene::Scene;
-use brinell::{Error, ErrorKind};
 use numpy::PyArray1;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
@@ -92,21 +92,21 @@ pub fn execute(py: Python<'_>, source: Source, way: Way) -> PyResult<Py<RunResul
     }
     let (model, results) = done.raise(py)?;
     let header = RunHeader::new(&model, backend, start.elapsed().as_secs_f64());
-    let incomplete = results.incomplete.clone();
-    let kind = results.incomplete_kind.unwrap_or(ErrorKind::Analysis);
-    let inaccurate = results.inaccurate.join("\n");
+    let ending = output::ending(&results);
     let result = Py::new(py, RunResult::new(py, results, model, header)?)?;
-    match incomplete {
-        Some(why) if kind != ErrorKind::Stopped => {
-            let result = Some(result.clone_ref(py).into_any());
-            return Err(exception(py, &Error::new(kind, why), result));
-        }
-        None if !inaccurate.is_empty() => {
+    match ending {
+        // The callback has stopped it: it knows.
+        Err(short) if short.kind() == ErrorKind::Stopped => {}
+        Err(short) if short.kind() == ErrorKind::Inaccurate => {
             let category = py.import("brinell._errors")?.getattr("InaccurateWarning")?;
             py.import("warnings")?
-                .call_method1("warn", (inaccurate, category))?;
+                .call_method1("warn", (short.message(), category))?;
         }
-        _ => {}
+        Err(short) => {
+            let result = Some(result.clone_ref(py).into_any());
+            return Err(exception(py, &short, result));
+        }
+        Ok(()) => {}
     }
     Ok(result)
 }

@@ -240,6 +240,16 @@ def test_lost_accuracy_warns():
         brinell.run(BLOCKS)
 
 
+def test_a_demanded_accuracy_is_kept_or_warned_of():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        kept = brinell.run(SCENES / "thick_cylinder.toml", accuracy="5 %")
+    assert kept.summary["accuracy"]["demand"]["reached"]
+    with pytest.warns(brinell.InaccurateWarning, match="Demanded accuracy 1.0 %: NOT reached"):
+        missed = brinell.run(SCENES / "three_bodies.toml", accuracy="1 %")
+    assert not missed.summary["accuracy"]["demand"]["reached"]
+
+
 def model_of(result):
     """The scene of the two blocks by calls, on the arrays of the mesh of a run."""
     mesh = result.mesh

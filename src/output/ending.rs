@@ -1,0 +1,64 @@
+//! How a run ended: the one answer that the command line, C and Python give.
+
+use super::stated_errors;
+use crate::error::{Error, ErrorKind, Result};
+use crate::results::Results;
+
+/// Whether a run kept what was asked of it: the program done to its end, the quality of every state within its tolerance, and an
+/// accuracy that was demanded reached.
+///
+/// # Errors
+/// The kind of [`Results::incomplete_kind`] where the run ended before its program did; `Inaccurate` with every figure
+/// that falls short. The results are there in each case.
+pub fn ending(results: &Results) -> Result<()> {
+    if let Some(why) = &results.incomplete {
+        let kind = results.incomplete_kind.unwrap_or(ErrorKind::Analysis);
+        let text = format!("the run ended before its program did: {why}");
+        return Err(Error::new(kind, text));
+    }
+    let demand = results.accuracy.as_ref().and_then(|a| a.demand.as_ref());
+    let missed = demand.filter(|d| !d.reached).map(stated_errors::demand);
+    let short: Vec<String> = results.inaccurate.iter().cloned().chain(missed).collect();
+    match short.is_empty() {
+        true => Ok(()),
+        false => Err(Error::new(ErrorKind::Inaccurate, short.join("\n"))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::results::{Accuracy, Demand};
+
+    #[test]
+    fn everything_that_falls_short_is_said() {
+        let mut results = Results::default();
+        assert!(ending(&results).is_ok());
+        let demand = |reached| Demand {
+            accuracy: 0.01,
+            reached,
+            unknown: Vec::new(),
+            stated: 0.02,
+            choices: Vec::new(),
+            work: 0.0,
+        };
+        results.accuracy = Some(Accuracy {
+            demand: Some(demand(true)),
+            ..Accuracy::default()
+        });
+        assert!(ending(&results).is_ok());
+        results.accuracy.as_mut().unwrap().demand = Some(demand(false));
+        results.inaccurate.push("state `pressed`".to_string());
+        let error = ending(&results).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::Inaccurate);
+        assert_eq!(
+            error.message(),
+            "state `pressed`\nDemanded accuracy 1.0 %: NOT reached, the largest stated error is 2.0 %"
+        );
+        results.incomplete = Some("stopped".to_string());
+        results.incomplete_kind = Some(ErrorKind::Stopped);
+        let error = ending(&results).unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::Stopped);
+        assert!(error.message().ends_with("did: stopped"), "{error}");
+    }
+}
