@@ -103,11 +103,12 @@ pub fn reach(
     let mut last: Option<(Scene, f64)> = None;
     let mut least = spacings(scene).map_or(0.0, |_| AT_FOOT * foot);
     let mut best = Best::default();
+    let mut so_far = String::new();
     for round in 1..=ROUNDS {
         let coarser = last.as_ref().map(|(scene, width)| (scene, *width));
         let (level, model) = nearest(&wanted, factor, demand, coarser, least)?;
         let settings = resolution(&level, 1.0 / factor);
-        observer.phase(&format!("accuracy {}: {settings}", percent(demand)));
+        observer.phase(&format!("accuracy {}{so_far}: {settings}", percent(demand)));
         let fine = fineness(&level).unwrap_or(factor);
         if model.mesh.n_elements() > SMALL && in_doubt(fine, &costs) {
             let cost = forecast(&level, backend)?;
@@ -147,6 +148,7 @@ pub fn reach(
             order: largest_order(scene),
         };
         let outcome = Outcome::of(&trial);
+        so_far = format!(", {} so far", told(&outcome));
         choices.push(format!(
             "{settings}: stated error {} in {seconds:.2} s",
             told(&outcome)

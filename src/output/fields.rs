@@ -17,6 +17,7 @@ use super::{COLLECTION_FILE, RunHeader};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::results::{Fields, State};
+use rayon::prelude::*;
 
 /// How the name of a state's file begins.
 pub(super) const FILE_PREFIX: &str = "state_";
@@ -25,7 +26,7 @@ pub(super) const FILE_SUFFIX: &str = ".vtu";
 /// Most characters of a state's name that go into its file name.
 const NAME_LENGTH: usize = 60;
 
-/// Writes the fields of all states that have them.
+/// Writes the fields of all states that have them, several files at a time.
 ///
 /// # Errors
 /// `Internal` where fields do not fit the mesh, `Io` naming the file.
@@ -35,15 +36,21 @@ pub(super) fn write(
     mesh: &Mesh,
     states: &[State],
 ) -> Result<()> {
+    let file = |(i, state): (usize, &State)| -> Result<Option<(usize, String)>> {
+        let Some(fields) = &state.fields else {
+            return Ok(None);
+        };
+        check(mesh, fields).map_err(|e| e.within(format!("state `{}`", state.name)))?;
+        let name = file_name(i, states.len(), &state.name);
+        let grid = grid(header, mesh, fields);
+        staging.file(&name, |out| vtu::write(out, &grid))?;
+        Ok(Some((i + 1, name)))
+    };
+    let files: Vec<Result<Option<(usize, String)>>> =
+        states.par_iter().enumerate().map(file).collect();
     let mut series = Vec::new();
-    for (i, state) in states.iter().enumerate() {
-        if let Some(fields) = &state.fields {
-            check(mesh, fields).map_err(|e| e.within(format!("state `{}`", state.name)))?;
-            let name = file_name(i, states.len(), &state.name);
-            let grid = grid(header, mesh, fields);
-            staging.file(&name, |out| vtu::write(out, &grid))?;
-            series.push((i + 1, name));
-        }
+    for file in files {
+        series.extend(file?);
     }
     if series.is_empty() {
         return Ok(());

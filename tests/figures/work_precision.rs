@@ -1,7 +1,9 @@
 //! The page of data/accuracy: what each digit costs, for the paper's applications and cases with known answers. Run with
 //! `cargo run --release --example work_precision [-- SCENE]...` (names below; all without any).
 
-use brinell::accuracy::{Extent, Knob, Meter, Plan, QuantityStudy, Study, reach, study};
+use brinell::accuracy::{
+    Extent, Knob, Meter, Plan, QuantityStudy, Study, quantities, reach, study,
+};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::model::Model;
@@ -66,7 +68,7 @@ const CASES: [Case; 6] = [
             "states.1.5 b*.max_pressure",
             "states.unloaded.residual_depth",
         ],
-        demands: &[0.1],
+        demands: ALL,
         extent: Extent::Program,
         theory: EDGE_AND_FRONT,
         remark: "Beyond yield the contact edge travels over flowing elements: the dent converges with an order between one and \
@@ -88,12 +90,12 @@ const CASES: [Case; 6] = [
             "yield.half_width",
             "states.alpha 2.max_pressure",
         ],
-        demands: &[0.1, 0.03, 0.01],
+        demands: ALL,
         extent: Extent::Yield,
         theory: EDGE_AND_FRONT,
         remark: "The half width is read off a contact that ends inside an element, so that its error is a share of one: first order. While it is \
                  unloaded the pressure peaks at the edge of the dent, the higher the finer the mesh (load factor 1 again: 93 with 80 elements over a quarter, 106 \
-                 with 160): no mesh is fine enough for those states, and `accuracy = x` over the whole program is refused with its price.",
+                 with 160): no mesh is fine enough for those states, and `accuracy = x` over the whole program ends without having reached it, or with what it would take.",
     },
     Case {
         name: "hertz_line",
@@ -143,7 +145,7 @@ const CASES: [Case; 6] = [
         budget: 120.0,
         quantities: &["yield.alpha", "states.alpha 190.approach"],
         demands: ALL,
-        extent: Extent::Yield,
+        extent: Extent::Program,
         theory: "2 for linear and 4 for quadratic elements at first yield, where all is smooth; beyond it between 1 and 2, the front of the plastic zone being inside elements",
         remark: "Quadratic elements win by a factor. The displacement near collapse is governed by increments as much as by the mesh.",
     },
@@ -156,12 +158,15 @@ const CASES: [Case; 6] = [
         levels: 5,
         budget: 120.0,
         quantities: &["states.flow.load"],
-        demands: &[0.1],
+        demands: &[0.1, 0.03],
         extent: Extent::Program,
         theory: "1: the velocity of the exact mechanism jumps, and continuous elements smear the jump over one of theirs",
         remark: "The velocity jumps at the punch's edge: first order from above, whatever else is refined.",
     },
 ];
+
+/// Seconds from which on a time is not taken again.
+const LONG: f64 = 10.0;
 
 /// Tells phases on standard error.
 struct Told;
@@ -339,7 +344,7 @@ fn section(case: &Case, study: &Study) -> Outcome<String> {
 }
 
 /// `accuracy = x` beside the cheapest run of the study that reaches x in truth, not by chance: in a series of meshes every finer one
-/// reaches it too. Both are run three times in turn; times are medians.
+/// reaches it too. Both are run three times in turn, once where that takes long; times are medians.
 fn demands(case: &Case, scene: &Scene, study: &Study, text: &mut String) -> Outcome<()> {
     if case.demands.is_empty() {
         return Ok(());
@@ -387,7 +392,7 @@ fn demands(case: &Case, scene: &Scene, study: &Study, text: &mut String) -> Outc
         asked.accuracy = Some(AccuracyDemand::new(demand)?);
         let (mut times, mut hand) = (Vec::new(), Vec::new());
         let mut last = None;
-        for _ in 0..3 {
+        while times.len() < 3 && times.iter().sum::<f64>() < LONG {
             let meter = Meter::start();
             let found = reach(&asked, Backend::default(), case.extent, &mut Told);
             times.push(meter.stop().undisturbed_seconds());
@@ -421,11 +426,17 @@ fn demands(case: &Case, scene: &Scene, study: &Study, text: &mut String) -> Outc
         } else {
             ", missed"
         };
-        let rows = found.results.reference.iter();
-        let actual = rows
-            .filter(|r| names.iter().any(|n| **n == r.quantity) || r.quantity == "yield.alpha")
-            .map(|r| (r.ratio - 1.0).abs())
-            .reduce(f64::max);
+        let reported = quantities(&found.results);
+        let errors = names.iter().filter_map(|name| {
+            let mut exact = found.results.reference.iter();
+            if let Some(row) = exact.find(|r| r.quantity == **name) {
+                return Some((row.ratio - 1.0).abs());
+            }
+            let reference = quantity(study, name).ok()?.reference.as_ref()?;
+            let reported = reported.iter().find(|q| q.path == **name)?;
+            Some((reported.value - reference.value).abs() / reported.scale)
+        });
+        let actual = errors.reduce(f64::max);
         let mesh = &found.scene.mesh;
         let mesh = match (
             &mesh.cylinder_on_half_plane,
