@@ -349,12 +349,15 @@ fn demands(case: &Case, scene: &Scene, study: &Study, text: &mut String) -> Outc
     if case.demands.is_empty() {
         return Ok(());
     }
-    let names: Vec<&&str> = match case.extent {
-        Extent::Program => case.quantities.iter().collect(),
-        Extent::Yield => (case.quantities.iter())
-            .filter(|q| q.starts_with("yield."))
-            .collect(),
-    };
+    // Of a whole program all that governs, not what the page draws.
+    let drawn = |name: &str| name.starts_with("yield.") && case.quantities.contains(&name);
+    let governs = |name: &str| name != "all" && !name.ends_with("plastic_zone_size");
+    let names: Vec<&str> = (study.quantities.iter().map(|q| q.quantity.as_str()))
+        .filter(|name| match case.extent {
+            Extent::Program => governs(name),
+            Extent::Yield => drawn(name),
+        })
+        .collect();
     let error = |run: usize| -> f64 {
         let errors = names.iter().map(|name| {
             let found = quantity(study, name).ok();
@@ -429,11 +432,11 @@ fn demands(case: &Case, scene: &Scene, study: &Study, text: &mut String) -> Outc
         let reported = quantities(&found.results);
         let errors = names.iter().filter_map(|name| {
             let mut exact = found.results.reference.iter();
-            if let Some(row) = exact.find(|r| r.quantity == **name) {
+            if let Some(row) = exact.find(|r| r.quantity == *name) {
                 return Some((row.ratio - 1.0).abs());
             }
             let reference = quantity(study, name).ok()?.reference.as_ref()?;
-            let reported = reported.iter().find(|q| q.path == **name)?;
+            let reported = reported.iter().find(|q| q.path == *name && q.scale > 0.0)?;
             Some((reported.value - reference.value).abs() / reported.scale)
         });
         let actual = errors.reduce(f64::max);
