@@ -6,7 +6,9 @@ use plotters::prelude::*;
 use plotters::series::DashedLineSeries;
 
 const FONT: &str = "Helvetica, Arial, sans-serif";
-const SIZE: (u32, u32) = (820, 540);
+const SIZE: (u32, u32) = (960, 540);
+/// Width of the names beside the plot.
+const LEGEND: u32 = 190;
 /// Colours of the series, told apart by readers who do not see all (P. Wong, Nature Methods 8 (2011) 441,
 /// doi:10.1038/nmeth.1618).
 const COLORS: [RGBColor; 7] = [
@@ -66,7 +68,7 @@ fn curves<'s>(study: &'s Study, quantity: &QuantityStudy) -> Vec<Curve<'s>> {
             Some(curve) => curve.points.push(point),
             None => out.push(Curve {
                 name: &run.series,
-                is_mesh: matches!(run.knob, Knob::Resolution | Knob::Element),
+                is_mesh: matches!(run.knob, Knob::Resolution | Knob::Element | Knob::Grading),
                 points: vec![point],
             }),
         }
@@ -93,10 +95,10 @@ fn draw(
     }
     let root = SVGBackend::with_string(text, SIZE).into_drawing_area();
     root.fill(&WHITE)?;
-    let mut chart = ChartBuilder::on(&root)
+    let (left, beside) = root.split_horizontally(SIZE.0 - LEGEND);
+    let mut chart = ChartBuilder::on(&left)
         .caption(&quantity.quantity, (FONT, 18).into_font().color(&BLACK))
         .margin(14)
-        .margin_right(24)
         .x_label_area_size(48)
         .y_label_area_size(76)
         .build_cartesian_2d(
@@ -109,8 +111,8 @@ fn draw(
         .y_desc("relative error")
         .axis_desc_style((FONT, 16))
         .label_style((FONT, 13))
-        .x_label_formatter(&|v| format!("{v}"))
-        .y_label_formatter(&|v| format!("{v:.0e}"))
+        .x_label_formatter(&|v| tick(*v, |v| format!("{v}")))
+        .y_label_formatter(&|v| tick(*v, |v| format!("{v:e}")))
         .light_line_style(TRANSPARENT)
         .bold_line_style(BLACK.mix(0.12))
         .draw()?;
@@ -128,46 +130,81 @@ fn draw(
         .collect();
     if front.len() > 1 {
         let grey = RGBColor(150, 150, 150);
-        chart
-            .draw_series(DashedLineSeries::new(front, 6, 5, grey.stroke_width(5)))?
-            .label("Pareto front")
-            .legend(move |at| {
-                EmptyElement::at(at) + Rectangle::new([(0, -2), (24, 2)], grey.filled())
-            });
+        chart.draw_series(DashedLineSeries::new(front, 6, 5, grey.stroke_width(5)))?;
+        let [x, y] = place(0);
+        beside.draw(&Rectangle::new(
+            [(x - 12, y - 2), (x + 12, y + 2)],
+            grey.filled(),
+        ))?;
+        beside.draw(&name("Pareto front", [x, y]))?;
     }
     for (i, curve) in curves.iter().enumerate() {
-        let Curve {
-            name,
-            is_mesh,
-            points,
-        } = curve;
         let color = COLORS[i % COLORS.len()];
-        let (width, radius) = if *is_mesh { (2, 4) } else { (1, 3) };
         // Runs with one knob turned are points round the scene's own: a line would suggest an order.
-        if *is_mesh {
-            chart.draw_series(LineSeries::new(points.clone(), color.stroke_width(width)))?;
-        }
-        let style = if *is_mesh {
-            color.filled()
-        } else {
-            color.stroke_width(2)
+        let (style, radius) = match curve.is_mesh {
+            true => (color.filled(), 4),
+            false => (color.stroke_width(2), 3),
         };
-        chart
-            .draw_series(points.iter().map(|&p| Circle::new(p, radius, style)))?
-            .label(*name)
-            .legend(move |at| EmptyElement::at(at) + Circle::new((12, 0), radius, style));
+        // Where colours come again the marks are others.
+        let again = i >= COLORS.len();
+        let [x, y] = place(i + 1);
+        if curve.is_mesh {
+            let line = LineSeries::new(curve.points.iter().copied(), color.stroke_width(2));
+            chart.draw_series(line)?;
+            beside.draw(&PathElement::new(
+                [(x - 12, y), (x + 12, y)],
+                color.stroke_width(2),
+            ))?;
+        }
+        if again {
+            let marks = curve
+                .points
+                .iter()
+                .map(|&p| TriangleMarker::new(p, radius + 2, style));
+            chart.draw_series(marks)?;
+            beside.draw(&TriangleMarker::new((x, y), radius + 2, style))?;
+        } else {
+            let marks = curve.points.iter().map(|&p| Circle::new(p, radius, style));
+            chart.draw_series(marks)?;
+            beside.draw(&Circle::new((x, y), radius, style))?;
+        }
+        beside.draw(&name(curve.name, [x, y]))?;
     }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperRight)
-        .margin(10)
-        .legend_area_size(30)
-        .label_font((FONT, 13))
-        .background_style(WHITE.mix(0.85))
-        .border_style(BLACK.mix(0.25))
-        .draw()?;
     root.present()?;
     drop(chart);
+    drop((left, beside));
     drop(root);
     Ok(())
+}
+
+/// Where the mark of an entry of the legend is drawn.
+fn place(entry: usize) -> [i32; 2] {
+    [20, 52 + 22 * entry as i32]
+}
+
+/// The name of an entry of the legend, beside its mark.
+fn name(text: &str, [x, y]: [i32; 2]) -> Text<'_, (i32, i32), &str> {
+    Text::new(text, (x + 18, y - 7), (FONT, 13).into_font())
+}
+
+/// The label of a tick of a logarithmic axis, rounded to a digit: only 1, 2 and 5 of each decade, which do not run into each other.
+fn tick(value: f64, label: impl Fn(f64) -> String) -> String {
+    let rounded = format!("{value:.0e}");
+    match rounded.parse() {
+        Ok(value) if rounded.starts_with(['1', '2', '5']) => label(value),
+        _ => String::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::tick;
+
+    #[test]
+    fn ticks_are_round() {
+        let plain = |v: f64| tick(v, |v| format!("{v}"));
+        let labels = [0.1 + 0.1, 0.1 * 3.0, 0.5000000001, 20.0, 700.0].map(plain);
+        assert_eq!(labels, ["0.2", "", "0.5", "20", ""]);
+        assert_eq!(tick(2e-3, |v| format!("{v:e}")), "2e-3");
+    }
 }
