@@ -19,9 +19,10 @@
 //! mends that it is named in [`Demand::unknown`].
 
 use super::edge::well_read;
-use super::estimate::{Extent, SAFETY_OF_LAW, estimate_on};
+use super::estimate::{Extent, estimate_on};
 use super::grading::{balanced, risen};
 use super::knobs::resolution;
+use super::limit::{Limits, report};
 use super::ladder::{Ladder, fineness, foot, once_subdivided, spacings};
 use super::meter::{Pace, forecast, work};
 use super::outcome::{AIM, LEAST_STEP, Outcome, PATH_SHARE, Trial, told};
@@ -103,6 +104,7 @@ pub fn reach(
     let mut last: Option<(Scene, f64)> = None;
     let mut least = spacings(scene).map_or(0.0, |_| AT_FOOT * foot);
     let mut best = Best::default();
+    let mut limits = Limits::new();
     let mut so_far = String::new();
     for round in 1..=ROUNDS {
         let coarser = last.as_ref().map(|(scene, width)| (scene, *width));
@@ -126,7 +128,7 @@ pub fn reach(
             Extent::Yield => analysis.yield_load(observer)?,
             Extent::Program => analysis.run(observer)?,
         };
-        let mut found = estimate_on(
+        let estimate = estimate_on(
             ladder.rungs(&level),
             &mut ladder,
             &level,
@@ -135,6 +137,8 @@ pub fn reach(
             extent,
             observer,
         );
+        let (mut found, reported, new) = estimate.extrapolated(&results, &limits);
+        limits = new;
         ladder.keep(&level, &results);
         let seconds = begun.elapsed().as_secs_f64();
         spent += work(&results) + found.work;
@@ -180,6 +184,8 @@ pub fn reach(
                 work: spent,
             });
             results.accuracy = Some(found);
+            report(&reported, &mut results);
+            analysis.refer(&mut results);
             return Ok(Reached {
                 scene: level,
                 analysis,
@@ -194,7 +200,7 @@ pub fn reach(
             && let Some(pilot) = pilot(&level, backend, extent, &results, &found, observer)
         {
             spent += pilot.work;
-            let aim = AIM * outcome.mesh_share * demand / SAFETY_OF_LAW;
+            let aim = AIM * outcome.mesh_share * demand;
             if let Some((shaped, needed)) = balanced(&level, &pilot.shares(aim), STRIDE) {
                 let shape = resolution(&shaped, 1.0);
                 if shape != settings {

@@ -2,6 +2,7 @@
 
 use super::edge;
 use super::ladder::Ladder;
+use super::limit::Limit;
 use super::path::{self, Base, PathErrors};
 use super::quantities::{Quantity, quantities, value_of};
 use super::refusal::percent;
@@ -85,6 +86,16 @@ pub fn estimate(
         extent,
         observer,
     )
+    .accuracy
+}
+
+/// The errors of a run, and what the meshes say together.
+pub(super) struct Estimate {
+    pub accuracy: Accuracy,
+    /// The extrapolated value of each quantity.
+    pub limits: Vec<Option<Limit>>,
+    /// The other runs, with their element size over that of the run.
+    pub others: Vec<(f64, Results)>,
 }
 
 /// The same with other meshes of the family to extrapolate from, and what was run already.
@@ -96,9 +107,10 @@ pub(super) fn estimate_on(
     results: &Results,
     extent: Extent,
     observer: &mut dyn Observer,
-) -> Accuracy {
+) -> Estimate {
     let start = Instant::now();
     let mut out = Accuracy::default();
+    let mut limits = Vec::new();
     let quantities = quantities(results);
     let mut others: Vec<Other> = Vec::new();
     if results.incomplete.is_some() {
@@ -175,6 +187,7 @@ pub(super) fn estimate_on(
                 .filter_map(|c| Some((c.ratio, value_of(&c.quantities, &quantity.path)?))),
         );
         let mut safety = SAFETY;
+        let mut limit = None;
         let (discretisation, order) = match out.method {
             EstimateMethod::CoarserMeshes => {
                 // A run that is itself too coarse is compared with finer meshes, which no longer show it.
@@ -192,6 +205,13 @@ pub(super) fn estimate_on(
                     safety = SAFETY_OF_LAW;
                 }
                 let mut error = found.map(|f| f.error);
+                limit = found.and_then(|found| {
+                    let theory = match is_smooth(results, &quantity.path) {
+                        true => highest,
+                        false => largest_order(scene),
+                    };
+                    super::limit::limit(&quantity.path, &values, &found, theory)
+                });
                 if let (Some(error), Some(share)) = (
                     &mut error,
                     edge::known(scene, &quantity.path, quantity.value),
@@ -222,13 +242,20 @@ pub(super) fn estimate_on(
             path,
             algebraic,
             order,
+            of_mesh: None,
         });
+        limits.push(limit);
     }
     if extent == Extent::Program {
         out.notes.extend(told_by_width(scene, &out.quantities));
     }
     out.seconds = start.elapsed().as_secs_f64();
-    out
+    let others = others.into_iter().map(|other| (other.ratio, other.results));
+    Estimate {
+        accuracy: out,
+        limits,
+        others: others.collect(),
+    }
 }
 
 /// What is to be known of targets by half width: the load at which a mesh reaches them is a result, and its error one of all that is

@@ -54,6 +54,7 @@ mod extrapolation;
 mod grading;
 mod knobs;
 mod ladder;
+mod limit;
 mod meter;
 mod outcome;
 mod path;

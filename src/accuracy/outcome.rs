@@ -1,6 +1,7 @@
 //! What a trial of a demand says: whether it is reached, what is not known, and which mesh to try next.
 
 use super::estimate::{SAFETY_OF_LAW, highest_order};
+use super::limit::SHARE;
 use super::quantities::{Quantity, quantities};
 use super::refusal::percent;
 use crate::results::{Accuracy, QuantityError, Results};
@@ -114,8 +115,9 @@ impl Outcome {
         // One coarser mesh states with the lowest order, which is not that with which finer ones will be judged.
         let mesh = match trial.found.companions.as_slice() {
             [other] => {
+                let (error, safety) = of_mesh(errors);
                 let r = other.ratio;
-                SAFETY_OF_LAW * discretisation * (r - 1.0) / (r.powf(order) - 1.0)
+                safety * error * (r - 1.0) / (r.powf(order) - 1.0) / quantity.scale
             }
             _ => mesh,
         };
@@ -128,6 +130,15 @@ impl Outcome {
             .order
             .map_or(order, |o| (RISING * o).min(highest).max(o));
         self.refinement = self.refinement.max(needed.powf(1.0 / order));
+    }
+}
+
+/// The discretisation error of a quantity on the mesh itself, and the share of it that is stated of the reported value where three meshes
+/// follow a law.
+pub(super) fn of_mesh(errors: &QuantityError) -> (f64, f64) {
+    match &errors.of_mesh {
+        Some(own) => (own.discretisation, SHARE),
+        None => (errors.discretisation.unwrap_or(0.0), SAFETY_OF_LAW),
     }
 }
 
@@ -184,6 +195,7 @@ mod tests {
                 path: Some(0.0),
                 algebraic: 0.0,
                 order: Some(2.0),
+                of_mesh: None,
             });
         }
         (results, found)

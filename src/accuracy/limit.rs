@@ -1,0 +1,199 @@
+//! What the meshes on the way to a demand say together: values extrapolated to an element size of zero, and how wrong these may be.
+//!
+//! A ladder of meshes is run for the sake of the error; the law that tells the error of the finest tells its value without it, too. Where that value is
+//! known better than the mesh's own, it is the one that is reported:
+//!
+//! | meshes | value | stated error |
+//! |---|---|---|
+//! | three that follow a law `q0 + a h^p` | `q0`, of the order seen but at most that of the elements | [`SHARE`] of what was extrapolated, and the deviation from the law |
+//! | two | `q0` of the order of the elements | its distance from the `q0` of first order |
+//!
+//! Half widths are read off whole pairs: their errors jump with the place of the edge between two nodes ([`super::edge`]), and three of them that seem to
+//! follow a law do so by chance. The same may befall what depends on them; so a value also has to agree with the one that the
+//! mesh before led to, within the errors of both.
+//!
+//! # Source
+//! L. F. Richardson, J. A. Gaunt, The deferred approach to the limit, Phil. Trans. R. Soc. A 226 (1927) 299-361, doi:10.1098/rsta.1927.0008; P. J. Roache,
+//! *Verification and Validation in Computational Science and Engineering*, Hermosa 1998, chapter 5.
+
+use super::estimate::Estimate;
+use super::extrapolation::{Extrapolation, extrapolate};
+use super::quantities::{Quantity, alphas, put, quantities};
+use crate::results::{Accuracy, OfMesh, Results};
+use std::collections::BTreeMap;
+
+/// The stated error of an extrapolated value, over what it was extrapolated by.
+pub(super) const SHARE: f64 = 0.5;
+
+/// An extrapolated value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Limit {
+    pub value: f64,
+    /// Its stated error, of the mesh.
+    pub error: f64,
+    /// The order it was extrapolated with.
+    order: f64,
+}
+
+/// The limit of values `(h, q)` of a quantity, finest first, that led to `found`; `theory` is the order of the elements. `None` where they follow no law.
+pub(super) fn limit(
+    path: &str,
+    values: &[(f64, f64)],
+    found: &Extrapolation,
+    theory: f64,
+) -> Option<Limit> {
+    if path.ends_with("half_width") {
+        return None;
+    }
+    let at = |order: f64| extrapolate(values, [order, order]).filter(|e| e.limit.is_finite());
+    let own = values.first()?.1;
+    let out = match found.order {
+        None if values.len() == 2 => {
+            let best = at(theory)?.limit;
+            Limit {
+                value: best,
+                error: (best - at(1.0)?.limit).abs(),
+                order: theory,
+            }
+        }
+        Some(order) if found.regular => {
+            let order = order.min(theory);
+            let law = at(order)?;
+            Limit {
+                value: law.limit,
+                error: SHARE * law.error,
+                order,
+            }
+        }
+        _ => return None,
+    };
+    // Never through zero: nothing that is reported changes its sign with the mesh.
+    (out.value * own > 0.0).then_some(out)
+}
+
+/// Limits that a mesh led to, by quantity.
+pub(super) type Limits = BTreeMap<String, Limit>;
+
+impl Estimate {
+    /// Puts each extrapolated value whose stated error is less in the place of the mesh's own, unless those of the mesh `before` contradict it. Returns
+    /// the errors, the values to be reported, and the limits for the next mesh.
+    pub(super) fn extrapolated(
+        self,
+        results: &Results,
+        before: &Limits,
+    ) -> (Accuracy, Vec<(String, f64)>, Limits) {
+        let mut out = self.accuracy.clone();
+        let mut reported = Vec::new();
+        let mut limits = Limits::new();
+        for ((row, limit), quantity) in out
+            .quantities
+            .iter_mut()
+            .zip(&self.limits)
+            .zip(quantities(results))
+        {
+            let Some(limit) = limit else {
+                continue;
+            };
+            limits.insert(row.quantity.clone(), *limit);
+            let agrees = before.get(&row.quantity).is_none_or(|other| {
+                (limit.value - other.value).abs() <= limit.error + other.error
+            });
+            let error = limit.error + row.path.unwrap_or(0.0) + row.algebraic;
+            let (Some(own), Some(discretisation)) = (row.error, row.discretisation) else {
+                continue;
+            };
+            if !quantity.governs || !agrees || error >= own {
+                continue;
+            }
+            row.of_mesh = Some(OfMesh {
+                value: row.value,
+                error: own,
+                discretisation,
+            });
+            row.value = limit.value;
+            row.error = Some(error);
+            row.relative_error = (quantity.scale > 0.0).then(|| error / quantity.scale);
+            row.discretisation = Some(limit.error);
+            reported.push((row.quantity.clone(), limit.value));
+            reported.extend(self.factor_of(results, &quantity, limit));
+        }
+        (out, reported, limits)
+    }
+
+    /// The load factor that goes with a load: by the same law.
+    fn factor_of(
+        &self,
+        results: &Results,
+        load: &Quantity,
+        limit: &Limit,
+    ) -> Option<(String, f64)> {
+        let path = load.path.strip_suffix(".load").map(|p| format!("{p}.alpha"))?;
+        let of = |results: &Results| alphas(results).remove(&path);
+        let mut values = vec![(1.0, of(results)?)];
+        for (ratio, other) in &self.others {
+            values.push((*ratio, of(other)?));
+        }
+        let law = extrapolate(&values, [limit.order, limit.order])?;
+        Some((path, law.limit))
+    }
+}
+
+/// Puts the values that are to be reported into the results.
+pub(super) fn report(values: &[(String, f64)], results: &mut Results) {
+    for (path, value) in values {
+        put(results, path, *value);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(values: &[(f64, f64)], theory: f64) -> Option<Limit> {
+        let found = extrapolate(values, [1.0, 3.0]).unwrap();
+        limit("yield.load", values, &found, theory)
+    }
+
+    fn sampled(sizes: &[f64], q: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
+        sizes.iter().map(|&h| (h, q(h))).collect()
+    }
+
+    #[test]
+    fn the_limit_of_a_law_is_known_better_than_its_values() {
+        for order in [1.0, 1.5, 2.0] {
+            let values = sampled(&[1.0, 1.5, 2.25], |h| 7.0 + 0.3 * h.powf(order));
+            let limit = of(&values, 2.0).unwrap();
+            assert!((limit.value - 7.0).abs() < 0.01, "{limit:?}");
+            assert!((limit.error / (SHARE * 0.3) - 1.0).abs() < 0.05, "{limit:?}");
+        }
+    }
+
+    /// Higher terms make coarse meshes converge faster than they will.
+    #[test]
+    fn no_more_than_the_order_of_the_elements_is_believed() {
+        let values = sampled(&[1.0, 1.5, 2.0], |h| 7.0 + 0.1 * h.powi(2) + 0.1 * h.powi(4));
+        let limit = of(&values, 2.0).unwrap();
+        assert_eq!(limit.order, 2.0);
+        assert!((limit.value - 7.0).abs() <= limit.error, "{limit:?}");
+    }
+
+    #[test]
+    fn two_meshes_leave_the_order_open() {
+        for order in [1.0, 1.3, 2.0] {
+            let values = sampled(&[1.0, 1.25], |h| 7.0 + 0.3 * h.powf(order));
+            let limit = of(&values, 2.0).unwrap();
+            assert!((limit.value - 7.0).abs() <= limit.error * (1.0 + 1e-12), "{limit:?}");
+        }
+    }
+
+    #[test]
+    fn no_limit_without_a_law() {
+        assert_eq!(of(&[(1.0, 5.0), (2.0, 6.0), (2.5, 4.0)], 2.0), None);
+        assert_eq!(of(&[(1.0, 5.0), (2.0, 5.0), (2.5, 5.0)], 2.0), None);
+        // Through zero.
+        assert_eq!(of(&[(1.0, 0.1), (2.0, 0.9), (3.0, 1.7)], 2.0), None);
+        let values = [(1.0, 1.1), (2.0, 1.2), (3.0, 1.3)];
+        let found = extrapolate(&values, [1.0, 3.0]).unwrap();
+        assert_eq!(limit("yield.half_width", &values, &found, 2.0), None);
+    }
+}
