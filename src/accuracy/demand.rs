@@ -39,13 +39,16 @@ use crate::results::{Demand, Results};
 use crate::scene::{Scene, Stepping};
 use std::time::Instant;
 
-/// The tolerances are this share of the demand.
-const TOLERANCE_SHARE: f64 = 1.0 / 300.0;
+/// The tolerance of contact events is this share of the demand.
+const GAMMA_SHARE: f64 = 1.0 / 300.0;
+/// That of the plastic iteration this one: with 1e-4 the limit load of the punch is 1 % off on its finest mesh, the more the finer it is.
+const TOLERANCE_SHARE: f64 = 1e-3;
 /// Tightest tolerance that is chosen: the scene's default.
 const TIGHTEST: f64 = 1e-10;
-/// Loosest tolerance of the plastic iteration that is chosen. A half width as target is read off a state that must not
-/// scatter: with 1e-4 a target was missed.
-const LOOSEST: f64 = 1e-6;
+/// Loosest tolerance of the plastic iteration that is chosen.
+const LOOSEST: f64 = 1e-4;
+/// The same where a half width is a target, which is read off a state that must not scatter: with 1e-4 one was missed.
+const LOOSEST_READ_OFF: f64 = 1e-6;
 /// A mesh is at most this many times finer than the one it is aimed from: beyond, an observed order is a guess. Each
 /// is judged by the two before it, which cost nothing again, so that all together cost about 1.5 times the last.
 const STRIDE: f64 = 1.9;
@@ -94,7 +97,7 @@ pub fn reach(
     };
     let mut wanted = risen(&with_tolerances(scene, demand));
     let mut choices = vec![format!(
-        "tolerance {:.1e} and gamma {:.1e}: a 300th of the demand, the former at most {LOOSEST:e}",
+        "tolerance {:.1e} and gamma {:.1e}: from the demand",
         wanted.analysis.tolerance, wanted.program.gamma
     )];
     let mut pace = Pace::default();
@@ -277,9 +280,10 @@ fn nearest(
 
 fn with_tolerances(scene: &Scene, demand: f64) -> Scene {
     let mut out = scene.clone();
-    let share = (TOLERANCE_SHARE * demand).max(TIGHTEST);
-    out.analysis.tolerance = share.min(LOOSEST);
-    out.program.gamma = share;
+    let read_off = out.program.targets.iter().any(|t| t.half_width.is_some());
+    let loosest = if read_off { LOOSEST_READ_OFF } else { LOOSEST };
+    out.analysis.tolerance = (TOLERANCE_SHARE * demand).clamp(TIGHTEST, loosest);
+    out.program.gamma = (GAMMA_SHARE * demand).max(TIGHTEST);
     out
 }
 

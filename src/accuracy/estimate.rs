@@ -59,7 +59,6 @@ pub enum Extent {
 
 /// A finished run on another mesh.
 struct Other {
-    scene: Scene,
     ratio: f64,
     results: Results,
     quantities: Vec<Quantity>,
@@ -96,6 +95,7 @@ pub(super) struct Estimate {
     pub limits: Vec<Option<Limit>>,
     /// The other runs, with their element size over that of the run.
     pub others: Vec<(f64, Results)>,
+    pub path: PathErrors,
 }
 
 /// The same with other meshes of the family to extrapolate from, and what was run already.
@@ -136,7 +136,6 @@ pub(super) fn estimate_on(
                     });
                     others.push(Other {
                         quantities: super::quantities(&found),
-                        scene: level.scene,
                         ratio: level.ratio,
                         results: found,
                     });
@@ -169,14 +168,18 @@ pub(super) fn estimate_on(
     } else if extent == Extent::Yield || !path::matters(results) {
         PathErrors::None
     } else {
-        let coarsest = others.last().filter(|other| other.ratio > 1.0);
-        let base = coarsest.map_or(own, |coarsest| Base {
-            scene: &coarsest.scene,
-            results: &coarsest.results,
-            quantities: &coarsest.quantities,
-            alone: false,
-        });
-        path::errors(&base, backend, results, observer, &mut out.notes)
+        let coarsest = ladder.flowing(scene, results).cloned();
+        let values = coarsest.as_ref().map(|(_, found)| super::quantities(found));
+        let base = match (&coarsest, &values) {
+            (Some((scene, results)), Some(values)) => Base {
+                scene,
+                results,
+                quantities: values,
+                alone: false,
+            },
+            _ => own,
+        };
+        path::errors(&base, ladder, backend, results, observer, &mut out.notes)
     };
     out.work += path.work();
     for quantity in &quantities {
@@ -229,7 +232,7 @@ pub(super) fn estimate_on(
             EstimateMethod::None => (None, None),
         };
         let algebraic = algebraic_error(results, &quantity.path) * quantity.scale;
-        let path = path.of(&quantity.path);
+        let path = path.of(&quantity.path).map(|path| path.total());
         let error = discretisation.map(|d| safety * d + path.unwrap_or(0.0) + algebraic);
         out.quantities.push(QuantityError {
             quantity: quantity.path.clone(),
@@ -255,6 +258,7 @@ pub(super) fn estimate_on(
         accuracy: out,
         limits,
         others: others.collect(),
+        path,
     }
 }
 

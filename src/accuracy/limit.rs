@@ -6,7 +6,7 @@
 //! | meshes | value | stated error |
 //! |---|---|---|
 //! | three that follow a law `q0 + a h^p` | `q0`, of the order seen but at most that of the elements | [`SHARE`] of what was extrapolated, and the deviation from the law |
-//! | two | `q0` of the order of the elements | its distance from the `q0` of first order |
+//! | two | `q0` of the order of the elements | [`SAFETY_OF_TWO`] times its distance from the `q0` of first order |
 //!
 //! Half widths are read off whole pairs: their errors jump with the place of the edge between two nodes ([`super::edge`]), and three of them that seem to
 //! follow a law do so by chance. The same may befall what depends on them; so a value also has to agree with the one that the
@@ -24,6 +24,9 @@ use std::collections::BTreeMap;
 
 /// The stated error of an extrapolated value, over what it was extrapolated by.
 pub(super) const SHARE: f64 = 0.5;
+
+/// The same of two meshes, over what lies between first order and that of the elements: the very ends do occur.
+const SAFETY_OF_TWO: f64 = 1.25;
 
 /// An extrapolated value.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,7 +55,7 @@ pub(super) fn limit(
             let best = at(theory)?.limit;
             Limit {
                 value: best,
-                error: (best - at(1.0)?.limit).abs(),
+                error: SAFETY_OF_TWO * (best - at(1.0)?.limit).abs(),
                 order: theory,
             }
         }
@@ -78,44 +81,50 @@ impl Estimate {
     /// Puts each extrapolated value whose stated error is less in the place of the mesh's own, unless those of the mesh `before` contradict it. Returns
     /// the errors, the values to be reported, and the limits for the next mesh.
     pub(super) fn extrapolated(
-        self,
+        &self,
         results: &Results,
         before: &Limits,
     ) -> (Accuracy, Vec<(String, f64)>, Limits) {
         let mut out = self.accuracy.clone();
         let mut reported = Vec::new();
         let mut limits = Limits::new();
-        for ((row, limit), quantity) in out
-            .quantities
-            .iter_mut()
-            .zip(&self.limits)
-            .zip(quantities(results))
-        {
-            let Some(limit) = limit else {
+        let quantities = quantities(results);
+        let rows = out.quantities.iter_mut().zip(&self.limits);
+        for ((row, limit), quantity) in rows.zip(&quantities) {
+            if let Some(limit) = limit {
+                limits.insert(row.quantity.clone(), *limit);
+            }
+            let (Some(stated), Some(discretisation)) = (row.error, row.discretisation) else {
                 continue;
             };
-            limits.insert(row.quantity.clone(), *limit);
-            let agrees = before.get(&row.quantity).is_none_or(|other| {
-                (limit.value - other.value).abs() <= limit.error + other.error
-            });
-            let error = limit.error + row.path.unwrap_or(0.0) + row.algebraic;
-            let (Some(own), Some(discretisation)) = (row.error, row.discretisation) else {
-                continue;
+            let agrees = |limit: &&Limit| {
+                before.get(&row.quantity).is_none_or(|other| {
+                    (limit.value - other.value).abs() <= limit.error + other.error
+                })
             };
-            if !quantity.governs || !agrees || error >= own {
+            let limit = limit.as_ref().filter(agrees);
+            let path = self.path.of(&row.quantity).unwrap_or_default();
+            let increments = SHARE * path.increments.abs();
+            let mesh = match limit {
+                Some(limit) => limit.error,
+                None => stated - path.total() - row.algebraic,
+            };
+            let error = mesh + path.tolerances + increments + row.algebraic;
+            if !quantity.governs || error >= stated {
                 continue;
             }
             row.of_mesh = Some(OfMesh {
                 value: row.value,
-                error: own,
+                error: stated,
                 discretisation,
             });
-            row.value = limit.value;
+            row.value = limit.map_or(row.value, |limit| limit.value) + path.increments;
             row.error = Some(error);
             row.relative_error = (quantity.scale > 0.0).then(|| error / quantity.scale);
-            row.discretisation = Some(limit.error);
-            reported.push((row.quantity.clone(), limit.value));
-            reported.extend(self.factor_of(results, &quantity, limit));
+            row.discretisation = Some(limit.map_or(discretisation, |limit| limit.error));
+            row.path = row.path.map(|_| path.tolerances + increments);
+            reported.push((row.quantity.clone(), row.value));
+            reported.extend(self.factor_of(results, quantity, limit));
         }
         (out, reported, limits)
     }
@@ -125,7 +134,7 @@ impl Estimate {
         &self,
         results: &Results,
         load: &Quantity,
-        limit: &Limit,
+        limit: Option<&Limit>,
     ) -> Option<(String, f64)> {
         let path = load.path.strip_suffix(".load").map(|p| format!("{p}.alpha"))?;
         let of = |results: &Results| alphas(results).remove(&path);
@@ -133,8 +142,12 @@ impl Estimate {
         for (ratio, other) in &self.others {
             values.push((*ratio, of(other)?));
         }
-        let law = extrapolate(&values, [limit.order, limit.order])?;
-        Some((path, law.limit))
+        let alpha = match limit {
+            Some(limit) => extrapolate(&values, [limit.order, limit.order])?.limit,
+            None => values[0].1,
+        };
+        let increments = self.path.of(&path).unwrap_or_default().increments;
+        Some((path, alpha + increments))
     }
 }
 
