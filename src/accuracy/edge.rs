@@ -12,8 +12,10 @@
 //! the contact, with the edge at the same place of a spacing on all meshes.
 
 use super::ladder::spacings;
+use super::quantities::Quantity;
 use super::refinement::CONTACT_OF_QUARTER;
 use crate::mesh::Shape;
+use crate::results::Results;
 use crate::scene::{DiscInPlate, Scene};
 use std::f64::consts::FRAC_PI_2;
 
@@ -42,25 +44,30 @@ fn count(disc: &DiscInPlate, half_width: f64) -> f64 {
     disc.resolution as f64 * half_width / (FRAC_PI_2 * disc.radius)
 }
 
-/// What a contact half width at first yield is off by at least and at most, over its value. Measured on `quad4`, and known where the generator
-/// sizes the elements by the contact.
-pub(super) fn known(scene: &Scene, path: &str, value: f64) -> Option<[f64; 2]> {
-    if path != "yield.half_width" {
+/// What a contact half width is off by at least and at most. Measured on `quad4` at first yield, and known where the generator sizes the elements by the
+/// contact; at most where nothing has flowed yet.
+pub(super) fn known(scene: &Scene, results: &Results, quantity: &Quantity) -> Option<[f64; 2]> {
+    let (prefix, "half_width") = quantity.path.rsplit_once('.')? else {
         return None;
-    }
+    };
     let [least, mut most] = EDGE;
+    let at_yield = results.first_yield?.half_width;
     match (&scene.mesh.cylinder_on_half_plane, receding(scene)) {
         (Some(p), _) if p.half_width.is_none() && p.element == Shape::Quad4 => {}
         (None, Some(disc)) => {
-            let place = count(disc, value).fract();
+            let place = count(disc, at_yield).fract();
             if (READ_WINDOW[0]..=READ_WINDOW[1]).contains(&place) {
                 most = WELL_READ;
             }
         }
         _ => return None,
     }
-    let count = spacings(scene)?;
-    Some([least, most].map(|e| e / count))
+    let spacing = at_yield / spacings(scene)?;
+    match prefix {
+        "yield" => Some([least, most].map(|e| e * spacing)),
+        _ if quantity.value > 0.0 => Some([least * spacing, f64::INFINITY]),
+        _ => None,
+    }
 }
 
 /// The scene with about as many elements, on which the edge of the contact is read well: where the demand needs that. `half_width` is that of a
@@ -105,6 +112,7 @@ pub(super) fn well_read(scene: &Scene, demand: f64, coarser: Option<(&Scene, f64
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::results::YieldPoint;
 
     fn disc(n: usize) -> Scene {
         let text = include_str!("../../data/scenes/disc_in_plate.toml");
@@ -142,14 +150,43 @@ mod tests {
         );
     }
 
+    /// Results with first yield at a half width of so many spacings, and a quantity of that size.
+    fn read(n: usize, spacings: f64) -> (Results, impl Fn(&str) -> Quantity) {
+        let half_width = spacings / n as f64 * FRAC_PI_2 * 10.0;
+        let first = YieldPoint {
+            alpha: 1.0,
+            load: 1.0,
+            max_pressure: 1.0,
+            half_width,
+            location: [0.0; 2],
+            body: 0,
+        };
+        let results = Results {
+            first_yield: Some(first),
+            ..Results::default()
+        };
+        let quantity = move |path: &str| Quantity {
+            path: path.to_string(),
+            value: half_width,
+            scale: half_width,
+            governs: true,
+        };
+        (results, quantity)
+    }
+
     #[test]
     fn a_half_width_is_known_by_where_its_edge_lies() {
         let at = |n: usize, spacings: f64| {
-            let width = spacings / n as f64 * FRAC_PI_2 * 10.0;
-            known(&disc(n), "yield.half_width", width).unwrap()[1] * n as f64 * CONTACT_OF_QUARTER
+            let (results, quantity) = read(n, spacings);
+            let [_, most] = known(&disc(n), &results, &quantity("yield.half_width")).unwrap();
+            most / quantity("").value * n as f64 * CONTACT_OF_QUARTER
         };
         assert!((at(52, 11.32) - WELL_READ).abs() < 1e-12);
         assert!((at(46, 9.99) - EDGE[1]).abs() < 1e-12);
-        assert_eq!(known(&disc(52), "yield.load", 1.0), None);
+        let (results, quantity) = read(52, 11.32);
+        assert_eq!(known(&disc(52), &results, &quantity("yield.load")), None);
+        // Later nothing is known but the least.
+        let later = known(&disc(52), &results, &quantity("states.pressed.half_width")).unwrap();
+        assert!(later[0] > 0.0 && later[1].is_infinite());
     }
 }

@@ -215,11 +215,9 @@ pub(super) fn estimate_on(
                     };
                     super::limit::limit(&quantity.path, &values, &found, theory)
                 });
-                if let (Some(error), Some(share)) = (
-                    &mut error,
-                    edge::known(scene, &quantity.path, quantity.value),
-                ) {
-                    let [least, most] = share.map(|s| s * quantity.value);
+                if let (Some(error), Some([least, most])) =
+                    (&mut error, edge::known(scene, results, quantity))
+                {
                     let stated = safety * *error;
                     if stated < least || stated > most {
                         *error = stated.clamp(least, most);
@@ -290,10 +288,14 @@ fn state_of<'r>(results: &'r Results, path: &str) -> Option<&'r State> {
     results.states.iter().find(|s| s.name == name)
 }
 
+/// Whether a quantity comes from a state in which something has flowed.
+pub(super) fn flows(results: &Results, path: &str) -> bool {
+    state_of(results, path).is_some_and(|s| s.plastic_points > 0)
+}
+
 /// Whether a quantity comes from an elastic state without contact.
 fn is_smooth(results: &Results, path: &str) -> bool {
-    let flows = state_of(results, path).is_some_and(|s| s.plastic_points > 0);
-    results.sizes.contact_pairs == 0 && !flows
+    results.sizes.contact_pairs == 0 && !flows(results, path)
 }
 
 /// The highest order of convergence that is believed for a quantity.

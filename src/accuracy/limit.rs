@@ -16,7 +16,7 @@
 //! L. F. Richardson, J. A. Gaunt, The deferred approach to the limit, Phil. Trans. R. Soc. A 226 (1927) 299-361, doi:10.1098/rsta.1927.0008; P. J. Roache,
 //! *Verification and Validation in Computational Science and Engineering*, Hermosa 1998, chapter 5.
 
-use super::estimate::Estimate;
+use super::estimate::{Estimate, flows};
 use super::extrapolation::{Extrapolation, extrapolate};
 use super::quantities::{Quantity, alphas, put, quantities};
 use crate::results::{Accuracy, OfMesh, Results};
@@ -36,6 +36,26 @@ pub(super) struct Limit {
     pub error: f64,
     /// The order it was extrapolated with.
     order: f64,
+    /// Whether three meshes follow that law.
+    is_law: bool,
+}
+
+impl Limit {
+    /// What is left of it beside the one that the mesh before led to; `None` where they contradict each other. Where something flows, three meshes may follow a
+    /// law by chance: half of what they say of the error is believed where a law had led near the same value before.
+    fn beside(self, before: Option<&Limit>, flows: bool) -> Option<Self> {
+        let apart = before.map(|other| (self.value - other.value).abs());
+        let most = before.map_or(f64::INFINITY, |other| self.error + other.error);
+        if apart.is_some_and(|apart| apart > most) {
+            return None;
+        }
+        let error = match apart.filter(|_| before.is_some_and(|b| b.is_law)) {
+            Some(apart) => self.error.max(apart),
+            None if flows && self.is_law => self.error / SHARE,
+            None => self.error,
+        };
+        Some(Limit { error, ..self })
+    }
 }
 
 /// The limit of values `(h, q)` of a quantity, finest first, that led to `found`; `theory` is the order of the elements. `None` where they follow no law.
@@ -57,6 +77,7 @@ pub(super) fn limit(
                 value: best,
                 error: SAFETY_OF_TWO * (best - at(1.0)?.limit).abs(),
                 order: theory,
+                is_law: false,
             }
         }
         Some(order) if found.regular => {
@@ -66,6 +87,7 @@ pub(super) fn limit(
                 value: law.limit,
                 error: SHARE * law.error,
                 order,
+                is_law: true,
             }
         }
         _ => return None,
@@ -97,12 +119,9 @@ impl Estimate {
             let (Some(stated), Some(discretisation)) = (row.error, row.discretisation) else {
                 continue;
             };
-            let agrees = |limit: &&Limit| {
-                before.get(&row.quantity).is_none_or(|other| {
-                    (limit.value - other.value).abs() <= limit.error + other.error
-                })
-            };
-            let limit = limit.as_ref().filter(agrees);
+            let flows = flows(results, &row.quantity);
+            let limit = limit.and_then(|limit| limit.beside(before.get(&row.quantity), flows));
+            let limit = limit.as_ref();
             let path = self.path.of(&row.quantity).unwrap_or_default();
             let increments = SHARE * path.increments.abs();
             let mesh = match limit {
