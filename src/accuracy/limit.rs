@@ -19,11 +19,11 @@
 use super::estimate::{Estimate, flows};
 use super::extrapolation::{Extrapolation, extrapolate};
 use super::quantities::{Quantity, alphas, put, quantities};
-use crate::results::{Accuracy, OfMesh, Results};
+use crate::results::{Accuracy, OfMesh, QuantityError, Results};
 use std::collections::BTreeMap;
 
 /// The stated error of an extrapolated value, over what it was extrapolated by.
-pub(super) const SHARE: f64 = 0.5;
+pub(super) const SHARE: f64 = 0.6;
 
 /// The same of two meshes, over what lies between first order and that of the elements: the very ends do occur.
 const SAFETY_OF_TWO: f64 = 1.25;
@@ -119,10 +119,19 @@ impl Estimate {
             let (Some(stated), Some(discretisation)) = (row.error, row.discretisation) else {
                 continue;
             };
+            let path = self.path.of(&row.quantity).unwrap_or_default();
+            let state = |row: &mut QuantityError, error: f64| {
+                row.error = Some(error);
+                row.relative_error = (quantity.scale > 0.0).then(|| error / quantity.scale);
+            };
+            // The mesh's own value is known no better than its distance from where the meshes lead to.
+            let law = limit.filter(|limit| limit.is_law);
+            let off = law.map_or(0.0, |limit| (limit.value - row.value).abs());
+            let stated = stated.max(off + path.total() + row.algebraic);
+            state(row, stated);
             let flows = flows(results, &row.quantity);
             let limit = limit.and_then(|limit| limit.beside(before.get(&row.quantity), flows));
             let limit = limit.as_ref();
-            let path = self.path.of(&row.quantity).unwrap_or_default();
             let increments = SHARE * path.increments.abs();
             let mesh = match limit {
                 Some(limit) => limit.error,
@@ -138,8 +147,7 @@ impl Estimate {
                 discretisation,
             });
             row.value = limit.map_or(row.value, |limit| limit.value) + path.increments;
-            row.error = Some(error);
-            row.relative_error = (quantity.scale > 0.0).then(|| error / quantity.scale);
+            state(row, error);
             row.discretisation = Some(limit.map_or(discretisation, |limit| limit.error));
             row.path = row.path.map(|_| path.tolerances + increments);
             reported.push((row.quantity.clone(), row.value));
