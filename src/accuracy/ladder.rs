@@ -75,7 +75,9 @@ impl Ladder {
         let flows = |other: &Results| {
             let states = results.states.iter().zip(&other.states);
             results.states.len() == other.states.len()
-                && states.into_iter().all(|(s, o)| s.plastic_points == 0 || o.plastic_points > 0)
+                && states
+                    .into_iter()
+                    .all(|(s, o)| s.plastic_points == 0 || o.plastic_points > 0)
         };
         let known = self.finished.iter().filter(|(other, found)| {
             found.sizes.elements < results.sizes.elements && path(other) == own && flows(found)

@@ -18,7 +18,7 @@
 
 use super::estimate::{Estimate, flows};
 use super::extrapolation::{Extrapolation, extrapolate};
-use super::quantities::{Quantity, alphas, put, quantities};
+use super::quantities::{Quantity, put, quantities, with_loads};
 use crate::results::{Accuracy, OfMesh, QuantityError, Results};
 use std::collections::BTreeMap;
 
@@ -151,30 +151,42 @@ impl Estimate {
             row.discretisation = Some(limit.map_or(discretisation, |limit| limit.error));
             row.path = row.path.map(|_| path.tolerances + increments);
             reported.push((row.quantity.clone(), row.value));
-            reported.extend(self.factor_of(results, quantity, limit));
+            reported.extend(self.with_load(results, quantity, limit));
         }
         (out, reported, limits)
     }
 
-    /// The load factor that goes with a load: by the same law.
-    fn factor_of(
+    /// What goes with a load, by the same law.
+    fn with_load(
         &self,
         results: &Results,
         load: &Quantity,
         limit: Option<&Limit>,
-    ) -> Option<(String, f64)> {
-        let path = load.path.strip_suffix(".load").map(|p| format!("{p}.alpha"))?;
-        let of = |results: &Results| alphas(results).remove(&path);
-        let mut values = vec![(1.0, of(results)?)];
-        for (ratio, other) in &self.others {
-            values.push((*ratio, of(other)?));
-        }
-        let alpha = match limit {
-            Some(limit) => extrapolate(&values, [limit.order, limit.order])?.limit,
-            None => values[0].1,
+    ) -> Vec<(String, f64)> {
+        let Some(prefix) = load.path.strip_suffix("load") else {
+            return Vec::new();
         };
-        let increments = self.path.of(&path).unwrap_or_default().increments;
-        Some((path, alpha + increments))
+        let others: Vec<_> = (self.others.iter())
+            .map(|(ratio, other)| (*ratio, with_loads(other)))
+            .collect();
+        let own = with_loads(results).into_iter();
+        let own = own.filter(|(path, _)| {
+            path.rsplit_once('.')
+                .is_some_and(|(p, _)| prefix == format!("{p}."))
+        });
+        own.filter_map(|(path, value)| {
+            let mut values = vec![(1.0, value)];
+            for (ratio, other) in &others {
+                values.push((*ratio, *other.get(&path)?));
+            }
+            let value = match limit {
+                Some(limit) => extrapolate(&values, [limit.order, limit.order])?.limit,
+                None => value,
+            };
+            let increments = self.path.of(&path).unwrap_or_default().increments;
+            Some((path, value + increments))
+        })
+        .collect()
     }
 }
 
@@ -204,14 +216,19 @@ mod tests {
             let values = sampled(&[1.0, 1.5, 2.25], |h| 7.0 + 0.3 * h.powf(order));
             let limit = of(&values, 2.0).unwrap();
             assert!((limit.value - 7.0).abs() < 0.01, "{limit:?}");
-            assert!((limit.error / (SHARE * 0.3) - 1.0).abs() < 0.05, "{limit:?}");
+            assert!(
+                (limit.error / (SHARE * 0.3) - 1.0).abs() < 0.05,
+                "{limit:?}"
+            );
         }
     }
 
     /// Higher terms make coarse meshes converge faster than they will.
     #[test]
     fn no_more_than_the_order_of_the_elements_is_believed() {
-        let values = sampled(&[1.0, 1.5, 2.0], |h| 7.0 + 0.1 * h.powi(2) + 0.1 * h.powi(4));
+        let values = sampled(&[1.0, 1.5, 2.0], |h| {
+            7.0 + 0.1 * h.powi(2) + 0.1 * h.powi(4)
+        });
         let limit = of(&values, 2.0).unwrap();
         assert_eq!(limit.order, 2.0);
         assert!((limit.value - 7.0).abs() <= limit.error, "{limit:?}");
@@ -222,7 +239,10 @@ mod tests {
         for order in [1.0, 1.3, 2.0] {
             let values = sampled(&[1.0, 1.25], |h| 7.0 + 0.3 * h.powf(order));
             let limit = of(&values, 2.0).unwrap();
-            assert!((limit.value - 7.0).abs() <= limit.error * (1.0 + 1e-12), "{limit:?}");
+            assert!(
+                (limit.value - 7.0).abs() <= limit.error * (1.0 + 1e-12),
+                "{limit:?}"
+            );
         }
     }
 

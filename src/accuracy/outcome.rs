@@ -16,9 +16,6 @@ pub(super) const AIM: f64 = 0.85;
 pub(super) const LEAST_STEP: f64 = 1.15;
 /// The same from the foot, whose error is stated from one other mesh: its mesh for comparison must tell something there too.
 const FIRST_STEP: f64 = 1.25;
-/// On finer meshes the order is higher than the coarse ones show, by so much (3 and 4 on the tube, 1.3 and 1.6 under a point): an aim that is too
-/// high costs more than one that is too low and followed by a small step.
-const RISING: f64 = 1.2;
 /// What a run says about the next.
 pub(super) struct Outcome {
     /// Largest stated relative error of the governing quantities; NaN where none is known.
@@ -126,9 +123,7 @@ impl Outcome {
         self.least = self
             .least
             .max((discretisation / demand).powf(1.0 / highest));
-        let order = errors
-            .order
-            .map_or(order, |o| (RISING * o).min(highest).max(o));
+        let order = errors.order.unwrap_or(order);
         self.refinement = self.refinement.max(needed.powf(1.0 / order));
     }
 }

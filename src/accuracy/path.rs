@@ -16,7 +16,7 @@
 
 use super::estimate::Extent;
 use super::ladder::Ladder;
-use super::quantities::{Quantity, alphas, quantities, value_of};
+use super::quantities::{Quantity, quantities, value_of, with_loads};
 use crate::linalg::Backend;
 use crate::progress::Observer;
 use crate::results::Results;
@@ -45,7 +45,7 @@ pub(super) enum PathErrors {
     Estimated(BTreeMap<String, PathError>, f64),
 }
 
-/// The error that the path leaves in a quantity, or a load factor.
+/// The error that the path leaves in a quantity, or in what goes with a load.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct PathError {
     /// That of the tolerances, not negative.
@@ -91,18 +91,18 @@ pub(super) struct Base<'r> {
 }
 
 impl Base<'_> {
-    /// The differences to another run, of quantities and load factors.
+    /// The differences to another run, of quantities and of what goes with loads.
     fn differences(&self, other: &Results) -> impl Iterator<Item = (String, f64)> {
         let others = quantities(other);
         let values = self.quantities.iter().filter_map(move |quantity| {
             let value = value_of(&others, &quantity.path)?;
             Some((quantity.path.clone(), value - quantity.value))
         });
-        let factors = alphas(other);
-        let own = alphas(self.results).into_iter();
-        values.chain(own.filter_map(move |(path, alpha)| {
-            let other = factors.get(&path)?;
-            Some((path, other - alpha))
+        let with_loads_of_other = with_loads(other);
+        let own = with_loads(self.results).into_iter();
+        values.chain(own.filter_map(move |(path, value)| {
+            let other = with_loads_of_other.get(&path)?;
+            Some((path, other - value))
         }))
     }
 }

@@ -75,16 +75,21 @@ pub fn value_of(quantities: &[Quantity], path: &str) -> Option<f64> {
     quantities.iter().find(|q| q.path == path).map(|q| q.value)
 }
 
-/// The load factors of first yield and of the states, by path.
-pub(super) fn alphas(results: &Results) -> BTreeMap<String, f64> {
+/// What goes with the load of first yield and of the states, by path: its factor, and the contact force.
+pub(super) fn with_loads(results: &Results) -> BTreeMap<String, f64> {
     let first = results.first_yield.iter();
     let first = first.map(|point| ("yield.alpha".to_string(), point.alpha));
-    let states = results.states.iter();
-    let states = states.map(|state| (format!("states.{}.alpha", state.name), state.alpha));
+    let states = results.states.iter().flat_map(|state| {
+        let values = [
+            ("alpha", state.alpha),
+            ("contact_force", state.contact_force),
+        ];
+        values.map(|(key, value)| (format!("states.{}.{key}", state.name), value))
+    });
     first.chain(states).collect()
 }
 
-/// Sets the value of a quantity, or a load factor, by its path.
+/// Sets the value of a quantity, or of what goes with a load, by its path.
 pub(super) fn put(results: &mut Results, path: &str, value: f64) {
     let Some((prefix, key)) = path.rsplit_once('.') else {
         return;
@@ -102,6 +107,7 @@ pub(super) fn put(results: &mut Results, path: &str, value: f64) {
             state.and_then(|state| match key {
                 "alpha" => Some(&mut state.alpha),
                 "load" => Some(&mut state.load),
+                "contact_force" => Some(&mut state.contact_force),
                 "max_pressure" => Some(&mut state.max_pressure),
                 "half_width" => Some(&mut state.half_width),
                 "approach" => Some(&mut state.approach),

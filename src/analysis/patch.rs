@@ -138,10 +138,7 @@ impl Patch {
     }
 
     /// The samples that count at `x`, with their weights and places relative to it.
-    fn weighted<const D: usize>(
-        &self,
-        x: [f64; 2],
-    ) -> impl Iterator<Item = (u32, f64, [f64; 2])> {
+    fn weighted<const D: usize>(&self, x: [f64; 2]) -> impl Iterator<Item = (u32, f64, [f64; 2])> {
         let unit = 1.0 / (self.reach * self.reach);
         self.samples.iter().zip(0..).filter_map(move |(sample, i)| {
             let d = [sample.position[0] - x[0], sample.position[1] - x[1]];
@@ -178,9 +175,8 @@ fn monomials([x, y]: [f64; 2], degree: usize) -> [f64; MOMENTS] {
 /// `c` of `G c = e_0`, by Cholesky's factor of `G` scaled to a unit diagonal; `None` where it has none, or hardly.
 #[inline(always)]
 fn constant_term(moments: &[f64; MOMENTS], n: usize) -> Option<[f64; N]> {
-    let scaling: [f64; N] = std::array::from_fn(|i| {
-        1.0 / moments[PRODUCTS[i][i]].max(f64::MIN_POSITIVE).sqrt()
-    });
+    let scaling: [f64; N] =
+        std::array::from_fn(|i| 1.0 / moments[PRODUCTS[i][i]].max(f64::MIN_POSITIVE).sqrt());
     let mut l = [[0.0; N]; N];
     for i in 0..n {
         for j in 0..=i {
@@ -190,7 +186,7 @@ fn constant_term(moments: &[f64; MOMENTS], n: usize) -> Option<[f64; N]> {
             l[i][j] = if i == j { rest.sqrt() } else { rest / l[j][j] };
         }
         // Also what is no number.
-        if !(l[i][i] >= LEAST_PIVOT) {
+        if l[i][i].is_nan() || l[i][i] < LEAST_PIVOT {
             return None;
         }
     }

@@ -1,9 +1,9 @@
 //! The claim of the estimate: over many scenes and settings the true error lies below the stated one in nine of ten cases, and the
 //! stated one is not more than four times the true one in the median.
 
+use crate::demand::demanded;
 use crate::effectivity::{estimated, hertz};
 use crate::running;
-use crate::demand::demanded;
 use brinell::accuracy::{Extent, reach};
 use brinell::analytical::{
     DiscInPlate, HertzLine, HertzPoint, Plane, ThickCylinder, contact_modulus,
