@@ -2,7 +2,7 @@
 
 use super::edge;
 use super::ladder::Ladder;
-use super::limit::Limit;
+use super::limit::{Limit, is_round};
 use super::path::{self, Base, PathErrors};
 use super::quantities::{Quantity, quantities, value_of};
 use super::refusal::percent;
@@ -208,13 +208,12 @@ pub(super) fn estimate_on(
                     safety = SAFETY_OF_LAW;
                 }
                 let mut error = found.map(|f| f.error);
-                limit = found.and_then(|found| {
-                    let theory = match is_smooth(results, &quantity.path) {
-                        true => highest,
-                        false => largest_order(scene),
-                    };
-                    super::limit::limit(&quantity.path, &values, &found, theory)
-                });
+                let theory = match is_smooth(results, &quantity.path) {
+                    true => highest,
+                    false => largest_order(scene),
+                };
+                limit =
+                    super::limit::limit(&quantity.path, &values, highest, theory, is_round(scene));
                 if let (Some(error), Some([least, most])) =
                     (&mut error, edge::known(scene, results, quantity))
                 {

@@ -112,7 +112,7 @@ impl Outcome {
         // One coarser mesh states with the lowest order, which is not that with which finer ones will be judged.
         let mesh = match trial.found.companions.as_slice() {
             [other] => {
-                let (error, safety) = of_mesh(errors);
+                let (error, safety) = of_mesh(errors, 1);
                 let r = other.ratio;
                 safety * error * (r - 1.0) / (r.powf(order) - 1.0) / quantity.scale
             }
@@ -128,13 +128,16 @@ impl Outcome {
     }
 }
 
-/// The discretisation error of a quantity on the mesh itself, and the share of it that is stated of the reported value where three meshes
-/// follow a law.
-pub(super) fn of_mesh(errors: &QuantityError) -> (f64, f64) {
-    match &errors.of_mesh {
-        Some(own) => (own.discretisation, SHARE),
-        None => (errors.discretisation.unwrap_or(0.0), SAFETY_OF_LAW),
-    }
+/// The discretisation error of a quantity on the mesh itself, and the share of it that is stated of the reported value where three meshes follow a law.
+pub(super) fn of_mesh(errors: &QuantityError, companions: usize) -> (f64, f64) {
+    let stated = errors.discretisation.unwrap_or(0.0);
+    let own = errors.of_mesh.map_or(stated, |own| own.discretisation);
+    let extrapolated = match companions {
+        // What the next mesh, judged by more, will make of it.
+        0 | 1 => !errors.quantity.ends_with("half_width"),
+        _ => stated != own,
+    };
+    (own, if extrapolated { SHARE } else { SAFETY_OF_LAW })
 }
 
 /// The stated error over the largest size of the quantity. A quantity that is zero in the whole run, on other meshes too, is known.

@@ -57,7 +57,7 @@ pub(super) fn pilot(
     let highest = largest_order(scene);
     let errors = found.quantities.iter().map(|q| {
         // Where nothing is known of an error, it does not decide.
-        let (error, safety) = of_mesh(q);
+        let (error, safety) = of_mesh(q, found.companions.len());
         let (error, order) = match (q.order, found.companions.as_slice()) {
             (Some(order), _) => (error, order),
             // Stated from one other mesh with the lowest order: too much where parts are compared.
