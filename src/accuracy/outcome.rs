@@ -15,7 +15,7 @@ pub(super) const AIM: f64 = 0.85;
 /// Least step to the next mesh: one that is hardly finer says nothing new.
 pub(super) const LEAST_STEP: f64 = 1.15;
 /// The same from the foot, whose error is stated from one other mesh: its mesh for comparison must tell something there too.
-const FIRST_STEP: f64 = 1.25;
+const FIRST_STEP: f64 = 1.5;
 /// What a run says about the next.
 pub(super) struct Outcome {
     /// Largest stated relative error of the governing quantities; NaN where none is known.
