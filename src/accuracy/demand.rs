@@ -6,8 +6,11 @@
 //! |---|---|
 //! | mesh, its grading | the stated error of every governing quantity is at most `x` of its largest size in the run |
 //! | `gamma` | `x / 300`: below a hundredth of `x` it is not seen beside the mesh (measured: `data/accuracy`) |
-//! | plastic tolerance | `x / 300`, at most 1e-6: looser ones save little and miss targets that are read off the state |
+//! | plastic tolerance | `x / 1000`, at most 1e-4; 1e-6 where a half width is a target, which would be missed |
 //! | increments | the path's part of the stated error is at most `x / 3`; fixed steps where events leave fewer |
+//!
+//! What is reported of a quantity is its value on the mesh or, where that is known better, the one that this and the coarser meshes lead to (`limit`); profiles,
+//! fields and history are always the mesh's.
 //!
 //! A pilot run on a coarse mesh states its error and its order, and a second one which part of the mesh it comes from (`grading`):
 //! from them the next mesh is aimed at, graded so that the demand costs the fewest elements, at most [`STRIDE`] times finer, until one
