@@ -224,6 +224,14 @@ pub(super) fn estimate_on(
                         safety = 1.0;
                     }
                 }
+                if let (Some(error), Some(least)) = (
+                    &mut error,
+                    edge::at_shared_node(results, &quantity.path, &values),
+                ) && safety * *error < least
+                {
+                    *error = least;
+                    safety = 1.0;
+                }
                 (error, found.and_then(|f| f.order))
             }
             EstimateMethod::EnergyNorm => (energy_error.map(|e| e * quantity.scale), None),
