@@ -209,11 +209,12 @@ pub(super) fn estimate_on(
                 }
                 let mut error = found.map(|f| f.error);
                 limit = found.and_then(|found| {
-                    let theory = match is_smooth(results, &quantity.path) {
+                    let elements = largest_order(scene);
+                    let most = match is_smooth(results, &quantity.path) {
                         true => highest,
-                        false => largest_order(scene),
+                        false => elements,
                     };
-                    super::limit::limit(&quantity.path, &values, &found, theory)
+                    super::limit::limit(&quantity.path, &values, &found, [elements, most])
                 });
                 if let (Some(error), Some([least, most])) =
                     (&mut error, edge::known(scene, results, quantity))
