@@ -17,6 +17,7 @@ use super::refinement::CONTACT_OF_QUARTER;
 use crate::mesh::Shape;
 use crate::results::Results;
 use crate::scene::{DiscInPlate, Kind, Scene};
+use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
 /// Node spacings within which the edge of an elastic contact is known, at best and at worst, with a fifth to spare. The stated error, its factor
@@ -75,6 +76,41 @@ pub(super) fn known(scene: &Scene, results: &Results, quantity: &Quantity) -> Op
     }
 }
 
+/// Half widths closer than this share are the same.
+const SAME: f64 = 1e-9;
+
+/// What a half width is off by at least that is the same on all meshes, though its contact does not end where the surface does: the edge was found at a
+/// node that these meshes share, which says no more than that it lies beside. `None` for any other.
+pub(super) fn at_shared_node(results: &Results, path: &str, values: &[(f64, f64)]) -> Option<f64> {
+    let (prefix, "half_width") = path.rsplit_once('.')? else {
+        return None;
+    };
+    let own = values.first()?.1;
+    let is_same = |v: &(f64, f64)| (v.1 - own).abs() <= SAME * own;
+    if own <= 0.0 || values.len() < 2 || !values.iter().all(is_same) {
+        return None;
+    }
+    let name = prefix.strip_prefix("states.")?;
+    let state = results.states.iter().find(|s| s.name == name)?;
+    let mut forces: BTreeMap<usize, f64> = BTreeMap::new();
+    for pair in &state.pairs {
+        *forces.entry(pair.contact).or_default() += pair.force;
+    }
+    let (&strongest, _) = forces.iter().max_by(|a, b| a.1.total_cmp(b.1))?;
+    let pairs: Vec<_> = (state.pairs.iter())
+        .filter(|pair| pair.contact == strongest)
+        .collect();
+    let edges = pairs
+        .windows(2)
+        .filter(|two| two[0].status != two[1].status);
+    edges
+        .map(|two| {
+            let [a, b] = [two[0].position, two[1].position];
+            (a[0] - b[0]).hypot(a[1] - b[1])
+        })
+        .reduce(f64::max)
+}
+
 /// The scene with about as many elements, on which the edge of the contact is read well: where the demand needs that. `half_width` is that of a
 /// coarser mesh, with its scene.
 pub(super) fn well_read(scene: &Scene, demand: f64, coarser: Option<(&Scene, f64)>) -> Scene {
@@ -117,7 +153,7 @@ pub(super) fn well_read(scene: &Scene, demand: f64, coarser: Option<(&Scene, f64
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::results::YieldPoint;
+    use crate::results::{PairState, State, Status, YieldPoint};
 
     fn disc(n: usize) -> Scene {
         let text = include_str!("../../data/scenes/disc_in_plate.toml");
@@ -193,5 +229,45 @@ mod tests {
         // Later nothing is known but the least.
         let later = known(&disc(52), &results, &quantity("states.pressed.half_width")).unwrap();
         assert!(later[0] > 0.0 && later[1].is_infinite());
+    }
+
+    /// Five pairs half a millimetre apart, so many of them closed.
+    #[test]
+    fn an_edge_at_a_shared_node_says_no_more_than_that_it_is_near() {
+        let with_closed = |closed: usize| {
+            let pair = |i: usize| PairState {
+                pair: i,
+                contact: 0,
+                position: [0.5 * i as f64, 0.0],
+                gap: 0.0,
+                force: f64::from(u8::from(i < closed)),
+                area: 0.5,
+                pressure: 0.0,
+                status: if i < closed {
+                    Status::Closed
+                } else {
+                    Status::Open
+                },
+            };
+            let state = State {
+                name: "pressed".into(),
+                pairs: (0..5).map(pair).collect(),
+                ..State::default()
+            };
+            Results {
+                states: vec![state],
+                ..Results::default()
+            }
+        };
+        let path = "states.pressed.half_width";
+        let same = [(1.0, 1.5), (1.5, 1.5), (2.0, 1.5)];
+        let partly = with_closed(3);
+        assert_eq!(at_shared_node(&partly, path, &same), Some(0.5));
+        // It moves, ends where the surface does, or is another quantity.
+        let moves = [(1.0, 1.5), (1.5, 1.6)];
+        assert_eq!(at_shared_node(&partly, path, &moves), None);
+        assert_eq!(at_shared_node(&with_closed(5), path, &same), None);
+        let load = "states.pressed.load";
+        assert_eq!(at_shared_node(&partly, load, &same), None);
     }
 }

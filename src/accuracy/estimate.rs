@@ -208,12 +208,13 @@ pub(super) fn estimate_on(
                     safety = SAFETY_OF_LAW;
                 }
                 let mut error = found.map(|f| f.error);
-                let theory = match is_smooth(results, &quantity.path) {
+                let elements = largest_order(scene);
+                let most = match is_smooth(results, &quantity.path) {
                     true => highest,
-                    false => largest_order(scene),
+                    false => elements,
                 };
-                limit =
-                    super::limit::limit(&quantity.path, &values, highest, theory, is_round(scene));
+                let orders = [elements, most, highest];
+                limit = super::limit::limit(&quantity.path, &values, orders, is_round(scene));
                 if let (Some(error), Some([least, most])) =
                     (&mut error, edge::known(scene, results, quantity))
                 {
@@ -222,6 +223,14 @@ pub(super) fn estimate_on(
                         *error = stated.clamp(least, most);
                         safety = 1.0;
                     }
+                }
+                if let (Some(error), Some(least)) = (
+                    &mut error,
+                    edge::at_shared_node(results, &quantity.path, &values),
+                ) && safety * *error < least
+                {
+                    *error = least;
+                    safety = 1.0;
                 }
                 (error, found.and_then(|f| f.order))
             }

@@ -48,6 +48,7 @@
 //! over a node's share of the surface, the contact's end between two nodes change with the mesh and are in no product. The extrapolation sees
 //! them all; where refinement pays for a goal is measured by coarsening a part of the mesh (`grading`).
 
+mod consistent;
 mod demand;
 mod edge;
 mod estimate;

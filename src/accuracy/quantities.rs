@@ -89,7 +89,7 @@ pub(super) fn with_loads(results: &Results) -> BTreeMap<String, f64> {
     first.chain(states).collect()
 }
 
-/// Sets the value of a quantity, or of what goes with a load, by its path.
+/// Sets the value of a quantity, or of what goes with one, by its path.
 pub(super) fn put(results: &mut Results, path: &str, value: f64) {
     let Some((prefix, key)) = path.rsplit_once('.') else {
         return;
@@ -109,6 +109,7 @@ pub(super) fn put(results: &mut Results, path: &str, value: f64) {
                 "load" => Some(&mut state.load),
                 "contact_force" => Some(&mut state.contact_force),
                 "max_pressure" => Some(&mut state.max_pressure),
+                "pole_pressure" => Some(&mut state.pole_pressure),
                 "half_width" => Some(&mut state.half_width),
                 "approach" => Some(&mut state.approach),
                 "residual_depth" => Some(&mut state.residual_depth),
