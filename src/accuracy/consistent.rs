@@ -70,7 +70,8 @@ impl Estimate {
             if let Some(largest) = reported.get(&path("max_pressure"))
                 && state.max_pressure > 0.0
             {
-                let pole = state.pole_pressure * largest / state.max_pressure;
+                // The share first: where the pole has the largest pressure it is one, to the last digit.
+                let pole = state.pole_pressure / state.max_pressure * largest;
                 reported.insert(path("pole_pressure"), pole);
             }
         }

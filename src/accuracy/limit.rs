@@ -28,6 +28,9 @@ use std::collections::BTreeMap;
 /// The stated error of an extrapolated value, over what it was extrapolated by.
 pub(super) const SHARE: f64 = 0.6;
 
+/// What it is stated more where three meshes may follow a law by chance: of 220 values of states that flow 188 were within the stated error without, 200 with it.
+const SAFETY_OF_CHANCE: f64 = 1.2;
+
 /// Least order of a law. The punch's limit load has 0.97.
 const LEAST_ORDER: f64 = 0.8;
 /// Least order that is sought.
@@ -63,7 +66,7 @@ impl Limit {
         }
         let by_chance = flows || self.is_beyond;
         let error = match apart {
-            Some(apart) if by_chance => self.error.max(apart),
+            Some(apart) if by_chance => (SAFETY_OF_CHANCE * self.error).max(apart),
             None if by_chance => self.error / SHARE,
             _ => self.error,
         };
@@ -289,7 +292,8 @@ mod tests {
         let now = limit(1.0, 0.06);
         assert_eq!(now.beside(None, false), Some(now));
         assert_eq!(now.beside(None, true), Some(limit(1.0, 0.06 / SHARE)));
-        assert_eq!(now.beside(Some(&limit(1.02, 0.1)), true), Some(now));
+        let near = now.beside(Some(&limit(1.02, 0.1)), true);
+        assert_eq!(near, Some(limit(1.0, SAFETY_OF_CHANCE * 0.06)));
         let apart = now.beside(Some(&limit(1.1, 0.1)), true).unwrap();
         assert!((apart.error - 0.1).abs() < 1e-15);
         assert_eq!(now.beside(Some(&limit(1.1, 0.1)), false), Some(now));
@@ -311,7 +315,7 @@ mod tests {
         assert!(is(error(second, None, false), 1.0));
         assert!(is(error(second, None, true), 1.0 / SHARE));
         assert!(is(error(fourth, None, false), 1.0 / SHARE));
-        assert!(is(error(fourth, Some(&second), false), 1.0));
+        assert!(is(error(fourth, Some(&second), false), SAFETY_OF_CHANCE));
         // One that it contradicts.
         let other = Limit {
             value: 8.0,

@@ -24,7 +24,13 @@ fn state<'r>(results: &'r Results, name: &str) -> &'r State {
 fn agrees(results: &Results) {
     let first = results.first_yield.unwrap().load;
     for state in &results.states {
-        assert!(is(state.load, state.alpha * first), "{state:?} {first}");
+        assert!(
+            is(state.load, state.alpha * first),
+            "{}: {} {} {first}",
+            state.name,
+            state.load,
+            state.alpha
+        );
     }
     let reported = quantities(results);
     for row in rows(results) {
@@ -60,7 +66,13 @@ fn loads_factors_and_pressures_agree() {
         "{wide:?}"
     );
     for state in &results.states {
-        assert!(state.pole_pressure <= state.max_pressure, "{state:?}");
+        assert!(
+            state.pole_pressure <= state.max_pressure,
+            "{}: {} {}",
+            state.name,
+            state.pole_pressure,
+            state.max_pressure
+        );
         // All of the load goes through the contact; they are summed over different nodes.
         assert!((state.contact_force - state.load).abs() <= 1e-6 * first.load);
     }
