@@ -413,10 +413,10 @@ pub struct Companion {
 pub struct QuantityError {
     /// Its path in `summary.json`; states by name: `states.NAME.KEY`.
     pub quantity: String,
-    /// The computed value.
+    /// The reported value.
     #[serde(deserialize_with = "null_is_not_a_number")]
     pub value: f64,
-    /// The stated error: twice the discretisation error, path and algebraic error together.
+    /// The stated error: the discretisation error with its factor of safety, path and algebraic error together.
     pub error: Option<f64>,
     /// The stated error over the largest size that the quantity has in the run.
     pub relative_error: Option<f64>,
@@ -429,4 +429,21 @@ pub struct QuantityError {
     pub algebraic: f64,
     /// Order of convergence in the element size that the meshes show, within the range that is believed.
     pub order: Option<f64>,
+    /// What the mesh itself gave, where `value` is extrapolated from it and coarser ones: with a demanded accuracy, where that is the better known.
+    #[serde(default)]
+    pub of_mesh: Option<OfMesh>,
+}
+
+/// The value of a quantity on a mesh, and its errors, absolute.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct OfMesh {
+    /// The computed value.
+    #[serde(deserialize_with = "null_is_not_a_number")]
+    pub value: f64,
+    /// Its stated error.
+    #[serde(deserialize_with = "null_is_not_a_number")]
+    pub error: f64,
+    /// Its estimated discretisation error.
+    #[serde(deserialize_with = "null_is_not_a_number")]
+    pub discretisation: f64,
 }

@@ -6,8 +6,11 @@
 //! |---|---|
 //! | mesh, its grading | the stated error of every governing quantity is at most `x` of its largest size in the run |
 //! | `gamma` | `x / 300`: below a hundredth of `x` it is not seen beside the mesh (measured: `data/accuracy`) |
-//! | plastic tolerance | `x / 300`, at most 1e-6: looser ones save little and miss targets that are read off the state |
+//! | plastic tolerance | `x / 1000`, at most 1e-4; 1e-6 where a half width is a target, which would be missed |
 //! | increments | the path's part of the stated error is at most `x / 3`; fixed steps where events leave fewer |
+//!
+//! What is reported of a quantity is its value on the mesh or, where that is known better, the one that this and the coarser meshes lead to (`limit`); profiles,
+//! fields and history are always the mesh's.
 //!
 //! A pilot run on a coarse mesh states its error and its order, and a second one which part of the mesh it comes from (`grading`):
 //! from them the next mesh is aimed at, graded so that the demand costs the fewest elements, at most [`STRIDE`] times finer, until one
@@ -19,10 +22,11 @@
 //! mends that it is named in [`Demand::unknown`].
 
 use super::edge::well_read;
-use super::estimate::{Extent, SAFETY_OF_LAW, estimate_on};
+use super::estimate::{Extent, estimate_on};
 use super::grading::{balanced, risen};
 use super::knobs::resolution;
 use super::ladder::{Ladder, fineness, foot, once_subdivided, spacings};
+use super::limit::{Limits, report};
 use super::meter::{Pace, forecast, work};
 use super::outcome::{AIM, LEAST_STEP, Outcome, PATH_SHARE, Trial, told};
 use super::pilot::pilot;
@@ -38,13 +42,16 @@ use crate::results::{Demand, Results};
 use crate::scene::{Scene, Stepping};
 use std::time::Instant;
 
-/// The tolerances are this share of the demand.
-const TOLERANCE_SHARE: f64 = 1.0 / 300.0;
+/// The tolerance of contact events is this share of the demand.
+const GAMMA_SHARE: f64 = 1.0 / 300.0;
+/// That of the plastic iteration this one: with 1e-4 the limit load of the punch is 1 % off on its finest mesh, the more the finer it is.
+const TOLERANCE_SHARE: f64 = 1e-3;
 /// Tightest tolerance that is chosen: the scene's default.
 const TIGHTEST: f64 = 1e-10;
-/// Loosest tolerance of the plastic iteration that is chosen. A half width as target is read off a state that must not
-/// scatter: with 1e-4 a target was missed.
-const LOOSEST: f64 = 1e-6;
+/// Loosest tolerance of the plastic iteration that is chosen.
+const LOOSEST: f64 = 1e-4;
+/// The same where a half width is a target, which is read off a state that must not scatter: with 1e-4 one was missed.
+const LOOSEST_READ_OFF: f64 = 1e-6;
 /// A mesh is at most this many times finer than the one it is aimed from: beyond, an observed order is a guess. Each
 /// is judged by the two before it, which cost nothing again, so that all together cost about 1.5 times the last.
 const STRIDE: f64 = 1.9;
@@ -93,7 +100,7 @@ pub fn reach(
     };
     let mut wanted = risen(&with_tolerances(scene, demand));
     let mut choices = vec![format!(
-        "tolerance {:.1e} and gamma {:.1e}: a 300th of the demand, the former at most {LOOSEST:e}",
+        "tolerance {:.1e} and gamma {:.1e}: from the demand",
         wanted.analysis.tolerance, wanted.program.gamma
     )];
     let mut pace = Pace::default();
@@ -103,6 +110,7 @@ pub fn reach(
     let mut last: Option<(Scene, f64)> = None;
     let mut least = spacings(scene).map_or(0.0, |_| AT_FOOT * foot);
     let mut best = Best::default();
+    let mut limits = Limits::new();
     let mut so_far = String::new();
     for round in 1..=ROUNDS {
         let coarser = last.as_ref().map(|(scene, width)| (scene, *width));
@@ -126,7 +134,7 @@ pub fn reach(
             Extent::Yield => analysis.yield_load(observer)?,
             Extent::Program => analysis.run(observer)?,
         };
-        let mut found = estimate_on(
+        let estimate = estimate_on(
             ladder.rungs(&level),
             &mut ladder,
             &level,
@@ -135,6 +143,8 @@ pub fn reach(
             extent,
             observer,
         );
+        let (mut found, reported, new) = estimate.extrapolated(&results, &limits);
+        limits = new;
         ladder.keep(&level, &results);
         let seconds = begun.elapsed().as_secs_f64();
         spent += work(&results) + found.work;
@@ -180,6 +190,8 @@ pub fn reach(
                 work: spent,
             });
             results.accuracy = Some(found);
+            report(&reported, &mut results);
+            analysis.refer(&mut results);
             return Ok(Reached {
                 scene: level,
                 analysis,
@@ -194,7 +206,7 @@ pub fn reach(
             && let Some(pilot) = pilot(&level, backend, extent, &results, &found, observer)
         {
             spent += pilot.work;
-            let aim = AIM * outcome.mesh_share * demand / SAFETY_OF_LAW;
+            let aim = AIM * outcome.mesh_share * demand;
             if let Some((shaped, needed)) = balanced(&level, &pilot.shares(aim), STRIDE) {
                 let shape = resolution(&shaped, 1.0);
                 if shape != settings {
@@ -271,9 +283,10 @@ fn nearest(
 
 fn with_tolerances(scene: &Scene, demand: f64) -> Scene {
     let mut out = scene.clone();
-    let share = (TOLERANCE_SHARE * demand).max(TIGHTEST);
-    out.analysis.tolerance = share.min(LOOSEST);
-    out.program.gamma = share;
+    let read_off = out.program.targets.iter().any(|t| t.half_width.is_some());
+    let loosest = if read_off { LOOSEST_READ_OFF } else { LOOSEST };
+    out.analysis.tolerance = (TOLERANCE_SHARE * demand).clamp(TIGHTEST, loosest);
+    out.program.gamma = (GAMMA_SHARE * demand).max(TIGHTEST);
     out
 }
 

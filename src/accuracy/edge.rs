@@ -12,14 +12,19 @@
 //! the contact, with the edge at the same place of a spacing on all meshes.
 
 use super::ladder::spacings;
+use super::quantities::Quantity;
 use super::refinement::CONTACT_OF_QUARTER;
 use crate::mesh::Shape;
-use crate::scene::{DiscInPlate, Scene};
+use crate::results::Results;
+use crate::scene::{DiscInPlate, Kind, Scene};
+use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 
 /// Node spacings within which the edge of an elastic contact is known, at best and at worst, with a fifth to spare. The stated error, its factor
 /// of safety included, lies between the two.
-const EDGE: [f64; 2] = [0.01, 0.125];
+const EDGE: [f64; 2] = [0.02, 0.125];
+/// The same at best under a point, where nodes stand for rings: 0.08 with 5 elements over the contact, 0.037 with 12, 0.03 with 26 to 40.
+const LEAST_UNDER_A_POINT: f64 = 0.04;
 /// The same at worst where the edge is read best, with a fifth to spare.
 const WELL_READ: f64 = 0.025;
 /// Where the edge, as it is read, must lie for that: shares of a spacing beyond a node.
@@ -42,25 +47,68 @@ fn count(disc: &DiscInPlate, half_width: f64) -> f64 {
     disc.resolution as f64 * half_width / (FRAC_PI_2 * disc.radius)
 }
 
-/// What a contact half width at first yield is off by at least and at most, over its value. Measured on `quad4`, and known where the generator
-/// sizes the elements by the contact.
-pub(super) fn known(scene: &Scene, path: &str, value: f64) -> Option<[f64; 2]> {
-    if path != "yield.half_width" {
+/// What a contact half width is off by at least and at most. Measured on `quad4` at first yield, and known where the generator sizes the elements by the
+/// contact; at most where nothing has flowed yet.
+pub(super) fn known(scene: &Scene, results: &Results, quantity: &Quantity) -> Option<[f64; 2]> {
+    let (prefix, "half_width") = quantity.path.rsplit_once('.')? else {
         return None;
+    };
+    let [mut least, mut most] = EDGE;
+    if scene.kind == Kind::Axisymmetric {
+        least = LEAST_UNDER_A_POINT;
     }
-    let [least, mut most] = EDGE;
+    let at_yield = results.first_yield?.half_width;
     match (&scene.mesh.cylinder_on_half_plane, receding(scene)) {
         (Some(p), _) if p.half_width.is_none() && p.element == Shape::Quad4 => {}
         (None, Some(disc)) => {
-            let place = count(disc, value).fract();
+            let place = count(disc, at_yield).fract();
             if (READ_WINDOW[0]..=READ_WINDOW[1]).contains(&place) {
                 most = WELL_READ;
             }
         }
         _ => return None,
     }
-    let count = spacings(scene)?;
-    Some([least, most].map(|e| e / count))
+    let spacing = at_yield / spacings(scene)?;
+    match prefix {
+        "yield" => Some([least, most].map(|e| e * spacing)),
+        _ if quantity.value > 0.0 => Some([least * spacing, f64::INFINITY]),
+        _ => None,
+    }
+}
+
+/// Half widths closer than this share are the same.
+const SAME: f64 = 1e-9;
+
+/// What a half width is off by at least that is the same on all meshes, though its contact does not end where the surface does: the edge was found at a
+/// node that these meshes share, which says no more than that it lies beside. `None` for any other.
+pub(super) fn at_shared_node(results: &Results, path: &str, values: &[(f64, f64)]) -> Option<f64> {
+    let (prefix, "half_width") = path.rsplit_once('.')? else {
+        return None;
+    };
+    let own = values.first()?.1;
+    let is_same = |v: &(f64, f64)| (v.1 - own).abs() <= SAME * own;
+    if own <= 0.0 || values.len() < 2 || !values.iter().all(is_same) {
+        return None;
+    }
+    let name = prefix.strip_prefix("states.")?;
+    let state = results.states.iter().find(|s| s.name == name)?;
+    let mut forces: BTreeMap<usize, f64> = BTreeMap::new();
+    for pair in &state.pairs {
+        *forces.entry(pair.contact).or_default() += pair.force;
+    }
+    let (&strongest, _) = forces.iter().max_by(|a, b| a.1.total_cmp(b.1))?;
+    let pairs: Vec<_> = (state.pairs.iter())
+        .filter(|pair| pair.contact == strongest)
+        .collect();
+    let edges = pairs
+        .windows(2)
+        .filter(|two| two[0].status != two[1].status);
+    edges
+        .map(|two| {
+            let [a, b] = [two[0].position, two[1].position];
+            (a[0] - b[0]).hypot(a[1] - b[1])
+        })
+        .reduce(f64::max)
 }
 
 /// The scene with about as many elements, on which the edge of the contact is read well: where the demand needs that. `half_width` is that of a
@@ -105,6 +153,7 @@ pub(super) fn well_read(scene: &Scene, demand: f64, coarser: Option<(&Scene, f64
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::results::{PairState, State, Status, YieldPoint};
 
     fn disc(n: usize) -> Scene {
         let text = include_str!("../../data/scenes/disc_in_plate.toml");
@@ -142,14 +191,83 @@ mod tests {
         );
     }
 
+    /// Results with first yield at a half width of so many spacings, and a quantity of that size.
+    fn read(n: usize, spacings: f64) -> (Results, impl Fn(&str) -> Quantity) {
+        let half_width = spacings / n as f64 * FRAC_PI_2 * 10.0;
+        let first = YieldPoint {
+            alpha: 1.0,
+            load: 1.0,
+            max_pressure: 1.0,
+            half_width,
+            location: [0.0; 2],
+            body: 0,
+        };
+        let results = Results {
+            first_yield: Some(first),
+            ..Results::default()
+        };
+        let quantity = move |path: &str| Quantity {
+            path: path.to_string(),
+            value: half_width,
+            scale: half_width,
+            governs: true,
+        };
+        (results, quantity)
+    }
+
     #[test]
     fn a_half_width_is_known_by_where_its_edge_lies() {
         let at = |n: usize, spacings: f64| {
-            let width = spacings / n as f64 * FRAC_PI_2 * 10.0;
-            known(&disc(n), "yield.half_width", width).unwrap()[1] * n as f64 * CONTACT_OF_QUARTER
+            let (results, quantity) = read(n, spacings);
+            let [_, most] = known(&disc(n), &results, &quantity("yield.half_width")).unwrap();
+            most / quantity("").value * n as f64 * CONTACT_OF_QUARTER
         };
         assert!((at(52, 11.32) - WELL_READ).abs() < 1e-12);
         assert!((at(46, 9.99) - EDGE[1]).abs() < 1e-12);
-        assert_eq!(known(&disc(52), "yield.load", 1.0), None);
+        let (results, quantity) = read(52, 11.32);
+        assert_eq!(known(&disc(52), &results, &quantity("yield.load")), None);
+        // Later nothing is known but the least.
+        let later = known(&disc(52), &results, &quantity("states.pressed.half_width")).unwrap();
+        assert!(later[0] > 0.0 && later[1].is_infinite());
+    }
+
+    /// Five pairs half a millimetre apart, so many of them closed.
+    #[test]
+    fn an_edge_at_a_shared_node_says_no_more_than_that_it_is_near() {
+        let with_closed = |closed: usize| {
+            let pair = |i: usize| PairState {
+                pair: i,
+                contact: 0,
+                position: [0.5 * i as f64, 0.0],
+                gap: 0.0,
+                force: f64::from(u8::from(i < closed)),
+                area: 0.5,
+                pressure: 0.0,
+                status: if i < closed {
+                    Status::Closed
+                } else {
+                    Status::Open
+                },
+            };
+            let state = State {
+                name: "pressed".into(),
+                pairs: (0..5).map(pair).collect(),
+                ..State::default()
+            };
+            Results {
+                states: vec![state],
+                ..Results::default()
+            }
+        };
+        let path = "states.pressed.half_width";
+        let same = [(1.0, 1.5), (1.5, 1.5), (2.0, 1.5)];
+        let partly = with_closed(3);
+        assert_eq!(at_shared_node(&partly, path, &same), Some(0.5));
+        // It moves, ends where the surface does, or is another quantity.
+        let moves = [(1.0, 1.5), (1.5, 1.6)];
+        assert_eq!(at_shared_node(&partly, path, &moves), None);
+        assert_eq!(at_shared_node(&with_closed(5), path, &same), None);
+        let load = "states.pressed.load";
+        assert_eq!(at_shared_node(&partly, load, &same), None);
     }
 }

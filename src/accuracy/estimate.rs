@@ -2,6 +2,7 @@
 
 use super::edge;
 use super::ladder::Ladder;
+use super::limit::{Limit, is_round};
 use super::path::{self, Base, PathErrors};
 use super::quantities::{Quantity, quantities, value_of};
 use super::refusal::percent;
@@ -58,7 +59,6 @@ pub enum Extent {
 
 /// A finished run on another mesh.
 struct Other {
-    scene: Scene,
     ratio: f64,
     results: Results,
     quantities: Vec<Quantity>,
@@ -85,6 +85,17 @@ pub fn estimate(
         extent,
         observer,
     )
+    .accuracy
+}
+
+/// The errors of a run, and what the meshes say together.
+pub(super) struct Estimate {
+    pub accuracy: Accuracy,
+    /// The extrapolated value of each quantity.
+    pub limits: Vec<Option<Limit>>,
+    /// The other runs, with their element size over that of the run.
+    pub others: Vec<(f64, Results)>,
+    pub path: PathErrors,
 }
 
 /// The same with other meshes of the family to extrapolate from, and what was run already.
@@ -96,9 +107,10 @@ pub(super) fn estimate_on(
     results: &Results,
     extent: Extent,
     observer: &mut dyn Observer,
-) -> Accuracy {
+) -> Estimate {
     let start = Instant::now();
     let mut out = Accuracy::default();
+    let mut limits = Vec::new();
     let quantities = quantities(results);
     let mut others: Vec<Other> = Vec::new();
     if results.incomplete.is_some() {
@@ -124,7 +136,6 @@ pub(super) fn estimate_on(
                     });
                     others.push(Other {
                         quantities: super::quantities(&found),
-                        scene: level.scene,
                         ratio: level.ratio,
                         results: found,
                     });
@@ -157,14 +168,18 @@ pub(super) fn estimate_on(
     } else if extent == Extent::Yield || !path::matters(results) {
         PathErrors::None
     } else {
-        let coarsest = others.last().filter(|other| other.ratio > 1.0);
-        let base = coarsest.map_or(own, |coarsest| Base {
-            scene: &coarsest.scene,
-            results: &coarsest.results,
-            quantities: &coarsest.quantities,
-            alone: false,
-        });
-        path::errors(&base, backend, results, observer, &mut out.notes)
+        let coarsest = ladder.flowing(scene, results).cloned();
+        let values = coarsest.as_ref().map(|(_, found)| super::quantities(found));
+        let base = match (&coarsest, &values) {
+            (Some((scene, results)), Some(values)) => Base {
+                scene,
+                results,
+                quantities: values,
+                alone: false,
+            },
+            _ => own,
+        };
+        path::errors(&base, ladder, backend, results, observer, &mut out.notes)
     };
     out.work += path.work();
     for quantity in &quantities {
@@ -175,6 +190,7 @@ pub(super) fn estimate_on(
                 .filter_map(|c| Some((c.ratio, value_of(&c.quantities, &quantity.path)?))),
         );
         let mut safety = SAFETY;
+        let mut limit = None;
         let (discretisation, order) = match out.method {
             EstimateMethod::CoarserMeshes => {
                 // A run that is itself too coarse is compared with finer meshes, which no longer show it.
@@ -192,16 +208,29 @@ pub(super) fn estimate_on(
                     safety = SAFETY_OF_LAW;
                 }
                 let mut error = found.map(|f| f.error);
-                if let (Some(error), Some(share)) = (
-                    &mut error,
-                    edge::known(scene, &quantity.path, quantity.value),
-                ) {
-                    let [least, most] = share.map(|s| s * quantity.value);
+                let elements = largest_order(scene);
+                let most = match is_smooth(results, &quantity.path) {
+                    true => highest,
+                    false => elements,
+                };
+                let orders = [elements, most, highest];
+                limit = super::limit::limit(&quantity.path, &values, orders, is_round(scene));
+                if let (Some(error), Some([least, most])) =
+                    (&mut error, edge::known(scene, results, quantity))
+                {
                     let stated = safety * *error;
                     if stated < least || stated > most {
                         *error = stated.clamp(least, most);
                         safety = 1.0;
                     }
+                }
+                if let (Some(error), Some(least)) = (
+                    &mut error,
+                    edge::at_shared_node(results, &quantity.path, &values),
+                ) && safety * *error < least
+                {
+                    *error = least;
+                    safety = 1.0;
                 }
                 (error, found.and_then(|f| f.order))
             }
@@ -209,7 +238,7 @@ pub(super) fn estimate_on(
             EstimateMethod::None => (None, None),
         };
         let algebraic = algebraic_error(results, &quantity.path) * quantity.scale;
-        let path = path.of(&quantity.path);
+        let path = path.of(&quantity.path).map(|path| path.total());
         let error = discretisation.map(|d| safety * d + path.unwrap_or(0.0) + algebraic);
         out.quantities.push(QuantityError {
             quantity: quantity.path.clone(),
@@ -222,13 +251,21 @@ pub(super) fn estimate_on(
             path,
             algebraic,
             order,
+            of_mesh: None,
         });
+        limits.push(limit);
     }
     if extent == Extent::Program {
         out.notes.extend(told_by_width(scene, &out.quantities));
     }
     out.seconds = start.elapsed().as_secs_f64();
-    out
+    let others = others.into_iter().map(|other| (other.ratio, other.results));
+    Estimate {
+        accuracy: out,
+        limits,
+        others: others.collect(),
+        path,
+    }
 }
 
 /// What is to be known of targets by half width: the load at which a mesh reaches them is a result, and its error one of all that is
@@ -259,10 +296,14 @@ fn state_of<'r>(results: &'r Results, path: &str) -> Option<&'r State> {
     results.states.iter().find(|s| s.name == name)
 }
 
+/// Whether a quantity comes from a state in which something has flowed.
+pub(super) fn flows(results: &Results, path: &str) -> bool {
+    state_of(results, path).is_some_and(|s| s.plastic_points > 0)
+}
+
 /// Whether a quantity comes from an elastic state without contact.
 fn is_smooth(results: &Results, path: &str) -> bool {
-    let flows = state_of(results, path).is_some_and(|s| s.plastic_points > 0);
-    results.sizes.contact_pairs == 0 && !flows
+    results.sizes.contact_pairs == 0 && !flows(results, path)
 }
 
 /// The highest order of convergence that is believed for a quantity.

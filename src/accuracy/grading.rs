@@ -123,26 +123,36 @@ pub(super) struct Share {
     order: f64,
 }
 
-/// Shares of the two parts in the errors of the governing quantities. `errors` are those of the pilot: discretisation error and order,
-/// `far_order` that of the far part;
-/// `wanted` is relative to the largest size of each quantity.
+/// The error of a quantity on the pilot.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PilotError {
+    /// Discretisation error.
+    pub error: f64,
+    /// Its order.
+    pub order: f64,
+    /// What of it is stated.
+    pub safety: f64,
+}
+
+/// Shares of the two parts in the stated errors of the governing quantities. `far_order` is the order of the far part; `wanted` is relative to the largest
+/// size of each quantity.
 pub(super) fn shares(
     pilot: &[Quantity],
-    errors: &[(f64, f64)],
+    errors: &[PilotError],
     far_coarser: &[Quantity],
     far_order: f64,
     wanted: f64,
 ) -> Vec<Share> {
     let rows = pilot.iter().zip(errors);
     rows.filter(|(quantity, _)| quantity.governs && quantity.scale > 0.0)
-        .filter_map(|(quantity, &(error, order))| {
+        .filter_map(|(quantity, told)| {
             let other = value_of(far_coarser, &quantity.path)?;
             let far = (other - quantity.value).abs() / (COARSER.powf(far_order) - 1.0);
-            let unit = 1.0 / (quantity.scale * wanted);
+            let unit = told.safety / (quantity.scale * wanted);
             Some(Share {
-                near: (error - far).max(0.0) * unit,
+                near: (told.error - far).max(0.0) * unit,
                 far: far * unit,
-                order,
+                order: told.order,
             })
         })
         .collect()
@@ -249,7 +259,11 @@ mod tests {
         // Far part 0.1 of second order: 1.5 times coarser changes it by 1.25 times that.
         let found = shares(
             &[quantity(9.7)],
-            &[(0.3, 2.0)],
+            &[PilotError {
+                error: 0.3,
+                order: 2.0,
+                safety: 1.0,
+            }],
             &[quantity(9.575)],
             2.0,
             0.01,

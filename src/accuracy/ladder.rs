@@ -68,6 +68,23 @@ impl Ladder {
         Ok((results, spent))
     }
 
+    /// The coarsest run so far, with the same path, in which everything flows that does in `results`.
+    pub(super) fn flowing(&self, scene: &Scene, results: &Results) -> Option<&(Scene, Results)> {
+        let path = |scene: &Scene| format!("{:?} {:?}", scene.program, scene.analysis);
+        let own = path(scene);
+        let flows = |other: &Results| {
+            let states = results.states.iter().zip(&other.states);
+            results.states.len() == other.states.len()
+                && states
+                    .into_iter()
+                    .all(|(s, o)| s.plastic_points == 0 || o.plastic_points > 0)
+        };
+        let known = self.finished.iter().filter(|(other, found)| {
+            found.sizes.elements < results.sizes.elements && path(other) == own && flows(found)
+        });
+        known.min_by_key(|(_, found)| found.sizes.elements)
+    }
+
     /// The coarser meshes, two or for the lowest run one, from which a run is judged, those that were run already first. A ladder goes up
     /// from meshes so coarse that they must not lean on yet coarser ones, nor, with its price in mind, on finer ones.
     pub(super) fn rungs(&self, scene: &Scene) -> Vec<Level> {

@@ -7,6 +7,7 @@
 //! | `extrapolation` | the error of a value from those on other meshes |
 //! | `estimate` | discretisation, path and algebraic error of every quantity of a run |
 //! | `path` | the error of increments and tolerances |
+//! | `limit` | the values that the meshes of a demand lead to, better than those on any of them |
 //! | `demand`, `outcome` | the cheapest settings that reach a demanded accuracy; what a trial says |
 //! | `refusal`, `stall` | what is beyond the memory or round-off; what refinement does not bring nearer |
 //! | `ladder`, `edge` | the meshes on the way to a demand; where in an element a contact ends on them |
@@ -47,6 +48,7 @@
 //! over a node's share of the surface, the contact's end between two nodes change with the mesh and are in no product. The extrapolation sees
 //! them all; where refinement pays for a goal is measured by coarsening a part of the mesh (`grading`).
 
+mod consistent;
 mod demand;
 mod edge;
 mod estimate;
@@ -54,6 +56,7 @@ mod extrapolation;
 mod grading;
 mod knobs;
 mod ladder;
+mod limit;
 mod meter;
 mod outcome;
 mod path;

@@ -1,6 +1,7 @@
 //! What a trial of a demand says: whether it is reached, what is not known, and which mesh to try next.
 
 use super::estimate::{SAFETY_OF_LAW, highest_order};
+use super::limit::{SHARE, has_limit};
 use super::quantities::{Quantity, quantities};
 use super::refusal::percent;
 use crate::results::{Accuracy, QuantityError, Results};
@@ -14,10 +15,10 @@ pub(super) const AIM: f64 = 0.85;
 /// Least step to the next mesh: one that is hardly finer says nothing new.
 pub(super) const LEAST_STEP: f64 = 1.15;
 /// The same from the foot, whose error is stated from one other mesh: its mesh for comparison must tell something there too.
-const FIRST_STEP: f64 = 1.25;
-/// On finer meshes the order is higher than the coarse ones show, by so much (3 and 4 on the tube, 1.3 and 1.6 under a point): an aim that is too
-/// high costs more than one that is too low and followed by a small step.
-const RISING: f64 = 1.2;
+const FIRST_STEP: f64 = 1.5;
+/// Sums of parts of an error agree to so much.
+const ROUND_OFF: f64 = 1e-12;
+
 /// What a run says about the next.
 pub(super) struct Outcome {
     /// Largest stated relative error of the governing quantities; NaN where none is known.
@@ -114,8 +115,9 @@ impl Outcome {
         // One coarser mesh states with the lowest order, which is not that with which finer ones will be judged.
         let mesh = match trial.found.companions.as_slice() {
             [other] => {
+                let (error, safety) = of_mesh(errors, 1);
                 let r = other.ratio;
-                SAFETY_OF_LAW * discretisation * (r - 1.0) / (r.powf(order) - 1.0)
+                safety * error * (r - 1.0) / (r.powf(order) - 1.0) / quantity.scale
             }
             _ => mesh,
         };
@@ -124,11 +126,31 @@ impl Outcome {
         self.least = self
             .least
             .max((discretisation / demand).powf(1.0 / highest));
-        let order = errors
-            .order
-            .map_or(order, |o| (RISING * o).min(highest).max(o));
+        let order = errors.order.unwrap_or(order);
         self.refinement = self.refinement.max(needed.powf(1.0 / order));
     }
+}
+
+/// The discretisation error of a quantity on the mesh itself, and the share of it that is stated of the reported value where three meshes follow a law.
+pub(super) fn of_mesh(errors: &QuantityError, companions: usize) -> (f64, f64) {
+    let stated = errors.discretisation.unwrap_or(0.0);
+    let own = errors.of_mesh.map_or(stated, |own| own.discretisation);
+    let extrapolated = match companions {
+        // What the next mesh, judged by more, will make of it.
+        0 | 1 => has_limit(&errors.quantity),
+        _ => errors.of_mesh.is_some() && is_extrapolated(errors),
+    };
+    (own, if extrapolated { SHARE } else { SAFETY_OF_LAW })
+}
+
+/// Whether a value that is not that of its mesh is extrapolated from several, and not corrected for the increments alone: then what is stated of the mesh is
+/// the error of the limit, without a factor of safety.
+fn is_extrapolated(errors: &QuantityError) -> bool {
+    let (Some(error), Some(discretisation)) = (errors.error, errors.discretisation) else {
+        return false;
+    };
+    let of_limit = discretisation + errors.path.unwrap_or(0.0) + errors.algebraic;
+    has_limit(&errors.quantity) && (error - of_limit).abs() <= ROUND_OFF * error
 }
 
 /// The stated error over the largest size of the quantity. A quantity that is zero in the whole run, on other meshes too, is known.
@@ -151,7 +173,7 @@ pub(super) fn told(outcome: &Outcome) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::results::{Companion, State};
+    use crate::results::{Companion, OfMesh, State};
 
     /// A run with one state, and the errors of its quantities: load, approach.
     fn run(load: f64, approach: f64, errors: [Option<f64>; 2]) -> (Results, Accuracy) {
@@ -184,6 +206,7 @@ mod tests {
                 path: Some(0.0),
                 algebraic: 0.0,
                 order: Some(2.0),
+                of_mesh: None,
             });
         }
         (results, found)
@@ -216,5 +239,30 @@ mod tests {
     fn a_zero_is_known_where_other_meshes_have_it_too() {
         assert!(judged(&run(10.0, 0.0, [Some(0.05), Some(0.0)])).within(0.01));
         assert!(!judged(&run(10.0, 0.0, [Some(0.05), Some(1e-3)])).within(0.01));
+    }
+
+    /// What is stated of a half width that was corrected for the increments alone is still that of its mesh.
+    #[test]
+    fn a_correction_for_the_increments_leaves_the_error_of_the_mesh() {
+        let (_, found) = run(10.0, 2.0, [Some(0.05), Some(0.01)]);
+        let mut row = found.quantities[0].clone();
+        assert_eq!(of_mesh(&row, 2), (0.025, SAFETY_OF_LAW));
+        row.of_mesh = Some(OfMesh {
+            value: 9.0,
+            error: 0.08,
+            discretisation: 0.025,
+        });
+        row.path = Some(0.01);
+        row.error = Some(SAFETY_OF_LAW * 0.025 + 0.01);
+        assert_eq!(of_mesh(&row, 2), (0.025, SAFETY_OF_LAW));
+        // Extrapolated, once with an error as large as that of the mesh.
+        for error in [0.015, 0.025] {
+            row.discretisation = Some(error);
+            row.error = Some(error + 0.01);
+            assert_eq!(of_mesh(&row, 2), (0.025, SHARE));
+        }
+        row.quantity = "states.pressed.half_width".into();
+        assert_eq!(of_mesh(&row, 1), (0.025, SAFETY_OF_LAW));
+        assert_eq!(of_mesh(&row, 2), (0.025, SAFETY_OF_LAW));
     }
 }

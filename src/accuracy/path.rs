@@ -14,9 +14,9 @@
 //! Tolerances are changed by [`FACTOR`]: made tighter where they are loose (the difference is the error), looser
 //! where they are near round-off (the difference is the error times [`FACTOR`]).
 
-use super::estimate::{Extent, run};
-use super::meter::work;
-use super::quantities::{Quantity, quantities, value_of};
+use super::estimate::Extent;
+use super::ladder::Ladder;
+use super::quantities::{Quantity, quantities, value_of, with_loads};
 use crate::linalg::Backend;
 use crate::progress::Observer;
 use crate::results::Results;
@@ -30,6 +30,10 @@ const FACTOR: f64 = 100.0;
 /// Tolerances below this are made looser, not tighter: [`FACTOR`] below them lies round-off.
 const TIGHT: f64 = 1e-9;
 
+/// What is changed.
+const TOLERANCES: &str = "tolerances";
+const INCREMENTS: &str = "increments";
+
 /// Errors of the path.
 #[derive(Debug)]
 pub(super) enum PathErrors {
@@ -38,15 +42,24 @@ pub(super) enum PathErrors {
     /// The path is exact.
     None,
     /// By quantity, and the floating point operations of the runs that were made for them.
-    Estimated(BTreeMap<String, f64>, f64),
+    Estimated(BTreeMap<String, PathError>, f64),
+}
+
+/// The error that the path leaves in a quantity, or in what goes with a load.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct PathError {
+    /// That of the tolerances, not negative.
+    pub tolerances: f64,
+    /// What infinitely many increments would add.
+    pub increments: f64,
 }
 
 impl PathErrors {
     /// The error of a quantity, where it was estimated.
-    pub(super) fn of(&self, path: &str) -> Option<f64> {
+    pub(super) fn of(&self, path: &str) -> Option<PathError> {
         match self {
             PathErrors::Unknown => None,
-            PathErrors::None => Some(0.0),
+            PathErrors::None => Some(PathError::default()),
             PathErrors::Estimated(errors, _) => errors.get(path).copied(),
         }
     }
@@ -57,6 +70,13 @@ impl PathErrors {
             PathErrors::Estimated(_, work) => *work,
             _ => 0.0,
         }
+    }
+}
+
+impl PathError {
+    /// Both together.
+    pub(super) fn total(&self) -> f64 {
+        self.tolerances + self.increments.abs()
     }
 }
 
@@ -71,15 +91,19 @@ pub(super) struct Base<'r> {
 }
 
 impl Base<'_> {
-    /// Adds `share` of the difference to another run.
-    fn add(&self, other: &Results, share: f64, to: &mut BTreeMap<String, f64>) {
+    /// The differences to another run, of quantities and of what goes with loads.
+    fn differences(&self, other: &Results) -> impl Iterator<Item = (String, f64)> {
         let others = quantities(other);
-        for quantity in self.quantities {
-            if let Some(value) = value_of(&others, &quantity.path) {
-                *to.entry(quantity.path.clone()).or_default() +=
-                    share * (value - quantity.value).abs();
-            }
-        }
+        let values = self.quantities.iter().filter_map(move |quantity| {
+            let value = value_of(&others, &quantity.path)?;
+            Some((quantity.path.clone(), value - quantity.value))
+        });
+        let with_loads_of_other = with_loads(other);
+        let own = with_loads(self.results).into_iter();
+        values.chain(own.filter_map(move |(path, value)| {
+            let other = with_loads_of_other.get(&path)?;
+            Some((path, other - value))
+        }))
     }
 }
 
@@ -91,12 +115,13 @@ pub(super) fn matters(results: &Results) -> bool {
 /// Estimates the errors of the path of a run from `base`, its coarsest companion or the run itself.
 pub(super) fn errors(
     base: &Base,
+    ladder: &mut Ladder,
     backend: Backend,
     results: &Results,
     observer: &mut dyn Observer,
     notes: &mut Vec<String>,
 ) -> PathErrors {
-    let mut out = BTreeMap::new();
+    let mut out: BTreeMap<String, PathError> = BTreeMap::new();
     let mut spent = 0.0;
     let tolerances = with_other_tolerances(base.scene);
     let increments = match base.alone {
@@ -107,21 +132,31 @@ pub(super) fn errors(
     let grown = base.results.history.len() as f64 / results.history.len().max(1) as f64;
     let changed = increments.1 * grown.min(1.0);
     for (what, scene, share) in [
-        ("tolerances", tolerances.0, tolerances.1),
-        ("increments", increments.0, changed),
+        (TOLERANCES, tolerances.0, tolerances.1),
+        (INCREMENTS, increments.0, changed),
     ] {
         if observer.stop_requested() {
             break;
         }
         observer.phase(&format!("error estimate: other {what}"));
-        match run(&scene, backend, Extent::Program, observer) {
-            Ok(found) => {
-                spent += work(&found);
-                base.add(&found, share, &mut out);
+        let found = match ladder.step(&scene, backend, Extent::Program, observer) {
+            Ok((found, operations)) => {
+                spent += operations;
+                found
             }
-            Err(error) => notes.push(format!(
-                "the run with other {what} failed, so that the error of the path lacks them: {error}"
-            )),
+            Err(error) => {
+                notes.push(format!(
+                    "the run with other {what} failed, so that the error of the path lacks them: {error}"
+                ));
+                continue;
+            }
+        };
+        for (path, difference) in base.differences(&found) {
+            let error = out.entry(path).or_default();
+            match what {
+                TOLERANCES => error.tolerances = share * difference.abs(),
+                _ => error.increments = share * difference,
+            }
         }
     }
     PathErrors::Estimated(out, spent)
@@ -155,13 +190,13 @@ fn taken(scene: &Scene, results: &Results) -> usize {
     taken.max(1)
 }
 
-/// The scene with `steps` increments from target to target instead of `taken`, and what multiple of the difference is the error of those
-/// taken: the difference is that from `c/taken` to `c/steps`.
+/// The scene with `steps` increments from target to target instead of `taken`, and what multiple of the difference those taken are off: the difference
+/// is that from `c/taken` to `c/steps`.
 fn with_increments(scene: &Scene, taken: usize, steps: usize) -> (Scene, f64) {
     let mut out = scene.clone();
     out.program.stepping = Stepping::Steps;
     out.program.steps = steps;
-    (out, 1.0 / (1.0 - taken as f64 / steps as f64).abs())
+    (out, 1.0 / (1.0 - taken as f64 / steps as f64))
 }
 
 /// The scene with more increments than its run took, and what multiple of the difference is their error.

@@ -2,8 +2,9 @@
 
 use super::estimate::{Extent, run};
 use super::extrapolation::extrapolate;
-use super::grading::{Share, far_coarser, shares};
+use super::grading::{PilotError, Share, far_coarser, shares};
 use super::meter::work;
+use super::outcome::of_mesh;
 use super::quantities::{Quantity, quantities, value_of};
 use super::refinement::{coarser, largest_order};
 use crate::linalg::Backend;
@@ -14,8 +15,7 @@ use crate::scene::Scene;
 /// A pilot with what its far part adds to its errors.
 pub(super) struct Pilot {
     quantities: Vec<Quantity>,
-    /// Discretisation error and order of each quantity.
-    errors: Vec<(f64, f64)>,
+    errors: Vec<PilotError>,
     far_coarser: Vec<Quantity>,
     /// Order of the far part, where nothing singular disturbs it.
     far_order: f64,
@@ -40,7 +40,7 @@ impl Pilot {
         let rows = self.quantities.iter().zip(&self.errors);
         rows.filter(|(quantity, _)| quantity.governs && quantity.scale > 0.0)
             .fold(0.0, |most, (quantity, e)| {
-                f64::max(most, e.0 / quantity.scale)
+                f64::max(most, e.error / quantity.scale)
             })
     }
 }
@@ -57,8 +57,8 @@ pub(super) fn pilot(
     let highest = largest_order(scene);
     let errors = found.quantities.iter().map(|q| {
         // Where nothing is known of an error, it does not decide.
-        let error = q.discretisation.unwrap_or(0.0);
-        match (q.order, found.companions.as_slice()) {
+        let (error, safety) = of_mesh(q, found.companions.len());
+        let (error, order) = match (q.order, found.companions.as_slice()) {
             (Some(order), _) => (error, order),
             // Stated from one other mesh with the lowest order: too much where parts are compared.
             (None, [other]) => (
@@ -66,6 +66,11 @@ pub(super) fn pilot(
                 highest,
             ),
             (None, _) => (error, highest),
+        };
+        PilotError {
+            error,
+            order,
+            safety,
         }
     });
     complete(scene, backend, extent, results, errors.collect(), observer)
@@ -91,9 +96,12 @@ pub(super) fn fly(
         values.extend(
             (coarse.iter()).filter_map(|(h, found)| Some((*h, value_of(found, &quantity.path)?))),
         );
-        extrapolate(&values, [1.0, largest_order(scene)]).map_or((0.0, 1.0), |e| {
-            (e.error, e.order.unwrap_or(largest_order(scene)))
-        })
+        let found = extrapolate(&values, [1.0, largest_order(scene)]);
+        PilotError {
+            error: found.map_or(0.0, |e| e.error),
+            order: found.map_or(1.0, |e| e.order.unwrap_or(largest_order(scene))),
+            safety: 1.0,
+        }
     });
     let mut out = complete(scene, backend, extent, &results, errors.collect(), observer)?;
     out.work += spent;
@@ -105,7 +113,7 @@ fn complete(
     backend: Backend,
     extent: Extent,
     results: &Results,
-    errors: Vec<(f64, f64)>,
+    errors: Vec<PilotError>,
     observer: &mut dyn Observer,
 ) -> Option<Pilot> {
     let found = run(&far_coarser(scene)?, backend, extent, observer).ok()?;

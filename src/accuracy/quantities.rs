@@ -1,6 +1,7 @@
 //! The quantities that a run reports, by their paths in `summary.json`.
 
 use crate::results::Results;
+use std::collections::BTreeMap;
 
 /// A reported quantity.
 #[derive(Debug, Clone, PartialEq)]
@@ -72,6 +73,54 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
 /// The value of a quantity by its path.
 pub fn value_of(quantities: &[Quantity], path: &str) -> Option<f64> {
     quantities.iter().find(|q| q.path == path).map(|q| q.value)
+}
+
+/// What goes with the load of first yield and of the states, by path: its factor, and the contact force.
+pub(super) fn with_loads(results: &Results) -> BTreeMap<String, f64> {
+    let first = results.first_yield.iter();
+    let first = first.map(|point| ("yield.alpha".to_string(), point.alpha));
+    let states = results.states.iter().flat_map(|state| {
+        let values = [
+            ("alpha", state.alpha),
+            ("contact_force", state.contact_force),
+        ];
+        values.map(|(key, value)| (format!("states.{}.{key}", state.name), value))
+    });
+    first.chain(states).collect()
+}
+
+/// Sets the value of a quantity, or of what goes with one, by its path.
+pub(super) fn put(results: &mut Results, path: &str, value: f64) {
+    let Some((prefix, key)) = path.rsplit_once('.') else {
+        return;
+    };
+    let slot = match prefix.strip_prefix("states.") {
+        None => results.first_yield.as_mut().and_then(|point| match key {
+            "alpha" => Some(&mut point.alpha),
+            "load" => Some(&mut point.load),
+            "max_pressure" => Some(&mut point.max_pressure),
+            "half_width" => Some(&mut point.half_width),
+            _ => None,
+        }),
+        Some(name) => {
+            let state = results.states.iter_mut().find(|s| s.name == name);
+            state.and_then(|state| match key {
+                "alpha" => Some(&mut state.alpha),
+                "load" => Some(&mut state.load),
+                "contact_force" => Some(&mut state.contact_force),
+                "max_pressure" => Some(&mut state.max_pressure),
+                "pole_pressure" => Some(&mut state.pole_pressure),
+                "half_width" => Some(&mut state.half_width),
+                "approach" => Some(&mut state.approach),
+                "residual_depth" => Some(&mut state.residual_depth),
+                "plastic_zone_size" => Some(&mut state.plastic_zone_size),
+                _ => None,
+            })
+        }
+    };
+    if let Some(slot) = slot {
+        *slot = value;
+    }
 }
 
 #[cfg(test)]

@@ -4,10 +4,16 @@
 //! P. Lancaster, K. Salkauskas, moving least squares (1981), doi:10.1090/S0025-5718-1981-0616367-1.
 
 use super::mirror::Reflection;
-use nalgebra::{DMatrix, DVector};
+use std::collections::HashMap;
 
-/// Terms of the polynomials that are tried: cubic, quadratic, linear, constant.
-const TERMS: [usize; 4] = [10, 6, 3, 1];
+/// Highest degree of the polynomials: cubic, and then quadratic, linear, constant where the samples do not determine it.
+const CUBIC: usize = 3;
+/// Terms of a cubic.
+const N: usize = n_terms(CUBIC);
+/// Monomials of twice its degree.
+const MOMENTS: usize = n_terms(2 * CUBIC);
+/// Least pivot of the scaled normal equations.
+const LEAST_PIVOT: f64 = 1e-2;
 /// Reach of the weights in distances between samples.
 const REACH: f64 = 3.25;
 
@@ -17,17 +23,23 @@ pub fn reach(n: usize) -> f64 {
     REACH / (n as f64).sqrt()
 }
 
+/// Places that are kept of a patch: those of one search and those beside.
+const MOST_KEPT: usize = 300;
+
 /// Samples around an element, in coordinates relative to it and scaled by its size.
 #[derive(Debug, Clone)]
 pub struct Patch {
     /// Middle of the element.
-    pub center: [f64; 2],
+    center: [f64; 2],
     /// Its extents.
-    pub scale: [f64; 2],
+    scale: [f64; 2],
     /// Reach of the weights in element sizes.
-    pub reach: f64,
-    /// The samples.
-    pub samples: Vec<Sample>,
+    reach: f64,
+    samples: Vec<Sample>,
+    /// Indices of samples and their shares in the value last asked for.
+    shares: Vec<(u32, f64)>,
+    /// The same of earlier ones, by place.
+    kept: HashMap<[u64; 2], Box<[(u32, f64)]>>,
 }
 
 /// A sample of a patch, or its mirror image.
@@ -42,75 +54,185 @@ pub struct Sample {
 }
 
 impl Patch {
-    /// Moving least squares at a point: the fit of the highest degree that the samples around determine.
-    pub fn value(&self, samples: &[[f64; 4]], at: [f64; 2]) -> [f64; 4] {
+    /// A patch round an element.
+    pub fn new(center: [f64; 2], scale: [f64; 2], reach: f64, samples: Vec<Sample>) -> Self {
+        Patch {
+            center,
+            scale,
+            reach,
+            samples,
+            shares: Vec::new(),
+            kept: HashMap::new(),
+        }
+    }
+
+    /// Moving least squares at a point: the fit of the highest degree that the samples around determine. What each sample adds to it depends on
+    /// the point alone; `keep` has that ready where the same point is asked for again.
+    pub fn value(&mut self, samples: &[[f64; 4]], at: [f64; 2], keep: bool) -> [f64; 4] {
+        let place = at.map(f64::to_bits);
+        if let Some(shares) = self.kept.get(&place) {
+            return self.sum(shares, samples);
+        }
         let x = [
             (at[0] - self.center[0]) / self.scale[0],
             (at[1] - self.center[1]) / self.scale[1],
         ];
-        TERMS
-            .iter()
-            .find_map(|&n| self.fit(samples, x, n))
-            .unwrap_or([0.0; 4])
+        let mut shares = std::mem::take(&mut self.shares);
+        // Degrees as constants: the loops over the terms are unrolled.
+        let _found = self.fit::<CUBIC>(x, &mut shares)
+            || self.fit::<2>(x, &mut shares)
+            || self.fit::<1>(x, &mut shares)
+            || self.fit::<0>(x, &mut shares);
+        let out = self.sum(&shares, samples);
+        if keep && self.kept.len() < MOST_KEPT {
+            self.kept.insert(place, shares.as_slice().into());
+        }
+        self.shares = shares;
+        out
     }
 
-    /// Value at `x` of the weighted fit with `n` terms, by the normal equations; terms are centred at `x`, so that the value
-    /// is the constant term. `None` where the samples do not determine it.
-    fn fit(&self, samples: &[[f64; 4]], x: [f64; 2], n: usize) -> Option<[f64; 4]> {
-        let mut gram = DMatrix::<f64>::zeros(n, n);
-        let mut right = DMatrix::<f64>::zeros(n, 4);
-        let mut used = 0;
-        for sample in &self.samples {
-            let position = sample.position;
-            let (dx, dy) = (position[0] - x[0], position[1] - x[1]);
-            let distance = (dx * dx + dy * dy) / (self.reach * self.reach);
-            if distance >= 1.0 && n > 1 {
-                continue;
-            }
-            used += 1;
+    fn sum(&self, shares: &[(u32, f64)], samples: &[[f64; 4]]) -> [f64; 4] {
+        let mut out = [0.0; 4];
+        for &(i, share) in shares {
+            let sample = &self.samples[i as usize];
             let mut stress = samples[sample.index as usize];
             if let Some(reflection) = &sample.reflection {
                 stress = reflection.of(stress);
             }
-            let weight = if n > 1 {
-                (1.0 - distance).powi(3)
-            } else {
-                1.0 / (1.0 + distance)
-            };
-            let terms = [
-                1.0,
-                dx,
-                dy,
-                dx * dx,
-                dx * dy,
-                dy * dy,
-                dx * dx * dx,
-                dx * dx * dy,
-                dx * dy * dy,
-                dy * dy * dy,
-            ];
-            for a in 0..n {
-                for b in 0..n {
-                    gram[(a, b)] += weight * terms[a] * terms[b];
-                }
-                for c in 0..4 {
-                    right[(a, c)] += weight * terms[a] * stress[c];
-                }
+            for (out, stress) in out.iter_mut().zip(stress) {
+                *out += share * stress;
+            }
+        }
+        out
+    }
+
+    /// The share that each sample has in the value at `x` of the weighted fit of a degree, by the normal equations; terms are centred at `x`, so that the value
+    /// is the constant term. `false`, and no shares, where the samples do not determine it.
+    ///
+    /// The matrix of the normal equations holds the moments of the weights, `G_ab = sum w p_a p_b`, which are monomials of twice the degree; a
+    /// sample's share is `w (c . p)` with `G c = e_0`.
+    fn fit<const D: usize>(&self, x: [f64; 2], shares: &mut Vec<(u32, f64)>) -> bool {
+        shares.clear();
+        let n = n_terms(D);
+        let mut moments = [0.0; MOMENTS];
+        let mut used = 0;
+        for (_, weight, d) in self.weighted::<D>(x) {
+            used += 1;
+            let terms = monomials(d, 2 * D);
+            for (moment, term) in moments.iter_mut().zip(&terms).take(n_terms(2 * D)) {
+                *moment += weight * term;
             }
         }
         if used < n + n / 2 {
-            return None;
+            return false;
         }
-        let scaling = DVector::from_fn(n, |i, _| 1.0 / gram[(i, i)].max(f64::MIN_POSITIVE).sqrt());
-        let scaled = DMatrix::from_fn(n, n, |i, j| gram[(i, j)] * scaling[i] * scaling[j]);
-        let factor = scaled.cholesky()?;
-        if (0..n).any(|i| factor.l_dirty()[(i, i)] < 1e-2) {
-            return None;
-        }
-        for mut column in right.column_iter_mut() {
-            column.component_mul_assign(&scaling);
-        }
-        let solution = factor.solve(&right);
-        Some(std::array::from_fn(|c| solution[(0, c)] * scaling[0]))
+        let Some(coefficients) = constant_term(&moments, n) else {
+            return false;
+        };
+        shares.extend(self.weighted::<D>(x).map(|(i, weight, d)| {
+            let terms = monomials(d, D);
+            let share: f64 = coefficients.iter().zip(&terms).map(|(c, p)| c * p).sum();
+            (i, weight * share)
+        }));
+        true
     }
+
+    /// The samples that count at `x`, with their weights and places relative to it.
+    fn weighted<const D: usize>(&self, x: [f64; 2]) -> impl Iterator<Item = (u32, f64, [f64; 2])> {
+        let unit = 1.0 / (self.reach * self.reach);
+        self.samples.iter().zip(0..).filter_map(move |(sample, i)| {
+            let d = [sample.position[0] - x[0], sample.position[1] - x[1]];
+            let distance = (d[0] * d[0] + d[1] * d[1]) * unit;
+            match D {
+                0 => Some((i, 1.0 / (1.0 + distance), d)),
+                _ if distance >= 1.0 => None,
+                _ => Some((i, (1.0 - distance).powi(3), d)),
+            }
+        })
+    }
+}
+
+/// Terms of a polynomial of a degree.
+const fn n_terms(degree: usize) -> usize {
+    (degree + 1) * (degree + 2) / 2
+}
+
+/// The monomials up to a degree, by degree and then by the power of y.
+#[inline(always)]
+fn monomials([x, y]: [f64; 2], degree: usize) -> [f64; MOMENTS] {
+    let mut out = [0.0; MOMENTS];
+    out[0] = 1.0;
+    for t in 1..=degree {
+        let (lower, own) = (n_terms_below(t - 1), n_terms_below(t));
+        for j in 0..t {
+            out[own + j] = out[lower + j] * x;
+        }
+        out[own + t] = out[lower + t - 1] * y;
+    }
+    out
+}
+
+/// `c` of `G c = e_0`, by Cholesky's factor of `G` scaled to a unit diagonal; `None` where it has none, or hardly.
+#[inline(always)]
+fn constant_term(moments: &[f64; MOMENTS], n: usize) -> Option<[f64; N]> {
+    let scaling: [f64; N] =
+        std::array::from_fn(|i| 1.0 / moments[PRODUCTS[i][i]].max(f64::MIN_POSITIVE).sqrt());
+    let mut l = [[0.0; N]; N];
+    for i in 0..n {
+        for j in 0..=i {
+            let scaled = moments[PRODUCTS[i][j]] * scaling[i] * scaling[j];
+            let known: f64 = (0..j).map(|k| l[i][k] * l[j][k]).sum();
+            let rest = scaled - known;
+            l[i][j] = if i == j { rest.sqrt() } else { rest / l[j][j] };
+        }
+        // Also what is no number.
+        if l[i][i].is_nan() || l[i][i] < LEAST_PIVOT {
+            return None;
+        }
+    }
+    let mut c = [0.0; N];
+    c[0] = scaling[0];
+    for i in 0..n {
+        let known: f64 = (0..i).map(|k| l[i][k] * c[k]).sum();
+        c[i] = (c[i] - known) / l[i][i];
+    }
+    for i in (0..n).rev() {
+        let known: f64 = (i + 1..n).map(|k| l[k][i] * c[k]).sum();
+        c[i] = (c[i] - known) / l[i][i];
+    }
+    for (c, scaling) in c.iter_mut().zip(scaling) {
+        *c *= scaling;
+    }
+    Some(c)
+}
+
+/// Which monomial the product of two terms is.
+const PRODUCTS: [[usize; N]; N] = {
+    let mut out = [[0; N]; N];
+    let mut a = 0;
+    while a < N {
+        let mut b = 0;
+        while b < N {
+            let (ta, tb) = (degree_of(a), degree_of(b));
+            let power = a + b - n_terms_below(ta) - n_terms_below(tb);
+            out[a][b] = n_terms_below(ta + tb) + power;
+            b += 1;
+        }
+        a += 1;
+    }
+    out
+};
+
+/// Terms of lower degree.
+const fn n_terms_below(degree: usize) -> usize {
+    degree * (degree + 1) / 2
+}
+
+/// The degree of a term.
+const fn degree_of(term: usize) -> usize {
+    let mut degree = 0;
+    while term >= n_terms(degree) {
+        degree += 1;
+    }
+    degree
 }

@@ -31,6 +31,8 @@ const FINEST: f64 = 2e-5;
 const TIE: f64 = 1e-9;
 /// Share of the stress, times the square of a step in an element's reference coordinates, that is left to gain within that step.
 const CURVATURE: f64 = 0.1;
+/// Elements up to which the fits of one search are kept for the next one, at a load near by: 25 MB of them at most.
+const FEW: usize = 100;
 /// Layers of elements around an element that belong to its patch.
 const LAYERS: usize = 3;
 
@@ -191,6 +193,7 @@ impl Recovery {
     /// The maximum over some elements: a grid in each, then smaller and smaller steps round its best point. The recovered field is
     /// smooth in an element but not across: following the best grid point of all alone would let round-off choose the element.
     fn climb(&mut self, model: &Model, elements: &[u32], samples: &Samples) -> Option<Peak> {
+        let keep = elements.len() <= FEW;
         let mut tops: Vec<Top> = Vec::with_capacity(elements.len());
         for &i in elements {
             self.cache_patch(model, i);
@@ -200,14 +203,14 @@ impl Recovery {
                 point: [0.0; 2],
                 element: i,
             };
-            self.look_around(model, samples, &mut top, 0.5, 2);
+            self.look_around(model, samples, &mut top, 0.5, 2, keep);
             tops.push(top);
         }
         let highest = |tops: &[Top]| tops.iter().fold(f64::NEG_INFINITY, |m, t| m.max(t.value));
         let mut step = 0.25;
         while step > FINEST {
             for top in &mut tops {
-                while self.look_around(model, samples, top, step, 1) {}
+                while self.look_around(model, samples, top, step, 1, keep) {}
             }
             let least = highest(&tops) * (1.0 - CURVATURE * step * step);
             tops.retain(|t| t.value >= least);
@@ -225,12 +228,13 @@ impl Recovery {
 
     /// Moves to the highest of the points `step` apart round the current one; whether any is higher.
     fn look_around(
-        &self,
+        &mut self,
         model: &Model,
         samples: &Samples,
         top: &mut Top,
         step: f64,
         steps: i32,
+        keep: bool,
     ) -> bool {
         let from = *top;
         for a in -steps..=steps {
@@ -240,7 +244,7 @@ impl Recovery {
                     from.reference[1] + step * f64::from(b),
                 ];
                 let reference = self.inside(model, top.element, moved);
-                let (value, point) = self.value_at(model, top.element, reference, samples);
+                let (value, point) = self.value_at(model, top.element, reference, samples, keep);
                 if value > top.value {
                     *top = Top {
                         value,
@@ -272,11 +276,12 @@ impl Recovery {
 
     /// Recovered von Mises stress over yield stress at a reference point of an element, and where that is.
     fn value_at(
-        &self,
+        &mut self,
         model: &Model,
         i: u32,
         reference: [f64; 2],
         samples: &Samples,
+        keep: bool,
     ) -> (f64, [f64; 2]) {
         let element = &self.elements.list[i as usize];
         let (n, _) = shape_functions(model.mesh.shapes[element.element as usize], reference);
@@ -287,9 +292,9 @@ impl Recovery {
             point[1] += n * x[1];
         }
         let yield_stress = self.materials[element.body as usize].0.yield_stress();
-        match self.patches.get(&i) {
+        match self.patches.get_mut(&i) {
             Some(patch) => (
-                von_mises(&patch.value(samples, point)) / yield_stress,
+                von_mises(&patch.value(samples, point, keep)) / yield_stress,
                 point,
             ),
             None => (0.0, point),
@@ -361,12 +366,7 @@ impl Recovery {
                 add(i, a.image(b.image(at)), None);
             }
         }
-        Patch {
-            center,
-            scale,
-            reach,
-            samples,
-        }
+        Patch::new(center, scale, reach, samples)
     }
 }
 

@@ -88,12 +88,33 @@ fn method(accuracy: &Accuracy) -> String {
     let ratios = accuracy.companions.iter().map(|c| significant(c.ratio, 3));
     match accuracy.method {
         EstimateMethod::CoarserMeshes => format!(
-            "The mesh's part is extrapolated from runs with elements {} times as large; it counts up to twice.",
-            ratios.collect::<Vec<_>>().join(" and ")
+            "The mesh's part is extrapolated from runs with elements {} times as large; it counts up to twice.{}",
+            ratios.collect::<Vec<_>>().join(" and "),
+            extrapolated(accuracy)
         ),
         _ => "The mesh's part is the energy norm of the stress error, a rough figure: this mesh is not refined in passing. \
               `brinell accuracy` does."
             .to_string(),
+    }
+}
+
+/// Which values are not those of the mesh, and what that says of the rest.
+fn extrapolated(accuracy: &Accuracy) -> String {
+    let of_mesh = accuracy.quantities.iter().filter_map(|q| {
+        let own = q.of_mesh?;
+        let scale = q.error? / q.relative_error?;
+        Some(own.error / scale)
+    });
+    let errors: Vec<f64> = of_mesh.filter(|e| e.is_finite()).collect();
+    match errors.iter().copied().reduce(f64::max) {
+        None => String::new(),
+        Some(most) => format!(
+            " {} of {} values are extrapolated from these meshes, which makes them better known than on any of them; on the mesh itself they may be \
+             wrong by up to {} %, and with them profiles, fields and history.",
+            errors.len(),
+            accuracy.quantities.len(),
+            percent(Some(most))
+        ),
     }
 }
 

@@ -83,8 +83,8 @@ pub struct Scene {
     /// How to compute: every value has a default that needs no thought.
     #[serde(default)]
     pub analysis: Settings,
-    /// How wrong the results may be, such as `"1 %"`: with this key mesh and tolerances are chosen by the program. In Rust
-    /// `accuracy::reach` does that; an `Analysis` runs on the mesh that the scene describes.
+    /// How wrong the results may be, such as `"1 %"`: with this key mesh and tolerances are chosen by the program, and values are reported that its meshes
+    /// lead to together where these are better known. In Rust `accuracy::reach` does that; an `Analysis` runs on the mesh that the scene describes.
     #[serde(default)]
     pub accuracy: Option<AccuracyDemand>,
     /// Published or exact values to put beside the computed ones.

@@ -4,6 +4,7 @@
 mod running;
 
 mod claim;
+mod consistent;
 mod demand;
 mod effectivity;
 mod file_mesh;

@@ -2,12 +2,8 @@
 //! in floating point operations, which no busy machine disturbs.
 //!
 //! The cheapest is that of the uniform meshes of the study from which on all are as accurate; one that is so by chance, and the graded ones, which no hand
-//! picks, are told beside it, and so is the time. Fourteen of the eighteen demands keep to twice the cheapest. The hand knows the true error and needs one run; the
-//! program states 1.5 times an estimate and needs coarser runs to make it. Beyond twice lie the disc at 3 % (2.8: the hand's coarsest mesh does it, two
-//! meshes that coarse prove 5.6 %), the tube at 0.3 % (2.6: its order is still rising), and the
-//! whole program of the flat punch: at first order 1.5 times the estimate takes a mesh 1.5 times finer at least (2.5 at 3 %), and at 10 % (24, of a fiftieth of a second) four
-//! small meshes with their trials of tolerances and increments stand against one. Over all even resolutions of the disc, not the study's five, 62 elements are within 0.3 % by chance: 86 are 0.53 % off.
-//! The bounds hold what was measured, with a third to spare.
+//! picks, are told beside it, and so is the time. The hand knows the true error and needs one run; the program has to run coarser meshes to know its own, but reports what
+//! all of them lead to together, which is better than the finest of them. All demands keep to twice the cheapest.
 
 use crate::running;
 use brinell::accuracy::{Extent, Knob, Meter, Plan, Study, StudyRun, reach, study};
@@ -15,14 +11,16 @@ use brinell::linalg::Backend;
 use brinell::progress::Silent;
 use brinell::scene::{AccuracyDemand, Scene};
 
+/// What a demand may cost over the cheapest uniform mesh that is as accurate: twice, and a little for orderings that differ from machine to machine.
+const MOST: f64 = 2.1;
+
 /// A reference scene, where closed forms tell the true error.
 struct Case {
     name: &'static str,
     scene: Scene,
     extent: Extent,
     quantities: &'static [&'static str],
-    /// Accuracies, and what they may cost over the cheapest uniform mesh that is as accurate.
-    demands: &'static [(f64, f64)],
+    demands: &'static [f64],
     /// Meshes in a series.
     levels: usize,
     /// What graded meshes may cost over uniform ones of the same error; `None` where the generator has none.
@@ -56,7 +54,7 @@ fn cases() -> Vec<Case> {
             ),
             extent: Extent::Yield,
             quantities: CONTACT,
-            demands: &[(0.1, 2.0), (0.03, 2.0), (0.01, 2.4), (0.003, 2.2)],
+            demands: &[0.1, 0.03, 0.01, 0.003],
             levels: 5,
             graded: Some(0.56),
         },
@@ -69,7 +67,7 @@ fn cases() -> Vec<Case> {
             ),
             extent: Extent::Yield,
             quantities: CONTACT,
-            demands: &[(0.1, 2.0), (0.03, 2.5), (0.01, 2.0), (0.003, 2.0)],
+            demands: &[0.1, 0.03, 0.01, 0.003],
             levels: 6,
             graded: Some(0.4),
         },
@@ -85,7 +83,7 @@ fn cases() -> Vec<Case> {
             ),
             extent: Extent::Yield,
             quantities: &["yield.load", "yield.half_width"],
-            demands: &[(0.1, 2.0), (0.03, 3.7), (0.01, 2.0), (0.003, 2.0)],
+            demands: &[0.1, 0.03, 0.01, 0.003],
             levels: 5,
             graded: Some(1.0),
         },
@@ -94,7 +92,7 @@ fn cases() -> Vec<Case> {
             scene: running::load("thick_cylinder", &[yielding]),
             extent: Extent::Yield,
             quantities: &["yield.alpha"],
-            demands: &[(0.1, 2.0), (0.03, 2.0), (0.01, 2.0), (0.003, 3.5)],
+            demands: &[0.1, 0.03, 0.01, 0.003],
             levels: 5,
             graded: Some(1.3),
         },
@@ -103,7 +101,7 @@ fn cases() -> Vec<Case> {
             scene: running::load("flat_punch", &[]),
             extent: Extent::Program,
             quantities: &["states.flow.load"],
-            demands: &[(0.1, 32.0), (0.03, 3.4)],
+            demands: &[0.1, 0.03],
             levels: 6,
             graded: None,
         },
@@ -190,7 +188,7 @@ fn a_demand_costs_little_more_than_the_cheapest_setting_picked_by_hand() {
             let wall: f64 = run.phases.iter().map(|p| p.wall_seconds).sum();
             assert!(wall > 0.0 && wall <= run.usage.wall_seconds);
         }
-        for &(accuracy, most) in case.demands {
+        for &accuracy in case.demands {
             let mut scene = case.scene.clone();
             scene.accuracy = Some(AccuracyDemand::new(accuracy).unwrap());
             let meter = Meter::start();
@@ -224,7 +222,7 @@ fn a_demand_costs_little_more_than_the_cheapest_setting_picked_by_hand() {
             if !(demand.reached && actual <= accuracy) {
                 missed.push(format!("{} {accuracy}: true {actual}", case.name));
             }
-            if ratio > most {
+            if ratio > MOST {
                 missed.push(format!("{} {accuracy}: {ratio}", case.name));
             }
             ratios.push(ratio);

@@ -195,6 +195,7 @@ pub fn results(mesh: &Mesh) -> Results {
                 path: Some(0.09),
                 algebraic: 0.01,
                 order: None,
+                of_mesh: None,
             }],
             demand: Some(Demand {
                 accuracy: 0.01,
