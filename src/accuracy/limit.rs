@@ -3,11 +3,11 @@
 //! A ladder of meshes is run for the sake of the error; the law that tells the error of the finest tells its value without it, too. Where that value is
 //! known better than the mesh's own, it is the one that is reported:
 //!
-//! - the value is `q0` of the law `q0 + a h^p` that three meshes follow, of the order seen but at most that of the elements, or of the recovered stress where all is smooth, which higher terms feign on
-//!   coarse meshes; what converges with less than [`LEAST_ORDER`] may have no limit at all, as the pressure below a corner;
+//! - the value is `q0` of the law `q0 + a h^p` that three meshes follow, of the order seen but at most that of the elements (of the recovered stress where all is
+//!   smooth): higher terms feign more on coarse meshes. What converges with less than [`LEAST_ORDER`] may have no limit at all, as the pressure below a corner;
 //! - its stated error is [`SHARE`] of what was extrapolated, and the deviation from the law;
-//! - two meshes leave the order open: they lead to a value only where the contact is known to be a round one ([`is_round`]), up to first yield. It is that of the order of
-//!   the elements, and as far off as that of first order is.
+//! - two meshes leave the order open: they lead to a value only up to first yield of a contact that is known to be a round one ([`is_round`]). It is that of the
+//!   order of the elements, and as far off as that of first order is.
 //!
 //! Half widths are read off whole pairs: their errors jump with the place of the edge between two nodes ([`super::edge`]), and three of them that seem to
 //! follow a law do so by chance. The same may befall what depends on them; so a value also has to agree with the one that the
@@ -28,7 +28,8 @@ use std::collections::BTreeMap;
 /// The stated error of an extrapolated value, over what it was extrapolated by.
 pub(super) const SHARE: f64 = 0.6;
 
-/// What it is stated more where three meshes may follow a law by chance: of 220 values of states that flow 188 were within the stated error without, 200 with it.
+/// What is stated more where three meshes may follow a law by chance: without it 32 of 220 extrapolated values of states that flow, over the scenes of
+/// `data/scenes` at 10, 3 and 1 %, were off by more than was stated.
 const SAFETY_OF_CHANCE: f64 = 1.2;
 
 /// Least order of a law. The punch's limit load has 0.97.
@@ -56,7 +57,8 @@ pub(super) struct Limit {
 
 impl Limit {
     /// What is left of it beside the one that the mesh before led to; `None` where they contradict each other. Where something flows, or converges faster
-    /// than the elements do, three meshes may follow a law by chance: it is believed no further than the two agree, and half as much where there was none before.
+    /// than the elements do, three meshes may follow a law by chance: it is believed no further than the two agree, and where there was none before all of what was extrapolated
+    /// counts.
     /// (First yield of the tube of `nu = 0.4999`, whose coarse meshes show an order of 4.5: 2.1 % off where 0.65 % were stated.)
     fn beside(self, before: Option<&Limit>, flows: bool) -> Option<Self> {
         let apart = before.map(|other| (self.value - other.value).abs());

@@ -7,7 +7,7 @@
 //! | `extrapolation` | the error of a value from those on other meshes |
 //! | `estimate` | discretisation, path and algebraic error of every quantity of a run |
 //! | `path` | the error of increments and tolerances |
-//! | `limit` | the values that the meshes of a demand lead to, better than those on any of them |
+//! | `limit`, `consistent` | the values that the meshes of a demand lead to, better than those on any of them; what goes with them |
 //! | `demand`, `outcome` | the cheapest settings that reach a demanded accuracy; what a trial says |
 //! | `refusal`, `stall` | what is beyond the memory or round-off; what refinement does not bring nearer |
 //! | `ladder`, `edge` | the meshes on the way to a demand; where in an element a contact ends on them |
@@ -24,7 +24,7 @@
 //!   stands in as a rough figure where a mesh from a file is too large to be subdivided in passing.
 //!   The stated error takes the estimate [`SAFETY`] times, [`SAFETY_OF_LAW`] times where three meshes follow a power law; two meshes state three times
 //!   the error of the order of their elements, or 1.25 times that of first order.
-//! - **path**: the coarsest of these meshes is run with twice the increments, and with other tolerances of the plastic iteration
+//! - **path**: the coarsest mesh that flows as the run does is run with twice the increments, and with other tolerances of the plastic iteration
 //!   and of contact events (a mesh from a file without such companions with half the increments); see `path`.
 //! - **algebraic**: backward error, equilibrium and complementarity of the state, relative to the largest size of the quantity.
 //!

@@ -4,9 +4,10 @@
 //! The rule of the flow (implicit) is of first order in the increment: an error `c/n` for `n` increments changes by `c/n - c/m` when
 //! there are `m`, twice as many, or [`FEWEST`] where there were so few that first order is not to be seen yet. The changes of contact
 //! end the increments where the stepping is `events`, so there is nothing to divide; the scene is then run with fixed steps. Both are
-//! done on the coarsest of the meshes of the estimate, where they cost little: the error of the path hardly depends on the
+//! done on the coarsest mesh so far on which everything flows that does in the run, where they cost little: the error of the path hardly depends on the
 //! mesh, but for the number of increments, by whose ratio it is scaled. A mesh from a file that is too large to be subdivided in passing
-//! has no coarser one: the run itself is repeated, with half as many increments where those are enough to show first order.
+//! has no coarser one: the run itself is repeated, with half as many increments where those are enough to show first order. The sign of the change tells the
+//! value with infinitely many increments, too, which a demand reports (`limit`).
 //!
 //! Where nothing flows there is no such error: elastic contact follows its path exactly from event to event, and a state depends
 //! on its load alone.

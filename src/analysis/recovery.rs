@@ -31,7 +31,7 @@ const FINEST: f64 = 2e-5;
 const TIE: f64 = 1e-9;
 /// Share of the stress, times the square of a step in an element's reference coordinates, that is left to gain within that step.
 const CURVATURE: f64 = 0.1;
-/// Elements up to which the fits of one search are kept for the next one, at a load near by: 25 MB of them at most.
+/// Elements up to which the fits of one search are kept for the next one, at a load near by: a quarter of a megabyte for each at most.
 const FEW: usize = 100;
 /// Layers of elements around an element that belong to its patch.
 const LAYERS: usize = 3;
