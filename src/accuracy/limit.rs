@@ -206,8 +206,8 @@ pub(super) fn report(values: &Reported, results: &mut Results) {
 #[cfg(test)]
 mod tests {
     use super::super::path::{PathError, PathErrors};
+    use super::super::quantities::pressed;
     use super::*;
-    use crate::results::State;
 
     fn of(values: &[(f64, f64)], theory: f64) -> Option<Limit> {
         limit("yield.load", values, [theory, theory, 3.0], false)
@@ -328,16 +328,7 @@ mod tests {
 
     /// A run with one state and its estimate, corrected for increments that add so much to load and approach.
     fn corrected(load: f64, approach: f64, increments: [f64; 2]) -> (Accuracy, Reported) {
-        let state = State {
-            name: "pressed".into(),
-            load,
-            approach,
-            ..State::default()
-        };
-        let results = Results {
-            states: vec![state],
-            ..Results::default()
-        };
+        let results = pressed(load, approach);
         let mut accuracy = Accuracy::default();
         let mut errors = BTreeMap::new();
         for (quantity, increments) in quantities(&results).iter().zip(increments) {

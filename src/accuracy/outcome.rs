@@ -172,21 +172,13 @@ pub(super) fn told(outcome: &Outcome) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::quantities::pressed;
     use super::*;
-    use crate::results::{Companion, OfMesh, State};
+    use crate::results::{Companion, OfMesh};
 
     /// A run with one state, and the errors of its quantities: load, approach.
     fn run(load: f64, approach: f64, errors: [Option<f64>; 2]) -> (Results, Accuracy) {
-        let state = State {
-            name: "pressed".into(),
-            load,
-            approach,
-            ..State::default()
-        };
-        let results = Results {
-            states: vec![state],
-            ..Results::default()
-        };
+        let results = pressed(load, approach);
         let mut found = Accuracy::default();
         for ratio in [2.0, 3.0] {
             found.companions.push(Companion {

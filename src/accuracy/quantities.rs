@@ -123,6 +123,21 @@ pub(super) fn put(results: &mut Results, path: &str, value: f64) {
     }
 }
 
+/// A run with one state.
+#[cfg(test)]
+pub(super) fn pressed(load: f64, approach: f64) -> Results {
+    let state = crate::results::State {
+        name: "pressed".into(),
+        load,
+        approach,
+        ..Default::default()
+    };
+    Results {
+        states: vec![state],
+        ..Results::default()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
