@@ -101,7 +101,7 @@ fn cases() -> Vec<Case> {
             scene: running::load("flat_punch", &[]),
             extent: Extent::Program,
             quantities: &["states.flow.load"],
-            demands: &[0.1, 0.03],
+            demands: &[0.1, 0.03, 0.01, 0.003],
             levels: 6,
             graded: None,
         },
@@ -200,11 +200,15 @@ fn a_demand_costs_little_more_than_the_cheapest_setting_picked_by_hand() {
                 .filter(|r| case.quantities.contains(&r.quantity.as_str()))
                 .map(|r| (r.ratio - 1.0).abs())
                 .fold(0.0, f64::max);
-            let (_, by_hand, run) = cheapest(&uniform, accuracy).unwrap();
-            let in_time = seconds / run.usage.undisturbed_seconds();
+            // No mesh of the study may be so accurate.
+            let by_hand = cheapest(&uniform, accuracy);
+            let in_time = by_hand.map_or(f64::NAN, |(.., run)| {
+                seconds / run.usage.undisturbed_seconds()
+            });
+            let by_hand = by_hand.map_or(f64::NAN, |h| h.1);
             let graded_by_hand = cheapest(&graded, accuracy).map_or(f64::NAN, |h| h.1);
             let ratio = demand.work / by_hand;
-            let lucky = demand.work / luckiest(&uniform, accuracy).unwrap();
+            let lucky = demand.work / luckiest(&uniform, accuracy).unwrap_or(f64::NAN);
             println!(
                 "  {accuracy}: stated {:.2e}, true {actual:.2e}, {:.2e} operations, {ratio:.2} of {by_hand:.2e} ({lucky:.2} of one by chance), \
                  {:.2} of the graded {graded_by_hand:.2e}, {in_time:.2} in time, {seconds:.3} s\n  {:#?}",
