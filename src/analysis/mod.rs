@@ -49,6 +49,7 @@ mod step_length;
 mod stepping;
 mod stress_field;
 mod stresses;
+mod summit;
 mod tangent;
 mod targets;
 mod yield_load;

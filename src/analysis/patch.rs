@@ -17,6 +17,9 @@ const LEAST_PIVOT: f64 = 1e-2;
 /// Reach of the weights in distances between samples.
 const REACH: f64 = 3.25;
 
+/// Half the size of an element, and a little for round-off.
+const HALF: f64 = 0.5 + 1e-9;
+
 /// Reach of the weights in sizes of an element with `n` samples: elements with more of them need fewer neighbours, and a fit over
 /// less of the field is closer to it (at a bore the error of the cubic falls with the fourth power of the reach).
 pub fn reach(n: usize) -> f64 {
@@ -35,9 +38,13 @@ pub struct Patch {
     scale: [f64; 2],
     /// Reach of the weights in element sizes.
     reach: f64,
+    /// First those within reach of a point of the element.
     samples: Vec<Sample>,
+    n_near: usize,
     /// Indices of samples and their shares in the value last asked for.
     shares: Vec<(u32, f64)>,
+    /// The samples that count there, with their weights and places relative to it.
+    weighted: Vec<(u32, f64, [f64; 2])>,
     /// The same of earlier ones, by place.
     kept: HashMap<[u64; 2], Box<[(u32, f64)]>>,
 }
@@ -56,12 +63,21 @@ pub struct Sample {
 impl Patch {
     /// A patch round an element.
     pub fn new(center: [f64; 2], scale: [f64; 2], reach: f64, samples: Vec<Sample>) -> Self {
+        let is_near = |sample: &Sample| {
+            let [x, y] = sample.position.map(|x| (x.abs() - HALF).max(0.0));
+            x * x + y * y < reach * reach
+        };
+        let (mut samples, far): (Vec<Sample>, Vec<Sample>) = samples.into_iter().partition(is_near);
+        let n_near = samples.len();
+        samples.extend(far);
         Patch {
             center,
             scale,
             reach,
             samples,
+            n_near,
             shares: Vec::new(),
+            weighted: Vec::new(),
             kept: HashMap::new(),
         }
     }
@@ -77,18 +93,16 @@ impl Patch {
             (at[0] - self.center[0]) / self.scale[0],
             (at[1] - self.center[1]) / self.scale[1],
         ];
-        let mut shares = std::mem::take(&mut self.shares);
+        self.weigh(x);
         // Degrees as constants: the loops over the terms are unrolled.
-        let _found = self.fit::<CUBIC>(x, &mut shares)
-            || self.fit::<2>(x, &mut shares)
-            || self.fit::<1>(x, &mut shares)
-            || self.fit::<0>(x, &mut shares);
-        let out = self.sum(&shares, samples);
-        if keep && self.kept.len() < MOST_KEPT {
-            self.kept.insert(place, shares.as_slice().into());
+        if !(self.fit::<CUBIC>() || self.fit::<2>() || self.fit::<1>()) {
+            self.weigh_all(x);
+            self.fit::<0>();
         }
-        self.shares = shares;
-        out
+        if keep && self.kept.len() < MOST_KEPT {
+            self.kept.insert(place, self.shares.as_slice().into());
+        }
+        self.sum(&self.shares, samples)
     }
 
     fn sum(&self, shares: &[(u32, f64)], samples: &[[f64; 4]]) -> [f64; 4] {
@@ -106,49 +120,58 @@ impl Patch {
         out
     }
 
-    /// The share that each sample has in the value at `x` of the weighted fit of a degree, by the normal equations; terms are centred at `x`, so that the value
+    /// The share that each weighted sample has in the value of the fit of a degree, by the normal equations; terms are centred at the point, so that the value
     /// is the constant term. `false`, and no shares, where the samples do not determine it.
     ///
     /// The matrix of the normal equations holds the moments of the weights, `G_ab = sum w p_a p_b`, which are monomials of twice the degree; a
     /// sample's share is `w (c . p)` with `G c = e_0`.
-    fn fit<const D: usize>(&self, x: [f64; 2], shares: &mut Vec<(u32, f64)>) -> bool {
-        shares.clear();
+    fn fit<const D: usize>(&mut self) -> bool {
+        self.shares.clear();
         let n = n_terms(D);
+        if self.weighted.len() < n + n / 2 {
+            return false;
+        }
         let mut moments = [0.0; MOMENTS];
-        let mut used = 0;
-        for (_, weight, d) in self.weighted::<D>(x) {
-            used += 1;
+        for &(_, weight, d) in &self.weighted {
             let terms = monomials(d, 2 * D);
             for (moment, term) in moments.iter_mut().zip(&terms).take(n_terms(2 * D)) {
                 *moment += weight * term;
             }
         }
-        if used < n + n / 2 {
-            return false;
-        }
         let Some(coefficients) = constant_term(&moments, n) else {
             return false;
         };
-        shares.extend(self.weighted::<D>(x).map(|(i, weight, d)| {
+        let shares = self.weighted.iter().map(|&(i, weight, d)| {
             let terms = monomials(d, D);
             let share: f64 = coefficients.iter().zip(&terms).map(|(c, p)| c * p).sum();
             (i, weight * share)
-        }));
+        });
+        self.shares.extend(shares);
         true
     }
 
-    /// The samples that count at `x`, with their weights and places relative to it.
-    fn weighted<const D: usize>(&self, x: [f64; 2]) -> impl Iterator<Item = (u32, f64, [f64; 2])> {
+    /// Collects the samples within reach of `x`.
+    fn weigh(&mut self, x: [f64; 2]) {
         let unit = 1.0 / (self.reach * self.reach);
-        self.samples.iter().zip(0..).filter_map(move |(sample, i)| {
+        self.weighted.clear();
+        for (sample, i) in self.samples[..self.n_near].iter().zip(0..) {
             let d = [sample.position[0] - x[0], sample.position[1] - x[1]];
-            let distance = (d[0] * d[0] + d[1] * d[1]) * unit;
-            match D {
-                0 => Some((i, 1.0 / (1.0 + distance), d)),
-                _ if distance >= 1.0 => None,
-                _ => Some((i, (1.0 - distance).powi(3), d)),
+            let rest = 1.0 - (d[0] * d[0] + d[1] * d[1]) * unit;
+            if rest > 0.0 {
+                self.weighted.push((i, rest * rest * rest, d));
             }
-        })
+        }
+    }
+
+    /// Collects all samples, where those within reach determine nothing: with weights that reach on.
+    fn weigh_all(&mut self, x: [f64; 2]) {
+        let unit = 1.0 / (self.reach * self.reach);
+        let weighted = self.samples.iter().zip(0..).map(|(sample, i)| {
+            let d = [sample.position[0] - x[0], sample.position[1] - x[1]];
+            (i, 1.0 / (1.0 + (d[0] * d[0] + d[1] * d[1]) * unit), d)
+        });
+        self.weighted.clear();
+        self.weighted.extend(weighted);
     }
 }
 

@@ -13,6 +13,7 @@
 use super::gather::{GatheredElements, Nodal, Places};
 use super::mirror::{self, Reflection, mirrors};
 use super::patch::{Patch, Sample, reach};
+use super::summit::{SPACINGS, Summit};
 use crate::assembly::sampling_points_of;
 use crate::element::shape_functions;
 use crate::material::{Material, Matrix4, stress, von_mises};
@@ -25,11 +26,9 @@ use std::collections::BTreeMap;
 const CANDIDATE: f64 = 0.93;
 /// Largest sample over yield below which the maximum is not searched.
 const FAR_BELOW: f64 = 0.85;
-/// Step at which the search for the maximum stops, in reference coordinates: the value is then right to its square.
-const FINEST: f64 = 2e-5;
 /// Stresses closer than this share are equal.
 const TIE: f64 = 1e-9;
-/// Share of the stress, times the square of a step in an element's reference coordinates, that is left to gain within that step.
+/// Share of the stress, times the square of a spacing in an element's reference coordinates, that may be left to gain after a search at that spacing.
 const CURVATURE: f64 = 0.1;
 /// Elements up to which the fits of one search are kept for the next one, at a load near by: a quarter of a megabyte for each at most.
 const FEW: usize = 100;
@@ -62,15 +61,6 @@ pub struct Recovery {
     patches: BTreeMap<u32, Patch>,
     /// Nodes on which forces act.
     loaded: Vec<bool>,
-}
-
-/// The highest point found in an element.
-#[derive(Clone, Copy)]
-struct Top {
-    value: f64,
-    reference: [f64; 2],
-    point: [f64; 2],
-    element: u32,
 }
 
 impl Recovery {
@@ -190,115 +180,68 @@ impl Recovery {
         around
     }
 
-    /// The maximum over some elements: a grid in each, then smaller and smaller steps round its best point. The recovered field is
-    /// smooth in an element but not across: following the best grid point of all alone would let round-off choose the element.
+    /// The maximum over some elements. The recovered field is smooth in an element but not across: following the best element of the first search alone would
+    /// let round-off choose it.
     fn climb(&mut self, model: &Model, elements: &[u32], samples: &Samples) -> Option<Peak> {
         let keep = elements.len() <= FEW;
-        let mut tops: Vec<Top> = Vec::with_capacity(elements.len());
+        let mut tops: Vec<(u32, Summit)> = Vec::with_capacity(elements.len());
         for &i in elements {
             self.cache_patch(model, i);
-            let mut top = Top {
-                value: f64::NEG_INFINITY,
-                reference: [0.0; 2],
-                point: [0.0; 2],
-                element: i,
-            };
-            self.look_around(model, samples, &mut top, 0.5, 2, keep);
-            tops.push(top);
+            tops.push((i, Summit::unknown()));
         }
-        let highest = |tops: &[Top]| tops.iter().fold(f64::NEG_INFINITY, |m, t| m.max(t.value));
-        let mut step = 0.25;
-        while step > FINEST {
-            for top in &mut tops {
-                while self.look_around(model, samples, top, step, 1, keep) {}
+        let highest =
+            |tops: &[(u32, Summit)]| tops.iter().fold(f64::NEG_INFINITY, |m, t| m.max(t.1.value));
+        for spacing in SPACINGS {
+            for (i, top) in &mut tops {
+                top.look_around(spacing, &mut |at| {
+                    self.value_at(model, *i, at, samples, keep).unwrap_or(0.0)
+                });
             }
-            let least = highest(&tops) * (1.0 - CURVATURE * step * step);
-            tops.retain(|t| t.value >= least);
-            step *= 0.5;
+            let least = highest(&tops) * (1.0 - CURVATURE * spacing * spacing);
+            tops.retain(|t| t.1.value >= least);
         }
         // Like bodies yield together: the first of equals is named (elements are in ascending order), not that of the larger round-off.
         let ratio = highest(&tops);
-        let first = tops.iter().find(|t| t.value >= ratio * (1.0 - TIE))?;
+        let (i, top) = tops.iter().find(|t| t.1.value >= ratio * (1.0 - TIE))?;
         Some(Peak {
             ratio,
-            location: first.point,
-            body: self.elements.list[first.element as usize].body as usize,
+            location: self.point(model, *i, top.at),
+            body: self.elements.list[*i as usize].body as usize,
         })
     }
 
-    /// Moves to the highest of the points `step` apart round the current one; whether any is higher.
-    fn look_around(
-        &mut self,
-        model: &Model,
-        samples: &Samples,
-        top: &mut Top,
-        step: f64,
-        steps: i32,
-        keep: bool,
-    ) -> bool {
-        let from = *top;
-        for a in -steps..=steps {
-            for b in -steps..=steps {
-                let moved = [
-                    from.reference[0] + step * f64::from(a),
-                    from.reference[1] + step * f64::from(b),
-                ];
-                let reference = self.inside(model, top.element, moved);
-                let (value, point) = self.value_at(model, top.element, reference, samples, keep);
-                if value > top.value {
-                    *top = Top {
-                        value,
-                        reference,
-                        point,
-                        element: top.element,
-                    };
-                }
-            }
+    /// The coordinates of a point `[-1, 1]^2` of an element. On a triangle the side `y = 1` of the square is one corner.
+    fn point(&self, model: &Model, i: u32, [x, y]: [f64; 2]) -> [f64; 2] {
+        let element = self.elements.list[i as usize].element as usize;
+        let shape = model.mesh.shapes[element];
+        let reference = match shape.n_corners() {
+            4 => [x, y],
+            _ => [0.25 * (1.0 + x) * (1.0 - y), 0.5 * (1.0 + y)],
+        };
+        let (n, _) = shape_functions(shape, reference);
+        let nodes = model.element_coordinates(element);
+        let mut point = [0.0; 2];
+        for (n, node) in n.iter().zip(&nodes) {
+            point[0] += n * node[0];
+            point[1] += n * node[1];
         }
-        top.reference != from.reference
+        point
     }
 
-    /// The reference point moved into the element. Quadrilaterals use `[-1, 1]^2`, triangles the same square folded onto
-    /// the triangle.
-    fn inside(&self, model: &Model, i: u32, reference: [f64; 2]) -> [f64; 2] {
-        let clamped = reference.map(|v| v.clamp(-1.0, 1.0));
-        if model.mesh.shapes[self.elements.list[i as usize].element as usize].n_corners() == 4 {
-            return clamped;
-        }
-        let positive = clamped.map(|v| v.max(0.0));
-        let sum = positive[0] + positive[1];
-        if sum > 1.0 {
-            positive.map(|v| v / sum)
-        } else {
-            positive
-        }
-    }
-
-    /// Recovered von Mises stress over yield stress at a reference point of an element, and where that is.
+    /// Recovered von Mises stress over yield stress at a point `[-1, 1]^2` of an element with a patch.
     fn value_at(
         &mut self,
         model: &Model,
         i: u32,
-        reference: [f64; 2],
+        at: [f64; 2],
         samples: &Samples,
         keep: bool,
-    ) -> (f64, [f64; 2]) {
-        let element = &self.elements.list[i as usize];
-        let (n, _) = shape_functions(model.mesh.shapes[element.element as usize], reference);
-        let x = model.element_coordinates(element.element as usize);
-        let mut point = [0.0; 2];
-        for (n, x) in n.iter().zip(&x) {
-            point[0] += n * x[0];
-            point[1] += n * x[1];
-        }
-        let yield_stress = self.materials[element.body as usize].0.yield_stress();
-        match self.patches.get_mut(&i) {
-            Some(patch) => (
-                von_mises(&patch.value(samples, point, keep)) / yield_stress,
-                point,
-            ),
-            None => (0.0, point),
-        }
+    ) -> Option<f64> {
+        let point = self.point(model, i, at);
+        let body = self.elements.list[i as usize].body as usize;
+        let yield_stress = self.materials[body].0.yield_stress();
+        let patch = self.patches.get_mut(&i)?;
+        Some(von_mises(&patch.value(samples, point, keep)) / yield_stress)
     }
 
     fn cache_patch(&mut self, model: &Model, i: u32) {

@@ -7,6 +7,7 @@ use super::{KirschField, Plane, von_mises};
 use crate::error::Result;
 use nalgebra::Complex;
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::OnceLock;
 
 /// Frictionless disc in a hole of the same diameter and material, remote tension `S` along `x`.
 ///
@@ -64,8 +65,7 @@ impl DiscInPlate {
     /// Where the radius is not finite and positive.
     pub fn new(radius: f64) -> Result<Self> {
         let radius = positive("disc in a plate", "radius", radius)?;
-        // The tension alone lifts the hole off the disc beyond 30 degrees from the pole.
-        let half_angle = root(pole_gap, 1e-3, PI / 6.0);
+        let half_angle = half_angle();
         Ok(DiscInPlate {
             radius,
             half_angle,
@@ -225,6 +225,13 @@ fn unit_pressure(t: f64, e: f64, q0: f64) -> f64 {
     }
     let w = ((e - near).sin() * (e + near).sin() / c2).sqrt();
     (0.5 * q0 + 0.25) * w.atanh() + 1.5 * c2 * w
+}
+
+/// Half angle of the contact. It depends on nothing: found once.
+fn half_angle() -> f64 {
+    static FOUND: OnceLock<f64> = OnceLock::new();
+    // The tension alone lifts the hole off the disc beyond 30 degrees from the pole.
+    *FOUND.get_or_init(|| root(pole_gap, 1e-3, PI / 6.0))
 }
 
 /// `E* g/(2 a S)` at the pole, by the closed Fourier sums of `p`, as an integral of a smooth function.
