@@ -22,7 +22,7 @@
 //! mends that it is named in [`Demand::unknown`].
 
 use super::edge::well_read;
-use super::estimate::{Extent, estimate_on};
+use super::estimate::{Extent, analyse, estimate_on};
 use super::grading::{balanced, risen};
 use super::knobs::resolution;
 use super::ladder::{Ladder, fineness, foot, once_subdivided, spacings};
@@ -61,6 +61,10 @@ const SMALL: usize = 5000;
 const AT_FOOT: f64 = 0.9;
 /// The next mesh is finer than the last by at least this.
 const BARELY_FINER: f64 = 1.0 + 1e-9;
+/// By how much a mesh is made finer until one can be made that is fine enough.
+const FINER: [f64; 7] = [1.0, 1.03, 1.06, 1.1, 1.25, 1.5, 2.0];
+/// The next mesh is so much of what was aimed at, at least: rounded down, coarse ones miss the demand by a little and are run in vain.
+const NEARLY: f64 = 0.995;
 /// Runs before the demand is given up.
 const ROUNDS: usize = 12;
 /// Rounds from which on the prediction of the mesh that will do is believed.
@@ -129,11 +133,7 @@ pub fn reach(
             costs.pop();
         }
         let begun = Instant::now();
-        let mut analysis = Analysis::new(model, backend)?;
-        let mut results = match extent {
-            Extent::Yield => analysis.yield_load(observer)?,
-            Extent::Program => analysis.run(observer)?,
-        };
+        let (analysis, mut results) = analyse(model, backend, extent, observer)?;
         let estimate = estimate_on(
             ladder.rungs(&level),
             &mut ladder,
@@ -237,7 +237,7 @@ pub fn reach(
         factor = made * step;
         let width = results.first_yield.as_ref().map_or(0.0, |y| y.half_width);
         last = Some((level, width));
-        least = fine * BARELY_FINER;
+        least = fine * (NEARLY * step).max(BARELY_FINER);
     }
     Err(Error::internal("the rounds of a demand end in the loop"))
 }
@@ -261,7 +261,7 @@ fn nearest(
     least: f64,
 ) -> Result<(Scene, Model)> {
     let is_finer = |scene: &Scene| fineness(scene).is_none_or(|n| n >= least);
-    for more in [1.0, 1.1, 1.25, 1.5, 2.0] {
+    for more in FINER {
         let Some(level) = refined(scene, factor * more) else {
             continue;
         };

@@ -343,11 +343,7 @@ pub(super) fn run_observed(
     for target in &mut bare.program.targets {
         target.fields = false;
     }
-    let mut analysis = Analysis::new(Model::new(&bare)?, backend)?;
-    let results = match extent {
-        Extent::Yield => analysis.yield_load(observer)?,
-        Extent::Program => analysis.run(observer)?,
-    };
+    let (_, results) = analyse(Model::new(&bare)?, backend, extent, observer)?;
     match &results.incomplete {
         None => Ok(results),
         Some(why) => Err(crate::Error::new(
@@ -357,6 +353,21 @@ pub(super) fn run_observed(
             why.clone(),
         )),
     }
+}
+
+/// Analyses a model so far.
+pub(super) fn analyse(
+    model: Model,
+    backend: Backend,
+    extent: Extent,
+    observer: &mut dyn Observer,
+) -> Result<(Analysis, Results)> {
+    let mut analysis = Analysis::new(model, backend)?;
+    let results = match extent {
+        Extent::Yield => analysis.yield_load(observer)?,
+        Extent::Program => analysis.run(observer)?,
+    };
+    Ok((analysis, results))
 }
 
 /// Passes on only the wish to stop: phases, increments and warnings of a companion run would be taken for the run's own.

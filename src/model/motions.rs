@@ -124,28 +124,26 @@ impl<'a> Motions<'a> {
         for (node, slots) in freedoms.slots.iter().enumerate() {
             let group = self.group_of_node[node];
             for (slot, axis) in slots.iter().zip(freedoms.local(node)) {
-                let row: Vec<(usize, f64)> = self
-                    .row(group, self.mesh.point(node), axis)
-                    .into_iter()
-                    .enumerate()
-                    .map(|(m, v)| (per * group + m, v))
-                    .collect();
+                let row = || -> Vec<(usize, f64)> {
+                    let values = self.row(group, self.mesh.point(node), axis);
+                    let numbered = values.into_iter().enumerate();
+                    numbered.map(|(m, v)| (per * group + m, v)).collect()
+                };
                 match slot {
                     Slot::Free(f) if owners[*f as usize] > 1 => match tied.get(f) {
                         None => {
-                            tied.insert(*f, row);
+                            tied.insert(*f, row());
                         }
                         Some(first) => {
-                            let difference: Vec<(usize, f64)> = row
-                                .iter()
-                                .copied()
+                            let difference: Vec<(usize, f64)> = row()
+                                .into_iter()
                                 .chain(first.iter().map(|&(i, v)| (i, -v)))
                                 .collect();
                             add(&difference);
                         }
                     },
                     Slot::Free(_) => {}
-                    Slot::Fixed | Slot::Prescribed(_) => add(&row),
+                    Slot::Fixed | Slot::Prescribed(_) => add(&row()),
                 }
             }
         }
