@@ -63,7 +63,7 @@ const AT_FOOT: f64 = 0.9;
 const BARELY_FINER: f64 = 1.0 + 1e-9;
 /// By how much a mesh is made finer until one can be made that is fine enough.
 const FINER: [f64; 7] = [1.0, 1.03, 1.06, 1.1, 1.25, 1.5, 2.0];
-/// The next mesh is so much of what was aimed at, at least: rounded down, coarse ones miss the demand by a little and are run in vain.
+/// The next mesh has at least this share of the fineness aimed at: one rounded down misses the demand by a little, and its run is wasted.
 const NEARLY: f64 = 0.995;
 /// Runs before the demand is given up.
 const ROUNDS: usize = 12;
@@ -112,13 +112,13 @@ pub fn reach(
     let mut spent = 0.0;
     let mut ladder = Ladder::default();
     let mut last: Option<(Scene, f64)> = None;
-    let mut least = spacings(scene).map_or(0.0, |_| AT_FOOT * foot);
+    let mut as_fine = spacings(scene).map_or([0.0; 2], |_| [AT_FOOT * foot; 2]);
     let mut best = Best::default();
-    let mut limits = Limits::new();
+    let mut limits = Limits::default();
     let mut so_far = String::new();
     for round in 1..=ROUNDS {
         let coarser = last.as_ref().map(|(scene, width)| (scene, *width));
-        let (level, model) = nearest(&wanted, factor, demand, coarser, least)?;
+        let (level, model) = nearest(&wanted, factor, demand, coarser, as_fine)?;
         let settings = resolution(&level, 1.0 / factor);
         observer.phase(&format!("accuracy {}{so_far}: {settings}", percent(demand)));
         let fine = fineness(&level).unwrap_or(factor);
@@ -237,7 +237,7 @@ pub fn reach(
         factor = made * step;
         let width = results.first_yield.as_ref().map_or(0.0, |y| y.half_width);
         last = Some((level, width));
-        least = fine * (NEARLY * step).max(BARELY_FINER);
+        as_fine = [BARELY_FINER, BARELY_FINER.max(NEARLY * step)].map(|more| fine * more);
     }
     Err(Error::internal("the rounds of a demand end in the loop"))
 }
@@ -252,27 +252,31 @@ fn stride(scene: &Scene, finer: f64) -> f64 {
     finer.powf(1.0 / strides)
 }
 
-/// The member of the family nearest to `factor` that can be made and is at least so fine, with its model.
+/// The member of the family nearest to `factor` that can be made, with its model: as fine as is aimed at or, where there is none, as the least. That its contact is
+/// read well may cost it some of the aim.
 fn nearest(
     scene: &Scene,
     factor: f64,
     demand: f64,
     last: Option<(&Scene, f64)>,
-    least: f64,
+    [least, aim]: [f64; 2],
 ) -> Result<(Scene, Model)> {
-    let is_finer = |scene: &Scene| fineness(scene).is_none_or(|n| n >= least);
-    for more in FINER {
-        let Some(level) = refined(scene, factor * more) else {
-            continue;
-        };
-        let level = well_read(&level.scene, demand, last);
-        if let Ok(model) = Model::new(&level)
-            && is_finer(&level)
-        {
-            return Ok((level, model));
+    let is_as_fine = |scene: &Scene, as_that: f64| fineness(scene).is_none_or(|n| n >= as_that);
+    for enough in [aim, least] {
+        for more in FINER {
+            let level = refined(scene, factor * more);
+            let Some(level) = level.filter(|level| is_as_fine(&level.scene, enough)) else {
+                continue;
+            };
+            let level = well_read(&level.scene, demand, last);
+            if is_as_fine(&level, least)
+                && let Ok(model) = Model::new(&level)
+            {
+                return Ok((level, model));
+            }
         }
     }
-    let own = refined(scene, 1.0).filter(|level| is_finer(&level.scene));
+    let own = refined(scene, 1.0).filter(|level| is_as_fine(&level.scene, least));
     match own {
         Some(level) => Model::new(&level.scene).map(|model| (level.scene, model)),
         None => Err(Error::input(

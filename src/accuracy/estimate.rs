@@ -355,7 +355,7 @@ pub(super) fn run_observed(
     }
 }
 
-/// Analyses a model so far.
+/// Analyses a model up to an extent.
 pub(super) fn analyse(
     model: Model,
     backend: Backend,

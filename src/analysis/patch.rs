@@ -17,8 +17,8 @@ const LEAST_PIVOT: f64 = 1e-2;
 /// Reach of the weights in distances between samples.
 const REACH: f64 = 3.25;
 
-/// Half the size of an element, and a little for round-off.
-const HALF: f64 = 0.5 + 1e-9;
+/// How far from the middle points of an element may lie, in its extents: curved sides bulge beyond their nodes.
+const HALF: f64 = 0.6;
 
 /// Reach of the weights in sizes of an element with `n` samples: elements with more of them need fewer neighbours, and a fit over
 /// less of the field is closer to it (at a bore the error of the cubic falls with the fourth power of the reach).
@@ -40,12 +40,13 @@ pub struct Patch {
     reach: f64,
     /// First those within reach of a point of the element.
     samples: Vec<Sample>,
+    /// How many of the samples these are.
     n_near: usize,
-    /// Indices of samples and their shares in the value last asked for.
-    shares: Vec<(u32, f64)>,
-    /// The samples that count there, with their weights and places relative to it.
+    /// The samples that count in the value last asked for, with their weights and places relative to it.
     weighted: Vec<(u32, f64, [f64; 2])>,
-    /// The same of earlier ones, by place.
+    /// Indices of samples and their shares in that value.
+    shares: Vec<(u32, f64)>,
+    /// Shares in earlier values, by place.
     kept: HashMap<[u64; 2], Box<[(u32, f64)]>>,
 }
 

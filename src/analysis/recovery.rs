@@ -15,8 +15,9 @@ use super::mirror::{self, Reflection, mirrors};
 use super::patch::{Patch, Sample, reach};
 use super::summit::{SPACINGS, Summit};
 use crate::assembly::sampling_points_of;
-use crate::element::shape_functions;
+use crate::element::{MAX_NODES, shape_functions};
 use crate::material::{Material, Matrix4, stress, von_mises};
+use crate::mesh::Shape;
 use crate::model::Model;
 use crate::substructure::Trailing;
 use rayon::prelude::*;
@@ -28,7 +29,7 @@ const CANDIDATE: f64 = 0.93;
 const FAR_BELOW: f64 = 0.85;
 /// Stresses closer than this share are equal.
 const TIE: f64 = 1e-9;
-/// Share of the stress, times the square of a spacing in an element's reference coordinates, that may be left to gain after a search at that spacing.
+/// Share of the stress, times the square of a spacing, that may be left to gain after a search at that spacing.
 const CURVATURE: f64 = 0.1;
 /// Elements up to which the fits of one search are kept for the next one, at a load near by: a quarter of a megabyte for each at most.
 const FEW: usize = 100;
@@ -61,6 +62,59 @@ pub struct Recovery {
     patches: BTreeMap<u32, Patch>,
     /// Nodes on which forces act.
     loaded: Vec<bool>,
+}
+
+/// An element, or the third of a triangle round one of its corners, as the image of `[-1, 1]^2`.
+struct Square {
+    element: u32,
+    shape: Shape,
+    nodes: [[f64; 2]; MAX_NODES],
+    /// Reference coordinates of its corners, counterclockwise.
+    corners: [[f64; 2]; 4],
+}
+
+impl Square {
+    /// Those that an element is searched by.
+    fn of(element: u32, shape: Shape, nodes: [[f64; 2]; MAX_NODES]) -> Vec<Self> {
+        let square = |corners: [[f64; 2]; 4]| Square {
+            element,
+            shape,
+            nodes,
+            corners,
+        };
+        if shape.n_corners() == 4 {
+            return vec![square([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])];
+        }
+        let corner = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        let middle =
+            |a: usize, b: usize| [0, 1].map(|d| 0.5 * (corner[a % 3][d] + corner[b % 3][d]));
+        let third = |a: usize| {
+            let centroid = [1.0 / 3.0; 2];
+            square([corner[a], middle(a, a + 1), centroid, middle(a, a + 2)])
+        };
+        (0..3).map(third).collect()
+    }
+
+    /// The coordinates of a point.
+    fn point(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let weights = [
+            0.25 * (1.0 - x) * (1.0 - y),
+            0.25 * (1.0 + x) * (1.0 - y),
+            0.25 * (1.0 + x) * (1.0 + y),
+            0.25 * (1.0 - x) * (1.0 + y),
+        ];
+        let mean = |d: usize| -> f64 {
+            let terms = weights.iter().zip(&self.corners);
+            terms.map(|(w, corner)| w * corner[d]).sum()
+        };
+        let (n, _) = shape_functions(self.shape, [mean(0), mean(1)]);
+        let mut point = [0.0; 2];
+        for (n, node) in n.iter().zip(&self.nodes) {
+            point[0] += n * node[0];
+            point[1] += n * node[1];
+        }
+        point
+    }
 }
 
 impl Recovery {
@@ -184,17 +238,22 @@ impl Recovery {
     /// let round-off choose it.
     fn climb(&mut self, model: &Model, elements: &[u32], samples: &Samples) -> Option<Peak> {
         let keep = elements.len() <= FEW;
-        let mut tops: Vec<(u32, Summit)> = Vec::with_capacity(elements.len());
+        let mut tops: Vec<(Square, Summit)> = Vec::with_capacity(elements.len());
         for &i in elements {
             self.cache_patch(model, i);
-            tops.push((i, Summit::unknown()));
+            let element = self.elements.list[i as usize].element as usize;
+            let nodes = model.element_coordinates(element);
+            let squares = Square::of(i, model.mesh.shapes[element], nodes).into_iter();
+            tops.extend(squares.map(|square| (square, Summit::unknown())));
         }
-        let highest =
-            |tops: &[(u32, Summit)]| tops.iter().fold(f64::NEG_INFINITY, |m, t| m.max(t.1.value));
+        let highest = |tops: &[(Square, Summit)]| {
+            tops.iter().fold(f64::NEG_INFINITY, |m, t| m.max(t.1.value))
+        };
         for spacing in SPACINGS {
-            for (i, top) in &mut tops {
-                top.look_around(spacing, &mut |at| {
-                    self.value_at(model, *i, at, samples, keep).unwrap_or(0.0)
+            for (square, top) in &mut tops {
+                top.look_around(spacing, &mut |at, again| {
+                    let point = square.point(at);
+                    self.value_at(square.element, point, samples, keep && again)
                 });
             }
             let least = highest(&tops) * (1.0 - CURVATURE * spacing * spacing);
@@ -202,46 +261,22 @@ impl Recovery {
         }
         // Like bodies yield together: the first of equals is named (elements are in ascending order), not that of the larger round-off.
         let ratio = highest(&tops);
-        let (i, top) = tops.iter().find(|t| t.1.value >= ratio * (1.0 - TIE))?;
+        let (square, top) = tops.iter().find(|t| t.1.value >= ratio * (1.0 - TIE))?;
         Some(Peak {
             ratio,
-            location: self.point(model, *i, top.at),
-            body: self.elements.list[*i as usize].body as usize,
+            location: square.point(top.at),
+            body: self.elements.list[square.element as usize].body as usize,
         })
     }
 
-    /// The coordinates of a point `[-1, 1]^2` of an element. On a triangle the side `y = 1` of the square is one corner.
-    fn point(&self, model: &Model, i: u32, [x, y]: [f64; 2]) -> [f64; 2] {
-        let element = self.elements.list[i as usize].element as usize;
-        let shape = model.mesh.shapes[element];
-        let reference = match shape.n_corners() {
-            4 => [x, y],
-            _ => [0.25 * (1.0 + x) * (1.0 - y), 0.5 * (1.0 + y)],
-        };
-        let (n, _) = shape_functions(shape, reference);
-        let nodes = model.element_coordinates(element);
-        let mut point = [0.0; 2];
-        for (n, node) in n.iter().zip(&nodes) {
-            point[0] += n * node[0];
-            point[1] += n * node[1];
-        }
-        point
-    }
-
-    /// Recovered von Mises stress over yield stress at a point `[-1, 1]^2` of an element with a patch.
-    fn value_at(
-        &mut self,
-        model: &Model,
-        i: u32,
-        at: [f64; 2],
-        samples: &Samples,
-        keep: bool,
-    ) -> Option<f64> {
-        let point = self.point(model, i, at);
+    /// Recovered von Mises stress over yield stress at a point of an element with a patch.
+    fn value_at(&mut self, i: u32, point: [f64; 2], samples: &Samples, keep: bool) -> f64 {
         let body = self.elements.list[i as usize].body as usize;
         let yield_stress = self.materials[body].0.yield_stress();
-        let patch = self.patches.get_mut(&i)?;
-        Some(von_mises(&patch.value(samples, point, keep)) / yield_stress)
+        let patch = self.patches.get_mut(&i);
+        patch.map_or(0.0, |patch| {
+            von_mises(&patch.value(samples, point, keep)) / yield_stress
+        })
     }
 
     fn cache_patch(&mut self, model: &Model, i: u32) {
@@ -321,6 +356,31 @@ mod tests {
     use crate::linalg::Backend;
     use crate::progress::Silent;
     use crate::scene::Scene;
+
+    /// The search covers a triangle, whichever of its corners comes first: the highest point of this function lies on the side between the last two of one numbering, and
+    /// the corners are higher than what lies between.
+    #[test]
+    fn a_triangle_is_searched_whole() {
+        let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        let f = |[x, y]: [f64; 2]| 1.0 + 0.02 * (y - 1.0) + 0.04 * x - 0.05 * x * x;
+        // On x + y = 1: 1 + 0.02 x - 0.05 x^2, highest at x = 0.2.
+        for first in 0..3 {
+            let mut nodes = [[0.0; 2]; MAX_NODES];
+            for (i, node) in nodes.iter_mut().take(3).enumerate() {
+                *node = corners[(first + i) % 3];
+            }
+            let highest = Square::of(0, Shape::Tri3, nodes).into_iter().map(|square| {
+                let mut top = Summit::unknown();
+                for spacing in SPACINGS {
+                    top.look_around(spacing, &mut |at, _| f(square.point(at)));
+                }
+                (top.value, square.point(top.at))
+            });
+            let (value, at) = highest.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+            assert!((value - 1.002).abs() < 1e-9, "{first}: {value}");
+            assert!((at[0] - 0.2).abs() < 1e-4 && (at[0] + at[1] - 1.0).abs() < 1e-12);
+        }
+    }
 
     /// The largest sample with its own place, the first of equal ones whatever their round-off, none where there is no stress.
     #[test]

@@ -29,8 +29,8 @@ impl Summit {
         }
     }
 
-    /// Looks round the point for a higher one, and goes on from stencil to stencil while that leads uphill.
-    pub fn look_around(&mut self, spacing: f64, f: &mut impl FnMut([f64; 2]) -> f64) {
+    /// Looks round the point for a higher one, and goes on from stencil to stencil while that leads uphill. `f` is told, too, whether a point lies on the lattice.
+    pub fn look_around(&mut self, spacing: f64, f: &mut impl FnMut([f64; 2], bool) -> f64) {
         for _ in 0..MOST_MOVES {
             let from = *self;
             let center = from.at.map(|x| {
@@ -42,12 +42,15 @@ impl Summit {
             for (a, row) in values.iter_mut().enumerate() {
                 for (b, value) in row.iter_mut().enumerate() {
                     let at = place([a as f64 - 1.0, b as f64 - 1.0]);
-                    *value = f(at);
+                    *value = f(at, true);
                     self.rise(*value, at);
                 }
             }
-            let at = place(Quadratic::of(&values).highest());
-            self.rise(f(at), at);
+            let highest = Quadratic::of(&values).highest();
+            if highest.iter().any(|x| x.fract() != 0.0) {
+                let at = place(highest);
+                self.rise(f(at, false), at);
+            }
             let leads_on = (0..2).any(|d| {
                 let beside = (self.at[d] - center[d]).abs() / spacing;
                 beside > 1.0 - ON_EDGE && self.at[d].abs() < 1.0
@@ -131,7 +134,7 @@ mod tests {
         let mut summit = Summit::unknown();
         let mut asked = 0;
         for spacing in SPACINGS {
-            summit.look_around(spacing, &mut |x| {
+            summit.look_around(spacing, &mut |x, _| {
                 asked += 1;
                 f(x)
             });
@@ -151,12 +154,13 @@ mod tests {
             };
             let (summit, asked) = found(f);
             assert!(asked <= 60, "{asked}");
-            // Against the highest of a fine grid, and no lower than that.
+            // Against the highest of a fine grid: no lower than what is left to gain within the error of the place.
             let steps = |n: i32| (-n..=n).map(move |i| f64::from(i) / f64::from(n));
             let grid = steps(400).flat_map(|x| steps(400).map(move |y| [x, y]));
             let highest = grid.map(|x| (f(x), x)).max_by(|a, b| a.0.total_cmp(&b.0));
             let (value, at) = highest.unwrap();
-            assert!(summit.value >= value, "{summit:?} {value} {at:?}");
+            let left = near * near;
+            assert!(summit.value >= value - left, "{summit:?} {value} {at:?}");
             assert_eq!(summit.value, f(summit.at));
             if x0.abs() < 1.0 && y0.abs() < 1.0 {
                 let off = (summit.at[0] - x0).hypot(summit.at[1] - y0);
@@ -174,7 +178,7 @@ mod tests {
     #[test]
     fn what_is_flat_or_no_number_ends_the_search() {
         let (summit, asked) = found(|_| 2.0);
-        assert_eq!((summit.value, asked), (2.0, 40));
+        assert_eq!((summit.value, asked), (2.0, 36));
         assert_eq!(found(|_| f64::NAN).0, Summit::unknown());
     }
 

@@ -227,7 +227,7 @@ fn unit_pressure(t: f64, e: f64, q0: f64) -> f64 {
     (0.5 * q0 + 0.25) * w.atanh() + 1.5 * c2 * w
 }
 
-/// Half angle of the contact. It depends on nothing: found once.
+/// Half angle of the contact: the same for every disc, so found once.
 fn half_angle() -> f64 {
     static FOUND: OnceLock<f64> = OnceLock::new();
     // The tension alone lifts the hole off the disc beyond 30 degrees from the pole.

@@ -15,13 +15,18 @@ use brinell::scene::Scene;
 
 const YIELD_STRESS: f64 = 50.0;
 
-pub fn estimated(scene: &Scene, extent: Extent) -> (Results, Accuracy) {
+/// A run without its errors.
+pub fn run_to(scene: &Scene, extent: Extent) -> Results {
     let model = Model::new(scene).unwrap();
     let mut analysis = Analysis::new(model, Backend::default()).unwrap();
-    let results = match extent {
+    match extent {
         Extent::Yield => analysis.yield_load(&mut Silent).unwrap(),
         Extent::Program => analysis.run(&mut Silent).unwrap(),
-    };
+    }
+}
+
+pub fn estimated(scene: &Scene, extent: Extent) -> (Results, Accuracy) {
+    let results = run_to(scene, extent);
     let accuracy = estimate(scene, Backend::default(), &results, extent, &mut Silent);
     assert_eq!(accuracy.notes, Vec::<String>::new());
     assert_eq!(accuracy.method, EstimateMethod::CoarserMeshes);
