@@ -133,19 +133,21 @@ impl Patch {
             return false;
         }
         let mut moments = [0.0; MOMENTS];
-        for &(_, weight, d) in &self.weighted {
-            let terms = monomials(d, 2 * D);
-            for (moment, term) in moments.iter_mut().zip(&terms).take(n_terms(2 * D)) {
-                *moment += weight * term;
+        for &(_, weight, [x, y]) in &self.weighted {
+            let (along_x, along_y) = (powers(weight, x), powers(1.0, y));
+            let exponents = &EXPONENTS[..n_terms(2 * D)];
+            for (moment, [a, b]) in moments.iter_mut().zip(exponents) {
+                *moment += along_x[*a] * along_y[*b];
             }
         }
         let Some(coefficients) = constant_term(&moments, n) else {
             return false;
         };
-        let shares = self.weighted.iter().map(|&(i, weight, d)| {
-            let terms = monomials(d, D);
-            let share: f64 = coefficients.iter().zip(&terms).map(|(c, p)| c * p).sum();
-            (i, weight * share)
+        let shares = self.weighted.iter().map(|&(i, weight, [x, y])| {
+            let (along_x, along_y) = (powers(weight, x), powers(1.0, y));
+            let terms = coefficients.iter().zip(&EXPONENTS[..n_terms(D)]);
+            let share: f64 = terms.map(|(c, [a, b])| c * along_x[*a] * along_y[*b]).sum();
+            (i, share)
         });
         self.shares.extend(shares);
         true
@@ -181,20 +183,28 @@ const fn n_terms(degree: usize) -> usize {
     (degree + 1) * (degree + 2) / 2
 }
 
-/// The monomials up to a degree, by degree and then by the power of y.
+/// `first` times the powers of `x` up to twice the highest degree.
 #[inline(always)]
-fn monomials([x, y]: [f64; 2], degree: usize) -> [f64; MOMENTS] {
-    let mut out = [0.0; MOMENTS];
-    out[0] = 1.0;
-    for t in 1..=degree {
-        let (lower, own) = (n_terms_below(t - 1), n_terms_below(t));
-        for j in 0..t {
-            out[own + j] = out[lower + j] * x;
-        }
-        out[own + t] = out[lower + t - 1] * y;
+fn powers(first: f64, x: f64) -> [f64; 2 * CUBIC + 1] {
+    let mut out = [first; 2 * CUBIC + 1];
+    for i in 1..out.len() {
+        out[i] = out[i - 1] * x;
     }
     out
 }
+
+/// The exponents of x and y in the monomials: by degree and then by the power of y.
+const EXPONENTS: [[usize; 2]; MOMENTS] = {
+    let mut out = [[0; 2]; MOMENTS];
+    let mut k = 0;
+    while k < MOMENTS {
+        let degree = degree_of(k);
+        let of_y = k - n_terms_below(degree);
+        out[k] = [degree - of_y, of_y];
+        k += 1;
+    }
+    out
+};
 
 /// `c` of `G c = e_0`, by Cholesky's factor of `G` scaled to a unit diagonal; `None` where it has none, or hardly.
 #[inline(always)]
