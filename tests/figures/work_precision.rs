@@ -158,7 +158,7 @@ const CASES: [Case; 6] = [
         levels: 5,
         budget: 120.0,
         quantities: &["states.flow.load"],
-        demands: &[0.1, 0.03, 0.01],
+        demands: ALL,
         extent: Extent::Program,
         theory: "1: the velocity of the exact mechanism jumps, and continuous elements smear the jump over one of theirs",
         remark: "The velocity jumps at the punch's edge: first order from above, whatever else is refined.",
