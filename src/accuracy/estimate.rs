@@ -169,11 +169,13 @@ pub(super) fn estimate_on(
         PathErrors::None
     } else {
         let coarsest = ladder.flowing(scene, results).cloned();
-        let values = coarsest.as_ref().map(|(_, found)| super::quantities(found));
+        let values = coarsest
+            .as_ref()
+            .map(|found| super::quantities(&found.results));
         let base = match (&coarsest, &values) {
-            (Some((scene, results)), Some(values)) => Base {
-                scene,
-                results,
+            (Some(found), Some(values)) => Base {
+                scene: &found.scene,
+                results: &found.results,
                 quantities: values,
                 alone: false,
             },

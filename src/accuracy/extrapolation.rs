@@ -41,10 +41,14 @@ pub fn extrapolate(values: &[(f64, f64)], orders: [f64; 2]) -> Option<Extrapolat
     let [low, high] = orders;
     // Two meshes determine no order: the lowest gives the largest error.
     let n = if values.len() == 2 { 0 } else { ORDERS };
+    let mut powers = vec![0.0; values.len()];
     let best = (0..=n)
         .map(|i| {
             let order = low + (high - low) * i as f64 / ORDERS as f64;
-            (order, fit(values, order))
+            for (power, (h, _)) in powers.iter_mut().zip(values) {
+                *power = h.powf(order);
+            }
+            (order, fit(values, &powers))
         })
         // Of equal fits the first: the lower order.
         .reduce(|best, next| {
@@ -71,15 +75,13 @@ struct Fit {
     deviation: f64,
 }
 
-/// Least squares of `q = limit + slope h^order`.
-fn fit(values: &[(f64, f64)], order: f64) -> Fit {
+/// Least squares of `q = limit + slope h^order`; `powers` are the `h^order`.
+fn fit(values: &[(f64, f64)], powers: &[f64]) -> Fit {
     let n = values.len() as f64;
     let total: f64 = values.iter().map(|(h, _)| 1.0 / h).sum();
     let weighted = |f: &dyn Fn(f64, f64) -> f64| -> f64 {
-        values
-            .iter()
-            .map(|&(h, q)| f(h.powf(order), q) / h / total)
-            .sum()
+        let terms = values.iter().zip(powers);
+        terms.map(|(&(h, q), &x)| f(x, q) / h / total).sum()
     };
     let (mean_x, mean_q) = (weighted(&|x, _| x), weighted(&|_, q| q));
     let slope =

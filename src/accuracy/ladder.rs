@@ -37,7 +37,15 @@ const DIGITS: f64 = 1e9;
 /// Finished runs, to be used again.
 #[derive(Default)]
 pub(super) struct Ladder {
-    finished: Vec<(Scene, Results)>,
+    finished: Vec<Finished>,
+}
+
+/// A finished run.
+#[derive(Clone)]
+pub(super) struct Finished {
+    pub scene: Scene,
+    pub results: Results,
+    key: Scene,
 }
 
 impl Ladder {
@@ -47,7 +55,11 @@ impl Ladder {
         for state in &mut results.states {
             state.fields = None;
         }
-        self.finished.push((scene.clone(), results));
+        self.finished.push(Finished {
+            scene: scene.clone(),
+            results,
+            key: key(scene),
+        });
     }
 
     /// The results of a scene, and the operations they took: none where it was run before.
@@ -59,8 +71,8 @@ impl Ladder {
         observer: &mut dyn Observer,
     ) -> Result<(Results, f64)> {
         let key = key(scene);
-        if let Some((_, known)) = self.finished.iter().find(|(s, _)| self::key(s) == key) {
-            return Ok((known.clone(), 0.0));
+        if let Some(known) = self.finished.iter().find(|known| known.key == key) {
+            return Ok((known.results.clone(), 0.0));
         }
         let results = run(scene, backend, extent, observer)?;
         let spent = work(&results);
@@ -69,9 +81,9 @@ impl Ladder {
     }
 
     /// The coarsest run so far, with the same path, in which everything flows that does in `results`.
-    pub(super) fn flowing(&self, scene: &Scene, results: &Results) -> Option<&(Scene, Results)> {
-        let path = |scene: &Scene| format!("{:?} {:?}", scene.program, scene.analysis);
-        let own = path(scene);
+    pub(super) fn flowing(&self, scene: &Scene, results: &Results) -> Option<&Finished> {
+        let same_path =
+            |other: &Scene| other.program == scene.program && other.analysis == scene.analysis;
         let flows = |other: &Results| {
             let states = results.states.iter().zip(&other.states);
             results.states.len() == other.states.len()
@@ -79,10 +91,12 @@ impl Ladder {
                     .into_iter()
                     .all(|(s, o)| s.plastic_points == 0 || o.plastic_points > 0)
         };
-        let known = self.finished.iter().filter(|(other, found)| {
-            found.sizes.elements < results.sizes.elements && path(other) == own && flows(found)
+        let known = self.finished.iter().filter(|known| {
+            known.results.sizes.elements < results.sizes.elements
+                && same_path(&known.scene)
+                && flows(&known.results)
         });
-        known.min_by_key(|(_, found)| found.sizes.elements)
+        known.min_by_key(|known| known.results.sizes.elements)
     }
 
     /// The coarser meshes, two or for the lowest run one, from which a run is judged, those that were run already first. A ladder goes up
@@ -108,11 +122,11 @@ impl Ladder {
             true => REUSED_IN_CONTACT,
             false => REUSED,
         };
-        let known = self.finished.iter().filter_map(|(other, _)| {
-            let factor = spacings(other)? / count;
+        let known = self.finished.iter().filter_map(|known| {
+            let factor = spacings(&known.scene)? / count;
             let level = refined(scene, factor)?;
             let serves = (near..=far).contains(&level.ratio) && factor * count >= fewest;
-            (serves && key(&level.scene) == key(other)).then_some(level)
+            (serves && key(&level.scene) == known.key).then_some(level)
         });
         let mut known: Vec<Level> = known.collect();
         known.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
@@ -168,8 +182,8 @@ pub(super) fn fineness(scene: &Scene) -> Option<f64> {
     spacings(scene).or_else(|| Some(2f64.powi(scene.mesh.subdivisions.try_into().ok()?)))
 }
 
-/// What tells scenes apart, round-off of the growths left out.
-fn key(scene: &Scene) -> String {
+/// What tells scenes apart: round-off of the growths left out.
+fn key(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     let round = |growth: &mut f64| *growth = (*growth * DIGITS).round() / DIGITS;
     if let Some(p) = &mut scene.mesh.cylinder_on_half_plane {
@@ -180,7 +194,7 @@ fn key(scene: &Scene) -> String {
         round(&mut p.growth);
         p.far_growth.iter_mut().for_each(round);
     }
-    format!("{scene:?}")
+    scene
 }
 
 #[cfg(test)]

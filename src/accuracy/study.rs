@@ -13,7 +13,7 @@ use crate::error::{ErrorKind, Result};
 use crate::linalg::Backend;
 use crate::progress::{Flow, Observer};
 use crate::results::{Counts, HistoryRow, ReferenceRow, Results};
-use crate::scene::Scene;
+use crate::scene::{MeshSource, Scene};
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
@@ -122,7 +122,7 @@ pub fn study(
     observer.phase("study: predicting the cost of each setting");
     forecast(scene, backend)?;
     let mut queue: Vec<(Setting, Forecast)> = Vec::new();
-    let mut known: Vec<(f64, String, Forecast)> = Vec::new();
+    let mut known: Vec<(f64, (MeshSource, Backend), Forecast)> = Vec::new();
     let mut all = settings(scene, backend, &plan.knobs, plan.levels);
     if plan.knobs.contains(&Knob::Grading) {
         observer.phase("study: a pilot for the graded meshes");
@@ -144,7 +144,7 @@ pub fn study(
             break;
         }
         // Settings on one mesh have one forecast; the symbolic factorisation of a large one takes its time.
-        let key = format!("{:?} {:?}", setting.scene.mesh, setting.backend);
+        let key = (setting.scene.mesh.clone(), setting.backend);
         let found = match known.iter().find(|k| k.0 == setting.ratio && k.1 == key) {
             Some(known) => Ok(known.2),
             None => forecast(&setting.scene, setting.backend),

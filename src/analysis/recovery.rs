@@ -29,10 +29,13 @@ const CANDIDATE: f64 = 0.93;
 const FAR_BELOW: f64 = 0.85;
 /// Stresses closer than this share are equal.
 const TIE: f64 = 1e-9;
-/// Share of the stress, times the square of a spacing, that may be left to gain after a search at that spacing.
+/// Share of the stress, times the square of a spacing, that may lie beside the highest point of that spacing. A search at that spacing leaves the same of its square,
+/// and ends where that is no more than `gamma`: first yield is an event as changes of contact are.
 const CURVATURE: f64 = 0.1;
 /// Elements up to which the fits of one search are kept for the next one, at a load near by: a quarter of a megabyte for each at most.
 const FEW: usize = 100;
+/// Elements that a thread takes at a time: fewer take less than waking it.
+const GRAIN: usize = 256;
 /// Layers of elements around an element that belong to its patch.
 const LAYERS: usize = 3;
 
@@ -62,6 +65,8 @@ pub struct Recovery {
     patches: BTreeMap<u32, Patch>,
     /// Nodes on which forces act.
     loaded: Vec<bool>,
+    /// Relative tolerance of the maximum.
+    gamma: f64,
 }
 
 /// An element, or the third of a triangle round one of its corners, as the image of `[-1, 1]^2`.
@@ -147,6 +152,7 @@ impl Recovery {
             neighbours,
             patches: BTreeMap::new(),
             loaded: mirror::loaded_nodes(model),
+            gamma: model.scene.program.gamma,
         }
     }
 
@@ -157,7 +163,7 @@ impl Recovery {
         let (elements, materials) = (&self.elements, &self.materials);
         let strains: Vec<_> = (0..elements.list.len())
             .into_par_iter()
-            .with_min_len(64)
+            .with_min_len(GRAIN)
             .map(|i| elements.strains(i, nodal))
             .collect();
         let mut out = Vec::with_capacity(self.positions.len());
@@ -256,7 +262,11 @@ impl Recovery {
                     self.value_at(square.element, point, samples, keep && again)
                 });
             }
-            let least = highest(&tops) * (1.0 - CURVATURE * spacing * spacing);
+            let beside = CURVATURE * spacing * spacing;
+            if beside * spacing * spacing <= self.gamma {
+                break;
+            }
+            let least = highest(&tops) * (1.0 - beside);
             tops.retain(|t| t.1.value >= least);
         }
         // Like bodies yield together: the first of equals is named (elements are in ascending order), not that of the larger round-off.

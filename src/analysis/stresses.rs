@@ -103,7 +103,7 @@ fn nodal_forces(field: &StressField) -> (Vec<[f64; 2]>, Vec<usize>) {
     let (mut block, mut next) = (Vec::with_capacity(BLOCK), Vec::with_capacity(BLOCK));
     evaluate(0, &mut block);
     for start in (0..n).step_by(BLOCK) {
-        let add = || {
+        let mut add = || {
             for (i, element) in block.iter().enumerate() {
                 for (force, &node) in element.forces.iter().zip(mesh.nodes(start + i)) {
                     let sum = &mut forces[node as usize];
@@ -114,7 +114,12 @@ fn nodal_forces(field: &StressField) -> (Vec<[f64; 2]>, Vec<usize>) {
                 }
             }
         };
-        rayon::join(add, || evaluate((start + BLOCK).min(n), &mut next));
+        match start + BLOCK {
+            following if following < n => {
+                rayon::join(add, || evaluate(following, &mut next));
+            }
+            _ => add(),
+        }
         std::mem::swap(&mut block, &mut next);
     }
     (forces, beyond)

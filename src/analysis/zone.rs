@@ -20,7 +20,7 @@ use crate::substructure::Trailing;
 use rayon::prelude::*;
 
 /// Elements that a thread takes at a time.
-const GRAIN: usize = 64;
+const GRAIN: usize = 128;
 
 /// Result of evaluating the material over the zone.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

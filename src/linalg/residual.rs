@@ -7,6 +7,8 @@ use std::ops::Range;
 
 /// Parts of the matrix that are gone through side by side: their number, not that of the threads, decides what is added to what.
 const PARTS: usize = 4;
+/// Entries of a matrix whose parts take longer than to wake a thread for them.
+const MANY: usize = 1 << 15;
 /// Rows that a thread takes at a time.
 const GRAIN: usize = 1 << 14;
 
@@ -121,8 +123,10 @@ impl Rows {
                 before: Vec::new(),
             });
         }
+        let at_once = if matrix.nnz() < MANY { PARTS } else { 1 };
         parts
             .par_iter_mut()
+            .with_min_len(at_once)
             .for_each(|part| part.subtract_products(matrix, &pointers, u));
         let before: Vec<_> = parts
             .into_iter()

@@ -4,6 +4,9 @@ use super::{Facet, Mesh};
 use crate::{Error, Result};
 use rayon::prelude::*;
 
+/// Facets that a thread takes at a time: fewer take less than waking it.
+const GRAIN: usize = 512;
+
 /// A facet by its two end nodes, the smaller first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Edge {
@@ -129,7 +132,8 @@ fn check_hanging(mesh: &Mesh, boundary: &[Facet]) -> Result<()> {
     corners
         .par_sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
     corners.dedup();
-    let hanging = boundary.par_iter().find_map_first(|facet| {
+    let facets = boundary.par_iter().with_min_len(GRAIN);
+    let hanging = facets.find_map_first(|facet| {
         let [a, b] = ends(mesh, *facet);
         let (p, q) = (mesh.point(a as usize), mesh.point(b as usize));
         let d = [q[0] - p[0], q[1] - p[1]];

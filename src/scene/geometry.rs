@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
 /// Where the mesh comes from: one of a generator's key and `file`.
-#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MeshSource {
     /// Curved indenter on a block (paper 5.1); axisymmetric: ball on half space.
@@ -32,7 +32,7 @@ fn is_zero(n: &usize) -> bool {
 
 /// The circle that a surface of a mesh file lies on. A file holds nodes only: with the circle their normals and gaps are exact, and
 /// a finer mesh comes nearer to the body, not to the polygon of the file.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceCircle {
     /// Name of the surface.
@@ -58,7 +58,7 @@ pub struct SurfaceCircle {
 ///
 /// The cylinder follows the circle over the candidates and levels off beyond: the model is that of Hertz, two half
 /// planes which differ from flat near the contact only. See [`crate::mesh::generate::cylinder_on_half_plane`].
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CylinderOnHalfPlane {
     /// Radius of the cylinder or ball.
@@ -92,7 +92,7 @@ pub struct CylinderOnHalfPlane {
 /// `disc` and `plate`; surfaces `disc.contact`, `plate.contact` (the hole), `plate.far`,
 /// `disc.symmetry_x`, `plate.symmetry_x` (on x = 0), `disc.symmetry_y`, `plate.symmetry_y` (on y = 0); node sets
 /// `disc.pole`, `plate.pole` (on the y axis, where the contact stays) and `disc.center`.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DiscInPlate {
     /// Radius of the hole and the disc.
@@ -119,7 +119,7 @@ pub struct DiscInPlate {
 /// A block, ring sector or disc sector: one body. Surfaces are `BODY.left`, `.right`, `.bottom`,
 /// `.top` for a block; `.inner`, `.outer`, `.start`, `.end` for a ring sector; `.outer`, `.start`, `.end` for a disc sector.
 /// The corners of a block are node sets `BODY.bottom_left`, `BODY.bottom_right`, `BODY.top_left`, `BODY.top_right`.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
     /// Name of the body.
@@ -136,7 +136,7 @@ pub struct Part {
 }
 
 /// A rectangle `[x0, x1] x [y0, y1]`.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Block {
     /// From, to.
@@ -154,7 +154,7 @@ pub struct Block {
 }
 
 /// A named piece of a block's side.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Piece {
     /// Name; the surface is `BODY.NAME`.
@@ -168,7 +168,7 @@ pub struct Piece {
 }
 
 /// A ring sector.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Ring {
     /// Centre.
@@ -187,7 +187,7 @@ pub struct Ring {
 }
 
 /// A disc or a sector of 90 or 180 degrees of one.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Disc {
     /// Centre.

@@ -6,7 +6,7 @@ use std::fmt;
 use std::sync::Arc;
 
 /// Places of the keys of a scene that was read, none of one that was made in code.
-#[derive(Clone, Default)]
+#[derive(Clone, Default, PartialEq)]
 pub struct KeyPlaces(Arc<BTreeMap<String, String>>);
 
 impl KeyPlaces {

@@ -48,7 +48,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// A whole scene.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// One line for humans.

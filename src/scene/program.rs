@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
 /// The load program.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Program {
     /// What a load factor of 1 means.
@@ -18,7 +18,7 @@ pub struct Program {
     /// Increments from one target to the next with `stepping = "steps"`.
     #[serde(default = "super::defaults::steps")]
     pub steps: usize,
-    /// Relative tolerance with which a change of contact is hit (paper 4.18, 4.23).
+    /// Relative tolerance with which events are hit: a change of contact (paper 4.18, 4.23), and the maximum of the stress at first yield.
     #[serde(default = "super::defaults::gamma")]
     pub gamma: f64,
     /// The targets, reached one after the other; each leaves a state.
@@ -61,7 +61,7 @@ pub enum Stepping {
 }
 
 /// A target: exactly one of the conditions.
-#[derive(Debug, Clone, Default, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Target {
     /// Name of the state.
@@ -134,7 +134,7 @@ impl Program {
 }
 
 /// A target displacement: the mean over a set reaches a value.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DisplacementTarget {
     /// Node set or surface.
@@ -146,7 +146,7 @@ pub struct DisplacementTarget {
 }
 
 /// How to compute.
-#[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
     /// Yield load: the exact path or the paper's secant (3.14).

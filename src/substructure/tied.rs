@@ -50,6 +50,8 @@ pub(super) struct Split {
 const STIFFER: f64 = 4.0;
 /// What is left of a motion, as a share of it, when that share is the round-off of taking the rest away.
 const ROUND_OFF: f64 = 1e-11;
+/// Entries that a thread takes at a time.
+const ENTRIES: usize = 1 << 14;
 
 /// The tied structure.
 pub(super) struct Tied {
@@ -130,6 +132,7 @@ impl Tied {
         };
         let mut tied = DMatrix::zeros(n_w + n_a, n_w + n_a);
         let columns = tied.as_mut_slice().par_chunks_mut((n_w + n_a).max(1));
+        let columns = columns.with_min_len(at_once(n_w + n_a));
         columns.zip(&kept).for_each(|(column, &k)| {
             let (own, moved) = column.split_at_mut(n_w);
             add(k, own);
@@ -140,6 +143,7 @@ impl Tied {
         });
         let mut coupling = DMatrix::zeros(n_w + n_a, n);
         let columns = coupling.as_mut_slice().par_chunks_mut((n_w + n_a).max(1));
+        let columns = columns.with_min_len(at_once(n_w + n_a));
         columns.zip(&follow).for_each(|(column, &f)| {
             let (own, moved) = column.split_at_mut(n_w);
             add(f, own);
@@ -160,6 +164,7 @@ impl Tied {
         // T = S_ss - C' C, its lower triangle.
         let mut matrix = blocked::outer(&coupling.transpose(), |_| n_w + n_a);
         let columns = matrix.as_mut_slice().par_chunks_mut(n.max(1)).enumerate();
+        let columns = columns.with_min_len(at_once(n));
         columns.for_each(|(j, column)| {
             column.iter_mut().for_each(|entry| *entry = -*entry);
             for (row, entry) in stiffness.column(follow[j]) {
@@ -405,4 +410,9 @@ fn take_rigid(column: &mut [f64], share: &mut [f64], rigid: &[Trace], part: &[us
             }
         }
     }
+}
+
+/// Columns of a length that a thread takes at a time: fewer take less than waking it.
+fn at_once(length: usize) -> usize {
+    ENTRIES / length.max(1) + 1
 }
