@@ -25,7 +25,7 @@ use super::edge::well_read;
 use super::estimate::{Extent, analyse, estimate_on};
 use super::grading::{balanced, risen};
 use super::knobs::resolution;
-use super::ladder::{Ladder, fineness, foot, once_subdivided, spacings};
+use super::ladder::{BESIDE, Ladder, fineness, foot, once_subdivided, spacings};
 use super::limit::{Limits, report};
 use super::meter::{Pace, forecast, work};
 use super::outcome::{AIM, LEAST_STEP, Outcome, PATH_SHARE, Trial, told};
@@ -133,9 +133,20 @@ pub fn reach(
             costs.pop();
         }
         let begun = Instant::now();
-        let (analysis, mut results) = analyse(model, backend, extent, observer)?;
+        let rungs = ladder.rungs(&level);
+        let beside: Vec<Scene> = match model.mesh.n_elements() <= BESIDE {
+            true => rungs.iter().map(|rung| rung.scene.clone()).collect(),
+            false => Vec::new(),
+        };
+        let (run, of_rungs) = ladder.beside(&beside, backend, extent, observer, |observer| {
+            let found = analyse(model, backend, extent, observer);
+            (found, begun.elapsed().as_secs_f64())
+        });
+        let (found, own_seconds) = run;
+        let (analysis, mut results) = found?;
+        spent += of_rungs;
         let estimate = estimate_on(
-            ladder.rungs(&level),
+            rungs,
             &mut ladder,
             &level,
             backend,
@@ -145,7 +156,7 @@ pub fn reach(
         );
         let (mut found, reported, new) = estimate.extrapolated(&results, &limits);
         limits = new;
-        ladder.keep(&level, &results);
+        ladder.keep(&level, &results, own_seconds);
         let seconds = begun.elapsed().as_secs_f64();
         spent += work(&results) + found.work;
         let cost = Cost::of(fine, &results);

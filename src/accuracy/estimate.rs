@@ -1,7 +1,7 @@
 //! The errors of every quantity of a run, estimated after it.
 
 use super::edge;
-use super::ladder::Ladder;
+use super::ladder::{BESIDE, Ladder};
 use super::limit::{Limit, is_round};
 use super::path::{self, Base, PathErrors};
 use super::quantities::{Quantity, quantities, value_of};
@@ -118,6 +118,11 @@ pub(super) fn estimate_on(
             .push("the run is incomplete: no error is estimated".to_string());
     } else {
         let n = levels.len();
+        if results.sizes.elements <= BESIDE && !observer.stop_requested() {
+            observer.phase("error estimate: coarser meshes");
+            let scenes: Vec<Scene> = levels.iter().map(|level| level.scene.clone()).collect();
+            out.work += ladder.run_ahead(&scenes, backend, extent, observer);
+        }
         for (i, level) in levels.into_iter().enumerate() {
             if observer.stop_requested() {
                 out.notes
@@ -125,19 +130,18 @@ pub(super) fn estimate_on(
                 break;
             }
             observer.phase(&format!("error estimate: mesh {} of {n}", i + 1));
-            let begun = Instant::now();
             match ladder.step(&level.scene, backend, extent, observer) {
                 Ok((found, spent)) => {
                     out.work += spent;
                     out.companions.push(Companion {
                         ratio: level.ratio,
-                        freedoms: found.sizes.freedoms,
-                        seconds: begun.elapsed().as_secs_f64(),
+                        freedoms: found.results.sizes.freedoms,
+                        seconds: found.seconds,
                     });
                     others.push(Other {
-                        quantities: super::quantities(&found),
+                        quantities: super::quantities(&found.results),
                         ratio: level.ratio,
-                        results: found,
+                        results: found.results,
                     });
                 }
                 Err(error) => out.notes.push(format!(

@@ -41,14 +41,26 @@ pub fn extrapolate(values: &[(f64, f64)], orders: [f64; 2]) -> Option<Extrapolat
     let [low, high] = orders;
     // Two meshes determine no order: the lowest gives the largest error.
     let n = if values.len() == 2 { 0 } else { ORDERS };
-    let mut powers = vec![0.0; values.len()];
+    // From order to order the powers grow by the same factors.
+    let step = (high - low) / ORDERS as f64;
+    let to = |order: f64| -> Vec<f64> { values.iter().map(|(h, _)| h.powf(order)).collect() };
+    let total: f64 = values.iter().map(|(h, _)| 1.0 / h).sum();
+    let points = values.iter().zip(to(low));
+    let mut points: Vec<Point> = points
+        .map(|(&(h, q), x)| Point {
+            x,
+            q,
+            weight: 1.0 / h / total,
+        })
+        .collect();
+    let factors = to(step);
     let best = (0..=n)
         .map(|i| {
-            let order = low + (high - low) * i as f64 / ORDERS as f64;
-            for (power, (h, _)) in powers.iter_mut().zip(values) {
-                *power = h.powf(order);
+            let fit = fit(&points);
+            for (point, factor) in points.iter_mut().zip(&factors) {
+                point.x *= factor;
             }
-            (order, fit(values, &powers))
+            (low + step * i as f64, fit)
         })
         // Of equal fits the first: the lower order.
         .reduce(|best, next| {
@@ -69,19 +81,25 @@ pub fn extrapolate(values: &[(f64, f64)], orders: [f64; 2]) -> Option<Extrapolat
     })
 }
 
+/// A value `q` at `x = h^order`.
+struct Point {
+    x: f64,
+    q: f64,
+    /// All together are 1.
+    weight: f64,
+}
+
 struct Fit {
     slope: f64,
     limit: f64,
     deviation: f64,
 }
 
-/// Least squares of `q = limit + slope h^order`; `powers` are the `h^order`.
-fn fit(values: &[(f64, f64)], powers: &[f64]) -> Fit {
-    let n = values.len() as f64;
-    let total: f64 = values.iter().map(|(h, _)| 1.0 / h).sum();
+/// Least squares of `q = limit + slope x`.
+fn fit(points: &[Point]) -> Fit {
+    let n = points.len() as f64;
     let weighted = |f: &dyn Fn(f64, f64) -> f64| -> f64 {
-        let terms = values.iter().zip(powers);
-        terms.map(|(&(h, q), &x)| f(x, q) / h / total).sum()
+        points.iter().map(|p| p.weight * f(p.x, p.q)).sum()
     };
     let (mean_x, mean_q) = (weighted(&|x, _| x), weighted(&|_, q| q));
     let slope =
