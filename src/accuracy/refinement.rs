@@ -237,13 +237,12 @@ fn counts_of(part: &mut Part) -> Vec<&mut usize> {
 }
 
 /// The number of which a count of `n` elements may become a multiple: the same for all that are `n`, because surfaces in contact face
-/// each other node by node.
+/// each other node by node. Even counts of triangles stay even: the diagonals alternate, and at the end of an odd count lies the other one.
 fn step(parts: &[Part], n: usize) -> usize {
     let fits = |part: &Part, step: usize| {
-        let even = part
-            .disc
-            .as_ref()
-            .is_none_or(|d| d.elements != n || step.is_multiple_of(2));
+        let is_disc = part.disc.as_ref().is_some_and(|d| d.elements == n);
+        let alternates = part.element.n_corners() == 3 && n.is_multiple_of(2);
+        let even = !(is_disc || alternates) || step.is_multiple_of(2);
         let counts = part.block.as_ref().map(|b| b.elements);
         let on_nodes = |axis: usize| {
             counts.is_none_or(|counts| counts[axis] != n) || ends_on_nodes(part, axis, Some(step))

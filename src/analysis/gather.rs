@@ -107,6 +107,36 @@ impl Nodal {
     }
 }
 
+/// Where the displacements of a node stand in a [`Nodal`] vector, and along which axes they are: `u_x = a_0 u_0 - a_1 u_1`, `u_y = a_1 u_0 + a_0 u_1`.
+#[derive(Debug, Clone, Copy)]
+pub struct NodalPlaces {
+    places: [u32; 2],
+    axis: [f64; 2],
+}
+
+impl NodalPlaces {
+    /// Those of a node of a model.
+    pub fn new(model: &Model, places: &Places, node: usize) -> Self {
+        let none = (places.n_zone + places.n_contact) as u32;
+        let fixed = none + model.freedoms.prescribed.len() as u32;
+        let of = |slot| match slot {
+            Slot::Free(f) => places.of_freedom[f as usize].min(fixed),
+            Slot::Fixed => fixed,
+            Slot::Prescribed(p) => none + p,
+        };
+        NodalPlaces {
+            places: model.freedoms.slots[node].map(of),
+            axis: model.freedoms.local(node)[0],
+        }
+    }
+
+    /// The displacement of the node in global axes.
+    pub fn of(&self, nodal: &[f64]) -> [f64; 2] {
+        let ([u, v], [a, b]) = (self.places.map(|place| nodal[place as usize]), self.axis);
+        [a * u - b * v, b * u + a * v]
+    }
+}
+
 /// An element: where its numbers begin.
 #[derive(Debug, Clone, Copy)]
 pub struct Packed {
@@ -122,7 +152,7 @@ pub struct Packed {
     turns: (u32, u32),
 }
 
-/// A node whose freedoms lie along turned axes: `u_x = a_0 u_0 - a_1 u_1`, `u_y = a_1 u_0 + a_0 u_1`.
+/// A node whose freedoms lie along turned axes.
 #[derive(Debug, Clone, Copy)]
 struct Turn {
     node: u8,
@@ -160,18 +190,9 @@ impl GatheredElements {
     fn push(&mut self, model: &Model, element: usize, places: &Places, points: &Points) {
         let first_turn = self.turns.len() as u32;
         let first_place = self.places.len();
-        let none = (places.n_zone + places.n_contact) as u32;
-        let fixed = none + model.freedoms.prescribed.len() as u32;
         for (i, &node) in model.mesh.nodes(element).iter().enumerate() {
-            let node = node as usize;
-            for slot in model.freedoms.slots[node] {
-                self.places.push(match slot {
-                    Slot::Free(f) => places.of_freedom[f as usize].min(fixed),
-                    Slot::Fixed => fixed,
-                    Slot::Prescribed(p) => none + p,
-                });
-            }
-            let axis = model.freedoms.local(node)[0];
+            let NodalPlaces { places, axis } = NodalPlaces::new(model, places, node as usize);
+            self.places.extend(places);
             if axis != [1.0, 0.0] {
                 self.turns.push(Turn {
                     node: i as u8,

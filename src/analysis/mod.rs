@@ -25,6 +25,7 @@ mod elastic;
 mod engine;
 mod equilibrium;
 mod first_yield;
+mod fitted;
 mod gather;
 mod hit;
 mod increment;
@@ -44,6 +45,7 @@ mod response;
 mod resume;
 mod saved;
 mod standing;
+
 mod state;
 mod step_length;
 mod stepping;

@@ -1,6 +1,6 @@
 //! Stress where it is most accurate, and its maximum between the points.
 //!
-//! Stresses are sampled at superconvergent points. Between them each component is a moving least-squares fit: at a
+//! Stresses are sampled at superconvergent points; linear triangles have none, their strains are fitted ([`super::fitted`]). Between them each component is a moving least-squares fit: at a
 //! point `x` a cubic polynomial is fitted to the samples of the same body around, with weights that fall smoothly to zero,
 //! so the recovered stress is continuous, across elements too. Von Mises' stress is maximised over it: yield load and
 //! yield depth then are continuous quantities, not quantised by the mesh. Beyond a plane of symmetry the samples go on as
@@ -10,12 +10,13 @@
 //! O. C. Zienkiewicz, J. Z. Zhu, superconvergent patch recovery (1992), doi:10.1002/nme.1620330702; P. Lancaster,
 //! K. Salkauskas, moving least squares (1981), doi:10.1090/S0025-5718-1981-0616367-1.
 
+use super::fitted::FittedStrains;
 use super::gather::{GatheredElements, Nodal, Places};
 use super::mirror::{self, Reflection, mirrors};
 use super::patch::{Patch, Sample, reach};
 use super::summit::{SPACINGS, Summit};
 use crate::assembly::sampling_points_of;
-use crate::element::{MAX_NODES, shape_functions};
+use crate::element::{AtPoints, MAX_NODES, shape_functions};
 use crate::material::{Material, Matrix4, stress, von_mises};
 use crate::mesh::Shape;
 use crate::model::Model;
@@ -61,6 +62,8 @@ pub struct Recovery {
     positions: Vec<[f64; 2]>,
     materials: Vec<(Material, Matrix4)>,
     nodal: Nodal,
+    /// Strains of the linear triangles.
+    fitted: FittedStrains,
     neighbours: BTreeMap<u32, Vec<u32>>,
     patches: BTreeMap<u32, Patch>,
     /// Nodes on which forces act.
@@ -139,10 +142,11 @@ impl Recovery {
                 neighbours.entry(node).or_default().push(i as u32);
             }
         }
-        Recovery {
+        let mut out = Recovery {
             elements: packed,
             first,
             positions,
+            fitted: FittedStrains::default(),
             materials: model
                 .materials
                 .iter()
@@ -153,18 +157,29 @@ impl Recovery {
             patches: BTreeMap::new(),
             loaded: mirror::loaded_nodes(model),
             gamma: model.scene.program.gamma,
-        }
+        };
+        out.fitted = FittedStrains::new(model, elements, places, |i| out.neighbours_of(model, i));
+        out
     }
 
     /// Elastic stresses at the sampling points for displacements `u` and load factors.
     pub fn sample(&mut self, u: &Trailing, factors: &[f64]) -> Samples {
         self.nodal.set_factors(factors);
         let nodal = self.nodal.displacements(u);
+        let moved = self.fitted.displacements(nodal);
+        let fitted = &self.fitted;
         let (elements, materials) = (&self.elements, &self.materials);
         let strains: Vec<_> = (0..elements.list.len())
             .into_par_iter()
             .with_min_len(GRAIN)
-            .map(|i| elements.strains(i, nodal))
+            .map(|i| match fitted.strain(i, &moved) {
+                Some(strain) => {
+                    let mut strains = AtPoints::default();
+                    strains[0] = strain;
+                    strains
+                }
+                None => elements.strains(i, nodal),
+            })
             .collect();
         let mut out = Vec::with_capacity(self.positions.len());
         for (packed, strains) in elements.list.iter().zip(&strains) {

@@ -18,6 +18,29 @@ fn yields_first_at_the_bore() {
     }
 }
 
+/// The stress of a linear triangle is of first order, what is recovered from the displacements around of second.
+#[test]
+fn linear_triangles_find_first_yield_to_second_order() {
+    let error = |n: usize| {
+        let results = yield_load(&scene(
+            "thick_cylinder",
+            &[
+                "mesh.parts.0.element=tri3",
+                &format!("mesh.parts.0.ring.elements=[{n},{n}]"),
+            ],
+        ));
+        (results.first_yield.unwrap().alpha / 103.750 - 1.0).abs()
+    };
+    let [coarse, fine, finer] = [16, 32, 64].map(error);
+    // Halved elements: a quarter of the error, and 3 where the next order still counts.
+    assert!(
+        fine <= coarse / 3.0 && finer <= fine / 3.0,
+        "{coarse:.2e} {fine:.2e} {finer:.2e}"
+    );
+    // Half the square of the element at the bore, a 64th of the wall, times the curvature of the stress there, 6 of it over the wall squared.
+    assert!(finer <= 4e-3, "{finer:.2e}");
+}
+
 #[test]
 fn nearly_incompressible_flow_converges_to_hill() {
     let exact = ElastoplasticCylinder::new(100.0, 200.0, 210e3, 240.0).unwrap();
