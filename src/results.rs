@@ -424,7 +424,7 @@ pub struct QuantityError {
     pub discretisation: Option<f64>,
     /// Estimated error of the path: increments, plastic iteration and event tolerance.
     pub path: Option<f64>,
-    /// Estimated error of the algebra: backward error, equilibrium, complementarity.
+    /// Estimated error of the algebra: backward error, equilibrium, complementarity, and at first yield what `gamma` leaves of the largest stress.
     #[serde(deserialize_with = "null_is_not_a_number")]
     pub algebraic: f64,
     /// Order of convergence in the element size that the meshes show, within the range that is believed.

@@ -7,7 +7,7 @@ use super::path::{self, Base, PathErrors};
 use super::quantities::{Quantity, quantities, value_of};
 use super::refusal::percent;
 use super::{Level, companions, extrapolate, largest_order};
-use crate::analysis::Analysis;
+use crate::analysis::{Analysis, left_of_search};
 use crate::error::Result;
 use crate::linalg::{Backend, smallest_pivot_ratio};
 use crate::model::Model;
@@ -243,7 +243,11 @@ pub(super) fn estimate_on(
             EstimateMethod::EnergyNorm => (energy_error.map(|e| e * quantity.scale), None),
             EstimateMethod::None => (None, None),
         };
-        let algebraic = algebraic_error(results, &quantity.path) * quantity.scale;
+        let mut algebraic = algebraic_error(results, &quantity.path);
+        if quantity.path.starts_with("yield.") {
+            algebraic += left_of_search(scene.program.gamma);
+        }
+        let algebraic = algebraic * quantity.scale;
         let path = path.of(&quantity.path).map(|path| path.total());
         let error = discretisation.map(|d| safety * d + path.unwrap_or(0.0) + algebraic);
         out.quantities.push(QuantityError {

@@ -354,4 +354,50 @@ mod tests {
             .unwrap();
         assert_eq!(spent, 0.0);
     }
+
+    /// The same bits and the same operations as one after the other; what fails beside is told by the step.
+    #[test]
+    fn runs_beside_each_other_are_found_by_the_step() {
+        let tube = |n: usize, load: &str| {
+            let text = include_str!("../../data/scenes/thick_cylinder.toml");
+            let text = text.replace("[16, 16]", &format!("[{n}, {n}]"));
+            let (head, _) = text.split_once("[program]").unwrap();
+            let program = format!("[program]\ntargets = [{{ load_factor = {load} }}]\n");
+            Scene::parse(&(head.to_string() + &program), "scene.toml").unwrap()
+        };
+        let (backend, extent, mut observer) =
+            (Backend::default(), Extent::Program, crate::progress::Silent);
+        // The wall of the last one collapses.
+        let scenes = [tube(3, "120.0"), tube(4, "150.0"), tube(2, "900.0")];
+        let mut ladder = Ladder::default();
+        let spent = ladder.run_ahead(&scenes, backend, extent, &mut observer);
+        let mut alone = 0.0;
+        for scene in &scenes[..2] {
+            let (beside, more) = ladder.step(scene, backend, extent, &mut observer).unwrap();
+            let (own, work) = Ladder::default()
+                .step(scene, backend, extent, &mut observer)
+                .unwrap();
+            let bits = |run: &Finished| {
+                let values = run
+                    .results
+                    .states
+                    .iter()
+                    .map(|s| (s.approach.to_bits(), s.load.to_bits()));
+                values.collect::<Vec<_>>()
+            };
+            assert_eq!(bits(&beside), bits(&own));
+            if rayon::current_num_threads() > 1 {
+                assert_eq!(more, 0.0);
+            }
+            alone += work;
+        }
+        if rayon::current_num_threads() > 1 {
+            assert_eq!(spent, alone);
+        }
+        let failed = ladder.step(&scenes[2], backend, extent, &mut observer);
+        assert_eq!(
+            failed.err().map(|e| e.kind()),
+            Some(crate::ErrorKind::Collapse)
+        );
+    }
 }

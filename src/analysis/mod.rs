@@ -63,6 +63,7 @@ mod zone_fit;
 mod tests;
 
 pub use check::{Check, check};
+pub(crate) use recovery::left_of_search;
 
 use crate::assembly::{System, assemble};
 use crate::checkpoint::{Checkpoints, Identity, Store};

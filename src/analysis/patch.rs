@@ -106,6 +106,12 @@ impl Patch {
         self.sum(&self.shares, samples)
     }
 
+    /// Places that are kept.
+    #[cfg(test)]
+    pub fn n_kept(&self) -> usize {
+        self.kept.len()
+    }
+
     fn sum(&self, shares: &[(u32, f64)], samples: &[[f64; 4]]) -> [f64; 4] {
         let mut out = [0.0; 4];
         for &(i, share) in shares {
