@@ -112,15 +112,18 @@ impl FittedStrains {
             return None;
         };
         let terms = &self.terms[begin as usize..end as usize];
+        // A translation, which may be large, strains nothing.
+        let first = displacements[terms.first()?.node as usize];
         let mut out = [0.0; 4];
         for term in terms {
-            let ([u, v], [x, y]) = (displacements[term.node as usize], term.gradient);
+            let (moved, [x, y]) = (displacements[term.node as usize], term.gradient);
+            let [u, v] = [0, 1].map(|d| moved[d] - first[d]);
             out[0] += x * u;
             out[1] += y * v;
-            out[2] += term.hoop * u;
+            out[2] += term.hoop * moved[0];
             out[3] += y * u + x * v;
         }
-        (!terms.is_empty()).then_some(out)
+        Some(out)
     }
 }
 
