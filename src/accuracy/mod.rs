@@ -26,7 +26,8 @@
 //!   the error of the order of their elements, or 1.25 times that of first order.
 //! - **path**: the coarsest mesh that flows as the run does is run with twice the increments, and with other tolerances of the plastic iteration
 //!   and of contact events (a mesh from a file without such companions with half the increments); see `path`.
-//! - **algebraic**: backward error, equilibrium and complementarity of the state, relative to the largest size of the quantity.
+//! - **algebraic**: backward error, equilibrium and complementarity of the state, relative to the largest size of the quantity; at first yield what `gamma`
+//!   leaves of the largest stress, too.
 //!
 //! # Why the goal is extrapolated, and not weighted with a dual solution
 //!
