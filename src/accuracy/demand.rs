@@ -25,7 +25,7 @@ use super::edge::well_read;
 use super::estimate::{Extent, analyse, estimate_on};
 use super::grading::{balanced, risen};
 use super::knobs::resolution;
-use super::ladder::{BESIDE, Ladder, fineness, foot, once_subdivided, spacings};
+use super::ladder::{Ladder, fineness, foot, is_small, once_subdivided, spacings};
 use super::limit::{Limits, report};
 use super::meter::{Pace, forecast, work};
 use super::outcome::{AIM, LEAST_STEP, Outcome, PATH_SHARE, Trial, told};
@@ -136,7 +136,7 @@ pub fn reach(
         }
         let begun = Instant::now();
         let rungs = ladder.rungs(&level);
-        let beside: Vec<Scene> = match model.mesh.n_elements() <= BESIDE {
+        let beside: Vec<Scene> = match is_small(&level) {
             true => rungs.iter().map(|rung| rung.scene.clone()).collect(),
             false => Vec::new(),
         };

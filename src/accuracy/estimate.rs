@@ -1,7 +1,7 @@
 //! The errors of every quantity of a run, estimated after it.
 
 use super::edge;
-use super::ladder::{BESIDE, Ladder};
+use super::ladder::Ladder;
 use super::limit::{Limit, is_round};
 use super::path::{self, Base, PathErrors};
 use super::quantities::{Quantity, quantities, value_of};
@@ -118,11 +118,8 @@ pub(super) fn estimate_on(
             .push("the run is incomplete: no error is estimated".to_string());
     } else {
         let n = levels.len();
-        if results.sizes.elements <= BESIDE && !observer.stop_requested() {
-            observer.phase("error estimate: coarser meshes");
-            let scenes: Vec<Scene> = levels.iter().map(|level| level.scene.clone()).collect();
-            out.work += ladder.run_ahead(&scenes, backend, extent, observer);
-        }
+        let scenes: Vec<Scene> = levels.iter().map(|level| level.scene.clone()).collect();
+        out.work += ladder.run_ahead(&scenes, backend, extent, observer);
         for (i, level) in levels.into_iter().enumerate() {
             if observer.stop_requested() {
                 out.notes

@@ -35,7 +35,7 @@ const REUSED_FAR: [f64; 2] = [1.5, 3.0];
 const REUSED_IN_CONTACT: [f64; 2] = [1.7, 3.4];
 /// Elements up to which runs are made beside each other, two at a time on two threads: in 0.6 to 0.8 times the time. Larger factors come from OpenBLAS, whose threads
 /// then get into each other's way.
-pub(super) const BESIDE: usize = 1000;
+const BESIDE: usize = 1000;
 /// Growths that agree to so many digits make one mesh: they come by different ways.
 const DIGITS: f64 = 1e9;
 
@@ -65,6 +65,15 @@ pub(super) struct Finished {
 }
 
 impl Finished {
+    fn new(scene: &Scene, results: Results, seconds: f64) -> Self {
+        Finished {
+            scene: scene.clone(),
+            results,
+            seconds,
+            key: key(scene),
+        }
+    }
+
     fn run(
         scene: &Scene,
         backend: Backend,
@@ -73,12 +82,8 @@ impl Finished {
     ) -> Result<Self> {
         let begun = Instant::now();
         let results = run(scene, backend, extent, observer)?;
-        Ok(Finished {
-            scene: scene.clone(),
-            results,
-            seconds: begun.elapsed().as_secs_f64(),
-            key: key(scene),
-        })
+        let seconds = begun.elapsed().as_secs_f64();
+        Ok(Finished::new(scene, results, seconds))
     }
 }
 
@@ -89,12 +94,7 @@ impl Ladder {
         for state in &mut results.states {
             state.fields = None;
         }
-        self.finished.push(Finished {
-            scene: scene.clone(),
-            results,
-            seconds,
-            key: key(scene),
-        });
+        self.finished.push(Finished::new(scene, results, seconds));
     }
 
     fn known(&self, scene: &Scene) -> Option<&Finished> {
@@ -152,7 +152,7 @@ impl Ladder {
         (out, spent)
     }
 
-    /// Runs scenes beside each other, to be found by [`Ladder::step`] later. Returns their operations.
+    /// Runs scenes beside each other where they are all small, to be found by [`Ladder::step`] later. Returns their operations.
     pub(super) fn run_ahead(
         &mut self,
         scenes: &[Scene],
@@ -160,14 +160,18 @@ impl Ladder {
         extent: Extent,
         observer: &mut dyn Observer,
     ) -> f64 {
-        let Some((first, rest)) = scenes.split_first() else {
+        let new = scenes.iter().filter(|scene| self.known(scene).is_none());
+        let new: Vec<Scene> = new.cloned().collect();
+        let Some((first, rest)) = new.split_first() else {
             return 0.0;
         };
-        let known = self.known(first).is_some();
+        if observer.stop_requested() || !new.iter().all(is_small) {
+            return 0.0;
+        }
         let (found, spent) = self.beside(rest, backend, extent, observer, |observer| {
-            (!known).then(|| Finished::run(first, backend, extent, observer))
+            Finished::run(first, backend, extent, observer)
         });
-        let Some(Ok(first)) = found else {
+        let Ok(first) = found else {
             return spent;
         };
         let all = spent + work(&first.results);
@@ -275,6 +279,11 @@ pub(super) fn spacings(scene: &Scene) -> Option<f64> {
 /// Elements along a line over those of the coarsest member of the family: node spacings over what governs, subdivisions of a file.
 pub(super) fn fineness(scene: &Scene) -> Option<f64> {
     spacings(scene).or_else(|| Some(2f64.powi(scene.mesh.subdivisions.try_into().ok()?)))
+}
+
+/// Whether a run is worth making beside another.
+pub(super) fn is_small(scene: &Scene) -> bool {
+    elements(scene).is_some_and(|n| n <= BESIDE)
 }
 
 /// What tells scenes apart: round-off of the growths left out.

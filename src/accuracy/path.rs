@@ -16,7 +16,7 @@
 //! where they are near round-off (the difference is the error times [`FACTOR`]).
 
 use super::estimate::Extent;
-use super::ladder::{BESIDE, Ladder};
+use super::ladder::Ladder;
 use super::quantities::{Quantity, quantities, value_of, with_loads};
 use crate::linalg::Backend;
 use crate::progress::Observer;
@@ -132,11 +132,8 @@ pub(super) fn errors(
     let increments = increments.unwrap_or_else(|| with_more_increments(base.scene, base.results));
     let grown = base.results.history.len() as f64 / results.history.len().max(1) as f64;
     let changed = increments.1 * grown.min(1.0);
-    if base.results.sizes.elements <= BESIDE && !observer.stop_requested() {
-        observer.phase("error estimate: other tolerances, other increments");
-        let scenes = [tolerances.0.clone(), increments.0.clone()];
-        spent += ladder.run_ahead(&scenes, backend, Extent::Program, observer);
-    }
+    let scenes = [tolerances.0.clone(), increments.0.clone()];
+    spent += ladder.run_ahead(&scenes, backend, Extent::Program, observer);
     for (what, scene, share) in [
         (TOLERANCES, tolerances.0, tolerances.1),
         (INCREMENTS, increments.0, changed),
