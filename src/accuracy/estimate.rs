@@ -1,6 +1,7 @@
 //! The errors of every quantity of a run, estimated after it.
 
 use super::edge;
+use super::extrapolation::beside_finer;
 use super::ladder::Ladder;
 use super::limit::{Limit, is_round};
 use super::path::{self, Base, PathErrors};
@@ -38,7 +39,8 @@ pub const SAFETY: f64 = 2.0;
 
 /// The same where three meshes follow a power law ([`super::Extrapolation::regular`]). Over the contacts of a line and of a point, the disc in a
 /// plate and the tube, from 6 to 24 elements over what governs, the largest error of a run then was estimated at 0.73 times the
-/// true one at least.
+/// true one at least. And where meshes at least twice as fine say it ([`beside_finer`]): 570 of 586 errors of whole programs with 4 to 8 elements over the
+/// contact were estimated at two thirds of the true ones at least.
 pub const SAFETY_OF_LAW: f64 = 1.5;
 
 /// The factor for two meshes, which leave the order open, over the error of the lowest order: three times that of the order of the elements, as
@@ -205,9 +207,11 @@ pub(super) fn estimate_on(
                 if let [_, (ratio, _)] = values.as_slice() {
                     safety = safety_of_two(*ratio, largest_order(scene));
                 }
-                let found = extrapolate(&values, [LOWEST_ORDER, highest]);
-                let regular = found.is_some_and(|f| f.regular);
-                if regular {
+                let beside = (!jumps(&quantity.path))
+                    .then(|| beside_finer(&values, LOWEST_ORDER))
+                    .flatten();
+                let found = beside.or_else(|| extrapolate(&values, [LOWEST_ORDER, highest]));
+                if beside.is_some() || found.is_some_and(|f| f.regular) {
                     safety = SAFETY_OF_LAW;
                 }
                 let mut error = found.map(|f| f.error);
@@ -311,6 +315,11 @@ pub(super) fn flows(results: &Results, path: &str) -> bool {
 /// Whether a quantity comes from an elastic state without contact.
 fn is_smooth(results: &Results, path: &str) -> bool {
     results.sizes.contact_pairs == 0 && !flows(results, path)
+}
+
+/// Whether a quantity is counted in whole pairs or Gauss points: it scatters on finer meshes, too.
+fn jumps(path: &str) -> bool {
+    path.ends_with("half_width") || path.ends_with("plastic_zone_size")
 }
 
 /// The highest order of convergence that is believed for a quantity.

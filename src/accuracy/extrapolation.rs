@@ -81,6 +81,26 @@ pub fn extrapolate(values: &[(f64, f64)], orders: [f64; 2]) -> Option<Extrapolat
     })
 }
 
+/// The error of the first value where the others are from meshes at least twice as fine: how far it is from where these lead with an order. What is wrong with
+/// a mesh that resolves nothing follows no law, but they are out of its reach. The lowest order that may be leads too far at most: for an order
+/// of two instead of one by a sixth of the error, with meshes twice and three times as fine.
+pub(super) fn beside_finer(values: &[(f64, f64)], order: f64) -> Option<Extrapolation> {
+    let [own, finer @ ..] = values else {
+        return None;
+    };
+    if finer.len() < 2 || finer.iter().any(|(h, _)| *h > 0.5 * own.0) {
+        return None;
+    }
+    let there = extrapolate(finer, [order, order])?;
+    let error = (own.1 - there.limit).abs();
+    Some(Extrapolation {
+        error,
+        order: None,
+        regular: false,
+        ..there
+    })
+}
+
 /// A value `q` at `x = h^order`.
 struct Point {
     x: f64,
@@ -151,6 +171,24 @@ mod tests {
         assert!((found.limit - 2.5).abs() < 1e-15);
         assert!((found.error - 0.5).abs() < 1e-15);
         assert_eq!(extrapolate(&[(1.0, 3.0)], [1.0, 2.0]), None);
+    }
+
+    #[test]
+    fn a_mesh_that_resolves_nothing_is_judged_by_finer_ones() {
+        for (order, stated) in [(1.0, 1.0), (2.0, 7.0 / 6.0), (3.0, 1.14)] {
+            let law = |h: f64| 7.0 - 0.3 * h.powf(order);
+            let mut values = sampled(&[1.0, 0.5, 1.0 / 3.0], law);
+            for own in [6.7, 7.3] {
+                values[0].1 = own;
+                let error = beside_finer(&values, 1.0).unwrap().error;
+                // What the law of first order makes of the finer two is off by `stated - 1` of 0.3.
+                let off = 0.3 * (stated - 1.0) + 1e-3;
+                assert!((error - 0.3).abs() <= off, "{order}: {error}");
+            }
+        }
+        let near = sampled(&[1.0, 0.5, 2.0 / 3.0], |h| h);
+        assert_eq!(beside_finer(&near, 1.0), None);
+        assert_eq!(beside_finer(&near[..2], 1.0), None);
     }
 
     #[test]

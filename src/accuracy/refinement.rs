@@ -51,6 +51,11 @@ const NEAR: [f64; 6] = [
 const BRACKET: [f64; 5] = [2.0 / 3.0, 3.0 / 2.0, 3.0 / 4.0, 5.0 / 4.0, 2.0];
 /// Where the run is as coarse as a mesh can be to tell anything: finer ones, which cost little then.
 const FINER: [f64; 5] = [3.0 / 2.0, 2.0, 5.0 / 4.0, 3.0, 4.0];
+/// Elements from which on a mesh tells something of its own error, together with finer ones; with fewer these alone say where it should be
+/// ([`super::extrapolation::beside_finer`]).
+const LEGIBLE: f64 = 8.0;
+/// Finer ones, out of reach of what is wrong with such a mesh.
+const FAR_FINER: [f64; 4] = [2.0, 3.0, 4.0, 5.0];
 /// Elements up to which a mesh from a file is compared with its subdivision, and up to which with that of the subdivision: they
 /// have four and sixteen times as many.
 const SUBDIVIDED: [usize; 2] = [2000, 400];
@@ -141,7 +146,8 @@ pub fn companions(scene: &Scene, elements: usize) -> Vec<Level> {
     let wanted: &[f64] = match governing_count(&scene.mesh) {
         Some(n) if n * COARSER[1] >= TELLING => &COARSER,
         Some(n) if n >= BRACKETED => &BRACKET,
-        Some(_) => &FINER,
+        Some(n) if n >= LEGIBLE => &FINER,
+        Some(_) => &FAR_FINER,
         None => match SUBDIVIDED.map(|most| elements <= most) {
             _ if scene.mesh.subdivisions >= 2 => &[0.5, 0.25],
             [true, _] if scene.mesh.subdivisions == 1 => &[0.5, 2.0],
@@ -330,7 +336,8 @@ mod tests {
                 .filter_map(|l| l.scene.mesh.cylinder_on_half_plane.as_ref());
             generators.map(|p| p.resolution).collect()
         };
-        assert_eq!(counts(4), [8, 6]);
+        assert_eq!(counts(4), [12, 8]);
+        assert_eq!(counts(7), [21, 14]);
         assert_eq!(counts(8), [16, 12]);
         assert_eq!(counts(12), [18, 8]);
         assert_eq!(counts(16), [8, 6]);
