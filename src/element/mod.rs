@@ -5,8 +5,9 @@
 //! `[u_x0, u_y0, u_x1, ...]`.
 //!
 //! `quad4` uses the mean dilatation (B-bar), `quad8` reduced integration: neither locks in isochoric
-//! plastic flow. `tri3` does.
+//! plastic flow. `tri3` does. Beside an axis of revolution `quad4` has a shear of its own (`axis`).
 
+mod axis;
 mod facet;
 mod mapping;
 mod operator;
@@ -93,6 +94,17 @@ impl Points {
 /// Whether the dilatation of an element is replaced by its mean (B-bar).
 fn has_mean(kind: Kind, shape: Shape) -> bool {
     shape == Shape::Quad4 && kind != Kind::PlaneStress
+}
+
+/// Factors of the parts of the shear strain at a radius, for the nodes of an axisymmetric element.
+#[inline]
+fn shear_factors(shape: Shape, nodes: &[[f64; 2]], radius: f64) -> [f64; 2] {
+    match shape {
+        Shape::Quad4 => {
+            axis::shear_factors(radius, 0.25 * nodes[..4].iter().map(|x| x[0]).sum::<f64>())
+        }
+        _ => [1.0; 2],
+    }
 }
 
 /// Gauss rule: reference coordinates and weight.
@@ -189,9 +201,10 @@ impl Points {
             point[0] = weight * determinant;
             if form.is_axisymmetric {
                 point[0] *= 2.0 * std::f64::consts::PI * x[0];
-                for (r, value) in point[1 + 2 * n..].iter_mut().zip(values) {
+                for (r, value) in point[1 + 2 * n..=3 * n].iter_mut().zip(values) {
                     *r = value / x[0];
                 }
+                point[1 + 3 * n..].copy_from_slice(&shear_factors(shape, coordinates, x[0]));
             }
             *position = x;
         }
@@ -212,7 +225,7 @@ fn mean_dilatation(points: &Points) -> [f64; MAX_FREEDOMS] {
             *m += point[0] * gradient;
         }
         if form.is_axisymmetric {
-            for (m, r) in mean.iter_mut().zip(&point[1 + 2 * n..]) {
+            for (m, r) in mean.iter_mut().zip(&point[1 + 2 * n..=3 * n]) {
                 *m += point[0] * r;
             }
         }
