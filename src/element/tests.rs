@@ -238,6 +238,34 @@ fn stiffness_is_free_of_rigid_motion() {
     }
 }
 
+/// Nothing but the rigid motion along the axis is free in an axisymmetric `quad4`, on the axis or off it, long or flat, upright or on its corner.
+#[test]
+fn no_other_motion_of_a_ring_is_free() {
+    let block = |from: f64, [width, height]: [f64; 2]| {
+        let to = from + width;
+        vec![[from, 0.0], [to, 0.0], [to, height], [from, height]]
+    };
+    let diamond = vec![[1.0, 0.0], [2.0, 1.0], [1.0, 2.0], [0.0, 1.0]];
+    let mut rings = vec![coordinates(Shape::Quad4), diamond];
+    for from in [0.0, 0.1, 10.0] {
+        rings.extend([[1.0, 1.0], [20.0, 1.0], [1.0, 20.0]].map(|size| block(from, size)));
+    }
+    for x in rings {
+        let points = gauss_points(Kind::Axisymmetric, Shape::Quad4, &x);
+        let mut k = vec![0.0; 36];
+        points.stiffness_into(&steel(Kind::Axisymmetric), &mut k);
+        let matrix = nalgebra::SMatrix::<f64, 8, 8>::from_fn(|i, j| k[packed(i, j)]);
+        let mut sizes = matrix.symmetric_eigenvalues().data.0[0];
+        sizes.sort_by(f64::total_cmp);
+        // The softest motion is the bending of a plate: the fourth power of its slenderness, 1/20, beside the shear, times about a tenth.
+        assert!(sizes[0].abs() < 1e-12 * sizes[7], "{x:?}: {sizes:?}");
+        assert!(
+            sizes[1] > 0.01 / 20f64.powi(4) * sizes[7],
+            "{x:?}: {sizes:?}"
+        );
+    }
+}
+
 #[test]
 fn weights_sum_to_the_area() {
     for shape in SHAPES {
