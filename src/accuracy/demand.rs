@@ -65,8 +65,8 @@ const BARELY_FINER: f64 = 1.0 + 1e-9;
 const FINER: [f64; 7] = [1.0, 1.03, 1.06, 1.1, 1.25, 1.5, 2.0];
 /// The next mesh has at least this share of the fineness aimed at: one rounded down misses the demand by a little, and its run is wasted.
 const NEARLY: f64 = 0.995;
-/// A coarse mesh says a third to a half of how much finer the last one will be (cylinder and ball at 1 and 0.3 %: with fixed increments from the first mesh on they took 1.5 to 2.5 times the time).
-const MORE_THAN_SAID: f64 = 3.0;
+/// A coarse mesh says about half of how much finer the last one will be (cylinder and ball at 1 and 0.3 %: with fixed increments from the first mesh on they took 1.5 to 2.5 times the time).
+const MORE_THAN_SAID: f64 = 2.0;
 /// Runs before the demand is given up.
 const ROUNDS: usize = 12;
 /// Rounds from which on the prediction of the mesh that will do is believed.

@@ -88,7 +88,8 @@ pub(super) fn beside_finer(values: &[(f64, f64)], order: f64) -> Option<Extrapol
     let [own, finer @ ..] = values else {
         return None;
     };
-    if finer.len() < 2 || finer.iter().any(|(h, _)| *h > 0.5 * own.0) {
+    let is_beyond_reach = |(h, _): &(f64, f64)| *h <= 0.5 * own.0;
+    if finer.len() < 2 || !own.1.is_finite() || !finer.iter().all(is_beyond_reach) {
         return None;
     }
     let there = extrapolate(finer, [order, order])?;
@@ -189,6 +190,8 @@ mod tests {
         let near = sampled(&[1.0, 0.5, 2.0 / 3.0], |h| h);
         assert_eq!(beside_finer(&near, 1.0), None);
         assert_eq!(beside_finer(&near[..2], 1.0), None);
+        let unknown = [(1.0, f64::NAN), (0.5, 2.0), (0.25, 2.1)];
+        assert_eq!(beside_finer(&unknown, 1.0), None);
     }
 
     #[test]

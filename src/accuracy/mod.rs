@@ -18,8 +18,8 @@
 //!
 //! - **discretisation**: the scene is run again on two other meshes of its family and each quantity extrapolated
 //!   ([`extrapolate`]): with elements 2 and 8/3 times as large; where the mesh is coarse itself, with elements 3/2 and 2/3
-//!   or 2/3 and 1/2 times as large, because what is coarser than coarse tells nothing; with fewer than 8 over what governs, it is compared with where meshes
-//!   twice and three times as fine lead to, because it tells nothing itself. The difference is that of
+//!   or 2/3 and 1/2 times as large, because what is coarser than coarse tells nothing; with fewer than 8 over what governs (and a small mesh from a file), it is compared with
+//!   where meshes twice and three times (two and four times) as fine lead to, because it tells nothing itself. The difference is that of
 //!   the quantity itself: contact edges, yielding and the way there are in it. The energy norm of the recovered
 //!   stress error ([`crate::results::State::energy_error`], per element in the VTU files) says *where* the mesh is too coarse; it
 //!   stands in as a rough figure where a mesh from a file is too large to be subdivided in passing.

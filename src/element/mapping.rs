@@ -12,9 +12,7 @@
 //! element, and in the forces the mean stress by its mean: the same as the mean of `tr B` over the nodes. Points are computed
 //! side by side: every quantity is an array over them.
 
-use super::{
-    MAX_NODES, MAX_POINTS, has_mean, rule, sampling_points, shape_functions, shear_factors,
-};
+use super::{MAX_NODES, MAX_POINTS, has_mean, rule, sampling_points, shape_functions};
 use crate::scene::Kind;
 use crate::shape::Shape;
 use std::sync::LazyLock;
@@ -73,8 +71,6 @@ pub struct Mapping {
     weights: Lanes,
     /// `1/r`, axisymmetric.
     per_radius: Option<Lanes>,
-    /// Factors of `du_x/dy` and of `du_y/dx` in the shear strain.
-    shear: [Lanes; 2],
 }
 
 impl Mapping {
@@ -114,7 +110,6 @@ impl Mapping {
             inverse,
             weights,
             per_radius: None,
-            shear: [[1.0; MAX_POINTS]; 2],
         };
         if kind == Kind::Axisymmetric {
             let radius = out.interpolated(|k| nodes[k][0]);
@@ -122,9 +117,6 @@ impl Mapping {
                 *weight *= 2.0 * std::f64::consts::PI * r;
             }
             out.per_radius = Some(radius.map(|r| 1.0 / r));
-            for g in 0..MAX_POINTS {
-                [out.shear[0][g], out.shear[1][g]] = shear_factors(shape, nodes, radius[g]);
-            }
         }
         out
     }
@@ -187,8 +179,8 @@ impl Mapping {
         for g in 0..MAX_POINTS {
             out[0][g] = xi_x[g] * u_xi[g] + eta_x[g] * u_eta[g];
             out[1][g] = xi_y[g] * v_xi[g] + eta_y[g] * v_eta[g];
-            out[3][g] = self.shear[0][g] * (xi_y[g] * u_xi[g] + eta_y[g] * u_eta[g])
-                + self.shear[1][g] * (xi_x[g] * v_xi[g] + eta_x[g] * v_eta[g]);
+            out[3][g] = (xi_y[g] * u_xi[g] + eta_y[g] * u_eta[g])
+                + (xi_x[g] * v_xi[g] + eta_x[g] * v_eta[g]);
         }
         if let Some(per_radius) = &self.per_radius {
             let radial = self.interpolated(|k| u[k][0]);
@@ -211,11 +203,10 @@ impl Mapping {
                 weight * stress[1][g],
                 weight * stress[3][g],
             );
-            let [of_x, of_y] = self.shear.each_ref().map(|factor| factor[g] * shear);
-            fluxes[0][0][g] = xi_x[g] * x + xi_y[g] * of_x;
-            fluxes[0][1][g] = eta_x[g] * x + eta_y[g] * of_x;
-            fluxes[1][0][g] = xi_y[g] * y + xi_x[g] * of_y;
-            fluxes[1][1][g] = eta_y[g] * y + eta_x[g] * of_y;
+            fluxes[0][0][g] = xi_x[g] * x + xi_y[g] * shear;
+            fluxes[0][1][g] = eta_x[g] * x + eta_y[g] * shear;
+            fluxes[1][0][g] = xi_y[g] * y + xi_x[g] * shear;
+            fluxes[1][1][g] = eta_y[g] * y + eta_x[g] * shear;
         }
         let mut out = [[0.0; 2]; MAX_NODES];
         for (k, force) in out.iter_mut().enumerate().take(N) {

@@ -11,7 +11,7 @@
 //! K    = sum_g w_g B' (D - kappa 1 1') B + V kappa m m'      kappa the bulk modulus, V the volume
 //! ```
 //!
-//! (`c`, `p` and `kappa` are zero without B-bar; axisymmetric the two parts of `g_xy` have factors, see [`super::axis`]): for a quad4 about a sixth of the numbers of the full B. What one writes
+//! (`c`, `p` and `kappa` are zero without B-bar): for a quad4 about a sixth of the numbers of the full B. What one writes
 //! `B' sigma` in books is [`Form::forces`] here, `B u` is [`Form::strains`].
 //!
 //! # Source
@@ -23,11 +23,11 @@ use crate::material::Matrix4;
 /// Stresses or strains at the points of an element.
 pub type AtPoints = [[f64; 4]; MAX_POINTS];
 
-/// Most numbers of an operator: four points with weight, three gradients of eight nodes and two factors.
-pub const MAX_VALUES: usize = MAX_POINTS * (3 + 3 * MAX_NODES);
+/// Most numbers of an operator: four points with weight and three gradients of eight nodes.
+pub const MAX_VALUES: usize = MAX_POINTS * (1 + 3 * MAX_NODES);
 
-/// What stands in the values of an operator: per point weight, `n_x`, `n_y` and, axisymmetric, `n_r` of all nodes and the factors of `n_y` and `n_x` in the
-/// shear; then, with B-bar, `m_x` and `m_y` of all nodes.
+/// What stands in the values of an operator: per point weight, `n_x`, `n_y` and, axisymmetric, `n_r` of all nodes; then, with
+/// B-bar, `m_x` and `m_y` of all nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Form {
     /// Nodes of the element.
@@ -47,7 +47,7 @@ impl Form {
     }
 
     fn stride_of(self, n_nodes: usize) -> usize {
-        1 + 2 * n_nodes + (n_nodes + 2) * usize::from(self.is_axisymmetric)
+        1 + n_nodes * (2 + usize::from(self.is_axisymmetric))
     }
 
     /// Where the mean dilatation begins.
@@ -114,14 +114,14 @@ impl Form {
         let mut out = AtPoints::default();
         for (strain, point) in out.iter_mut().zip(self.points::<N>(values)) {
             let (x, y) = (&point[1..=N], &point[1 + N..=2 * N]);
-            let mut e = [dot::<N>(x, &u), dot::<N>(y, &v), 0.0, 0.0];
-            let shear = [dot::<N>(y, &u), dot::<N>(x, &v)];
+            let mut e = [
+                dot::<N>(x, &u),
+                dot::<N>(y, &v),
+                0.0,
+                dot::<N>(y, &u) + dot::<N>(x, &v),
+            ];
             if self.is_axisymmetric {
-                let factors = &point[1 + 3 * N..];
                 e[2] = dot::<N>(&point[1 + 2 * N..], &u);
-                e[3] = factors[0] * shear[0] + factors[1] * shear[1];
-            } else {
-                e[3] = shear[0] + shear[1];
             }
             if let Some(mean) = mean {
                 let change = (mean - (e[0] + e[1] + e[2])) / 3.0;
@@ -148,17 +148,14 @@ impl Form {
             let [sx, sy, sz, t] = [s[0] - p, s[1] - p, s[2] - p, s[3]].map(|s| weight * s);
             pressure += weight * p;
             let (x, y) = (&point[1..=N], &point[1 + N..=2 * N]);
-            let mut shear = [t; 2];
+            for k in 0..N {
+                fx[k] += x[k] * sx + y[k] * t;
+                fy[k] += y[k] * sy + x[k] * t;
+            }
             if self.is_axisymmetric {
-                let factors = &point[1 + 3 * N..];
-                shear = [factors[0] * t, factors[1] * t];
                 for (f, r) in fx.iter_mut().zip(&point[1 + 2 * N..]) {
                     *f += r * sz;
                 }
-            }
-            for k in 0..N {
-                fx[k] += x[k] * sx + y[k] * shear[0];
-                fy[k] += y[k] * sy + x[k] * shear[1];
             }
         }
         if let Some((x, y)) = self.mean::<N>(values) {
@@ -193,29 +190,23 @@ impl Form {
             let shear = weight * elastic[3][3];
             let (x, y) = (&point[1..=N], &point[1 + N..=2 * N]);
             let mut r = [0.0; N];
-            // The gradients in the shear: of displacements along x, and along y.
-            let mut sheared: [[f64; N]; 2] = [y, x].map(|n| std::array::from_fn(|k| n[k]));
             if self.is_axisymmetric {
                 r.copy_from_slice(&point[1 + 2 * N..=3 * N]);
-                for (gradients, factor) in sheared.iter_mut().zip(&point[1 + 3 * N..]) {
-                    gradients.iter_mut().for_each(|n| *n *= factor);
-                }
             }
-            let [by_x, by_y] = &sheared;
             for j in 0..N {
                 // Stresses of a unit displacement of node j along x and along y.
                 let along_x: [f64; 3] = std::array::from_fn(|i| d[i][0] * x[j] + d[i][2] * r[j]);
                 let along_y: [f64; 3] = std::array::from_fn(|i| d[i][1] * y[j]);
-                let (shear_x, shear_y) = (shear * by_x[j], shear * by_y[j]);
+                let (shear_x, shear_y) = (shear * y[j], shear * x[j]);
                 for i in j..N {
                     let column = 2 * j;
                     let upper = row_start(2 * i) + column;
                     let lower = row_start(2 * i + 1) + column;
-                    out[upper] += x[i] * along_x[0] + r[i] * along_x[2] + by_x[i] * shear_x;
-                    out[lower] += y[i] * along_x[1] + by_y[i] * shear_x;
-                    out[lower + 1] += y[i] * along_y[1] + by_y[i] * shear_y;
+                    out[upper] += x[i] * along_x[0] + r[i] * along_x[2] + y[i] * shear_x;
+                    out[lower] += y[i] * along_x[1] + x[i] * shear_x;
+                    out[lower + 1] += y[i] * along_y[1] + x[i] * shear_y;
                     if i > j {
-                        out[upper + 1] += x[i] * along_y[0] + r[i] * along_y[2] + by_x[i] * shear_y;
+                        out[upper + 1] += x[i] * along_y[0] + r[i] * along_y[2] + y[i] * shear_y;
                     }
                 }
             }

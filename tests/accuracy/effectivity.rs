@@ -4,7 +4,7 @@
 //! 1e-4, the error of the finest mesh here.
 
 use crate::running;
-use brinell::accuracy::{Extent, estimate, quantities, value_of};
+use brinell::accuracy::{Extent, estimate};
 use brinell::analysis::Analysis;
 use brinell::analytical::{HertzLine, HertzPoint, Plane, ThickCylinder, contact_modulus};
 use brinell::linalg::Backend;
@@ -120,14 +120,10 @@ const RESOLUTIONS: [usize; 18] = [
     4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 18, 20, 24, 28, 32,
 ];
 
-/// The pressure under a ball is the mean over a node's share of the surface, too low by the square of the mesh, of a pressure that is too high because the contact ends
-/// inside an element: from 4 elements on what is left of the two is less than this share of it and changes irregularly. There the estimate has to be as small.
-const CANCELLED: f64 = 1e-3;
-
-fn check(name: &str, far_size: f64, exact: [f64; 2], cancelled: f64) {
+fn check(name: &str, far_size: f64, exact: [f64; 2]) {
     let mut outside = Vec::new();
     for n in RESOLUTIONS {
-        let (results, accuracy) = estimated(&hertz(name, n, far_size), Extent::Yield);
+        let (_, accuracy) = estimated(&hertz(name, n, far_size), Extent::Yield);
         let found = [
             effectivity(&accuracy, "yield.load", exact[0]),
             effectivity(&accuracy, "yield.max_pressure", exact[1]),
@@ -136,11 +132,7 @@ fn check(name: &str, far_size: f64, exact: [f64; 2], cancelled: f64) {
             "{name} {n}: yield load {:.2}, pressure {:.2}",
             found[0], found[1]
         );
-        let [load, pressure] = found.map(|e| (0.5..=2.0).contains(&e));
-        let true_error =
-            (value_of(&quantities(&results), "yield.max_pressure").unwrap() - exact[1]).abs();
-        let is_small = true_error.max(true_error * found[1]) < cancelled * exact[1];
-        if !(load && (pressure || is_small)) {
+        if found.iter().any(|e| !(0.5..=2.0).contains(e)) {
             outside.push((n, found));
         }
     }
@@ -155,7 +147,7 @@ fn hertz_line_yield_load_and_pressure() {
         line.yield_load(0.3, YIELD_STRESS),
         HertzLine::yield_pressure(0.3, YIELD_STRESS),
     ];
-    check("cylinder_on_half_plane", 20e3, exact, 0.0);
+    check("cylinder_on_half_plane", 20e3, exact);
 }
 
 #[test]
@@ -166,7 +158,7 @@ fn hertz_point_yield_load_and_pressure() {
         point.yield_load(0.3, YIELD_STRESS),
         HertzPoint::yield_pressure(0.3, YIELD_STRESS),
     ];
-    check("ball_on_half_space", 2e3, exact, CANCELLED);
+    check("ball_on_half_space", 2e3, exact);
 }
 
 #[test]

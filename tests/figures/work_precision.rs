@@ -132,8 +132,8 @@ const CASES: [Case; 6] = [
         demands: ALL,
         extent: Extent::Yield,
         theory: EDGE,
-        remark: "The largest pressure is the mean over the share of the node on the axis, too low by the square of the mesh, of one that is too high because the contact ends \
-                     inside an element: what is left of the two is below 0.1 % from the coarsest mesh on and has no order.",
+        remark: "The largest pressure is that of the node on the axis, whose share of the surface is the least well known: order 1.4 \
+                 only, and the price of every digit of this scene.",
     },
     Case {
         name: "thick_cylinder",
