@@ -277,9 +277,10 @@ fn a_demand_costs_little_more_than_the_cheapest_setting_picked_by_hand() {
         });
         let mut prices: Vec<f64> = prices.collect();
         prices.sort_by(f64::total_cmp);
-        if let (Some(middle), Some(most)) = (prices.get(prices.len() / 2), case.graded) {
+        if let Some(most) = case.graded {
+            let middle = prices[prices.len() / 2];
             println!("  in the middle {middle:.2}");
-            if *middle > most {
+            if middle > most {
                 missed.push(format!("{} graded: {middle}", case.name));
             }
         }
