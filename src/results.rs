@@ -141,8 +141,17 @@ pub struct State {
     /// For contacts on a circle: begin and end of the contact, in degrees from the middle of the
     /// contact's axis (the pole); `None` elsewhere.
     pub contact_arc: Option<[f64; 2]>,
-    /// Gap at the first pair minus its initial gap, with rigid motion taken off: the dent left in the surfaces.
+    /// The dent that the plastic strains leave once all loads and contact forces are gone: how far the two
+    /// surfaces of a contact have moved away from each other where that is most, each measured from its
+    /// undeformed shape. Rigid motion is that of the far boundary: supports, for a body without them the
+    /// surface through which it is loaded.
     pub residual_depth: f64,
+    /// Each body's share in it: depth of its surface below the undeformed one at the deepest place of its
+    /// contacts. The shares of two bodies in one contact add up to its dent.
+    pub residual_depth_by_body: Vec<f64>,
+    /// Height of the rim beside the dent: the most that the surface of a body rises above its undeformed shape
+    /// among the contact candidates.
+    pub rim_height: f64,
     /// Gauss points with plastic strain.
     pub plastic_points: usize,
     /// Gauss points per body with plastic strain.

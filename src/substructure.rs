@@ -332,15 +332,8 @@ fn contact_freedoms(model: &Model) -> Result<Vec<usize>> {
 /// The rigid motions of floating bodies on the contact freedoms.
 fn traces(model: &Model, partition: &Partition) -> Vec<Trace> {
     let values = |motion: &RigidMotion| {
-        DVector::from_iterator(
-            partition.contact.len(),
-            partition.contact.iter().map(|&freedom| {
-                let place = motion
-                    .values
-                    .binary_search_by_key(&(freedom as u32), |&(f, _)| f);
-                place.map_or(0.0, |at| motion.values[at].1)
-            }),
-        )
+        let values = partition.contact.iter().map(|&f| motion.at(f));
+        DVector::from_iterator(partition.contact.len(), values)
     };
     let n_motions = model.floating.motions.len();
     let motions = model.floating.motions.iter();

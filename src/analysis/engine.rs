@@ -68,6 +68,10 @@ pub struct Engine<'m> {
     pub(super) reduced_loads: Vec<Vec<f64>>,
     /// Condensed loads at factor 1.
     pub(super) loads: Vec<EliminatedLoad>,
+    /// Weights of each rigid motion in the far boundary ([`RigidMotion::in_far_boundary`]), reduced as loads are.
+    reduced_far: Vec<Vec<f64>>,
+    /// The same on zone and contact freedoms: times their displacements they give the motion's amplitude.
+    pub(super) far: Vec<Trailing>,
     /// Forces `t` of the tied pairs for each load at factor 1.
     pub(super) load_forces: Vec<Vec<f64>>,
     pub(super) gap: Vec<f64>,
@@ -146,6 +150,8 @@ impl<'m> Engine<'m> {
             tableau: sub.tableau(),
             reduced_loads: Vec::new(),
             loads: Vec::new(),
+            reduced_far: Vec::new(),
+            far: Vec::new(),
             load_forces: Vec::new(),
             gap_forces: [Vec::new(), Vec::new()],
             unit: 1.0,
@@ -251,13 +257,36 @@ impl<'m> Engine<'m> {
             .collect();
         self.reduced_loads = reduced?;
         self.counts.full_solves += self.reduced_loads.len();
+        self.reduce_far_boundary()?;
         self.condense_loads()?;
         self.load_forces = self.loads.iter().map(|l| l.forces.clone()).collect();
         Ok(())
     }
 
+    /// The weights of rigid motions in the far boundary are reduced like loads: with forces on zone and contact
+    /// freedoms alone, `w.u` of all freedoms is that of the condensed weights and the condensed structure's `u`
+    /// (Betti). Only dents ask for it.
+    fn reduce_far_boundary(&mut self) -> Result<()> {
+        let (floating, n) = (&self.model.floating, self.model.freedoms.n);
+        if self.gap.is_empty() || !self.model.may_yield.contains(&true) {
+            return Ok(());
+        }
+        let reduced = floating.motions.iter().map(|motion| {
+            let mut weights = vec![0.0; n];
+            for &(freedom, weight) in &motion.in_far_boundary {
+                weights[freedom as usize] = weight;
+            }
+            self.sub.reduce(&weights)
+        });
+        self.reduced_far = reduced.collect::<Result<_>>()?;
+        self.counts.full_solves += self.reduced_far.len();
+        Ok(())
+    }
+
     /// What loads at factor 1 do to the zone, after it was chosen.
     fn condense_loads(&mut self) -> Result<()> {
+        let far = self.reduced_far.iter().map(|w| self.sub.condense(w));
+        self.far = far.collect::<Result<_>>()?;
         let reduced = self.reduced_loads.iter();
         let condensed: Result<Vec<_>> = reduced.map(|l| self.sub.condense(l)).collect();
         let condensed = condensed?.into_iter();

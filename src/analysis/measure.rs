@@ -1,4 +1,4 @@
-//! What a user reads off a state: pressure, contact half width, contact arc, dent, approach.
+//! What a user reads off a state: pressure, contact half width, contact arc, approach.
 
 use super::contact_edge::{EdgePoint, Tail};
 use super::engine::Engine;
@@ -44,7 +44,7 @@ pub fn pressures(model: &Model, force: &[f64]) -> Vec<f64> {
 }
 
 /// The even continuation of a quantity of the pairs to the axis of revolution, where a contact reaches it without a pair there.
-fn on_axis(model: &Model, contact: &ContactSurface, values: &[f64]) -> Option<f64> {
+pub(super) fn on_axis(model: &Model, contact: &ContactSurface, values: &[f64]) -> Option<f64> {
     let axis = contact.axis?;
     let range = contact.range.clone();
     let (near, next) = if axis.begins {
@@ -353,32 +353,5 @@ impl Engine<'_> {
             share * (d[0] * load.direction[0] + d[1] * load.direction[1])
         });
         along.sum()
-    }
-
-    /// The dent that the plastic strains alone leave: largest opening of a pair under the initial loads with all contact
-    /// taken away; where a body is held by contact alone (its rigid motion then is free) relative to the pair with the largest
-    /// initial gap of the same contact.
-    pub fn residual_depth(&mut self) -> f64 {
-        if self.now.initial.load.largest() == 0.0 || self.now.gap.is_empty() {
-            return 0.0;
-        }
-        let forces = &self.now.initial.forces;
-        let mut unloaded = self.sub.tableau();
-        unloaded.reset(&vec![true; forces.len()]);
-        let (mut gap, mut force) = (vec![0.0; forces.len()], vec![0.0; forces.len()]);
-        unloaded.solve(forces, &mut gap, &mut force);
-        let floating = !self.model.floating.bodies.is_empty();
-        let deepest = |range: std::ops::Range<usize>| {
-            let outermost = range
-                .clone()
-                .max_by(|&a, &b| self.model.pairs[a].gap.total_cmp(&self.model.pairs[b].gap));
-            let level = outermost.filter(|_| floating).map_or(0.0, |k| gap[k]);
-            range.map(|k| gap[k] - level).fold(0.0, f64::max)
-        };
-        self.model
-            .contacts
-            .iter()
-            .map(|c| deepest(c.range.clone()))
-            .fold(0.0, f64::max)
     }
 }

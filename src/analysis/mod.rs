@@ -11,7 +11,7 @@
 //! | `program`, `targets`, `drive`, `stepping`, `hit` | from target to target, loading and unloading | 5.1, 5.2 |
 //! | `keeper`, `resume`, `place`, `standing`, `record`, `saved`, `packed` | checkpoints, and going on from them | |
 //! | `aim` | how much of the way to a target lies behind | |
-//! | `measure`, `contact_edge`, `state`, `quality` | pressure, half width, dent, quality of a state | 5 |
+//! | `measure`, `contact_edge`, `dent`, `state`, `quality` | pressure, half width, dent, quality of a state | 5 |
 //! | `stress_field`, `stresses` | stresses of all elements, the forces they exert | |
 //! | `indicator` | discretisation error of the stresses, element by element | |
 //! | `check`, `reference` | effects and cost before a run; published values beside the computed ones | 5.1, 5.2 |
@@ -20,6 +20,7 @@ mod acceleration;
 mod aim;
 mod check;
 mod contact_edge;
+mod dent;
 mod drive;
 mod elastic;
 mod engine;

@@ -34,7 +34,7 @@ impl Engine<'_> {
         });
         self.stress_seconds = begun.elapsed().as_secs_f64();
         let figures = self.contact_figures();
-        let residual_depth = self.residual_depth();
+        let dent = self.dent();
         let arc = figures
             .patch
             .and_then(|patch| contact_arc(self.model, figures.contact, patch));
@@ -60,7 +60,9 @@ impl Engine<'_> {
             pole_pressure: figures.pole_pressure,
             half_width: figures.half_width,
             contact_arc: arc,
-            residual_depth,
+            residual_depth: dent.depth,
+            residual_depth_by_body: dent.by_body,
+            rim_height: dent.rim,
             plastic_points: plastic_points.iter().sum(),
             plastic_points_by_body: plastic_points,
             max_equivalent_plastic_strain: plastic_strain,

@@ -5,7 +5,7 @@
 //! no load does work on it: then one freedom is pinned, which changes nothing but the free motion.
 
 use super::motions::Motions;
-use super::{Freedoms, LoadCase, Pair};
+use super::{Freedoms, LoadCase, Pair, far_boundary};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
 use crate::scene::Kind;
@@ -35,6 +35,18 @@ pub struct RigidMotion {
     /// Displacement of the freedoms that move (free freedom, value), ascending. Turns are scaled to the body's size: values are of
     /// order 1.
     pub values: Vec<(u32, f64)>,
+    /// Share of the motion in any displacement `u`, as the part's far boundary shows it: `sum weight u[freedom]`.
+    pub in_far_boundary: Vec<(u32, f64)>,
+}
+
+impl RigidMotion {
+    /// Displacement of a free freedom.
+    pub fn at(&self, freedom: usize) -> f64 {
+        let place = self
+            .values
+            .binary_search_by_key(&(freedom as u32), |&(f, _)| f);
+        place.map_or(0.0, |at| self.values[at].1)
+    }
 }
 
 /// A freedom that was held because nothing else held it and no load works on its motion.
@@ -121,8 +133,11 @@ pub(super) fn resolve(
             Some(RigidMotion {
                 part: part[group],
                 values: motions.on_freedoms(mode, freedoms),
+                in_far_boundary: Vec::new(),
             })
         })
         .collect();
+    let part_of_node: Vec<usize> = motions.group_of_node.iter().map(|&g| part[g]).collect();
+    far_boundary::measure(&mut floating.motions, &part_of_node, freedoms, pairs, loads);
     Ok(floating)
 }

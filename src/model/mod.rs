@@ -4,6 +4,7 @@
 //! after works with numbers only.
 
 mod builder;
+mod far_boundary;
 mod freedoms;
 mod given;
 mod held;

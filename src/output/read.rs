@@ -236,6 +236,12 @@ fn state(header: &RunHeader, entry: &Value) -> State {
             .is_object()
             .then(|| [float(&arc["from"]), float(&arc["to"])]),
         residual_depth: float(&entry["residual_depth"]),
+        residual_depth_by_body: header
+            .bodies
+            .iter()
+            .map(|body| float(&entry["residual_depth_by_body"][body.as_str()]))
+            .collect(),
+        rim_height: float(&entry["rim_height"]),
         plastic_points: count(&entry["plastic_points"]),
         plastic_points_by_body: header
             .bodies

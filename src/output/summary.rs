@@ -115,10 +115,8 @@ fn first_yield(header: &RunHeader, point: &YieldPoint) -> Value {
 }
 
 fn state(header: &RunHeader, index: usize, n_states: usize, state: &State) -> Value {
-    let by_body = state.plastic_points_by_body.iter().enumerate();
-    let by_body: Map<String, Value> = by_body
-        .map(|(body, &points)| (header.body(body), points.into()))
-        .collect();
+    let points = by_body(header, &state.plastic_points_by_body);
+    let depths = by_body(header, &state.residual_depth_by_body);
     let closed = state.pairs.iter().filter(|p| p.status == Status::Closed);
     let file = state.fields.as_ref();
     json!({
@@ -132,15 +130,25 @@ fn state(header: &RunHeader, index: usize, n_states: usize, state: &State) -> Va
         "half_width": state.half_width,
         "contact_arc": state.contact_arc.map(|[from, to]| json!({ "from": from, "to": to })),
         "residual_depth": state.residual_depth,
+        "residual_depth_by_body": depths,
+        "rim_height": state.rim_height,
         "approach": state.approach,
         "plastic_points": state.plastic_points,
-        "plastic_points_by_body": by_body,
+        "plastic_points_by_body": points,
         "max_equivalent_plastic_strain": state.max_equivalent_plastic_strain,
         "plastic_zone_size": state.plastic_zone_size,
         "energy_error": state.energy_error,
         "quality": state.quality,
         "fields": file.map(|_| fields::file_name(index, n_states, &state.name)),
     })
+}
+
+/// A figure of each body, by its name.
+fn by_body<T: Copy + Into<Value>>(header: &RunHeader, figures: &[T]) -> Map<String, Value> {
+    let named = figures.iter().enumerate();
+    named
+        .map(|(i, &figure)| (header.body(i), figure.into()))
+        .collect()
 }
 
 fn reference(row: &ReferenceRow) -> Value {

@@ -1,0 +1,145 @@
+//! How far a floating body has moved as a whole, as the boundary shows that is far from contact.
+//!
+//! The dent of a body is measured from where its undeformed surface would be. Supports say where that is; a
+//! body that only contact holds has none, and the surface through which it is loaded takes their place. The
+//! rigid motion `sum a_j R_j` that fits the displacement `u` of its nodes best,
+//!
+//! ```text
+//!     a = G^-1 b,    G_ij = sum_f w_f R_if R_jf,    b_i = sum_f w_f R_if u_f
+//! ```
+//!
+//! is linear in `u`: each `a_j` is a row of weights on the freedoms `f` of these nodes. `w_f` is the node's
+//! share in the loaded surface.
+
+use super::{Freedoms, LoadCase, Pair, RigidMotion, Slot};
+use nalgebra::{DMatrix, SymmetricEigen};
+use std::collections::BTreeMap;
+
+/// Smallest eigenvalue of `G`, scaled to a unit diagonal, at which the motions count as told apart by the
+/// nodes: half of the digits are left.
+const TOLD_APART: f64 = 1e-8;
+
+/// Finds the weights of each motion ([`RigidMotion::in_far_boundary`]): on the loaded nodes of its part, on all
+/// of its nodes but those of contact pairs where there are none or where they do not tell the motions apart.
+pub(super) fn measure(
+    motions: &mut [RigidMotion],
+    part_of_node: &[usize],
+    freedoms: &Freedoms,
+    pairs: &[Pair],
+    loads: &[LoadCase],
+) {
+    let mut may_touch = vec![false; part_of_node.len()];
+    for pair in pairs {
+        may_touch[pair.first] = true;
+        may_touch[pair.second] = true;
+    }
+    let mut parts: Vec<usize> = motions.iter().map(|motion| motion.part).collect();
+    parts.sort_unstable();
+    parts.dedup();
+    for part in parts {
+        let belongs = |node: &usize| part_of_node[*node] == part && !may_touch[*node];
+        let loaded = loads
+            .iter()
+            .flat_map(|load| load.nodes.iter().copied().zip(load.shares.iter().copied()))
+            .filter(|(node, _)| belongs(node));
+        let all = (0..part_of_node.len()).filter(belongs).map(|n| (n, 1.0));
+        let of_part: Vec<usize> = (0..motions.len())
+            .filter(|&j| motions[j].part == part)
+            .collect();
+        let values: Vec<&[(u32, f64)]> = of_part.iter().map(|&j| &*motions[j].values).collect();
+        let fitted = fit(&values, &on_freedoms(freedoms, loaded))
+            .or_else(|| fit(&values, &on_freedoms(freedoms, all)));
+        for (&j, weights) in of_part.iter().zip(fitted.unwrap_or_default()) {
+            motions[j].in_far_boundary = weights;
+        }
+    }
+}
+
+/// The weight of each free freedom of these nodes; what several nodes share counts as often.
+fn on_freedoms(
+    freedoms: &Freedoms,
+    nodes: impl Iterator<Item = (usize, f64)>,
+) -> BTreeMap<u32, f64> {
+    let mut out = BTreeMap::new();
+    for (node, weight) in nodes {
+        for slot in freedoms.slots[node] {
+            if let Slot::Free(freedom) = slot {
+                *out.entry(freedom).or_insert(0.0) += weight;
+            }
+        }
+    }
+    out
+}
+
+/// The rows of `G^-1 R' W`; `None` where these freedoms do not tell the motions apart.
+fn fit(motions: &[&[(u32, f64)]], weights: &BTreeMap<u32, f64>) -> Option<Vec<Vec<(u32, f64)>>> {
+    let m = motions.len();
+    let freedoms: Vec<(u32, f64)> = weights.iter().map(|(&f, &w)| (f, w)).collect();
+    let value = |j: usize, freedom: u32| {
+        let place = motions[j].binary_search_by_key(&freedom, |&(f, _)| f);
+        place.map_or(0.0, |at| motions[j][at].1)
+    };
+    let moved = DMatrix::from_fn(freedoms.len(), m, |i, j| value(j, freedoms[i].0));
+    let weighted = DMatrix::from_fn(freedoms.len(), m, |i, j| freedoms[i].1 * moved[(i, j)]);
+    let gram = moved.tr_mul(&weighted);
+    let scale: Vec<f64> = (0..m).map(|j| gram[(j, j)].sqrt()).collect();
+    if m == 0 || scale.iter().any(|s| *s <= 0.0) {
+        return None;
+    }
+    let scaled = DMatrix::from_fn(m, m, |i, j| gram[(i, j)] / (scale[i] * scale[j]));
+    let smallest = SymmetricEigen::new(scaled.clone()).eigenvalues.min();
+    let inverse = scaled
+        .cholesky()
+        .filter(|_| smallest > TOLD_APART)?
+        .inverse();
+    let row = |j: usize| {
+        let weight = |k: usize| -> f64 {
+            let sum: f64 = (0..m)
+                .map(|i| inverse[(j, i)] * weighted[(k, i)] / scale[i])
+                .sum();
+            sum / scale[j]
+        };
+        let entries = freedoms
+            .iter()
+            .enumerate()
+            .map(|(k, &(f, _))| (f, weight(k)));
+        entries.filter(|(_, w)| *w != 0.0).collect()
+    };
+    Some((0..m).map(row).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_weights_give_back_the_amplitudes_of_rigid_motions() {
+        // Two freedoms each of three nodes: a shift along x, one along y, and a turn.
+        let place = [[0.0, 0.0], [2.0, 0.0], [1.0, 3.0f64]];
+        let motion = |of: &dyn Fn([f64; 2]) -> [f64; 2]| -> Vec<(u32, f64)> {
+            let values = place.iter().flat_map(|&x| of(x)).enumerate();
+            values.map(|(f, v)| (f as u32, v)).collect()
+        };
+        let motions = [
+            motion(&|_| [1.0, 0.0]),
+            motion(&|_| [0.0, 1.0]),
+            motion(&|x| [-x[1], x[0]]),
+        ];
+        let motions: Vec<&[(u32, f64)]> = motions.iter().map(Vec::as_slice).collect();
+        let weights = (0..6)
+            .map(|f| (f, [0.2, 0.5, 0.3][f as usize / 2]))
+            .collect();
+        let rows = fit(&motions, &weights).unwrap();
+        let amplitudes = [0.7, -1.3, 0.01];
+        for (row, amplitude) in rows.iter().zip(amplitudes) {
+            let displacement = |f: u32| -> f64 {
+                let moved = motions.iter().zip(amplitudes);
+                moved.map(|(m, a)| a * m[f as usize].1).sum()
+            };
+            let found: f64 = row.iter().map(|&(f, w)| w * displacement(f)).sum();
+            assert!((found - amplitude).abs() < 1e-14, "{found} {amplitude}");
+        }
+        // One node shows no turn about itself.
+        assert!(fit(&motions, &[(0, 1.0), (1, 1.0)].into()).is_none());
+    }
+}
