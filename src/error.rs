@@ -24,6 +24,8 @@ pub enum ErrorKind {
     Collapse,
     /// The run ended, but a state's quality misses its tolerance, or a demanded accuracy was not reached. Exit code 7.
     Inaccurate,
+    /// Contact reached the end of its candidates although the bodies go on there; what was computed before is right. Exit code 8.
+    Outgrown,
     /// The caller or the user stopped the run. Exit code 130.
     Stopped,
     /// A fault of brinell itself. Exit code 70.
@@ -40,6 +42,7 @@ impl ErrorKind {
             ErrorKind::Analysis => 5,
             ErrorKind::Collapse => 6,
             ErrorKind::Inaccurate => 7,
+            ErrorKind::Outgrown => 8,
             ErrorKind::Internal => 70,
             ErrorKind::Stopped => 130,
         }

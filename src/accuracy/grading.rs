@@ -20,6 +20,7 @@
 use super::quantities::{Quantity, value_of};
 use super::refinement::{MOST_GROWTH, refined};
 use crate::mesh::generate;
+use crate::model::contact_size;
 use crate::scene::{Kind, MeshSource, Scene};
 
 /// Power of the distance with which the logarithm of the growth rises. Stresses under a load decay with `1/r`, what a stress at distance
@@ -185,10 +186,9 @@ pub(super) fn balanced(pilot: &Scene, shares: &[Share], most: f64) -> Option<(Sc
         .map(|(_, shaped, near)| (shaped, near))
 }
 
-/// Elements of a generated mesh; the contact half width, which scales that of a cylinder on a half plane, does not matter for it.
+/// Elements of a generated mesh.
 pub(super) fn elements(scene: &Scene) -> Option<usize> {
-    let radius = (scene.mesh.cylinder_on_half_plane.as_ref()).map_or(1.0, |p| p.radius);
-    generate::from_source(&scene.mesh, None, |p| Ok(1e-3 * radius / p.fine_width))
+    generate::from_source(&scene.mesh, None, |p| contact_size::of(scene, p))
         .ok()
         .map(|mesh| mesh.n_elements())
 }

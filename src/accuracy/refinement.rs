@@ -6,6 +6,7 @@
 
 use crate::error::Result;
 use crate::mesh::{Shape, generate};
+use crate::model::contact_size;
 use crate::scene::{MeshSource, Part, Scene};
 
 /// Elements over the part of the mesh that governs the result (the contact, the thickness of a part) below which a mesh tells
@@ -280,18 +281,12 @@ fn ends_on_nodes(part: &Part, axis: usize, elements: Option<usize>) -> bool {
     })
 }
 
-/// Whether the generator makes the mesh: a family ends where it refuses. The contact half width, which scales the mesh of a
-/// cylinder on a half plane, does not matter for that.
+/// Whether the generator makes the mesh: a family ends where it refuses.
 fn can_be_made(scene: &Scene) -> Result<()> {
     if scene.mesh.file.is_some() {
         return Ok(());
     }
-    let radius = scene
-        .mesh
-        .cylinder_on_half_plane
-        .as_ref()
-        .map_or(1.0, |p| p.radius);
-    generate::from_source(&scene.mesh, None, |p| Ok(1e-3 * radius / p.fine_width)).map(drop)
+    generate::from_source(&scene.mesh, None, |p| contact_size::of(scene, p)).map(drop)
 }
 
 #[cfg(test)]

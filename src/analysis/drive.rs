@@ -86,6 +86,7 @@ impl Engine<'_> {
         leg: Option<Leg>,
         watcher: &mut dyn Watcher,
     ) -> Result<Arrival> {
+        self.reached = self.at.alpha;
         let resumed = match leg {
             Some(Leg::Elastic { piece, watched }) => Some((*piece, watched)),
             _ => None,
@@ -193,8 +194,8 @@ impl Engine<'_> {
     ) -> Result<bool> {
         self.update_scales();
         let trailing_solves = self.counts.trailing_solves - solves_before;
-        watcher.increment(
-            self,
+        self.accepted(
+            watcher,
             &IncrementReport {
                 event: event.to_string(),
                 trailing_solves,
@@ -215,6 +216,7 @@ impl Engine<'_> {
         leg: Option<Leg>,
         watcher: &mut dyn Watcher,
     ) -> Result<Arrival> {
+        self.reached = self.at.alpha;
         let mut leg = match leg {
             Some(Leg::Plastic(leg)) => leg,
             _ => {
@@ -290,7 +292,7 @@ impl Engine<'_> {
                     self.hit(end, &saved, stepper, monitor, [was, is], &mut reported)?;
                     reported.trailing_solves = self.counts.trailing_solves - solves;
                     reported.event = "target".to_string();
-                    watcher.increment(self, &reported)?;
+                    self.accepted(watcher, &reported)?;
                     return Ok(Arrival::Monitor);
                 }
                 leg.watched = Some(is);
@@ -305,7 +307,7 @@ impl Engine<'_> {
                 reported.event = "step".to_string();
             }
             stepper.taken.update(|taken| taken + usize::from(full));
-            let goes_on = watcher.increment(self, &reported)?;
+            let goes_on = self.accepted(watcher, &reported)?;
             if goes_on && at_end {
                 return Ok(Arrival::End);
             }

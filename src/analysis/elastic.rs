@@ -208,14 +208,14 @@ impl Engine<'_> {
                     })?;
                     piece.go_back(self, t);
                     self.refresh();
-                    watcher.increment(self, &reported)?;
+                    self.accepted(watcher, &reported)?;
                     return Ok(Some(Arrival::Monitor));
                 }
                 leg.watched = Some(is);
             }
             let PathEnd::Event(changes) = outcome else {
                 self.at = end.clone();
-                let goes_on = watcher.increment(self, &reported)?;
+                let goes_on = self.accepted(watcher, &reported)?;
                 return Ok(Some(if goes_on {
                     Arrival::End
                 } else {
@@ -233,11 +233,11 @@ impl Engine<'_> {
             if piece.turn(self).is_err() {
                 // No rates beyond this event: elastoplastic increments find out why.
                 self.set_statuses(&before_turn, border);
-                watcher.increment(self, &reported)?;
+                self.accepted(watcher, &reported)?;
                 return Ok(None);
             }
             open = self.tableau.open().to_vec();
-            let goes_on = watcher.increment(self, &reported)?;
+            let goes_on = self.accepted(watcher, &reported)?;
             watcher.resumable(self, &|| {
                 let following = Following {
                     start: start.clone(),

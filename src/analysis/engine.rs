@@ -93,6 +93,8 @@ pub struct Engine<'m> {
     pub displacement_scale: f64,
     /// Current load point.
     pub at: LoadPoint,
+    /// Load factor of the last accepted increment.
+    pub reached: f64,
     /// Current equilibrium; its displacements are valid where `fresh`.
     pub now: Equilibrium,
     /// Whether the displacements belong to the current gaps and forces.
@@ -163,6 +165,7 @@ impl<'m> Engine<'m> {
             force_scale: 0.0,
             condition,
             displacement_scale: 0.0,
+            reached: 0.0,
             at: LoadPoint {
                 alpha: 0.0,
                 factors: vec![0.0; model.loads.len()],

@@ -9,6 +9,7 @@
 //! | `zone`, `gather`, `zone_choice`, `zone_fit` | elements that may yield, initial loads, their choice and growth | 4.1 |
 //! | `tangent`, `acceleration` | acceleration of the plastic iteration | |
 //! | `program`, `targets`, `drive`, `stepping`, `hit` | from target to target, loading and unloading | 5.1, 5.2 |
+//! | `outgrown` | contact that reaches the end of its candidates | |
 //! | `keeper`, `resume`, `place`, `standing`, `record`, `saved`, `packed` | checkpoints, and going on from them | |
 //! | `aim` | how much of the way to a target lies behind | |
 //! | `measure`, `contact_edge`, `dent`, `state`, `quality` | pressure, half width, dent, quality of a state | 5 |
@@ -34,6 +35,7 @@ mod indicator;
 mod keeper;
 mod measure;
 mod mirror;
+mod outgrown;
 mod packed;
 mod patch;
 mod place;

@@ -19,6 +19,8 @@ pub const BRINELL_ANALYSIS: i32 = 5;
 pub const BRINELL_COLLAPSE: i32 = 6;
 /// The run is complete, but a state's quality misses its tolerance, or an accuracy that the scene demands was not reached.
 pub const BRINELL_INACCURATE: i32 = 7;
+/// Contact reached the end of its candidates although the bodies go on there.
+pub const BRINELL_OUTGROWN: i32 = 8;
 /// A fault of brinell itself.
 pub const BRINELL_INTERNAL: i32 = 70;
 /// The callback stopped the run.

@@ -4,6 +4,8 @@
 //! after works with numbers only.
 
 mod builder;
+pub(crate) mod contact_size;
+mod ends;
 mod far_boundary;
 mod freedoms;
 mod given;
@@ -21,7 +23,6 @@ pub use held::{FloatingBodies, Pin, RigidMotion};
 pub use loads::{LoadCase, Magnitude};
 pub use pairs::{AxisPoint, ContactSurface, Pair};
 
-use crate::analytical::{self, HertzLine, HertzPoint};
 use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::mesh::{self, Mesh, Shape};
@@ -125,12 +126,13 @@ impl Model {
         if kind == Kind::Axisymmetric {
             check_radii(&mesh)?;
         }
-        let (mut pairs, contacts) = pairs::resolve(scene, &mesh, given)?;
+        let (mut pairs, mut contacts) = pairs::resolve(scene, &mesh, given)?;
         let mut freedoms = Freedoms::new(scene, &mesh, &mut pairs)?;
         let loads = loads::resolve(scene, &mesh, given, &freedoms)?;
         check_targets(scene, &mesh)?;
         let floating = held::resolve(kind, &mesh, &mut freedoms, &pairs, &loads, &mut warnings)?;
         let loads = loads::renumber(loads, &freedoms);
+        ends::find(&mesh, &freedoms, &pairs, &mut contacts);
         Ok(Model {
             scene: scene.clone(),
             kind,
@@ -188,8 +190,7 @@ impl Model {
 
 fn build_mesh(scene: &Scene) -> Result<Mesh> {
     let folder = scene.file.as_deref().and_then(std::path::Path::parent);
-    let made =
-        mesh::generate::from_source(&scene.mesh, folder, |p| yield_half_width(scene, p.radius));
+    let made = mesh::generate::from_source(&scene.mesh, folder, |p| contact_size::of(scene, p));
     let mut mesh = made.map_err(|error| match scene.mesh.file {
         Some(_) => scene.places.in_front("mesh.file", error),
         None => scene.places.in_front("mesh", error),
@@ -212,45 +213,6 @@ fn build_mesh(scene: &Scene) -> Result<Mesh> {
         e.within("the subdivided mesh (is a surface that is laid on its circle too far from it for the elements beside it?)")
     })?;
     Ok(finer)
-}
-
-/// Contact half width (radius) at first yield by Hertz, for the weaker of the two bodies: sizes the generated mesh.
-fn yield_half_width(scene: &Scene, radius: f64) -> Result<f64> {
-    let of = |body: &str| {
-        scene
-            .bodies
-            .get(body)
-            .and_then(|b| scene.materials.get(&b.material))
-            .ok_or_else(|| {
-                Error::input(format!(
-                    "the generator cylinder_on_half_plane needs a body `{body}` with a material"
-                ))
-            })
-    };
-    let (a, b) = (of("cylinder")?, of("half_plane")?);
-    let modulus = analytical::contact_modulus(
-        a.youngs_modulus,
-        a.poissons_ratio,
-        b.youngs_modulus,
-        b.poissons_ratio,
-    );
-    let mut smallest: Option<f64> = None;
-    for material in [a, b] {
-        let (nu, Some(y)) = (material.poissons_ratio, material.yield_stress) else {
-            continue;
-        };
-        let width = match scene.kind {
-            Kind::Axisymmetric => HertzPoint::new(radius, modulus)?.yield_contact_radius(nu, y),
-            _ => HertzLine::new(radius, modulus)?.yield_half_width(nu, y),
-        };
-        smallest = Some(smallest.map_or(width, |s| s.min(width)));
-    }
-    smallest.ok_or_else(|| {
-        Error::input(
-            "mesh.cylinder_on_half_plane: no body has a yield stress, so the contact half width at yield is unknown; \
-             give `half_width`",
-        )
-    })
 }
 
 /// Sets that targets name are looked up before the way to them begins.

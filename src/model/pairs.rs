@@ -47,6 +47,8 @@ pub struct ContactSurface {
     pub facet_length: f64,
     /// The nodes on the axis of revolution that carry no force.
     pub axis: Option<AxisPoint>,
+    /// Pairs at which the candidates end although both bodies go on there: material beyond could touch too.
+    pub goes_on: Vec<usize>,
 }
 
 /// Two nodes on the axis of revolution that belong to quadratic elements. Their consistent force is zero whatever the
@@ -242,6 +244,7 @@ fn resolve_contact(
         circle,
         facet_length,
         axis,
+        goes_on: Vec::new(),
     })
 }
 

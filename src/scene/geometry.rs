@@ -49,7 +49,7 @@ pub struct SurfaceCircle {
 ///
 /// | set | where |
 /// |---|---|
-/// | `cylinder.contact`, `half_plane.contact` | the contact candidates: the evenly meshed part of the surfaces, out to `fine_width` |
+/// | `cylinder.contact`, `half_plane.contact` | the contact candidates, out to `fine_width` or `contact_width`, whichever is more |
 /// | `cylinder.outside`, `half_plane.outside` | the rest of the two surfaces |
 /// | `cylinder.symmetry`, `half_plane.symmetry` | the line x = 0 |
 /// | `cylinder.side`, `half_plane.side` | the outer ends, x = `far_size` half widths |
@@ -63,13 +63,16 @@ pub struct SurfaceCircle {
 pub struct CylinderOnHalfPlane {
     /// Radius of the cylinder or ball.
     pub radius: f64,
-    /// Elements over the contact half width (radius) at first yield.
+    /// Elements over the contact half width (radius), at first yield and at any larger contact at least.
     pub resolution: usize,
     /// Contact half width at first yield; by default computed from the materials (Hertz).
     pub half_width: Option<f64>,
     /// Width of the evenly meshed region, in half widths.
     #[serde(default = "super::defaults::fine_width")]
     pub fine_width: f64,
+    /// How far the contact may reach, in half widths. By default it follows from the largest load, displacement or
+    /// half width of the program; beyond `fine_width` elements grow by `1 + 1/resolution` up to there.
+    pub contact_width: Option<f64>,
     /// Depth of the evenly meshed region, in half widths.
     #[serde(default = "super::defaults::fine_depth")]
     pub fine_depth: f64,

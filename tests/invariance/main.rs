@@ -1,6 +1,7 @@
 //! What must not matter: units, sizes, numbering, order, threads, mirrors.
 
 mod arrays;
+mod dent;
 mod mirrors;
 mod numbering;
 #[path = "../running/mod.rs"]

@@ -39,6 +39,10 @@ class CollapseError(AnalysisError):
     """The load passed the limit load."""
 
 
+class OutgrownError(AnalysisError):
+    """Contact reached the end of its candidates although the bodies go on there."""
+
+
 class InternalError(Error):
     """A fault of brinell itself."""
 
@@ -54,6 +58,7 @@ _KINDS = {
     "unheld": UnheldError,
     "analysis": AnalysisError,
     "collapse": CollapseError,
+    "outgrown": OutgrownError,
     "internal": InternalError,
 }
 

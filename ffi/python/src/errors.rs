@@ -13,6 +13,7 @@ pub fn exception(py: Python<'_>, error: &Error, result: Option<Py<PyAny>>) -> Py
         ErrorKind::Analysis => "analysis",
         ErrorKind::Collapse => "collapse",
         ErrorKind::Inaccurate => "inaccurate",
+        ErrorKind::Outgrown => "outgrown",
         ErrorKind::Stopped => "stopped",
         _ => "internal",
     };

@@ -11,6 +11,15 @@ const KEY: &str = "mesh.cylinder_on_half_plane";
 /// The candidates may reach this share of the radius: further out the circle is nearly vertical.
 const WIDEST: f64 = 0.9;
 
+/// How large the contact of a cylinder on a half plane is, in the unit of its radius.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactSize {
+    /// Contact half width (radius) at first yield.
+    pub half_width: f64,
+    /// How far the contact may reach; less than the even part of the mesh is no matter.
+    pub reach: f64,
+}
+
 /// Half model (x >= 0) of a cylinder or ball on a half plane or half space.
 ///
 /// With `b` = `half_width` (contact half width at first yield, same unit as the radius `R`) and
@@ -20,19 +29,21 @@ const WIDEST: f64 = 0.9;
 /// finite size W changes the stress under the contact by the order b/W (a uniform stress along the surface), a true
 /// cylinder by b/R; `far_size` is therefore large, which the growing elements make cheap. Elements are even with
 /// size `b/resolution` out to `fine_width b` and down to `fine_depth b` (to the nearest whole
-/// element), then grow by `growth`, by up to `far_growth` at the far end. Both surfaces have nodes at the same `x`; corner and mid-side
+/// element). Where the contact may reach further they grow by `1 + 1/resolution` from there on out to its reach, and
+/// down in proportion: a contact of any half width has at least `resolution` elements over it. Beyond, they
+/// grow by `growth`, by up to `far_growth` at the far end. Both surfaces have nodes at the same `x`; corner and mid-side
 /// nodes of the cylinder lie on the circle to round-off, so that nodal gaps are the exact gaps.
 ///
-/// Only the even part of the surfaces is a contact candidate (`cylinder.contact`,
-/// `half_plane.contact`): the condensed matrix stays small. The rest is `cylinder.outside` and
+/// Only the even part of the surfaces, and what the contact may reach beyond, are contact candidates
+/// (`cylinder.contact`, `half_plane.contact`): the condensed matrix stays small. The rest is `cylinder.outside` and
 /// `half_plane.outside`. Node sets `cylinder.pole` and `half_plane.pole` are the two nodes at the origin.
 ///
 /// # Errors
 /// Input errors name the key, its value and what to give instead; among them a block wider than 0.9 radii.
-pub fn cylinder_on_half_plane(p: &CylinderOnHalfPlane, half_width: f64) -> Result<Mesh> {
-    let layout = Layout::new(p, half_width)?;
+pub fn cylinder_on_half_plane(p: &CylinderOnHalfPlane, contact: ContactSize) -> Result<Mesh> {
+    let layout = Layout::new(p, contact)?;
     let Layout {
-        n_fine,
+        n_contact,
         size,
         x,
         depth,
@@ -65,7 +76,7 @@ pub fn cylinder_on_half_plane(p: &CylinderOnHalfPlane, half_width: f64) -> Resul
         radius: p.radius,
         outward: true,
     });
-    let (inside, outside) = (0..*n_fine, *n_fine..cells[0]);
+    let (inside, outside) = (0..*n_contact, *n_contact..cells[0]);
     cylinder.surface(
         "contact",
         grid.side_range(Side::Bottom, inside.clone()),
@@ -100,8 +111,8 @@ pub fn cylinder_on_half_plane(p: &CylinderOnHalfPlane, half_width: f64) -> Resul
 
 /// Grid lines of both bodies.
 struct Layout {
-    /// Even elements along x.
-    n_fine: usize,
+    /// Elements along x that may touch.
+    n_contact: usize,
     /// Size `W` of each body.
     size: f64,
     /// By half steps from 0 to `W`.
@@ -115,7 +126,7 @@ impl Layout {
     /// candidate at `c`; beyond, with the slope there, `y_c + slope c (1 - exp(-(x - c)/c))`.
     fn bottom(&self, radius: f64, x: f64) -> f64 {
         let root = |x: f64| ((radius - x) * (radius + x)).sqrt();
-        let edge = self.x[2 * self.n_fine];
+        let edge = self.x[2 * self.n_contact];
         let at = x.min(edge);
         let height = at * at / (radius + root(at));
         if x <= edge {
@@ -125,7 +136,8 @@ impl Layout {
         }
     }
 
-    fn new(p: &CylinderOnHalfPlane, half_width: f64) -> Result<Layout> {
+    fn new(p: &CylinderOnHalfPlane, contact: ContactSize) -> Result<Layout> {
+        let ContactSize { half_width, reach } = contact;
         let key = |name: &str| format!("{KEY}.{name}");
         limits::positive(&key("radius"), p.radius)?;
         limits::positive(&key("half_width"), half_width)?;
@@ -175,16 +187,32 @@ impl Layout {
 
         let h = half_width / resolution;
         let growth = Growth::new(p.growth, p.far_growth, 0.0);
-        let count = |n: f64| n + growth.count(h * p.growth, n * h, size);
-        let cells = 2.0 * count(n_fine) * count(n_deep);
+        // Not finer than the contact at its edge needs: the size over the distance is that at first yield.
+        let slow = (1.0 + 1.0 / resolution).min(p.growth);
+        let reach = reach.min(WIDEST * p.radius).min(0.5 * size);
+        let near = |n: f64, until: f64| grading::even_then_slow(h, n as usize, until, slow);
+        let near_x = near(n_fine, reach);
+        let near_depth = near(n_deep, reach * p.fine_depth / p.fine_width);
+        let first = |corners: &[f64]| match corners {
+            [.., a, b] => (b - a) * p.growth,
+            _ => h,
+        };
+        let count = |corners: &[f64]| {
+            let start = corners.last().copied().unwrap_or(0.0);
+            (corners.len() - 1) as f64 + growth.count(first(corners), start, size)
+        };
+        let cells = 2.0 * count(&near_x) * count(&near_depth);
         limits::total(&key("resolution"), limits::elements(cells, p.element))?;
-        let lines =
-            |name: &str, n: f64| grading::even_then_grown(&key(name), h, n as usize, size, growth);
+        let n_contact = near_x.len() - 1;
+        let line = |name: &str, corners: Vec<f64>| {
+            let first = first(&corners);
+            grading::then_grown(&key(name), corners, first, size, growth)
+        };
         Ok(Layout {
-            n_fine: n_fine as usize,
+            n_contact,
             size,
-            x: lines("fine_width", n_fine)?,
-            depth: lines("fine_depth", n_deep)?,
+            x: line("fine_width", near_x)?,
+            depth: line("fine_depth", near_depth)?,
         })
     }
 }

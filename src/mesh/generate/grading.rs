@@ -136,6 +136,19 @@ impl Law {
     }
 }
 
+/// Corners from 0: `n_even` elements of `size`, then elements that grow by `ratio` until they reach `until`.
+pub(super) fn even_then_slow(size: f64, n_even: usize, until: f64, ratio: f64) -> Vec<f64> {
+    let mut corners: Vec<f64> = (0..=n_even).map(|i| size * i as f64).collect();
+    let (mut at, mut step) = (size * n_even as f64, size);
+    // Rounding to whole elements ends the even part up to half of one short of its length.
+    while at + 0.5 * size < until && corners.len() < MOST_ON_A_LINE {
+        step *= ratio;
+        at += step;
+        corners.push(at);
+    }
+    corners
+}
+
 /// From 0 to `length`: `n_even` elements of `size`, then elements that grow by about `growth`, a
 /// little adjusted so that the last one ends exactly at `length`.
 pub(super) fn even_then_grown(
@@ -145,9 +158,21 @@ pub(super) fn even_then_grown(
     length: f64,
     growth: Growth,
 ) -> Result<Vec<f64>> {
-    let mut corners: Vec<f64> = (0..=n_even).map(|i| size * i as f64).collect();
-    let start = size * n_even as f64;
+    let corners = (0..=n_even).map(|i| size * i as f64).collect();
     let first = if n_even > 0 { size * growth.near } else { size };
+    then_grown(key, corners, first, length, growth)
+}
+
+/// From the last of `corners` to `length`: elements that grow by about `growth`, the first of them about as large as
+/// `first`, a little adjusted so that the last one ends exactly at `length`.
+pub(super) fn then_grown(
+    key: &str,
+    mut corners: Vec<f64>,
+    first: f64,
+    length: f64,
+    growth: Growth,
+) -> Result<Vec<f64>> {
+    let start = corners.last().copied().unwrap_or(0.0);
     let n = if length > start {
         growth.count(first, start, length) as usize
     } else {

@@ -17,7 +17,7 @@ mod polar;
 #[cfg(test)]
 mod tests;
 
-pub use cylinder::cylinder_on_half_plane;
+pub use cylinder::{ContactSize, cylinder_on_half_plane};
 pub use disc::disc_in_plate;
 pub use parts::parts;
 
@@ -28,9 +28,8 @@ use std::path::Path;
 
 /// The mesh that a scene's `[mesh]` asks for.
 ///
-/// A relative `file` is looked up in `directory` (the scene file's). `half_width` gives the contact
-/// half width at first yield of a cylinder on a half plane; it is only called for that geometry, where the
-/// source does not give one. What is made of the mesh of a file comes after: circles ([`super::lay_on_circle`]) and subdivisions
+/// A relative `file` is looked up in `directory` (the scene file's). `contact` gives the size of the contact of a
+/// cylinder on a half plane; it is only called for that geometry. What is made of the mesh of a file comes after: circles ([`super::lay_on_circle`]) and subdivisions
 /// ([`super::subdivided`]).
 ///
 /// # Errors
@@ -38,7 +37,7 @@ use std::path::Path;
 pub fn from_source(
     source: &MeshSource,
     directory: Option<&Path>,
-    half_width: impl FnOnce(&CylinderOnHalfPlane) -> Result<f64>,
+    contact: impl FnOnce(&CylinderOnHalfPlane) -> Result<ContactSize>,
 ) -> Result<Mesh> {
     let given = [
         source.cylinder_on_half_plane.is_some(),
@@ -54,11 +53,7 @@ pub fn from_source(
         )));
     }
     if let Some(p) = &source.cylinder_on_half_plane {
-        let half_width = match p.half_width {
-            Some(given) => given,
-            None => half_width(p)?,
-        };
-        cylinder_on_half_plane(p, half_width)
+        cylinder_on_half_plane(p, contact(p)?)
     } else if let Some(p) = &source.disc_in_plate {
         disc_in_plate(p)
     } else if let Some(p) = &source.parts {

@@ -73,6 +73,9 @@ impl Checks {
         self.positive(key("radius"), parameters.radius);
         self.count(key("resolution"), parameters.resolution, 1);
         self.at_least(key("fine_width"), parameters.fine_width, 1.0);
+        if let Some(width) = parameters.contact_width {
+            self.at_least(key("contact_width"), width, parameters.fine_width);
+        }
         self.positive(key("fine_depth"), parameters.fine_depth);
         self.at_least(key("growth"), parameters.growth, 1.0);
         if let Some(far) = parameters.far_growth {

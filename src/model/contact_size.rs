@@ -1,0 +1,186 @@
+//! How large the contact of a generated cylinder or ball becomes: what its mesh is made to the measure of.
+
+use crate::analytical::{self, HertzLine, HertzPoint};
+use crate::error::{Error, Result};
+use crate::mesh::generate::ContactSize;
+use crate::scene::{CylinderOnHalfPlane, Direction, History, Kind, Load, Plastic, Scene, Unit};
+use std::f64::consts::PI;
+
+/// Elastic contacts are meshed this much wider than Hertz has them: room for what is read off beside their edge.
+const ROOM: f64 = 1.15;
+/// Largest square of the contact radius over `2 R h` with the depth `h`: the pile-up of a material without hardening.
+///
+/// # Source
+/// R. Hill, B. Storakers, A. B. Zdunek, A theoretical study of the Brinell hardness test, Proc. R. Soc. A 423 (1989) 301,
+/// doi:10.1098/rspa.1989.0056.
+const PILE_UP: f64 = 1.45;
+
+/// The size of the contact: at first yield, and the largest of the load program.
+///
+/// # Errors
+/// A body without material, or bodies without a yield stress where the half width at first yield is not given.
+pub(crate) fn of(scene: &Scene, p: &CylinderOnHalfPlane) -> Result<ContactSize> {
+    let half_width = match p.half_width {
+        Some(given) => given,
+        None => first_yield(scene, p)?
+            .map(|(width, _)| width)
+            .ok_or_else(|| {
+                Error::input(
+                    "mesh.cylinder_on_half_plane: no body has a yield stress, so the contact half width at yield is unknown; \
+                     give `half_width`",
+                )
+            })?,
+    };
+    let reach = match p.contact_width {
+        Some(width) => width * half_width,
+        None => reach(scene, p, half_width).unwrap_or(0.0),
+    };
+    Ok(ContactSize { half_width, reach })
+}
+
+/// Hertz' contact of a line or a point.
+enum Hertz {
+    Line(HertzLine),
+    Point(HertzPoint),
+}
+
+impl Hertz {
+    fn of(scene: &Scene, p: &CylinderOnHalfPlane) -> Result<Self> {
+        let of = |body: &str| {
+            let body_of_scene = scene.bodies.get(body);
+            body_of_scene
+                .and_then(|b| scene.materials.get(&b.material))
+                .ok_or_else(|| {
+                    Error::input(format!(
+                        "the generator cylinder_on_half_plane needs a body `{body}` with a material"
+                    ))
+                })
+        };
+        let (a, b) = (of("cylinder")?, of("half_plane")?);
+        let modulus = analytical::contact_modulus(
+            a.youngs_modulus,
+            a.poissons_ratio,
+            b.youngs_modulus,
+            b.poissons_ratio,
+        );
+        Ok(match scene.kind {
+            Kind::Axisymmetric => Hertz::Point(HertzPoint::new(p.radius, modulus)?),
+            _ => Hertz::Line(HertzLine::new(p.radius, modulus)?),
+        })
+    }
+
+    fn half_width(&self, load: f64) -> f64 {
+        match self {
+            Hertz::Line(line) => line.half_width(load),
+            Hertz::Point(point) => point.contact_radius(load),
+        }
+    }
+
+    /// Half width and load at first yield.
+    fn at_yield(&self, nu: f64, y: f64) -> (f64, f64) {
+        match self {
+            Hertz::Line(line) => (line.yield_half_width(nu, y), line.yield_load(nu, y)),
+            Hertz::Point(point) => (point.yield_contact_radius(nu, y), point.yield_load(nu, y)),
+        }
+    }
+
+    /// The widest contact under a load, where the weaker body yields at the half width and load `first`: the mean pressure only
+    /// rises with the load (from 1.1 to 3 times the yield stress under a ball), so that the area rises no faster.
+    fn widest(&self, load: f64, first: Option<(f64, f64)>) -> f64 {
+        let elastic = ROOM * self.half_width(load);
+        let Some((width, at)) = first.filter(|(_, at)| load > *at) else {
+            return elastic;
+        };
+        let area = load / at;
+        elastic.max(match self {
+            Hertz::Line(_) => width * area,
+            Hertz::Point(_) => width * area.sqrt(),
+        })
+    }
+}
+
+/// Half width and load at first yield of the weaker of the two bodies; `None` where neither has a yield stress. A body that is kept
+/// elastic still has the yield stress that the mesh is made for.
+fn first_yield(scene: &Scene, p: &CylinderOnHalfPlane) -> Result<Option<(f64, f64)>> {
+    weaker(scene, p, |_| true)
+}
+
+fn weaker(
+    scene: &Scene,
+    p: &CylinderOnHalfPlane,
+    counts: impl Fn(Plastic) -> bool,
+) -> Result<Option<(f64, f64)>> {
+    let hertz = Hertz::of(scene, p)?;
+    let of = |body: &str| {
+        let body = scene.bodies.get(body).filter(|b| counts(b.plastic))?;
+        let material = scene.materials.get(&body.material)?;
+        Some(hertz.at_yield(material.poissons_ratio, material.yield_stress?))
+    };
+    let bodies = ["cylinder", "half_plane"].into_iter().filter_map(of);
+    Ok(bodies.reduce(|a, b| if b.0 < a.0 { b } else { a }))
+}
+
+/// The widest contact of the load program; `None` where its loads do not say.
+fn reach(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<f64> {
+    let hertz = Hertz::of(scene, p).ok()?;
+    let first = weaker(scene, p, |plastic| plastic != Plastic::No).ok()?;
+    let program = &scene.program;
+    let targets = || program.targets.iter();
+    let largest =
+        |values: &mut dyn Iterator<Item = f64>| values.fold(0.0f64, |m, v| m.max(v.abs()));
+    let factor = largest(&mut targets().filter_map(|t| t.load_factor));
+    let size = p.far_size * half_width;
+    let mut force = 0.0;
+    let mut depth = largest(
+        &mut targets()
+            .filter_map(|t| t.displacement.as_ref())
+            .filter(|d| d.direction == Direction::Y)
+            .map(|d| d.value),
+    );
+    for load in &scene.load {
+        let times = match &load.history {
+            History::Proportional if program.unit == Unit::Yield => {
+                // Multiples of the yield load, whatever the load's own size.
+                force = first.map_or(force, |(_, at)| factor * at);
+                continue;
+            }
+            History::Proportional => factor,
+            History::Constant => 1.0,
+            History::Table(rows) => largest(&mut rows.iter().map(|row| row[1])),
+        };
+        force += times * normal_force(scene, load, size);
+        depth += times * load.displacement.and_then(|d| d.y).map_or(0.0, f64::abs);
+    }
+    depth += largest(&mut scene.contact.iter().map(|c| c.interference));
+    let at_yield = first.map_or(half_width, |(width, _)| width);
+    let asked = largest(&mut targets().filter_map(|t| t.half_width)) * at_yield;
+    let widest = [
+        hertz.widest(force, first),
+        ROOM * asked,
+        (2.0 * PILE_UP * p.radius * depth).sqrt(),
+    ];
+    Some(widest.into_iter().fold(0.0, f64::max))
+}
+
+/// Total force of a load along y on the whole of the bodies, where its kind and place tell.
+fn normal_force(scene: &Scene, load: &Load, size: f64) -> f64 {
+    let whole = match scene.kind {
+        Kind::Axisymmetric => PI * size * size,
+        _ => scene.symmetry as f64 * size,
+    };
+    let on_cut = ["cylinder.top", "half_plane.bottom"].contains(&load.on.as_str());
+    let on_area = |stress: f64| if on_cut { stress * whole } else { 0.0 };
+    let plane = load
+        .plane_force
+        .filter(|plane| plane.direction == Direction::Y);
+    let parts = [
+        plane.map(|plane| plane.total),
+        load.force.map(|force| force[1]),
+        load.pressure.map(on_area),
+        load.traction.map(|traction| on_area(traction[1])),
+    ];
+    parts
+        .into_iter()
+        .flatten()
+        .fold(0.0, |sum, f| sum + f.abs())
+}

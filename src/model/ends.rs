@@ -1,0 +1,172 @@
+//! Where contact candidates end although the bodies go on.
+//!
+//! A surface is named by the user or a generator; it may end in the middle of a smooth boundary. What lies beyond
+//! is not checked for contact, so a contact that reaches such an end is not to be believed. At a corner of one
+//! of the bodies, on a symmetry plane and on the axis of revolution nothing more could touch.
+
+use super::{ContactSurface, Freedoms, Pair, Slot};
+use crate::mesh::{Facet, Mesh};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Angle in degrees by which the two boundaries must part for an end to be a corner: the feature angle that is usual for
+/// telling edges of a body from facets of a curved surface.
+const FEATURE_ANGLE: f64 = 30.0;
+
+/// An end of a run of pairs: its last pair and the one before it.
+struct End {
+    contact: usize,
+    last: usize,
+    inner: Option<usize>,
+}
+
+/// Finds [`ContactSurface::goes_on`] of each contact.
+pub(super) fn find(
+    mesh: &Mesh,
+    freedoms: &Freedoms,
+    pairs: &[Pair],
+    contacts: &mut [ContactSurface],
+) {
+    let ends = ends(freedoms, pairs, contacts);
+    if ends.is_empty() {
+        return;
+    }
+    let nodes: BTreeSet<usize> = ends
+        .iter()
+        .flat_map(|end| [pairs[end.last].first, pairs[end.last].second])
+        .collect();
+    let boundary = Boundary::at(mesh, &nodes);
+    let may_touch: BTreeSet<usize> = pairs.iter().flat_map(|p| [p.first, p.second]).collect();
+    for end in ends {
+        let side = |node_of: fn(&Pair) -> usize| {
+            let inner = end.inner.map(|k| node_of(&pairs[k]));
+            boundary.beyond(node_of(&pairs[end.last]), inner)
+        };
+        let (Some(first), Some(second)) = (side(|p| p.first), side(|p| p.second)) else {
+            continue;
+        };
+        let followed = may_touch.contains(&first.next) && may_touch.contains(&second.next);
+        if !followed && first.turn + second.turn < FEATURE_ANGLE {
+            contacts[end.contact].goes_on.push(end.last);
+        }
+    }
+}
+
+/// Ends of all contacts but those on symmetry planes and the axis of revolution.
+fn ends(freedoms: &Freedoms, pairs: &[Pair], contacts: &[ContactSurface]) -> Vec<End> {
+    let mut out = Vec::new();
+    for (contact, surface) in contacts.iter().enumerate() {
+        let range = surface.range.clone();
+        let Some(last) = range.end.checked_sub(1) else {
+            continue;
+        };
+        let neighbour = |k: usize| Some(k).filter(|k| range.contains(k));
+        for (end, inner, begins) in [
+            (range.start, neighbour(range.start + 1), true),
+            (last, last.checked_sub(1).and_then(neighbour), false),
+        ] {
+            let on_axis = surface.axis.is_some_and(|axis| axis.begins == begins);
+            let on_symmetry = [pairs[end].first, pairs[end].second]
+                .iter()
+                .all(|&node| freedoms.slots[node][1] == Slot::Fixed);
+            if !on_axis && !on_symmetry {
+                out.push(End {
+                    contact,
+                    last: end,
+                    inner,
+                });
+            }
+        }
+    }
+    out
+}
+
+/// How a body's boundary goes on beyond a node.
+struct Beyond {
+    /// The next node.
+    next: usize,
+    /// Angle in degrees by which it turns away from the other body; negative towards it.
+    turn: f64,
+}
+
+/// The two boundary facets at each of some nodes.
+struct Boundary<'m> {
+    mesh: &'m Mesh,
+    at: BTreeMap<usize, Vec<Facet>>,
+}
+
+impl<'m> Boundary<'m> {
+    fn at(mesh: &'m Mesh, nodes: &BTreeSet<usize>) -> Self {
+        let mut owners: BTreeMap<[usize; 2], Vec<Facet>> = BTreeMap::new();
+        for element in 0..mesh.n_elements() {
+            if !mesh
+                .nodes(element)
+                .iter()
+                .any(|&n| nodes.contains(&(n as usize)))
+            {
+                continue;
+            }
+            for local in 0..mesh.shapes[element].n_corners() {
+                let facet = Facet { element, local };
+                let mut ends: Vec<usize> = mesh.facet_nodes(facet).take(2).collect();
+                ends.sort_unstable();
+                if let [a, b] = ends[..] {
+                    owners.entry([a, b]).or_default().push(facet);
+                }
+            }
+        }
+        let mut at: BTreeMap<usize, Vec<Facet>> = BTreeMap::new();
+        for facets in owners.values() {
+            let [only] = facets[..] else { continue };
+            for node in mesh.facet_nodes(only).filter(|node| nodes.contains(node)) {
+                at.entry(node).or_default().push(only);
+            }
+        }
+        Boundary { mesh, at }
+    }
+
+    /// How the boundary goes on at `node` on the side that the `inner` node of the surface is not on; `None` where the
+    /// node has no two boundary facets, or no inner node tells which.
+    fn beyond(&self, node: usize, inner: Option<usize>) -> Option<Beyond> {
+        let [a, b] = self.at.get(&node)?[..] else {
+            return None;
+        };
+        let inner = inner?;
+        let holds = |facet: Facet| self.mesh.facet_nodes(facet).any(|n| n == inner);
+        let (inside, outside) = match (holds(a), holds(b)) {
+            (true, false) => (a, b),
+            (false, true) => (b, a),
+            _ => return None,
+        };
+        let (within, beyond) = (self.leaving(inside, node)?, self.leaving(outside, node)?);
+        let next = self
+            .mesh
+            .facet_nodes(outside)
+            .take(2)
+            .find(|&n| n != node)?;
+        // The body lies on the left of a facet from its first node to its second.
+        let enters = self.mesh.facet_nodes(inside).nth(1) == Some(node);
+        let [sine, cosine] = [
+            beyond[0] * within[1] - beyond[1] * within[0],
+            -(beyond[0] * within[0] + beyond[1] * within[1]),
+        ];
+        let left = sine.atan2(cosine).to_degrees();
+        Some(Beyond {
+            next,
+            turn: if enters { left } else { -left },
+        })
+    }
+
+    /// Tangent of a facet at one of its ends, away from it.
+    fn leaving(&self, facet: Facet, node: usize) -> Option<[f64; 2]> {
+        let nodes: Vec<usize> = self.mesh.facet_nodes(facet).collect();
+        let other = *nodes.iter().take(2).find(|&&n| n != node)?;
+        let (x, y) = (self.mesh.point(node), self.mesh.point(other));
+        let chord = [y[0] - x[0], y[1] - x[1]];
+        let Some(&middle) = nodes.get(2) else {
+            return Some(chord);
+        };
+        // Slope of the parabola through the three nodes.
+        let m = self.mesh.point(middle);
+        Some([0, 1].map(|d| 4.0 * (m[d] - x[d]) - chord[d]))
+    }
+}
