@@ -233,9 +233,6 @@ fn pressed_scene(pressed: &Pressed, ball: bool) -> Result<String> {
         (3.0 * yield_load / digits).ceil() * digits
     });
     let reach = widths(load) / widths(yield_load);
-    // Flowing material makes the contact wider than Hertz says, and the zone grows with it.
-    let fine_width = (1.4 * reach).max(2.0);
-    let fine_depth = (1.1 * reach).max(1.5);
     let (shape, kind, per) = match ball {
         true => ("Ball", "axisymmetric", "N over the full circle"),
         false => ("Roller", "plane_strain", "N per mm of length"),
@@ -255,11 +252,14 @@ fn pressed_scene(pressed: &Pressed, ball: bool) -> Result<String> {
         true => "".to_string(),
         false => "symmetry = 2                 # half model, x >= 0: loads and results are those of the whole\n".to_string(),
     };
-    let far = match ball {
-        true => {
-            "far_size = 200.0             # size of the bodies, in half widths: they stand for infinite ones\n"
-        }
-        false => "",
+    // Stress under a point fades with the square of the distance: 200 contact radii are enough.
+    let far = if ball {
+        format!(
+            "far_size = {:?}            # size of the bodies, in half widths at first yield: they stand for infinite ones\n",
+            (200.0 * reach.max(1.0)).ceil()
+        )
+    } else {
+        String::new()
     };
     let material = material(steel, &["cylinder", "half_plane"]);
     Ok(format!(
@@ -272,9 +272,7 @@ kind = \"{kind}\"
 # The generator's names are `cylinder` for the upper body and `half_plane` for the lower one, whatever they stand for.
 [mesh.cylinder_on_half_plane]
 radius = {radius}
-resolution = {resolution}              # elements over the contact half width at first yield: 8 coarse, 32 fine
-fine_width = {fine_width}            # how far the fine mesh reaches, in half widths at first yield
-fine_depth = {fine_depth}
+resolution = {resolution}              # elements over the contact half width, at first yield and later: 8 coarse, 32 fine
 {far}
 {material}
 [[contact]]
@@ -310,8 +308,6 @@ targets = [
         times = significant(times, 3),
         radius = toml(pressed.radius),
         resolution = pressed.resolution,
-        fine_width = significant(fine_width, 3),
-        fine_depth = significant(fine_depth, 3),
         total = toml(-load),
     ))
 }

@@ -10,6 +10,7 @@ mod held_by_contact;
 mod incompressible;
 mod killed;
 mod numbers;
+mod outgrown;
 mod peers;
 mod quality;
 mod receding;

@@ -20,6 +20,16 @@ pub struct ContactSize {
     pub reach: f64,
 }
 
+impl ContactSize {
+    /// A contact that stays within the even part of the mesh.
+    pub fn at_yield(half_width: f64) -> Self {
+        ContactSize {
+            half_width,
+            reach: 0.0,
+        }
+    }
+}
+
 /// Half model (x >= 0) of a cylinder or ball on a half plane or half space.
 ///
 /// With `b` = `half_width` (contact half width at first yield, same unit as the radius `R`) and
@@ -191,6 +201,9 @@ impl Layout {
         let slow = (1.0 + 1.0 / resolution).min(p.growth);
         let reach = reach.min(WIDEST * p.radius).min(0.5 * size);
         let near = |n: f64, until: f64| grading::even_then_slow(h, n as usize, until, slow);
+        // Refused before any line is made: a wrong input can ask for more than memory holds.
+        let even = limits::elements(2.0 * n_fine * n_deep, p.element);
+        limits::total(&key("resolution"), even)?;
         let near_x = near(n_fine, reach);
         let near_depth = near(n_deep, reach * p.fine_depth / p.fine_width);
         let first = |corners: &[f64]| match corners {

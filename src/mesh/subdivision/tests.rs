@@ -126,13 +126,16 @@ fn nodes_that_face_each_other_have_new_ones_that_do() {
             resolution: 3,
             half_width: None,
             fine_width: 2.0,
+            contact_width: None,
             fine_depth: 2.0,
             far_size: 10.0,
             growth: 1.3,
             far_growth: None,
             element: shape,
         };
-        let mut mesh = generate::cylinder_on_half_plane(&parameters, 0.5).unwrap();
+        let mut mesh =
+            generate::cylinder_on_half_plane(&parameters, generate::ContactSize::at_yield(0.5))
+                .unwrap();
         mesh.surfaces.values_mut().for_each(|s| s.curve = None);
         lay_on_circle(&mut mesh, &circle("cylinder.contact", [0.0, 10.0], 10.0)).unwrap();
         for [first, second] in [

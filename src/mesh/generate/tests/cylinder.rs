@@ -1,5 +1,5 @@
 use super::*;
-use crate::mesh::generate::cylinder_on_half_plane;
+use crate::mesh::generate::{ContactSize, cylinder_on_half_plane};
 use crate::scene::CylinderOnHalfPlane;
 
 const RADIUS: f64 = 100.0;
@@ -11,6 +11,7 @@ pub(super) fn example(element: Shape) -> CylinderOnHalfPlane {
         resolution: 6,
         half_width: None,
         fine_width: 2.0,
+        contact_width: None,
         fine_depth: 1.5,
         far_size: 50.0,
         growth: 1.15,
@@ -22,7 +23,8 @@ pub(super) fn example(element: Shape) -> CylinderOnHalfPlane {
 #[test]
 fn both_bodies_are_valid_and_match_in_x() {
     for shape in SHAPES {
-        let mesh = cylinder_on_half_plane(&example(shape), HALF_WIDTH).unwrap();
+        let mesh =
+            cylinder_on_half_plane(&example(shape), ContactSize::at_yield(HALF_WIDTH)).unwrap();
         check_common(&mesh);
         for piece in ["contact", "outside"] {
             let on = |body: &str| {
@@ -58,7 +60,7 @@ fn both_bodies_are_valid_and_match_in_x() {
 fn candidates_end_at_the_fine_width_and_are_even() {
     for shape in SHAPES {
         let p = example(shape);
-        let mesh = cylinder_on_half_plane(&p, HALF_WIDTH).unwrap();
+        let mesh = cylinder_on_half_plane(&p, ContactSize::at_yield(HALF_WIDTH)).unwrap();
         let contact = &mesh.surfaces["cylinder.contact"];
         assert_eq!(contact.facets.len(), 12);
         let nodes = surface::ordered_nodes(&mesh, contact).unwrap();
@@ -94,6 +96,57 @@ fn candidates_end_at_the_fine_width_and_are_even() {
         for node in mesh.set_nodes("half_plane.bottom").unwrap() {
             assert_eq!(mesh.point(node)[1], -50.0 * HALF_WIDTH);
         }
+    }
+}
+
+/// Beyond the even part the elements of the candidates grow so slowly that a contact of any half width has `resolution` of
+/// them over it at least; within it and without a reach beyond, nothing changes.
+#[test]
+fn candidates_reach_as_far_as_the_contact_with_enough_elements_over_any_part_of_them() {
+    for shape in SHAPES {
+        let p = example(shape);
+        let corners = |reach: f64| {
+            let size = ContactSize {
+                half_width: HALF_WIDTH,
+                reach: reach * HALF_WIDTH,
+            };
+            let mesh = cylinder_on_half_plane(&p, size).unwrap();
+            check_common(&mesh);
+            let contact = &mesh.surfaces["cylinder.contact"];
+            let mut x: Vec<f64> = contact
+                .facets
+                .iter()
+                .flat_map(|&f| mesh.facet_nodes(f).take(2).collect::<Vec<_>>())
+                .map(|node| mesh.point(node)[0])
+                .collect();
+            x.sort_by(f64::total_cmp);
+            x.dedup();
+            x
+        };
+        assert_eq!(corners(1.9), corners(0.0));
+        let x = corners(9.0);
+        let last = x[x.len() - 1];
+        assert!(
+            last >= 9.0 * HALF_WIDTH && last < 11.0 * HALF_WIDTH,
+            "{last}"
+        );
+        for (k, &edge) in x.iter().enumerate().skip(p.resolution) {
+            assert!(k >= p.resolution);
+            // The size at the edge over the distance is at most that at first yield.
+            let size = edge - x[k - 1];
+            assert!(
+                size <= edge / p.resolution as f64 * (1.0 + 1e-12),
+                "{edge} {size}"
+            );
+        }
+        // 12 even ones, then a geometric series over the rest: logarithmic in the reach.
+        let (n, r) = (
+            p.resolution as f64,
+            p.growth.min(1.0 + 1.0 / p.resolution as f64),
+        );
+        let expected = 13.0 + (1.0 + (9.0 - 2.0) * n * (r - 1.0) / r).ln() / r.ln();
+        let off = (x.len() as f64 - expected).abs();
+        assert!(off <= 1.0, "{} {expected}", x.len());
     }
 }
 
@@ -152,7 +205,8 @@ fn areas_are_those_of_the_quadrature_of_the_surface() {
     let size = 50.0 * HALF_WIDTH;
     let profile = Profile::of_example();
     for shape in SHAPES {
-        let mesh = cylinder_on_half_plane(&example(shape), HALF_WIDTH).unwrap();
+        let mesh =
+            cylinder_on_half_plane(&example(shape), ContactSize::at_yield(HALF_WIDTH)).unwrap();
         let plane = area(&mesh, "half_plane");
         assert!((plane / (size * size) - 1.0).abs() < 1e-13, "{plane}");
         let round_off = 1e-13 * size * size;
@@ -194,19 +248,19 @@ fn the_widest_candidates_are_valid() {
         p.fine_depth = 2.0;
         p.far_size = far_size;
         p.growth = 1.3;
-        check_common(&cylinder_on_half_plane(&p, 1.0).unwrap());
+        check_common(&cylinder_on_half_plane(&p, ContactSize::at_yield(1.0)).unwrap());
     }
 }
 
 #[test]
 fn scaling_all_lengths_scales_the_mesh() {
     let p = example(Shape::Quad8);
-    let mesh = cylinder_on_half_plane(&p, HALF_WIDTH).unwrap();
+    let mesh = cylinder_on_half_plane(&p, ContactSize::at_yield(HALF_WIDTH)).unwrap();
     for power in [-40, 40] {
         let scale = 2f64.powi(power);
         let mut q = p.clone();
         q.radius *= scale;
-        let scaled = cylinder_on_half_plane(&q, HALF_WIDTH * scale).unwrap();
+        let scaled = cylinder_on_half_plane(&q, ContactSize::at_yield(HALF_WIDTH * scale)).unwrap();
         validate(&scaled).unwrap();
         assert_eq!(mesh.connectivity, scaled.connectivity);
         for (a, b) in mesh.coordinates.iter().zip(&scaled.coordinates) {
@@ -251,7 +305,7 @@ fn refusals_name_key_and_value() {
     for (change, parts) in cases {
         let mut p = example(Shape::Quad4);
         change(&mut p);
-        let error = cylinder_on_half_plane(&p, HALF_WIDTH).unwrap_err();
+        let error = cylinder_on_half_plane(&p, ContactSize::at_yield(HALF_WIDTH)).unwrap_err();
         assert_eq!(error.kind(), crate::ErrorKind::Input);
         assert!(
             error.message().contains("mesh.cylinder_on_half_plane."),
@@ -262,7 +316,9 @@ fn refusals_name_key_and_value() {
         }
     }
     for half_width in [0.0, -1.0, f64::NAN] {
-        let error = cylinder_on_half_plane(&example(Shape::Quad4), half_width).unwrap_err();
+        let error =
+            cylinder_on_half_plane(&example(Shape::Quad4), ContactSize::at_yield(half_width))
+                .unwrap_err();
         assert!(error.message().contains("half_width ="), "{error}");
     }
 }

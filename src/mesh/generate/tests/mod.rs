@@ -4,6 +4,7 @@ mod cylinder;
 mod disc;
 mod parts;
 
+use super::ContactSize;
 use crate::mesh::{Curve, Mesh, Shape, surface, validate};
 
 pub(super) const SHAPES: [Shape; 4] = [Shape::Tri3, Shape::Tri6, Shape::Quad4, Shape::Quad8];
@@ -111,14 +112,17 @@ pub(super) fn nodes_on(n: usize, shape: Shape) -> usize {
 #[test]
 fn exactly_one_source_is_needed() {
     use crate::scene::MeshSource;
-    let none = super::from_source(&MeshSource::default(), None, |_| Ok(1.0)).unwrap_err();
+    let none = super::from_source(&MeshSource::default(), None, |_| {
+        Ok(ContactSize::at_yield(1.0))
+    })
+    .unwrap_err();
     assert!(none.message().contains("0 sources"), "{none}");
     let two = MeshSource {
         parts: Some(Vec::new()),
         file: Some("a.msh".into()),
         ..MeshSource::default()
     };
-    let two = super::from_source(&two, None, |_| Ok(1.0)).unwrap_err();
+    let two = super::from_source(&two, None, |_| Ok(ContactSize::at_yield(1.0))).unwrap_err();
     assert!(two.message().contains("2 sources"), "{two}");
 }
 
@@ -129,7 +133,10 @@ fn the_source_decides_what_is_made() {
         cylinder_on_half_plane: Some(cylinder::example(Shape::Quad4)),
         ..MeshSource::default()
     };
-    let mesh = super::from_source(&source, None, |p| Ok(0.01 * p.radius)).unwrap();
+    let mesh = super::from_source(&source, None, |p| {
+        Ok(ContactSize::at_yield(0.01 * p.radius))
+    })
+    .unwrap();
     assert_eq!(mesh.bodies, ["cylinder", "half_plane"]);
     let source = MeshSource {
         disc_in_plate: Some(disc::example(8, Shape::Quad4)),
@@ -141,7 +148,9 @@ fn the_source_decides_what_is_made() {
         file: Some("no_such_file.msh".into()),
         ..MeshSource::default()
     };
-    let error = super::from_source(&source, Some(std::path::Path::new("nowhere")), |_| Ok(1.0));
+    let error = super::from_source(&source, Some(std::path::Path::new("nowhere")), |_| {
+        Ok(ContactSize::at_yield(1.0))
+    });
     let error = error.unwrap_err();
     assert_eq!(error.kind(), crate::ErrorKind::Io);
     assert!(error.message().contains("no_such_file.msh"), "{error}");

@@ -8,6 +8,7 @@ fn generated(shape: Shape) -> [Mesh; 2] {
         resolution: 3,
         half_width: None,
         fine_width: 2.0,
+        contact_width: None,
         fine_depth: 1.5,
         far_size: 30.0,
         growth: 1.2,
@@ -24,7 +25,8 @@ fn generated(shape: Shape) -> [Mesh; 2] {
         element: shape,
     };
     [
-        generate::cylinder_on_half_plane(&cylinder, 0.007).unwrap(),
+        generate::cylinder_on_half_plane(&cylinder, generate::ContactSize::at_yield(0.007))
+            .unwrap(),
         generate::disc_in_plate(&disc).unwrap(),
     ]
 }

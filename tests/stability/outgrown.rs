@@ -1,0 +1,202 @@
+//! Contact that outgrows its candidates: generated meshes reach far enough, and where surfaces end although the
+//! bodies go on, the run says so instead of giving results.
+
+use super::running::{close, load, parse, run, run_file, state, try_run};
+use brinell::ErrorKind;
+use brinell::analysis::Analysis;
+use brinell::analytical::{HertzLine, contact_modulus};
+use brinell::linalg::Backend;
+use brinell::model::Model;
+use brinell::progress::Silent;
+use brinell::results::Status;
+use brinell::scene::Scene;
+
+/// The last pair of every contact stays open: nothing of the contact is cut off.
+fn within_candidates(scene: &Scene) -> brinell::results::Results {
+    let results = run(scene);
+    let model = Model::new(scene).unwrap();
+    for state in &results.states {
+        for end in model.contacts.iter().flat_map(|c| &c.goes_on) {
+            assert_eq!(state.pairs[*end].status, Status::Open, "{}", state.name);
+        }
+    }
+    results
+}
+
+/// Fifty times the load of first yield. Uniform meshes of 58 and 86 candidates, fine as at first yield all over the contact
+/// (`fine_width = 7.07`, `fine_depth = 5.3`, resolution 8 and 12), give a radius of 0.534, 1228.6 MPa and a dent of 0.00952;
+/// the radius is read to a fifth of an element, 0.06 of them wide here.
+#[test]
+fn a_ball_at_fifty_times_first_yield_is_right() {
+    let scene = load(
+        "ball_on_half_space",
+        &[
+            "mesh.cylinder_on_half_plane.resolution=8",
+            "program.targets=[{yield=true},{name=\"pressed\",load_factor=50.0},{name=\"unloaded\",load_factor=0.0}]",
+        ],
+    );
+    let results = within_candidates(&scene);
+    let pressed = state(&results, "pressed");
+    close("radius", pressed.half_width, 0.534, 0.062, 0.2);
+    // A pressure that is even over the middle: of the order of the elements over the contact, squared.
+    close("pressure", pressed.max_pressure, 1228.6, 1228.6, 1.0 / 64.0);
+    let dent = state(&results, "unloaded").residual_depth;
+    close("dent", dent, 0.00952, 0.00952, 1.0 / 64.0);
+}
+
+/// The elastic line contact at ten times the load of first yield: its half width is Hertz' one.
+#[test]
+fn an_elastic_contact_at_ten_times_first_yield_is_that_of_hertz() {
+    let modulus = contact_modulus(210e3, 0.3, 210e3, 0.3);
+    let hertz = HertzLine::new(10.0, modulus).unwrap();
+    let p = 10.0 * hertz.yield_load(0.3, 500.0);
+    let scene = load(
+        "cylinder_on_half_plane",
+        &[
+            "reference=[]",
+            "program.unit=load",
+            "program.targets=[{name=\"pressed\",load_factor=1.0}]",
+            &format!("load.0.plane_force.total={:?}", -p),
+            &format!(
+                "mesh.cylinder_on_half_plane.half_width={:?}",
+                hertz.yield_half_width(0.3, 500.0)
+            ),
+            "bodies.cylinder.plastic=false",
+            "bodies.half_plane.plastic=false",
+        ],
+    );
+    let results = within_candidates(&scene);
+    let pressed = state(&results, "pressed");
+    // The bodies are circles where Hertz has parabolas: (b/R)^2 / 8. The edge is read to an eighth of an element, of 16.
+    let b = hertz.half_width(p);
+    let form = (b / 10.0).powi(2) / 8.0;
+    close("half width", pressed.half_width, b, b, form + 1.0 / 128.0);
+}
+
+/// A strip that the user makes too short ends the run where contact reaches its end, with what was computed before.
+#[test]
+fn a_strip_that_is_too_short_ends_the_run_at_its_end() {
+    let scene = load(
+        "ball_on_half_space",
+        &[
+            "mesh.cylinder_on_half_plane.contact_width=2.0",
+            "program.targets=[{yield=true},{load_factor=50.0},{load_factor=0.0}]",
+        ],
+    );
+    let model = Model::new(&scene).unwrap();
+    let end = model.pairs.len() - 1;
+    assert_eq!(model.contacts[0].goes_on, [end]);
+    let results = Analysis::new(model, Backend::default())
+        .and_then(|mut a| a.run(&mut Silent))
+        .unwrap();
+    assert_eq!(results.incomplete_kind, Some(ErrorKind::Outgrown));
+    assert_eq!(results.states.len(), 1, "the state at first yield is right");
+    // The last increment is the one in which the last pair closes.
+    let last = results.history.last().unwrap();
+    assert_eq!(last.event, format!("closes: pair {}", end + 1));
+    let message = results.incomplete.unwrap();
+    for part in [
+        "`cylinder.contact` on `half_plane.contact`",
+        &format!("load factor {:.6}", last.alpha),
+        "contact_width",
+        &format!("{:.2} times as far", (50.0 / last.alpha).sqrt()),
+    ] {
+        assert!(message.contains(part), "{part}: {message}");
+    }
+}
+
+/// With fixed steps the increment in which contact went over the end is not a result either.
+#[test]
+fn fixed_steps_do_not_step_over_the_end() {
+    let scene = load(
+        "ball_on_half_space",
+        &[
+            "mesh.cylinder_on_half_plane.resolution=6",
+            "mesh.cylinder_on_half_plane.contact_width=2.0",
+            "program.stepping=steps",
+            "program.steps=4",
+            "program.targets=[{yield=true},{load_factor=50.0}]",
+        ],
+    );
+    let error = try_run(&scene, Backend::default()).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Outgrown, "{error}");
+}
+
+/// Two blocks; the candidates are `piece` of the upper one's bottom, which goes on, on the whole lower top.
+fn blocks(width: f64, piece: f64) -> Scene {
+    parse(&format!(
+        "kind = \"plane_strain\"
+        [[mesh.parts]]
+        body = \"upper\"
+        [mesh.parts.block]
+        x = [0.0, {width:?}]
+        y = [0.0, 1.0]
+        elements = [{n}, 4]
+        pieces = [{{ name = \"piece\", side = \"bottom\", from = 0.0, to = {piece:?} }}]
+        [[mesh.parts]]
+        body = \"lower\"
+        block = {{ x = [0.0, 2.0], y = [-1.0, 0.0], elements = [8, 4] }}
+        [materials.m]
+        youngs_modulus = 1000.0
+        poissons_ratio = 0.3
+        [bodies]
+        upper = {{ material = \"m\" }}
+        lower = {{ material = \"m\" }}
+        [[contact]]
+        first = \"upper.piece\"
+        second = \"lower.top\"
+        [[support]]
+        on = \"upper.left\"
+        fix = [\"x\"]
+        [[support]]
+        on = \"lower.left\"
+        fix = [\"x\"]
+        [[support]]
+        on = \"lower.bottom\"
+        fix = [\"y\"]
+        [[load]]
+        on = \"upper.top\"
+        pressure = 1.0
+        [program]
+        targets = [{{ load_factor = 1.0 }}]",
+        n = (4.0 * width) as usize
+    ))
+}
+
+#[test]
+fn a_corner_of_either_body_is_no_end_and_the_middle_of_a_side_is() {
+    // The whole side of a narrow block on a wide one, and of two that are equally wide: corners.
+    for width in [1.0, 2.0] {
+        let scene = blocks(width, width);
+        assert!(Model::new(&scene).unwrap().contacts[0].goes_on.is_empty());
+        run(&scene);
+    }
+    // Half of a side, in contact from the start: no load factor is right.
+    let scene = blocks(2.0, 1.0);
+    assert_eq!(Model::new(&scene).unwrap().contacts[0].goes_on.len(), 1);
+    let error = try_run(&scene, Backend::default()).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Outgrown);
+    assert!(error.message().contains("load factor 0.000000"), "{error}");
+    assert!(
+        error.message().contains("make the surfaces longer"),
+        "{error}"
+    );
+}
+
+/// Scenes whose contact reaches a corner, a symmetry plane or the axis have no end that goes on.
+#[test]
+fn contact_up_to_real_ends_stays_silent() {
+    for name in [
+        "contact_patch",
+        "disc_in_plate",
+        "gmsh_blocks",
+        "shrink_fit",
+        "three_bodies",
+    ] {
+        let model = Model::new(&load(name, &[])).unwrap();
+        for contact in &model.contacts {
+            assert!(contact.goes_on.is_empty(), "{name}: {contact:?}");
+        }
+    }
+    run_file("contact_patch", &[]);
+}
