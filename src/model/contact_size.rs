@@ -162,25 +162,25 @@ fn reach(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<f64>
     Some(widest.into_iter().fold(0.0, f64::max))
 }
 
-/// Total force of a load along y on the whole of the bodies, where its kind and place tell.
+/// Total force along y of a load on the whole cylinder or ball, where its kind and place tell: the mesh is that of half a
+/// cylinder, forces that are given as totals are those of `symmetry` such models.
 fn normal_force(scene: &Scene, load: &Load, size: f64) -> f64 {
-    let whole = match scene.kind {
-        Kind::Axisymmetric => PI * size * size,
-        _ => scene.symmetry as f64 * size,
+    let (models, area) = match scene.kind {
+        Kind::Axisymmetric => (1.0, PI * size * size),
+        _ => (2.0, size),
     };
     let on_cut = ["cylinder.top", "half_plane.bottom"].contains(&load.on.as_str());
-    let on_area = |stress: f64| if on_cut { stress * whole } else { 0.0 };
+    let on_area = |stress: f64| if on_cut { stress * area } else { 0.0 };
+    let of_model = |total: f64| total / scene.symmetry as f64;
     let plane = load
         .plane_force
         .filter(|plane| plane.direction == Direction::Y);
     let parts = [
-        plane.map(|plane| plane.total),
-        load.force.map(|force| force[1]),
+        plane.map(|plane| of_model(plane.total)),
+        load.force.map(|force| of_model(force[1])),
         load.pressure.map(on_area),
         load.traction.map(|traction| on_area(traction[1])),
     ];
-    parts
-        .into_iter()
-        .flatten()
-        .fold(0.0, |sum, f| sum + f.abs())
+    let parts = parts.into_iter().flatten();
+    models * parts.fold(0.0, |sum, f| sum + f.abs())
 }
