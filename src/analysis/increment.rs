@@ -8,7 +8,7 @@
 use super::acceleration::Anderson;
 use super::engine::{Engine, LoadPoint};
 use super::equilibrium::Equilibrium;
-use super::step_length::{StepLimit, step_limit};
+use super::step_length::{LengthSearch, StepLimit, step_limit};
 use super::zone::Evaluation;
 use crate::scene::{PlasticIteration, Settings};
 use crate::substructure::Trailing;
@@ -132,6 +132,7 @@ impl Engine<'_> {
         let mut iterations = 0;
         let mut best = (f64::INFINITY, 0);
         let mut damping = 0.0;
+        let mut length_search = LengthSearch::default();
         let newton = settings.plastic_iteration == PlasticIteration::Newton;
         let most_iterations = match settings.plastic_iteration {
             PlasticIteration::Newton => settings.max_iterations,
@@ -238,13 +239,15 @@ impl Engine<'_> {
                 }
                 if reach.is_finite() && reach != 1.0 {
                     // Far-off predictions are followed carefully: the response is not linear.
-                    let reach = reach.clamp(0.1, 4.0);
-                    t = if reach * t >= most * (1.0 - 4.0 * f64::EPSILON) {
+                    let goal = (reach.clamp(0.1, 4.0) * t).min(most);
+                    let next = t + length_search.relaxation(t, goal) * (goal - t);
+                    let next = if next >= most * (1.0 - 4.0 * f64::EPSILON) {
                         most
                     } else {
-                        reach * t
+                        next
                     };
-                    state.rescale(&before, reach);
+                    state.rescale(&before, next / t);
+                    t = next;
                     known = None;
                     anderson.restart();
                 }

@@ -40,9 +40,54 @@ pub fn step_limit(before: &[f64], after: &[f64], border: &[usize]) -> StepLimit 
     }
 }
 
+/// The search for the length of an increment: the iteration `t <- goal(t)` of the paper (4.17, 4.22), relaxed where it
+/// would swing about its end.
+///
+/// The goal is found as if the response were linear. Where flow spreads it is not: with the slope `s` of the goal the error
+/// of `t` is multiplied by `s` at each step, and `s` comes near -1 and beyond as the material loses its stiffness. The
+/// secant through the last two goals gives `s`; `1/(1 - s)` of the way leads to where `t = goal(t)`.
+///
+/// # Source
+/// B. M. Irons, R. C. Tuck (1969), A version of the Aitken accelerator for computer iteration, doi:10.1002/nme.1620010306.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct LengthSearch {
+    last: Option<[f64; 2]>,
+}
+
+/// Least share of the way that is gone: a goal that jumps tells no slope.
+const LEAST_RELAXATION: f64 = 0.1;
+
+impl LengthSearch {
+    /// The share of the way from `t` to `goal` that is to be gone; all of it while the goal does not swing.
+    pub fn relaxation(&mut self, t: f64, goal: f64) -> f64 {
+        let slope = match self.last.replace([t, goal]) {
+            Some([t0, goal0]) if t != t0 => (goal - goal0) / (t - t0),
+            _ => 0.0,
+        };
+        (1.0 / (1.0 - slope.min(0.0))).max(LEAST_RELAXATION)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_goal_that_swings_is_met_and_one_that_does_not_is_followed() {
+        // goal(t) = 1 + s (t - 1): the plain iteration diverges for s < -1.
+        for slope in [-0.9, -1.0, -3.0] {
+            let mut search = LengthSearch::default();
+            let mut t = 0.8;
+            for _ in 0..3 {
+                let goal = 1.0 + slope * (t - 1.0);
+                t += search.relaxation(t, goal) * (goal - t);
+            }
+            assert!((t - 1.0).abs() < 1e-14, "{slope}: {t}");
+        }
+        let mut search = LengthSearch::default();
+        assert_eq!(search.relaxation(0.5, 0.7), 1.0);
+        assert_eq!(search.relaxation(0.7, 0.8), 1.0);
+    }
 
     #[test]
     fn first_change_and_its_ties() {
