@@ -62,8 +62,9 @@ pub(super) fn check(scene: &Scene, check: &Check) -> String {
     report.labelled(
         "Predicted",
         &format!(
-            "about {} for each factorisation; BLAS: {}",
+            "about {} for each factorisation, {} for the run; BLAS: {}",
             seconds(check.predicted_seconds),
+            seconds(check.predicted_run_seconds),
             check.blas
         ),
     );

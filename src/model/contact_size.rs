@@ -2,7 +2,7 @@
 
 use crate::analytical::{self, HertzLine, HertzPoint};
 use crate::error::{Error, Result};
-use crate::mesh::generate::ContactSize;
+use crate::mesh::generate::{ContactSize, WIDEST};
 use crate::scene::{CylinderOnHalfPlane, Direction, History, Kind, Load, Plastic, Scene, Unit};
 use std::f64::consts::PI;
 
@@ -122,6 +122,40 @@ fn weaker(
 
 /// The widest contact of the load program; `None` where its loads do not say.
 fn reach(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<f64> {
+    let [by_load, by_depth] = widest(scene, p, half_width)?;
+    Some(by_load.max(by_depth))
+}
+
+/// What the user should know before a run whose contact may become wider than its candidates, if that is so. Displacements do not
+/// count: how much of them the rest of the bodies takes is not known before.
+pub(super) fn warning(scene: &Scene) -> Option<String> {
+    let p = scene.mesh.cylinder_on_half_plane.as_ref()?;
+    let ContactSize { half_width, reach } = of(scene, p).ok()?;
+    let [wanted, _] = widest(scene, p, half_width)?;
+    let given = p.contact_width.unwrap_or(0.0).max(p.fine_width) * half_width;
+    let candidates = reach.max(given).min(WIDEST * p.radius);
+    if wanted <= candidates {
+        return None;
+    }
+    let remedy = if wanted > WIDEST * p.radius {
+        format!(
+            "that is more than {WIDEST} of the radius {}, far beyond small displacements: check load, radius and units",
+            p.radius
+        )
+    } else {
+        format!(
+            "give mesh.cylinder_on_half_plane.contact_width = {:.2}, or leave it out",
+            wanted / half_width
+        )
+    };
+    Some(format!(
+        "under the largest load of the program the half width of contact may reach {wanted:.4}, its candidates end at \
+         {candidates:.4}, and the run where it reaches them: {remedy}"
+    ))
+}
+
+/// Upper bounds of the widest contact of the load program: by forces and half widths asked for, and by displacements.
+fn widest(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<[f64; 2]> {
     let hertz = Hertz::of(scene, p).ok()?;
     let first = weaker(scene, p, |plastic| plastic != Plastic::No).ok()?;
     let program = &scene.program;
@@ -154,12 +188,10 @@ fn reach(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<f64>
     depth += largest(&mut scene.contact.iter().map(|c| c.interference));
     let at_yield = first.map_or(half_width, |(width, _)| width);
     let asked = largest(&mut targets().filter_map(|t| t.half_width)) * at_yield;
-    let widest = [
-        hertz.widest(force, first),
-        ROOM * asked,
+    Some([
+        hertz.widest(force, first).max(ROOM * asked),
         (2.0 * PILE_UP * p.radius * depth).sqrt(),
-    ];
-    Some(widest.into_iter().fold(0.0, f64::max))
+    ])
 }
 
 /// Total force along y of a load on the whole cylinder or ball, where its kind and place tell: the mesh is that of half a

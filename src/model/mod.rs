@@ -133,6 +133,9 @@ impl Model {
         let floating = held::resolve(kind, &mesh, &mut freedoms, &pairs, &loads, &mut warnings)?;
         let loads = loads::renumber(loads, &freedoms);
         ends::find(&mesh, &freedoms, &pairs, &mut contacts);
+        if matches!(origin, Origin::Scene) {
+            warnings.extend(contact_size::warning(scene));
+        }
         Ok(Model {
             scene: scene.clone(),
             kind,

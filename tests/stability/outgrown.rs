@@ -25,7 +25,8 @@ fn within_candidates(scene: &Scene) -> brinell::results::Results {
 
 /// Fifty times the load of first yield. Uniform meshes of 58 and 86 candidates, fine as at first yield all over the contact
 /// (`fine_width = 7.07`, `fine_depth = 5.3`, resolution 8 and 12), give a radius of 0.534, 1228.6 MPa and a dent of 0.00952;
-/// the radius is read to a fifth of an element, 0.06 of them wide here.
+/// the radius is read to a fifth of an element, 0.062 wide there. Pressure and dent are of second order: with 8, 12, 16 and 24
+/// elements they are 1.6, 0.7, 0.5 and 0.2 % off; twice that is allowed.
 #[test]
 fn a_ball_at_fifty_times_first_yield_is_right() {
     let scene = load(
@@ -38,10 +39,16 @@ fn a_ball_at_fifty_times_first_yield_is_right() {
     let results = within_candidates(&scene);
     let pressed = state(&results, "pressed");
     close("radius", pressed.half_width, 0.534, 0.062, 0.2);
-    // A pressure that is even over the middle: of the order of the elements over the contact, squared.
-    close("pressure", pressed.max_pressure, 1228.6, 1228.6, 1.0 / 64.0);
+    let second_order = 2.0 / 64.0;
+    close(
+        "pressure",
+        pressed.max_pressure,
+        1228.6,
+        1228.6,
+        second_order,
+    );
     let dent = state(&results, "unloaded").residual_depth;
-    close("dent", dent, 0.00952, 0.00952, 1.0 / 64.0);
+    close("dent", dent, 0.00952, 0.00952, second_order);
 }
 
 /// The elastic line contact at ten times the load of first yield: its half width is Hertz' one.
@@ -200,4 +207,36 @@ fn contact_up_to_real_ends_stays_silent() {
         }
     }
     run_file("contact_patch", &[]);
+}
+
+/// Before a run: what the contact needs and what its candidates have, where these are too short.
+#[test]
+fn a_check_warns_of_candidates_that_end_too_soon_and_of_long_runs() {
+    let of = |changes: &[&str]| {
+        let scene = load("ball_on_half_space", changes);
+        brinell::analysis::check(&Model::new(&scene).unwrap(), Backend::default()).unwrap()
+    };
+    assert!(of(&[]).notes.is_empty());
+    let heavy = "program.targets=[{load_factor=50.0}]";
+    assert!(of(&[heavy]).notes.is_empty());
+    let short = of(&[heavy, "mesh.cylinder_on_half_plane.contact_width=3.0"]);
+    // Yield at 0.1097 of the load's unit: at most sqrt(50) times as wide.
+    let [note] = &short.notes[..] else {
+        panic!("{:?}", short.notes)
+    };
+    assert!(note.contains("contact_width = 7.07"), "{note}");
+    // A ball pressed in beyond 0.9 of its radius.
+    let deep = of(&["program.targets=[{load_factor=20000.0}]"]);
+    assert!(
+        deep.notes.iter().any(|n| n.contains("0.9 of the radius")),
+        "{:?}",
+        deep.notes
+    );
+    let fine = of(&[heavy, "mesh.cylinder_on_half_plane.resolution=64"]);
+    assert!(fine.predicted_run_seconds > 10.0 * short.predicted_run_seconds);
+    assert!(
+        fine.notes.iter().any(|n| n.contains(" min")),
+        "{:?}",
+        fine.notes
+    );
 }

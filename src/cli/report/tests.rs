@@ -214,12 +214,13 @@ fn a_check_tells_effects_cost_and_notes() {
         sizes: full.sizes,
         prediction: full.factor,
         predicted_seconds: 12.34,
+        predicted_run_seconds: 56.78,
         blas: "OpenBLAS 0.3.21".into(),
         notes: vec!["use a finer mesh".into()],
     };
     let text = check(&scene(), &prediction);
     for fragment in [
-        "Predicted  about 12.3 s for each factorisation; BLAS: OpenBLAS 0.3.21",
+        "Predicted  about 12.3 s for each factorisation, 56.8 s for the run; BLAS: OpenBLAS 0.3.21",
         "\nEffects\n",
         "\nNotes\n  - use a finer mesh\n",
     ] {

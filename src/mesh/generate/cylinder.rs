@@ -9,7 +9,7 @@ use crate::{Error, Result};
 
 const KEY: &str = "mesh.cylinder_on_half_plane";
 /// The candidates may reach this share of the radius: further out the circle is nearly vertical.
-const WIDEST: f64 = 0.9;
+pub const WIDEST: f64 = 0.9;
 
 /// How large the contact of a cylinder on a half plane is, in the unit of its radius.
 #[derive(Debug, Clone, Copy, PartialEq)]

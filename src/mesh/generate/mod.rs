@@ -17,7 +17,7 @@ mod polar;
 #[cfg(test)]
 mod tests;
 
-pub use cylinder::{ContactSize, cylinder_on_half_plane};
+pub use cylinder::{ContactSize, WIDEST, cylinder_on_half_plane};
 pub use disc::disc_in_plate;
 pub use parts::parts;
 
