@@ -11,6 +11,7 @@ mod incompressible;
 mod killed;
 mod numbers;
 mod peers;
+mod prescribed;
 mod quality;
 mod receding;
 mod refinement;

@@ -335,11 +335,11 @@ fn an_override_without_a_value_removes_the_key() {
         "materials.steel.plastic_modulus=7",
         "materials.steel.plastic_modulus=",
         "materials.steel.yield_stress = ",
-        "title=",
+        "kind=",
     ]);
     let error = scene.unwrap_err();
     assert!(
-        error.message().contains("the key `title` is missing"),
+        error.message().contains("the key `kind` is missing"),
         "{error}"
     );
     let scene = load_with(&["materials.steel.yield_stress = "]).unwrap();
