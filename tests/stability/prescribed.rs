@@ -1,4 +1,5 @@
-//! Prescribed displacements: the force that they take, of the whole, and axes that are turned against x and y.
+//! Loads: what they sum up to, how they follow the load factor; prescribed displacements: the force that they take, of the whole, and axes
+//! that are turned against x and y.
 
 use crate::running::{close, parse, run, state};
 
@@ -123,4 +124,64 @@ fn the_approach_is_the_mean_over_the_surface() {
         .map(|(&n, share)| share * (u[2 * n] + u[2 * n + 1]) / 2f64.sqrt())
         .sum();
     close("approach", results.states[0].approach, mean, mean, 1e-12);
+}
+
+/// A table's factors between its rows are linear, outside it those of its ends; only its rows are kinks.
+#[test]
+fn a_history_is_linear_between_its_rows_and_holds_its_ends() {
+    let table = "history = [[0.5, 2.0], [1.0, 3.0], [2.0, -1.0]]\n[program]";
+    let text = block(1, "").replace("[program]", table);
+    let model = brinell::model::Model::new(&parse(&text)).unwrap();
+    let load = &model.loads[0];
+    for (alpha, factor) in [
+        (-1.0, 2.0),
+        (0.0, 2.0),
+        (0.5, 2.0),
+        (0.75, 2.5),
+        (1.0, 3.0),
+        (1.5, 1.0),
+        (2.0, -1.0),
+        (5.0, -1.0),
+    ] {
+        // What a load factor of 1 stands for is nothing to a table.
+        assert_eq!(load.factor(alpha, 7.0), factor, "{alpha}");
+    }
+    assert_eq!(load.kinks().collect::<Vec<_>>(), [0.5, 1.0, 2.0]);
+    let text = block(1, "").replace("[program]", "history = \"constant\"\n[program]");
+    let model = brinell::model::Model::new(&parse(&text)).unwrap();
+    assert_eq!(model.loads[0].factor(0.3, 7.0), 1.0);
+    let model = brinell::model::Model::new(&parse(&block(1, ""))).unwrap();
+    assert_eq!(model.loads[0].factor(0.3, 7.0), 0.3 * 7.0);
+}
+
+/// Forces are those of the whole: a model of one of two halves carries half of them, however they are spread. Stresses act on what is
+/// there, here a side of length 1.
+#[test]
+fn loads_sum_up_to_what_was_asked_for() {
+    for symmetry in [1, 2] {
+        let of_model = 6.0 / symmetry as f64;
+        for (on, load, expected) in [
+            ("block.top", "force = [0.0, -6.0]", -of_model),
+            ("corner", "force = [0.0, -6.0]", -of_model),
+            (
+                "block.top",
+                "plane_force = { direction = \"y\", total = -6.0 }",
+                -of_model,
+            ),
+            ("block.top", "pressure = 6.0", -6.0),
+            ("block.top", "traction = [0.0, 6.0]", 6.0),
+        ] {
+            let text = block(symmetry, "").replace(
+                &format!("on = \"block.top\"\ndisplacement = {{ y = {MOVED:.4} }}"),
+                &format!("on = \"{on}\"\n{load}"),
+            );
+            let text = text.replace("corner", "block.top_right");
+            let model = match brinell::model::Model::new(&parse(&text)) {
+                Ok(model) => model,
+                Err(error) => panic!("{load} on {on}: {error}"),
+            };
+            let sum: f64 = model.loads[0].forces.iter().map(|(_, f)| f).sum();
+            close(load, sum, expected, expected, 1e-14);
+        }
+    }
 }

@@ -23,13 +23,7 @@ pub fn exception(py: Python<'_>, error: &Error, result: Option<Py<PyAny>>) -> Py
     made(py, kind, error.kind(), &text, result)
 }
 
-fn made(
-    py: Python<'_>,
-    kind: &str,
-    of: ErrorKind,
-    text: &str,
-    result: Option<Py<PyAny>>,
-) -> PyErr {
+fn made(py: Python<'_>, kind: &str, of: ErrorKind, text: &str, result: Option<Py<PyAny>>) -> PyErr {
     let make = || -> PyResult<PyErr> {
         let make = py.import("brinell._errors")?.getattr("make")?;
         let value = make.call1((kind, of.exit_code(), text, result))?;

@@ -243,7 +243,10 @@ impl RunResult {
         let index = if let Ok(name) = which.extract::<String>() {
             let names = self.names();
             names.iter().position(|n| *n == name).ok_or_else(|| {
-                missing(py, &format!("there is no state {name:?}; there are {names:?}"))
+                missing(
+                    py,
+                    &format!("there is no state {name:?}; there are {names:?}"),
+                )
             })?
         } else {
             let index: isize = which.extract()?;

@@ -43,7 +43,9 @@ pub fn on<T: Send>(
                 Ok(result) => return result,
                 Err(RecvTimeoutError::Timeout) => signals.look(),
                 Err(RecvTimeoutError::Disconnected) => {
-                    return Err(Error::internal("the thread of the run ended without a result"));
+                    return Err(Error::internal(
+                        "the thread of the run ended without a result",
+                    ));
                 }
             }
         }
