@@ -12,7 +12,7 @@ pub struct Quantity {
     pub value: f64,
     /// The largest size that a quantity of this KEY has in the run: what its error is measured against.
     pub scale: f64,
-    /// Whether a demanded accuracy holds for it; see [`governs`].
+    /// Whether a demanded accuracy holds for it: not for the plastic zone and values at one point (largest plastic strain, pole).
     pub governs: bool,
 }
 

@@ -269,6 +269,12 @@ fn what_a_load_a_target_and_a_program_say_arrives() {
             (load.kind, load.directions, load.history) = (kind, directions, history);
             (load.name, load.on) = (c"more".as_ptr(), c"top".as_ptr());
             load.values = [2.0, 3.0, 5.0];
+            if kind == BRINELL_LOAD_DISPLACEMENT {
+                // The top's left end is held along x.
+                let node = (mesh.n_nodes - 1) as i64;
+                ok(brinell_model_node_set(model, c"end".as_ptr(), &node, 1));
+                load.on = c"end".as_ptr();
+            }
             (load.table, load.n_table) = (table.as_ptr(), 2);
             ok(brinell_model_load(model, &load));
             let loads = (*model).builder.build().unwrap().scene.load;
@@ -286,7 +292,10 @@ fn what_a_load_a_target_and_a_program_say_arrives() {
         };
         let both = BRINELL_X | BRINELL_Y;
         let moved = |x: Option<f64>, y: Option<f64>| {
-            expected(&move |load| load.displacement = Some(Displacement { x, y }))
+            expected(&move |load| {
+                load.on = "end".into();
+                load.displacement = Some(Displacement { x, y });
+            })
         };
         let displaced = |directions: i32| last(BRINELL_LOAD_DISPLACEMENT, directions, 0);
         assert_eq!(displaced(BRINELL_X), moved(Some(2.0), None));

@@ -5,11 +5,12 @@ use crate::running::{close, parse, run, state};
 
 const E: f64 = 1000.0;
 const NU: f64 = 0.3;
-/// Height of the block and how far its top is moved.
+/// Width and height of the block, and how far its top is moved.
+const WIDTH: f64 = 1.25;
 const HEIGHT: f64 = 2.0;
 const MOVED: f64 = -0.001;
 
-/// A block of width 1 in plane strain whose top is moved, free or held on its right side.
+/// A block in plane strain whose top is moved, free or held on its right side.
 fn block(symmetry: usize, supports: &str) -> String {
     format!(
         r#"
@@ -18,7 +19,7 @@ kind = "plane_strain"
 symmetry = {symmetry}
 [[mesh.parts]]
 body = "block"
-block = {{ x = [0.0, 1.0], y = [0.0, {HEIGHT:.1}], elements = [3, 4] }}
+block = {{ x = [0.0, {WIDTH:.2}], y = [0.0, {HEIGHT:.1}], elements = [3, 4] }}
 [materials.steel]
 youngs_modulus = {E:.1}
 poissons_ratio = {NU:.1}
@@ -46,7 +47,7 @@ fn the_force_of_a_displacement_is_that_of_the_whole() {
     let strain = MOVED.abs() / HEIGHT;
     for symmetry in [1, 2] {
         let results = run(&parse(&block(symmetry, "")));
-        let force = symmetry as f64 * E / (1.0 - NU * NU) * strain;
+        let force = symmetry as f64 * WIDTH * E / (1.0 - NU * NU) * strain;
         close("moved", state(&results, "moved").load, force, force, 1e-12);
         let half = 0.5 * force;
         close("back", state(&results, "back").load, half, force, 1e-12);
@@ -155,7 +156,7 @@ fn a_history_is_linear_between_its_rows_and_holds_its_ends() {
 }
 
 /// Forces are those of the whole: a model of one of two halves carries half of them, however they are spread. Stresses act on what is
-/// there, here a side of length 1.
+/// there, a side of the model.
 #[test]
 fn loads_sum_up_to_what_was_asked_for() {
     for symmetry in [1, 2] {
@@ -168,8 +169,8 @@ fn loads_sum_up_to_what_was_asked_for() {
                 "plane_force = { direction = \"y\", total = -6.0 }",
                 -of_model,
             ),
-            ("block.top", "pressure = 6.0", -6.0),
-            ("block.top", "traction = [0.0, 6.0]", 6.0),
+            ("block.top", "pressure = 6.0", -6.0 * WIDTH),
+            ("block.top", "traction = [0.0, 6.0]", 6.0 * WIDTH),
         ] {
             let text = block(symmetry, "").replace(
                 &format!("on = \"block.top\"\ndisplacement = {{ y = {MOVED:.4} }}"),
