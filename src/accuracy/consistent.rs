@@ -166,7 +166,8 @@ fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME * a.abs().max(b.abs())
 }
 
-/// Reports a value in the place of the mesh's: its error is at most that of the mesh's and the distance between the two.
+/// Reports a value in the place of the mesh's: its error is at most that of the mesh's and the
+/// distance between the two.
 fn move_to(row: &mut QuantityError, value: f64) {
     if let (Some(error), Some(discretisation)) = (row.error, row.discretisation) {
         row.of_mesh = Some(OfMesh {

@@ -406,8 +406,9 @@ impl Observer for Quiet<'_> {
 mod tests {
     use super::*;
 
-    /// Of an extent that each mesh tells to half an element, no matter where in it the contact ends: the share of the errors on the
-    /// finest that lie within the stated ones, over all places on all meshes. `stated` is of the estimate.
+    /// Of an extent that each mesh tells to half an element, no matter where in it the contact
+    /// ends: the share of the errors on the finest that lie within the stated ones, over all places
+    /// on all meshes. `stated` is of the estimate.
     fn covered(ratios: &[f64], stated: impl Fn(&[(f64, f64)]) -> Option<f64>) -> f64 {
         const PLACES: usize = 12;
         let place = |i: usize| (i as f64 + 0.5) / PLACES as f64 - 0.5;
@@ -441,8 +442,9 @@ mod tests {
         assert!(of_two(1.25) < 0.9);
     }
 
-    /// Three times the error of the order of the elements, where that is within the bounds: of linear ones the whole [`SAFETY`], of
-    /// quadratic ones on a mesh 1.1 times as coarse 3 (1 - r)/(1 - r^2) = 3/2.1.
+    /// Three times the error of the order of the elements, where that is within the bounds: of
+    /// linear ones the whole [`SAFETY`], of quadratic ones on a mesh 1.1 times as coarse 3 (1 -
+    /// r)/(1 - r^2) = 3/2.1.
     #[test]
     fn two_meshes_state_three_times_the_error_of_their_order() {
         assert_eq!(safety_of_two(1.5, 1.0), 2.0);

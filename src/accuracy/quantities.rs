@@ -12,12 +12,14 @@ pub struct Quantity {
     pub value: f64,
     /// The largest size that a quantity of this KEY has in the run: what its error is measured against.
     pub scale: f64,
-    /// Whether a demanded accuracy holds for it: not for the plastic zone and values at one point (largest plastic strain, pole).
+    /// Whether a demanded accuracy holds for it: not for the plastic zone and values at one point
+    /// (largest plastic strain, pole).
     pub governs: bool,
 }
 
-/// Whether a demanded accuracy holds for quantities of this key. The size of the plastic zone is counted in whole Gauss
-/// points; the largest plastic strain and the pressure at the pole are values at one point. Their errors are stated only.
+/// Whether a demanded accuracy holds for quantities of this key. The size of the plastic zone is
+/// counted in whole Gauss points; the largest plastic strain and the pressure at the pole are
+/// values at one point. Their errors are stated only.
 pub(super) fn governs(key: &str) -> bool {
     ![
         "plastic_zone_size",
@@ -27,8 +29,9 @@ pub(super) fn governs(key: &str) -> bool {
     .contains(&key)
 }
 
-/// All reported quantities of a run: yield load, maximum pressure, pressure at the pole, half width, residual depth, approach,
-/// largest plastic strain and size of the plastic zone, as far as the scene has contact and yields.
+/// All reported quantities of a run: yield load, maximum pressure, pressure at the pole, half
+/// width, residual depth, approach, largest plastic strain and size of the plastic zone, as far as
+/// the scene has contact and yields.
 pub fn quantities(results: &Results) -> Vec<Quantity> {
     let contact = results.sizes.contact_pairs > 0;
     let plastic = results.states.iter().any(|s| s.plastic_points > 0);

@@ -363,7 +363,8 @@ mod tests {
     use crate::progress::Silent;
     use crate::scene::Scene;
 
-    /// Where the way to a target starts goes through a checkpoint with all that a retry with a wider zone puts back.
+    /// Where the way to a target starts goes through a checkpoint with all that a retry with a
+    /// wider zone puts back.
     #[test]
     fn the_start_of_a_way_keeps_the_first_yield_that_was_known() {
         let path = concat!(

@@ -366,7 +366,8 @@ targets = [{ load_factor = 1.0 }]
         }
     }
 
-    /// What a zone goes back to knows nothing of what it went through since: what flows next is what flows in a new one.
+    /// What a zone goes back to knows nothing of what it went through since: what flows next is
+    /// what flows in a new one.
     #[test]
     fn a_restored_history_is_all_there_is() {
         let case = Case::new();
@@ -390,7 +391,8 @@ targets = [{ load_factor = 1.0 }]
         assert_eq!(zone.history(), fresh.history());
     }
 
-    /// The history of a smaller zone: the elements that were not in it have none, whatever they have gone through since.
+    /// The history of a smaller zone: the elements that were not in it have none, whatever they
+    /// have gone through since.
     #[test]
     fn elements_outside_a_restored_zone_have_no_history() {
         let case = Case::new();

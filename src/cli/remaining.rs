@@ -1,14 +1,14 @@
 //! How much time is left, as it is shown: it never grows while time passes.
 //!
-//! With the share `p` of a load program done in `e` seconds, and `P` seconds predicted for all of it, the
-//! rest takes `rest (w P + e) / (w + p)`: the prediction counts as much as the first `w` of the program
-//! would. Between two such estimates the last one counts down. What is shown is the least so far: an
-//! estimate that rises stops the countdown until the run has caught up with it.
+//! With the share `p` of a load program done in `e` seconds, and `P` seconds predicted for all of
+//! it, the rest takes `rest (w P + e) / (w + p)`: the prediction counts as much as the first `w` of
+//! the program would. Between two such estimates the last one counts down. What is shown is the
+//! least so far: an estimate that rises stops the countdown until the run has caught up with it.
 
 /// Share of a load program that a prediction counts for.
 const WEIGHT: f64 = 0.05;
-/// Share of an estimate from which on it no longer counts down a second in a second: nothing is over
-/// before its end.
+/// Share of an estimate from which on it no longer counts down a second in a second: nothing is
+/// over before its end.
 const LAST: f64 = 0.1;
 
 /// The time that is left of a phase. All times are in seconds since it started.
@@ -112,8 +112,8 @@ mod tests {
         }
     }
 
-    /// Predicted half or twice as long: `rest (w P + e)/(w + p)` is off by `w (P/T - 1)/(w + p)`, which
-    /// is 3 % and 6 % at three quarters; an estimate that was too low holds until then.
+    /// Predicted half or twice as long: `rest (w P + e)/(w + p)` is off by `w (P/T - 1)/(w + p)`,
+    /// which is 3 % and 6 % at three quarters; an estimate that was too low holds until then.
     #[test]
     fn a_wrong_prediction_is_made_up_for() {
         for (predicted, bound) in [(150.0, 0.04), (600.0, 0.07)] {
@@ -134,7 +134,8 @@ mod tests {
         let shown = shown(300.0, 900.0, 45.0, |t| t / 900.0);
         assert_eq!(shown[0][1], 300.0);
         assert!(shown.iter().all(|s| s[1] <= 300.0));
-        // The estimate at 765 s holds, with p = 0.8 since the first one: off by `w (P/T - 1)/(w + p)` of what was left.
+        // The estimate at 765 s holds, with p = 0.8 since the first one: off by `w (P/T - 1)/(w +
+        // p)` of what was left.
         let off = WEIGHT * (1.0 - 300.0 / 900.0) / (WEIGHT + 0.8) * (900.0 - 765.0);
         let [now, left] = shown[8105];
         assert!((left - (900.0 - now)).abs() <= off + 1e-9, "{left}");

@@ -28,7 +28,8 @@ fn hardening_curves_interpolate() {
     assert_eq!(table.slope(1.0), 0.0);
 }
 
-/// A bar of E = 200, yield stress 1 and tangent modulus 40, pulled by a strain of 0.03: its stress is
+/// A bar of E = 200, yield stress 1 and tangent modulus 40, pulled by a strain of 0.03: its stress
+/// is
 /// `1 + 40 (0.03 - 1/200) = 2`, of the strain `0.03 - 2/200 = 0.02` is plastic.
 #[test]
 fn a_tangent_modulus_is_the_slope_of_the_whole_strain() {

@@ -10,8 +10,8 @@ use std::borrow::Cow;
 use toml::Spanned;
 use toml::de::{DeArray, DeString, DeTable, DeValue};
 
-/// Applies all overrides in order; later ones win. Returns what the user should know: keys that a new
-/// list of tables no longer has.
+/// Applies all overrides in order; later ones win. Returns what the user should know: keys that a
+/// new list of tables no longer has.
 ///
 /// # Errors
 /// The override, by its text: no `=`, a key that is not a TOML key path, a value that looks like a TOML

@@ -20,8 +20,8 @@ impl Scene {
 
     /// Reads a scene file with `overrides` put over it, each `key.path=value`. A segment of the path is a key, the
     /// index of an array entry or its name (`load.press.history=constant`); the
-    /// value is TOML, or else taken as a string. A table is merged with the one that is there, key by key; without a
-    /// value (`materials.steel.yield_stress=`) the key is removed.
+    /// value is TOML, or else taken as a string. A table is merged with the one that is there, key
+    /// by key; without a value (`materials.steel.yield_stress=`) the key is removed.
     ///
     /// ```
     /// use brinell::scene::Scene;

@@ -174,8 +174,9 @@ fn effectivity(scene: &Scene) -> (f64, f64) {
     )
 }
 
-/// The recovered stress of these elements is more exact than the computed one: the estimate goes to the exact error. What is left of the
-/// difference is the recovered stress's own error, of an order more on meshes without kinks: in proportion to the element size.
+/// The recovered stress of these elements is more exact than the computed one: the estimate goes to
+/// the exact error. What is left of the difference is the recovered stress's own error, of an order
+/// more on meshes without kinks: in proportion to the element size.
 #[test]
 fn the_estimate_goes_to_the_exact_error() {
     let kinds: [fn(&str, usize) -> Scene; 2] = [scene, revolved];

@@ -62,8 +62,8 @@ fn every_quantity_has_a_value_and_three_errors() {
             row.error.unwrap() >= row.discretisation.unwrap() + row.path.unwrap() + row.algebraic
         );
     }
-    // The stated error takes that of the mesh one and a half times where meshes follow a law, else twice. Half widths have bounds of
-    // their own.
+    // The stated error takes that of the mesh one and a half times where meshes follow a law, else
+    // twice. Half widths have bounds of their own.
     for row in &accuracy.quantities {
         let mesh = row.discretisation.unwrap();
         if mesh == 0.0 || row.quantity.ends_with("half_width") {

@@ -1,4 +1,5 @@
-//! The Python package, built into a folder of its own: its tests, and the example against the Rust one.
+//! The Python package, built into a folder of its own: its tests, and the example against the Rust
+//! one.
 
 use crate::interpreter;
 use std::path::{Path, PathBuf};
@@ -38,8 +39,8 @@ fn fetch_crates() {
         .arg(manifest);
     if let Err(why) = attempt(&mut fetch) {
         panic!(
-            "the crates of ffi/python cannot be fetched (is Cargo.lock behind? cargo update --workspace --manifest-path \
-             ffi/python/Cargo.toml): {why}"
+            "the crates of ffi/python cannot be fetched (is Cargo.lock behind? \
+             cargo update --workspace --manifest-path ffi/python/Cargo.toml): {why}"
         );
     }
 }

@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// An interpreter that has the modules: `BRINELL_PYTHON`, else the environment that `make python-tests` sets up in the
-/// target directory, else `python3`. A test that needs it does not pass without it.
+/// An interpreter that has the modules: `BRINELL_PYTHON`, else the environment that `make
+/// python-tests` sets up in the target directory, else `python3`. A test that needs it does not
+/// pass without it.
 pub fn with(modules: &[&str]) -> PathBuf {
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent();
     let made = target.map(|target| target.join("python/bin/python"));
@@ -20,7 +21,8 @@ pub fn with(modules: &[&str]) -> PathBuf {
         Err(error) => error.to_string(),
     };
     panic!(
-        "{} cannot `{script}`: `make python-tests` installs what is missing, or set BRINELL_PYTHON to an interpreter that has it\n{why}",
+        "{} cannot `{script}`: `make python-tests` installs what is missing, or set BRINELL_PYTHON \
+         to an interpreter that has it\n{why}",
         python.display()
     );
 }

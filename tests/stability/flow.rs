@@ -73,8 +73,9 @@ fn unloading_and_reloading_comes_back_to_the_same_state() {
     assert!(state(&results, "beyond").max_equivalent_plastic_strain > 1.001 * strain);
 }
 
-/// A cylinder's contact grows with the load and shrinks without it: pairs close on the way up and open on the way down, in plastic
-/// increments as in elastic ones, and each event changes the number of closed pairs by those that it names.
+/// A cylinder's contact grows with the load and shrinks without it: pairs close on the way up and
+/// open on the way down, in plastic increments as in elastic ones, and each event changes the
+/// number of closed pairs by those that it names.
 #[test]
 fn events_of_plastic_increments_say_what_happened() {
     let results = run_file("hard/unload_reload", &[]);
@@ -232,7 +233,8 @@ fn flow_under_contact_on_the_axis_of_quadratic_elements() {
     let linear = run_file(name, &[pressed, &linear[0], &linear[1]]);
     healthy(&linear);
     let (a, b) = (&quadratic.states[0], &linear.states[0]);
-    // Uniform pressure on a free cylinder: `(p - Y)/H` all over the lower one, of radius 2 and height 0.3.
+    // Uniform pressure on a free cylinder: `(p - Y)/H` all over the lower one, of radius 2 and
+    // height 0.3.
     let (p, y, h) = (
         1.5 * 60.876726527999686,
         81.72701746729727,

@@ -1,5 +1,5 @@
-//! Loads: what they sum up to, how they follow the load factor; prescribed displacements: the force that they take, of the whole, and axes
-//! that are turned against x and y.
+//! Loads: what they sum up to, how they follow the load factor; prescribed displacements: the force
+//! that they take, of the whole, and axes that are turned against x and y.
 
 use crate::running::{close, parse, run, state};
 
@@ -41,7 +41,8 @@ targets = [{{ name = "moved", load_factor = 1.0 }}, {{ name = "back", load_facto
     )
 }
 
-/// With free sides `sigma = E/(1 - nu^2) eps`, on the width of the whole: twice that of the half model.
+/// With free sides `sigma = E/(1 - nu^2) eps`, on the width of the whole: twice that of the half
+/// model.
 #[test]
 fn the_force_of_a_displacement_is_that_of_the_whole() {
     let strain = MOVED.abs() / HEIGHT;
@@ -54,7 +55,8 @@ fn the_force_of_a_displacement_is_that_of_the_whole() {
     }
 }
 
-/// The axes of a contact's nodes are its normal, here y, and a quarter turn from it, -x: what is moved along x moves along x.
+/// The axes of a contact's nodes are its normal, here y, and a quarter turn from it, -x: what is
+/// moved along x moves along x.
 #[test]
 fn a_node_with_turned_axes_moves_as_it_is_told() {
     let text = r#"
@@ -101,8 +103,8 @@ targets = [{ name = "sheared", load_factor = 1.0 }]
     }
 }
 
-/// The mean over a surface takes each node with its part of the length: at the ends of the bore half as much as between. Along the
-/// bore's resultant, (1, 1)/sqrt 2 of a quarter.
+/// The mean over a surface takes each node with its part of the length: at the ends of the bore
+/// half as much as between. Along the bore's resultant, (1, 1)/sqrt 2 of a quarter.
 #[test]
 fn the_approach_is_the_mean_over_the_surface() {
     let scene = crate::running::load(
@@ -127,7 +129,8 @@ fn the_approach_is_the_mean_over_the_surface() {
     close("approach", results.states[0].approach, mean, mean, 1e-12);
 }
 
-/// A table's factors between its rows are linear, outside it those of its ends; only its rows are kinks.
+/// A table's factors between its rows are linear, outside it those of its ends; only its rows are
+/// kinks.
 #[test]
 fn a_history_is_linear_between_its_rows_and_holds_its_ends() {
     let table = "history = [[0.5, 2.0], [1.0, 3.0], [2.0, -1.0]]\n[program]";
@@ -155,8 +158,8 @@ fn a_history_is_linear_between_its_rows_and_holds_its_ends() {
     assert_eq!(model.loads[0].factor(0.3, 7.0), 0.3 * 7.0);
 }
 
-/// Forces are those of the whole: a model of one of two halves carries half of them, however they are spread. Stresses act on what is
-/// there, a side of the model.
+/// Forces are those of the whole: a model of one of two halves carries half of them, however they
+/// are spread. Stresses act on what is there, a side of the model.
 #[test]
 fn loads_sum_up_to_what_was_asked_for() {
     for symmetry in [1, 2] {

@@ -121,8 +121,9 @@ fn conforming_contact_does_not_depend_on_the_size_of_the_load() {
     assert_eq!(state(&results, "unloaded").contact_force, 0.0);
 }
 
-/// Exact: 19.625 degrees. The contact ends between its last closed node and the next: from the nodes alone it is known to half their
-/// distance, and the forces must not make that worse on any mesh.
+/// Exact: 19.625 degrees. The contact ends between its last closed node and the next: from the
+/// nodes alone it is known to half their distance, and the forces must not make that worse on any
+/// mesh.
 #[test]
 fn conforming_contact_ends_where_it_should() {
     for n in [24, 48, 96] {

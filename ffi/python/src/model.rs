@@ -390,7 +390,8 @@ impl Model {
         Ok(())
     }
 
-    /// Runs the load program. `callback` gets a dictionary after each increment and stops the run by returning something true; `threads` as in
+    /// Runs the load program. `callback` gets a dictionary after each increment and stops the run
+    /// by returning something true; `threads` as in
     /// `brinell.run`. The model may be changed and run again.
     #[pyo3(signature = (*, solver = None, callback = None, threads = None))]
     fn run(

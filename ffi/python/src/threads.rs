@@ -17,8 +17,8 @@ pub fn number(py: Python<'_>, threads: Option<i64>) -> PyResult<Option<usize>> {
         .transpose()
 }
 
-/// Does `work` on threads of their own, as many as said, else in the calling one with those that there are. Only the
-/// calling thread may look for Ctrl-C: it does so while it waits.
+/// Does `work` on threads of their own, as many as said, else in the calling one with those that
+/// there are. Only the calling thread may look for Ctrl-C: it does so while it waits.
 ///
 /// # Errors
 /// Those of `work`; threads that cannot be started.

@@ -75,8 +75,8 @@ fn load_label(units: &Units) -> String {
     labelled("load", units.load())
 }
 
-/// What becomes of a figure as the load goes to zero within an increment, in which statuses do not change
-/// and all contact forces are therefore in proportion to the load.
+/// What becomes of a figure as the load goes to zero within an increment, in which statuses do not
+/// change and all contact forces are therefore in proportion to the load.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum AtZero {
     /// It does, too: a pressure.
@@ -461,8 +461,9 @@ pub(super) fn factor_unit(unit: Unit) -> &'static str {
 mod tests {
     use super::*;
 
-    /// Two blocks: one increment to first yield, one further, and back to nothing. Without a change of contact the
-    /// width of contact is that of the blocks for any load, pressures go with the load.
+    /// Two blocks: one increment to first yield, one further, and back to nothing. Without a change
+    /// of contact the width of contact is that of the blocks for any load, pressures go with the
+    /// load.
     #[test]
     fn an_extent_does_not_grow_with_the_load_from_zero() {
         let row = |load: f64, half_width: f64, max_pressure: f64| HistoryRow {

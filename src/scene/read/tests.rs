@@ -300,7 +300,8 @@ fn overrides_reach_every_part_of_a_scene() {
     assert_eq!(scene.bodies["block"].plastic, Plastic::Yes);
 }
 
-/// What is not named stays: a table given for `program` does not turn multiples of the yield load into loads.
+/// What is not named stays: a table given for `program` does not turn multiples of the yield load
+/// into loads.
 #[test]
 fn an_override_by_a_table_is_merged_with_it() {
     let unit = "program.unit=yield";
