@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .ONESHELL:
 .DEFAULT_GOAL := help
-.PHONY: help setup cargo build run test lint bench bench-peers install python clean
+.PHONY: help setup cargo build run test lint bench bench-peers install python python-tests clean
 
 # What the CHOLMOD backend is built on: SuiteSparse, a fast BLAS, and libclang for bindgen.
 PACKAGES := libsuitesparse-dev libopenblas-dev libclang-dev
@@ -57,7 +57,7 @@ run: setup ## Run a scene (SCENE=..., ARGS=...)
 # Tests are compiled with opt-level 2 and debug assertions (Cargo.toml): on two cores the optimised build of
 # the few heavy crates costs less than it saves. Without CHOLMOD the dense backend must do the same job:
 # a fast subset shows that this build works too.
-test: lint ## Format, lints, documentation and all tests
+test: lint python-tests ## Format, lints, documentation and all tests
 	@cargo test --features capi
 	cargo test --no-default-features --lib --bins --test cli
 
@@ -78,6 +78,7 @@ bench-peers: setup ## Measure beside CalculiX (installs it where it is absent)
 
 # The libraries are built for `install` alone: they would slow down every other build.
 PREFIX ?= /usr/local
+PYTHON ?= python3
 PROFILE ?= release
 FEATURES ?= --features capi
 VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -1)
@@ -94,7 +95,21 @@ install: setup ## Install the C library, header and pkg-config file (PREFIX=...)
 	ln -sf libbrinell.so.0 "$(PREFIX)/lib/libbrinell.so"
 	sed -e 's|@PREFIX@|$(abspath $(PREFIX))|' -e 's|@VERSION@|$(VERSION)|' ffi/brinell.pc.in > "$(PREFIX)/lib/pkgconfig/brinell.pc"
 
-PYTHON ?= python3
+# An environment of its own: where Python belongs to the system, pip may not install beside it.
+PYTHON_TESTS := $(abspath $(or $(CARGO_TARGET_DIR),target))/python
+
+python-tests: setup ## Install what the tests of Python need into an environment in the target directory
+	@[[ -z $${BRINELL_PYTHON:-} ]] || exit 0
+	python="$(PYTHON_TESTS)/bin/python"
+	needed='import maturin, meshio, numpy, pytest, scipy, vtk'
+	if [[ ! -x $$python ]] || ! "$$python" -c "$$needed" 2>/dev/null; then
+	    if ! $(PYTHON) -c 'import ensurepip, venv' 2>/dev/null; then
+	        $(MAKE) --no-print-directory setup PACKAGES="python3 python3-venv"
+	    fi
+	    $(PYTHON) -m venv "$(PYTHON_TESTS)"
+	    "$$python" -m pip install -q --disable-pip-version-check \
+	        'maturin>=1.9,<2' meshio numpy pytest scipy vtk
+	fi
 
 python: setup ## Install the Python package (PYTHON=..., in an environment that is writable)
 	@$(PYTHON) -m pip install ./ffi/python

@@ -456,7 +456,8 @@ const char *brinell_version(void);
 // The version of this interface: raised where a program built against an older header would break.
 uint32_t brinell_abi_version(void);
 
-// Reads a scene file, with `n_overrides` texts "key.path=value" put over it (as `--set` of the program; NULL and 0 for none).
+// Reads a scene file, with `n_overrides` texts "key.path=value" put over it (as `--set` of the program: tables
+// are merged, "key=" removes a key; NULL and 0 for none).
 int32_t brinell_scene_load(const char *path,
                            const char *const *overrides,
                            size_t n_overrides,

@@ -72,7 +72,11 @@ impl Estimate {
             {
                 // The share first: where the pole has the largest pressure it is one, to the last digit.
                 let pole = state.pole_pressure / state.max_pressure * largest;
-                reported.insert(path("pole_pressure"), pole);
+                let path = path("pole_pressure");
+                if let Some(row) = rows.iter_mut().find(|row| row.quantity == path) {
+                    move_to(row, pole);
+                }
+                reported.insert(path, pole);
             }
         }
     }
@@ -160,4 +164,21 @@ fn set(reported: &mut Reported, path: String, value: f64, own: f64) {
 /// Whether two values are the same but for round-off.
 fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= SAME * a.abs().max(b.abs())
+}
+
+/// Reports a value in the place of the mesh's: its error is at most that of the mesh's and the
+/// distance between the two.
+fn move_to(row: &mut QuantityError, value: f64) {
+    if let (Some(error), Some(discretisation)) = (row.error, row.discretisation) {
+        row.of_mesh = Some(OfMesh {
+            value: row.value,
+            error,
+            discretisation,
+        });
+        let moved = error + (value - row.value).abs();
+        row.relative_error =
+            (row.relative_error.filter(|_| error > 0.0)).map(|r| r * moved / error);
+        row.error = Some(moved);
+    }
+    row.value = value;
 }

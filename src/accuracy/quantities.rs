@@ -12,12 +12,26 @@ pub struct Quantity {
     pub value: f64,
     /// The largest size that a quantity of this KEY has in the run: what its error is measured against.
     pub scale: f64,
-    /// Whether a demanded accuracy holds for it. The plastic zone's size is counted in whole Gauss points and does not.
+    /// Whether a demanded accuracy holds for it: not for the plastic zone and values at one point
+    /// (largest plastic strain, pole).
     pub governs: bool,
 }
 
-/// All reported quantities of a run: yield load, maximum pressure, half width, residual depth, approach and size of the plastic
-/// zone, as far as the scene has contact and yields.
+/// Whether a demanded accuracy holds for quantities of this key. The size of the plastic zone is
+/// counted in whole Gauss points; the largest plastic strain and the pressure at the pole are
+/// values at one point. Their errors are stated only.
+pub(super) fn governs(key: &str) -> bool {
+    ![
+        "plastic_zone_size",
+        "pole_pressure",
+        "max_equivalent_plastic_strain",
+    ]
+    .contains(&key)
+}
+
+/// All reported quantities of a run: yield load, maximum pressure, pressure at the pole, half
+/// width, residual depth, approach, largest plastic strain and size of the plastic zone, as far as
+/// the scene has contact and yields.
 pub fn quantities(results: &Results) -> Vec<Quantity> {
     let contact = results.sizes.contact_pairs > 0;
     let plastic = results.states.iter().any(|s| s.plastic_points > 0);
@@ -28,7 +42,7 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
                 path: format!("{prefix}.{key}"),
                 value,
                 scale: 0.0,
-                governs: key != "plastic_zone_size",
+                governs: governs(key),
             };
             out.push((key, quantity));
         }
@@ -42,6 +56,7 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
         let prefix = format!("states.{}", state.name);
         add("load", &prefix, state.load, true);
         add("max_pressure", &prefix, state.max_pressure, contact);
+        add("pole_pressure", &prefix, state.pole_pressure, contact);
         add("half_width", &prefix, state.half_width, contact);
         add("approach", &prefix, state.approach, true);
         add(
@@ -49,6 +64,12 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
             &prefix,
             state.residual_depth,
             contact && plastic,
+        );
+        add(
+            "max_equivalent_plastic_strain",
+            &prefix,
+            state.max_equivalent_plastic_strain,
+            plastic,
         );
         add(
             "plastic_zone_size",
@@ -177,7 +198,18 @@ mod tests {
         results.sizes.contact_pairs = 3;
         results.states[0].plastic_points = 1;
         // A pressure that is not a number is no quantity.
-        assert_eq!(quantities(&results).len(), 3 + 5);
+        assert_eq!(quantities(&results).len(), 3 + 7);
+        results.states[0].max_equivalent_plastic_strain = 0.02;
+        results.states[0].pole_pressure = 3.0;
+        for (key, value) in [
+            ("max_equivalent_plastic_strain", 0.02),
+            ("pole_pressure", 3.0),
+        ] {
+            let path = format!("states.pressed.{key}");
+            let all = quantities(&results);
+            let found = all.iter().find(|q| q.path == path).unwrap();
+            assert_eq!((found.value, found.governs), (value, false), "{path}");
+        }
         assert_eq!(
             value_of(&quantities(&results), "yield.half_width"),
             Some(0.1)

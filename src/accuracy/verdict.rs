@@ -2,6 +2,7 @@
 
 use super::extrapolation::extrapolate;
 use super::knobs::Knob;
+use super::quantities::governs;
 use super::refinement::largest_order;
 use super::study::StudyRun;
 use crate::results::ReferenceRow;
@@ -89,7 +90,7 @@ pub fn judge(runs: &[StudyRun], references: &[ReferenceRow], scene: &Scene) -> V
         if errors.iter().flatten().all(|e| *e <= ROUND_OFF) {
             continue;
         }
-        if key(path) != "plastic_zone_size" {
+        if governs(&key(path)) {
             for (worst, error) in worst.iter_mut().zip(&errors) {
                 *worst = match (*worst, *error) {
                     (Some(a), Some(b)) => Some(f64::max(a, b)),

@@ -329,3 +329,20 @@ pub fn describe(changes: &[Change]) -> String {
     };
     words.join(", ") + &more
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Pairs count from 1 in words, whichever way they change.
+    #[test]
+    fn events_name_their_pairs() {
+        let one = [Change::Closes(0), Change::Opens(3)];
+        assert_eq!(describe(&one), "closes: pair 1, opens: pair 4");
+        let many: Vec<Change> = (0..6).map(Change::Opens).collect();
+        assert_eq!(
+            describe(&many),
+            "opens: pair 1, opens: pair 2, opens: pair 3, opens: pair 4 and 2 more"
+        );
+    }
+}

@@ -353,3 +353,42 @@ fn row(engine: &Engine, report: &IncrementReport, increment: usize) -> HistoryRo
         event: report.event.clone(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::Analysis;
+    use crate::linalg::Backend;
+    use crate::model::Model;
+    use crate::progress::Silent;
+    use crate::scene::Scene;
+
+    /// Where the way to a target starts goes through a checkpoint with all that a retry with a
+    /// wider zone puts back.
+    #[test]
+    fn the_start_of_a_way_keeps_the_first_yield_that_was_known() {
+        let path = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/data/scenes/hard/unload_reload.toml"
+        );
+        let model = Model::new(&Scene::load(path).unwrap()).unwrap();
+        let analysis = Analysis::new(model, Backend::Dense).unwrap();
+        let (model, system) = (analysis.model(), analysis.system());
+        let mut observer = Silent;
+        let mut run = Run::new(model, system, Backend::Dense, &[], &mut observer).unwrap();
+        run.execute(false).unwrap();
+        let first = run.results.first_yield;
+        assert!(first.is_some() && run.standing.yield_alpha.is_some());
+        run.set_start();
+        let record = run.start.as_ref().unwrap().record();
+        let bytes = postcard::to_stdvec(&record).unwrap();
+        let record: StartRecord = postcard::from_bytes(&bytes).unwrap();
+        assert_eq!(record.first_yield, first);
+        assert_eq!(record.yield_alpha, run.standing.yield_alpha);
+        assert_eq!(record.increments, run.results.history.len());
+        assert!(record.plastic);
+        let saved = Saved::recall(&record.saved, &run.engine, true).unwrap();
+        assert_eq!(saved.at, run.engine.at);
+        assert_eq!(saved.history, run.engine.zone.history());
+    }
+}

@@ -182,3 +182,66 @@ fn contact_arc(model: &Model, contact: usize, [from, to]: [f64; 2]) -> Option<[f
         [off(to), off(from)]
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    fn disc(overrides: &[&str]) -> Model {
+        let path = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/data/scenes/disc_in_plate.toml"
+        );
+        let overrides: Vec<String> = overrides.iter().map(|o| o.to_string()).collect();
+        Model::new(&Scene::load_with(path, &overrides).unwrap()).unwrap()
+    }
+
+    /// Angle between the radii to two pairs, in degrees.
+    fn between(model: &Model, a: usize, b: usize) -> f64 {
+        let (center, radius) = model.contacts[0].circle.unwrap();
+        let radii = [a, b].map(|k| {
+            let x = model.mesh.point(model.pairs[k].second);
+            [x[0] - center[0], x[1] - center[1]]
+        });
+        let [p, q] = radii;
+        let sine = (p[0] * q[1] - p[1] * q[0]).abs() / (radius * radius);
+        sine.asin().to_degrees()
+    }
+
+    /// A contact that has left the symmetry planes is measured from the nearer one.
+    #[test]
+    fn an_arc_off_the_symmetry_plane_is_measured_from_there() {
+        let model = disc(&["mesh.disc_in_plate.resolution=24"]);
+        let last = model.pairs.len() - 1;
+        let arc = |k: usize| model.pairs[k].arc;
+        let close = |found: Option<[f64; 2]>, expected: [f64; 2]| {
+            for (a, b) in found.unwrap().iter().zip(expected) {
+                assert!((a - b).abs() < 1e-9, "{found:?} {expected:?}");
+            }
+        };
+        let near_first = contact_arc(&model, 0, [arc(2), arc(7)]);
+        close(near_first, [between(&model, 0, 2), between(&model, 0, 7)]);
+        let near_last = contact_arc(&model, 0, [arc(last - 7), arc(last - 3)]);
+        let expected = [
+            between(&model, last, last - 3),
+            between(&model, last, last - 7),
+        ];
+        close(near_last, expected);
+        // One that reaches the plane starts there.
+        let at_first = contact_arc(&model, 0, [arc(0), arc(5)]);
+        close(at_first, [0.0, between(&model, 0, 5)]);
+    }
+
+    /// Without a symmetry plane at its surface's nearer end an arc is told from its own middle.
+    #[test]
+    fn an_arc_without_a_symmetry_plane_is_told_from_its_middle() {
+        let mut model = disc(&["mesh.disc_in_plate.resolution=24"]);
+        for node in [model.pairs[0].first, model.pairs[0].second] {
+            model.freedoms.slots[node][1] = Slot::Free(0);
+        }
+        let found = contact_arc(&model, 0, [2, 7].map(|k| model.pairs[k].arc)).unwrap();
+        let half = 0.5 * between(&model, 2, 7);
+        assert!((found[0] + half).abs() < 1e-9 && (found[1] - half).abs() < 1e-9);
+    }
+}

@@ -295,3 +295,120 @@ impl Zone {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    const TEXT: &str = r#"
+title = "block"
+kind = "plane_strain"
+[[mesh.parts]]
+body = "block"
+block = { x = [0.0, 1.0], y = [0.0, 1.0], elements = [3, 2] }
+[materials.metal]
+youngs_modulus = 1000.0
+poissons_ratio = 0.3
+yield_stress = 10.0
+plastic_modulus = 50.0
+[bodies.block]
+material = "metal"
+[[load]]
+on = "block.top"
+pressure = 1.0
+[[support]]
+on = "block.bottom"
+fix = ["x", "y"]
+[program]
+targets = [{ load_factor = 1.0 }]
+"#;
+
+    struct Case {
+        model: Model,
+        elements: Vec<usize>,
+        places: Places,
+    }
+
+    impl Case {
+        fn new() -> Self {
+            let model = Model::new(&Scene::parse(TEXT, "test").unwrap()).unwrap();
+            let n = model.freedoms.n;
+            Case {
+                elements: (0..model.mesh.n_elements()).collect(),
+                places: Places::new(n, &(0..n).collect::<Vec<_>>(), &[]),
+                model,
+            }
+        }
+
+        fn zone(&self) -> Zone {
+            let guard = vec![false; self.elements.len()];
+            Zone::new(&self.model, &self.elements, &guard, &self.places)
+        }
+
+        /// Displacements `u_y = strain x y`: beyond yield on the right, elastic on the left.
+        fn bent(&self, strain: f64) -> Trailing {
+            let mut u = Trailing::zeros(self.model.freedoms.n, 0);
+            for (node, slots) in self.model.freedoms.slots.iter().enumerate() {
+                if let crate::model::Slot::Free(f) = slots[1] {
+                    let [x, y] = self.model.mesh.point(node);
+                    u.zone[f as usize] = strain * x * y;
+                }
+            }
+            u
+        }
+
+        fn flow(&self, zone: &mut Zone, strain: f64) -> Evaluation {
+            let mut load = Trailing::zeros(self.model.freedoms.n, 0);
+            let evaluation = zone.evaluate(&self.bent(strain), &mut load);
+            zone.commit();
+            evaluation
+        }
+    }
+
+    /// What a zone goes back to knows nothing of what it went through since: what flows next is
+    /// what flows in a new one.
+    #[test]
+    fn a_restored_history_is_all_there_is() {
+        let case = Case::new();
+        let mut zone = case.zone();
+        let virgin = zone.history().to_vec();
+        assert!(case.flow(&mut zone, 0.3).flowing > 0);
+        // Elastic from there: nothing flows any more, and the last flow is history.
+        assert_eq!(case.flow(&mut zone, 0.29).flowing, 0);
+        zone.restore(&virgin);
+        assert_eq!(zone.extent(), (0, 0.0));
+        let mut fresh = case.zone();
+        let flowing = case.flow(&mut zone, 0.03);
+        assert_eq!(flowing, case.flow(&mut fresh, 0.03));
+        // In a part of an element's points, so that the others show what they remember.
+        let points = fresh.history().chunks(fresh.stride);
+        let partly = |states: &[PlasticState]| {
+            let flowed = states.iter().filter(|s| s.equivalent > 0.0).count();
+            flowed > 0 && flowed < states.len()
+        };
+        assert!(points.clone().any(partly));
+        assert_eq!(zone.history(), fresh.history());
+    }
+
+    /// The history of a smaller zone: the elements that were not in it have none, whatever they
+    /// have gone through since.
+    #[test]
+    fn elements_outside_a_restored_zone_have_no_history() {
+        let case = Case::new();
+        let mut zone = case.zone();
+        case.flow(&mut zone, 0.3);
+        let stride = zone.stride;
+        // Of the second element of two, the first being elastic then.
+        let mut small = vec![PlasticState::default(); 2 * stride];
+        small[stride..].copy_from_slice(&zone.history()[4 * stride..5 * stride]);
+        zone.restore_of(&[1, 4], &small);
+        let mut expected = vec![PlasticState::default(); zone.history().len()];
+        expected[4 * stride..5 * stride].copy_from_slice(&small[stride..]);
+        assert!(expected.iter().any(|s| s.equivalent > 0.0));
+        assert_eq!(zone.history(), expected);
+        zone.restore_of(&[], &[]);
+        let base = zone.initial_load(Trailing::zeros(case.model.freedoms.n, 0));
+        assert_eq!((zone.extent(), base.largest()), ((0, 0.0), 0.0));
+    }
+}

@@ -1,5 +1,7 @@
 //! Misuse from the other side: a status and a message, never worse. What works is shown by the programs in `ffi/examples`.
 
+mod arrival;
+
 use super::*;
 use std::ffi::{CStr, CString};
 use std::ptr::{null, null_mut};

@@ -136,7 +136,75 @@ fn hash(mesh: &Mesh) -> u128 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::{Facet, Surface};
     use serde_json::json;
+    use std::collections::BTreeSet;
+
+    /// One thing changed at a time: no two of these meshes are the same.
+    #[test]
+    fn everything_of_a_mesh_counts() {
+        let circle = |center: [f64; 2], radius: f64, outward: bool| {
+            Some(Curve::Circle {
+                center,
+                radius,
+                outward,
+            })
+        };
+        let surface = |element: usize, local: usize, curve: Option<Curve>| Surface {
+            facets: vec![Facet { element, local }],
+            curve,
+        };
+        let base = || {
+            let mut mesh = Mesh {
+                dimension: 2,
+                coordinates: vec![0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0],
+                bodies: vec!["a".into(), "b".into()],
+                ..Mesh::default()
+            };
+            mesh.push_element(crate::shape::Shape::Quad4, 0, &[0, 1, 2, 3]);
+            mesh.node_sets.insert("set".into(), vec![0, 2]);
+            let curve = circle([0.0, 0.0], 1.0, true);
+            mesh.surfaces.insert("side".into(), surface(0, 1, curve));
+            mesh
+        };
+        let changes: [fn(&mut Mesh); 7] = [
+            |_| {},
+            |m| m.coordinates[3] = 1e-13,
+            |m| m.connectivity.rotate_left(1),
+            |m| m.element_body[0] = 1,
+            |m| m.bodies[1] = "c".into(),
+            |m| {
+                m.node_sets
+                    .insert("set".into(), vec![0, 3])
+                    .map_or((), drop)
+            },
+            |m| {
+                m.node_sets
+                    .insert("other".into(), vec![0, 2])
+                    .map_or((), drop)
+            },
+        ];
+        let mut hashes: BTreeSet<u128> = BTreeSet::new();
+        for change in changes {
+            let mut mesh = base();
+            change(&mut mesh);
+            hashes.insert(hash(&mesh));
+        }
+        let surfaces = [
+            surface(0, 2, circle([0.0, 0.0], 1.0, true)),
+            surface(0, 1, circle([0.0, 0.5], 1.0, true)),
+            surface(0, 1, circle([0.0, 0.0], 1.5, true)),
+            surface(0, 1, circle([0.0, 0.0], 1.0, false)),
+            surface(0, 1, Some(Curve::Line { normal: [0.0, 1.0] })),
+            surface(0, 1, None),
+        ];
+        for changed in surfaces.clone() {
+            let mut mesh = base();
+            mesh.surfaces.insert("side".into(), changed);
+            hashes.insert(hash(&mesh));
+        }
+        assert_eq!(hashes.len(), changes.len() + surfaces.len());
+    }
 
     #[test]
     fn the_first_difference_is_named_by_its_key() {

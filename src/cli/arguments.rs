@@ -36,7 +36,9 @@ KEY is the path of keys; entries of [[...]] lists go by number from 0 or by thei
   --set contact.0.interference=0.01
   --set load.press.history=constant
   --set 'program.targets=[{ yield = true }, { load_factor = 2.0 }]'
-VALUE is TOML, or else taken as a string.";
+VALUE is TOML, or else taken as a string. A table is merged with the one in the scene, key by key;
+a list replaces the list. KEY= without a value removes the key:
+  --set 'materials.steel={ tangent_modulus = 2000.0 }' --set materials.steel.plastic_modulus=";
 
 /// Presses elastic-plastic bodies together without friction and lets them go again: where they touch, how hard, where the
 /// material yields, and what dent stays.

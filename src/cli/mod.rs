@@ -11,6 +11,7 @@ mod forecast;
 mod interrupt;
 mod new;
 mod progress;
+mod remaining;
 mod report;
 mod restart;
 mod schema;

@@ -14,6 +14,7 @@ use super::arguments::Shown as Wish;
 use super::forecast::Forecast;
 use super::interrupt;
 use super::number::significant;
+use super::remaining::Remaining;
 use crate::progress::{Flow, Observer};
 use crate::results::HistoryRow;
 use crate::scene::Scene;
@@ -21,6 +22,7 @@ use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressState, P
 use serde_json::{Value, json};
 use std::fmt;
 use std::io::{self, IsTerminal, Write};
+use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::{Duration, Instant};
 
 /// Between two lines where there is no terminal.
@@ -33,11 +35,42 @@ pub(super) struct Progress {
     shown: Shown,
     quiet: bool,
     started: Instant,
-    /// When the first increment was accepted and how much of the program then lay behind.
-    first: Option<(Instant, f64)>,
-    /// The phase at hand, when it began, and how many seconds it will take.
-    phase: Option<(String, Instant, f64)>,
+    phase: Option<Phase>,
     forecast: Forecast,
+}
+
+/// The phase at hand.
+struct Phase {
+    name: String,
+    clock: Clock,
+}
+
+/// When a phase started, and what is left of it; a bar draws itself from a thread of its own.
+#[derive(Clone)]
+struct Clock {
+    started: Instant,
+    remaining: Arc<Mutex<Remaining>>,
+}
+
+impl Clock {
+    fn new(predicted: f64) -> Self {
+        Clock {
+            started: Instant::now(),
+            remaining: Arc::new(Mutex::new(Remaining::new(predicted))),
+        }
+    }
+
+    fn seconds(&self) -> f64 {
+        self.started.elapsed().as_secs_f64()
+    }
+
+    fn remaining(&self) -> MutexGuard<'_, Remaining> {
+        self.remaining.lock().unwrap_or_else(|e| e.into_inner())
+    }
+
+    fn left(&self) -> f64 {
+        self.remaining().at(self.seconds())
+    }
 }
 
 enum Shown {
@@ -72,7 +105,6 @@ impl Progress {
             shown,
             quiet,
             started,
-            first: None,
             phase: None,
             forecast: Forecast::new(started),
         }
@@ -92,21 +124,24 @@ impl Progress {
 
     /// What the phase at hand took says something of the next.
     fn end_phase(&mut self) {
-        if let Some((last, began, _)) = self.phase.take() {
-            self.forecast.learn(&last, began.elapsed().as_secs_f64());
+        if let Some(last) = self.phase.take() {
+            self.forecast.learn(&last.name, last.clock.seconds());
         }
-        self.first = None;
     }
 
     fn show(&mut self, phase: &str, predicted: f64) {
-        self.phase = Some((phase.to_string(), Instant::now(), predicted));
+        let clock = Clock::new(predicted);
+        self.phase = Some(Phase {
+            name: phase.to_string(),
+            clock: clock.clone(),
+        });
         match &mut self.shown {
             Shown::Nothing => {}
             Shown::Bars { all, bar } => {
                 if let Some(last) = bar.take() {
                     last.finish_with_message("");
                 }
-                let next = all.add(new_bar(phase, predicted));
+                let next = all.add(new_bar(phase, predicted, clock));
                 next.enable_steady_tick(Duration::from_millis(100));
                 *bar = Some(next);
             }
@@ -118,16 +153,11 @@ impl Progress {
         }
     }
 
-    /// Seconds until the program is done: if the rest goes like what lies behind, at first as predicted.
-    fn seconds_left(&mut self, fraction: f64) -> f64 {
-        let (begin, done) = *self.first.get_or_insert((Instant::now(), fraction));
-        let (progress, rest) = (fraction - done, (1.0 - fraction).max(0.0));
-        if progress > 0.0 {
-            return begin.elapsed().as_secs_f64() * rest / progress;
-        }
-        let phase = self.phase.as_ref();
-        phase.map_or(0.0, |(_, began, predicted)| {
-            (predicted - began.elapsed().as_secs_f64()).max(rest * predicted)
+    /// Seconds until the program is done, of which this share lies behind.
+    fn seconds_left(&self, fraction: f64) -> f64 {
+        self.phase.as_ref().map_or(0.0, |Phase { clock, .. }| {
+            clock.remaining().update(clock.seconds(), fraction);
+            clock.left()
         })
     }
 
@@ -252,7 +282,7 @@ impl Shown {
 
 /// The bar of a phase: name, what is done, time, time that is left. What is done is the share of the load program where
 /// increments tell it, else the share of the predicted time, of which the last bit is only filled by the end.
-fn new_bar(phase: &str, predicted: f64) -> ProgressBar {
+fn new_bar(phase: &str, predicted: f64, clock: Clock) -> ProgressBar {
     let done = move |state: &ProgressState| match (state.is_finished(), state.pos()) {
         (true, _) => 1.0,
         (_, 1..) => f64::from(state.fraction()),
@@ -264,19 +294,9 @@ fn new_bar(phase: &str, predicted: f64) -> ProgressBar {
         let _ = write!(out, "{}{}", "=".repeat(WIDTH - rest), " ".repeat(rest));
     };
     let left = move |state: &ProgressState, out: &mut dyn fmt::Write| {
-        let elapsed = state.elapsed().as_secs_f64();
-        let left = match (state.is_finished(), state.pos()) {
-            (true, _) => None,
-            (_, 1..) => {
-                let done = f64::from(state.fraction());
-                Some(elapsed * (1.0 - done) / done)
-            }
-            (_, 0) => Some((predicted - elapsed).max(0.0)),
-        };
-        let _ = match left {
-            Some(left) => write!(out, "about {} left", rough(left)),
-            None => Ok(()),
-        };
+        if !state.is_finished() {
+            let _ = write!(out, "about {} left", rough(clock.left()));
+        }
     };
     let bar = ProgressBar::with_draw_target(Some(PARTS), ProgressDrawTarget::hidden());
     let template = "{spinner} {prefix:34} [{gauge}] {elapsed:>4}  {left}  {wide_msg}";
@@ -387,6 +407,8 @@ mod tests {
         std::thread::sleep(Duration::from_millis(30));
         progress.start("factorisation");
         std::thread::sleep(Duration::from_millis(250));
+        // A small one, whose load program is predicted to be over at once.
+        progress.model(100, 0);
         progress.start("load program");
         std::thread::sleep(Duration::from_millis(50));
         progress.increment(&HistoryRow::default(), 0.5);

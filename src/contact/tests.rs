@@ -118,6 +118,26 @@ fn sweeping_there_and_back_is_the_identity() {
     assert!((DMatrix::from_fn(5, 5, |i, j| tableau.swept(i, j)) - t).amax() < 1e-13);
 }
 
+/// However long a run is, what it went through is repeated in few pivots, to the same bits.
+#[test]
+fn the_way_of_a_tableau_stays_short_enough_to_be_repeated() {
+    let t = semidefinite(
+        6,
+        8,
+        &[0.3, -0.8, 0.5, 0.9, -0.2, 0.7, 0.1, -0.6, 0.4, 0.8, -0.9],
+    );
+    let mut tableau = Tableau::new(t.clone());
+    for i in 0..5000 {
+        assert!(tableau.flip((i * i + i / 7) % 6));
+    }
+    let mut again = Tableau::new(t);
+    assert!(again.replay(tableau.record()));
+    assert_eq!(again.open(), tableau.open());
+    for (i, j) in (0..6).flat_map(|i| (0..6).map(move |j| (i, j))) {
+        assert_eq!(again.swept(i, j), tableau.swept(i, j));
+    }
+}
+
 #[test]
 fn a_body_held_by_contact_alone_does_not_open_its_last_pair() {
     // Two springs in a row without ground: T is singular, only one pair may open.

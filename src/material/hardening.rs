@@ -34,12 +34,7 @@ impl Hardening {
         if let Some(table) = data.hardening_table.as_ref().filter(|t| !t.is_empty()) {
             return Some(Self::table(table));
         }
-        let modulus = match (data.plastic_modulus, data.tangent_modulus) {
-            (Some(h), _) => h,
-            (None, Some(et)) => data.youngs_modulus * et / (data.youngs_modulus - et),
-            (None, None) => 0.0,
-        };
-        Some(Self::linear(yield_stress, modulus))
+        Some(Self::linear(yield_stress, data.plastic_modulus_resolved()?))
     }
 
     /// Yield stress at an equivalent plastic strain.

@@ -28,6 +28,27 @@ fn hardening_curves_interpolate() {
     assert_eq!(table.slope(1.0), 0.0);
 }
 
+/// A bar of E = 200, yield stress 1 and tangent modulus 40, pulled by a strain of 0.03: its stress
+/// is
+/// `1 + 40 (0.03 - 1/200) = 2`, of the strain `0.03 - 2/200 = 0.02` is plastic.
+#[test]
+fn a_tangent_modulus_is_the_slope_of_the_whole_strain() {
+    let data = crate::scene::Material {
+        youngs_modulus: 200.0,
+        poissons_ratio: 0.3,
+        yield_stress: Some(1.0),
+        tangent_modulus: Some(40.0),
+        ..Default::default()
+    };
+    let hardening = Hardening::from_scene(&data).unwrap();
+    assert!((hardening.yield_stress(0.02) - 2.0).abs() <= 4.0 * f64::EPSILON);
+    let (d, slope) = hardening.solve(2.0 + 200.0 * 0.02, 200.0, 0.0);
+    assert!(
+        (d - 0.02).abs() <= 4.0 * f64::EPSILON && slope == 50.0,
+        "{d} {slope}"
+    );
+}
+
 #[test]
 fn stress_after_flow_lies_on_the_yield_surface() {
     for kind in [Kind::PlaneStrain, Kind::PlaneStress, Kind::Axisymmetric] {

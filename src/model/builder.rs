@@ -78,6 +78,7 @@ impl ModelBuilder {
                 reference: Vec::new(),
                 file: None,
                 places: KeyPlaces::default(),
+                warnings: Vec::new(),
             },
             mesh: Mesh {
                 dimension: 2,

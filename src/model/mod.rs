@@ -120,7 +120,7 @@ impl Model {
             _ => error,
         })?;
         let kind = scene.kind;
-        let mut warnings = Vec::new();
+        let mut warnings = scene.warnings.clone();
         let (materials, may_yield) = resolve_bodies(scene, &mesh)?;
         warn_of_locking(&mesh, &may_yield, &mut warnings);
         if kind == Kind::Axisymmetric {

@@ -4,12 +4,14 @@ use super::number::significant;
 use crate::results::{Accuracy, Demand, EstimateMethod, QuantityError};
 
 /// Columns: key and heading.
-const KEYS: [(&str, &str); 6] = [
+const KEYS: [(&str, &str); 8] = [
     ("load", "load"),
     ("max_pressure", "max\npressure"),
+    ("pole_pressure", "pole\npressure"),
     ("half_width", "half\nwidth"),
     ("approach", "approach"),
     ("residual_depth", "residual\ndepth"),
+    ("max_equivalent_plastic_strain", "plastic\nstrain"),
     ("plastic_zone_size", "plastic\nzone"),
 ];
 

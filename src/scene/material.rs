@@ -28,7 +28,8 @@ impl Material {
     /// modulus as given, `E Et/(E - Et)` from a tangent modulus, 0 for a yield stress alone
     /// (perfectly plastic). `None` where the material is elastic or hardens by a table.
     pub fn plastic_modulus_resolved(&self) -> Option<f64> {
-        if self.yield_stress.is_none() || self.hardening_table.is_some() {
+        let by_table = self.hardening_table.as_ref().is_some_and(|t| !t.is_empty());
+        if self.yield_stress.is_none() || by_table {
             return None;
         }
         let from_tangent = self

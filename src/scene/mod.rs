@@ -96,6 +96,9 @@ pub struct Scene {
     /// Where its keys stand in that file or among the overrides, for messages.
     #[serde(skip)]
     pub places: KeyPlaces,
+    /// What the user should know of how it was read.
+    #[serde(skip)]
+    pub warnings: Vec<String>,
 }
 
 /// The two-dimensional idealisation.

@@ -1,5 +1,8 @@
 //! Overrides: `key.path=value` put over the document before it is read, so that a mistyped key meets the
 //! same checks as one in the file.
+//!
+//! A table is merged with the one that is there, key by key; any other value takes the old one's
+//! place. `key.path=` without a value removes the key.
 
 use super::document::{Source, join};
 use crate::error::{Error, Result};
@@ -7,37 +10,53 @@ use std::borrow::Cow;
 use toml::Spanned;
 use toml::de::{DeArray, DeString, DeTable, DeValue};
 
-/// Applies all overrides in order; later ones win.
+/// Applies all overrides in order; later ones win. Returns what the user should know: keys that a
+/// new list of tables no longer has.
 ///
 /// # Errors
 /// The override, by its text: no `=`, a key that is not a TOML key path, a value that looks like a TOML
 /// array, table or string but is none, a step into something that is not a table, an array
-/// element that does not exist.
-pub(super) fn apply<'i>(source: &Source<'i>, root: &mut DeTable<'i>) -> Result<()> {
+/// element that does not exist, a key to remove that does not exist.
+pub(super) fn apply<'i>(source: &Source<'i>, root: &mut DeTable<'i>) -> Result<Vec<String>> {
+    let mut lost = Vec::new();
     for (number, text) in source.overrides.iter().enumerate() {
-        apply_one(text, source.override_place(number), root)
+        apply_one(text, source.override_place(number), root, &mut lost)
             .map_err(|error| error.within(format!("--set {text}")))?;
     }
-    Ok(())
+    Ok(lost)
 }
 
-fn apply_one<'i>(text: &'i str, place: usize, root: &mut DeTable<'i>) -> Result<()> {
+fn apply_one<'i>(
+    text: &'i str,
+    place: usize,
+    root: &mut DeTable<'i>,
+    lost: &mut Vec<String>,
+) -> Result<()> {
     let Some((key, value)) = text.split_once('=') else {
         return Err(Error::input(
             "an override is KEY=VALUE, for instance program.steps=40; this one has no `=`",
         ));
     };
     let segments = segments(key)?;
-    let value = placed(parse_value(value.trim())?, place);
+    let value = match value.trim() {
+        "" => None,
+        value => Some(Spanned::new(
+            place..place,
+            placed(parse_value(value)?, place),
+        )),
+    };
     let Some((last, parents)) = segments.split_last() else {
         return Err(Error::input("the key before `=` is empty"));
     };
+    let whole = segments.join(".");
     let Some((first, rest)) = parents.split_first() else {
-        root.insert(
-            Spanned::new(place..place, Cow::Owned(last.clone())),
-            Spanned::new(place..place, value),
-        );
-        return Ok(());
+        return match value {
+            Some(value) => {
+                put(root, last, value, &whole, lost);
+                Ok(())
+            }
+            None => remove(root, last, "the scene"),
+        };
     };
     let mut path = first.clone();
     let mut at = entry(root, first, place);
@@ -45,21 +64,89 @@ fn apply_one<'i>(text: &'i str, place: usize, root: &mut DeTable<'i>) -> Result<
         at = step(at, segment, &path, place)?;
         path = join(&path, segment);
     }
-    match at {
-        DeValue::Table(table) => {
-            // An old key would keep its place in the file.
-            table.remove(last.as_str());
-            table.insert(
-                Spanned::new(place..place, Cow::Owned(last.clone())),
-                Spanned::new(place..place, value),
-            );
+    match (at, value) {
+        (DeValue::Table(table), Some(value)) => put(table, last, value, &whole, lost),
+        (DeValue::Table(table), None) => remove(table, last, &format!("`{path}`"))?,
+        (DeValue::Array(array), Some(value)) => {
+            replace(element(array, last, &path)?, value, &whole, lost);
         }
-        DeValue::Array(array) => {
-            *element(array, last, &path)? = Spanned::new(place..place, value);
+        (DeValue::Array(_), None) => {
+            return Err(Error::input(format!(
+                "an entry of the list `{path}` cannot be removed; give the whole list: {path}=[...]"
+            )));
         }
-        other => return Err(no_table(&path, other)),
+        (other, _) => return Err(no_table(&path, other)),
     }
     Ok(())
+}
+
+/// Puts `value` at `key`.
+fn put<'i>(
+    table: &mut DeTable<'i>,
+    key: &str,
+    mut value: Spanned<DeValue<'i>>,
+    path: &str,
+    lost: &mut Vec<String>,
+) {
+    let place = value.span();
+    // The old key would keep its place in the file.
+    if let Some(old) = table.remove(key) {
+        let new = std::mem::replace(&mut value, old);
+        replace(&mut value, new, path, lost);
+    }
+    table.insert(Spanned::new(place, Cow::Owned(key.to_string())), value);
+}
+
+/// Merges a table with a table; anything else takes the place of what was there.
+fn replace<'i>(
+    old: &mut Spanned<DeValue<'i>>,
+    new: Spanned<DeValue<'i>>,
+    path: &str,
+    lost: &mut Vec<String>,
+) {
+    let place = new.span();
+    match (old.get_mut(), new.into_inner()) {
+        (DeValue::Table(table), DeValue::Table(given)) => {
+            for (key, value) in given {
+                let key = key.into_inner();
+                put(table, &key, value, &join(path, &key), lost);
+            }
+        }
+        (there, new) => {
+            if let (DeValue::Array(there), DeValue::Array(new)) = (&*there, &new) {
+                lost.extend(missing_keys(there, new, path));
+            }
+            *old = Spanned::new(place, new);
+        }
+    }
+}
+
+/// The keys that each table of the old list has and none of the new one.
+fn missing_keys(old: &DeArray<'_>, new: &DeArray<'_>, path: &str) -> Option<String> {
+    let first = old.first()?.get_ref().as_table()?;
+    let has = |item: &Spanned<DeValue>, key: &str| item.get_ref().get(key).is_some();
+    let missing: Vec<String> = first
+        .keys()
+        .map(|key| key.get_ref().as_ref())
+        .filter(|key| old.iter().all(|item| has(item, key)))
+        .filter(|key| !new.iter().any(|item| has(item, key)))
+        .map(|key| format!("`{key}`"))
+        .collect();
+    (!missing.is_empty() && !new.is_empty()).then(|| {
+        format!(
+            "--set {path}=[...] replaces the list; its entries no longer have {}",
+            missing.join(", ")
+        )
+    })
+}
+
+fn remove(table: &mut DeTable<'_>, key: &str, whose: &str) -> Result<()> {
+    match table.remove(key) {
+        Some(_) => Ok(()),
+        None => Err(Error::input(format!(
+            "{whose} has no key `{key}` that could be removed; KEY= without a value removes a key"
+        ))),
+    }
 }
 
 /// The key path's parts: TOML's own rules, so that quoted keys work.

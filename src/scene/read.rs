@@ -20,7 +20,8 @@ impl Scene {
 
     /// Reads a scene file with `overrides` put over it, each `key.path=value`. A segment of the path is a key, the
     /// index of an array entry or its name (`load.press.history=constant`); the
-    /// value is TOML, or else taken as a string.
+    /// value is TOML, or else taken as a string. A table is merged with the one that is there, key
+    /// by key; without a value (`materials.steel.yield_stress=`) the key is removed.
     ///
     /// ```
     /// use brinell::scene::Scene;
@@ -88,11 +89,12 @@ fn parse(source: &Source<'_>) -> Result<Scene> {
     let mut root = DeTable::parse(source.text)
         .map_err(|error| source.syntax_error(&error))?
         .into_inner();
-    overrides::apply(source, &mut root)?;
+    let warnings = overrides::apply(source, &mut root)?;
     let (places, root) = Places::number(source, root)?;
     let mut scene = Scene::deserialize(toml::de::Deserializer::from(root.clone()))
         .map_err(|error| explain(&error, &places))?;
     scene.places = places.by_key();
+    scene.warnings = warnings;
     complete::check(&scene, root.get_ref(), &scene.places)?;
     let problems = validate::problems(&scene);
     if !problems.is_empty() {

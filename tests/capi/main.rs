@@ -2,4 +2,6 @@
 
 mod header;
 mod install;
+#[path = "../running/interpreter.rs"]
+mod interpreter;
 mod python;

@@ -1,5 +1,7 @@
-//! The Python package, built into an environment of its own: its tests, and the example against the Rust one.
+//! The Python package, built into a folder of its own: its tests, and the example against the Rust
+//! one.
 
+use crate::interpreter;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -28,69 +30,38 @@ fn done(command: &mut Command) -> Output {
     attempt(command).unwrap_or_else(|why| panic!("{why}"))
 }
 
-/// An environment with what the package is built and tested with, or why there is none. What the system has is used, the rest is
-/// fetched.
-fn environment(folder: &Path) -> Result<PathBuf, String> {
-    attempt(Command::new("python3").args([
-        "-c",
-        "import sys; assert sys.version_info >= (3, 9), 'Python 3.9 or later is needed'",
-    ]))?;
-    let venv = folder.join("venv");
-    attempt(
-        Command::new("python3")
-            .args(["-m", "venv", "--system-site-packages"])
-            .arg(&venv),
-    )?;
-    let python = venv.join("bin").join("python");
-    let absent: Vec<&str> = ["numpy", "scipy", "pytest"]
-        .into_iter()
-        .filter(|name| {
-            attempt(Command::new(&python).args(["-c", &format!("import {name}")])).is_err()
-        })
-        .chain(["maturin>=1.9,<2"])
-        .collect();
-    attempt(
-        Command::new(&python)
-            .args(["-m", "pip", "install", "-q", "--disable-pip-version-check"])
-            .args(["--retries", "1", "--timeout", "30"])
-            .args(absent),
-    )?;
-    Ok(python)
-}
-
-/// Fetches the crates of the package; only a lock file that is behind is a fault.
-fn crates() -> Result<(), String> {
+/// Fetches the crates of the package: it is built without the network.
+fn fetch_crates() {
     let manifest = root().join("ffi/python/Cargo.toml");
     let mut fetch = Command::new(env!("CARGO"));
     fetch
         .args(["fetch", "--locked", "--manifest-path"])
         .arg(manifest);
-    let fetched = attempt(&mut fetch).map(drop);
-    if let Err(why) = &fetched {
-        assert!(
-            !why.contains("--locked was passed"),
-            "ffi/python/Cargo.lock is behind (cargo update --workspace --manifest-path ffi/python/Cargo.toml): {why}"
+    if let Err(why) = attempt(&mut fetch) {
+        panic!(
+            "the crates of ffi/python cannot be fetched (is Cargo.lock behind? \
+             cargo update --workspace --manifest-path ffi/python/Cargo.toml): {why}"
         );
     }
-    fetched
+}
+
+/// Where the programs of an interpreter's packages are.
+fn scripts(python: &Path) -> PathBuf {
+    let script = "import sysconfig; print(sysconfig.get_path('scripts'))";
+    let printed = done(Command::new(python).args(["-c", script]));
+    PathBuf::from(text(&printed).trim())
 }
 
 #[test]
 fn the_python_package_passes_its_tests_and_prints_the_same_digits() {
     let folder = tempfile::tempdir().unwrap();
-    let python = match environment(folder.path()).and_then(|python| crates().map(|()| python)) {
-        Ok(python) => python,
-        Err(why) => {
-            println!("skipped: the Python package cannot be built here: {why}");
-            return;
-        }
-    };
-    let bin = python.parent().unwrap();
+    let python = interpreter::with(&["numpy", "scipy", "pytest", "maturin"]);
+    fetch_crates();
+    let bin = scripts(&python);
     let path = std::env::var_os("PATH").unwrap_or_default();
-    let path = std::env::join_paths(
-        std::iter::once(bin.to_path_buf()).chain(std::env::split_paths(&path)),
-    )
-    .unwrap();
+    let path =
+        std::env::join_paths(std::iter::once(bin).chain(std::env::split_paths(&path))).unwrap();
+    let package = folder.path().join("package");
     // Dependencies that this build has compiled are taken from its target directory.
     let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
     let mut arguments = "--profile dev".to_string();
@@ -101,6 +72,8 @@ fn the_python_package_passes_its_tests_and_prints_the_same_digits() {
         Command::new(&python)
             .args(["-m", "pip", "install", "-q", "--disable-pip-version-check"])
             .args(["--no-build-isolation", "--no-deps", "--no-index"])
+            .arg("--target")
+            .arg(&package)
             .arg(root().join("ffi/python"))
             .env("PATH", path)
             .env("CARGO_TARGET_DIR", target)
@@ -112,6 +85,7 @@ fn the_python_package_passes_its_tests_and_prints_the_same_digits() {
         .args(["-m", "pytest", "-q", "-p", "no:cacheprovider"])
         .arg(root().join("ffi/python/tests"))
         .current_dir(folder.path())
+        .env("PYTHONPATH", &package)
         .env("PYTHONDONTWRITEBYTECODE", "1")
         .output()
         .unwrap();
@@ -124,7 +98,12 @@ fn the_python_package_passes_its_tests_and_prints_the_same_digits() {
             .arg(&scene),
     );
     let example = root().join("ffi/examples/indentation.py");
-    let printed = done(Command::new(&python).arg(example).arg(&scene));
+    let printed = done(
+        Command::new(&python)
+            .arg(example)
+            .arg(&scene)
+            .env("PYTHONPATH", &package),
+    );
     assert!(printed.stderr.is_empty(), "{}", text(&printed));
     let rust = done(&mut super::install::rust_example(&scene));
     assert_eq!(text(&printed), text(&rust));

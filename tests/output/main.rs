@@ -4,6 +4,8 @@ mod arrays;
 mod directory;
 mod fields;
 mod fixture;
+#[path = "../running/interpreter.rs"]
+mod interpreter;
 mod python;
 mod report;
 mod summary;

@@ -1,8 +1,9 @@
-//! The field files, read by the libraries that users read them with. The interpreter is
-//! `BRINELL_PYTHON` or `python3`; where it has no meshio (vtk) the test says so and passes.
+//! The field files, read by the libraries that users read them with.
 
 use crate::fixture;
+use crate::interpreter;
 use brinell::output::write;
+use std::ffi::OsStr;
 use std::path::Path;
 use std::process::Command;
 
@@ -61,13 +62,7 @@ fn vtk_reads_the_fields() {
 }
 
 fn reads_the_fields(library: &str, script: &str) {
-    let python = std::env::var("BRINELL_PYTHON").unwrap_or_else(|_| "python3".into());
-    let import = format!("import numpy, {library}");
-    let available = Command::new(&python).args(["-c", &import]).output();
-    if !available.is_ok_and(|output| output.status.success()) {
-        eprintln!("note: {python} has no {library}, so it did not read the fields");
-        return;
-    }
+    let python = interpreter::with(&["numpy", library]);
     let root = tempfile::tempdir().unwrap();
     let dir = root.path().join("run.out");
     let mesh = fixture::mesh();
@@ -107,11 +102,15 @@ fn reads_the_fields(library: &str, script: &str) {
         .iter()
         .map(|(name, bytes)| format!("{name} {}\n", hexadecimal(bytes)))
         .collect();
-    let read = run(&python, script, &dir.join("state_03_released.vtu"));
+    let read = run(
+        python.as_os_str(),
+        script,
+        &dir.join("state_03_released.vtu"),
+    );
     assert_eq!(read, expected);
 }
 
-fn run(python: &str, script: &str, file: &Path) -> String {
+fn run(python: &OsStr, script: &str, file: &Path) -> String {
     let output = Command::new(python)
         .args(["-c", script])
         .arg(file)

@@ -39,6 +39,10 @@ fn uniform_flow_with_every_pair_closed_is_that_of_a_bar() {
     for p in &state(&results, "plastic").pairs {
         close("pressure", p.pressure, 600.0, 600.0, 1e-9);
     }
+    // Both blocks, 2 x 1 each, have yielded at all 4 points of 24 elements.
+    let plastic = state(&results, "plastic");
+    close("plastic zone", plastic.plastic_zone_size, 4.0, 4.0, 1e-12);
+    assert_eq!(plastic.plastic_points_by_body, [96, 96]);
     close(
         "unloaded",
         state(&results, "unloaded").contact_force,
@@ -67,6 +71,32 @@ fn unloading_and_reloading_comes_back_to_the_same_state() {
     let below = state(&results, "below").max_equivalent_plastic_strain;
     close("strain below", strain, below, strain, 1e-7);
     assert!(state(&results, "beyond").max_equivalent_plastic_strain > 1.001 * strain);
+}
+
+/// A cylinder's contact grows with the load and shrinks without it: pairs close on the way up and
+/// open on the way down, in plastic increments as in elastic ones, and each event changes the
+/// number of closed pairs by those that it names.
+#[test]
+fn events_of_plastic_increments_say_what_happened() {
+    let results = run_file("hard/unload_reload", &[]);
+    let mut seen = [0, 0];
+    for (before, row) in results.history.iter().zip(&results.history[1..]) {
+        let (closes, opens) = (
+            row.event.matches("closes").count(),
+            row.event.matches("opens").count(),
+        );
+        let upward = row.load > before.load;
+        assert!(closes == 0 || upward, "{} {}", row.increment, row.event);
+        assert!(opens == 0 || !upward, "{} {}", row.increment, row.event);
+        if row.plastic_points > 0 && row.iterations > 1 {
+            seen[0] += closes;
+        } else {
+            seen[1] += closes + opens;
+        }
+    }
+    assert!(seen[0] > 0 && seen[1] > 0, "{seen:?}");
+    let closed: Vec<usize> = results.history.iter().map(|row| row.closed_pairs).collect();
+    assert!(closed.iter().any(|&n| n > closed[0]), "{closed:?}");
 }
 
 /// History that is committed in the middle of an iteration ratchets: plastic strain grows from cycle to cycle for ever. Here the
@@ -193,13 +223,37 @@ fn flow_of(shape: &str) {
 /// pressure is continued to the axis: that of linear elements, which need no such care, in the same state of uniform stress.
 #[test]
 fn flow_under_contact_on_the_axis_of_quadratic_elements() {
-    let quadratic = run_file("hard/axis_of_quadratic_elements", &[]);
+    let (name, pressed) = (
+        "hard/axis_of_quadratic_elements",
+        "program.targets=[{ load_factor = 1.5 }]",
+    );
+    let quadratic = run_file(name, &[pressed]);
     healthy(&quadratic);
     let linear = [0, 1].map(|part| format!("mesh.parts.{part}.element=quad4"));
-    let linear = run_file("hard/axis_of_quadratic_elements", &[&linear[0], &linear[1]]);
+    let linear = run_file(name, &[pressed, &linear[0], &linear[1]]);
     healthy(&linear);
     let (a, b) = (&quadratic.states[0], &linear.states[0]);
-    assert!(a.plastic_points > 0 || a.load > 0.0);
+    // Uniform pressure on a free cylinder: `(p - Y)/H` all over the lower one, of radius 2 and
+    // height 0.3.
+    let (p, y, h) = (
+        1.5 * 60.876726527999686,
+        81.72701746729727,
+        980.9740668165642,
+    );
+    let volume = std::f64::consts::PI * 4.0 * 0.3;
+    for s in [a, b] {
+        let strain = (p - y) / h;
+        // Forces balance to 1e-10 of the pressure.
+        close(
+            "strain",
+            s.max_equivalent_plastic_strain,
+            strain,
+            p / h,
+            1e-9,
+        );
+        close("zone", s.plastic_zone_size, volume, volume, 1e-12);
+        assert_eq!(s.plastic_points_by_body[1], 0);
+    }
     close(
         "force",
         a.contact_force,

@@ -12,6 +12,7 @@ mod killed;
 mod numbers;
 mod outgrown;
 mod peers;
+mod prescribed;
 mod quality;
 mod receding;
 mod refinement;

@@ -16,13 +16,16 @@ fn centre_stress_and_contact_radius() {
     let errors = |n: usize| {
         let set = [
             "materials.rigid={ youngs_modulus = 2e13, poissons_ratio = 0.3 }".to_string(),
-            "materials.steel={ youngs_modulus = 20000.0, poissons_ratio = 0.3 }".to_string(),
+            "materials.steel.youngs_modulus=20000.0".to_string(),
+            "materials.steel.yield_stress=".to_string(),
+            "materials.steel.tangent_modulus=".to_string(),
             "bodies.half_plane.material=rigid".to_string(),
             "mesh.cylinder_on_half_plane.radius=50.0".to_string(),
             "mesh.cylinder_on_half_plane.half_width=10.0".to_string(),
             format!("mesh.cylinder_on_half_plane.resolution={n}"),
             format!("load.press.plane_force.total={:e}", -force),
-            "program={ targets = [{ name = \"pressed\", load_factor = 1.0 }] }".to_string(),
+            "program={ unit = \"load\", targets = [{ name = \"pressed\", load_factor = 1.0 }] }"
+                .to_string(),
             "reference=[]".to_string(),
         ];
         let set: Vec<&str> = set.iter().map(String::as_str).collect();

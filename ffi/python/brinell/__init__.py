@@ -17,6 +17,7 @@ from ._errors import (
     InputError,
     InternalError,
     IoError,
+    MissingError,
     UnheldError,
     UnsupportedError,
 )
@@ -30,6 +31,7 @@ __all__ = [
     "InputError",
     "InternalError",
     "IoError",
+    "MissingError",
     "Model",
     "Result",
     "State",

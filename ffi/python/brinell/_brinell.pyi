@@ -9,7 +9,13 @@ _Table = dict[str, Any]
 _Callback = Optional[Callable[[dict[str, Any]], Any]]
 
 def run(
-    scene: str, is_path: bool, overrides: Sequence[str], solver: Optional[str], callback: _Callback, estimate: bool
+    scene: str,
+    is_path: bool,
+    overrides: Sequence[str],
+    solver: Optional[str],
+    callback: _Callback,
+    estimate: bool,
+    threads: Optional[int],
 ) -> Result: ...
 
 class State:
@@ -70,7 +76,7 @@ class Model:
     def target(self, *, first_yield: bool = False, **values: Any) -> None: ...
     def program(self, **values: Any) -> None: ...
     def settings(self, **values: Any) -> None: ...
-    def run(self, *, solver: Optional[str] = None, callback: _Callback = None) -> Result: ...
+    def run(self, *, solver: Optional[str] = None, callback: _Callback = None, threads: Optional[int] = None) -> Result: ...
 
 class Structure:
     n_freedoms: int

@@ -14,16 +14,24 @@ class Error(Exception):
         self.status = status
         self.result = result
 
+    def __str__(self):
+        # A KeyError would put its text in quotes.
+        return Exception.__str__(self)
+
 
 class InputError(Error, ValueError):
     """An argument, the scene or the mesh is wrong."""
+
+
+class MissingError(InputError, KeyError):
+    """A state is asked for that the result does not have."""
 
 
 class UnsupportedError(InputError):
     """The scene asks for an effect that brinell does not have."""
 
 
-class IoError(Error):
+class IoError(Error, OSError):
     """A file cannot be read or written."""
 
 
@@ -53,6 +61,7 @@ class InaccurateWarning(UserWarning):
 
 _KINDS = {
     "input": InputError,
+    "missing": MissingError,
     "unsupported": UnsupportedError,
     "io": IoError,
     "unheld": UnheldError,
@@ -64,4 +73,5 @@ _KINDS = {
 
 
 def make(kind, status, message, result):
-    return _KINDS.get(kind, Error)(message, kind, status, result)
+    of = _KINDS.get(kind, Error)
+    return of(message, "input" if of is MissingError else kind, status, result)

@@ -3,17 +3,21 @@
 import os
 
 from . import _brinell
+from ._errors import InputError
 
 
-def run(scene, overrides=None, *, solver=None, callback=None, estimate=False, **more):
+def run(scene, overrides=None, *, solver=None, callback=None, estimate=False, threads=None, **more):
     """Runs a scene and returns its `Result`.
 
     scene: path of a scene file (a str without line breaks, or a path object), or the text of a scene (TOML).
     overrides: values put over the scene, {"mesh.cylinder_on_half_plane.resolution": 8}; as keywords with two underscores for a dot:
-        mesh__cylinder_on_half_plane__resolution=8.
+        mesh__cylinder_on_half_plane__resolution=8. A dictionary is merged with the table in the scene, key by key; None removes a key;
+        a list replaces the list, and a key that all entries of the old one have and none of the new is told by a warning.
     solver: "cholmod" or "dense".
     callback: called with a dictionary after each accepted increment; something true stops the run, and what was computed is returned
         with `incomplete` set. What it raises (Ctrl-C too) is raised here.
+    threads: how many threads to use, a pool of its own for this run; by default those that all runs share. The callback is then called in one of
+        them, not in the calling thread.
     estimate: estimate the errors of all figures too (summary["accuracy"]); this runs the scene on coarser meshes.
 
     Raises `Error` (`InputError`, `UnheldError`, `CollapseError`, ...) with `kind`, `status` and, where the run failed on its way,
@@ -24,13 +28,27 @@ def run(scene, overrides=None, *, solver=None, callback=None, estimate=False, **
     is_path = not isinstance(scene, str) or "\n" not in scene
     values = dict(overrides or {})
     values.update((key.replace("__", "."), value) for key, value in more.items())
-    pairs = [f"{key}={_toml(value)}" for key, value in values.items()]
+    pairs = [pair for key, value in values.items() for pair in _pairs(key, value)]
     text = os.fspath(scene) if is_path else scene
-    return _brinell.run(text, is_path, pairs, solver, callback, estimate)
+    return _brinell.run(text, is_path, pairs, solver, callback, estimate, threads)
+
+
+def _pairs(key, value):
+    """A value as `KEY=VALUE`, and `KEY=` for each key in it that is to be removed."""
+    if value is None:
+        return [f"{key}="]
+    if not isinstance(value, dict):
+        return [f"{key}={_toml(value)}"]
+    removed = [f"{key}.{_key(k)}" for k, v in value.items() if v is None]
+    inner = [pair for k, v in value.items() if isinstance(v, dict) for pair in _pairs(f"{key}.{_key(k)}", v)]
+    kept = {k: v for k, v in value.items() if v is not None and not isinstance(v, dict)}
+    return [f"{key}={_toml(kept)}"] + inner + [f"{path}=" for path in removed]
 
 
 def _toml(value, inside=False):
     """A value as TOML; a text that is a value of its own goes as it is."""
+    if value is None:
+        raise InputError("None removes a key of a table; inside a list there is nothing to remove", "input", 2)
     if hasattr(value, "tolist"):
         value = value.tolist()
     if isinstance(value, bool):
@@ -41,7 +59,8 @@ def _toml(value, inside=False):
         return "{" + ", ".join(f"{_key(k)} = {_toml(v, True)}" for k, v in value.items()) + "}"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_toml(v, True) for v in value) + "]"
-    return _quoted(str(value)) if inside else str(value)
+    # Nothing at all would remove the key.
+    return _quoted(str(value)) if inside or value == "" else str(value)
 
 
 def _key(name):

@@ -21,12 +21,16 @@ pub fn exception(py: Python<'_>, error: &Error, result: Option<Py<PyAny>>) -> Py
     for cause in error.causes() {
         text.push_str(&format!("\ncaused by: {cause}"));
     }
-    let made = || -> PyResult<PyErr> {
+    made(py, kind, error.kind(), &text, result)
+}
+
+fn made(py: Python<'_>, kind: &str, of: ErrorKind, text: &str, result: Option<Py<PyAny>>) -> PyErr {
+    let make = || -> PyResult<PyErr> {
         let make = py.import("brinell._errors")?.getattr("make")?;
-        let value = make.call1((kind, error.kind().exit_code(), text, result))?;
+        let value = make.call1((kind, of.exit_code(), text, result))?;
         Ok(PyErr::from_value(value))
     };
-    made().unwrap_or_else(|failure| failure)
+    make().unwrap_or_else(|failure| failure)
 }
 
 /// Takes the value, or raises the error.
@@ -39,6 +43,11 @@ impl<T> Raise<T> for brinell::Result<T> {
     fn raise(self, py: Python<'_>) -> PyResult<T> {
         self.map_err(|error| exception(py, &error, None))
     }
+}
+
+/// The exception of a name that is not there.
+pub fn missing(py: Python<'_>, message: &str) -> PyErr {
+    made(py, "missing", ErrorKind::Input, message, None)
 }
 
 /// The exception of wrong input.

@@ -11,6 +11,7 @@ mod observer;
 mod run;
 mod structure;
 mod tables;
+mod threads;
 
 use pyo3::prelude::*;
 

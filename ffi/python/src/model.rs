@@ -3,6 +3,7 @@
 use crate::arrays::{backend, doubles, each_width, integers, keywords, rows_of_two, shape, values};
 use crate::errors::{Raise, wrong};
 use crate::run::{RunResult, Source, Way, execute};
+use crate::threads;
 use brinell::mesh::{Curve, Shape};
 use brinell::model::{ModelBuilder, NodePair};
 use brinell::panics::contained;
@@ -389,19 +390,22 @@ impl Model {
         Ok(())
     }
 
-    /// Runs the load program. `callback` gets a dictionary after each increment and stops the run by returning something true. The model
-    /// may be changed and run again.
-    #[pyo3(signature = (*, solver = None, callback = None))]
+    /// Runs the load program. `callback` gets a dictionary after each increment and stops the run
+    /// by returning something true; `threads` as in
+    /// `brinell.run`. The model may be changed and run again.
+    #[pyo3(signature = (*, solver = None, callback = None, threads = None))]
     fn run(
         slf: &Bound<'_, Self>,
         solver: Option<&str>,
         callback: Option<Py<PyAny>>,
+        threads: Option<i64>,
     ) -> PyResult<Py<RunResult>> {
         let py = slf.py();
         let way = Way {
             backend: backend(py, solver)?,
             callback,
             estimate: false,
+            threads: threads::number(py, threads)?,
         };
         let model = {
             let mut own = slf.try_borrow_mut()?;

@@ -1,10 +1,11 @@
 //! Runs and what they leave.
 
 use crate::arrays::backend;
-use crate::errors::{Raise, exception, wrong};
+use crate::errors::{Raise, exception, missing};
 use crate::lent::{lent, read_only};
 use crate::observer::Watcher;
 use crate::tables;
+use crate::threads;
 use brinell::ErrorKind;
 use brinell::accuracy::{self, Extent};
 use brinell::analysis::Analysis;
@@ -33,11 +34,12 @@ pub struct Way {
     pub backend: Backend,
     pub callback: Option<Py<PyAny>>,
     pub estimate: bool,
+    pub threads: Option<usize>,
 }
 
 /// Runs a scene; see `brinell.run`, which calls this.
 #[pyfunction]
-#[pyo3(signature = (scene, is_path, overrides, solver, callback, estimate))]
+#[pyo3(signature = (scene, is_path, overrides, solver, callback, estimate, threads))]
 pub fn run(
     py: Python<'_>,
     scene: &str,
@@ -46,16 +48,22 @@ pub fn run(
     solver: Option<&str>,
     callback: Option<Py<PyAny>>,
     estimate: bool,
+    threads: Option<i64>,
 ) -> PyResult<Py<RunResult>> {
     let read = || match is_path {
         true => Scene::load_with(scene, &overrides),
         false => Scene::parse_with(scene, "scene", &overrides),
     };
-    let source = Source::Scene(Box::new(contained(read).raise(py)?));
+    let scene = contained(read).raise(py)?;
+    for warning in &scene.warnings {
+        py.import("warnings")?.call_method1("warn", (warning,))?;
+    }
+    let source = Source::Scene(Box::new(scene));
     let way = Way {
         backend: backend(py, solver)?,
         callback,
         estimate,
+        threads: threads::number(py, threads)?,
     };
     execute(py, source, way)
 }
@@ -65,7 +73,8 @@ pub fn execute(py: Python<'_>, source: Source, way: Way) -> PyResult<Py<RunResul
     let mut watcher = Watcher::new(way.callback);
     let start = Instant::now();
     let backend = way.backend;
-    let done = py.detach(|| {
+    let signals = watcher.signals();
+    let work = || {
         contained(|| {
             let model = match source {
                 Source::Scene(scene) if scene.accuracy.is_some() => {
@@ -86,7 +95,8 @@ pub fn execute(py: Python<'_>, source: Source, way: Way) -> PyResult<Py<RunResul
             }
             Ok((model, results))
         })
-    });
+    };
+    let done = py.detach(|| threads::on(way.threads, &signals, work));
     if let Some(raised) = watcher.into_raised() {
         return Err(raised);
     }
@@ -233,9 +243,9 @@ impl RunResult {
         let index = if let Ok(name) = which.extract::<String>() {
             let names = self.names();
             names.iter().position(|n| *n == name).ok_or_else(|| {
-                wrong(
+                missing(
                     py,
-                    format!("there is no state {name:?}; there are {names:?}"),
+                    &format!("there is no state {name:?}; there are {names:?}"),
                 )
             })?
         } else {

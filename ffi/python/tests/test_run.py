@@ -37,8 +37,11 @@ def test_tables_have_a_value_for_each_row(result):
     assert result[-1].alpha == 0.0 and result["yield"].alpha == pytest.approx(1.0, rel=1e-9)
     with pytest.raises(IndexError):
         result[len(result)]
-    with pytest.raises(brinell.InputError, match="nothing"):
+    with pytest.raises(brinell.InputError, match="nothing") as missing:
         result["nothing"]
+    # Whoever takes it for a dictionary expects a KeyError, but not its quotes.
+    assert isinstance(missing.value, KeyError) and missing.value.kind == "input"
+    assert str(missing.value).startswith("there is no state")
 
 
 def test_pandas_takes_the_tables(result):
@@ -142,6 +145,52 @@ def test_overrides_come_in_every_form():
         assert other.states["name"] == expected.states["name"]
 
 
+def test_a_table_is_merged_and_none_removes_a_key():
+    targets = [{"load_factor": 1.0, "name": "pressed"}]
+    # The unit stays that of the yield load.
+    result = brinell.run(CYLINDER, {**SMALL, "program": {"targets": targets}})
+    assert result["pressed"].load == pytest.approx(result.first_yield["load"], rel=1e-9)
+    elastic = {"materials": {"steel": {"yield_stress": None, "plastic_modulus": None}}}
+    removed = brinell.run(BLOCKS, {**FLOWS, **elastic})
+    assert removed.history["plastic_points"].max() == 0
+    with pytest.raises(brinell.InputError, match="no key `nonsense`"):
+        brinell.run(BLOCKS, materials={"steel": {"nonsense": None}})
+    with pytest.raises(brinell.InputError, match="None"):
+        brinell.run(BLOCKS, program__targets=[None])
+
+
+def test_a_key_that_a_list_loses_is_told():
+    load = {"on": "upper.top", "pressure": 10.0, "name": "press"}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        brinell.run(BLOCKS, load=[load])
+    del load["name"]
+    with pytest.warns(UserWarning, match="load.*no longer have `name`"):
+        brinell.run(BLOCKS, load=[load])
+
+
+def test_threads_are_an_argument():
+    def tasks():
+        return len(list(pathlib.Path("/proc/self/task").iterdir()))
+
+    seen = []
+    expected = brinell.run(CYLINDER, SMALL)
+    before = tasks()
+    # One thread more: that of the run itself, while the calling one looks for Ctrl-C.
+    result = brinell.run(CYLINDER, SMALL, threads=3, callback=lambda row: seen.append(tasks()))
+    assert max(seen) >= before + 3
+    assert result.history["load"].tolist() == expected.history["load"].tolist()
+    for wrong in (0, -1, 70000):
+        with pytest.raises(brinell.InputError, match="threads is"):
+            brinell.run(CYLINDER, SMALL, threads=wrong)
+
+    def fail(row):
+        raise KeyError(row["increment"])
+
+    with pytest.raises(KeyError, match="1"):
+        brinell.run(CYLINDER, SMALL, threads=2, callback=fail)
+
+
 def test_an_estimate_comes_with_the_summary():
     result = brinell.run(CYLINDER, {"mesh.cylinder_on_half_plane.resolution": 8}, estimate=True)
     quantities = result.summary["accuracy"]["quantities"]
@@ -167,7 +216,8 @@ def test_what_a_callback_raises_is_raised():
 
 
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="no timers on this system")
-def test_a_signal_stops_a_run():
+@pytest.mark.parametrize("threads", [None, 2])
+def test_a_signal_stops_a_run(threads):
     class Pressed(Exception):
         pass
 
@@ -180,7 +230,7 @@ def test_a_signal_stops_a_run():
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.3)
         with pytest.raises(Pressed):
-            brinell.run(CYLINDER, {"mesh.cylinder_on_half_plane.resolution": 48})
+            brinell.run(CYLINDER, {"mesh.cylinder_on_half_plane.resolution": 48}, threads=threads)
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         signal.signal(signal.SIGALRM, before)
@@ -217,6 +267,7 @@ def test_errors_have_a_kind_a_status_and_a_place(tmp_path):
     with pytest.raises(brinell.IoError, match="nowhere") as caught:
         brinell.run(tmp_path / "nowhere.toml")
     assert caught.value.status == 3
+    assert isinstance(caught.value, OSError) and "nowhere" in str(caught.value)
     with pytest.raises(brinell.UnsupportedError, match="friction"):
         brinell.run(BLOCKS.read_text() + "\n[friction]\n")
     with pytest.raises(brinell.InputError, match="--set"):

@@ -30,18 +30,24 @@ pub(super) fn charts(model: &Model, results: &Results, units: &Units) -> Vec<Tit
         out.extend(against_load(
             results,
             units,
-            "pressure",
-            "Maximum contact pressure",
-            labelled("maximum pressure", units.stress()),
+            Figure {
+                name: "pressure",
+                title: "Maximum contact pressure",
+                label: labelled("maximum pressure", units.stress()),
+                at_zero: AtZero::Proportional,
+            },
             |row| row.max_pressure,
             |y| y.max_pressure,
         ));
         out.extend(against_load(
             results,
             units,
-            "half_width",
-            "Contact half width",
-            labelled("half width", units.length()),
+            Figure {
+                name: "half_width",
+                title: "Contact half width",
+                label: labelled("half width", units.length()),
+                at_zero: AtZero::Constant,
+            },
             |row| row.half_width,
             |y| y.half_width,
         ));
@@ -69,13 +75,46 @@ fn load_label(units: &Units) -> String {
     labelled("load", units.load())
 }
 
+/// What becomes of a figure as the load goes to zero within an increment, in which statuses do not
+/// change and all contact forces are therefore in proportion to the load.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum AtZero {
+    /// It does, too: a pressure.
+    Proportional,
+    /// It stays as it is until nothing is pressed any more: an extent.
+    Constant,
+}
+
+impl AtZero {
+    /// The points of a path, and where the figure jumps.
+    fn path(self, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        let mut out: Vec<[f64; 2]> = points.first().copied().into_iter().collect();
+        for pair in points.windows(2) {
+            let [[from, before], [to, after]] = [pair[0], pair[1]];
+            match (self, before > 0.0, after > 0.0) {
+                (AtZero::Constant, false, true) => out.push([from, after]),
+                (AtZero::Constant, true, false) => out.push([to, before]),
+                _ => {}
+            }
+            out.push([to, after]);
+        }
+        out
+    }
+}
+
+/// What is drawn against the load.
+struct Figure<'t> {
+    name: &'t str,
+    title: &'t str,
+    label: String,
+    at_zero: AtZero,
+}
+
 /// A figure of the history against the load, way there and way back, with first yield and the states.
 fn against_load(
     results: &Results,
     units: &Units,
-    name: &str,
-    title: &str,
-    label: String,
+    figure: Figure,
     value: impl Fn(&HistoryRow) -> f64,
     at_yield: impl Fn(&crate::results::YieldPoint) -> f64,
 ) -> Option<Titled> {
@@ -98,13 +137,15 @@ fn against_load(
             loading.insert(0, [0.0, 0.0]);
         }
     }
+    let loading = figure.at_zero.path(&loading);
     let mut curves = vec![curve("loading", 0, Pen::Line, loading)];
     if top + 1 < history.len() {
         let label = match history[top..].windows(2).all(|p| p[1].load <= p[0].load) {
             true => "unloading",
             false => "after the largest load",
         };
-        curves.push(curve(label, 1, Pen::Line, points(&history[top..])));
+        let back = figure.at_zero.path(&points(&history[top..]));
+        curves.push(curve(label, 1, Pen::Line, back));
     }
     if let Some(first) = &results.first_yield {
         curves.push(curve(
@@ -115,11 +156,11 @@ fn against_load(
         ));
     }
     Some(Titled {
-        name: name.to_string(),
-        title: format!("{title} against load"),
+        name: figure.name.to_string(),
+        title: format!("{} against load", figure.title),
         caption: "Every accepted increment of the load program, in its order.".to_string(),
         chart: Chart {
-            labels: [load_label(units), label],
+            labels: [load_label(units), figure.label],
             curves,
             from_zero: [true; 2],
             widened: 0.0,
@@ -415,3 +456,6 @@ pub(super) fn factor_unit(unit: Unit) -> &'static str {
         Unit::Yield => "a multiple of the yield load",
     }
 }
+
+#[cfg(test)]
+mod tests;

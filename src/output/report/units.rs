@@ -61,3 +61,28 @@ pub(super) fn labelled(name: &str, unit: &str) -> String {
         format!("{name} [{unit}]")
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    /// Per length in the plane, of the whole about an axis; a pressure is a stress.
+    #[test]
+    fn the_unit_of_the_load_is_that_of_what_loads() {
+        for (name, expected) in [
+            ("cylinder_on_half_plane", "N/mm"),
+            ("ball_on_half_space", "N"),
+            ("thick_cylinder", "MPa"),
+            ("contact_patch", ""),
+        ] {
+            let root = env!("CARGO_MANIFEST_DIR");
+            let mut scene = Scene::load(format!("{root}/data/scenes/{name}.toml")).unwrap();
+            if expected.is_empty() {
+                scene.units = None;
+            }
+            let units = Units::of(&Model::new(&scene).unwrap());
+            assert_eq!(units.load(), expected, "{name}");
+        }
+    }
+}

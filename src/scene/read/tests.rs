@@ -1,5 +1,7 @@
 //! Reading: the message for each way to get a scene file wrong, overrides, and what a good file becomes.
 
+mod overrides;
+
 use crate::ErrorKind;
 use crate::scene::{History, Kind, Material, Plastic, Scene, Target};
 
@@ -329,6 +331,15 @@ fn a_wrong_override_is_named() {
             &["--set contact.0.gap=0.1: ", "contact"],
         ),
         ("kind.x=3", &["`kind` is a value of type string"]),
+        (
+            "materials.steel.nonsense=",
+            &["--set materials.steel.nonsense=: `materials.steel` has no key `nonsense` that"],
+        ),
+        (
+            "load.0=",
+            &["an entry of the list `load` cannot be removed"],
+        ),
+        ("nonsense=", &["the scene has no key `nonsense` that"]),
         ("load.0.pressure=[1", &["the value `[1` is not valid TOML"]),
         (
             "load.0.pressure=much",

@@ -1,0 +1,54 @@
+//! Curves against the load where contact starts and ends.
+
+use super::*;
+
+/// Two blocks: one increment to first yield, one further, and back to nothing. Without a change
+/// of contact the width of contact is that of the blocks for any load, pressures go with the
+/// load.
+#[test]
+fn an_extent_does_not_grow_with_the_load_from_zero() {
+    let row = |load: f64, half_width: f64, max_pressure: f64| HistoryRow {
+        load,
+        half_width,
+        max_pressure,
+        ..HistoryRow::default()
+    };
+    let results = Results {
+        history: vec![
+            row(500.0, 2.0, 50.0),
+            row(600.0, 2.0, 60.0),
+            row(100.0, 1.5, 20.0),
+            row(0.0, 0.0, 0.0),
+        ],
+        ..Results::default()
+    };
+    let root = env!("CARGO_MANIFEST_DIR");
+    let scene = format!("{root}/data/scenes/contact_patch.toml");
+    let scene = crate::scene::Scene::load(scene).unwrap();
+    let units = Units::of(&Model::new(&scene).unwrap());
+    let points = |at_zero: AtZero, value: fn(&HistoryRow) -> f64| -> Vec<Vec<[f64; 2]>> {
+        let figure = Figure {
+            name: "",
+            title: "",
+            label: String::new(),
+            at_zero,
+        };
+        let found = against_load(&results, &units, figure, value, |_| 0.0);
+        let curves = found.unwrap().chart.curves;
+        curves.into_iter().map(|curve| curve.points).collect()
+    };
+    assert_eq!(
+        points(AtZero::Constant, |row| row.half_width),
+        [
+            vec![[0.0, 0.0], [0.0, 2.0], [500.0, 2.0], [600.0, 2.0]],
+            vec![[600.0, 2.0], [100.0, 1.5], [0.0, 1.5], [0.0, 0.0]],
+        ]
+    );
+    assert_eq!(
+        points(AtZero::Proportional, |row| row.max_pressure),
+        [
+            vec![[0.0, 0.0], [500.0, 50.0], [600.0, 60.0]],
+            vec![[600.0, 60.0], [100.0, 20.0], [0.0, 0.0]],
+        ]
+    );
+}
