@@ -179,11 +179,24 @@ impl Substructure {
     pub fn slip_forces(&self, slip: &[f64]) -> Vec<f64> {
         match &self.tied {
             Some(tied) => {
-                let forces = &*self.contact_matrix * tied.without_rigid(slip);
+                let forces = &*self.contact_matrix * tied.split_slip(slip).rest;
                 forces.as_slice().to_vec()
             }
             None => Vec::new(),
         }
+    }
+
+    /// The relative displacement `delta - gap` of the pairs without what rigid motions of floating bodies contribute to it, and the amplitude
+    /// of each of these motions. Gaps that a body falls through are taken off before the difference is formed: what
+    /// deforms the bodies keeps its digits beside them.
+    pub fn split_slip(&self, delta: &[f64], gap: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let Some(tied) = &self.tied else {
+            return (Vec::new(), Vec::new());
+        };
+        let [delta, gap] = [delta, gap].map(|values| tied.split_slip(values));
+        let rest = delta.rest - gap.rest;
+        let motions = delta.motions - gap.motions;
+        (rest.as_slice().to_vec(), motions.as_slice().to_vec())
     }
 
     /// A zero vector on zone and contact freedoms.
@@ -273,8 +286,8 @@ impl Substructure {
 
     /// All freedoms without the rigid motions of floating bodies, and the amplitude of each of these motions: strains of the first
     /// are free of the cancellation that those of the sum suffer. `load` is on all freedoms and includes initial loads and
-    /// contact forces; `reduced` are the external loads, `condensed` these and the initial loads on zone and contact freedoms. `beside` as in
-    /// [`linalg::recover_refined`].
+    /// contact forces; `reduced` are the external loads, `condensed` these and the initial loads on zone and contact freedoms; `slip` and
+    /// `motions` are those of [`Substructure::split_slip`]. `beside` as in [`linalg::recover_refined`].
     ///
     /// # Errors
     /// Failure of the backend's solve.
@@ -284,16 +297,17 @@ impl Substructure {
         load: &[f64],
         reduced: &[f64],
         mut condensed: Trailing,
-        slip: &[f64],
+        (slip, mut motions): (Vec<f64>, Vec<f64>),
         beside: [f64; 2],
     ) -> Result<(Recovered, Vec<f64>)> {
         let mut forces = vec![0.0; self.n_pairs];
         self.eliminate(&mut condensed, &mut forces);
-        let mut motions = Vec::new();
         if let Some(tied) = &self.tied {
-            let split = tied.split(&condensed.contact, slip);
+            let split = tied.split(&condensed.contact, &slip);
             condensed.contact = split.contact;
-            motions = split.motions.as_slice().to_vec();
+            for (motion, more) in motions.iter_mut().zip(split.motions.iter()) {
+                *motion += more;
+            }
         }
         let Trailing { zone, contact } = &mut condensed;
         self.condensed.recover_zone(zone, contact);

@@ -167,11 +167,7 @@ impl Engine<'_> {
             let mut u = eliminated.clone();
             u.add(piece.t(), &change);
             let delta = self.delta(&self.at);
-            let slip: Vec<f64> = delta
-                .iter()
-                .zip(&self.now.gap)
-                .map(|(d, g)| d - g)
-                .collect();
+            let (slip, _) = self.sub.split_slip(&delta, &self.now.gap);
             self.sub.recover(&mut u, &slip);
             self.count_half();
             self.zone.set_factors(&self.at.factors);

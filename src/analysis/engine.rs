@@ -91,11 +91,15 @@ pub struct Engine<'m> {
     pub condition: f64,
     /// Largest displacement seen (of a state, or of the nodes of a pair against each other).
     pub displacement_scale: f64,
+    /// The same without rigid motions of floating bodies: what stresses and their round-off are a share of.
+    pub deformation_scale: f64,
+    /// Largest round-off that equilibrium was accepted at where it is above the tolerance asked for; zero where it never was.
+    pub round_off_floor: f64,
     /// Current load point.
     pub at: LoadPoint,
     /// Load factor of the last accepted increment.
     pub reached: f64,
-    /// Current equilibrium; its displacements are valid where `fresh`.
+    /// Current equilibrium; its displacements are valid where `fresh`, without the rigid motions that gaps allow.
     pub now: Equilibrium,
     /// Whether the displacements belong to the current gaps and forces.
     pub fresh: bool,
@@ -166,6 +170,8 @@ impl<'m> Engine<'m> {
             condition,
             displacement_scale: 0.0,
             reached: 0.0,
+            deformation_scale: 0.0,
+            round_off_floor: 0.0,
             at: LoadPoint {
                 alpha: 0.0,
                 factors: vec![0.0; model.loads.len()],
@@ -380,6 +386,15 @@ impl<'m> Engine<'m> {
             .slip()
             .iter()
             .fold(self.displacement_scale, |m, s| m.max(s.abs()));
+        let (deforming, _) = self.sub.split_slip(&self.delta(&self.at), &self.now.gap);
+        let moved = if self.fresh {
+            self.now.u.largest()
+        } else {
+            0.0
+        };
+        self.deformation_scale = deforming
+            .iter()
+            .fold(self.deformation_scale.max(moved), |m, s| m.max(s.abs()));
         let applied = self.external(&self.at).largest();
         self.force_scale = self
             .now

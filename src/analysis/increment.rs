@@ -6,6 +6,7 @@
 //! contact (4.17, 4.22).
 
 use super::acceleration::Anderson;
+use super::collapse::Attempt;
 use super::engine::{Engine, LoadPoint};
 use super::equilibrium::Equilibrium;
 use super::step_length::{LengthSearch, StepLimit, step_limit};
@@ -43,12 +44,12 @@ pub struct Increment {
 }
 
 /// Why no increment was found.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug)]
 pub enum NoIncrement {
     /// These pairs violate their condition at once: their statuses are wrong.
     WrongStatus(Vec<usize>),
-    /// The iteration did not converge; the last relative residual.
-    NotConverged(f64),
+    /// The iteration did not converge.
+    NotConverged(Box<Attempt>),
     /// These pairs, at the border of their condition at the begin, end beyond it.
     Crossed(Vec<usize>),
     /// The caller asked to stop.
@@ -133,6 +134,7 @@ impl Engine<'_> {
         let mut best = (f64::INFINITY, 0);
         let mut damping = 0.0;
         let mut length_search = LengthSearch::default();
+        let mut may_settle = true;
         let newton = settings.plastic_iteration == PlasticIteration::Newton;
         let most_iterations = match settings.plastic_iteration {
             PlasticIteration::Newton => settings.max_iterations,
@@ -172,7 +174,17 @@ impl Engine<'_> {
             } else {
                 t == most
             };
-            if residual <= settings.tolerance && arrived {
+            let stalled = residual >= PROGRESS * best.0;
+            let mut balanced = residual <= settings.tolerance;
+            let mut floor = 0.0;
+            if stalled && !balanced && may_settle {
+                floor = self.round_off_of_balance(&state.u) / scale;
+                if residual <= floor {
+                    balanced = self.settles(&state, floor);
+                    may_settle = balanced;
+                }
+            }
+            if balanced && arrived {
                 if follows {
                     let crossed = self.crosses_border(&state, gamma.max(BORDER), scale);
                     if !crossed.is_empty() {
@@ -184,6 +196,7 @@ impl Engine<'_> {
                 } else {
                     Vec::new()
                 };
+                self.round_off_floor = self.round_off_floor.max(floor);
                 let at_end = start.towards(end, t);
                 state = self.respond(&at_end, state.initial);
                 return Ok(Increment {
@@ -195,7 +208,7 @@ impl Engine<'_> {
                     guard_flows: evaluation.guard_flows,
                 });
             }
-            if residual < PROGRESS * best.0 {
+            if !stalled {
                 best = (residual, iterations);
             }
             if stop() {
@@ -203,9 +216,14 @@ impl Engine<'_> {
             }
             let stuck = newton && iterations >= best.1 + PATIENCE;
             if iterations >= most_iterations || stuck || !residual.is_finite() {
-                return Err(NoIncrement::NotConverged(residual));
+                return Err(NoIncrement::NotConverged(Box::new(Attempt {
+                    state,
+                    iterations,
+                    residual,
+                    round_off: self.round_off_of_balance(&before.u) / scale,
+                })));
             }
-            if residual > settings.tolerance {
+            if !balanced {
                 let (direction, length) = match settings.plastic_iteration {
                     PlasticIteration::Newton => {
                         let newton = self.solve_tangent(&balance, FORCING, 1.0 - damping);
@@ -377,7 +395,11 @@ impl Engine<'_> {
 
     /// The force that the stresses at `state` leave out of balance: what the plastic strains there would be as initial loads, less
     /// the initial loads that the state is in equilibrium with.
-    fn out_of_balance_at(&mut self, state: &Equilibrium, balance: &mut Trailing) -> Evaluation {
+    pub(super) fn out_of_balance_at(
+        &mut self,
+        state: &Equilibrium,
+        balance: &mut Trailing,
+    ) -> Evaluation {
         let evaluation = self.zone.evaluate(&state.u, balance);
         balance.add(-1.0, &state.initial.load);
         self.counts.plastic_iterations += 1;

@@ -8,6 +8,7 @@
 //! | `increment`, `step_length` | one elastoplastic increment that ends at the next change of contact | 4.7 to 4.23 |
 //! | `zone`, `gather`, `zone_choice`, `zone_fit` | elements that may yield, initial loads, their choice and growth | 4.1 |
 //! | `tangent`, `acceleration` | acceleration of the plastic iteration | |
+//! | `collapse` | limit load, or an iteration that did not converge | |
 //! | `program`, `targets`, `drive`, `stepping`, `hit` | from target to target, loading and unloading | 5.1, 5.2 |
 //! | `outgrown` | contact that reaches the end of its candidates | |
 //! | `keeper`, `resume`, `place`, `standing`, `record`, `saved`, `packed` | checkpoints, and going on from them | |
@@ -20,6 +21,7 @@
 mod acceleration;
 mod aim;
 mod check;
+mod collapse;
 mod contact_edge;
 mod dent;
 mod drive;

@@ -386,6 +386,15 @@ impl<'m, 'o> Run<'m, 'o> {
         } = self.standing;
         results.factor = self.engine.sub.cost();
         results.condition = self.engine.condition;
+        if self.engine.round_off_floor > 0.0 {
+            let text = format!(
+                "forces balance to their round-off, {:.1e} of the largest force, and not to analysis.tolerance = {:.1e}: displacements are \
+                 large beside the strains of this mesh",
+                self.engine.round_off_floor, model.scene.analysis.tolerance
+            );
+            self.observer.warning(&text);
+            results.warnings.push(text);
+        }
         let tolerances = quality::tolerances(model);
         let states = results.states.iter().map(|s| (s.name.as_str(), s.quality));
         let judged: Vec<(&str, Quality)> =

@@ -5,7 +5,8 @@
 //! factor as forces out of balance.
 //!
 //! Figures are relative to the largest load and displacement of the run up to here, so that they keep their meaning
-//! where everything is unloaded.
+//! where everything is unloaded. Rigid motions of floating bodies, which stress nothing, are no part of the displacements that
+//! stresses and their round-off are held against.
 
 #[cfg(test)]
 mod tests;
@@ -21,8 +22,13 @@ use crate::results::{Quality, Tolerances};
 /// having at.
 const ROUND_OFF: f64 = 1e-8;
 
+/// Round-off of the forces `sum w B' (D (B u))` of elements, over the largest `|K| |u|` of a row: displacements, strains, stresses and forces
+/// are rounded one after the other, by half of `eps` each (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed.,
+/// section 3.5). How many terms are summed up is left out: their roundings have either sign.
+pub(super) const ROUND_OFF_OF_FORCES: f64 = 2.0 * f64::EPSILON;
+
 /// What no setting of the scene makes acceptable: a thousandth of the largest force on the wrong side.
-const LOOSEST: f64 = 1e-3;
+pub(super) const LOOSEST: f64 = 1e-3;
 
 /// What the quality of a state of this model must keep: the tolerances that the scene asks for, with room for what
 /// is measured elsewhere than iterated, and round-off.
@@ -37,6 +43,7 @@ pub(super) fn tolerances(model: &Model) -> Tolerances {
         backward_error: (16.0 * f64::EPSILON * model.freedoms.n as f64).max(1e-12),
         equilibrium: forces,
         contact: forces,
+        loosest: LOOSEST,
     }
 }
 
@@ -48,6 +55,8 @@ pub(super) struct Displacements {
     deformation: Option<Vec<f64>>,
     /// Largest `|f - K u|` of the deformation.
     residual: f64,
+    /// Largest `|K| |u|` of a row, of the deformation.
+    terms: f64,
     /// Largest `|f|`.
     load: f64,
     /// Largest of a row's `|f - K u|` over its `|K| |u| + |f|`.
@@ -73,13 +82,14 @@ impl Engine<'_> {
         let load = self.total_load();
         let mut condensed = self.external(&self.at);
         condensed.add(1.0, &self.now.initial.load);
+        let slip = self.sub.split_slip(&self.delta(&self.at), &self.now.gap);
         let (found, amplitudes) = self.sub.recover_deformation(
             self.system,
             &load,
             &reduced,
             condensed,
-            &self.slip(),
-            [self.displacement_scale, self.force_scale],
+            slip,
+            [self.deformation_scale, self.force_scale],
         )?;
         self.counts.full_solves += 1;
         self.counts.trailing_solves += 1;
@@ -87,6 +97,7 @@ impl Engine<'_> {
             total: found.u,
             deformation: None,
             residual: found.residual,
+            terms: found.terms,
             load: largest(&load),
             componentwise_error: found.componentwise_error,
         };
@@ -107,10 +118,15 @@ impl Engine<'_> {
     /// Failure of the backend's solve.
     pub(super) fn quality_here(&mut self) -> crate::Result<Quality> {
         let u = self.displacements()?;
+        Ok(self.quality_of(&u))
+    }
+
+    /// Quality of the current state with its displacements.
+    fn quality_of(&mut self, u: &Displacements) -> Quality {
         let nodal = self.model.nodal(u.deformation(), &self.at.factors);
         let field = StressField::new(self.model, &self.zone, &self.elements, nodal);
         let stresses = Stresses::new(&field);
-        Ok(self.quality(&u, stresses.internal, &stresses.reactions))
+        self.quality(u, stresses.internal, &stresses.reactions)
     }
 
     /// Quality of the current state with its `internal` forces and the `reactions` on prescribed displacements.
@@ -126,6 +142,7 @@ impl Engine<'_> {
         // Reactions measure the load where displacements are prescribed.
         self.force_scale = self.force_scale.max(applied).max(largest(reactions));
         self.displacement_scale = self.displacement_scale.max(largest(&u.total));
+        self.deformation_scale = self.deformation_scale.max(largest(u.deformation()));
         let mut out_of_balance = internal;
         for (freedom, force) in external {
             out_of_balance[freedom] -= force;
@@ -141,6 +158,7 @@ impl Engine<'_> {
         let mut quality = Quality {
             backward_error: self.backward_error(u),
             componentwise_error: Some(u.componentwise_error),
+            round_off: Some(self.share_of_forces(ROUND_OFF_OF_FORCES * u.terms)),
             equilibrium: self.share_of_forces(largest(&out_of_balance)),
             ..Quality::default()
         };
@@ -164,13 +182,8 @@ impl Engine<'_> {
         quality
     }
 
-    /// A force over the largest of the run. Where nothing has acted yet (a body that an interference lifted) what the stresses leave over is the round-off of
-    /// stiffness times displacement, and no force.
+    /// A force over the largest of the run.
     fn share_of_forces(&self, force: f64) -> f64 {
-        let round_off = 16.0 * f64::EPSILON * self.system.norm * self.displacement_scale;
-        if self.force_scale <= round_off && force.abs() <= round_off {
-            return 0.0;
-        }
         ratio(force, self.force_scale)
     }
 
@@ -191,10 +204,9 @@ impl Engine<'_> {
         forces
     }
 
-    /// `|f - K u| / (|K| |u| + |f|)` in infinity norms, `u` and `f` the run's largest.
+    /// `|f - K u| / (|K| |u| + |f|)` in infinity norms, `u` and `f` the run's largest deformation and force.
     fn backward_error(&self, u: &Displacements) -> f64 {
-        let size = largest(u.deformation()).max(self.displacement_scale);
-        let scale = self.system.norm * size + u.load.max(self.force_scale);
+        let scale = self.system.norm * self.deformation_scale + u.load.max(self.force_scale);
         ratio(u.residual, scale)
     }
 }

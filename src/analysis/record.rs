@@ -102,6 +102,8 @@ pub(super) struct EngineRecord {
     force_scale: f64,
     condition: f64,
     displacement_scale: f64,
+    deformation_scale: f64,
+    round_off_floor: f64,
     at: LoadPoint,
     now: EquilibriumRecord,
     fresh: bool,
@@ -139,6 +141,8 @@ impl<'m> Engine<'m> {
             force_scale: self.force_scale,
             condition: self.condition,
             displacement_scale: self.displacement_scale,
+            deformation_scale: self.deformation_scale,
+            round_off_floor: self.round_off_floor,
             at: self.at.clone(),
             now: EquilibriumRecord::of(&self.now),
             fresh: self.fresh,
@@ -191,6 +195,8 @@ impl<'m> Engine<'m> {
         engine.force_scale = record.force_scale;
         engine.condition = record.condition;
         engine.displacement_scale = record.displacement_scale;
+        engine.deformation_scale = record.deformation_scale;
+        engine.round_off_floor = record.round_off_floor;
         engine.at = record.at.clone();
         engine.fresh = record.fresh;
         engine.border.clone_from(&record.border);

@@ -41,12 +41,8 @@ impl Engine<'_> {
         }
         let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
         self.tableau.solve(&q, &mut gap, &mut force);
-        let slip: Vec<f64> = self
-            .delta(point)
-            .iter()
-            .zip(&gap)
-            .map(|(d, g)| d - g)
-            .collect();
+        // Displacements serve for strains: rigid motions, however large, are left out.
+        let (slip, _) = self.sub.split_slip(&self.delta(point), &gap);
         self.sub.recover(&mut u, &slip);
         self.count_half();
         Equilibrium {

@@ -3,7 +3,7 @@
 use super::drive::{Stepper, stopped};
 use super::engine::{Engine, LoadPoint};
 use super::increment::{EndsAt, Increment, NoIncrement};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::scene::Stepping;
 
 /// Cut factor after an increment that did not converge.
@@ -68,19 +68,12 @@ impl Engine<'_> {
                     }
                 }
                 Err(NoIncrement::Stopped) => return Err(stopped()),
-                Err(NoIncrement::NotConverged(residual)) => {
+                Err(NoIncrement::NotConverged(attempt)) => {
                     // Written so that a way of no length, of which nothing is a share, ends here too.
                     let worth_cutting = CUT * most >= smallest;
                     if !worth_cutting {
-                        return Err(Error::new(
-                            ErrorKind::Collapse,
-                            format!(
-                                "limit load: load factor {:.9} is the last that was held, at {:.9} no equilibrium was found \
-                                 (out-of-balance force {residual:.1e} of the largest force)",
-                                self.at.alpha,
-                                self.at.towards(end, most).alpha,
-                            ),
-                        ));
+                        let goal = self.at.towards(end, most);
+                        return Err(self.not_found(&goal, &attempt, stepper));
                     }
                     most *= CUT;
                     // The points flow as in the state that failed: its tangent, often singular, must not predict the next.

@@ -8,7 +8,7 @@ use std::path::Path;
 use xxhash_rust::xxh3::xxh3_128;
 
 /// Number of the layout: another one is refused.
-const FORMAT: u32 = 3;
+const FORMAT: u32 = 4;
 /// Length and hash.
 const GUARD: usize = 8 + 16;
 

@@ -33,8 +33,8 @@ mod whole;
 pub use condition::condition;
 pub use contact_stiffness::{ContactBlock, ContactStiffness};
 pub use refinement::{Refinement, componentwise_backward_error, refine, twofold_residual};
-pub(crate) use residual::largest;
 pub use residual::{Recovered, multiply, norm, recover_refined};
+pub(crate) use residual::{largest, largest_terms};
 pub use whole::solve_whole;
 
 use crate::error::{Error, Result};

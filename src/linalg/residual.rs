@@ -48,6 +48,11 @@ pub fn norm(matrix: &SymmetricCsc) -> f64 {
     largest(&rows)
 }
 
+/// The largest `|K| |u|` of a row.
+pub(crate) fn largest_terms(matrix: &SymmetricCsc, u: &[f64]) -> f64 {
+    largest(&Rows::new(matrix, &vec![0.0; u.len()], u).terms)
+}
+
 /// Largest absolute value; NaN where there is one.
 pub(crate) fn largest(values: &[f64]) -> f64 {
     largest_of(values.len(), |i| values[i].abs())
@@ -219,6 +224,8 @@ pub struct Recovered {
     /// Componentwise backward error ([`super::componentwise_backward_error`]), with the residual in working precision: its own round-off, a
     /// rounding error for each entry of a row, counts as an error of the solution.
     pub componentwise_error: f64,
+    /// Largest `|K| |u|` of a row: what the round-off of forces that follow from `u` is a share of.
+    pub terms: f64,
 }
 
 impl Recovered {
@@ -234,6 +241,7 @@ impl Recovered {
             residual,
             backward_error,
             componentwise_error: rows.componentwise_error(f, &u),
+            terms: largest(&rows.terms),
             u,
         };
         (found, rows.residual)

@@ -124,6 +124,7 @@ fn quality(value: &Value) -> Quality {
     Quality {
         backward_error: float(&value["backward_error"]),
         componentwise_error: value["componentwise_error"].as_f64(),
+        round_off: value["round_off"].as_f64(),
         equilibrium: float(&value["equilibrium"]),
         complementarity: float(&value["complementarity"]),
         penetration: float(&value["penetration"]),

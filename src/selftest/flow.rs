@@ -20,6 +20,13 @@ pub(super) const FAMILIES: &[Family] = &[
         cases: column,
     },
     Family {
+        name: "slender elements",
+        figure: "plastic strain of two blocks, elements 75 times as high as wide and square ones, tolerances to 2e-15",
+        bound: 1e-8 / 4e-3,
+        source: "forces balance to their round-off, 1e-8 at most; a tangent of 4e-3 of the elastic stiffness",
+        cases: slender,
+    },
+    Family {
         name: "cycles",
         figure: "loop of the last two of five cycles, unloading and reloading",
         bound: 1e-6,
@@ -71,6 +78,27 @@ fn column(cases: &mut Cases) -> Result<()> {
     let collapsed = run.incomplete_kind == Some(ErrorKind::Collapse);
     let last = run.history.last().filter(|_| collapsed);
     cases.add(last.map_or(f64::NAN, |row| row.alpha - 1.0));
+    Ok(())
+}
+
+fn slender(cases: &mut Cases) -> Result<()> {
+    let mut blocks = scene(include_str!("../../data/scenes/hard/slender_elements.toml"))?;
+    let mut strains = Vec::new();
+    for elements in [[8, 4], [600, 4]] {
+        for block in blocks.mesh.parts.iter_mut().flatten() {
+            if let Some(block) = &mut block.block {
+                block.elements = elements;
+            }
+        }
+        for tolerance in [1e-10, 2e-15] {
+            blocks.analysis.tolerance = tolerance;
+            let run = results(&blocks)?;
+            strains.push(state(&run, "pressed")?.max_equivalent_plastic_strain);
+        }
+    }
+    for strain in &strains[1..] {
+        cases.add(strain / strains[0] - 1.0);
+    }
     Ok(())
 }
 

@@ -1,8 +1,11 @@
 //! Numbers far apart: stiffness ratios, slivers, units; two backends.
 
-use super::{Cases, Family, difference, results, results_by, scene, worst_quality};
+use super::{Cases, Family, difference, results, results_by, scene, state, worst_quality};
+use crate::analysis::Analysis;
 use crate::error::Result;
 use crate::linalg::Backend;
+use crate::model::Model;
+use crate::progress::Silent;
 use crate::scene::Scene;
 
 pub(super) const FAMILIES: &[Family] = &[
@@ -19,6 +22,20 @@ pub(super) const FAMILIES: &[Family] = &[
         bound: 1e-2,
         source: "Lame; the mesh, of order h^2 at least",
         cases: sizes,
+    },
+    Family {
+        name: "falls and lifts of 1e4 to 1e15",
+        figure: "stresses of all elements under uniform pressure",
+        bound: 1e-11,
+        source: "rigid motions are no part of the deformation; round-off times the condition",
+        cases: falls,
+    },
+    Family {
+        name: "contact at nu 0.4999 to 0.499999",
+        figure: "out-of-balance force over the round-off that the state reports, or over 1e-7",
+        bound: 1.0,
+        source: "2 eps abs(K) abs(u), the round-off of forces; events are hit to 10 gamma = 1e-7",
+        cases: incompressible_contact,
     },
     Family {
         name: "slivers of aspect 1e5",
@@ -42,6 +59,37 @@ pub(super) const FAMILIES: &[Family] = &[
         cases: backends,
     },
 ];
+
+fn falls(cases: &mut Cases) -> Result<()> {
+    const PATCH: &str = include_str!("../../data/scenes/contact_patch.toml");
+    for key in ["gap", "interference"] {
+        for size in [1e4, 1e8, 1e10, 1e12, 1e15] {
+            let line = format!("second = \"lower.top\"\n{key} = {size:e}\n");
+            let patch = scene(&PATCH.replace("second = \"lower.top\"\n", &line))?;
+            let run = Analysis::new(Model::new(&patch)?, Backend::default())?.run(&mut Silent)?;
+            let fields = state(&run, "pressed")?.fields.as_ref();
+            for stress in fields.map_or(&[][..], |f| &f.stress).chunks(4) {
+                cases.add(stress[1] / -10.0 - 1.0);
+            }
+        }
+    }
+    Ok(())
+}
+
+fn incompressible_contact(cases: &mut Cases) -> Result<()> {
+    const CYLINDER: &str = include_str!("../../data/scenes/cylinder_on_half_plane.toml");
+    let mut cylinder = scene(&CYLINDER.replace("resolution = 16", "resolution = 4"))?;
+    for nu in [0.4999, 0.49999, 0.499999] {
+        for material in cylinder.materials.values_mut() {
+            material.poissons_ratio = nu;
+        }
+        for s in &results(&cylinder)?.states {
+            let bound = s.quality.round_off.unwrap_or(f64::NAN).max(1e-7);
+            cases.add(s.quality.equilibrium / bound);
+        }
+    }
+    Ok(())
+}
 
 fn ratios(cases: &mut Cases) -> Result<()> {
     let mut press = scene(include_str!("../../data/scenes/hard/stiffness_ratio.toml"))?;

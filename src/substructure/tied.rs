@@ -46,6 +46,20 @@ pub(super) struct Split {
     pub motions: DVector<f64>,
 }
 
+/// A relative displacement of the pairs, rigid motions of floating bodies apart: these cost nothing.
+pub(super) struct SplitSlip {
+    /// What deforms the bodies.
+    pub rest: DVector<f64>,
+    /// Amplitude of each rigid motion of the model that gives what is left out.
+    pub motions: DVector<f64>,
+}
+
+/// What a rigid motion moves the nodes of the pairs against each other: one of an orthonormal set.
+struct RigidSlip {
+    values: DVector<f64>,
+    of_motion: DVector<f64>,
+}
+
 /// The second node leads only where it is stiffer than the first by this factor: for like bodies the paper's choice stands.
 const STIFFER: f64 = 4.0;
 /// What is left of a motion, as a share of it, when that share is the round-off of taking the rest away.
@@ -72,6 +86,8 @@ pub(super) struct Tied {
     rigid_share: DMatrix<f64>,
     /// Orthonormal rigid traces of each part.
     rigid: Vec<Trace>,
+    /// Orthonormal relative displacements that rigid motions give.
+    rigid_slips: Vec<RigidSlip>,
     /// Part of each contact freedom.
     part: Vec<usize>,
     /// `L L' = [Z R]' S_vv [Z R]`.
@@ -187,6 +203,7 @@ impl Tied {
             motions,
             lifted,
             rigid_share,
+            rigid_slips: rigid_slips(&rigid, n),
             rigid,
             part: part.to_vec(),
             factor,
@@ -229,40 +246,27 @@ impl Tied {
         }
     }
 
-    /// A relative displacement of the pairs without what rigid motions of floating bodies contribute to it. They cost nothing: forces of
+    /// Takes the rigid motions of floating bodies out of a relative displacement of the pairs. They cost nothing: forces and strains of
     /// a gap that is large beside the deformation are those of the rest, and do not drown in its round-off. What is rigid to round-off
     /// leaves nothing, so that a body which an interference lifts off another feels no force, rather than one whose sign is chance.
-    pub(super) fn without_rigid(&self, slip: &[f64]) -> DVector<f64> {
-        let n = self.n;
-        let mut basis: Vec<DVector<f64>> = Vec::new();
-        for trace in &self.rigid {
-            let mut next = DVector::from_fn(n, |k, _| trace.values[n + k] - trace.values[k]);
-            let size = next.norm();
-            for _ in 0..2 {
-                for other in &basis {
-                    let along = other.dot(&next);
-                    next.axpy(-along, other, 1.0);
-                }
-            }
-            let left = next.norm();
-            if left > 1e-6 * size {
-                basis.push(next / left);
-            }
-        }
+    pub(super) fn split_slip(&self, slip: &[f64]) -> SplitSlip {
         let mut rest = DVector::from_column_slice(slip);
+        let n_motions = self.rigid.first().map_or(0, |t| t.of_motion.len());
+        let mut motions = DVector::zeros(n_motions);
         let whole = rest.norm();
         for _ in 0..2 {
-            for motion in &basis {
-                let along = motion.dot(&rest);
-                rest.axpy(-along, motion, 1.0);
+            for rigid in &self.rigid_slips {
+                let along = rigid.values.dot(&rest);
+                rest.axpy(-along, &rigid.values, 1.0);
+                motions.axpy(along, &rigid.of_motion, 1.0);
             }
         }
         // Each subtraction leaves a rounding error of what it is made from.
-        let round_off = 4.0 * (basis.len() + 1) as f64 * f64::EPSILON * whole;
+        let round_off = 4.0 * (self.rigid_slips.len() + 1) as f64 * f64::EPSILON * whole;
         if rest.norm() <= round_off {
             rest.fill(0.0);
         }
-        rest
+        SplitSlip { rest, motions }
     }
 
     /// As [`Tied::recover`], with rigid motions apart: the deformation of a stiff body keeps its digits beside a motion that is
@@ -338,6 +342,31 @@ fn orthonormal(traces: &[Trace]) -> Vec<Trace> {
             next.values /= left;
             next.of_motion /= left;
             out.push(next);
+        }
+    }
+    out
+}
+
+/// The relative displacements of the pairs that rigid motions give, orthonormal.
+fn rigid_slips(rigid: &[Trace], n: usize) -> Vec<RigidSlip> {
+    let mut out: Vec<RigidSlip> = Vec::new();
+    for trace in rigid {
+        let mut values = DVector::from_fn(n, |k, _| trace.values[n + k] - trace.values[k]);
+        let mut of_motion = trace.of_motion.clone();
+        let size = values.norm();
+        for _ in 0..2 {
+            for other in &out {
+                let along = other.values.dot(&values);
+                values.axpy(-along, &other.values, 1.0);
+                of_motion.axpy(-along, &other.of_motion, 1.0);
+            }
+        }
+        let left = values.norm();
+        if left > 1e-6 * size {
+            out.push(RigidSlip {
+                values: values / left,
+                of_motion: of_motion / left,
+            });
         }
     }
     out

@@ -71,6 +71,7 @@ pub fn results(mesh: &Mesh) -> Results {
     let quality = Quality {
         backward_error: 1e-16,
         componentwise_error: Some(2e-16),
+        round_off: Some(3e-14),
         equilibrium: 2e-12,
         complementarity: 0.0,
         penetration: 3e-17,

@@ -41,8 +41,8 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
         assert_eq!(peak, Value::Null);
     }
     let quality = json!({
-        "backward_error": 1e-16, "componentwise_error": 2e-16, "equilibrium": 2e-12, "complementarity": 0.0, "penetration": 3e-17,
-        "adhesion": 4e-17
+        "backward_error": 1e-16, "componentwise_error": 2e-16, "round_off": 3e-14, "equilibrium": 2e-12, "complementarity": 0.0,
+        "penetration": 3e-17, "adhesion": 4e-17
     });
     let pressed = json!({
         "name": "b = 1.5 b*", "alpha": 2.0635, "load": 123.456, "contact_force": 123.4,

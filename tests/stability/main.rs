@@ -3,6 +3,7 @@
 //! The scenes are in `data/scenes/hard`.
 
 mod checkpoint;
+mod collapse;
 mod cycles;
 mod elsewhere;
 mod flow;

@@ -1,7 +1,7 @@
 //! Faults put in on purpose: each must show in the run's own figures. The structure that the engine works with is corrupted, the
 //! figures see the true one.
 
-use super::tolerances;
+use super::{Displacements, tolerances};
 use crate::analysis::drive::{Arrival, IncrementReport};
 use crate::analysis::engine::Engine;
 use crate::assembly::{System, assemble};
@@ -181,4 +181,202 @@ fn the_condition_of_an_earlier_factorisation_is_not_forgotten() {
     let (resumed, same) = Engine::recall(&model, &system, backend, &record).expect("resumed");
     assert!(same);
     assert_eq!((resumed.sub.condition(), resumed.condition), (least, worst));
+}
+
+/// An engine at the end of the load, with displacements that belong to its gaps and forces.
+fn loaded<'m>(model: &'m Model, system: &'m System) -> Engine<'m> {
+    let mut engine =
+        Engine::new(model, system, Backend::default(), &[], Vec::new(), &[]).expect("engine");
+    let end = engine.point(1.0);
+    let mut report = |_: &mut Engine, _: &IncrementReport| Ok(true);
+    let arrival = engine.drive_elastic(&end, None, None, None, &mut report);
+    assert_eq!(arrival.expect("drive"), Arrival::End);
+    engine.refresh();
+    engine
+}
+
+/// Noise put in by hand shows with its size, but for what the sound state has.
+#[track_caller]
+fn shows(figure: f64, expected: f64, sound: f64) {
+    let off = (figure - expected).abs();
+    assert!(expected > 100.0 * sound, "too little noise: {expected:e}");
+    assert!(
+        off <= sound + 1e-9 * expected,
+        "{figure:e}, put in {expected:e}"
+    );
+}
+
+fn move_by(u: &mut Displacements, freedom: usize, shift: f64) {
+    u.total[freedom] += shift;
+    u.deformation.as_mut().expect("a body floats")[freedom] += shift;
+}
+
+fn entry(system: &System, i: usize, j: usize) -> f64 {
+    let at = system.stiffness.get(i.min(j), i.max(j));
+    at.copied().unwrap_or(0.0)
+}
+
+/// A node that is moved leaves its column of the stiffness out of balance.
+#[test]
+fn noise_in_a_displacement_shows_in_the_balance_of_forces() {
+    let (model, system) = model();
+    let mut engine = loaded(&model, &system);
+    let sound = engine.quality_here().expect("quality").equilibrium;
+    let of_contact = engine.sub.partition.contact[0];
+    for freedom in [of_contact, model.freedoms.n / 3, model.freedoms.n - 1] {
+        let column = (0..model.freedoms.n).map(|i| entry(&system, i, freedom).abs());
+        let stiffest = column.fold(0.0, f64::max);
+        for share in [1e-6, 1e-3, 1.0] {
+            let mut u = engine.displacements().expect("displacements");
+            move_by(&mut u, freedom, share * engine.force_scale / stiffest);
+            let q = engine.quality_of(&u);
+            shows(q.equilibrium, share, sound);
+        }
+    }
+}
+
+/// A contact force that is off leaves as much out of balance on its two nodes, of the stresses and of the full solve.
+#[test]
+fn noise_in_a_contact_force_shows_in_balance_and_backward_errors() {
+    let (model, system) = model();
+    let mut engine = loaded(&model, &system);
+    let sound = engine.quality_here().expect("quality");
+    let n = model.pairs.len();
+    for pair in [0, n - 1] {
+        for share in [1e-6, 1e-3] {
+            let noise = share * engine.force_scale;
+            engine.now.force[pair] += noise;
+            let u = engine.displacements().expect("displacements");
+            let load = engine.total_load();
+            let q = engine.quality_of(&u);
+            engine.now.force[pair] -= noise;
+            shows(q.equilibrium, noise / engine.force_scale, sound.equilibrium);
+            let scale = system.norm * engine.deformation_scale + engine.force_scale;
+            shows(q.backward_error, noise / scale, sound.backward_error);
+            let contact = &engine.sub.partition.contact;
+            let of_row = [contact[pair], contact[n + pair]].map(|i| {
+                let terms =
+                    (0..model.freedoms.n).map(|j| entry(&system, i, j) * u.deformation()[j]);
+                noise / (terms.map(f64::abs).sum::<f64>() + load[i].abs())
+            });
+            let componentwise = q.componentwise_error.expect("stated");
+            let sound = sound.componentwise_error.expect("stated");
+            shows(componentwise, of_row[0].max(of_row[1]), sound);
+        }
+    }
+}
+
+/// The surface of an open pair is pulled: the stresses there hold bodies together that nothing glues.
+#[test]
+fn tension_shows_as_adhesion() {
+    let (model, system) = model();
+    let mut engine = loaded(&model, &system);
+    let sound = engine.quality_here().expect("quality").adhesion;
+    let n = model.pairs.len();
+    assert!(engine.tableau.open()[..2].iter().all(|open| *open));
+    let contact = engine.sub.partition.contact.clone();
+    for (place, towards) in [(0, -1.0), (n, 1.0)] {
+        let freedom = contact[place];
+        for share in [1e-6, 1e-2] {
+            let pull = share * engine.force_scale / entry(&system, freedom, freedom);
+            let mut u = engine.displacements().expect("displacements");
+            move_by(&mut u, freedom, towards * pull);
+            let tension = (0..2 * n).map(|i| {
+                let side = if i < n { 1.0 } else { -1.0 };
+                let changed = side * towards * pull * entry(&system, contact[i], freedom);
+                -(engine.now.force[i % n] + changed)
+            });
+            let expected = tension.fold(0.0, f64::max) / engine.force_scale;
+            assert!(expected >= share * (1.0 - 1e-12));
+            shows(engine.quality_of(&u).adhesion, expected, sound);
+        }
+    }
+}
+
+/// Surfaces of a pressed pair that are moved apart, or into each other, whatever the solver's own gaps are.
+#[test]
+fn a_wrong_gap_shows_in_complementarity_and_as_penetration() {
+    let (model, system) = model();
+    let mut engine = loaded(&model, &system);
+    let sound = engine.quality_here().expect("quality");
+    let n = model.pairs.len();
+    let pole = n - 1;
+    let contact = engine.sub.partition.contact.clone();
+    let share_of_force = engine.now.force[pole] / engine.force_scale;
+    let widest = (engine.delta(&engine.at).iter()).fold(0.0f64, |m, d| m.max(d.abs()));
+    for shift in [1e-6, 1e-3, -1e-6, -1e-3] {
+        let apart = shift * engine.displacement_scale;
+        // The first node moves up by it, or the second one down.
+        for (place, by) in [(pole, apart), (n + pole, -apart)] {
+            let mut u = engine.displacements().expect("displacements");
+            u.total[contact[place]] += by;
+            let q = engine.quality_of(&u);
+            let scale = engine.displacement_scale.max(widest);
+            let product = apart.abs() / scale * share_of_force;
+            shows(q.complementarity, product, sound.complementarity);
+            if apart < 0.0 {
+                shows(
+                    q.penetration,
+                    -apart / engine.displacement_scale,
+                    sound.penetration,
+                );
+            }
+        }
+    }
+}
+
+/// A pair with the wrong status, its gap or force clipped as if it were sound: stresses and displacements show what was clipped.
+#[test]
+fn a_wrong_status_shows_with_its_tension_or_penetration() {
+    let (model, system) = model();
+    for closed in [true, false] {
+        let mut engine = loaded(&model, &system);
+        let sound = engine.quality_here().expect("quality");
+        let open = engine.tableau.open().to_vec();
+        // The outermost pair is open, the pole is closed.
+        let wrong = if closed { 0 } else { open.len() - 1 };
+        assert_eq!(open[wrong], closed);
+        assert!(engine.tableau.flip(wrong));
+        engine.fresh = false;
+        engine.refresh();
+        let worst = |values: &[f64]| values.iter().fold(0.0f64, |m, v| m.max(-v));
+        let (tension, overlap) = (worst(&engine.now.force), worst(&engine.now.gap));
+        let u = engine.displacements().expect("displacements");
+        for value in engine.now.gap.iter_mut().chain(&mut engine.now.force) {
+            *value = value.max(0.0);
+        }
+        let q = engine.quality_of(&u);
+        if closed {
+            shows(q.adhesion, tension / engine.force_scale, sound.adhesion);
+        } else {
+            let expected = overlap / engine.displacement_scale;
+            shows(q.penetration, expected, sound.penetration);
+        }
+    }
+}
+
+/// Nearly incompressible bodies cost digits of their stresses by their stiffness against a change of volume. What is lost is within the
+/// round-off that the state reports; more is not accepted.
+#[test]
+fn the_bound_of_forces_follows_the_round_off_of_the_mesh() {
+    let text = SCENE.replace("poissons_ratio = 0.3", "poissons_ratio = 0.49999999");
+    let model = Model::new(&Scene::parse(&text, "test").expect("scene")).expect("model");
+    let system = assemble(&model).expect("system");
+    let mut engine = loaded(&model, &system);
+    let sound = engine.quality_here().expect("quality");
+    let tolerances = tolerances(&model);
+    assert!(sound.equilibrium > tolerances.equilibrium, "{sound:?}");
+    assert_eq!(sound.misses(&tolerances), []);
+    // Displacements are known to half a rounding error; a thousand times as much is a fault.
+    for (size, accepted) in [(0.5, true), (500.0, false)] {
+        let mut u = engine.displacements().expect("displacements");
+        for (i, value) in u.deformation.iter_mut().flatten().enumerate() {
+            let random = ((i * 7919) % 1013) as f64 / 506.0 - 1.0;
+            *value += size * f64::EPSILON * random * *value;
+        }
+        let q = engine.quality_of(&u);
+        let bound = q.round_off.expect("stated");
+        assert_eq!(q.equilibrium <= bound, accepted, "{q:?}");
+        assert_eq!(q.misses(&tolerances).is_empty(), accepted, "{q:?}");
+    }
 }

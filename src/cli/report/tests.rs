@@ -73,6 +73,7 @@ fn full() -> Results {
         quality: Quality {
             backward_error: 1.234e-16,
             componentwise_error: Some(4.56e-16),
+            round_off: Some(7.8e-14),
             equilibrium: 3.2e-11,
             complementarity: 0.0,
             penetration: 0.0,

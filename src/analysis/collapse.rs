@@ -1,0 +1,126 @@
+//! Whether an increment that was not found shows a limit load, or only an iteration that did not
+//! converge.
+//!
+//! The increments of associated plasticity minimise a convex energy (Simo and Hughes). Where every
+//! point hardens with a slope of at least `H`, its second derivative, the consistent tangent `S -
+//! K_p`, is nowhere below `H/(3G + H)` of the elastic stiffness `S`: there is one equilibrium under
+//! every load, and an iteration that does not find it has not converged. Beyond a limit load there
+//! is none: displacements grow without bound along a mechanism, in which the tangent has no
+//! stiffness left. The evidence of a collapse is therefore the current stiffness
+//!
+//! ```text
+//!     d'(S - K_p) d / d'S d        (elastic: 1, hardening: at least H/(3G + H), limit load: 0)
+//! ```
+//!
+//! at the state that the smallest increment led to, `d` the direction in which the structure moved.
+//! It is an upper bound of the smallest eigenvalue: a stiffness that it shows to be lost is lost.
+//!
+//! # Source
+//! P. G. Bergan, G. Horrigmoe, B. Krakeland, T. H. Soreide, *Solution techniques for non-linear
+//! finite element problems* (1978), doi:10.1002/nme.1620121106 (the current stiffness parameter);
+//! M. A. Crisfield, *Non-linear Finite Element Analysis of Solids and Structures*, vol. 1 (1991),
+//! chapter 9; J. C. Simo, T. J. R. Hughes, *Computational Inelasticity* (1998).
+
+use super::drive::{SMALLEST_CUT, Stepper};
+use super::engine::{Engine, LoadPoint};
+use super::equilibrium::Equilibrium;
+use super::quality::{LOOSEST, ROUND_OFF_OF_FORCES};
+use crate::error::{Error, ErrorKind};
+use crate::linalg::largest_terms;
+use crate::substructure::Trailing;
+
+/// Share of the elastic stiffness below which a structure has collapsed: to take up the smallest
+/// increment of the load it would have to move as far as elastically under the whole piece of the
+/// load path.
+const LOST: f64 = SMALLEST_CUT;
+
+/// An increment that was tried and did not converge.
+#[derive(Debug)]
+pub struct Attempt {
+    /// The last iterate.
+    pub state: Equilibrium,
+    /// Material evaluations.
+    pub iterations: usize,
+    /// Its out-of-balance force over the force scale.
+    pub residual: f64,
+    /// What round-off leaves out of balance at the start of the increment, over the force scale.
+    pub round_off: f64,
+}
+
+impl Engine<'_> {
+    /// What no iteration can be sure to get below: the round-off of the forces of the zone's
+    /// elements that follow from displacements `u`.
+    pub(super) fn round_off_of_balance(&self, u: &Trailing) -> f64 {
+        let partition = &self.sub.partition;
+        let mut all = vec![0.0; partition.n];
+        for (freedoms, values) in [(&partition.zone, &u.zone), (&partition.contact, &u.contact)] {
+            for (&freedom, value) in freedoms.iter().zip(values) {
+                all[freedom] = *value;
+            }
+        }
+        ROUND_OFF_OF_FORCES * largest_terms(&self.system.stiffness, &all)
+    }
+
+    /// Whether forces out of balance by the share `floor` leave little open: displacements are off
+    /// by no more than `floor` over the stiffness that is left, relative to elastic ones. Beyond a
+    /// limit load displacements grow until their round-off hides what is out of balance: there
+    /// nothing settles.
+    pub(super) fn settles(&mut self, state: &Equilibrium, floor: f64) -> bool {
+        floor <= LOOSEST && floor <= LOOSEST * self.stiffness_left(state)
+    }
+
+    /// The error of an increment to `goal`, the smallest that is tried, that was not found:
+    /// [`ErrorKind::Collapse`] where the stiffness is lost, else [`ErrorKind::Analysis`] with what
+    /// was tried.
+    pub(super) fn not_found(
+        &mut self,
+        goal: &LoadPoint,
+        attempt: &Attempt,
+        stepper: Stepper,
+    ) -> Error {
+        let left = self.stiffness_left(&attempt.state);
+        let residual = attempt.residual;
+        let (held, tried) = (self.at.alpha, goal.alpha);
+        // Round-off disturbs the quotient by about its own share.
+        if left <= LOST && attempt.round_off <= LOST {
+            return Error::new(
+                ErrorKind::Collapse,
+                format!(
+                    "limit load: load factor {held:.9} is the last that was held, at {tried:.9} \
+                     no equilibrium was found (out-of-balance force {residual:.1e} of the largest \
+                     force; at most {:.0e} of the elastic stiffness is left)",
+                    left.max(f64::EPSILON)
+                ),
+            );
+        }
+        let settings = stepper.settings;
+        Error::analysis(format!(
+            "not converged: load factor {held:.9} is the last that was held, at {tried:.9} (the \
+             smallest increment, {SMALLEST_CUT:e} of the load step) the out-of-balance force was \
+             {residual:.1e} of the largest force after {} iterations (analysis.max_iterations = \
+             {}); analysis.tolerance asks for {:.1e}, round-off alone may leave {:.1e}. {left:.1e} \
+             of the elastic stiffness is left: this shows no limit load. Raise \
+             analysis.max_iterations, loosen analysis.tolerance, or use elements that are less \
+             slender",
+            attempt.iterations, settings.max_iterations, settings.tolerance, attempt.round_off,
+        ))
+    }
+
+    /// Share of the elastic stiffness that the tangent at a state has in the direction in which the
+    /// structure moves there from the last state that was held; not a number where the iteration
+    /// left all numbers.
+    fn stiffness_left(&mut self, state: &Equilibrium) -> f64 {
+        let mut load = self.sub.zeros();
+        self.out_of_balance_at(state, &mut load);
+        let mut moved = state.u.clone();
+        moved.add(-1.0, &self.now.u);
+        self.zone.softening_times(&moved, &mut load);
+        if load.largest() == 0.0 {
+            return 1.0;
+        }
+        // What of the motion has stiffness left weighs less in the answer to the forces it loses.
+        let softest = self.direction(load.clone());
+        self.zone.softening_times(&softest.u, &mut load);
+        1.0 - load.dot(&softest.u) / softest.initial.load.dot(&softest.u)
+    }
+}

@@ -1,0 +1,152 @@
+//! Limit loads, and iterations that do not converge: the one is not taken for the other.
+
+use crate::running::{close, load, run, run_file};
+use brinell::ErrorKind;
+use brinell::analysis::Analysis;
+use brinell::linalg::Backend;
+use brinell::model::Model;
+use brinell::progress::Silent;
+use brinell::results::Results;
+use brinell::scene::Scene;
+
+/// What was computed up to the end of a run that need not complete.
+fn as_far_as_it_goes(scene: &Scene) -> Results {
+    let mut analysis = Analysis::new(Model::new(scene).unwrap(), Backend::default()).unwrap();
+    analysis.run(&mut Silent).unwrap()
+}
+
+/// The kind of the end, the last load factor that was held, and why the run ended.
+fn end_of(scene: &Scene) -> (Option<ErrorKind>, f64, String) {
+    let results = as_far_as_it_goes(scene);
+    let held = results.history.last().unwrap().alpha;
+    (
+        results.incomplete_kind,
+        held,
+        results.incomplete.unwrap_or_default(),
+    )
+}
+
+/// The blocks of the scene with square elements.
+const SQUARE: [&str; 2] = [
+    "mesh.parts.0.block.elements=[8,4]",
+    "mesh.parts.1.block.elements=[8,4]",
+];
+
+/// Elements 75 times as high as wide: their displacements are so large beside the strains of an
+/// element that forces cannot be balanced to 1e-10 in double precision. That is no limit load: the
+/// state is that of square elements, and the run reports what it was balanced to. Forces off by
+/// 1e-8 move strains by that over the tangent's share of the elastic stiffness, 4e-3.
+#[test]
+fn slender_elements_are_balanced_to_their_round_off() {
+    let square = run_file("hard/slender_elements", &SQUARE);
+    assert!(square.warnings.is_empty(), "{:?}", square.warnings);
+    let slender = run_file("hard/slender_elements", &[]);
+    assert!(slender.inaccurate.is_empty(), "{:?}", slender.inaccurate);
+    let reported = slender.warnings.iter().find(|w| w.contains("round-off"));
+    let reported = reported.expect("what it was balanced to");
+    assert!(
+        reported.contains("analysis.tolerance = 1.0e-10"),
+        "{reported}"
+    );
+    let (a, b) = (&slender.states[0], &square.states[0]);
+    assert!(a.quality.equilibrium > 1e-10, "{:?}", a.quality);
+    assert!(Some(a.quality.equilibrium) <= a.quality.round_off);
+    for pair in &a.pairs {
+        close("pressure", pair.pressure, 400.0, 400.0, 1e-8);
+    }
+    let strain = b.max_equivalent_plastic_strain;
+    close(
+        "strain",
+        a.max_equivalent_plastic_strain,
+        strain,
+        strain,
+        1e-8 / 4e-3,
+    );
+}
+
+/// Any tolerance that may be asked for is reached, or as much of it as round-off allows.
+#[test]
+fn a_tolerance_below_round_off_is_no_obstacle() {
+    let loose = run_file("hard/slender_elements", &SQUARE);
+    let [a, b] = SQUARE;
+    let tight = run_file("hard/slender_elements", &[a, b, "analysis.tolerance=2e-15"]);
+    assert!(tight.warnings.iter().any(|w| w.contains("round-off")));
+    let strain = |r: &Results| r.states[0].max_equivalent_plastic_strain;
+    close(
+        "strain",
+        strain(&tight),
+        strain(&loose),
+        strain(&loose),
+        1e-10 / 4e-3,
+    );
+}
+
+/// An iteration that may not iterate finds nothing anywhere, least of all a limit load: the
+/// material hardens, or is far from its limit.
+#[test]
+fn an_iteration_that_is_cut_short_is_no_limit_load() {
+    for (name, overrides) in [
+        ("hard/all_closed", vec!["analysis.max_iterations=1"]),
+        (
+            "hard/nearly_incompressible",
+            vec!["analysis.max_iterations=2"],
+        ),
+        (
+            "hard/nearly_incompressible",
+            vec![
+                "analysis.max_iterations=1",
+                "materials.steel.poissons_ratio=0.3",
+            ],
+        ),
+    ] {
+        let (kind, held, why) = end_of(&load(name, &overrides));
+        assert_eq!(kind, Some(ErrorKind::Analysis), "{name}: {why}");
+        assert!(held < 150.0, "{name}: {held}");
+        for said in [
+            "not converged",
+            "no limit load",
+            "analysis.max_iterations =",
+            "analysis.tolerance",
+            "round-off",
+            "Raise analysis.max_iterations",
+        ] {
+            assert!(why.contains(said), "{name}: {said}: {why}");
+        }
+    }
+}
+
+/// A slope of 1 MPa, a millionth of the elastic stiffness, is still a slope: the load is held.
+/// Strains are 100 in a bar whose theory ends at a hundredth, but there is equilibrium.
+#[test]
+fn the_least_hardening_has_no_limit_load() {
+    let modulus = 1.0;
+    let set = ["materials.steel.tangent_modulus=1.0"];
+    let results = run(&load("hard/limit_load", &set));
+    let plastic = 1.0 / (1.0 / modulus - 1.0 / 210_000.0);
+    let strain = 250.0 / plastic;
+    let found = results.states[1].max_equivalent_plastic_strain;
+    // The forces balance to 1e-10 of 750, strains to that over the slope.
+    close("strain", found, strain, 750.0 / plastic, 1e-9);
+}
+
+/// What has no stiffness left has collapsed, whichever iteration found it, on slender elements too,
+/// and where hardening ends: at the same load as ever, the last one that equilibrium holds.
+#[test]
+fn a_limit_load_is_one_however_it_is_reached() {
+    let slender = [0, 1].map(|i| format!("mesh.parts.{i}.block.elements=[300,2]"));
+    let flat = "materials.steel.hardening_table=[[0.0,500.0],[0.01,600.0],[0.02,600.0]]";
+    let short = "analysis.max_iterations=2";
+    for (overrides, limit) in [
+        (vec![slender[0].as_str(), slender[1].as_str()], 1.0),
+        (vec![flat], 1.2),
+        (vec!["analysis.plastic_iteration=plain", short], 1.0),
+        (vec!["analysis.plastic_iteration=anderson", short], 1.0),
+        (vec!["program.stepping=steps", "program.steps=3"], 1.0),
+    ] {
+        let (kind, held, why) = end_of(&load("hard/limit_load", &overrides));
+        assert_eq!(kind, Some(ErrorKind::Collapse), "{overrides:?}: {why}");
+        assert!(why.contains("of the elastic stiffness is left"), "{why}");
+        // Increments are cut to a millionth of the load step; four times that is the last that was not.
+        close(&format!("{overrides:?}"), held, limit, 1.0, 4e-6);
+    }
+}
