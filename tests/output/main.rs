@@ -4,6 +4,8 @@ mod arrays;
 mod directory;
 mod fields;
 mod fixture;
+#[path = "../running/limit.rs"]
+mod limit;
 mod python;
 mod report;
 mod summary;

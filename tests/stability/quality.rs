@@ -43,14 +43,14 @@ fn the_contact_force_does_not_know_the_gap() {
 fn lost_accuracy_has_a_warning_and_an_exit_code() {
     let folder = std::env::temp_dir().join(format!("brinell-inaccurate-{}", std::process::id()));
     for (gap, code) in [("0.01", 0), ("1e8", 7)] {
-        let output = std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_brinell"));
+        command
             .args(["run", "-q", "--json", "--set"])
             .arg(format!("contact.0.gap={gap}"))
             .arg("--out")
             .arg(&folder)
-            .arg(crate::running::scene_file("hard/floating_body"))
-            .output()
-            .unwrap();
+            .arg(crate::running::scene_file("hard/floating_body"));
+        let output = crate::running::limit::output(&mut command);
         assert_eq!(output.status.code(), Some(code), "{output:?}");
         let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         let inaccurate = summary["inaccurate"].as_array().unwrap();
