@@ -30,7 +30,7 @@ mod native {
 
     pub fn configure() -> Result<(), String> {
         println!("cargo:rerun-if-env-changed=OPENBLAS_LIBRARY_DIR");
-        write_bindings("openblas", "openblas_.*")?;
+        write_bindings("openblas", "openblas_.*|dpotrf_")?;
         write_bindings("openmp", "omp_.*")?;
         match openblas_directory() {
             Some(directory) => {

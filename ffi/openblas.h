@@ -15,4 +15,10 @@ char *openblas_get_corename(void);
 int openblas_get_num_threads(void);
 void openblas_set_num_threads(int num_threads);
 
+/*
+ * Cholesky factor of LAPACK, called for a matrix of one entry: it makes OpenBLAS take its work buffer. The
+ * integers are wide enough for either build of the library.
+ */
+void dpotrf_(const char *uplo, const long long *n, double *a, const long long *lda, long long *info);
+
 #endif

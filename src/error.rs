@@ -18,7 +18,7 @@ pub enum ErrorKind {
     Unsupported,
     /// The model is not held: a body can move freely. Exit code 4.
     Unheld,
-    /// The analysis failed: a solve did not converge or a target was not reached. Exit code 5.
+    /// The analysis failed: a solve did not converge, a target was not reached, or the memory did not suffice. Exit code 5.
     Analysis,
     /// The load passed the limit load; what was held before is in the message. Exit code 6.
     Collapse,
@@ -26,7 +26,7 @@ pub enum ErrorKind {
     Inaccurate,
     /// Contact reached the end of its candidates although the bodies go on there; what was computed before is right. Exit code 8.
     Outgrown,
-    /// The caller or the user stopped the run. Exit code 130.
+    /// The caller or the user stopped the run. Exit code 130; the program returns 128 and the number of the signal.
     Stopped,
     /// A fault of brinell itself. Exit code 70.
     Internal,

@@ -59,6 +59,12 @@
 // Blank lines keep the order of the data: rustfmt sorts neighbouring lines.
 pub mod error;
 
+pub mod memory;
+
+mod files;
+
+mod text;
+
 pub mod panics;
 
 pub mod index;

@@ -470,7 +470,7 @@ int32_t brinell_scene_parse(const char *toml, struct brinell_scene **out);
 void brinell_scene_free(struct brinell_scene *scene);
 
 // An empty model: one of BRINELL_PLANE_STRAIN, BRINELL_PLANE_STRESS, BRINELL_AXISYMMETRIC. `symmetry` copies of it make the whole: 1
-// where all of it is meshed, 2 for a half model (loads and results are those of the whole).
+// where all of it is meshed, 2 for a half model, 4 for a quarter of a plane one (loads and results are those of the whole).
 int32_t brinell_model_new(int32_t kind,
                           size_t symmetry,
                           struct brinell_model **out);

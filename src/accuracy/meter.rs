@@ -177,14 +177,6 @@ fn peak_memory() -> Option<u64> {
     kibibytes.checked_mul(1024)
 }
 
-/// Memory that the machine can still give; `None` where the system does not tell.
-pub fn available_memory() -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = text.lines().find_map(|l| l.strip_prefix("MemAvailable:"))?;
-    let kibibytes: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    Some(1024.0 * kibibytes)
-}
-
 /// What a run will cost, from the symbolic factorisation of its matrix.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Forecast {

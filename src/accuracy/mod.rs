@@ -70,11 +70,12 @@ mod stall;
 mod study;
 mod verdict;
 
+pub use crate::memory::available as available_memory;
 pub use demand::{Reached, reach};
 pub use estimate::{Extent, SAFETY, SAFETY_OF_LAW, estimate};
 pub use extrapolation::{Extrapolation, extrapolate};
 pub use knobs::{Knob, Setting, settings};
-pub use meter::{Forecast, Meter, Pace, PhaseUsage, Usage, available_memory, forecast, work};
+pub use meter::{Forecast, Meter, Pace, PhaseUsage, Usage, forecast, work};
 pub use quantities::{Quantity, quantities, value_of};
 pub use refinement::{Level, coarser, companions, largest_order, refined};
 pub use study::{Grading, Plan, Study, StudyRun, study};

@@ -78,16 +78,16 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
             plastic,
         );
     }
-    let scales: Vec<f64> = out
-        .iter()
-        .map(|(key, _)| {
-            let same = out.iter().filter(|(other, _)| other == key);
-            same.fold(0.0f64, |m, (_, q)| m.max(q.value.abs()))
-        })
-        .collect();
+    let mut scales: BTreeMap<&str, f64> = BTreeMap::new();
+    for (key, quantity) in &out {
+        let scale = scales.entry(key).or_insert(0.0);
+        *scale = scale.max(quantity.value.abs());
+    }
     out.into_iter()
-        .zip(scales)
-        .map(|((_, quantity), scale)| Quantity { scale, ..quantity })
+        .map(|(key, quantity)| Quantity {
+            scale: scales[key],
+            ..quantity
+        })
         .collect()
 }
 

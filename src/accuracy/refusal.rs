@@ -1,7 +1,8 @@
 //! What cannot be reached is refused before it is tried, with its price.
 
-use super::meter::{Pace, available_memory, factor_seconds};
+use super::meter::{Pace, factor_seconds};
 use crate::error::{Error, ErrorKind, Result};
+use crate::memory::available as available_memory;
 use crate::results::Results;
 
 /// Share of the free memory that a run may take.

@@ -403,7 +403,7 @@ fn is_hit(watched: Option<f64>) -> bool {
 
 /// The error of a run that its caller stopped.
 pub fn stopped() -> Error {
-    Error::new(ErrorKind::Stopped, "stopped by the user")
+    Error::new(ErrorKind::Stopped, "stopped on request")
 }
 
 impl Engine<'_> {

@@ -54,7 +54,7 @@ pub(super) unsafe fn change(
 }
 
 /// An empty model: one of BRINELL_PLANE_STRAIN, BRINELL_PLANE_STRESS, BRINELL_AXISYMMETRIC. `symmetry` copies of it make the whole: 1
-/// where all of it is meshed, 2 for a half model (loads and results are those of the whole).
+/// where all of it is meshed, 2 for a half model, 4 for a quarter of a plane one (loads and results are those of the whole).
 ///
 /// # Safety
 /// `out` may be written to.
@@ -66,7 +66,9 @@ pub unsafe extern "C" fn brinell_model_new(
 ) -> i32 {
     guarded(|| {
         let kinds = [Kind::PlaneStrain, Kind::PlaneStress, Kind::Axisymmetric];
-        let mut builder = ModelBuilder::new(one_of(&kinds, kind, "kind of model")?);
+        let kind = one_of(&kinds, kind, "kind of model")?;
+        kind.check_symmetry(symmetry)?;
+        let mut builder = ModelBuilder::new(kind);
         builder.symmetry(symmetry);
         let model = brinell_model {
             builder,

@@ -380,6 +380,19 @@ fn bad_arrays_are_refused_by_index_and_leave_the_model_as_it_was() {
     // SAFETY: texts, arrays and places live through the calls, the handle is freed once.
     unsafe {
         assert_eq!(brinell_model_new(3, 1, &mut model), BRINELL_INPUT);
+        for (kind, symmetry) in [
+            (BRINELL_PLANE_STRAIN, 0),
+            (BRINELL_PLANE_STRESS, 3),
+            (BRINELL_AXISYMMETRIC, 4),
+        ] {
+            assert_eq!(brinell_model_new(kind, symmetry, &mut model), BRINELL_INPUT);
+            let named = format!("symmetry: {symmetry} must be 1");
+            assert!(
+                message().contains(&named) && model.is_null(),
+                "{}",
+                message()
+            );
+        }
         assert_eq!(
             brinell_model_new(BRINELL_AXISYMMETRIC, 1, &mut model),
             BRINELL_OK

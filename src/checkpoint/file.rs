@@ -1,6 +1,7 @@
 //! A file that knows whether it is whole: a line that says what it is, the length and the hash of what follows.
 
 use crate::error::{Error, Result};
+use crate::files;
 use serde::{Serialize, de::DeserializeOwned};
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -49,7 +50,7 @@ pub(super) fn write(path: &Path, value: &impl Serialize) -> Result<(u64, u128)> 
 /// # Errors
 /// `Input` where the file is none of brinell's, of another version, cut short or damaged; `Io`.
 pub(super) fn read<T: DeserializeOwned>(path: &Path) -> Result<(T, u64, u128)> {
-    let bytes = std::fs::read(path).map_err(|cause| Error::io("read", path, cause))?;
+    let bytes = files::read("read", path, None)?;
     let refused = |why: String| Error::input(format!("{}: {why}", path.display()));
     let line = first_line();
     let Some(rest) = bytes.strip_prefix(line.as_bytes()) else {

@@ -21,12 +21,14 @@ Exit codes:
        that brinell does not have
     3  a file could not be read or written
     4  a body is not held: it can move freely
-    5  the analysis failed: a solve did not converge or a target was not reached
+    5  the analysis failed: a solve did not converge, a target was not reached,
+       or the memory did not suffice
     6  the load passed the limit load of the bodies
     7  inaccurate: a state's quality misses its tolerance (do not trust it), or
        a demanded accuracy was not reached; the results are written
    70  internal error, please report
-  130  stopped (Ctrl-C); what was computed so far is written";
+  130  stopped by Ctrl-C, 143 by SIGTERM, 129 by SIGHUP (128 and the number of
+       the signal); what was computed so far is written";
 
 const SET_HELP: &str = "\
 Put a value over the scene's; may be repeated, later ones win.
@@ -172,14 +174,28 @@ pub(super) struct CommonArguments {
     /// What factors the stiffness matrix
     #[arg(long, value_enum, value_name = "SOLVER", default_value_t)]
     pub solver: Solver,
-    /// Number of threads; by default as many as there are processors
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    /// Number of threads, at most 16 for each processor (or 64); by default as many as there are processors
+    #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<u16>,
     /// Print one JSON object (the content of summary.json) instead of tables
     #[arg(long)]
     pub json: bool,
     #[arg(long = "set", value_name = "KEY=VALUE", help = "Put a value over the scene's (see --help)", long_help = SET_HELP)]
     pub overrides: Vec<String>,
+}
+
+/// Threads for each processor that are taken at most, and for all of them at least: more only wait for each other.
+const MOST_THREADS: [usize; 2] = [16, 64];
+
+fn threads(text: &str) -> Result<u16, String> {
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    let most = (MOST_THREADS[0] * processors).max(MOST_THREADS[1]);
+    match text.parse::<u16>() {
+        Ok(threads) if (1..=most).contains(&usize::from(threads)) => Ok(threads),
+        _ => Err(format!(
+            "give a whole number from 1 to {most} (this machine has {processors} processors)"
+        )),
+    }
 }
 
 /// How progress is shown.

@@ -10,11 +10,12 @@ use crate::checkpoint::Checkpoints;
 use crate::error::{Error, Result};
 use crate::linalg::Backend;
 use crate::model::Model;
-use crate::output::{self, RunHeader};
+use crate::output::{self, Claim, RunHeader};
 use crate::progress::Observer;
 use crate::results::Results;
 use crate::scene::{Kind, Scene};
-use std::path::PathBuf;
+use crate::text::shown_json;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Does what the user asked for.
@@ -44,7 +45,7 @@ pub(super) fn execute(arguments: &Arguments, start: Instant) -> Result<()> {
     }
 }
 
-/// Scene, model, analysis, files, summary.
+/// Scene, model, analysis, files, summary. Where a run fails before it has results of its own, those of an earlier one are marked.
 fn analyse(
     arguments: &RunArguments,
     restart: Option<&RestartArguments>,
@@ -54,17 +55,49 @@ fn analyse(
 ) -> Result<()> {
     let common = &arguments.common;
     let demand = arguments.accuracy.as_ref();
-    let scene = prepare(common, demand.map(|a| format!("accuracy={a}")))?;
-    if let Some(out) = &out {
-        // A directory that cannot be written is better found before an hour's run than after it.
-        output::check_directory(out)?;
-    }
+    let marked = |error: Error| {
+        if out
+            .as_deref()
+            .is_some_and(|out| output::mark_stale(out, &error))
+        {
+            note_stale(arguments, out.as_deref(), start);
+        }
+        error
+    };
+    let scene = prepare(common, demand.map(|a| format!("accuracy={a}"))).map_err(marked)?;
+    // A directory that cannot be written is better found before an hour's run than after it.
+    let claim = out.as_deref().map(Claim::new).transpose()?;
     let places = restart.zip(out.as_deref());
+    let (text, results) =
+        compute(arguments, scene, places, claim, extent, start).map_err(marked)?;
+    print(&text)?;
+    output::ending(&results)
+}
+
+/// Says that what is in the directory is not of this run.
+fn note_stale(arguments: &RunArguments, out: Option<&Path>, start: Instant) {
+    let out = out.unwrap_or(Path::new("")).display();
+    let text =
+        format!("the results in {out} are of an earlier run, and marked as such (stale.txt)");
+    Progress::new(arguments.quiet, arguments.progress, start).note(&text);
+}
+
+/// Computes and writes; what is to be printed, and the results.
+fn compute(
+    arguments: &RunArguments,
+    scene: Scene,
+    places: Option<(&RestartArguments, &Path)>,
+    claim: Option<Claim>,
+    extent: Extent,
+    start: Instant,
+) -> Result<(String, Results)> {
+    let common = &arguments.common;
     let restart = places.and_then(|(restart, out)| Some((restart, restart.checkpoints(out)?)));
     if restart.is_some() && scene.accuracy.is_some() {
         return Err(restart::not_with_accuracy());
     }
-    interrupt::listen(arguments.progress_is_json().then_some(start))?;
+    let json_since = arguments.progress_is_json().then_some(start);
+    interrupt::listen(json_since, at_once(claim.as_ref()))?;
     let seconds = || start.elapsed().as_secs_f64();
     let mut progress = Progress::new(arguments.quiet, arguments.progress, start);
     let (scene, analysis, mut results) = match scene.accuracy {
@@ -81,12 +114,13 @@ fn analyse(
     let model = analysis.model();
     let computed = seconds();
     let header = header(&scene, model, common, computed);
-    if let Some(out) = &out {
+    let out = claim.as_ref().map(|claim| claim.dir().to_path_buf());
+    if let Some(claim) = claim {
         progress.start("output");
         if arguments.no_report {
-            output::write_without_report(out, &header, model, &results)?;
+            claim.write_without_report(&header, model, &results)?;
         } else {
-            output::write_with_report(out, &header, model, &results)?;
+            claim.write_with_report(&header, model, &results)?;
         }
         results
             .timings
@@ -101,8 +135,17 @@ fn analyse(
     } else {
         report::results(&scene, &header.bodies, &results, seconds(), out.as_deref())
     };
-    print(&text)?;
-    output::ending(&results)
+    Ok((text, results))
+}
+
+/// What is done before a second signal ends the program: the directory in the making goes.
+pub(super) fn at_once(claim: Option<&Claim>) -> impl Fn() + Send + Sync + 'static {
+    let temporary = claim.and_then(Claim::temporary).map(Path::to_path_buf);
+    move || {
+        if let Some(temporary) = &temporary {
+            let _ = std::fs::remove_dir_all(temporary);
+        }
+    }
 }
 
 /// Runs the scene as it stands, and estimates the errors.
@@ -186,20 +229,29 @@ pub(super) fn prepare(common: &CommonArguments, last: Option<String>) -> Result<
 /// This thread becomes one of the `threads` (all processors if not said): it works on small pieces itself where it would otherwise
 /// wake another one and wait.
 fn start_threads(threads: Option<usize>) -> Result<()> {
-    let started = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads.unwrap_or(0))
-        .use_current_thread()
-        .build_global();
-    match (started, threads) {
-        (Err(cause), Some(threads)) => {
-            Err(Error::internal(format!("cannot start {threads} threads")).because(cause))
+    let start = |threads: usize| {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .use_current_thread()
+            .build_global()
+    };
+    match threads {
+        Some(threads) => start(threads).map_err(|cause| {
+            Error::analysis(format!(
+                "cannot start {threads} threads: ask for fewer (--threads)"
+            ))
+            .because(cause)
+        }),
+        // Where the limits of the process allow no more, this thread alone does the work.
+        None => {
+            let _ = start(0).or_else(|_| start(1));
+            Ok(())
         }
-        _ => Ok(()),
     }
 }
 
 pub(super) fn json(value: &impl serde::Serialize) -> Result<String> {
     serde_json::to_string_pretty(value)
-        .map(|text| text + "\n")
+        .map(|text| shown_json(&text).into_owned() + "\n")
         .map_err(|cause| Error::internal("the summary is not plain data").because(cause))
 }

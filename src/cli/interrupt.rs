@@ -1,48 +1,111 @@
-//! Ctrl-C: the first asks the run to end at the last accepted increment, the second ends the program.
+//! Signals: the first asks the run to end at the last accepted increment, the second ends the program.
 
 use super::progress::json_line;
 use crate::error::{Error, ErrorKind, Result};
 use serde_json::json;
 use std::io::Write;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicI32, Ordering};
 use std::time::{Duration, Instant};
 
-static REQUESTED: AtomicBool = AtomicBool::new(false);
+/// The signal that was heard first, 0 before that.
+static HEARD: AtomicI32 = AtomicI32::new(0);
 /// A second signal this soon is the same wish: `timeout` and terminals send one to the process and one to its group.
 const SAME_WISH: Duration = Duration::from_millis(200);
+/// Ctrl-C, the same number everywhere.
+const SIGINT: i32 = 2;
 
-const STOPPING: &str =
-    "stopping at the end of this increment; Ctrl-C again ends at once, without results";
-
-/// Has the user asked the run to end?
+/// Has someone asked the run to end?
 pub(super) fn requested() -> bool {
-    REQUESTED.load(Ordering::Relaxed)
+    heard().is_some()
+}
+
+fn heard() -> Option<i32> {
+    Some(HEARD.load(Ordering::Relaxed)).filter(|&signal| signal != 0)
+}
+
+/// The exit code of a run that was stopped: 128 and the number of the signal (130 after Ctrl-C).
+pub(super) fn exit_code() -> u8 {
+    let code = heard().and_then(|signal| u8::try_from(128 + signal).ok());
+    code.unwrap_or(ErrorKind::Stopped.exit_code())
+}
+
+/// What stopped the run, in words: `Ctrl-C`, or the name of the signal.
+pub(super) fn name() -> Option<&'static str> {
+    match heard()? {
+        SIGINT => Some("Ctrl-C"),
+        #[cfg(unix)]
+        signal => signal_hook::low_level::signal_name(signal),
+        #[cfg(not(unix))]
+        _ => None,
+    }
 }
 
 /// Starts listening. What is heard is told on standard error: as a line for a reader, or where progress goes there as JSON since `json` as an
-/// event of its own.
+/// event of its own. `at_once` is done before a second signal ends the program.
 ///
 /// # Errors
 /// The system refuses the signal handler.
-pub(super) fn listen(json: Option<Instant>) -> Result<()> {
-    let mut first: Option<Instant> = None;
-    ctrlc::set_handler(move || {
-        REQUESTED.store(true, Ordering::Relaxed);
-        match first {
+pub(super) fn listen(
+    json: Option<Instant>,
+    at_once: impl Fn() + Send + Sync + 'static,
+) -> Result<()> {
+    let first: Mutex<Option<Instant>> = Mutex::new(None);
+    let hear = move |signal: i32| {
+        let Ok(mut first) = first.lock() else { return };
+        match *first {
             Some(first) if first.elapsed() > SAME_WISH => {
-                std::process::exit(i32::from(ErrorKind::Stopped.exit_code()));
+                at_once();
+                std::process::exit(i32::from(exit_code()));
             }
             Some(_) => {}
             None => {
-                first = Some(Instant::now());
-                match json {
-                    Some(started) => json_line(started, "stopping", json!({ "message": STOPPING })),
-                    None => {
-                        let _ = writeln!(std::io::stderr(), "{STOPPING}");
-                    }
-                }
+                HEARD.store(signal, Ordering::Relaxed);
+                *first = Some(Instant::now());
+                tell(json);
             }
         }
-    })
-    .map_err(|cause| Error::internal("cannot listen for Ctrl-C").because(cause))
+    };
+    call_at_signals(hear)
+        .map_err(|cause| Error::analysis("cannot listen for signals").because(cause))
+}
+
+fn tell(json: Option<Instant>) {
+    let text = format!(
+        "{}: stopping at the end of this increment; a second one ends at once, without results",
+        name().unwrap_or("signal")
+    );
+    match json {
+        Some(started) => json_line(started, "stopping", json!({ "message": text })),
+        None => {
+            let _ = writeln!(std::io::stderr(), "{text}");
+        }
+    }
+}
+
+#[cfg(unix)]
+fn call_at_signals(hear: impl Fn(i32) + Send + Sync + 'static) -> std::io::Result<()> {
+    use signal_hook::consts::{SIGHUP, SIGTERM};
+    let mut signals = signal_hook::iterator::Signals::new([SIGINT, SIGTERM, SIGHUP])?;
+    std::thread::Builder::new()
+        .name("signals".to_string())
+        .spawn(move || signals.forever().for_each(hear))
+        .map(drop)
+}
+
+#[cfg(not(unix))]
+fn call_at_signals(
+    hear: impl Fn(i32) + Send + Sync + 'static,
+) -> std::result::Result<(), ctrlc::Error> {
+    ctrlc::set_handler(move || hear(SIGINT))
+}
+
+/// A file beyond the limit of its size (`ulimit -f`) is a failed write, not the end of the program.
+pub(super) fn ignore_file_size_signal() {
+    #[cfg(unix)]
+    {
+        let unread = std::sync::Arc::default();
+        // Without it the system's own way remains.
+        let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, unread);
+    }
 }

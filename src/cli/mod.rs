@@ -22,9 +22,12 @@ mod view;
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::output::number;
+use crate::text;
 use arguments::Arguments;
 use clap::Parser;
 use serde_json::json;
+use std::borrow::Cow;
+use std::ffi::OsString;
 use std::io::{self, Write};
 use std::process::ExitCode;
 use std::time::Instant;
@@ -38,13 +41,20 @@ pub fn main() -> ExitCode {
         );
         std::process::exit(i32::from(ErrorKind::Internal.exit_code()));
     }));
-    // clap prints help, version and usage errors (exit code 2) itself.
-    let arguments = Arguments::parse();
+    interrupt::ignore_file_size_signal();
+    start_again_with_fewer_threads();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(problem) => return usage(&problem),
+    };
     let started = Instant::now();
     match commands::execute(&arguments, started) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            let exit_code = error.kind().exit_code();
+            let exit_code = match error.kind() {
+                ErrorKind::Stopped => interrupt::exit_code(),
+                kind => kind.exit_code(),
+            };
             let text = explain(&error);
             if arguments.command.progress_is_json() {
                 let message = text.trim_start_matches("error: ").trim_end();
@@ -58,13 +68,52 @@ pub fn main() -> ExitCode {
     }
 }
 
+/// What clap has to say: help and version, or a usage error (exit code 2), which repeats what was typed.
+fn usage(problem: &clap::Error) -> ExitCode {
+    let is_plain =
+        |argument: OsString| matches!(text::shown(&argument.to_string_lossy()), Cow::Borrowed(_));
+    // In the colours of the terminal, unless what was typed brings its own.
+    let written = if std::env::args_os().all(is_plain) {
+        problem.print()
+    } else {
+        io::stderr().write_all(text::shown(&problem.to_string()).as_bytes())
+    };
+    // A reader that has seen enough is no error.
+    let _ = written;
+    u8::try_from(problem.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from)
+}
+
+/// Starts the program again with one thread of the BLAS where limits of the process leave no room for the work buffers of more: these are
+/// taken as the library is loaded, and asked for without end where there is no room.
+#[cfg(all(unix, feature = "cholmod"))]
+fn start_again_with_fewer_threads() {
+    use std::os::unix::process::CommandExt;
+    const THREADS: &str = "OPENBLAS_NUM_THREADS";
+    let is_again = std::env::var_os(THREADS).is_some_and(|threads| threads == "1");
+    if is_again || !crate::linalg::cholmod::blas_threads_are_too_many() {
+        return;
+    }
+    if let Ok(program) = std::env::current_exe() {
+        let mut arguments = std::env::args_os();
+        let mut again = std::process::Command::new(program);
+        if let Some(name) = arguments.next() {
+            again.arg0(name);
+        }
+        // Only returns where it fails; the run goes on as it is.
+        let _ = again.args(arguments).env(THREADS, "1").exec();
+    }
+}
+
+#[cfg(not(all(unix, feature = "cholmod")))]
+fn start_again_with_fewer_threads() {}
+
 /// Whether a command line (the program's name first) is understood; the usage error, or what `--help` and `--version` print, if not.
 /// Does nothing else.
 ///
 /// # Errors
 /// The text that the program would end with.
 pub fn check_command_line(
-    arguments: impl IntoIterator<Item = std::ffi::OsString>,
+    arguments: impl IntoIterator<Item = OsString>,
 ) -> std::result::Result<(), String> {
     Arguments::try_parse_from(arguments)
         .map(drop)
@@ -73,15 +122,24 @@ pub fn check_command_line(
 
 /// An error with its causes, as lines for a reader.
 fn explain(error: &Error) -> String {
-    let mut text = format!("error: {}\n", error.to_string().replace('\n', "\n       "));
+    let mut text = format!("error: {}", error.to_string().replace('\n', "\n       "));
+    let signal = interrupt::name().filter(|_| error.kind() == ErrorKind::Stopped);
+    text.push_str(&signal.map_or("\n".to_string(), |signal| format!(" ({signal})\n")));
     for cause in error.causes() {
         text.push_str(&format!("  caused by: {cause}\n"));
     }
-    text
+    text::shown(&text).into_owned()
 }
 
-/// Writes to standard output. A reader that has seen enough (`| head`) is no error.
+/// Writes a warning to standard error; that it cannot be written is no reason to stop.
+fn warn(text: &str) {
+    let _ = writeln!(io::stderr(), "warning: {}", text::shown(text));
+}
+
+/// Writes text for a reader to standard output, what a terminal would obey written out.
+/// A reader that has seen enough (`| head`) is no error.
 fn print(text: &str) -> Result<()> {
+    let text = text::shown(text);
     let mut stdout = io::stdout().lock();
     let written = stdout
         .write_all(text.as_bytes())

@@ -7,7 +7,7 @@
 //! | `phase` | `name`, `predicted_seconds` (rough: by the size of the model and what lies behind) |
 //! | `increment` | `fraction` of the load program done, `seconds_left` of it (predicted), `row` (a row of `history.csv`) |
 //! | `note`, `warning` | `message` |
-//! | `stopping` | `message`: Ctrl-C was heard |
+//! | `stopping` | `message`: Ctrl-C or another signal was heard |
 //! | `error` | `message`, `exit_code`: the last line of a run that failed |
 
 use super::arguments::Shown as Wish;
@@ -18,6 +18,7 @@ use super::remaining::Remaining;
 use crate::progress::{Flow, Observer};
 use crate::results::HistoryRow;
 use crate::scene::Scene;
+use crate::text::{shown, shown_json};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use serde_json::{Value, json};
 use std::fmt;
@@ -141,7 +142,7 @@ impl Progress {
                 if let Some(last) = bar.take() {
                     last.finish_with_message("");
                 }
-                let next = all.add(new_bar(phase, predicted, clock));
+                let next = all.add(new_bar(&shown(phase), predicted, clock));
                 next.enable_steady_tick(Duration::from_millis(100));
                 *bar = Some(next);
             }
@@ -190,7 +191,7 @@ impl Progress {
     /// A failed write of progress is no reason to stop.
     fn line(&self, text: &str) {
         let seconds = self.started.elapsed().as_secs_f64();
-        let _ = writeln!(io::stderr(), "[{seconds:7.1} s] {text}");
+        let _ = writeln!(io::stderr(), "[{seconds:7.1} s] {}", shown(text));
     }
 }
 
@@ -201,7 +202,7 @@ pub(super) fn json_line(started: Instant, event: &str, content: Value) {
     if let (Value::Object(line), Value::Object(content)) = (&mut line, content) {
         line.extend(content);
     }
-    let _ = writeln!(io::stderr(), "{line}");
+    let _ = writeln!(io::stderr(), "{}", shown_json(&line.to_string()));
 }
 
 impl Drop for Progress {
@@ -232,7 +233,7 @@ impl Observer for Progress {
             Shown::Bars { bar, .. } => {
                 if let Some(bar) = bar {
                     bar.set_position((fraction.clamp(0.0, 1.0) * PARTS as f64) as u64);
-                    bar.set_message(describe(row));
+                    bar.set_message(shown(&describe(row)).into_owned());
                 }
             }
             Shown::Lines { last } if last.elapsed() >= PAUSE => {
@@ -257,7 +258,7 @@ impl Observer for Progress {
             return;
         }
         let write = || {
-            let _ = writeln!(io::stderr(), "warning: {message}");
+            let _ = writeln!(io::stderr(), "warning: {}", shown(message));
         };
         match &self.shown {
             Shown::Bars { all, .. } => all.suspend(write),

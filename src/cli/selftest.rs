@@ -21,7 +21,7 @@ pub(super) struct SelftestArguments {
 
 /// Runs the hard cases and prints what came of each family.
 pub(super) fn execute(arguments: &SelftestArguments) -> Result<()> {
-    interrupt::listen(None)?;
+    interrupt::listen(None, || {})?;
     let mut progress = Progress::new(arguments.quiet, Shown::default(), std::time::Instant::now());
     let rows = selftest::run(&mut progress);
     progress.finish();

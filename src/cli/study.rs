@@ -1,7 +1,7 @@
 //! `brinell accuracy SCENE`: what the digits cost.
 
 use super::arguments::{CommonArguments, Shown};
-use super::commands::{header, json, prepare};
+use super::commands::{at_once, header, json, prepare};
 use super::number::{bytes, seconds, significant};
 use super::progress::Progress;
 use super::table::{Column::*, Table, WIDTH, wrap};
@@ -9,7 +9,7 @@ use super::{interrupt, print};
 use crate::accuracy::{Knob, Plan, QuantityStudy, Study, foremost, study};
 use crate::error::{Error, ErrorKind, Result};
 use crate::model::Model;
-use crate::output;
+use crate::output::{self, Claim};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -70,8 +70,8 @@ pub(super) fn execute(arguments: &StudyArguments) -> Result<()> {
             .collect::<Result<_>>()?;
     }
     let out = (arguments.out.clone()).unwrap_or_else(|| common.scene.with_extension("accuracy"));
-    output::check_directory(&out)?;
-    interrupt::listen(None)?;
+    let claim = Claim::new(&out)?;
+    interrupt::listen(None, at_once(Some(&claim)))?;
     let start = Instant::now();
     let mut progress = Progress::new(arguments.quiet, Shown::default(), std::time::Instant::now());
     let found = study(&scene, common.solver.into(), &plan, &mut progress)?;
@@ -82,7 +82,7 @@ pub(super) fn execute(arguments: &StudyArguments) -> Result<()> {
         start.elapsed().as_secs_f64(),
     );
     progress.start("output");
-    output::write_study(&out, &header, &found)?;
+    claim.write_study(&header, &found)?;
     progress.finish();
     let text = match common.json {
         true => json(&output::study_json(&header, &found))?,

@@ -117,20 +117,18 @@ pub(super) fn wrap(text: &str, width: usize) -> Vec<String> {
     let mut lines = Vec::new();
     for paragraph in text.split('\n') {
         let mut line = String::new();
-        for word in paragraph.split_whitespace() {
-            let mut word = word.to_string();
-            if !line.is_empty() && length(&line) + 1 + length(&word) > width {
+        for mut word in paragraph.split_whitespace() {
+            if !line.is_empty() && length(&line) + 1 + length(word) > width {
                 lines.push(std::mem::take(&mut line));
             }
-            while length(&word) > width {
-                let rest: String = word.chars().skip(width).collect();
-                lines.push(word.chars().take(width).collect());
-                word = rest;
+            while let Some((end, _)) = word.char_indices().nth(width) {
+                lines.push(word[..end].to_string());
+                word = &word[end..];
             }
             if !line.is_empty() {
                 line.push(' ');
             }
-            line.push_str(&word);
+            line.push_str(word);
         }
         lines.push(line);
     }

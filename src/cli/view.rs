@@ -1,7 +1,7 @@
 //! `brinell view`: the report of a result directory made anew, or its main figures in the terminal.
 
 use super::number::{number, significant};
-use super::print;
+use super::{print, warn};
 use crate::error::Result;
 use crate::output::{
     self,
@@ -30,6 +30,9 @@ pub(super) struct ViewArguments {
 
 /// Makes the report anew from what the directory holds, or prints the plots.
 pub(super) fn run(arguments: &ViewArguments) -> Result<()> {
+    if let Some(why) = output::stale(&arguments.dir) {
+        warn(&why);
+    }
     if arguments.terminal {
         return terminal(arguments);
     }

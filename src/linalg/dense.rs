@@ -13,6 +13,7 @@
 //! 2013, algorithm 4.2.7 (blocked Cholesky).
 
 use super::*;
+use crate::memory;
 use nalgebra::{DMatrix, DVector};
 
 /// The largest model that this backend takes: 6000 freedoms need 0.6 GB and about ten seconds.
@@ -41,6 +42,8 @@ impl DenseCondensed {
     pub fn new(matrix: &SymmetricCsc, partition: &Partition, shift: &[f64]) -> Result<Self> {
         check::arguments(matrix, partition, shift)?;
         refuse_large(partition.n)?;
+        let what = format!("dense factorisation of {} freedoms", partition.n);
+        memory::require(&what, prediction(partition).memory_bytes)?;
         let k = full(matrix);
         let (zone, contact) = (&partition.zone, &partition.contact);
         let mut kept = vec![true; partition.n];

@@ -4,9 +4,13 @@ use super::{Freedoms, LoadCase, Pair, Slot};
 use crate::mesh::Mesh;
 use crate::scene::Kind;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use std::collections::BTreeMap;
 
 /// Singular values below this, relative to the largest, are free motions.
 const FREE: f64 = 1e-7;
+/// A block of the motions that is definite by this much of its largest entry has none that is free: well above the square of
+/// [`FREE`] and the round-off of a factorisation of some thousand rows.
+const HELD: f64 = 1e-11;
 
 /// Groups of bodies that share nodes move together: rigid motions are counted per group.
 pub(super) struct Motions<'a> {
@@ -104,17 +108,24 @@ impl<'a> Motions<'a> {
     /// Motions that supports and (bilateral) pairs leave free: unit vectors, one entry per group and rigid motion.
     pub(super) fn free(&self, freedoms: &Freedoms, pairs: &[Pair]) -> Vec<DVector<f64>> {
         let per = self.per_group();
-        let n = per * self.names.len();
-        let mut gram = DMatrix::<f64>::zeros(n, n);
-        let mut add = |row: &[(usize, f64)]| {
-            for &(i, a) in row {
-                for &(j, b) in row {
-                    gram[(i, j)] += a * b;
-                }
+        let gram = self.gram(freedoms, pairs);
+        let largest = gram.largest_diagonal().max(1.0);
+        let mut free: Vec<Plain> = Vec::new();
+        for block in gram.uncoupled(per) {
+            // Most are held: that takes no more than a factorisation.
+            if !gram.is_definite(&block, HELD * largest) {
+                free.extend(plain(gram.null_vectors(&block, FREE * FREE * largest), per));
             }
-        };
-        let mut tied: std::collections::BTreeMap<u32, Vec<(usize, f64)>> =
-            std::collections::BTreeMap::new();
+        }
+        free.sort_by_key(|motion| (motion.pivot % per, std::cmp::Reverse(motion.pivot)));
+        free.into_iter().map(|motion| motion.vector).collect()
+    }
+
+    /// Sum of the squares of all conditions that supports and pairs put on the motions.
+    fn gram(&self, freedoms: &Freedoms, pairs: &[Pair]) -> Gram {
+        let per = self.per_group();
+        let mut gram = Gram::new(per * self.names.len());
+        let mut tied: BTreeMap<u32, Vec<(usize, f64)>> = BTreeMap::new();
         let mut owners = vec![0u8; freedoms.n];
         for slot in freedoms.slots.iter().flatten() {
             if let Slot::Free(f) = slot {
@@ -139,11 +150,11 @@ impl<'a> Motions<'a> {
                                 .into_iter()
                                 .chain(first.iter().map(|&(i, v)| (i, -v)))
                                 .collect();
-                            add(&difference);
+                            gram.add(&difference);
                         }
                     },
                     Slot::Free(_) => {}
-                    Slot::Fixed | Slot::Prescribed(_) => add(&row()),
+                    Slot::Fixed | Slot::Prescribed(_) => gram.add(&row()),
                 }
             }
         }
@@ -159,15 +170,9 @@ impl<'a> Motions<'a> {
                         .map(|(m, v)| (per * group + m, sign * v)),
                 );
             }
-            add(&row);
+            gram.add(&row);
         }
-        let largest = gram.diagonal().max().max(1.0);
-        let eigen = SymmetricEigen::new(gram);
-        let motions = (0..n)
-            .filter(|&k| eigen.eigenvalues[k] < FREE * FREE * largest)
-            .map(|k| eigen.eigenvectors.column(k).into_owned())
-            .collect();
-        plain(motions, per)
+        gram
     }
 
     pub(super) fn moved(&self, mode: &DVector<f64>) -> Vec<usize> {
@@ -312,13 +317,132 @@ fn tidy(coordinate: f64, size: f64) -> f64 {
     }
 }
 
+/// A symmetric matrix by rows, its nonzeros only: bodies are coupled to few others.
+struct Gram {
+    rows: Vec<BTreeMap<usize, f64>>,
+}
+
+impl Gram {
+    fn new(n: usize) -> Self {
+        Gram {
+            rows: vec![BTreeMap::new(); n],
+        }
+    }
+
+    /// Adds `row row'`.
+    fn add(&mut self, row: &[(usize, f64)]) {
+        for &(i, a) in row {
+            for &(j, b) in row {
+                *self.rows[i].entry(j).or_insert(0.0) += a * b;
+            }
+        }
+    }
+
+    fn get(&self, i: usize, j: usize) -> f64 {
+        self.rows[i].get(&j).copied().unwrap_or(0.0)
+    }
+
+    fn largest_diagonal(&self) -> f64 {
+        (0..self.rows.len()).fold(0.0, |m, i| m.max(self.get(i, i)))
+    }
+
+    /// The rows of groups (of `per` rows each) that nothing couples with others, ascending. Within a block groups with few
+    /// neighbours come first, which keeps the envelope of its factor small.
+    fn uncoupled(&self, per: usize) -> Vec<Vec<usize>> {
+        let n = self.rows.len() / per;
+        let mut parent: Vec<usize> = (0..n).collect();
+        let mut neighbours = vec![0; n];
+        for (i, row) in self.rows.iter().enumerate() {
+            for &j in row.keys() {
+                let (a, b) = (root(&mut parent, i / per), root(&mut parent, j / per));
+                parent[a.max(b)] = a.min(b);
+            }
+            neighbours[i / per] += row.len();
+        }
+        let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for group in 0..n {
+            groups
+                .entry(root(&mut parent, group))
+                .or_default()
+                .push(group);
+        }
+        let blocks = groups.into_values().map(|mut block| {
+            block.sort_by_key(|&group| neighbours[group]);
+            let rows = |group: usize| (0..per).map(move |m| per * group + m);
+            block.into_iter().flat_map(rows).collect()
+        });
+        blocks.collect()
+    }
+
+    /// Whether a block less `shift` times the identity has a Cholesky factor, which is kept from the first nonzero of each row on.
+    fn is_definite(&self, block: &[usize], shift: f64) -> bool {
+        let mut place = BTreeMap::new();
+        place.extend(block.iter().enumerate().map(|(k, &row)| (row, k)));
+        let mut factor: Vec<(usize, Vec<f64>)> = Vec::with_capacity(block.len());
+        for (k, &row) in block.iter().enumerate() {
+            let mut entries: Vec<(usize, f64)> = self.rows[row]
+                .iter()
+                .map(|(j, &value)| (place[j], value))
+                .filter(|&(j, _)| j <= k)
+                .collect();
+            entries.push((k, -shift));
+            let first = entries.iter().map(|e| e.0).min().unwrap_or(k);
+            let mut values = vec![0.0; k - first + 1];
+            for (j, value) in entries {
+                values[j - first] += value;
+            }
+            for j in first..k {
+                let (start, left) = &factor[j];
+                let from = first.max(*start);
+                let dot: f64 = (values[from - first..j - first].iter())
+                    .zip(&left[from - start..j - start])
+                    .map(|(a, b)| a * b)
+                    .sum();
+                values[j - first] = (values[j - first] - dot) / left[j - start];
+            }
+            let pivot =
+                values[k - first] - (values[..k - first].iter()).map(|v| v * v).sum::<f64>();
+            if pivot.is_nan() || pivot <= 0.0 {
+                return false;
+            }
+            values[k - first] = pivot.sqrt();
+            factor.push((first, values));
+        }
+        true
+    }
+
+    /// Eigenvectors of a block with eigenvalues below `limit`, of the length of the whole.
+    fn null_vectors(&self, block: &[usize], limit: f64) -> Vec<DVector<f64>> {
+        let n = block.len();
+        let matrix = DMatrix::from_fn(n, n, |i, j| self.get(block[i], block[j]));
+        let eigen = SymmetricEigen::new(matrix);
+        let found = (0..n).filter(|&k| eigen.eigenvalues[k] < limit);
+        let whole = found.map(|k| {
+            let mut vector = DVector::zeros(self.rows.len());
+            for (&row, &value) in block.iter().zip(&eigen.eigenvectors.column(k)) {
+                vector[row] = value;
+            }
+            vector
+        });
+        whole.collect()
+    }
+}
+
+/// A motion of a basis that can be told in words.
+struct Plain {
+    /// The entry that is its own: 0 in all others.
+    pivot: usize,
+    vector: DVector<f64>,
+}
+
 /// The same motions by a basis that can be told in words: rotations are taken out of all vectors but as many as it takes, then
-/// motions along y, then along x (reduced echelon form). Motions without rotation come first.
-fn plain(mut motions: Vec<DVector<f64>>, per: usize) -> Vec<DVector<f64>> {
+/// motions along y, then along x (reduced echelon form).
+fn plain(mut motions: Vec<DVector<f64>>, per: usize) -> Vec<Plain> {
     let n = motions.first().map_or(0, DVector::len);
-    let mut done = 0;
+    let mut pivots = Vec::new();
     for kind in (0..per).rev() {
         for row in (kind..n).step_by(per) {
+            let done = pivots.len();
             let Some(pivot) = (done..motions.len())
                 .max_by(|&a, &b| motions[a][row].abs().total_cmp(&motions[b][row].abs()))
                 .filter(|&k| motions[k][row].abs() > 1e-6)
@@ -333,11 +457,16 @@ fn plain(mut motions: Vec<DVector<f64>>, per: usize) -> Vec<DVector<f64>> {
                 }
             }
             motions[done] = vector;
-            done += 1;
+            pivots.push(row);
         }
     }
-    motions.reverse();
-    motions.iter().map(|m| m / m.norm()).collect()
+    let named = pivots.into_iter().zip(motions);
+    named
+        .map(|(pivot, motion)| Plain {
+            pivot,
+            vector: motion.normalize(),
+        })
+        .collect()
 }
 
 fn root(parent: &mut [usize], mut i: usize) -> usize {

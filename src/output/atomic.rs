@@ -1,16 +1,18 @@
 //! A result directory that appears whole or not at all.
 //!
 //! ```text
-//! DIR absent    .DIR.x.partial ──rename──▶ DIR
-//! DIR a result  DIR ──rename──▶ .DIR.y.old/DIR,  .DIR.x.partial ──rename──▶ DIR,  delete .DIR.y.old
+//! DIR absent    .DIR.partial ──rename──▶ DIR
+//! DIR a result  DIR ──rename──▶ .DIR.y.old/DIR,  .DIR.partial ──rename──▶ DIR,  delete .DIR.y.old
 //! ```
 //!
-//! Both temporaries are siblings of DIR, so a rename never crosses file systems. Whatever fails, DIR is as it
+//! `.DIR.partial` is locked by the process that writes it. The system takes the lock off when that ends, however it ends: what
+//! is found without a lock was left by one that was killed, and is used again. Both temporaries are siblings of DIR, so a rename never crosses file systems. Whatever fails, DIR is as it
 //! was and the temporaries are gone. Between the two renames of a replacement DIR is absent for an
 //! instant: a process killed just there leaves both results, whole, beside it.
 
 use super::{STUDY_FILE, SUMMARY_FILE};
 use crate::error::{Error, Result};
+use crate::files;
 use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -50,7 +52,7 @@ pub(super) struct Staging {
     /// Where the directory goes: absolute, symbolic links resolved.
     target: PathBuf,
     /// `None` once published.
-    partial: Option<TempDir>,
+    partial: Option<Partial>,
     /// Parents of the target that were made for it, outermost first.
     made_parents: Vec<PathBuf>,
 }
@@ -59,7 +61,7 @@ impl Staging {
     /// Begins the directory `dir`.
     ///
     /// # Errors
-    /// `Input` where `dir` is in use by something else, `Io` where its parent cannot be written.
+    /// `Input` where `dir` is in use by something else or another run is writing it, `Io` where its parent cannot be written.
     pub(super) fn new(dir: &Path) -> Result<Self> {
         let target = resolve(dir)?;
         check_replaceable(&target)?;
@@ -69,7 +71,7 @@ impl Staging {
             target,
         };
         staging.make_parents()?;
-        staging.partial = Some(staging.sibling(".partial")?);
+        staging.partial = Some(Partial::claim(&staging.target)?);
         Ok(staging)
     }
 
@@ -88,13 +90,23 @@ impl Staging {
                 self.target.display()
             )));
         };
-        File::create_new(partial.path().join(name))
+        File::create_new(partial.path.join(name))
             .and_then(|file| {
                 let mut out = BufWriter::with_capacity(BUFFER_BYTES, file);
                 write(&mut out)?;
                 out.flush()
             })
             .map_err(|e| Error::io("write", &self.target.join(name), e))
+    }
+
+    /// Where the directory goes.
+    pub(super) fn target(&self) -> &Path {
+        &self.target
+    }
+
+    /// The directory in the making.
+    pub(super) fn partial(&self) -> Option<&Path> {
+        self.partial.as_ref().map(|partial| partial.path.as_path())
     }
 
     /// Puts the directory in its place. Of a directory that it replaces, the entries for which `is_ours` is
@@ -108,10 +120,10 @@ impl Staging {
         };
         let failed = |e| Error::io("write", &self.target, e);
         if self.target.exists() {
-            let retired = self.sibling(".old")?;
+            let retired = self.retired()?;
             let previous = retired.path().join(self.name());
             fs::rename(&self.target, &previous).map_err(failed)?;
-            if let Err(e) = fs::rename(partial.path(), &self.target) {
+            if let Err(e) = fs::rename(&partial.path, &self.target) {
                 return Err(match fs::rename(&previous, &self.target) {
                     Ok(()) => failed(e),
                     Err(_) => {
@@ -130,7 +142,7 @@ impl Staging {
                 .close()
                 .map_err(|e| Error::io("delete the previous result", &path, e))?;
         } else {
-            fs::rename(partial.path(), &self.target).map_err(failed)?;
+            fs::rename(&partial.path, &self.target).map_err(failed)?;
         }
         self.forget();
         Ok(())
@@ -138,9 +150,7 @@ impl Staging {
 
     /// After the rename there is nothing left to clean up.
     fn forget(&mut self) {
-        if let Some(partial) = self.partial.take() {
-            let _moved_away = partial.keep();
-        }
+        self.partial = None;
         self.made_parents.clear();
     }
 
@@ -152,21 +162,14 @@ impl Staging {
         self.target.parent().unwrap_or(&self.target)
     }
 
-    /// A new hidden directory beside the target.
-    fn sibling(&self, suffix: &str) -> Result<TempDir> {
+    /// A new hidden directory beside the target, for what was there before.
+    fn retired(&self) -> Result<TempDir> {
         let mut prefix = OsString::from(".");
         prefix.push(self.name());
         prefix.push(".");
-        let mut builder = tempfile::Builder::new();
-        builder.prefix(&prefix).suffix(suffix);
-        // A temporary directory is private by default, but this one becomes the result: the user's
-        // umask decides, as for any other directory.
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            builder.permissions(fs::Permissions::from_mode(0o777));
-        }
-        builder
+        tempfile::Builder::new()
+            .prefix(&prefix)
+            .suffix(".old")
             .tempdir_in(self.parent())
             .map_err(|e| Error::io("write", &self.target, e))
     }
@@ -189,12 +192,103 @@ impl Staging {
 
 impl Drop for Staging {
     fn drop(&mut self) {
-        drop(self.partial.take());
+        if let Some(partial) = self.partial.take() {
+            // Removed under its lock. What cannot be removed is used again by the next run.
+            let _ = fs::remove_dir_all(&partial.path);
+        }
         for path in self.made_parents.iter().rev() {
             // Fails where someone else has put something there meanwhile: then it has to stay.
             let _ = fs::remove_dir(path);
         }
     }
+}
+
+/// The directory `.NAME.partial` beside a target: one process has it.
+struct Partial {
+    path: PathBuf,
+    /// Locked; `None` where the system cannot lock a directory.
+    _lock: Option<File>,
+}
+
+impl Partial {
+    /// Makes the directory, or empties the one that a process left which was killed.
+    fn claim(target: &Path) -> Result<Self> {
+        let failed = |e| Error::io("write", target, e);
+        let mut name = OsString::from(".");
+        name.push(target.file_name().unwrap_or_default());
+        name.push(".partial");
+        let path = target.with_file_name(name);
+        loop {
+            match fs::create_dir(&path) {
+                Err(e) if e.kind() != io::ErrorKind::AlreadyExists => return Err(failed(e)),
+                _ => {}
+            }
+            // Its owner may put it in its place, or remove it, at any time: then it is made anew.
+            let Ok(there) = fs::symlink_metadata(&path) else {
+                continue;
+            };
+            if !there.is_dir() {
+                return Err(Error::input(format!(
+                    "{} is in the way of the results: move it, or choose another directory",
+                    path.display()
+                )));
+            }
+            let Ok(open) = open(&path) else { continue };
+            let lock = open.map(|open| lock(open, target)).transpose()?.flatten();
+            if lock.as_ref().is_none_or(|lock| is_at(lock, &path)) {
+                empty(&path).map_err(failed)?;
+                return Ok(Partial { path, _lock: lock });
+            }
+        }
+    }
+}
+
+/// Opens a directory to be locked, where the system has that.
+fn open(dir: &Path) -> io::Result<Option<File>> {
+    if cfg!(unix) {
+        File::open(dir).map(Some)
+    } else {
+        Ok(None)
+    }
+}
+
+/// Locks a directory for this process; `None` on a file system without locks.
+fn lock(open: File, target: &Path) -> Result<Option<File>> {
+    match open.try_lock() {
+        Ok(()) => Ok(Some(open)),
+        Err(fs::TryLockError::WouldBlock) => Err(Error::input(format!(
+            "another run is writing to {}: wait for its end, or choose another directory (--out)",
+            target.display()
+        ))),
+        Err(fs::TryLockError::Error(_)) => Ok(None),
+    }
+}
+
+/// Whether an open directory is the one at `path`.
+#[cfg(unix)]
+fn is_at(open: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let identity = |m: fs::Metadata| (m.dev(), m.ino());
+    let there = fs::metadata(path).map(identity).ok();
+    there.is_some() && open.metadata().map(identity).ok() == there
+}
+
+#[cfg(not(unix))]
+fn is_at(_: &File, _: &Path) -> bool {
+    true
+}
+
+/// Removes what is in a directory.
+fn empty(dir: &Path) -> io::Result<()> {
+    for entry in fs::read_dir(dir)? {
+        let entry = entry?;
+        if entry.file_type()?.is_dir() {
+            fs::remove_dir_all(entry.path())?;
+        } else {
+            fs::remove_file(entry.path())?;
+        }
+    }
+    Ok(())
 }
 
 /// The absolute path of `dir`; symbolic links are followed, so that what is replaced is the directory
@@ -247,9 +341,9 @@ fn check_replaceable(target: &Path) -> Result<()> {
 }
 
 /// Whether a directory holds a summary or a study of brinell.
-fn is_result(dir: &Path) -> bool {
+pub(super) fn is_result(dir: &Path) -> bool {
     [SUMMARY_FILE, STUDY_FILE].iter().any(|name| {
-        fs::read(dir.join(name))
+        files::read("read", &dir.join(name), None)
             .ok()
             .and_then(|text| serde_json::from_slice::<serde_json::Value>(&text).ok())
             .is_some_and(|summary| summary.get("brinell").is_some())

@@ -11,6 +11,7 @@
 //!     scene_as_run.toml     the scene with all that was put over it   (record)
 //!     mesh_as_run.msh       its mesh, where the scene does not make it
 //!     model_as_run.json     in place of both: a model that was handed over in arrays
+//!     stale.txt             only where a later run failed: these results are of an earlier one    (claim)
 //! ```
 //!
 //! [`read()`] takes a directory back, [`write_report`] makes its report anew.
@@ -27,6 +28,7 @@
 //! (`atomic`). Keys of `summary.json` and columns of the tables keep their names once published.
 
 mod atomic;
+mod claim;
 mod contact;
 mod ending;
 mod fields;
@@ -44,8 +46,10 @@ mod vtu;
 mod vtu_read;
 mod work_precision;
 
+pub use claim::{Claim, mark_stale, stale};
 pub use ending::ending;
 pub use read::{Recorded, read};
+use study::finish_study;
 pub use study::{study_json, write_study};
 pub use summary::summary;
 pub use work_precision::plot;
@@ -122,18 +126,17 @@ impl RunHeader {
 /// [`crate::ErrorKind::Internal`] where the fields of a state do not fit the mesh. After an error `dir` is as
 /// it was and nothing is left beside it.
 pub fn write(dir: &Path, header: &RunHeader, mesh: &Mesh, results: &Results) -> Result<()> {
-    write_with(dir, header, mesh, results, |_| Ok(()))
+    finish(Staging::new(dir)?, header, mesh, results, |_| Ok(()))
 }
 
 /// Writes tables and fields and what `more` adds, all or nothing.
-fn write_with(
-    dir: &Path,
+fn finish(
+    staging: Staging,
     header: &RunHeader,
     mesh: &Mesh,
     results: &Results,
     more: impl FnOnce(&Staging) -> Result<()>,
 ) -> Result<()> {
-    let staging = Staging::new(dir)?;
     write_tables_and_fields(&staging, header, mesh, results)?;
     more(&staging)?;
     staging.publish(is_result_file)
@@ -149,7 +152,16 @@ pub fn write_without_report(
     model: &Model,
     results: &Results,
 ) -> Result<()> {
-    write_with(dir, header, &model.mesh, results, |staging| {
+    finish_without_report(Staging::new(dir)?, header, model, results)
+}
+
+fn finish_without_report(
+    staging: Staging,
+    header: &RunHeader,
+    model: &Model,
+    results: &Results,
+) -> Result<()> {
+    finish(staging, header, &model.mesh, results, |staging| {
         record::write(staging, model)
     })
 }
@@ -164,7 +176,16 @@ pub fn write_with_report(
     model: &Model,
     results: &Results,
 ) -> Result<()> {
-    write_with(dir, header, &model.mesh, results, |staging| {
+    finish_with_report(Staging::new(dir)?, header, model, results)
+}
+
+fn finish_with_report(
+    staging: Staging,
+    header: &RunHeader,
+    model: &Model,
+    results: &Results,
+) -> Result<()> {
+    finish(staging, header, &model.mesh, results, |staging| {
         record::write(staging, model)?;
         for (name, text) in report::files(header, model, results)? {
             staging.file(&name, |out| out.write_all(text.as_bytes()))?;
@@ -240,6 +261,7 @@ fn is_result_file(name: &OsStr) -> bool {
             record::SCENE_FILE,
             record::MESH_FILE,
             record::MODEL_FILE,
+            claim::STALE_FILE,
         ]
         .contains(&name)
             || (name.starts_with(fields::FILE_PREFIX) && name.ends_with(fields::FILE_SUFFIX))

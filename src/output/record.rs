@@ -3,6 +3,7 @@
 
 use super::atomic::Staging;
 use crate::error::{Error, Result};
+use crate::files;
 use crate::mesh::{Mesh, gmsh};
 use crate::model::{Model, Recipe};
 use crate::scene::{MeshSource, Scene};
@@ -66,7 +67,7 @@ pub(super) fn read(dir: &Path) -> Result<(PathBuf, Model)> {
             dir.display()
         )));
     }
-    let text = std::fs::read(&path).map_err(|cause| Error::io("read the model", &path, cause))?;
+    let text = files::read("read the model", &path, None)?;
     let recipe: Recipe = serde_json::from_slice(&text).map_err(|cause| {
         Error::input(format!("{}: the model is damaged", path.display())).because(cause)
     })?;

@@ -1,6 +1,7 @@
 //! What a run left, read back: its summary and a table by columns.
 
 use crate::error::{Error, Result};
+use crate::files;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -9,10 +10,8 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// `Io` where it cannot be read, `Input` where it is none of brinell.
 pub(crate) fn summary(path: &Path) -> Result<Value> {
-    let text = std::fs::read_to_string(path).map_err(|cause| {
-        Error::io("read the results", path, cause)
-            .within("no directory of results that brinell wrote")
-    })?;
+    let text = files::read_text("read the results", path, None)
+        .map_err(|error| error.within("no directory of results that brinell wrote"))?;
     let summary: Value = serde_json::from_str(&text).map_err(|cause| {
         Error::input(format!("{}: not valid JSON", path.display())).because(cause)
     })?;
@@ -42,7 +41,8 @@ impl Rows {
         let damaged = |cause: csv::Error| {
             Error::input(format!("{}: cannot be read as CSV", path.display())).because(cause)
         };
-        let mut reader = csv::Reader::from_path(path).map_err(damaged)?;
+        let text = files::read("read", path, None)?;
+        let mut reader = csv::Reader::from_reader(&text[..]);
         Ok(Rows {
             head: reader.headers().map_err(damaged)?.clone(),
             rows: reader

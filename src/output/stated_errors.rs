@@ -2,6 +2,7 @@
 
 use super::number::significant;
 use crate::results::{Accuracy, Demand, EstimateMethod, QuantityError};
+use std::collections::BTreeMap;
 
 /// Columns: key and heading.
 const KEYS: [(&str, &str); 8] = [
@@ -33,18 +34,18 @@ impl StatedErrors {
         if accuracy.method == EstimateMethod::None {
             return None;
         }
-        let find = |prefix: &str, key: &str| {
-            let path = format!("{prefix}.{key}");
-            accuracy.quantities.iter().find(|q| q.quantity == path)
-        };
+        let mut of_prefix: BTreeMap<&str, BTreeMap<&str, &QuantityError>> = BTreeMap::new();
         let mut prefixes: Vec<&str> = Vec::new();
         for quantity in &accuracy.quantities {
-            if let Some((prefix, _)) = quantity.quantity.rsplit_once('.')
-                && !prefixes.contains(&prefix)
-            {
-                prefixes.push(prefix);
+            if let Some((prefix, key)) = quantity.quantity.rsplit_once('.') {
+                let keys = of_prefix.entry(prefix).or_insert_with(|| {
+                    prefixes.push(prefix);
+                    BTreeMap::new()
+                });
+                keys.entry(key).or_insert(quantity);
             }
         }
+        let find = |prefix: &str, key: &str| of_prefix.get(prefix)?.get(key).copied();
         let keys: Vec<_> = KEYS
             .iter()
             .filter(|(key, _)| prefixes.iter().any(|p| find(p, key).is_some()))

@@ -55,7 +55,11 @@ const PHASES: [&str; 5] = [
 /// # Errors
 /// As [`super::write()`].
 pub fn write_study(dir: &Path, header: &RunHeader, study: &Study) -> Result<()> {
-    let staging = Staging::new(dir)?;
+    finish_study(Staging::new(dir)?, header, study)
+}
+
+/// Fills a directory in the making and puts it in its place.
+pub(super) fn finish_study(staging: Staging, header: &RunHeader, study: &Study) -> Result<()> {
     staging.file(STUDY_FILE, |out| {
         serde_json::to_writer_pretty(&mut *out, &study_json(header, study))?;
         out.write_all(b"\n")

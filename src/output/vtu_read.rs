@@ -2,6 +2,7 @@
 
 use super::fields;
 use crate::error::{Error, Result};
+use crate::files;
 use crate::mesh::Mesh;
 use crate::results::Fields;
 use quick_xml::Reader;
@@ -19,7 +20,7 @@ const LENGTH_BYTES: usize = 8;
 /// # Errors
 /// `Io` where the file cannot be read, `Input` naming it where it is damaged or belongs to another mesh.
 pub(super) fn read(path: &Path, mesh: &Mesh) -> Result<Fields> {
-    let bytes = std::fs::read(path).map_err(|cause| Error::io("read", path, cause))?;
+    let bytes = files::read("read", path, None)?;
     let damaged = |what: String| Error::input(format!("{}: {what}", path.display()));
     let file = Blocks::new(&bytes).map_err(damaged)?;
     let numbers = |name: &str| file.numbers(name).map_err(damaged);

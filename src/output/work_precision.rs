@@ -2,6 +2,7 @@
 
 use crate::accuracy::{Knob, QuantityStudy, Study, foremost};
 use crate::error::{Error, Result};
+use crate::text::shown;
 use plotters::prelude::*;
 use plotters::series::DashedLineSeries;
 
@@ -40,7 +41,7 @@ pub fn plot(study: &Study, quantity: &QuantityStudy) -> Result<String> {
     let mut text = String::new();
     draw(study, quantity, &mut text)
         .map_err(|e| Error::internal(format!("plot of {}: {e}", quantity.quantity)))?;
-    Ok(text)
+    Ok(shown(&text).into_owned())
 }
 
 type Point = (f64, f64);

@@ -20,16 +20,32 @@ pub(super) struct Source<'t> {
     pub overrides: &'t [String],
     /// Where the lines of the text begin.
     lines: Vec<usize>,
+    /// Characters in front of each block of the text.
+    characters: Vec<usize>,
+}
+
+/// Bytes of a block.
+const BLOCK: usize = 1024;
+
+/// Characters that begin among some bytes of UTF-8.
+fn count(bytes: &[u8]) -> usize {
+    bytes.iter().filter(|&&byte| byte & 0xc0 != 0x80).count()
 }
 
 impl<'t> Source<'t> {
     pub fn new(name: &'t str, text: &'t str, overrides: &'t [String]) -> Self {
         let ends = text.match_indices('\n').map(|(at, _)| at + 1);
+        let mut before = 0;
+        let characters = text.as_bytes().chunks(BLOCK).map(|block| {
+            before += count(block);
+            before
+        });
         Source {
             name,
             text,
             overrides,
             lines: std::iter::once(0).chain(ends).collect(),
+            characters: std::iter::once(0).chain(characters).collect(),
         }
     }
 
@@ -45,8 +61,14 @@ impl<'t> Source<'t> {
             end -= 1;
         }
         let line = self.lines.partition_point(|&begin| begin <= end);
-        let column = self.text[self.lines[line - 1]..end].chars().count() + 1;
+        let column = self.characters(end) - self.characters(self.lines[line - 1]) + 1;
         format!("{}:{line}:{column}", self.name)
+    }
+
+    /// Characters in front of a byte offset; counts within a block only, however long the line.
+    fn characters(&self, end: usize) -> usize {
+        let block = end / BLOCK;
+        self.characters[block] + count(&self.text.as_bytes()[block * BLOCK..end])
     }
 
     /// The place that stands for override `number`: beyond the end of the text.

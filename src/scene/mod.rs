@@ -59,7 +59,7 @@ pub struct Scene {
     /// Names of the scene's units, for reports: nothing is converted.
     pub units: Option<Units>,
     /// How many copies of the model make the whole: 1 (the default) where all of it is meshed, 2 for a half model, 4 for a
-    /// quarter. Total forces (`force`, `plane_force`) in the scene, and loads and contact forces in the results, are those of the
+    /// quarter of a plane model. Total forces (`force`, `plane_force`) in the scene, and loads and contact forces in the results, are those of the
     /// whole; the model carries its share of them.
     #[serde(default = "defaults::single")]
     pub symmetry: usize,

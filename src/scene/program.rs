@@ -1,9 +1,10 @@
 //! The load program and how it is computed.
 
 use super::Direction;
+use crate::text::exact;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The load program.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -90,15 +91,15 @@ impl Target {
         } else if self.first_yield {
             "yield".to_string()
         } else if let Some(alpha) = self.load_factor {
-            format!("alpha {alpha}")
+            format!("alpha {}", exact(alpha))
         } else if let Some(width) = self.half_width {
-            format!("half width {width}")
+            format!("half width {}", exact(width))
         } else if let Some(target) = &self.displacement {
             format!(
                 "displacement of {} {} = {}",
                 target.on,
                 target.direction.name(),
-                target.value
+                exact(target.value)
             )
         } else {
             format!("target {}", index + 1)
@@ -112,6 +113,7 @@ impl Program {
     pub fn labels(&self) -> Vec<String> {
         let mut taken: BTreeSet<String> =
             self.targets.iter().filter_map(|t| t.name.clone()).collect();
+        let mut next: BTreeMap<String, usize> = BTreeMap::new();
         self.targets
             .iter()
             .enumerate()
@@ -120,13 +122,14 @@ impl Program {
                 if target.name.is_some() || taken.insert(label.clone()) {
                     return label;
                 }
-                let mut number = 2;
+                // Numbers below are taken already: each name is counted on from where it was last.
+                let number = next.entry(label.clone()).or_insert(2);
                 loop {
                     let numbered = format!("{label} ({number})");
+                    *number += 1;
                     if taken.insert(numbered.clone()) {
                         return numbered;
                     }
-                    number += 1;
                 }
             })
             .collect()

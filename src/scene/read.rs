@@ -3,6 +3,7 @@
 use super::document::{Places, Source};
 use super::{Scene, complete, overrides, unsupported, validate};
 use crate::error::{Error, ErrorKind, Result};
+use crate::files;
 use serde::Deserialize;
 use std::path::Path;
 use toml::de::DeTable;
@@ -38,12 +39,7 @@ impl Scene {
     /// As [`Scene::load`]; what is wrong with an override is reported as `--set KEY=VALUE: ...`.
     pub fn load_with(path: impl AsRef<Path>, overrides: &[String]) -> Result<Scene> {
         let path = path.as_ref();
-        let text = std::fs::read_to_string(path).map_err(|cause| match cause.kind() {
-            std::io::ErrorKind::InvalidData => {
-                Error::input(format!("{}: the file is not UTF-8 text", path.display()))
-            }
-            _ => Error::io("read the scene", path, cause),
-        })?;
+        let text = files::read_text("read the scene", path, Some(files::LARGEST_SCENE))?;
         let name = path.display().to_string();
         let mut scene = parse(&Source::new(&name, &text, overrides))?;
         scene.file = Some(path.to_path_buf());

@@ -411,7 +411,13 @@ fn basis(rigid: &[Trace], part: &[usize], n: usize) -> (DMatrix<f64>, Vec<usize>
 fn take_rigid(column: &mut [f64], share: &mut [f64], rigid: &[Trace], part: &[usize]) {
     let mut parts: Vec<usize> = rigid.iter().map(|t| t.part).collect();
     parts.dedup();
-    for own in parts {
+    let mut is_moved = vec![false; part.iter().max().map_or(0, |last| last + 1)];
+    for (value, &part) in column.iter().zip(part) {
+        is_moved[part] |= *value != 0.0;
+    }
+    // Of many parts a displacement moves few.
+    let is_moved = |part: &usize| is_moved.get(*part).copied().unwrap_or(false);
+    for own in parts.into_iter().filter(is_moved) {
         let size = |column: &[f64]| {
             let values = column.iter().zip(part).filter(|(_, p)| **p == own);
             values.map(|(v, _)| v * v).sum::<f64>().sqrt()

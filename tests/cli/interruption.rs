@@ -1,7 +1,7 @@
 //! Ctrl-C: what was computed is written and marked as incomplete.
 #![cfg(unix)]
 
-use super::Folder;
+use super::{Folder, limit};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -50,8 +50,8 @@ fn interrupt(child: &Child, signal: &str) {
     assert!(status.success());
 }
 
-/// Waits until the program has said `what` on standard error.
-fn wait_for(child: &mut Child, what: &str) {
+/// Waits until the program has said `what` on standard error; what it says after that.
+fn wait_for(child: &mut Child, what: &str) -> std::thread::JoinHandle<String> {
     use std::io::BufRead;
     let stderr = child.stderr.take().unwrap();
     let mut lines = std::io::BufReader::new(stderr).lines();
@@ -60,20 +60,33 @@ fn wait_for(child: &mut Child, what: &str) {
         "{what:?} was never said"
     );
     // The rest is read so that the program does not stop at a full or closed pipe.
-    std::thread::spawn(move || lines.for_each(drop));
+    std::thread::spawn(move || lines.map(|line| line.unwrap() + "\n").collect())
 }
 
 #[test]
 fn the_first_signal_ends_the_run_with_results_that_are_marked_incomplete() {
-    for signal in ["-INT", "-TERM"] {
+    for (signal, code, name) in [
+        ("-INT", 130, "Ctrl-C"),
+        ("-TERM", 143, "SIGTERM"),
+        ("-HUP", 129, "SIGHUP"),
+    ] {
         let folder = long();
         let mut child = start(&folder, "plain");
-        wait_for(&mut child, "load program");
+        let rest = wait_for(&mut child, "load program");
         // The first increments (to first yield) need no more than this, on a loaded machine too.
         std::thread::sleep(Duration::from_millis(1500));
         interrupt(&child, signal);
-        let status = child.wait().unwrap();
-        assert_eq!(status.code(), Some(130));
+        let status = limit::wait(&mut child);
+        assert_eq!(status.code(), Some(code));
+        let rest = rest.join().unwrap();
+        let told = [
+            format!("{name}: stopping at the end of this increment"),
+            format!("stopped on request ({name})"),
+        ];
+        for told in told {
+            assert!(rest.contains(&told), "no {told:?} in {rest}");
+        }
+        assert!(!rest.contains("by the user"), "{rest}");
         let summary = folder.summary();
         assert!(
             summary["incomplete"].as_str().unwrap().contains("stopped"),
@@ -101,7 +114,7 @@ fn a_second_signal_ends_the_program_at_once_and_leaves_nothing() {
     std::thread::sleep(Duration::from_millis(400));
     let begin = Instant::now();
     interrupt(&child, "-INT");
-    let status = child.wait().unwrap();
+    let status = limit::wait(&mut child);
     assert_eq!(status.code(), Some(130));
     assert!(begin.elapsed() < Duration::from_secs(5));
     assert_eq!(folder.entries(), 1);
@@ -126,7 +139,7 @@ fn a_signal_is_an_event_where_progress_is_json() {
             events.push(event);
         }
     }
-    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert_eq!(limit::wait(&mut child).code(), Some(130));
     assert!(
         events.iter().any(|e| e["event"] == "stopping"),
         "{events:?}"

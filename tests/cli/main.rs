@@ -1,9 +1,13 @@
 //! The program from the outside: what it prints where, and its exit codes.
 
 mod accuracy;
+mod directory;
 mod interruption;
+#[path = "../running/limit.rs"]
+mod limit;
 mod mutations;
 mod outputs;
+mod pressure;
 mod readme;
 mod refusals;
 mod scene_help;
@@ -13,10 +17,7 @@ use std::path::PathBuf;
 use std::process::{Command, Output};
 
 fn brinell(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_brinell"))
-        .args(arguments)
-        .output()
-        .unwrap()
+    limit::output(Command::new(env!("CARGO_BIN_EXE_brinell")).args(arguments))
 }
 
 fn scene(name: &str) -> String {

@@ -279,22 +279,22 @@ fn a_study_leaves_its_data_and_plots() {
         "{}/data/scenes/thick_cylinder.toml",
         env!("CARGO_MANIFEST_DIR")
     );
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
-        .args([
-            "accuracy",
-            &scene,
-            "--quiet",
-            "--levels",
-            "3",
-            "--knobs",
-            "resolution,gamma",
-            "--out",
-        ])
-        .arg(&out)
-        .args(["--set", "mesh.parts.0.ring.elements=[8,8]"])
-        .args(["--set", "program.targets=[{ yield = true }]"])
-        .output()
-        .unwrap();
+    let output = super::limit::output(
+        std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
+            .args([
+                "accuracy",
+                &scene,
+                "--quiet",
+                "--levels",
+                "3",
+                "--knobs",
+                "resolution,gamma",
+                "--out",
+            ])
+            .arg(&out)
+            .args(["--set", "mesh.parts.0.ring.elements=[8,8]"])
+            .args(["--set", "program.targets=[{ yield = true }]"]),
+    );
     let text = String::from_utf8_lossy(&output.stdout);
     assert!(
         output.status.success(),
@@ -337,17 +337,17 @@ fn a_study_leaves_its_data_and_plots() {
     let refused = root.path().join("notes");
     std::fs::create_dir(&refused).unwrap();
     std::fs::write(refused.join("mine.txt"), "mine").unwrap();
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
-        .args(["accuracy", &scene, "--quiet", "--knobs", "mesh"])
-        .output()
-        .unwrap();
+    let output = super::limit::output(
+        std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
+            .args(["accuracy", &scene, "--quiet", "--knobs", "mesh"]),
+    );
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("unknown knob `mesh`"));
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
-        .args(["accuracy", &scene, "--quiet", "--out"])
-        .arg(&refused)
-        .output()
-        .unwrap();
+    let output = super::limit::output(
+        std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
+            .args(["accuracy", &scene, "--quiet", "--out"])
+            .arg(&refused),
+    );
     assert_eq!(output.status.code(), Some(2));
     assert!(refused.join("mine.txt").exists());
 }

@@ -59,7 +59,7 @@ fn wrong_types_and_values_of_a_material() {
 #[test]
 fn values_of_other_keys() {
     for (set, fragment) in [
-        ("symmetry=0", "symmetry: 0 must be at least 1"),
+        ("symmetry=0", "symmetry: 0 must be 1 (all of it is meshed)"),
         ("symmetry=-2", "symmetry"),
         ("kind=plane_strayn", "plane_strain"),
         ("program.targets=[]", "program.targets: is empty"),

@@ -1,6 +1,6 @@
 //! One thread or two: the same bits.
 
-use crate::running::scene_file;
+use crate::running::{limit, scene_file};
 use serde_json::Value;
 use std::path::Path;
 use std::process::Command;
@@ -15,7 +15,7 @@ fn run(name: &str, threads: &str, out: &Path, overrides: &[&str]) {
     for set in overrides {
         command.args(["--set", set]);
     }
-    let output = command.output().unwrap();
+    let output = limit::output(&mut command);
     assert!(
         output.status.success(),
         "{}",

@@ -1,7 +1,7 @@
 //! The directory appears whole or not at all, and nobody else's files are touched.
 
 use crate::fixture;
-use brinell::output::{check_directory, write};
+use brinell::output::{Claim, check_directory, mark_stale, stale, write};
 use brinell::results::Results;
 use brinell::{Error, ErrorKind};
 use std::error::Error as _;
@@ -231,4 +231,40 @@ fn checking_a_directory_leaves_nothing_behind() {
     check_directory(&dir).unwrap();
     assert_eq!(names(root.path()), ["run.out"]);
     assert_eq!(names(&dir), MINIMAL);
+}
+
+/// While one has it nobody else writes there; what was there before is marked until it is replaced.
+#[cfg(unix)]
+#[test]
+fn a_directory_belongs_to_one_run_at_a_time() {
+    let root = tempfile::tempdir().unwrap();
+    let dir = root.path().join("run.out");
+    write_minimal(&dir).unwrap();
+    let claim = Claim::new(&dir).unwrap();
+    let why = stale(&dir).unwrap();
+    assert!(why.contains("has not ended yet"), "{why}");
+    for error in [
+        Claim::new(&dir).err().unwrap(),
+        write_minimal(&dir).unwrap_err(),
+    ] {
+        assert_eq!(error.kind(), ErrorKind::Input);
+        assert!(
+            error.message().contains("another run is writing"),
+            "{error}"
+        );
+    }
+    drop(claim);
+    assert_eq!(names(root.path()), ["run.out"]);
+    assert!(mark_stale(&dir, &Error::analysis("no memory")));
+    let why = stale(&dir).unwrap();
+    assert!(why.contains("(exit code 5): no memory"), "{why}");
+    // What a killed process left has no lock: it is used again, and what is in it goes.
+    let left = root.path().join(".run.out.partial");
+    fs::create_dir_all(left.join("deep")).unwrap();
+    fs::write(left.join("history.csv"), "half a").unwrap();
+    write_minimal(&dir).unwrap();
+    assert_eq!(names(root.path()), ["run.out"]);
+    assert_eq!(names(&dir), MINIMAL);
+    assert_eq!(stale(&dir), None);
+    assert!(!mark_stale(root.path(), &Error::analysis("no memory")));
 }

@@ -212,7 +212,7 @@ pub fn results(mesh: &Mesh) -> Results {
         }),
         warnings: vec!["tri3 elements lock where they yield".into()],
         resumed: 2,
-        incomplete: Some("stopped by the user".into()),
+        incomplete: Some("stopped on request".into()),
         incomplete_kind: Some(brinell::ErrorKind::Stopped),
     }
 }

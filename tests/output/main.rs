@@ -6,6 +6,8 @@ mod fields;
 mod fixture;
 #[path = "../running/interpreter.rs"]
 mod interpreter;
+#[path = "../running/limit.rs"]
+mod limit;
 mod python;
 mod report;
 mod summary;

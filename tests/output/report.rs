@@ -30,7 +30,7 @@ fn run(scene: &str, overrides: &[&str], out: &Path) {
     for value in overrides {
         command.args(["--set", value]);
     }
-    let run = command.output().unwrap();
+    let run = crate::limit::output(&mut command);
     let text = String::from_utf8_lossy(&run.stderr);
     assert!(run.status.success(), "{scene}: {text}");
 }
@@ -196,12 +196,12 @@ fn figures_are_the_same_for_any_number_of_threads() {
     let mut runs = Vec::new();
     for threads in ["1", "3"] {
         let dir = temporary.path().join(threads);
-        let run = Command::new(env!("CARGO_BIN_EXE_brinell"))
-            .args(["run", "-q", "--threads", threads, "--out"])
-            .arg(&dir)
-            .arg(root.join("data/scenes/three_bodies.toml"))
-            .output()
-            .unwrap();
+        let run = crate::limit::output(
+            Command::new(env!("CARGO_BIN_EXE_brinell"))
+                .args(["run", "-q", "--threads", threads, "--out"])
+                .arg(&dir)
+                .arg(root.join("data/scenes/three_bodies.toml")),
+        );
         assert!(run.status.success());
         runs.push(figures(&dir));
     }
@@ -216,11 +216,11 @@ fn a_report_can_be_left_out_and_goes_with_its_result() {
     assert!(dir.join("report.html").exists() && dir.join("report_scene.svg").exists());
     std::fs::write(dir.join("mine.svg"), "mine").unwrap();
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes/contact_patch.toml");
-    let again = Command::new(env!("CARGO_BIN_EXE_brinell"))
-        .args(["run", "-q", "--no-report", "--out"])
-        .args([&dir, &scene])
-        .output()
-        .unwrap();
+    let again = crate::limit::output(
+        Command::new(env!("CARGO_BIN_EXE_brinell"))
+            .args(["run", "-q", "--no-report", "--out"])
+            .args([&dir, &scene]),
+    );
     assert!(again.status.success());
     assert!(!dir.join("report.html").exists() && !dir.join("report_scene.svg").exists());
     assert!(dir.join("mine.svg").exists() && dir.join("summary.json").exists());
@@ -231,11 +231,11 @@ fn a_report_can_be_left_out_and_goes_with_its_result() {
 fn a_report_is_made_anew_from_its_directory_to_the_byte() {
     let temporary = tempfile::tempdir().unwrap();
     let view = |dir: &Path| {
-        Command::new(env!("CARGO_BIN_EXE_brinell"))
-            .arg("view")
-            .arg(dir)
-            .output()
-            .unwrap()
+        crate::limit::output(
+            Command::new(env!("CARGO_BIN_EXE_brinell"))
+                .arg("view")
+                .arg(dir),
+        )
     };
     for (scene, overrides) in [
         (

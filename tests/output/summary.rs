@@ -109,7 +109,7 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
         },
         "warnings": ["tri3 elements lock where they yield"],
         "resumed": 2,
-        "incomplete": "stopped by the user"
+        "incomplete": "stopped on request"
     });
     assert_eq!(value, expected);
 }

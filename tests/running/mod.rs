@@ -1,6 +1,8 @@
 //! Running scenes in tests, and comparing what came out.
 #![allow(dead_code)] // every test binary uses a part of it
 
+pub mod limit;
+
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::mesh::Mesh;
@@ -20,12 +22,14 @@ pub fn scene_file(name: &str) -> PathBuf {
 
 /// A scene of `data/scenes` with values overridden.
 pub fn load(name: &str, overrides: &[&str]) -> Scene {
+    limit::watch();
     let overrides: Vec<String> = overrides.iter().map(|o| o.to_string()).collect();
     Scene::load_with(scene_file(name), &overrides).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
 /// A scene from its text.
 pub fn parse(text: &str) -> Scene {
+    limit::watch();
     Scene::parse(text, "test.toml").unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 

@@ -1,7 +1,7 @@
 //! Killed at any moment: `kill -9` leaves no time to tidy up.
 #![cfg(unix)]
 
-use crate::running::scene_file;
+use crate::running::{limit, scene_file};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -43,7 +43,7 @@ fn a_run_killed_again_and_again_has_the_results_of_one_that_was_not() {
     let folder = tempfile::tempdir().unwrap();
     let (plain, killed) = (folder.path().join("plain"), folder.path().join("killed"));
     let begin = Instant::now();
-    let output = start(&plain, &[]).wait_with_output().unwrap();
+    let output = limit::finish(start(&plain, &[]));
     assert!(
         output.status.success(),
         "{}",
@@ -74,7 +74,9 @@ fn a_run_killed_again_and_again_has_the_results_of_one_that_was_not() {
             k if k % 2 == 0 => Some(Instant::now() + whole.mul_f64(0.6 * chance)),
             _ => None,
         };
+        let started = Instant::now();
         let ended = loop {
+            assert!(started.elapsed() < limit::PROCESS, "the run does not end");
             if let Some(status) = child.try_wait().unwrap() {
                 break Some(status);
             }
@@ -143,7 +145,7 @@ fn same_results(plain: &Path, other: &Path) {
 fn a_run_stopped_by_the_user_goes_on() {
     let folder = tempfile::tempdir().unwrap();
     let (plain, stopped) = (folder.path().join("plain"), folder.path().join("stopped"));
-    assert!(start(&plain, &[]).wait().unwrap().success());
+    assert!(limit::wait(&mut start(&plain, &[])).success());
     let checkpoint = folder.path().join("stopped.checkpoint/checkpoint");
     for attempt in 0.. {
         let mut child = start(&stopped, &["--checkpoint=3"]);
@@ -153,7 +155,7 @@ fn a_run_stopped_by_the_user_goes_on() {
         let signal = ["-INT", &child.id().to_string()].map(str::to_owned);
         // It fails where the run has come to its end in the meantime.
         let _ = Command::new("kill").args(signal).status().unwrap();
-        match child.wait().unwrap().code() {
+        match limit::wait(&mut child).code() {
             Some(130) => break,
             Some(0) if attempt < 5 => std::fs::remove_dir_all(&stopped).unwrap(),
             code => panic!("{code:?}"),
@@ -161,7 +163,7 @@ fn a_run_stopped_by_the_user_goes_on() {
     }
     assert!(summary(&stopped)["incomplete"].is_string());
     assert!(checkpoint.is_file());
-    assert!(start(&stopped, &["--resume"]).wait().unwrap().success());
+    assert!(limit::wait(&mut start(&stopped, &["--resume"])).success());
     same_results(&plain, &stopped);
     assert!(!checkpoint.exists());
 }
@@ -173,7 +175,7 @@ fn a_demanded_accuracy_leaves_no_checkpoints() {
     let out = folder.path().join("out");
     for option in ["--checkpoint", "--resume"] {
         let refused = start(&out, &["--accuracy", "5%", option]);
-        let output = refused.wait_with_output().unwrap();
+        let output = limit::finish(refused);
         let stderr = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(2), "{stderr}");
         assert!(stderr.contains("accuracy"), "{stderr}");

@@ -91,22 +91,14 @@ fn lost_accuracy_has_a_warning_and_an_exit_code() {
     let folder = std::env::temp_dir().join(format!("brinell-inaccurate-{}", std::process::id()));
     let tight = [LOOSE[0], "analysis.tolerance=1e-9"];
     for (set, code) in [(tight, 0), (LOOSE, 7)] {
-        let output = std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
-            .args([
-                "run",
-                "-q",
-                "--json",
-                "--no-estimate",
-                "--set",
-                set[0],
-                "--set",
-                set[1],
-            ])
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_brinell"));
+        command
+            .args(["run", "-q", "--json", "--no-estimate"])
+            .args(["--set", set[0], "--set", set[1]])
             .arg("--out")
             .arg(&folder)
-            .arg(crate::running::scene_file("hard/unload_reload"))
-            .output()
-            .unwrap();
+            .arg(crate::running::scene_file("hard/unload_reload"));
+        let output = crate::running::limit::output(&mut command);
         assert_eq!(output.status.code(), Some(code), "{output:?}");
         let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         let inaccurate = summary["inaccurate"].as_array().unwrap();

@@ -1,6 +1,68 @@
 //! Which BLAS does the work, and on how many threads.
 //!
 //! CHOLMOD spends its time in BLAS: without an optimised one it is several times slower.
+//!
+//! OpenBLAS takes a work buffer of up to 128 MB of address space for each thread, and asks for it again without end where
+//! the system refuses. So where the address space is limited (`ulimit -v`), one caller at a time enters the BLAS ([`enter`]), and
+//! the first makes sure beforehand that there is room for its buffer.
+
+use crate::error::{Error, Result};
+use crate::memory;
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
+
+/// Address space of the work buffer of one thread: the largest of OpenBLAS' builds (32 << 22 bytes).
+const BUFFER: f64 = (32u64 << 22) as f64;
+
+/// The right to call the BLAS; all threads have it at once where the address space has no limit.
+pub(super) type Entered = Option<MutexGuard<'static, bool>>;
+
+/// Enters the BLAS.
+///
+/// # Errors
+/// `Analysis` where the limits of the process leave no room for the work buffer.
+pub(super) fn enter() -> Result<Entered> {
+    static LIMITED: OnceLock<bool> = OnceLock::new();
+    static HAS_BUFFER: Mutex<bool> = Mutex::new(false);
+    if !cfg!(openblas) || !LIMITED.get_or_init(|| memory::limits().is_some()) {
+        return Ok(None);
+    }
+    let mut has_buffer = HAS_BUFFER.lock().unwrap_or_else(PoisonError::into_inner);
+    if !*has_buffer {
+        let left = memory::limits().unwrap_or(f64::INFINITY);
+        if left < BUFFER {
+            return Err(Error::analysis(format!(
+                "out of memory: the BLAS needs a work buffer of {:.0} MB and the limits of this process leave {:.0} MB: \
+                 raise them (ulimit -v)",
+                BUFFER / 1e6,
+                (left / 1e6).floor()
+            )));
+        }
+        if blas_threads_are_too_many() {
+            set_blas_threads(1);
+        }
+        take_buffer();
+        *has_buffer = true;
+    }
+    Ok(Some(has_buffer))
+}
+
+/// Whether the limits of the process leave too little for the work buffers of all threads of the BLAS, as much for what else
+/// they hold, and for the work itself.
+pub fn blas_threads_are_too_many() -> bool {
+    let threads = blas_threads().unwrap_or(1);
+    let needed = 2.0 * BUFFER * (threads as f64 + 1.0);
+    threads > 1 && memory::limits().is_some_and(|left| left < needed)
+}
+
+/// Makes OpenBLAS take its work buffer, which it keeps.
+fn take_buffer() {
+    #[cfg(openblas)]
+    {
+        let (one, mut entry, mut info) = (1, 1.0, 0);
+        // SAFETY: a matrix of one row, whose only entry is read and written.
+        unsafe { openblas::dpotrf_(c"L".as_ptr(), &one, &mut entry, &one, &mut info) };
+    }
+}
 
 /// The configuration functions of OpenBLAS, from `ffi/openblas.h`.
 #[cfg(openblas)]

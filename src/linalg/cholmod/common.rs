@@ -13,6 +13,9 @@ pub(super) struct Common {
 // thread: what one thread started another may use.
 unsafe impl Send for Common {}
 
+/// Memory that must be there before METIS is called, in multiples of the workspace that CHOLMOD expects of it.
+const METIS_RESERVE: f64 = 2.0;
+
 impl Common {
     /// Starts CHOLMOD: silent, one given ordering, left-looking LL'.
     pub(super) fn start() -> Result<Self> {
@@ -41,6 +44,8 @@ impl Common {
         raw.final_ll = 1;
         raw.quick_return_if_not_posdef = 1;
         raw.useGPU = 0;
+        // METIS ends the process where its memory runs out: CHOLMOD asks beforehand whether there is enough.
+        raw.metis_memory = METIS_RESERVE;
         Ok(Common { raw })
     }
 
@@ -62,6 +67,12 @@ impl Common {
 
     /// The error that the last call left, if any; `what` was being done on `n` freedoms.
     pub(super) fn check(&self, what: &str, n: usize) -> Result<()> {
+        // Order, tree and counts of the columns, as long integers.
+        self.check_asking(what, n, 80.0 * n as f64)
+    }
+
+    /// As [`Common::check`], where the call needed about so many `bytes`.
+    pub(super) fn check_asking(&self, what: &str, n: usize, bytes: f64) -> Result<()> {
         let status = self.raw.status;
         if status >= sys::CHOLMOD_OK as i32 {
             return Ok(());
@@ -71,8 +82,9 @@ impl Common {
             sys::CHOLMOD_OUT_OF_MEMORY => Error::new(
                 ErrorKind::Analysis,
                 format!(
-                    "out of memory in the {what} of {n} freedoms, with {used:.0} MB in use by CHOLMOD: \
-                     use a coarser mesh, a smaller zone or a machine with more memory"
+                    "out of memory in the {what} of {n} freedoms: it asked for about {:.0} MB, with {used:.0} MB in \
+                     use by CHOLMOD: use a coarser mesh, a smaller zone or a machine with more memory",
+                    (bytes / 1e6).ceil()
                 ),
             ),
             sys::CHOLMOD_TOO_LARGE => Error::new(

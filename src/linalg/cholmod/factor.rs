@@ -1,5 +1,6 @@
 //! `cholmod_factor`: analyse, factorise, read columns, solve.
 
+use super::blas;
 use super::common::Common;
 use super::pages::prefer_large;
 use super::sparse::SymmetricView;
@@ -94,6 +95,7 @@ impl Factor {
             return Ok(());
         }
         // SAFETY: the factor is valid and symbolic; on success `x` holds `xsize` doubles.
+        // What it holds is read anew below, after the check.
         let raw = unsafe {
             sys::cholmod_l_change_factor(
                 sys::CHOLMOD_REAL as i32,
@@ -106,7 +108,9 @@ impl Factor {
             );
             self.raw.as_ref()
         };
-        self.common.check("factorisation", raw.n)?;
+        let (n, bytes) = (raw.n, raw.xsize as f64 * 8.0);
+        self.common.check_asking("factorisation", n, bytes)?;
+        let raw = self.raw();
         prefer_large(raw.x, raw.xsize * size_of::<f64>());
         Ok(())
     }
@@ -118,7 +122,8 @@ impl Factor {
         unsafe {
             sys::cholmod_l_factorize(matrix.as_ptr(), self.raw.as_ptr(), self.common.as_mut());
         }
-        self.common.check("factorisation", n)?;
+        let needed = self.bytes(matrix.rows().len());
+        self.common.check_asking("factorisation", n, needed)?;
         // CHOLMOD reports success on an indefinite matrix and stops at the column `minor`.
         let minor = self.raw().minor;
         if self.common.get().status == sys::CHOLMOD_NOT_POSDEF as i32 || minor < n {
@@ -230,6 +235,7 @@ impl Factor {
             System::Whole => sys::CHOLMOD_A,
             System::Lower => sys::CHOLMOD_L,
         };
+        let _entered = blas::enter()?;
         let [y, e] = &mut self.workspace;
         // SAFETY: `right` and `load` are only read; the handles are null or came from this very
         // function, which keeps or reallocates them.

@@ -32,7 +32,7 @@ mod tests;
 mod trailing;
 mod tree;
 
-pub use blas::{blas_name, blas_threads, set_blas_threads};
+pub use blas::{blas_name, blas_threads, blas_threads_are_too_many, set_blas_threads};
 pub use common::cholmod_version;
 pub use ordering::Method;
 
@@ -41,6 +41,7 @@ use super::{
     check, smallest_pivot_ratio,
 };
 use crate::error::{Error, Result};
+use crate::memory;
 use backward::Backward;
 use common::Common;
 use factor::{Factor, System};
@@ -106,6 +107,12 @@ impl CholmodCondensed {
         let groups = Groups::new(partition);
         let (mut factor, name) = analyze(common, matrix, &groups, method)?;
         let cost = prediction(&factor, name, matrix, &groups);
+        // The matrix itself is there already.
+        let needed = cost.memory_bytes - 16.0 * matrix.nnz() as f64;
+        memory::require(
+            &format!("factorisation of {} freedoms", partition.n),
+            needed,
+        )?;
 
         // A copy of the values, shifted for the factorisation.
         let mut values = matrix.data().to_vec();
@@ -116,6 +123,7 @@ impl CholmodCondensed {
         }
         {
             let _serial = Serial::new();
+            let _entered = blas::enter()?;
             factor.allocate()?;
             factor.factorize(&SymmetricView::with_values(matrix, &values))?;
         }
@@ -322,7 +330,10 @@ fn unconstrained(matrix: &SymmetricCsc, load: Option<&[f64]>) -> Result<Unconstr
     common.choose_ordering();
     let mut factor = Factor::analyze(common, &SymmetricView::pattern(matrix), None)?;
     let analyse_seconds = lap();
-    factor.factorize(&SymmetricView::with_values(matrix, matrix.data()))?;
+    {
+        let _entered = blas::enter()?;
+        factor.factorize(&SymmetricView::with_values(matrix, matrix.data()))?;
+    }
     let factor_seconds = lap();
     if let Some(load) = load {
         factor.solve(System::Whole, load)?;

@@ -1,6 +1,7 @@
 //! What a generator accepts: finite sizes of the right sign, and a mesh that fits in memory.
 
 use crate::mesh::Shape;
+use crate::text::exact;
 use crate::{Error, Result};
 
 /// Most elements a generator makes.
@@ -15,7 +16,8 @@ pub(super) fn positive(key: &str, value: f64) -> Result<()> {
         return Ok(());
     }
     Err(Error::input(format!(
-        "{key} = {value}: give a positive number between {:e} and {LARGEST:e}",
+        "{key} = {}: give a positive number between {:e} and {LARGEST:e}",
+        exact(value),
         1.0 / LARGEST
     )))
 }
@@ -26,7 +28,8 @@ pub(super) fn finite(key: &str, value: f64) -> Result<()> {
         return Ok(());
     }
     Err(Error::input(format!(
-        "{key} = {value}: give a number of at most {LARGEST:e}"
+        "{key} = {}: give a number of at most {LARGEST:e}",
+        exact(value)
     )))
 }
 
@@ -38,7 +41,9 @@ pub(super) fn range(key: &str, [from, to]: [f64; 2]) -> Result<()> {
         return Ok(());
     }
     Err(Error::input(format!(
-        "{key} = [{from}, {to}]: the second number must be greater than the first"
+        "{key} = [{}, {}]: the second number must be greater than the first",
+        exact(from),
+        exact(to)
     )))
 }
 

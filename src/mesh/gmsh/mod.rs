@@ -23,6 +23,7 @@ mod write;
 pub use write::write;
 
 use super::Mesh;
+use crate::files;
 use crate::{Error, ErrorKind, Result};
 use content::Content;
 use cursor::Cursor;
@@ -34,7 +35,7 @@ use version4::Entities;
 /// # Errors
 /// An I/O error if the file cannot be read, and those of [`parse`].
 pub fn read(path: &Path) -> Result<Mesh> {
-    let text = std::fs::read(path).map_err(|cause| Error::io("read the mesh file", path, cause))?;
+    let text = files::read("read the mesh file", path, None)?;
     parse(&text, &path.display().to_string())
 }
 

@@ -32,10 +32,12 @@ use super::number::significant;
 use crate::error::Result;
 use crate::model::Model;
 use crate::results::{Results, State};
+use crate::text::shown;
 use drawing::Drawing;
 use fields::{Gallery, Quantity};
 use page::{Figure, Figures};
 use rayon::prelude::*;
+use std::borrow::Cow;
 use units::Units;
 
 /// The page.
@@ -114,6 +116,12 @@ pub(super) fn files(
         REPORT_FILE.to_string(),
         page::page(header, model, results, &units, &figures),
     ));
+    for (_, text) in &mut out {
+        // Titles and names with characters that are no XML.
+        if let Cow::Owned(escaped) = shown(text) {
+            *text = escaped;
+        }
+    }
     Ok(out)
 }
 

@@ -2,6 +2,7 @@
 
 use super::Checks;
 use crate::scene::{Contact, History, Kind, Load, Scene};
+use crate::text::exact;
 use std::collections::BTreeSet;
 
 impl Checks {
@@ -64,7 +65,10 @@ impl Checks {
             self.require(
                 gap >= 0.0,
                 format!("{key}.gap"),
-                format!("{gap} is negative; an overlap is given by `interference`"),
+                format!(
+                    "{} is negative; an overlap is given by `interference`",
+                    exact(gap)
+                ),
             );
         }
     }
@@ -111,9 +115,15 @@ impl Checks {
                     format!("{key}.{}", index + 1),
                     format!(
                         "load factor {} must be greater than {} of the row before",
-                        pair[1][0], pair[0][0]
+                        exact(pair[1][0]),
+                        exact(pair[0][0])
                     ),
                 );
+                if pair[1][0] > pair[0][0] {
+                    let slope = (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
+                    let key = format!("{key}.{}", index + 1);
+                    self.slope(key, "the slope from the row before", slope);
+                }
             }
         }
     }

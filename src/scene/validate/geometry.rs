@@ -4,6 +4,7 @@ use super::Checks;
 use crate::scene::{
     Block, CylinderOnHalfPlane, Disc, DiscInPlate, Kind, MeshSource, Part, Ring, Scene,
 };
+use crate::text::exact;
 use std::collections::BTreeSet;
 
 impl Checks {
@@ -86,8 +87,9 @@ impl Checks {
             parameters.far_size > fine,
             key("far_size"),
             format!(
-                "{} must be greater than fine_width and fine_depth ({fine})",
-                parameters.far_size
+                "{} must be greater than fine_width and fine_depth ({})",
+                exact(parameters.far_size),
+                exact(fine)
             ),
         );
         match parameters.half_width {
@@ -97,8 +99,9 @@ impl Checks {
                     half_width < parameters.radius,
                     key("half_width"),
                     format!(
-                        "{half_width} must be less than the radius ({}): small deformation",
-                        parameters.radius
+                        "{} must be less than the radius ({}): small deformation",
+                        exact(half_width),
+                        exact(parameters.radius)
                     ),
                 );
             }
@@ -127,7 +130,7 @@ impl Checks {
             key("far_radius"),
             format!(
                 "{} must be greater than 1: it is counted in hole radii",
-                parameters.far_radius
+                exact(parameters.far_radius)
             ),
         );
         self.at_least(key("growth"), parameters.growth, 1.0);
@@ -139,7 +142,8 @@ impl Checks {
             key("interference"),
             format!(
                 "{} must be small against the radius ({})",
-                parameters.interference, parameters.radius
+                exact(parameters.interference),
+                exact(parameters.radius)
             ),
         );
         self.require(
@@ -180,7 +184,11 @@ impl Checks {
             self.require(
                 from < to,
                 format!("{key}.{name}"),
-                format!("[{from}, {to}] must run from the smaller to the larger coordinate"),
+                format!(
+                    "[{}, {}] must run from the smaller to the larger coordinate",
+                    exact(from),
+                    exact(to)
+                ),
             );
             self.count(format!("{key}.elements.{index}"), block.elements[index], 1);
             self.positive(format!("{key}.bias.{index}"), block.bias[index]);
@@ -190,7 +198,7 @@ impl Checks {
             format!("{key}.x"),
             format!(
                 "{} is left of the axis: in an axisymmetric model x is the radius",
-                block.x[0]
+                exact(block.x[0])
             ),
         );
         let sides = ["left", "right", "bottom", "top"];
@@ -219,7 +227,11 @@ impl Checks {
             self.require(
                 piece.from < piece.to,
                 key,
-                format!("from = {} must be less than to = {}", piece.from, piece.to),
+                format!(
+                    "from = {} must be less than to = {}",
+                    exact(piece.from),
+                    exact(piece.to)
+                ),
             );
         }
     }
@@ -230,14 +242,20 @@ impl Checks {
             inner > 0.0 && inner < outer,
             format!("{key}.radius"),
             format!(
-                "[{inner}, {outer}] must be positive and ascending (a disc has no inner radius)"
+                "[{}, {}] must be positive and ascending (a disc has no inner radius)",
+                exact(inner),
+                exact(outer)
             ),
         );
         let [start, end] = ring.angle;
         self.require(
             start < end && end - start <= 360.0,
             format!("{key}.angle"),
-            format!("[{start}, {end}] must be ascending and at most 360 degrees apart"),
+            format!(
+                "[{}, {}] must be ascending and at most 360 degrees apart",
+                exact(start),
+                exact(end)
+            ),
         );
         for index in 0..2 {
             self.count(format!("{key}.elements.{index}"), ring.elements[index], 1);
@@ -251,7 +269,11 @@ impl Checks {
         self.require(
             [90.0, 180.0, 360.0].contains(&(end - start)),
             format!("{key}.angle"),
-            format!("[{start}, {end}] must be 90, 180 or 360 degrees apart"),
+            format!(
+                "[{}, {}] must be 90, 180 or 360 degrees apart",
+                exact(start),
+                exact(end)
+            ),
         );
         self.require(
             disc.elements >= 2 && disc.elements.is_multiple_of(2),

@@ -3,6 +3,7 @@
 use super::Checks;
 use crate::scene::read::closest;
 use crate::scene::{Material, Plastic, Scene};
+use crate::text::exact;
 
 impl Checks {
     pub(super) fn materials(&mut self, scene: &Scene) {
@@ -42,12 +43,12 @@ impl Checks {
     }
 
     fn material(&mut self, key: &str, material: &Material) {
-        self.positive(format!("{key}.youngs_modulus"), material.youngs_modulus);
+        self.stress(format!("{key}.youngs_modulus"), material.youngs_modulus);
         let nu = material.poissons_ratio;
         self.require(
             nu > -1.0 && nu < 0.5,
             format!("{key}.poissons_ratio"),
-            format!("{nu} must lie between -1 and 0.5, ends excluded"),
+            format!("{} must lie between -1 and 0.5, ends excluded", exact(nu)),
         );
         let hardening = [
             ("plastic_modulus", material.plastic_modulus.is_some()),
@@ -67,19 +68,30 @@ impl Checks {
             }
             return;
         };
-        self.positive(format!("{key}.yield_stress"), yield_stress);
+        self.stress(format!("{key}.yield_stress"), yield_stress);
         if let Some(modulus) = material.plastic_modulus {
-            self.at_least(format!("{key}.plastic_modulus"), modulus, 0.0);
+            let key = format!("{key}.plastic_modulus");
+            self.at_least(key.as_str(), modulus, 0.0);
+            self.slope(key, "the slope", modulus);
         }
         if let Some(tangent) = material.tangent_modulus {
             self.require(
                 tangent >= 0.0 && tangent < material.youngs_modulus,
                 format!("{key}.tangent_modulus"),
                 format!(
-                    "{tangent} must be at least 0 and less than Young's modulus ({})",
-                    material.youngs_modulus
+                    "{} must be at least 0 and less than Young's modulus ({})",
+                    exact(tangent),
+                    exact(material.youngs_modulus)
                 ),
             );
+            let slope = material.youngs_modulus * tangent / (material.youngs_modulus - tangent);
+            if tangent >= 0.0 && tangent < material.youngs_modulus {
+                self.slope(
+                    format!("{key}.tangent_modulus"),
+                    "the slope against plastic strain",
+                    slope,
+                );
+            }
         }
         if let Some(table) = &material.hardening_table {
             self.hardening_table(&format!("{key}.hardening_table"), table, yield_stress);
@@ -95,7 +107,10 @@ impl Checks {
             strain == 0.0 && stress == yield_stress,
             format!("{key}.0"),
             format!(
-                "[{strain}, {stress}] must be [0, {yield_stress}]: plastic strain 0, yield_stress"
+                "[{}, {}] must be [0, {}]: plastic strain 0, yield_stress",
+                exact(strain),
+                exact(stress),
+                exact(yield_stress)
             ),
         );
         for (index, pair) in table.windows(2).enumerate() {
@@ -105,17 +120,24 @@ impl Checks {
                 strain1 > strain0,
                 key.as_str(),
                 format!(
-                    "plastic strain {strain1} must be greater than {strain0} of the row before"
+                    "plastic strain {} must be greater than {} of the row before",
+                    exact(strain1),
+                    exact(strain0)
                 ),
             );
             self.require(
                 stress1 >= stress0,
-                key,
+                key.as_str(),
                 format!(
-                    "yield stress {stress1} is less than {stress0} of the row before: \
-                     softening has no unique solution"
+                    "yield stress {} is less than {} of the row before: softening has no unique solution",
+                    exact(stress1),
+                    exact(stress0)
                 ),
             );
+            if strain1 > strain0 {
+                let slope = (stress1 - stress0) / (strain1 - strain0);
+                self.slope(key, "the slope from the row before", slope);
+            }
         }
     }
 }

@@ -5,8 +5,9 @@ mod geometry;
 mod material;
 mod program;
 
-use super::{History, Scene};
+use super::{History, Kind, Scene};
 use crate::error::{Error, Result};
+use crate::text::exact;
 use std::fmt;
 
 impl Scene {
@@ -66,6 +67,9 @@ impl Scene {
     }
 }
 
+/// Sizes, stresses and slopes beyond this, or below its inverse, overflow or vanish when they are multiplied by one another.
+const LARGEST: f64 = 1e100;
+
 /// Something wrong with the value at a key path.
 pub(super) struct Problem {
     /// Key path, `contact.0.gap`.
@@ -79,6 +83,34 @@ impl fmt::Display for Problem {
             f.write_str(&self.message)
         } else {
             write!(f, "{}: {}", self.key, self.message)
+        }
+    }
+}
+
+/// What is wrong with a number of copies that make the whole.
+fn symmetry_problem(kind: Kind, copies: usize) -> Option<String> {
+    let allowed: &[usize] = match kind {
+        Kind::Axisymmetric => &[1, 2],
+        _ => &[1, 2, 4],
+    };
+    let words = match kind {
+        Kind::Axisymmetric => {
+            "1 (all of it is meshed) or 2 (half of it, above or below a plane of symmetry)"
+        }
+        _ => "1 (all of it is meshed), 2 (a half) or 4 (a quarter)",
+    };
+    (!allowed.contains(&copies)).then(|| format!("{copies} must be {words}"))
+}
+
+impl Kind {
+    /// Whether so many copies of a model of this kind can make the whole.
+    ///
+    /// # Errors
+    /// `Input` naming the value and those that are possible.
+    pub fn check_symmetry(self, copies: usize) -> Result<()> {
+        match symmetry_problem(self, copies) {
+            Some(message) => Err(Error::input(format!("symmetry: {message}"))),
+            None => Ok(()),
         }
     }
 }
@@ -111,7 +143,7 @@ impl Checks {
         checks.finite(scene);
         // A comparison with NaN would only repeat the problem in other words.
         if checks.problems.is_empty() {
-            checks.count("symmetry", scene.symmetry, 1);
+            checks.symmetry(scene);
             geometry(&mut checks, scene);
             checks.materials(scene);
             checks.boundary(scene);
@@ -139,7 +171,37 @@ impl Checks {
         self.require(
             value > 0.0,
             key,
-            format!("{value} must be greater than zero"),
+            format!("{} must be greater than zero", exact(value)),
+        );
+    }
+
+    /// A stress or a modulus: positive, and of a size that can be multiplied by its like.
+    fn stress(&mut self, key: impl Into<String>, value: f64) {
+        let range = 1.0 / LARGEST..=LARGEST;
+        self.require(
+            range.contains(&value),
+            key,
+            if value > 0.0 {
+                let value = exact(value);
+                format!(
+                    "{value} must lie between {:e} and {LARGEST:e}",
+                    1.0 / LARGEST
+                )
+            } else {
+                format!("{} must be greater than zero", exact(value))
+            },
+        );
+    }
+
+    /// A slope that was computed from values of `key`.
+    fn slope(&mut self, key: impl Into<String>, what: &str, slope: f64) {
+        self.require(
+            slope.abs() <= LARGEST,
+            key,
+            format!(
+                "{what} is {}, beyond {LARGEST:e}: it would overflow",
+                exact(slope)
+            ),
         );
     }
 
@@ -147,7 +209,7 @@ impl Checks {
         self.require(
             value >= least,
             key,
-            format!("{value} must be at least {least}"),
+            format!("{} must be at least {}", exact(value), exact(least)),
         );
     }
 
@@ -156,6 +218,14 @@ impl Checks {
             value >= least,
             key,
             format!("{value} must be at least {least}"),
+        );
+    }
+
+    fn at_most(&mut self, key: impl Into<String>, value: usize, most: usize) {
+        self.require(
+            value <= most,
+            key,
+            format!("{value} is too many: at most {most}"),
         );
     }
 
@@ -180,6 +250,16 @@ impl Checks {
                 format!("{n} of {what} given ({}); keep exactly one", names(true)),
             ),
         }
+    }
+
+    /// The lines of symmetry of a plane are the axes x and y, of a body of revolution there is one: a model is the whole,
+    /// a half or a quarter.
+    fn symmetry(&mut self, scene: &Scene) {
+        let problem = symmetry_problem(scene.kind, scene.symmetry);
+        self.problems.extend(problem.map(|message| Problem {
+            key: "symmetry".to_string(),
+            message,
+        }));
     }
 
     /// No number of the scene may be NaN or infinite. A file cannot bring one here, a caller can.

@@ -2,7 +2,12 @@
 
 use super::Checks;
 use crate::scene::{History, Kind, Scene, Target, Unit};
+use crate::text::exact;
 use std::collections::BTreeSet;
+
+/// Each increment leaves a row of the history, and each target a state with all its contact pairs.
+const MOST_STEPS: usize = 10_000_000;
+const MOST_TARGETS: usize = 10_000;
 
 impl Checks {
     pub(super) fn program(&mut self, scene: &Scene) {
@@ -10,9 +15,14 @@ impl Checks {
         self.require(
             program.gamma > 0.0 && program.gamma <= 0.5,
             "program.gamma",
-            format!("{} must be greater than 0 and at most 0.5", program.gamma),
+            format!(
+                "{} must be greater than 0 and at most 0.5",
+                exact(program.gamma)
+            ),
         );
         self.count("program.steps", program.steps, 1);
+        self.at_most("program.steps", program.steps, MOST_STEPS);
+        self.at_most("program.targets", program.targets.len(), MOST_TARGETS);
         self.require(
             !program.targets.is_empty(),
             "program.targets",
