@@ -87,6 +87,8 @@ pub fn results(mesh: &Mesh) -> Results {
         half_width: 1.5,
         contact_arc: Some([-19.625, 19.625]),
         residual_depth: 0.01,
+        residual_depth_by_body: vec![0.006, 0.004],
+        rim_height: 0.001,
         plastic_points: 7,
         plastic_points_by_body: vec![3, 4],
         max_equivalent_plastic_strain: 0.02,

@@ -127,7 +127,7 @@ fn candidates_reach_as_far_as_the_contact_with_enough_elements_over_any_part_of_
         let x = corners(9.0);
         let last = x[x.len() - 1];
         assert!(
-            last >= 9.0 * HALF_WIDTH && last < 11.0 * HALF_WIDTH,
+            (9.0 * HALF_WIDTH..11.0 * HALF_WIDTH).contains(&last),
             "{last}"
         );
         for (k, &edge) in x.iter().enumerate().skip(p.resolution) {
