@@ -38,6 +38,9 @@
 // The run is complete, but a state's quality misses its tolerance, or an accuracy that the scene demands was not reached.
 #define BRINELL_INACCURATE 7
 
+// Contact reached the end of its candidates although the bodies go on there.
+#define BRINELL_OUTGROWN 8
+
 // A fault of brinell itself.
 #define BRINELL_INTERNAL 70
 
@@ -456,8 +459,8 @@ const char *brinell_version(void);
 // The version of this interface: raised where a program built against an older header would break.
 uint32_t brinell_abi_version(void);
 
-// Reads a scene file, with `n_overrides` texts "key.path=value" put over it (as `--set` of the program: tables
-// are merged, "key=" removes a key; NULL and 0 for none).
+// Reads a scene file, with `n_overrides` texts "key.path=value" put over it (as `--set` of the
+// program: tables are merged, "key=" removes a key; NULL and 0 for none).
 int32_t brinell_scene_load(const char *path,
                            const char *const *overrides,
                            size_t n_overrides,
