@@ -59,18 +59,23 @@ fn null_and_nonsense_are_refused_with_a_message() {
 fn lost_accuracy_has_a_status() {
     let path = concat!(
         env!("CARGO_MANIFEST_DIR"),
-        "/data/scenes/hard/floating_body.toml"
+        "/data/scenes/hard/unload_reload.toml"
     );
     let path = CString::new(path).unwrap();
-    for (gap, expected) in [("0.01", BRINELL_OK), ("1e8", BRINELL_INACCURATE)] {
-        let set = CString::new(format!("contact.0.gap={gap}")).unwrap();
+    // Iterated to forces that are a hundredth out of balance.
+    for (tolerance, expected) in [("1e-9", BRINELL_OK), ("0.0099", BRINELL_INACCURATE)] {
+        let tolerance = CString::new(format!("analysis.tolerance={tolerance}")).unwrap();
+        let sets = [
+            c"analysis.plastic_iteration=plain".as_ptr(),
+            tolerance.as_ptr(),
+        ];
         let (mut scene, mut results) = (null_mut(), null_mut());
         // SAFETY: texts and places live through the calls, handles are freed once.
         unsafe {
-            let loaded = brinell_scene_load(path.as_ptr(), [set.as_ptr()].as_ptr(), 1, &mut scene);
+            let loaded = brinell_scene_load(path.as_ptr(), sets.as_ptr(), 2, &mut scene);
             assert_eq!(loaded, BRINELL_OK, "{}", message());
             let status = brinell_run(scene, null(), None, null_mut(), &mut results);
-            assert_eq!(status, expected, "gap {gap}");
+            assert_eq!(status, expected, "{tolerance:?}");
             assert!(!results.is_null());
             brinell_results_free(results);
             brinell_scene_free(scene);
