@@ -183,7 +183,8 @@ fn widest(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<[f6
             History::Table(rows) => largest(&mut rows.iter().map(|row| row[1])),
         };
         force += times * normal_force(scene, load, size);
-        depth += times * load.displacement.and_then(|d| d.y).map_or(0.0, f64::abs);
+        let prescribed = load.displacement.unwrap_or_default();
+        depth += times * prescribed.y.unwrap_or(0.0).abs();
     }
     depth += largest(&mut scene.contact.iter().map(|c| c.interference));
     let at_yield = first.map_or(half_width, |(width, _)| width);

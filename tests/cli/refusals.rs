@@ -118,14 +118,14 @@ fn effects_that_brinell_has_not() {
 fn files_that_are_missing_or_of_another_kind() {
     refused_with(
         "contact_patch",
-        &["mesh={file=\"none.msh\"}"],
+        &["mesh.parts=", "mesh={file=\"none.msh\"}"],
         &[],
         3,
         &["cannot read the mesh file", "none.msh", "No such file"],
     );
     refused_with(
         "contact_patch",
-        &["mesh={file=\"contact_patch.toml\"}"],
+        &["mesh.parts=", "mesh={file=\"contact_patch.toml\"}"],
         &[],
         2,
         &["contact_patch.toml, line 1", "not a Gmsh mesh"],

@@ -370,7 +370,9 @@ def test_a_model_from_arrays_is_the_scene_to_the_last_bit():
     # Three steps to each target, and one more that ends at first yield.
     assert other.history["alpha"][-6:].tolist() == pytest.approx([0.75, 0.5, 0.25, 0.5, 0.75, 1.0], rel=1e-14)
     assert len(other.history["alpha"]) == 10
-    assert other[2].residual_depth == pytest.approx(expected[2].residual_depth, rel=1e-5)
+    # From first yield to the full load events take one increment, fixed steps two: each has an error of its path (three hundred
+    # steps give 0.0011465, one increment 0.17 % more).
+    assert other[2].residual_depth == pytest.approx(expected[2].residual_depth, rel=3e-3)
 
 
 def test_given_pairs_and_nodal_forces():
