@@ -26,6 +26,8 @@ Exit codes:
     6  the load passed the limit load of the bodies
     7  inaccurate: a state's quality misses its tolerance (do not trust it), or
        a demanded accuracy was not reached; the results are written
+    8  contact reached the end of its candidates although the bodies go on there;
+       what was computed before is written
    70  internal error, please report
   130  stopped by Ctrl-C, 143 by SIGTERM, 129 by SIGHUP (128 and the number of
        the signal); what was computed so far is written";

@@ -3,7 +3,9 @@
 use crate::analytical::{self, HertzLine, HertzPoint};
 use crate::error::{Error, Result};
 use crate::mesh::generate::{ContactSize, WIDEST};
-use crate::scene::{CylinderOnHalfPlane, Direction, History, Kind, Load, Plastic, Scene, Unit};
+use crate::scene::{
+    CylinderOnHalfPlane, Direction, Displacement, History, Kind, Load, Plastic, Scene, Unit,
+};
 use std::f64::consts::PI;
 
 /// Elastic contacts are meshed this much wider than Hertz has them: room for what is read off beside their edge.
@@ -149,8 +151,8 @@ pub(super) fn warning(scene: &Scene) -> Option<String> {
         )
     };
     Some(format!(
-        "under the largest load of the program the half width of contact may reach {wanted:.4}, its candidates end at \
-         {candidates:.4}, and the run where it reaches them: {remedy}"
+        "under the largest load of the program the half width of contact may reach {wanted:.4}; its candidates end at \
+         {candidates:.4}, and a contact that reaches their end stops the run: {remedy}"
     ))
 }
 
@@ -183,8 +185,7 @@ fn widest(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<[f6
             History::Table(rows) => largest(&mut rows.iter().map(|row| row[1])),
         };
         force += times * normal_force(scene, load, size);
-        let prescribed = load.displacement.unwrap_or_default();
-        depth += times * prescribed.y.unwrap_or(0.0).abs();
+        depth += times * prescribed(load.displacement.as_ref());
     }
     depth += largest(&mut scene.contact.iter().map(|c| c.interference));
     let at_yield = first.map_or(half_width, |(width, _)| width);
@@ -193,6 +194,13 @@ fn widest(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<[f6
         hertz.widest(force, first).max(ROOM * asked),
         (2.0 * PILE_UP * p.radius * depth).sqrt(),
     ])
+}
+
+/// Size of a prescribed displacement along y. Not inlined: the tag of `y` would be read before that of the displacement, which
+/// memory checkers of programs in C report.
+#[inline(never)]
+fn prescribed(displacement: Option<&Displacement>) -> f64 {
+    displacement.and_then(|d| d.y).map_or(0.0, f64::abs)
 }
 
 /// Total force along y of a load on the whole cylinder or ball, where its kind and place tell: the mesh is that of half a

@@ -35,6 +35,12 @@ pub(super) fn find(
         .flat_map(|end| [pairs[end.last].first, pairs[end.last].second])
         .collect();
     let boundary = Boundary::at(mesh, &nodes);
+    let candidates: BTreeSet<Facet> = contacts
+        .iter()
+        .flat_map(|contact| &contact.names)
+        .filter_map(|name| mesh.surfaces.get(name))
+        .flat_map(|surface| surface.facets.iter().copied())
+        .collect();
     let may_touch: BTreeSet<usize> = pairs.iter().flat_map(|p| [p.first, p.second]).collect();
     for end in ends {
         let side = |node_of: fn(&Pair) -> usize| {
@@ -44,7 +50,10 @@ pub(super) fn find(
         let (Some(first), Some(second)) = (side(|p| p.first), side(|p| p.second)) else {
             continue;
         };
-        let followed = may_touch.contains(&first.next) && may_touch.contains(&second.next);
+        // As at the seam of a closed surface.
+        let followed = [&first, &second]
+            .iter()
+            .all(|side| candidates.contains(&side.facet) && may_touch.contains(&side.next));
         if !followed && first.turn + second.turn < FEATURE_ANGLE {
             contacts[end.contact].goes_on.push(end.last);
         }
@@ -82,7 +91,8 @@ fn ends(freedoms: &Freedoms, pairs: &[Pair], contacts: &[ContactSurface]) -> Vec
 
 /// How a body's boundary goes on beyond a node.
 struct Beyond {
-    /// The next node.
+    /// The next facet, and its other end.
+    facet: Facet,
     next: usize,
     /// Angle in degrees by which it turns away from the other body; negative towards it.
     turn: f64,
@@ -151,6 +161,7 @@ impl<'m> Boundary<'m> {
         ];
         let left = sine.atan2(cosine).to_degrees();
         Some(Beyond {
+            facet: outside,
             next,
             turn: if enters { left } else { -left },
         })

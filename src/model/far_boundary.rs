@@ -9,9 +9,10 @@
 //! ```
 //!
 //! is linear in `u`: each `a_j` is a row of weights on the freedoms `f` of these nodes. `w_f` is the node's
-//! share in the loaded surface.
+//! share in a loaded surface times the work of that load on the motions: a load that presses elsewhere, or hardly at
+//! all, does not move the reference. A body on which no load works is measured from the mean of all its nodes.
 
-use super::{Freedoms, LoadCase, Pair, RigidMotion, Slot};
+use super::{Freedoms, LoadCase, RigidMotion, Slot};
 use nalgebra::{DMatrix, SymmetricEigen};
 use std::collections::BTreeMap;
 
@@ -19,33 +20,31 @@ use std::collections::BTreeMap;
 /// nodes: half of the digits are left.
 const TOLD_APART: f64 = 1e-8;
 
-/// Finds the weights of each motion ([`RigidMotion::in_far_boundary`]): on the loaded nodes of its part, on all
-/// of its nodes but those of contact pairs where there are none or where they do not tell the motions apart.
+/// Finds the weights of each motion ([`RigidMotion::in_far_boundary`]); `work(motion, load)` is the work that a load does on
+/// a motion.
 pub(super) fn measure(
     motions: &mut [RigidMotion],
     part_of_node: &[usize],
     freedoms: &Freedoms,
-    pairs: &[Pair],
     loads: &[LoadCase],
+    work: impl Fn(usize, &LoadCase) -> f64,
 ) {
-    let mut may_touch = vec![false; part_of_node.len()];
-    for pair in pairs {
-        may_touch[pair.first] = true;
-        may_touch[pair.second] = true;
-    }
     let mut parts: Vec<usize> = motions.iter().map(|motion| motion.part).collect();
     parts.sort_unstable();
     parts.dedup();
     for part in parts {
-        let belongs = |node: &usize| part_of_node[*node] == part && !may_touch[*node];
-        let loaded = loads
-            .iter()
-            .flat_map(|load| load.nodes.iter().copied().zip(load.shares.iter().copied()))
-            .filter(|(node, _)| belongs(node));
-        let all = (0..part_of_node.len()).filter(belongs).map(|n| (n, 1.0));
         let of_part: Vec<usize> = (0..motions.len())
             .filter(|&j| motions[j].part == part)
             .collect();
+        let belongs = |node: &usize| part_of_node[*node] == part;
+        let loaded = loads.iter().flat_map(|load| {
+            let works = of_part.iter().map(|&j| work(j, load).powi(2));
+            let works = works.sum::<f64>().sqrt();
+            let nodes = load.nodes.iter().copied().zip(&load.shares);
+            nodes.map(move |(node, share)| (node, works * share))
+        });
+        let loaded = loaded.filter(|(node, weight)| belongs(node) && *weight > 0.0);
+        let all = (0..part_of_node.len()).filter(belongs).map(|n| (n, 1.0));
         let values: Vec<&[(u32, f64)]> = of_part.iter().map(|&j| &*motions[j].values).collect();
         let fitted = fit(&values, &on_freedoms(freedoms, loaded))
             .or_else(|| fit(&values, &on_freedoms(freedoms, all)));

@@ -138,6 +138,7 @@ pub(super) fn resolve(
         })
         .collect();
     let part_of_node: Vec<usize> = motions.group_of_node.iter().map(|&g| part[g]).collect();
-    far_boundary::measure(&mut floating.motions, &part_of_node, freedoms, pairs, loads);
+    let work = |j: usize, load: &LoadCase| motions.work(&modes[j], load).0;
+    far_boundary::measure(&mut floating.motions, &part_of_node, freedoms, loads, work);
     Ok(floating)
 }

@@ -11,7 +11,7 @@ use crate::error::{Error, Result};
 use crate::mesh::surface::{PAIRING, facing, longest_facet, normals, ordered_nodes};
 use crate::mesh::{Curve, Mesh, Surface};
 use crate::scene::{Contact, Kind, Scene};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A pair of nodes that may touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -132,7 +132,6 @@ fn resolve_contact(
     };
     let facet_length = longest_facet(mesh, first).max(longest_facet(mesh, second));
     let tolerance = PAIRING * facet_length;
-    let areas = nodal_areas(scene, mesh, second);
     let partners = match given {
         Some(given) => {
             let names = [contact.first.as_str(), contact.second.as_str()];
@@ -161,6 +160,15 @@ fn resolve_contact(
             })
             .collect(),
     };
+
+    // Beyond the end of the shorter surface there is nothing to press on; who gives the pairs decides himself.
+    let faces: BTreeSet<usize> = second_nodes
+        .iter()
+        .zip(&partners)
+        .filter(|(_, partner)| given.is_some() || partner.is_some())
+        .map(|(&node, _)| node)
+        .collect();
+    let areas = nodal_areas(scene, mesh, second, &faces);
 
     let mut taken = vec![false; first_nodes.len()];
     let mut unpaired = Vec::new();
@@ -274,11 +282,19 @@ fn take_axis_pair(
     None
 }
 
-/// Integrals of each node's shape function over a surface.
-fn nodal_areas(scene: &Scene, mesh: &Mesh, surface: &Surface) -> BTreeMap<usize, f64> {
+/// Integrals of each node's shape function over the facets of a surface all of whose nodes are among `faces`.
+fn nodal_areas(
+    scene: &Scene,
+    mesh: &Mesh,
+    surface: &Surface,
+    faces: &BTreeSet<usize>,
+) -> BTreeMap<usize, f64> {
     let mut areas: BTreeMap<usize, f64> = BTreeMap::new();
     for &facet in &surface.facets {
         let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
+        if !nodes.iter().all(|node| faces.contains(node)) {
+            continue;
+        }
         let x: Vec<[f64; 2]> = nodes.iter().map(|&n| mesh.point(n)).collect();
         for point in facet_points(scene.kind, &x) {
             for (&node, value) in nodes.iter().zip(&point.values) {

@@ -1,9 +1,15 @@
 //! Contact: floating bodies, conforming surfaces, ties, events, complementarity.
 
 use super::{Cases, Family, difference, results, scene, state, worst_quality};
+use crate::analysis::Analysis;
+use crate::analytical::{HertzLine, contact_modulus};
 use crate::contact::{Tableau, solve};
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::linalg::Backend;
+use crate::model::Model;
+use crate::progress::Silent;
 use crate::results::Status;
+use crate::scene::{Plastic, Target, Unit};
 use nalgebra::{DMatrix, DVector};
 
 /// `2 n^2 eps` with the 25 pairs of the disc. The condensed stiffness of a surface is an operator of first order: its condition is about the number of
@@ -45,6 +51,20 @@ pub(super) const FAMILIES: &[Family] = &[
         bound: 1e-11,
         source: "n eps times the condition, at most 1e4",
         cases: complementarity,
+    },
+    Family {
+        name: "contact that spreads",
+        figure: "half width at 0.1 to 50 times first yield against Hertz",
+        bound: 1.0 / 64.0,
+        source: "candidates follow from the load; the edge is read to an eighth of an element, of 16; circle for parabola, (b/R)^2/8",
+        cases: spreading,
+    },
+    Family {
+        name: "dents",
+        figure: "each body's share against the displacements after unloading, over the approach",
+        bound: 1e-8,
+        source: "forces balance to 1e-10, a hundred times that in displacements",
+        cases: dents,
     },
 ];
 
@@ -159,6 +179,84 @@ fn complementarity(cases: &mut Cases) -> Result<()> {
         } else {
             0.0
         });
+    }
+    Ok(())
+}
+
+/// The elastic line contact at multiples of the load of first yield, on candidates that follow from the load.
+fn spreading(cases: &mut Cases) -> Result<()> {
+    const CYLINDER: &str = include_str!("../../data/scenes/cylinder_on_half_plane.toml");
+    let (modulus, y) = (contact_modulus(210e3, 0.3, 210e3, 0.3), 500.0);
+    let hertz = HertzLine::new(10.0, modulus)?;
+    for times in [0.1, 1.0, 10.0, 50.0] {
+        let load = times * hertz.yield_load(0.3, y);
+        let mut pressed = scene(CYLINDER)?;
+        pressed.reference.clear();
+        pressed.program.unit = Unit::Load;
+        pressed.program.targets = vec![Target {
+            load_factor: Some(1.0),
+            ..Target::default()
+        }];
+        if let Some(force) = pressed
+            .load
+            .first_mut()
+            .and_then(|l| l.plane_force.as_mut())
+        {
+            force.total = -load;
+        }
+        if let Some(mesh) = &mut pressed.mesh.cylinder_on_half_plane {
+            mesh.half_width = Some(hertz.yield_half_width(0.3, y).min(hertz.half_width(load)));
+        }
+        pressed
+            .bodies
+            .values_mut()
+            .for_each(|b| b.plastic = Plastic::No);
+        let results = results(&pressed)?;
+        for state in &results.states {
+            cases.add(state.half_width / hertz.half_width(load) - 1.0);
+        }
+    }
+    Ok(())
+}
+
+/// Each body's share in a dent against the displacements of the whole mesh after unloading: its pole and its far surface.
+fn dents(cases: &mut Cases) -> Result<()> {
+    const SCENES: [&str; 2] = [
+        include_str!("../../data/scenes/cylinder_on_half_plane.toml"),
+        include_str!("../../data/scenes/ball_on_half_space.toml"),
+    ];
+    for text in SCENES {
+        let mut pressed = scene(text)?;
+        if let Some(mesh) = &mut pressed.mesh.cylinder_on_half_plane {
+            mesh.resolution = 6;
+        }
+        let target = |factor: f64| Target {
+            load_factor: Some(factor),
+            fields: true,
+            ..Target::default()
+        };
+        pressed.program.targets = vec![target(1.5), target(0.0)];
+        let model = Model::new(&pressed)?;
+        let results = Analysis::new(model.clone(), Backend::default())?.run(&mut Silent)?;
+        let [loaded, unloaded] = &results.states[..] else {
+            return Err(Error::internal("two targets leave two states"));
+        };
+        let fields = unloaded.fields.as_ref();
+        let mean = |set: &str| {
+            let nodes = model.mesh.set_nodes(set).unwrap_or_default();
+            let sum: f64 = nodes
+                .iter()
+                .filter_map(|&n| fields.map(|f| f.displacement[2 * n + 1]))
+                .sum();
+            sum / nodes.len() as f64
+        };
+        let shown = [
+            mean("cylinder.pole") - mean("cylinder.top"),
+            mean("half_plane.bottom") - mean("half_plane.pole"),
+        ];
+        for (share, shown) in unloaded.residual_depth_by_body.iter().zip(shown) {
+            cases.add((share - shown) / loaded.approach);
+        }
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `contact` | floating and conforming bodies, ties, events, complementarity |
+//! | `contact` | floating and conforming bodies, ties, events, complementarity, spreading contact, dents |
 //! | `numbers` | stiffness ratios, slivers, units, backends |
 //! | `flow` | incompressible flow, limit loads, cycles, ratchetting, the axis of quadratic elements |
 //! | `peers` | cases on which other codes were seen to fail without a word |

@@ -162,3 +162,36 @@ fn a_body_that_stays_elastic_has_no_share() {
         1e-9,
     );
 }
+
+/// Two blocks squeezed evenly, plane stress: each is left shorter by what its plastic strain makes of its height of 1,
+/// `(600 - 500) / H = 0.1`. A load that presses elsewhere and hardly at all does not move what it is measured from.
+#[test]
+fn a_load_beside_does_not_move_the_reference() {
+    let scene = |beside: &str| {
+        super::running::parse(&format!(
+            "kind = \"plane_stress\"
+            mesh.parts = [
+                {{ body = \"lower\", block = {{ x = [0.0, 2.0], y = [0.0, 1.0], elements = [4, 2] }} }},
+                {{ body = \"upper\", block = {{ x = [0.0, 2.0], y = [1.0, 2.0], elements = [4, 2] }} }},
+            ]
+            materials.s = {{ youngs_modulus = 2e5, poissons_ratio = 0.3, yield_stress = 500.0, plastic_modulus = 1000.0 }}
+            bodies = {{ lower = {{ material = \"s\" }}, upper = {{ material = \"s\" }} }}
+            contact = [{{ first = \"upper.bottom\", second = \"lower.top\" }}]
+            support = [
+                {{ on = \"lower.bottom\", fix = [\"y\"] }},
+                {{ on = \"lower.left\", fix = [\"x\"] }},
+                {{ on = \"upper.left\", fix = [\"x\"] }},
+            ]
+            load = [{{ on = \"upper.top\", pressure = 600.0 }}{beside}]
+            program.targets = [{{ load_factor = 1.0 }}]"
+        ))
+    };
+    for beside in ["", ", { on = \"upper.right\", pressure = 1e-9 }"] {
+        let results = run(&scene(beside));
+        let state = &results.states[0];
+        close("dent", state.residual_depth, 0.2, 0.2, 1e-8);
+        for share in &state.residual_depth_by_body {
+            close("share", *share, 0.1, 0.1, 1e-8);
+        }
+    }
+}

@@ -240,3 +240,51 @@ fn a_check_warns_of_candidates_that_end_too_soon_and_of_long_runs() {
         fine.notes
     );
 }
+
+/// Two contacts on one pair of sides with a hole of one element between them: what closes there ends the run, it is not
+/// taken for a surface that goes on.
+#[test]
+fn a_hole_between_two_contacts_is_an_end() {
+    let mut scene = blocks(2.0, 2.0);
+    let pieces = |side: &str| {
+        let piece = |name: &str, from: f64, to: f64| brinell::scene::Piece {
+            name: name.into(),
+            side: side.into(),
+            from,
+            to,
+        };
+        vec![piece("a", 0.0, 1.0), piece("b", 1.25, 2.0)]
+    };
+    let parts = scene.mesh.parts.as_mut().unwrap();
+    for (part, side) in parts.iter_mut().zip(["bottom", "top"]) {
+        part.block.as_mut().unwrap().pieces = pieces(side);
+    }
+    let contact = scene.contact.remove(0);
+    for piece in ["a", "b"] {
+        let mut of_piece = contact.clone();
+        of_piece.first = format!("upper.{piece}");
+        of_piece.second = format!("lower.{piece}");
+        scene.contact.push(of_piece);
+    }
+    let error = try_run(&scene, Backend::default()).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Outgrown, "{error}");
+}
+
+/// Area is where surfaces face each other: a punch has the same pressures whichever of the two surfaces is named first.
+#[test]
+fn pressure_does_not_depend_on_which_surface_is_first() {
+    let one = blocks(1.0, 1.0);
+    let mut other = one.clone();
+    for contact in &mut other.contact {
+        std::mem::swap(&mut contact.first, &mut contact.second);
+    }
+    let (one, other) = (run(&one), run(&other));
+    let pressure = one.states[0].max_pressure;
+    close(
+        "pressure",
+        other.states[0].max_pressure,
+        pressure,
+        pressure,
+        1e-12,
+    );
+}
