@@ -27,6 +27,7 @@ fn limited(limits: &str, arguments: &[&str]) -> (Option<i32>, String) {
 /// Whatever runs out first (mesh, ordering, work buffers of the BLAS, factor, results): the program says how much was asked for.
 #[cfg(target_os = "linux")]
 #[test]
+#[cfg_attr(not(feature = "cholmod"), ignore = "too large for the dense backend")]
 fn too_little_memory_is_exit_code_5_with_the_size_asked_for() {
     let scene = scene("cylinder_on_half_plane");
     for megabytes in [120, 135, 150, 175, 200, 250, 300, 350] {
