@@ -87,6 +87,9 @@ pub struct Sizes {
     pub zone_freedoms: usize,
     /// Elements of the plastic zone.
     pub zone_elements: usize,
+    /// Lowest polynomial degree of the elements: 1 or 2.
+    #[serde(skip)]
+    pub degree: usize,
 }
 
 /// A row of the effects ledger.
@@ -115,10 +118,22 @@ pub struct YieldPoint {
     pub max_pressure: f64,
     /// Contact half width: half the arc length of the contact, doubled on a symmetry plane.
     pub half_width: f64,
+    /// How well it is read off the contact pressures.
+    #[serde(default)]
+    pub half_width_reading: EdgeReading,
     /// Where: coordinates of the point.
     pub location: [f64; 2],
     /// Body index.
     pub body: usize,
+}
+
+/// How well the half width of the largest contact patch is read off the pressures.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct EdgeReading {
+    /// How far another reading of the same pressures puts it off; half a spacing where there is none.
+    pub error: f64,
+    /// Closed pairs on one side of the middle.
+    pub pairs: usize,
 }
 
 /// The state at a target.
@@ -138,6 +153,9 @@ pub struct State {
     pub pole_pressure: f64,
     /// Contact half width.
     pub half_width: f64,
+    /// How well it is read off the contact pressures.
+    #[serde(default)]
+    pub half_width_reading: EdgeReading,
     /// For contacts on a circle: begin and end of the contact, in degrees from the middle of the
     /// contact's axis (the pole); `None` elsewhere.
     pub contact_arc: Option<[f64; 2]>,
@@ -387,17 +405,27 @@ pub struct Accuracy {
 /// A demanded accuracy and what became of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Demand {
-    /// The largest relative error that was demanded.
+    /// The smallest relative error that was demanded.
     #[serde(deserialize_with = "null_is_not_a_number")]
     pub accuracy: f64,
-    /// Whether every stated error is within it, that of every quantity that governs.
+    /// The demand as it was written: one accuracy, or one for each quantity that is named.
+    #[serde(default)]
+    pub demanded: String,
+    /// Whether every stated error that is asked for is within it.
     pub reached: bool,
-    /// Quantities that govern and whose error was never estimated: nothing can be said of them, so that the demand is not reached.
+    /// Why it was not reached.
+    #[serde(default)]
+    pub reason: Option<String>,
+    /// Quantities that are asked for and whose error was never estimated: nothing can be said of them, so that the demand is not
+    /// reached.
     #[serde(default)]
     pub unknown: Vec<String>,
-    /// The largest stated relative error of the quantities that govern, as far as they were estimated.
+    /// The stated relative error of the quantity that is farthest beyond its demand, or nearest to it.
     #[serde(deserialize_with = "null_is_not_a_number")]
     pub stated: f64,
+    /// That quantity.
+    #[serde(default)]
+    pub worst: Option<String>,
     /// What was chosen, and why.
     pub choices: Vec<String>,
     /// Floating point operations of the factorisations and solves of all trials, their estimates included.
@@ -409,7 +437,8 @@ pub struct Demand {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EstimateMethod {
-    /// The same scene on other meshes of the same family, coarser ones where the run is fine enough; the error is extrapolated.
+    /// The same scene on other meshes of the same family, coarser ones where the run is fine enough: the error follows from how the
+    /// values change (L. Eca, M. Hoekstra 2014, doi:10.1016/j.jcp.2014.01.006).
     CoarserMeshes,
     /// The energy norm of the recovered stress error: a rough figure, for large meshes from files.
     EnergyNorm,
@@ -439,34 +468,20 @@ pub struct QuantityError {
     /// The reported value.
     #[serde(deserialize_with = "null_is_not_a_number")]
     pub value: f64,
-    /// The stated error: the discretisation error with its factor of safety, path and algebraic error together.
+    /// The stated error: those of discretisation, path and algebra together.
     pub error: Option<f64>,
     /// The stated error over the largest size that the quantity has in the run.
     pub relative_error: Option<f64>,
-    /// Estimated discretisation error.
+    /// Estimated discretisation error, factor of safety included; of half widths with that of reading them off the pressures.
     pub discretisation: Option<f64>,
     /// Estimated error of the path: increments, plastic iteration and event tolerance.
     pub path: Option<f64>,
     /// Estimated error of the algebra: backward error, equilibrium, complementarity, and at first yield what `gamma` leaves of the largest stress.
     #[serde(deserialize_with = "null_is_not_a_number")]
     pub algebraic: f64,
-    /// Order of convergence in the element size that the meshes show, within the range that is believed.
+    /// Order of convergence in the element size that three meshes or more show, believed or not.
     pub order: Option<f64>,
-    /// What the mesh itself gave, where `value` is extrapolated from it and coarser ones: with a demanded accuracy, where that is the better known.
+    /// The value that the meshes extrapolate to, where they show an order of convergence that is believed.
     #[serde(default)]
-    pub of_mesh: Option<OfMesh>,
-}
-
-/// The value of a quantity on a mesh, and its errors, absolute.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct OfMesh {
-    /// The computed value.
-    #[serde(deserialize_with = "null_is_not_a_number")]
-    pub value: f64,
-    /// Its stated error.
-    #[serde(deserialize_with = "null_is_not_a_number")]
-    pub error: f64,
-    /// Its estimated discretisation error.
-    #[serde(deserialize_with = "null_is_not_a_number")]
-    pub discretisation: f64,
+    pub extrapolated: Option<f64>,
 }

@@ -1,80 +1,54 @@
-//! `accuracy = "1 %"`: the settings that reach a demanded accuracy, chosen from coarse runs, checked afterwards.
+//! `accuracy = "1 %"`: the scene on finer and finer meshes of its family until the stated errors are within the demand.
 //!
-//! Everything follows from the one number `x`:
-//!
-//! | setting | chosen so that |
-//! |---|---|
-//! | mesh, its grading | the stated error of every governing quantity is at most `x` of its largest size in the run |
-//! | `gamma` | `x / 300`: below a hundredth of `x` it is not seen beside the mesh (measured: `data/accuracy`) |
-//! | plastic tolerance | `x / 1000`, at most 1e-4; 1e-6 where a half width is a target, which would be missed |
-//! | increments | the path's part of the stated error is at most `x / 3`; fixed steps where events, of which finer meshes have more, leave fewer |
-//!
-//! What is reported of a quantity is its value on the mesh or, where that is known better, the one that this and the coarser meshes lead to (`limit`); profiles,
-//! fields and history are always the mesh's.
-//!
-//! A pilot run on a coarse mesh states its error and its order, and a second one which part of the mesh it comes from (`grading`):
-//! from them the next mesh is aimed at, graded so that the demand costs the fewest elements, at most [`STRIDE`] times finer, until one
-//! reaches the demand. A mesh from a file is subdivided, once, twice, ..., and judged by the file and its subdivisions before. Memory
-//! and time of a mesh are predicted from those run before it, and where that leaves doubt from its symbolic factorisation: what does not fit
-//! is refused with its price.
-//!
-//! A quantity whose error could not be estimated, because coarser meshes do not have it, counts as not reached: finer meshes are tried, and if none
-//! mends that it is named in [`Demand::unknown`].
+//! The sequence begins with elements [`COARSEST`] times as large as the scene's. Each mesh is judged by those before it, the last
+//! [`MESHES`] of them, as any run is judged by its companions ([`super::estimate()`]): they cost nothing again. The order that
+//! the meshes show says how much finer the next has to be. It ends with the first mesh on which every quantity that is asked for is
+//! within its demand, by meshes that span element sizes of [`SPAN`], or with the reason why not: a quantity that has no limit under
+//! refinement, memory, time, a run that failed. What is reported are the values of the last mesh that was run to its end.
 
-use super::edge::well_read;
-use super::estimate::{Extent, analyse, estimate_on};
-use super::grading::{balanced, risen};
-use super::knobs::resolution;
-use super::ladder::{Ladder, fineness, foot, is_small, once_subdivided, spacings};
-use super::limit::{Limits, report};
-use super::meter::{Pace, forecast, work};
-use super::outcome::{AIM, LEAST_STEP, Outcome, PATH_SHARE, Trial, told};
-use super::pilot::pilot;
-use super::refinement::{largest_order, refined};
-use super::refusal::{Cost, in_doubt, percent, refuse_beyond_memory, refuse_round_off};
-use super::stall::{BEYOND_BEST, Best};
+use super::companions::{Level, member};
+use super::estimate::{Judged, judge};
+use super::meter::work;
+use super::path::{increments_taken, with_steps};
+use super::quantities::{is_demanded_with_all, quantities};
+use super::runs::{Extent, Runs, analyse};
+use super::words::{duration, percent};
 use crate::analysis::Analysis;
-use crate::error::{Error, Result};
+use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::Backend;
+use crate::mesh::generate::Family;
 use crate::model::Model;
 use crate::progress::Observer;
-use crate::results::{Demand, Results};
-use crate::scene::{Scene, Stepping};
+use crate::results::{Accuracy, Demand, QuantityError, Results};
+use crate::scene::{AccuracyDemand, Scene};
+use std::collections::BTreeMap;
 use std::time::Instant;
 
-/// The tolerance of contact events is this share of the demand.
-const GAMMA_SHARE: f64 = 1.0 / 300.0;
-/// That of the plastic iteration this one: with 1e-4 the limit load of the punch is 1 % off on its finest mesh, the more the finer it is.
-const TOLERANCE_SHARE: f64 = 1e-3;
-/// Tightest tolerance that is chosen: the scene's default.
-const TIGHTEST: f64 = 1e-10;
-/// Loosest tolerance of the plastic iteration that is chosen.
-const LOOSEST: f64 = 1e-4;
-/// The same where a half width is a target, which is read off a state that must not scatter: with 1e-4 one was missed.
-const LOOSEST_READ_OFF: f64 = 1e-6;
-/// A mesh is at most this many times finer than the one it is aimed from: beyond, an observed order is a guess. Each
-/// is judged by the two before it, which cost nothing again, so that all together cost about 1.5 times the last.
-const STRIDE: f64 = 1.9;
-/// Elements up to which a mesh is run without asking what it takes: a tenth of a second, and well below 100 MB.
-const SMALL: usize = 5000;
-/// The lowest mesh may have so many times the elements of the foot of the ladder: rounded to what can be made.
-const AT_FOOT: f64 = 0.9;
-/// The next mesh is finer than the last by at least this.
-const BARELY_FINER: f64 = 1.0 + 1e-9;
-/// By how much a mesh is made finer until one can be made that is fine enough.
-const FINER: [f64; 7] = [1.0, 1.03, 1.06, 1.1, 1.25, 1.5, 2.0];
-/// The next mesh has at least this share of the fineness aimed at: one rounded down misses the demand by a little, and its run is wasted.
-const NEARLY: f64 = 0.995;
-/// A coarse mesh says about half of how much finer the last one will be (cylinder and ball at 1 and 0.3 %: with fixed increments from the first mesh on they took 1.5 to 2.5 times the time).
-const MORE_THAN_SAID: f64 = 2.0;
-/// Runs before the demand is given up.
-const ROUNDS: usize = 12;
-/// Rounds from which on the prediction of the mesh that will do is believed.
-const TRUSTED: usize = 4;
+/// Element size of the first mesh over that of the scene's: a sixteenth of the elements, next to no time.
+const COARSEST: f64 = 4.0;
+/// Ratio of the element sizes of neighbouring meshes, at least and at most, and where nothing is known.
+const STEPS: [f64; 2] = [1.25, 2.0];
+const STEP: f64 = 1.5;
+/// Meshes by which the last is judged, itself included (Eca and Hoekstra: at least four).
+const MESHES: usize = 4;
+/// Ratio of the element sizes that they span at least before a demand counts as reached: near meshes agree by chance. Four in
+/// steps of [`STEP`] span 3.4 but for the rounding of counts; three of a file, each cut in halves, 4.
+const SPAN: f64 = 2.5;
+/// The next mesh is aimed at this share of the demand, so that it is not missed by a little.
+const AIM: f64 = 0.8;
+/// Share of the demand from which on the path is made finer where it limits more than the mesh, and to which.
+const PATH: [f64; 2] = [0.5, 0.25];
+/// How often that is done: what more increments do not mend is not theirs.
+const MORE_STEPS: usize = 3;
+/// Sequences of meshes without convergence, one after the other, until a quantity counts as without a limit.
+const WITHOUT_LIMIT: usize = 2;
+/// Power of the number of elements with which the time of a factorisation grows in the plane (A. George, Nested dissection of a
+/// regular finite element mesh, SIAM J. Numer. Anal. 10 (1973) 345-363, doi:10.1137/0710032).
+const FACTORISATION: f64 = 1.5;
 
 /// A run that was made to a demand.
 pub struct Reached {
-    /// The scene with the settings that were chosen.
+    /// The scene with the mesh and steps that were chosen.
     pub scene: Scene,
     /// Its analysis, for the model and the mesh.
     pub analysis: Analysis,
@@ -82,264 +56,440 @@ pub struct Reached {
     pub results: Results,
 }
 
-/// Runs a scene to its demanded accuracy.
+/// Runs a scene to its demanded accuracy, or as near as seconds of `budget` allow.
 ///
 /// # Errors
-/// `Input` where the scene demands none, where its mesh cannot be refined, and with the price where the demand lies below
-/// round-off or beyond the memory; else those of the runs. A demand that was not reached within the rounds, or
-/// that refinement does not bring nearer, is no error: [`Demand::reached`] says so.
+/// `Input` where the scene demands none, where its mesh cannot be refined or where it has no quantity that is named; those of the runs
+/// where no mesh can be run to its end. A demand that was not reached is no error: [`Demand::reason`] says why.
 pub fn reach(
     scene: &Scene,
     backend: Backend,
     extent: Extent,
+    budget: Option<f64>,
     observer: &mut dyn Observer,
 ) -> Result<Reached> {
-    let Some(demand) = scene.accuracy.map(|a| a.relative()) else {
+    let Some(demand) = scene.accuracy.clone() else {
         return Err(Error::input("the scene demands no accuracy"));
     };
-    let foot = foot(scene, extent);
-    let first = once_subdivided(scene).or_else(|| spacings(scene).map(|count| foot / count));
-    let Some(mut factor) = first else {
-        return Err(Error::input(
-            "`accuracy`: the mesh of this scene cannot be refined; take the key out",
-        ));
+    let mut pursuit = Pursuit {
+        demand,
+        base: scene.clone(),
+        backend,
+        extent,
+        budget: budget.unwrap_or(f64::INFINITY),
+        start: Instant::now(),
+        runs: Runs::new(backend, extent),
+        sequence: Vec::new(),
+        choices: Vec::new(),
+        without_limit: BTreeMap::new(),
+        more_steps: 0,
+        work: 0.0,
     };
-    let mut wanted = risen(&with_tolerances(scene, demand));
-    let mut choices = vec![format!(
-        "tolerance {:.1e} and gamma {:.1e}: from the demand",
-        wanted.analysis.tolerance, wanted.program.gamma
-    )];
-    let mut pace = Pace::default();
-    let mut costs: Vec<Cost> = Vec::new();
-    let mut spent = 0.0;
-    let mut ladder = Ladder::default();
-    let mut last: Option<(Scene, f64)> = None;
-    let mut as_fine = spacings(scene).map_or([0.0; 2], |_| [AT_FOOT * foot; 2]);
-    let mut best = Best::default();
-    let mut limits = Limits::default();
-    let mut so_far = String::new();
-    for round in 1..=ROUNDS {
-        let coarser = last.as_ref().map(|(scene, width)| (scene, *width));
-        let (level, model) = nearest(&wanted, factor, demand, coarser, as_fine)?;
-        let settings = resolution(&level, 1.0 / factor);
-        observer.phase(&format!("accuracy {}{so_far}: {settings}", percent(demand)));
-        let fine = fineness(&level).unwrap_or(factor);
-        if model.mesh.n_elements() > SMALL && in_doubt(fine, &costs) {
-            let cost = forecast(&level, backend)?;
-            costs.push(Cost {
-                fineness: fine,
-                memory: cost.factor.memory_bytes,
-                forecast: cost.seconds,
-            });
-            refuse_beyond_memory(demand, fine, &costs, &pace)?;
-            costs.pop();
-        }
-        let begun = Instant::now();
-        let rungs = ladder.rungs(&level);
-        let beside: Vec<Scene> = match is_small(&level) {
-            true => rungs.iter().map(|rung| rung.scene.clone()).collect(),
-            false => Vec::new(),
-        };
-        let (run, of_rungs) = ladder.beside(&beside, backend, extent, observer, |observer| {
-            let found = analyse(model, backend, extent, observer);
-            (found, begun.elapsed().as_secs_f64())
-        });
-        let (found, own_seconds) = run;
-        let (analysis, mut results) = found?;
-        spent += of_rungs;
-        let estimate = estimate_on(
-            rungs,
-            &mut ladder,
-            &level,
-            backend,
-            &results,
-            extent,
-            observer,
-        );
-        let (mut found, reported, new) = estimate.extrapolated(&results, &limits);
-        limits = new;
-        ladder.keep(&level, &results, own_seconds);
-        let seconds = begun.elapsed().as_secs_f64();
-        spent += work(&results) + found.work;
-        let cost = Cost::of(fine, &results);
-        pace.learn(cost.forecast, seconds);
-        costs.push(cost);
-        let trial = Trial {
-            results: &results,
-            found: &found,
-            demand,
-            order: largest_order(scene),
-        };
-        let outcome = Outcome::of(&trial);
-        so_far = format!(", {} so far", told(&outcome));
-        choices.push(format!(
-            "{settings}: stated error {} in {seconds:.2} s",
-            told(&outcome)
-        ));
-        let within = outcome.within(demand);
-        let stalled = !within && best.is_no_longer_bettered(outcome.stated, fine);
-        if stalled {
-            choices.push(format!(
-                "no better than on a mesh {BEYOND_BEST:.0} times coarser: refinement does not bring {} nearer",
-                outcome.worst.as_deref().unwrap_or("it")
+    pursuit.run(observer)
+}
+
+/// A demand on its way.
+struct Pursuit {
+    demand: AccuracyDemand,
+    /// The scene, with the steps that the path was found to need.
+    base: Scene,
+    backend: Backend,
+    extent: Extent,
+    budget: f64,
+    start: Instant,
+    runs: Runs,
+    /// Element sizes of the meshes so far over those of the scene, and the seconds they took.
+    sequence: Vec<(f64, f64)>,
+    choices: Vec<String>,
+    /// How often in a row a quantity showed no convergence.
+    without_limit: BTreeMap<String, usize>,
+    more_steps: usize,
+    work: f64,
+}
+
+/// What comes after a mesh.
+enum Next {
+    Within,
+    Finer(f64),
+    MoreSteps(usize),
+    Never(String),
+}
+
+impl Pursuit {
+    fn run(&mut self, observer: &mut dyn Observer) -> Result<Reached> {
+        let mut last: Option<(Reached, Outcome)> = None;
+        let mut wanted = COARSEST;
+        let mut same_mesh = false;
+        loop {
+            let level = match self.next_level(wanted, same_mesh) {
+                Ok(level) => level,
+                Err(why) => return self.end(last, why),
+            };
+            if let (Some(why), true) = (self.beyond_budget(level.ratio), last.is_some()) {
+                return self.end(last, why);
+            }
+            let words = level.scene.mesh.words();
+            let demand = String::from(self.demand.clone());
+            observer.phase(&format!("accuracy {demand}: {words}"));
+            let begun = Instant::now();
+            let found = Model::new(&level.scene)
+                .and_then(|model| analyse(model, self.backend, self.extent, observer));
+            let is_coarse = level.ratio > 1.0 && last.is_none() && !observer.stop_requested();
+            let (analysis, results) = match found {
+                // A mesh may be too coarse to be run at all.
+                Err(error) if is_coarse => {
+                    self.choices.push(format!("{words}: {error}"));
+                    wanted = level.ratio / STEP;
+                    continue;
+                }
+                Err(error) if last.is_some() => return self.end(last, format!("{words}: {error}")),
+                Err(error) => return Err(error),
+                Ok(found) => found,
+            };
+            let seconds = begun.elapsed().as_secs_f64();
+            if let Some(why) = results.incomplete.clone() {
+                if is_coarse {
+                    self.choices.push(format!("{words}: {why}"));
+                    wanted = level.ratio / STEP;
+                    continue;
+                }
+                if results.incomplete_kind == Some(ErrorKind::Stopped) && last.is_some() {
+                    return self.end(last, format!("{words}: {why}"));
+                }
+                let scene = level.scene;
+                let reached = Reached {
+                    scene,
+                    analysis,
+                    results,
+                };
+                return self.end(Some((reached, Outcome::default())), why);
+            }
+            self.work += work(&results);
+            self.runs.keep(&level.scene, &results, seconds);
+            if same_mesh {
+                self.sequence.pop();
+            }
+            self.sequence.push((level.ratio, seconds));
+            let judged = Judged {
+                scene: &level.scene,
+                results: &results,
+                extent: self.extent,
+            };
+            let levels = self.levels_before(level.ratio);
+            let found = judge(&judged, levels, &mut self.runs, observer);
+            self.work += found.work;
+            let outcome = Outcome::of(&self.demand, &results, &found);
+            if outcome.is_of_nothing {
+                return Err(self.no_such_quantity(&results));
+            }
+            self.choices.push(format!(
+                "{words}: stated error {} in {}",
+                outcome.words(),
+                duration(seconds)
             ));
-        }
-        let stop = within
-            || stalled
-            || round == ROUNDS
-            || observer.stop_requested()
-            || results.incomplete.is_some()
-            || found.companions.is_empty();
-        if stop {
-            found.demand = Some(Demand {
-                accuracy: demand,
-                reached: within,
-                unknown: match results.incomplete {
-                    None => outcome.unknown,
-                    Some(_) => Vec::new(),
-                },
-                stated: outcome.stated,
-                choices,
-                work: spent,
-            });
+            let next = self.after(&outcome, &level, &results);
+            let mut results = results;
             results.accuracy = Some(found);
-            report(&reported, &mut results);
-            analysis.refer(&mut results);
-            return Ok(Reached {
-                scene: level,
+            let reached = Reached {
+                scene: level.scene,
                 analysis,
                 results,
-            });
-        }
-        refuse_round_off(demand, outcome.algebraic)?;
-        let mut finer = outcome.refinement.max(1.0);
-        // Another shape begins a ladder of its own: worth it only where more than a rung lies ahead.
-        if round == 1
-            && finer > STRIDE
-            && let Some(pilot) = pilot(&level, backend, extent, &results, &found, observer)
-        {
-            spent += pilot.work;
-            let aim = AIM * outcome.mesh_share * demand;
-            if let Some((shaped, needed)) = balanced(&level, &pilot.shares(aim), STRIDE) {
-                let shape = resolution(&shaped, 1.0);
-                if shape != settings {
-                    choices.push(format!(
-                        "near and far parts so fine that the error costs the fewest elements: {shape}"
+            };
+            last = Some((reached, outcome));
+            if observer.stop_requested() {
+                return self.end(last, "stopped by the user".to_string());
+            }
+            same_mesh = matches!(next, Next::MoreSteps(_));
+            match next {
+                Next::Within => return self.end(last, String::new()),
+                Next::Never(why) => return self.end(last, why),
+                Next::Finer(by) => wanted = level.ratio / by,
+                Next::MoreSteps(steps) => {
+                    self.choices.push(format!(
+                        "{steps} increments for each target: fewer leave too much of the error"
                     ));
+                    self.base = with_steps(&self.base, steps);
+                    wanted = level.ratio;
                 }
-                wanted = shaped;
-                finer = needed.max(LEAST_STEP);
             }
         }
-        // Where increments end at events they become as many times more as pairs do: fixed ones, with a ladder of their own, are dearer.
-        let ends_at_pairs =
-            wanted.program.stepping == Stepping::Events && !wanted.contact.is_empty();
-        let more_pairs = if ends_at_pairs {
-            MORE_THAN_SAID * finer
-        } else {
-            1.0
+    }
+
+    /// The member of the family nearest to the wanted element size, finer than the last.
+    fn next_level(&self, wanted: f64, same_mesh: bool) -> std::result::Result<Level, String> {
+        let is_new = |level: &Level| match self.sequence.last() {
+            Some((last, _)) if !same_mesh => last / level.ratio >= STEPS[0] - 1e-9,
+            _ => true,
         };
-        if outcome.path > PATH_SHARE * demand * more_pairs {
-            let steps = more_steps(&mut wanted, &results, outcome.path / (PATH_SHARE * demand));
-            choices.push(format!(
-                "{steps} increments for each target: those at hand leave {} of error",
-                percent(outcome.path)
-            ));
+        let mut why = "the mesh of this scene has no finer members".to_string();
+        let mut ratio = wanted;
+        // Down to a mesh twice as fine as wanted; from the first on down to the scene's own.
+        while ratio > 0.49 * wanted.min(1.0) {
+            match member(&self.base, ratio) {
+                Ok(level) if is_new(&level) => return Ok(level),
+                Ok(_) => {}
+                Err(error) => why = error,
+            }
+            ratio /= 1.1;
         }
-        let step = stride(&wanted, finer);
-        // What a coarse mesh says of a fine one is a guess: at first only what no order of convergence could reach is refused.
-        let certain = match round < TRUSTED {
-            true => outcome.least.max(step),
-            false => finer,
+        Err(format!("`accuracy`: the mesh cannot be refined: {why}"))
+    }
+
+    /// The meshes before one of this element size, by which it is judged.
+    fn levels_before(&self, ratio: f64) -> Vec<Level> {
+        let before = self.sequence.iter().rev().skip(1).take(MESHES - 1);
+        let levels = before.filter_map(|(other, _)| member(&self.base, *other).ok());
+        levels
+            .map(|level| Level {
+                ratio: level.ratio / ratio,
+                ..level
+            })
+            .collect()
+    }
+
+    /// Why a mesh of this element size would take too long.
+    fn beyond_budget(&self, ratio: f64) -> Option<String> {
+        let (last, seconds) = self.sequence.last()?;
+        let expected = seconds * (last / ratio).powf(2.0 * FACTORISATION);
+        let left = self.budget - self.start.elapsed().as_secs_f64();
+        (expected > left).then(|| {
+            format!(
+                "the next mesh would take about {}, and {} of the budget are left",
+                duration(expected),
+                duration(left.max(0.0))
+            )
+        })
+    }
+
+    /// What to do after a mesh.
+    fn after(&mut self, outcome: &Outcome, level: &Level, results: &Results) -> Next {
+        let sizes = self
+            .sequence
+            .iter()
+            .rev()
+            .take(MESHES)
+            .map(|(ratio, _)| *ratio);
+        let span = sizes.fold(0.0, f64::max) / level.ratio;
+        let is_judged = self.sequence.len() > 2 && span >= SPAN;
+        if is_judged && outcome.is_within() {
+            return Next::Within;
+        }
+        for path in &outcome.missed {
+            let times = self.without_limit.entry(path.clone()).or_default();
+            let diverges = outcome.diverging.contains(path);
+            *times = if diverges && is_judged { *times + 1 } else { 0 };
+            if *times >= WITHOUT_LIMIT {
+                return Next::Never(format!(
+                    "{path} has no limit under refinement, it changes from mesh to mesh by as much or more; name the quantities that \
+                     you need, as in accuracy = \"load = 1 %\", or round the corner that makes it"
+                ));
+            }
+        }
+        self.without_limit
+            .retain(|path, _| outcome.missed.contains(path));
+        if is_judged && outcome.algebra > 1.0 {
+            return Next::Never(
+                "the round-off of the algebra alone leaves more than that".to_string(),
+            );
+        }
+        if is_judged && outcome.path > PATH[0].max(outcome.mesh) && self.more_steps < MORE_STEPS {
+            let taken = increments_taken(&level.scene, results) as f64;
+            let steps = (taken * outcome.path / PATH[1]).ceil().min(1e6) as usize;
+            self.more_steps += 1;
+            return Next::MoreSteps(steps);
+        }
+        let by = if is_judged { outcome.finer } else { STEP };
+        Next::Finer(by.clamp(STEPS[0], STEPS[1]))
+    }
+
+    fn no_such_quantity(&self, results: &Results) -> Error {
+        let all: Vec<String> = quantities(results).into_iter().map(|q| q.path).collect();
+        Error::input(format!(
+            "`accuracy` demands nothing that this scene has ({}); its quantities are {}",
+            String::from(self.demand.clone()),
+            all.join(", ")
+        ))
+    }
+
+    /// Ends with the last mesh; without a reason the demand was reached.
+    fn end(&mut self, last: Option<(Reached, Outcome)>, why: String) -> Result<Reached> {
+        let Some((mut reached, outcome)) = last else {
+            return Err(Error::input(why));
         };
-        refuse_beyond_memory(demand, fine * certain, &costs, &pace)?;
-        // From the mesh that was made, which rounding may have made another than was wanted.
-        let made = fineness(&wanted).map_or(factor, |count| fine / count);
-        factor = made * step;
-        let width = results.first_yield.as_ref().map_or(0.0, |y| y.half_width);
-        last = Some((level, width));
-        as_fine = [BARELY_FINER, BARELY_FINER.max(NEARLY * step)].map(|more| fine * more);
+        let is_complete = reached.results.incomplete.is_none();
+        let accuracy = reached.results.accuracy.get_or_insert_default();
+        accuracy.demand = Some(Demand {
+            accuracy: self.demand.tightest(),
+            demanded: String::from(self.demand.clone()),
+            reached: why.is_empty(),
+            reason: (!why.is_empty()).then_some(why),
+            unknown: outcome.unknown,
+            stated: outcome.stated,
+            worst: outcome.worst,
+            choices: std::mem::take(&mut self.choices),
+            work: self.work,
+        });
+        if is_complete {
+            reached.analysis.refer(&mut reached.results);
+        }
+        Ok(reached)
     }
-    Err(Error::internal("the rounds of a demand end in the loop"))
 }
 
-/// How much finer the next mesh is made on the way to one that is `finer`: equal strides, none longer than [`STRIDE`]; a mesh from a
-/// file is cut in halves.
-fn stride(scene: &Scene, finer: f64) -> f64 {
-    if scene.mesh.file.is_some() {
-        return 2.0;
-    }
-    let strides = (finer.ln() / STRIDE.ln()).ceil().max(1.0);
-    finer.powf(1.0 / strides)
+/// What the errors of a mesh say of the demand.
+#[derive(Default)]
+struct Outcome {
+    /// Relative error of the quantity that is farthest beyond its demand, or nearest to it; NaN where none is known.
+    stated: f64,
+    worst: Option<String>,
+    /// Quantities whose error is not known.
+    unknown: Vec<String>,
+    /// Quantities beyond their demand, and those of them that the meshes do not bring nearer.
+    missed: Vec<String>,
+    diverging: Vec<String>,
+    /// Largest share of the demand of the meshes, of the path and of the algebra.
+    mesh: f64,
+    path: f64,
+    algebra: f64,
+    /// How many times finer the mesh has to be.
+    finer: f64,
+    is_of_nothing: bool,
 }
 
-/// The member of the family nearest to `factor` that can be made, with its model: as fine as is aimed at or, where there is none, as the least. That its contact is
-/// read well may cost it some of the aim.
-fn nearest(
-    scene: &Scene,
-    factor: f64,
-    demand: f64,
-    last: Option<(&Scene, f64)>,
-    [least, aim]: [f64; 2],
-) -> Result<(Scene, Model)> {
-    let is_as_fine = |scene: &Scene, as_that: f64| fineness(scene).is_none_or(|n| n >= as_that);
-    for enough in [aim, least] {
-        for more in FINER {
-            let level = refined(scene, factor * more);
-            let Some(level) = level.filter(|level| is_as_fine(&level.scene, enough)) else {
+impl Outcome {
+    fn of(demand: &AccuracyDemand, results: &Results, found: &Accuracy) -> Self {
+        let mut out = Outcome {
+            stated: f64::NAN,
+            finer: 1.0,
+            is_of_nothing: true,
+            ..Outcome::default()
+        };
+        let mut excess = 0.0;
+        for (quantity, errors) in quantities(results).iter().zip(&found.quantities) {
+            let all = demand
+                .all()
+                .filter(|_| is_demanded_with_all(quantity.key()));
+            let Some(wanted) = demand.named(&quantity.path).or(all) else {
                 continue;
             };
-            let level = well_read(&level.scene, demand, last);
-            if is_as_fine(&level, least)
-                && let Ok(model) = Model::new(&level)
-            {
-                return Ok((level, model));
+            out.is_of_nothing = false;
+            let is_zero = quantity.scale == 0.0 && errors.error == Some(0.0);
+            let Some(relative) = errors.relative_error.or(is_zero.then_some(0.0)) else {
+                out.unknown.push(quantity.path.clone());
+                continue;
+            };
+            if out.worst.is_none() || relative / wanted > excess {
+                excess = relative / wanted;
+                out.stated = relative;
+                out.worst = Some(quantity.path.clone());
+            }
+            if quantity.scale > 0.0 {
+                out.add(errors, relative, wanted, quantity.scale);
             }
         }
+        out
     }
-    let own = refined(scene, 1.0).filter(|level| is_as_fine(&level.scene, least));
-    match own {
-        Some(level) => Model::new(&level.scene).map(|model| (level.scene, model)),
-        None => Err(Error::input(
-            "`accuracy`: the mesh of this scene has no finer members of its family",
-        )),
+
+    fn add(&mut self, errors: &QuantityError, relative: f64, wanted: f64, scale: f64) {
+        let share = |error: f64| error / scale / wanted;
+        let [mesh, path, algebra] = [
+            errors.discretisation.unwrap_or(0.0),
+            errors.path.unwrap_or(0.0),
+            errors.algebraic,
+        ]
+        .map(share);
+        self.mesh = self.mesh.max(mesh);
+        self.path = self.path.max(path);
+        self.algebra = self.algebra.max(algebra);
+        if relative <= wanted {
+            return;
+        }
+        self.missed.push(errors.quantity.clone());
+        if errors.order.is_some_and(|order| order <= 0.0) {
+            self.diverging.push(errors.quantity.clone());
+        }
+        // An order that is not believed says nothing: the lowest that is likely.
+        let order = errors.order.filter(|_| errors.extrapolated.is_some());
+        let left = (1.0 - path - algebra).max(1.0 - PATH[0]);
+        let finer = (mesh / (AIM * left)).powf(1.0 / order.unwrap_or(1.0));
+        self.finer = self.finer.max(finer);
     }
-}
 
-fn with_tolerances(scene: &Scene, demand: f64) -> Scene {
-    let mut out = scene.clone();
-    let read_off = out.program.targets.iter().any(|t| t.half_width.is_some());
-    let loosest = if read_off { LOOSEST_READ_OFF } else { LOOSEST };
-    out.analysis.tolerance = (TOLERANCE_SHARE * demand).clamp(TIGHTEST, loosest);
-    out.program.gamma = (GAMMA_SHARE * demand).max(TIGHTEST);
-    out
-}
+    fn is_within(&self) -> bool {
+        self.unknown.is_empty() && self.missed.is_empty()
+    }
 
-/// Turns to fixed steps, `factor` times as many as were taken from target to target.
-fn more_steps(scene: &mut Scene, results: &Results, factor: f64) -> usize {
-    let targets = scene.program.targets.len().max(1);
-    let taken = match scene.program.stepping {
-        Stepping::Steps => scene.program.steps,
-        Stepping::Events => results.history.len().div_ceil(targets),
-    };
-    scene.program.stepping = Stepping::Steps;
-    scene.program.steps = (taken as f64 * factor.max(1.0)).ceil().min(1e6) as usize;
-    scene.program.steps
+    fn words(&self) -> String {
+        let worst = self.worst.iter().map(|worst| format!(" ({worst})"));
+        let mut out = percent(self.stated);
+        out.extend(worst);
+        if !self.unknown.is_empty() {
+            out += &format!(", none for {}", self.unknown.join(", "));
+        }
+        out
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::results::State;
+
+    /// A run with one state of load 10, and the parts of the error of its load.
+    fn judged(demand: &str, parts: [f64; 3], order: f64) -> Outcome {
+        let state = State {
+            name: "pressed".into(),
+            load: 10.0,
+            ..State::default()
+        };
+        let results = Results {
+            states: vec![state],
+            ..Results::default()
+        };
+        let row = |quantity: &str, value: f64| QuantityError {
+            quantity: quantity.to_string(),
+            value,
+            error: Some(parts.iter().sum()),
+            relative_error: (value > 0.0).then(|| parts.iter().sum::<f64>() / value),
+            discretisation: Some(parts[0]),
+            path: Some(parts[1]),
+            algebraic: parts[2],
+            order: Some(order),
+            extrapolated: (order > 0.5).then_some(value),
+        };
+        let found = Accuracy {
+            quantities: vec![
+                row("states.pressed.load", 10.0),
+                row("states.pressed.approach", 0.0),
+            ],
+            ..Accuracy::default()
+        };
+        let demand = AccuracyDemand::try_from(demand.to_string()).unwrap();
+        Outcome::of(&demand, &results, &found)
+    }
 
     #[test]
-    fn strides_are_equal_and_none_too_long() {
-        let text = include_str!("../../data/scenes/cylinder_on_half_plane.toml");
-        let scene = Scene::parse(text, "scene.toml").unwrap();
-        for (finer, wanted) in [(1.5, 1.5), (2.25, 1.5), (1.0, 1.0)] {
-            assert!((stride(&scene, finer) - wanted).abs() < 1e-12);
-        }
-        let text = include_str!("../../data/scenes/gmsh_blocks.toml");
-        let file = Scene::parse(text, "scene.toml").unwrap();
-        assert_eq!(stride(&file, 1.5), 2.0);
+    fn a_demand_is_judged_by_what_it_names() {
+        let near = judged("load = 1 %", [0.09, 0.0, 0.0], 2.0);
+        assert!(near.is_within() && (near.stated - 0.009).abs() < 1e-12);
+        assert_eq!(near.worst.as_deref(), Some("states.pressed.load"));
+        // The approach is zero with an error that is not: of unknown size, so that a demand on all is not kept.
+        let all = judged("1 %", [0.09, 0.0, 0.0], 2.0);
+        assert!(!all.is_within());
+        assert_eq!(all.unknown, ["states.pressed.approach"]);
+        assert!(judged("dent = 1 %", [0.0; 3], 2.0).is_of_nothing);
+    }
+
+    #[test]
+    fn the_next_mesh_follows_from_the_order() {
+        // Four times beyond the demand, with second order: twice as fine, and a little for the aim.
+        let second = judged("load = 1 %", [0.4, 0.0, 0.0], 2.0);
+        assert!((second.finer - (4.0f64 / AIM).sqrt()).abs() < 1e-12);
+        let unbelieved = judged("load = 1 %", [0.4, 0.0, 0.0], 0.3);
+        assert!((unbelieved.finer - 4.0 / AIM).abs() < 1e-12);
+        let diverging = judged("load = 1 %", [0.4, 0.0, 0.0], -0.2);
+        assert_eq!(diverging.diverging, ["states.pressed.load"]);
+        let path = judged("load = 1 %", [0.02, 0.09, 0.0], 2.0);
+        assert!((path.path - 0.9).abs() < 1e-12 && path.mesh < 0.3 && !path.is_within());
     }
 }

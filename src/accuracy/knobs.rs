@@ -3,10 +3,11 @@
 //! A study turns one knob at a time from the scene's own settings, but for the mesh, which is refined with every element shape
 //! and once more with loose tolerances: work and precision both come from the mesh first.
 
-use super::refinement::{factors, governing_count, refined};
+use super::companions::{Level, member};
 use crate::error::{Error, Result};
 use crate::linalg::Backend;
 use crate::mesh::Shape;
+use crate::mesh::generate::Family;
 use crate::scene::{PlasticIteration, Scene, Stepping};
 
 /// Ratio of neighbouring element sizes in a series of meshes.
@@ -30,8 +31,6 @@ pub enum Knob {
     Resolution,
     /// Element shape, over all resolutions.
     Element,
-    /// Graded meshes over all resolutions: each part as fine as its share of the error asks for.
-    Grading,
     /// From event to event, or `n` steps.
     Stepping,
     /// Tolerance of the plastic iteration.
@@ -46,10 +45,9 @@ pub enum Knob {
 
 impl Knob {
     /// All of them.
-    pub const ALL: [Knob; 8] = [
+    pub const ALL: [Knob; 7] = [
         Knob::Resolution,
         Knob::Element,
-        Knob::Grading,
         Knob::Stepping,
         Knob::Tolerance,
         Knob::Gamma,
@@ -62,7 +60,6 @@ impl Knob {
         match self {
             Knob::Resolution => "resolution",
             Knob::Element => "element",
-            Knob::Grading => "grading",
             Knob::Stepping => "stepping",
             Knob::Tolerance => "tolerance",
             Knob::Gamma => "gamma",
@@ -104,81 +101,109 @@ pub struct Setting {
 /// The settings of a study: `levels` meshes in a series, the finest twice as fine as the scene's. The other knobs are turned on the
 /// scene's own mesh.
 pub fn settings(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) -> Vec<Setting> {
-    // Up to first yield nothing flows: there is no iteration and no path to turn anything in.
-    let plastic = scene.any_can_yield() && scene.program.targets.iter().any(|t| !t.first_yield);
-    let mut out = Vec::new();
-    let own = element(scene);
-    let name = |shape: Option<Shape>| shape.map_or("mesh", shape_name);
-    let meshes =
-        |scene: &Scene, knob: Knob, series: &str, finest: usize, out: &mut Vec<Setting>| {
-            for factor in factors(scene, FINEST, STEP, levels)
-                .into_iter()
-                .skip(finest)
-            {
-                // The scene itself belongs to every series, file or not.
-                let made = match (factor - 1.0).abs() < 1e-9 {
-                    true => Some((scene.clone(), 1.0)),
-                    false => refined(scene, factor).map(|l| (l.scene, l.ratio)),
-                };
-                let Some((scene, ratio)) = made else { continue };
-                if out
-                    .iter()
-                    .any(|s| s.series == series && (s.ratio - ratio).abs() < 1e-9)
-                {
-                    continue;
-                }
-                out.push(Setting {
-                    series: series.to_string(),
-                    knob,
-                    value: resolution(&scene, ratio),
-                    ratio,
-                    scene,
-                    backend,
-                });
-            }
-        };
-    let base = |knob: Knob, series: &str, value: String, scene: Scene, backend: Backend| Setting {
-        series: series.to_string(),
-        knob,
-        value,
-        ratio: 1.0,
-        scene,
-        backend,
+    let mut out = of_meshes(scene, backend, knobs, levels);
+    // Up to first yield there is no iteration and no path to turn anything in.
+    if scene.any_can_yield() && scene.program.targets.iter().any(|t| !t.first_yield) {
+        out.extend(of_path(scene, backend, knobs));
+    }
+    let other = match backend {
+        Backend::Cholmod => Some(Backend::Dense),
+        Backend::Dense if cfg!(feature = "cholmod") => Some(Backend::Cholmod),
+        Backend::Dense => None,
     };
+    if let Some(other) = other.filter(|_| knobs.contains(&Knob::Backend)) {
+        let name = other.name().to_string();
+        out.push(turned(Knob::Backend, name, scene.clone(), other));
+    }
+    out
+}
+
+/// The series of meshes: of the scene's element, the same with loose tolerances, of other elements.
+fn of_meshes(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) -> Vec<Setting> {
+    let own = scene.mesh.shape();
+    let name = own.map_or("mesh", Shape::name);
+    let mut out = Vec::new();
     if knobs.contains(&Knob::Resolution) {
-        meshes(scene, Knob::Resolution, name(own), 0, &mut out);
-        if plastic {
+        series(scene, backend, Knob::Resolution, name, levels, &mut out);
+        if scene.any_can_yield() {
             let mut loose = scene.clone();
             loose.analysis.tolerance = loose.analysis.tolerance.max(LOOSE);
             loose.program.gamma = loose.program.gamma.max(LOOSE);
-            let series = format!("{}, tolerances {LOOSE:e}", name(own));
-            meshes(&loose, Knob::Resolution, &series, 0, &mut out);
+            let name = format!("{name}, tolerances {LOOSE:e}");
+            series(&loose, backend, Knob::Resolution, &name, levels, &mut out);
         }
     } else {
-        out.push(base(
-            Knob::Resolution,
-            name(own),
-            resolution(scene, 1.0),
-            scene.clone(),
-            backend,
-        ));
+        out.push(Setting {
+            series: name.to_string(),
+            value: scene.mesh.words(),
+            ..turned(Knob::Resolution, String::new(), scene.clone(), backend)
+        });
     }
     if knobs.contains(&Knob::Element) && own.is_some() {
-        for shape in [Shape::Quad4, Shape::Quad8, Shape::Tri3, Shape::Tri6] {
-            if own != Some(shape) {
-                let mut other = scene.clone();
-                set_element(&mut other, shape);
-                // Quadratic elements bring three times the freedoms: the finest level is left out.
-                let finest = usize::from(shape.n_nodes() > shape.n_corners()) * 2;
-                meshes(&other, Knob::Element, shape_name(shape), finest, &mut out);
-            }
+        let others = [Shape::Quad4, Shape::Quad8, Shape::Tri3, Shape::Tri6];
+        for shape in others.into_iter().filter(|shape| own != Some(*shape)) {
+            let mut other = scene.clone();
+            other.mesh.set_shape(shape);
+            // Quadratic elements have three times the freedoms: the finest levels are left out.
+            let mut all = Vec::new();
+            series(
+                &other,
+                backend,
+                Knob::Element,
+                shape.name(),
+                levels,
+                &mut all,
+            );
+            let finest = if shape.is_quadratic() { 2 } else { 0 };
+            out.extend(all.into_iter().skip(finest));
         }
     }
+    out
+}
+
+/// A series of meshes, finest first.
+fn series(
+    scene: &Scene,
+    backend: Backend,
+    knob: Knob,
+    name: &str,
+    levels: usize,
+    out: &mut Vec<Setting>,
+) {
+    for i in 0..levels.max(1) as i32 {
+        let ratio = STEP.powi(i) / FINEST;
+        // The scene itself belongs to every series, however its counts are rounded.
+        let level = if (ratio - 1.0).abs() < 1e-9 {
+            Ok(Level {
+                scene: scene.clone(),
+                ratio: 1.0,
+            })
+        } else {
+            member(scene, ratio)
+        };
+        let Ok(Level { scene, ratio }) = level else {
+            continue;
+        };
+        let is_same = |s: &Setting| s.series == name && (s.ratio - ratio).abs() < 1e-9;
+        if !out.iter().any(is_same) {
+            let value = scene.mesh.words();
+            out.push(Setting {
+                series: name.to_string(),
+                ratio,
+                ..turned(knob, value, scene, backend)
+            });
+        }
+    }
+}
+
+/// Tolerances, increments and algorithms.
+fn of_path(scene: &Scene, backend: Backend, knobs: &[Knob]) -> Vec<Setting> {
+    let mut out = Vec::new();
     let mut turn = |knob: Knob, value: String, change: &dyn Fn(&mut Scene)| {
-        if knobs.contains(&knob) && plastic {
+        if knobs.contains(&knob) {
             let mut other = scene.clone();
             change(&mut other);
-            out.push(base(knob, knob.name(), value, other, backend));
+            out.push(turned(knob, value, other, backend));
         }
     };
     for tolerance in TOLERANCES {
@@ -186,12 +211,10 @@ pub fn settings(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) 
             s.analysis.tolerance = tolerance
         });
     }
-    if !scene.contact.is_empty() {
-        for gamma in GAMMAS {
-            turn(Knob::Gamma, format!("{gamma:e}"), &|s| {
-                s.program.gamma = gamma
-            });
-        }
+    for gamma in GAMMAS.into_iter().filter(|_| !scene.contact.is_empty()) {
+        turn(Knob::Gamma, format!("{gamma:e}"), &|s| {
+            s.program.gamma = gamma
+        });
     }
     for steps in STEPS {
         turn(Knob::Stepping, format!("{steps} steps"), &|s| {
@@ -200,9 +223,8 @@ pub fn settings(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) 
         });
     }
     if scene.program.stepping == Stepping::Steps {
-        turn(Knob::Stepping, "events".to_string(), &|s| {
-            s.program.stepping = Stepping::Events
-        });
+        let events = |s: &mut Scene| s.program.stepping = Stepping::Events;
+        turn(Knob::Stepping, "events".to_string(), &events);
     }
     for (value, algorithm) in [
         ("newton", PlasticIteration::Newton),
@@ -210,130 +232,27 @@ pub fn settings(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) 
         ("plain", PlasticIteration::Plain),
     ] {
         if algorithm != scene.analysis.plastic_iteration {
-            turn(Knob::Algorithm, value.to_string(), &|s| {
-                s.analysis.plastic_iteration = algorithm
-            });
-        }
-    }
-    if knobs.contains(&Knob::Backend) {
-        let other = match backend {
-            Backend::Cholmod => Some(Backend::Dense),
-            Backend::Dense if cfg!(feature = "cholmod") => Some(Backend::Cholmod),
-            Backend::Dense => None,
-        };
-        if let Some(other) = other {
-            let series = Knob::Backend.name();
-            out.push(base(
-                Knob::Backend,
-                series,
-                other.name().to_string(),
-                scene.clone(),
-                other,
-            ));
+            let change = |s: &mut Scene| s.analysis.plastic_iteration = algorithm;
+            turn(Knob::Algorithm, value.to_string(), &change);
         }
     }
     out
 }
 
-/// The series of graded meshes: `shaped` as fine, coarse and finer, as those of the scene's own series.
-pub(super) fn graded(
-    scene: &Scene,
-    shaped: &Scene,
-    backend: Backend,
-    levels: usize,
-) -> Vec<Setting> {
-    let name = element(scene).map_or("mesh", shape_name);
-    let fineness = |s: &Scene| governing_count(&s.mesh);
-    let Some(lead) = fineness(scene).zip(fineness(shaped)).map(|(a, b)| a / b) else {
-        return Vec::new();
-    };
-    let mut out: Vec<Setting> = Vec::new();
-    for level in 0..levels.max(1) {
-        let Some(made) = refined(shaped, lead * FINEST / STEP.powi(level as i32)) else {
-            continue;
-        };
-        let ratio = lead * made.ratio;
-        if out.iter().any(|s| (s.ratio - ratio).abs() < 1e-9) {
-            continue;
-        }
-        out.push(Setting {
-            series: format!("{name}, graded"),
-            knob: Knob::Grading,
-            value: resolution(&made.scene, ratio),
-            ratio,
-            scene: made.scene,
-            backend,
-        });
-    }
-    out
-}
-
-/// The element shape of a generated mesh.
-fn element(scene: &Scene) -> Option<Shape> {
-    let mesh = &scene.mesh;
-    (mesh.cylinder_on_half_plane.as_ref().map(|p| p.element))
-        .or(mesh.disc_in_plate.as_ref().map(|p| p.element))
-        .or(mesh
-            .parts
-            .as_ref()
-            .and_then(|p| p.first())
-            .map(|p| p.element))
-}
-
-fn set_element(scene: &mut Scene, shape: Shape) {
-    let mesh = &mut scene.mesh;
-    if let Some(p) = &mut mesh.cylinder_on_half_plane {
-        p.element = shape;
-    }
-    if let Some(p) = &mut mesh.disc_in_plate {
-        p.element = shape;
-    }
-    for part in mesh.parts.iter_mut().flatten() {
-        part.element = shape;
-    }
-}
-
-fn shape_name(shape: Shape) -> &'static str {
-    match shape {
-        Shape::Tri3 => "tri3",
-        Shape::Tri6 => "tri6",
-        Shape::Quad4 => "quad4",
-        Shape::Quad8 => "quad8",
-    }
-}
-
-/// The mesh in the generator's own words.
-pub(super) fn resolution(scene: &Scene, ratio: f64) -> String {
-    let mesh = &scene.mesh;
-    let rising = |far: Option<f64>| far.map_or(String::new(), |g| format!(", far_growth {g:.4}"));
-    if let Some(p) = &mesh.cylinder_on_half_plane {
-        let far = rising(p.far_growth);
-        format!("resolution {}, growth {:.4}{far}", p.resolution, p.growth)
-    } else if let Some(p) = &mesh.disc_in_plate {
-        let far = rising(p.far_growth);
-        format!("resolution {}, growth {:.4}{far}", p.resolution, p.growth)
-    } else if let Some(parts) = &mesh.parts {
-        let counts: Vec<String> = parts
-            .iter()
-            .map(|p| match (&p.block, &p.ring, &p.disc) {
-                (Some(b), _, _) => format!("{} x {}", b.elements[0], b.elements[1]),
-                (_, Some(r), _) => format!("{} x {}", r.elements[0], r.elements[1]),
-                (_, _, Some(d)) => d.elements.to_string(),
-                _ => "?".to_string(),
-            })
-            .collect();
-        format!("elements {}", counts.join(", "))
-    } else {
-        format!(
-            "subdivisions {}, element size {ratio:.3}",
-            mesh.subdivisions
-        )
+/// A setting on the scene's own mesh.
+fn turned(knob: Knob, value: String, scene: Scene, backend: Backend) -> Setting {
+    Setting {
+        series: knob.name().to_string(),
+        knob,
+        value,
+        ratio: 1.0,
+        scene,
+        backend,
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::grading::risen;
     use super::*;
 
     fn scene() -> Scene {
@@ -352,10 +271,7 @@ mod tests {
             .collect();
         // 32, 22.6, 16 and 11.3 elements, rounded.
         assert_eq!(ratios, [0.5, 16.0 / 23.0, 1.0, 16.0 / 11.0]);
-        let shaped = risen(&scene);
-        let graded = graded(&scene, &shaped, Backend::Dense, 4);
-        assert!(graded.iter().map(|s| s.ratio).eq(ratios));
-        let mut seen: Vec<Knob> = all.iter().chain(&graded).map(|s| s.knob).collect();
+        let mut seen: Vec<Knob> = all.iter().map(|s| s.knob).collect();
         seen.dedup();
         assert!(
             Knob::ALL

@@ -162,14 +162,6 @@ pub fn work(results: &Results) -> f64 {
         + PER_SOLVE * counts.trailing_solves as f64 * factor.trailing_nonzeros
 }
 
-/// Operations per second that forecasts assume, those of [`crate::analysis::check`].
-const TYPICAL: f64 = 5e9;
-
-/// Seconds of a factorisation at a typical speed, as [`forecast`] has them.
-pub(super) fn factor_seconds(factor: &Prediction) -> f64 {
-    (factor.flops + PER_NONZERO * factor.factor_nonzeros) / TYPICAL
-}
-
 fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;

@@ -1,6 +1,6 @@
 //! The quantities that a run reports, by their paths in `summary.json`.
 
-use crate::results::Results;
+use crate::results::{EdgeReading, Results, State};
 use std::collections::BTreeMap;
 
 /// A reported quantity.
@@ -12,15 +12,21 @@ pub struct Quantity {
     pub value: f64,
     /// The largest size that a quantity of this KEY has in the run: what its error is measured against.
     pub scale: f64,
-    /// Whether a demanded accuracy holds for it: not for the plastic zone and values at one point
-    /// (largest plastic strain, pole).
-    pub governs: bool,
+    /// What the reading of it off the pressures may be wrong by: of half widths, else 0.
+    pub reading: f64,
 }
 
-/// Whether a demanded accuracy holds for quantities of this key. The size of the plastic zone is
-/// counted in whole Gauss points; the largest plastic strain and the pressure at the pole are
-/// values at one point. Their errors are stated only.
-pub(super) fn governs(key: &str) -> bool {
+impl Quantity {
+    /// The last part of its path.
+    pub fn key(&self) -> &str {
+        self.path.rsplit('.').next().unwrap_or(&self.path)
+    }
+}
+
+/// Whether a demand on all quantities holds for those of this key. The size of the plastic zone is counted in whole Gauss
+/// points; the largest plastic strain and the pressure at the pole are values at one point: their errors are stated, and
+/// demanded where they are named.
+pub(super) fn is_demanded_with_all(key: &str) -> bool {
     ![
         "plastic_zone_size",
         "pole_pressure",
@@ -29,66 +35,80 @@ pub(super) fn governs(key: &str) -> bool {
     .contains(&key)
 }
 
-/// All reported quantities of a run: yield load, maximum pressure, pressure at the pole, half
-/// width, residual depth, approach, largest plastic strain and size of the plastic zone, as far as
-/// the scene has contact and yields.
+/// Formal order of convergence: that of the displacements, one more than the degree of the elements (G. Strang, G. J. Fix, *An
+/// Analysis of the Finite Element Method*, Prentice-Hall 1973, chapter 3). The largest strain of the Gauss points and the zone
+/// that they count are those of the nearest point, a share of an element away: of first order.
+pub(super) fn formal_order(key: &str, degree: usize) -> f64 {
+    match key {
+        "max_equivalent_plastic_strain" | "plastic_zone_size" => 1.0,
+        _ => degree.max(1) as f64 + 1.0,
+    }
+}
+
+/// All reported quantities of a run, as far as the scene has contact and yields: loads, pressures, half widths, approach, dent,
+/// largest plastic strain and size of the plastic zone.
 pub fn quantities(results: &Results) -> Vec<Quantity> {
     let contact = results.sizes.contact_pairs > 0;
     let plastic = results.states.iter().any(|s| s.plastic_points > 0);
-    let mut out: Vec<(&'static str, Quantity)> = Vec::new();
-    let mut add = |key: &'static str, prefix: &str, value: f64, when: bool| {
-        if when && value.is_finite() {
-            let quantity = Quantity {
+    let mut out: Vec<Quantity> = Vec::new();
+    let mut add = |prefix: &str, key: &str, value: f64, reading: f64| {
+        if value.is_finite() {
+            out.push(Quantity {
                 path: format!("{prefix}.{key}"),
                 value,
                 scale: 0.0,
-                governs: governs(key),
-            };
-            out.push((key, quantity));
+                reading,
+            });
         }
     };
     if let Some(first) = &results.first_yield {
-        add("load", "yield", first.load, true);
-        add("max_pressure", "yield", first.max_pressure, contact);
-        add("half_width", "yield", first.half_width, contact);
+        add("yield", "load", first.load, 0.0);
+        if contact {
+            let reading = first.half_width_reading;
+            add("yield", "max_pressure", first.max_pressure, 0.0);
+            add("yield", "half_width", first.half_width, reading.error);
+        }
     }
     for state in &results.states {
         let prefix = format!("states.{}", state.name);
-        add("load", &prefix, state.load, true);
-        add("max_pressure", &prefix, state.max_pressure, contact);
-        add("pole_pressure", &prefix, state.pole_pressure, contact);
-        add("half_width", &prefix, state.half_width, contact);
-        add("approach", &prefix, state.approach, true);
-        add(
-            "residual_depth",
-            &prefix,
-            state.residual_depth,
-            contact && plastic,
-        );
-        add(
-            "max_equivalent_plastic_strain",
-            &prefix,
-            state.max_equivalent_plastic_strain,
-            plastic,
-        );
-        add(
-            "plastic_zone_size",
-            &prefix,
-            state.plastic_zone_size,
-            plastic,
-        );
+        for (key, value) in of_state(state, contact, plastic) {
+            let EdgeReading { error, .. } = state.half_width_reading;
+            let reading = if key == "half_width" { error } else { 0.0 };
+            add(&prefix, key, value, reading);
+        }
     }
-    let mut scales: BTreeMap<&str, f64> = BTreeMap::new();
-    for (key, quantity) in &out {
-        let scale = scales.entry(key).or_insert(0.0);
+    let mut scales: BTreeMap<String, f64> = BTreeMap::new();
+    for quantity in &out {
+        let scale = scales.entry(quantity.key().to_string()).or_insert(0.0);
         *scale = scale.max(quantity.value.abs());
     }
-    out.into_iter()
-        .map(|(key, quantity)| Quantity {
-            scale: scales[key],
-            ..quantity
-        })
-        .collect()
+    for quantity in &mut out {
+        quantity.scale = scales[quantity.key()];
+    }
+    out
+}
+
+/// What a state reports.
+fn of_state(state: &State, contact: bool, plastic: bool) -> Vec<(&'static str, f64)> {
+    let of_contact = [
+        ("max_pressure", state.max_pressure),
+        ("pole_pressure", state.pole_pressure),
+        ("half_width", state.half_width),
+    ];
+    let of_yielding = [
+        (
+            "max_equivalent_plastic_strain",
+            state.max_equivalent_plastic_strain,
+        ),
+        ("plastic_zone_size", state.plastic_zone_size),
+    ];
+    let mut out = vec![("load", state.load), ("approach", state.approach)];
+    out.extend(of_contact.into_iter().filter(|_| contact));
+    out.extend(of_yielding.into_iter().filter(|_| plastic));
+    if contact && plastic {
+        out.push(("residual_depth", state.residual_depth));
+    }
+    out
 }
 
 /// The value of a quantity by its path.
@@ -96,73 +116,11 @@ pub fn value_of(quantities: &[Quantity], path: &str) -> Option<f64> {
     quantities.iter().find(|q| q.path == path).map(|q| q.value)
 }
 
-/// What goes with the load of first yield and of the states, by path: its factor, and the contact force.
-pub(super) fn with_loads(results: &Results) -> BTreeMap<String, f64> {
-    let first = results.first_yield.iter();
-    let first = first.map(|point| ("yield.alpha".to_string(), point.alpha));
-    let states = results.states.iter().flat_map(|state| {
-        let values = [
-            ("alpha", state.alpha),
-            ("contact_force", state.contact_force),
-        ];
-        values.map(|(key, value)| (format!("states.{}.{key}", state.name), value))
-    });
-    first.chain(states).collect()
-}
-
-/// Sets the value of a quantity, or of what goes with one, by its path.
-pub(super) fn put(results: &mut Results, path: &str, value: f64) {
-    let Some((prefix, key)) = path.rsplit_once('.') else {
-        return;
-    };
-    let slot = match prefix.strip_prefix("states.") {
-        None => results.first_yield.as_mut().and_then(|point| match key {
-            "alpha" => Some(&mut point.alpha),
-            "load" => Some(&mut point.load),
-            "max_pressure" => Some(&mut point.max_pressure),
-            "half_width" => Some(&mut point.half_width),
-            _ => None,
-        }),
-        Some(name) => {
-            let state = results.states.iter_mut().find(|s| s.name == name);
-            state.and_then(|state| match key {
-                "alpha" => Some(&mut state.alpha),
-                "load" => Some(&mut state.load),
-                "contact_force" => Some(&mut state.contact_force),
-                "max_pressure" => Some(&mut state.max_pressure),
-                "pole_pressure" => Some(&mut state.pole_pressure),
-                "half_width" => Some(&mut state.half_width),
-                "approach" => Some(&mut state.approach),
-                "residual_depth" => Some(&mut state.residual_depth),
-                "plastic_zone_size" => Some(&mut state.plastic_zone_size),
-                _ => None,
-            })
-        }
-    };
-    if let Some(slot) = slot {
-        *slot = value;
-    }
-}
-
-/// A run with one state.
-#[cfg(test)]
-pub(super) fn pressed(load: f64, approach: f64) -> Results {
-    let state = crate::results::State {
-        name: "pressed".into(),
-        load,
-        approach,
-        ..Default::default()
-    };
-    Results {
-        states: vec![state],
-        ..Results::default()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::results::{State, YieldPoint};
+    use crate::results::YieldPoint;
+    use crate::scene::DEMANDED;
 
     #[test]
     fn quantities_follow_what_the_scene_has() {
@@ -172,6 +130,10 @@ mod tests {
                 load: 5.0,
                 max_pressure: 2.0,
                 half_width: 0.1,
+                half_width_reading: EdgeReading {
+                    error: 0.01,
+                    pairs: 5,
+                },
                 location: [0.0; 2],
                 body: 0,
             }),
@@ -197,27 +159,15 @@ mod tests {
         assert_eq!((all[0].value, all[0].scale), (5.0, 10.0));
         results.sizes.contact_pairs = 3;
         results.states[0].plastic_points = 1;
+        results.states[0].half_width = 0.3;
         // A pressure that is not a number is no quantity.
-        assert_eq!(quantities(&results).len(), 3 + 7);
-        results.states[0].max_equivalent_plastic_strain = 0.02;
-        results.states[0].pole_pressure = 3.0;
-        for (key, value) in [
-            ("max_equivalent_plastic_strain", 0.02),
-            ("pole_pressure", 3.0),
-        ] {
-            let path = format!("states.pressed.{key}");
-            let all = quantities(&results);
-            let found = all.iter().find(|q| q.path == path).unwrap();
-            assert_eq!((found.value, found.governs), (value, false), "{path}");
+        let all = quantities(&results);
+        assert_eq!(all.len(), 3 + 7);
+        let width = all.iter().find(|q| q.path == "yield.half_width").unwrap();
+        assert_eq!((width.reading, width.scale), (0.01, 0.3));
+        assert!(all.iter().filter(|q| q.reading > 0.0).count() == 1);
+        for quantity in &all {
+            assert!(DEMANDED.iter().any(|(key, _)| *key == quantity.key()));
         }
-        assert_eq!(
-            value_of(&quantities(&results), "yield.half_width"),
-            Some(0.1)
-        );
-        assert!(
-            !quantities(&results)
-                .iter()
-                .any(|q| q.governs && q.path.ends_with("zone_size"))
-        );
     }
 }

@@ -1,13 +1,9 @@
 //! The study: many settings of one scene, each run and measured, cheapest first.
 
-use super::estimate::{Extent, run_observed};
-use super::grading::{balanced, risen};
-use super::knobs::{Knob, Setting, graded, resolution, settings};
-use super::ladder::{PILOT, spacings};
+use super::knobs::{Knob, Setting, settings};
 use super::meter::{Forecast, Meter, Pace, PhaseMeter, PhaseUsage, Usage, forecast, work};
-use super::pilot::fly;
 use super::quantities::quantities;
-use super::refinement::refined;
+use super::runs::{Extent, run};
 use super::verdict::{QuantityStudy, judge};
 use crate::error::{ErrorKind, Result};
 use crate::linalg::Backend;
@@ -19,9 +15,6 @@ use std::time::{Duration, Instant};
 
 /// Runs after which the remaining time is told: fewer say little of the machine and the scene.
 const TRUSTED: usize = 4;
-
-/// Share of the budget that may be spent on finding graded meshes.
-const PILOT_SHARE: f64 = 0.25;
 
 /// What to study.
 #[derive(Debug, Clone)]
@@ -60,6 +53,8 @@ pub struct StudyRun {
     pub failed: Option<String>,
     /// Freedoms.
     pub freedoms: usize,
+    /// Lowest polynomial degree of the elements.
+    pub degree: usize,
     /// Increments.
     pub increments: usize,
     /// Floating point operations of a factorisation, nonzeros of the factor and of its trailing columns.
@@ -78,17 +73,6 @@ pub struct StudyRun {
     pub values: Vec<(String, f64)>,
 }
 
-/// How the graded meshes of a study were found.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Grading {
-    /// The mesh of the pilot in the generator's words.
-    pub pilot: String,
-    /// The graded mesh as fine as that.
-    pub graded: String,
-    /// Floating point operations of all runs that were made for it.
-    pub work: f64,
-}
-
 /// A whole study.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Study {
@@ -98,8 +82,6 @@ pub struct Study {
     pub quantities: Vec<QuantityStudy>,
     /// What was left out, and why.
     pub left_out: Vec<String>,
-    /// How the graded meshes were found, and what that took.
-    pub grading: Option<Grading>,
     /// Seconds that the study took.
     pub seconds: f64,
     /// Whether it was stopped before its end.
@@ -123,22 +105,7 @@ pub fn study(
     forecast(scene, backend)?;
     let mut queue: Vec<(Setting, Forecast)> = Vec::new();
     let mut known: Vec<(f64, (MeshSource, Backend), Forecast)> = Vec::new();
-    let mut all = settings(scene, backend, &plan.knobs, plan.levels);
-    if plan.knobs.contains(&Knob::Grading) {
-        observer.phase("study: a pilot for the graded meshes");
-        let mut hurried = Hurried::new(observer, start, plan.budget.map(|b| PILOT_SHARE * b));
-        match shaped(scene, backend, &mut hurried) {
-            Some((shaped, found)) => {
-                all.extend(graded(scene, &shaped, backend, plan.levels));
-                out.grading = Some(found);
-            }
-            None if hurried.is_late() => out.left_out.push(
-                "graded meshes: the pilot that finds them takes more than a quarter of the budget"
-                    .to_string(),
-            ),
-            None => {}
-        }
-    }
+    let all = settings(scene, backend, &plan.knobs, plan.levels);
     for setting in all {
         if observer.stop_requested() {
             break;
@@ -202,7 +169,7 @@ pub fn study(
         let budget = plan.budget.filter(|_| !out.runs.is_empty());
         let mut hurried = Hurried::new(observer, start, budget);
         let mut phases = PhaseMeter::start("assembly", &mut hurried);
-        let found = run_observed(
+        let found = run(
             &setting.scene,
             setting.backend,
             Extent::Program,
@@ -233,7 +200,7 @@ pub fn study(
             ..record(setting, cost, usage, found)
         });
     }
-    out.quantities = judge(&out.runs, &references, scene);
+    out.quantities = judge(&out.runs, &references);
     out.seconds = start.elapsed().as_secs_f64();
     Ok(out)
 }
@@ -284,26 +251,6 @@ impl Observer for Hurried<'_> {
     }
 }
 
-/// The scene's mesh graded for its quantities, as fine as the pilot by which that was found.
-fn shaped(
-    scene: &Scene,
-    backend: Backend,
-    observer: &mut dyn Observer,
-) -> Option<(Scene, Grading)> {
-    let factor = PILOT / spacings(scene)?;
-    let pilot_scene = refined(&risen(scene), factor.min(1.0))?.scene;
-    let pilot = fly(&pilot_scene, backend, Extent::Program, observer)?;
-    // Weighed at a tenth of the pilot's own error: the balance hardly depends on it.
-    let wanted = 0.1 * pilot.largest_error();
-    let (shaped, _) = balanced(&pilot_scene, &pilot.shares(wanted), f64::INFINITY)?;
-    let found = Grading {
-        pilot: resolution(&pilot_scene, 1.0),
-        graded: resolution(&shaped, 1.0),
-        work: pilot.work,
-    };
-    Some((shaped, found))
-}
-
 fn record(setting: &Setting, cost: &Forecast, usage: Usage, found: Result<Results>) -> StudyRun {
     let mut out = StudyRun {
         series: setting.series.clone(),
@@ -312,6 +259,7 @@ fn record(setting: &Setting, cost: &Forecast, usage: Usage, found: Result<Result
         ratio: setting.ratio,
         failed: None,
         freedoms: 0,
+        degree: 1,
         increments: 0,
         factor: [
             cost.factor.flops,
@@ -329,6 +277,7 @@ fn record(setting: &Setting, cost: &Forecast, usage: Usage, found: Result<Result
         Err(error) => out.failed = Some(error.to_string()),
         Ok(results) => {
             out.freedoms = results.sizes.freedoms;
+            out.degree = results.sizes.degree;
             out.increments = results.history.len();
             let factor = &results.factor;
             out.factor = [

@@ -2,11 +2,9 @@
 
 use super::extrapolation::extrapolate;
 use super::knobs::Knob;
-use super::quantities::governs;
-use super::refinement::largest_order;
+use super::quantities::{formal_order, is_demanded_with_all};
 use super::study::StudyRun;
 use crate::results::ReferenceRow;
-use crate::scene::Scene;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -62,7 +60,7 @@ pub struct QuantityStudy {
 }
 
 /// Judges the runs of a scene.
-pub fn judge(runs: &[StudyRun], references: &[ReferenceRow], scene: &Scene) -> Vec<QuantityStudy> {
+pub fn judge(runs: &[StudyRun], references: &[ReferenceRow]) -> Vec<QuantityStudy> {
     let mut paths: Vec<&str> = Vec::new();
     for (path, _) in runs.iter().flat_map(|r| &r.values) {
         if !paths.contains(&path.as_str()) {
@@ -71,7 +69,7 @@ pub fn judge(runs: &[StudyRun], references: &[ReferenceRow], scene: &Scene) -> V
     }
     let found: Vec<(&str, StudyReference)> = paths
         .iter()
-        .filter_map(|path| Some((*path, reference(runs, references, scene, path)?)))
+        .filter_map(|path| Some((*path, reference(runs, references, path)?)))
         .collect();
     let key = |path: &str| path.rsplit('.').next().unwrap_or(path).to_string();
     let mut out: Vec<QuantityStudy> = Vec::new();
@@ -90,7 +88,7 @@ pub fn judge(runs: &[StudyRun], references: &[ReferenceRow], scene: &Scene) -> V
         if errors.iter().flatten().all(|e| *e <= ROUND_OFF) {
             continue;
         }
-        if governs(&key(path)) {
+        if is_demanded_with_all(&key(path)) {
             for (worst, error) in worst.iter_mut().zip(&errors) {
                 *worst = match (*worst, *error) {
                     (Some(a), Some(b)) => Some(f64::max(a, b)),
@@ -125,7 +123,7 @@ fn series<'r>(runs: &'r [StudyRun], name: &'r str) -> Vec<(usize, f64)> {
 /// The names of the series of meshes, the scene's own first.
 fn mesh_series(runs: &[StudyRun]) -> Vec<&str> {
     let mut out: Vec<&str> = Vec::new();
-    for knob in [Knob::Resolution, Knob::Element, Knob::Grading] {
+    for knob in [Knob::Resolution, Knob::Element] {
         for run in runs.iter().filter(|r| r.knob == knob) {
             if !out.contains(&run.series.as_str()) {
                 out.push(&run.series);
@@ -139,38 +137,40 @@ fn mesh_series(runs: &[StudyRun]) -> Vec<&str> {
 }
 
 /// The closed form that the scene names, else the extrapolation of the scene's own series of meshes.
-fn reference(
-    runs: &[StudyRun],
-    references: &[ReferenceRow],
-    scene: &Scene,
-    path: &str,
-) -> Option<StudyReference> {
+fn reference(runs: &[StudyRun], references: &[ReferenceRow], path: &str) -> Option<StudyReference> {
     let own = mesh_series(runs).first().copied()?;
     let values: Vec<(f64, f64)> = series(runs, own)
         .into_iter()
         .filter_map(|(i, h)| Some((h, value(&runs[i], path)?)))
         .take(FINEST)
         .collect();
-    let limit = extrapolate(&values, [1.0, largest_order(scene)]);
+    let degree = runs
+        .iter()
+        .find(|run| run.series == own)
+        .map_or(1, |run| run.degree);
+    let key = path.rsplit('.').next().unwrap_or(path);
+    let found = extrapolate(&values, formal_order(key, degree));
+    let limit = found.and_then(|found| Some((found.limit?, found.uncertainty)));
     if let Some(row) = references.iter().find(|r| r.quantity == path) {
+        let other = limit.filter(|(limit, doubt)| (limit - row.reference).abs() > *doubt);
         return Some(StudyReference {
             value: row.reference,
             uncertainty: 0.0,
             source: row.source.clone(),
-            limit: limit
-                .filter(|l| (l.limit - row.reference).abs() > l.error)
-                .map(|l| l.limit),
+            limit: other.map(|(limit, _)| limit),
         });
     }
-    let limit = limit?;
+    // Meshes that show no order have no better value than that of the finest.
+    let finest = || Some((values.first()?.1, found?.uncertainty));
+    let (limit, doubt_of_mesh) = limit.or_else(finest)?;
     let (correction, doubt) = path_correction(runs, path).unwrap_or_default();
     let increments = match correction == 0.0 && doubt == 0.0 {
         true => "",
         false => " and the finest increments",
     };
     Some(StudyReference {
-        value: limit.limit + correction,
-        uncertainty: limit.error + doubt,
+        value: limit + correction,
+        uncertainty: doubt_of_mesh + doubt,
         source: format!(
             "extrapolated from the {} finest meshes of {own}{increments}",
             values.len()
@@ -293,7 +293,7 @@ fn cheapest(runs: &[StudyRun], errors: &[Option<f64>], accuracy: f64) -> Option<
     (0..runs.len())
         .filter(|&i| reaches(i))
         .filter(|&i| match runs[i].knob {
-            Knob::Resolution | Knob::Element | Knob::Grading => series(runs, &runs[i].series)
+            Knob::Resolution | Knob::Element => series(runs, &runs[i].series)
                 .into_iter()
                 .filter(|(_, h)| *h < runs[i].ratio)
                 .all(|(finer, _)| errors[finer].is_none() || reaches(finer)),

@@ -95,6 +95,7 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
         contact_pairs: model.pairs.len(),
         zone_freedoms: partition.zone.len(),
         zone_elements: choice.elements.len(),
+        degree: model.mesh.degree(),
     };
     let plastic = !choice.elements.is_empty();
     let mut notes = model.warnings.clone();

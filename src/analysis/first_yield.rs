@@ -202,6 +202,7 @@ impl Run<'_, '_> {
             load: self.engine.total_load_size(),
             max_pressure: figures.max_pressure,
             half_width: figures.half_width,
+            half_width_reading: figures.half_width_reading,
             location: peak.location,
             body: peak.body,
         });

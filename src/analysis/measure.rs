@@ -3,7 +3,7 @@
 use super::contact_edge::{EdgePoint, Tail};
 use super::engine::Engine;
 use crate::model::{AxisPoint, ContactSurface, Magnitude, Model};
-use crate::results::{PairState, Status};
+use crate::results::{EdgeReading, PairState, Status};
 use crate::scene::Kind;
 use std::borrow::Cow;
 
@@ -26,6 +26,8 @@ pub struct ContactFigures {
     pub max_pressure: f64,
     /// Half width of the largest contact patch.
     pub half_width: f64,
+    /// How well it is read.
+    pub half_width_reading: EdgeReading,
     /// Sum of the contact forces of the model.
     pub force: f64,
     /// Pressure at the middle of the largest patch (its symmetry plane, where it has one).
@@ -153,13 +155,15 @@ pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigur
                     (_, true) => patch.end_arc(k - 1),
                     _ => 0.5 * (model.pairs[begin].arc + model.pairs[k - 1].arc),
                 };
-                let (from, to) = (patch.edge(begin, -1, middle), patch.edge(k - 1, 1, middle));
+                let ends = [patch.edge(begin, -1, middle), patch.edge(k - 1, 1, middle)];
+                let [from, to] = ends.map(|end| end.arc);
                 out.patch = Some([from, to]);
                 out.contact = index;
-                out.half_width = if at_begin || at_end {
-                    to - from
-                } else {
-                    0.5 * (to - from)
+                let sides = if at_begin || at_end { 1 } else { 2 };
+                out.half_width = (to - from) / sides as f64;
+                out.half_width_reading = EdgeReading {
+                    error: (ends[0].reading + ends[1].reading) / sides as f64,
+                    pairs: (k - begin) / sides,
                 };
                 let at_axis = contact.axis.filter(|axis| {
                     if axis.begins {
@@ -185,6 +189,28 @@ pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigur
 /// The sum; of nothing it is 0, where `Iterator::sum` gives -0.
 fn sum(forces: &[f64]) -> f64 {
     forces.iter().fold(0.0, |sum, force| sum + force)
+}
+
+/// Where a contact ends.
+#[derive(Clone, Copy)]
+struct Edge {
+    /// Arc length along the surface.
+    arc: f64,
+    /// Measured error of its reading.
+    reading: f64,
+}
+
+/// What an edge is read off.
+struct EdgeTail {
+    /// The last closed pair, and the direction in which the contact ends.
+    last: usize,
+    way: isize,
+    /// Arc length of the middle of the contact.
+    middle: f64,
+    /// To the first open pair.
+    spacing: f64,
+    /// Distances from the middle between which the edge lies.
+    bracket: [f64; 2],
 }
 
 /// A run of closed pairs `begin..end` of a contact.
@@ -226,27 +252,68 @@ impl Patch<'_> {
                 .all(|&node| self.model.freedoms.slots[node][1] == crate::model::Slot::Fixed)
     }
 
-    /// Where contact ends beyond pair `last`, along the surface in direction `way`: see [`Tail`].
-    fn edge(&self, last: usize, way: isize, middle: f64) -> f64 {
+    /// Where contact ends beyond pair `last`, along the surface in direction `way`, read from the force of the last
+    /// [`EDGE_SKIP`] pairs: see [`Tail`]. Its error is measured by a second reading with one pair more; where the pairs
+    /// are too few for that, or a reading leaves its bracket, it is half a spacing.
+    fn edge(&self, last: usize, way: isize, middle: f64) -> Edge {
         let arc = |k: usize| self.model.pairs[k].arc;
-        let neighbour = |k: usize, step: isize| {
-            k.checked_add_signed(step)
-                .filter(|i| self.range.contains(i))
-        };
-        let Some(beyond) = neighbour(last, way) else {
-            return self.end_arc(last);
+        let Some(beyond) = self.neighbour(last, way) else {
+            return Edge {
+                arc: self.end_arc(last),
+                reading: 0.0,
+            };
         };
         let spacing = (arc(beyond) - arc(last)).abs();
         let distance = (arc(last) - middle).abs();
+        let bracket = [distance - 0.5 * spacing, distance + spacing];
+        let tail = EdgeTail {
+            last,
+            way,
+            middle,
+            spacing,
+            bracket,
+        };
+        let [found, other] = [EDGE_SKIP, EDGE_SKIP + 1].map(|skip| self.read_edge(&tail, skip));
+        let at_bracket = |edge: f64| {
+            bracket
+                .iter()
+                .any(|end| (edge - end).abs() < 1e-9 * spacing)
+        };
+        let reading = match (found, other) {
+            (Some(found), Some(other)) if !at_bracket(found) => (found - other).abs(),
+            _ => 0.5 * spacing,
+        };
+        let edge = found.unwrap_or(distance + 0.5 * spacing);
+        Edge {
+            arc: middle + way as f64 * edge,
+            reading,
+        }
+    }
+
+    /// The pair `step` pairs along its surface from another.
+    fn neighbour(&self, k: usize, step: isize) -> Option<usize> {
+        k.checked_add_signed(step)
+            .filter(|i| self.range.contains(i))
+    }
+
+    /// Distance of the edge from the middle, by the force of the last `skip` pairs and the pressures before them.
+    fn read_edge(&self, tail: &EdgeTail, skip: isize) -> Option<f64> {
+        let &EdgeTail {
+            last,
+            way,
+            middle,
+            spacing,
+            bracket,
+        } = tail;
+        let arc = |k: usize| self.model.pairs[k].arc;
         let closed = |step: isize| {
-            neighbour(last, -step * way).filter(|k| (self.begin..self.end).contains(k))
+            self.neighbour(last, -step * way)
+                .filter(|k| (self.begin..self.end).contains(k))
         };
         // This side of the middle, as in half a model, and not on an axis, where next to no area belongs to a pair.
         let beside =
             |k: &usize| way as f64 * (arc(*k) - middle) > -0.25 * spacing && self.width(*k) > 0.0;
-        let inner = (EDGE_SKIP..EDGE_SKIP + EDGE_POINTS)
-            .filter_map(closed)
-            .filter(beside);
+        let inner = (skip..skip + EDGE_POINTS).filter_map(closed).filter(beside);
         let mut points = [EdgePoint::default(); EDGE_POINTS as usize];
         let mut n = 0;
         for k in inner {
@@ -257,10 +324,8 @@ impl Patch<'_> {
             };
             n += 1;
         }
-        let Some(first) = closed(EDGE_SKIP - 1).filter(|_| n > 0) else {
-            return middle + way as f64 * (distance + 0.5 * spacing);
-        };
-        let force: f64 = (0..EDGE_SKIP)
+        let first = closed(skip - 1).filter(|_| n > 0)?;
+        let force: f64 = (0..skip)
             .filter_map(closed)
             .map(|k| self.pressure[k] * self.model.pairs[k].area)
             .sum();
@@ -271,8 +336,7 @@ impl Patch<'_> {
             length: self.model.pairs[first].area / self.width(first),
         };
         // The last closed pair may carry the rest of a partly covered facet.
-        let edge = tail.edge(force, [distance - 0.5 * spacing, distance + spacing]);
-        middle + way as f64 * edge
+        Some(tail.edge(force, bracket))
     }
 
     /// Area of the surface at a pair over the length along it.

@@ -377,6 +377,7 @@ impl<'m, 'o> Run<'m, 'o> {
             contact_pairs: model.pairs.len(),
             zone_freedoms: self.engine.sub.partition.zone.len(),
             zone_elements: self.choice.elements.len(),
+            degree: model.mesh.degree(),
         };
         results.counts = self.engine.counts;
         let Standing {

@@ -59,6 +59,7 @@ impl Engine<'_> {
             max_pressure: figures.max_pressure,
             pole_pressure: figures.pole_pressure,
             half_width: figures.half_width,
+            half_width_reading: figures.half_width_reading,
             contact_arc: arc,
             residual_depth: dent.depth,
             residual_depth_by_body: dent.by_body,

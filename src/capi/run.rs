@@ -158,7 +158,7 @@ pub(super) unsafe fn execute(
             let caller = &mut Caller { callback, user };
             let (analysis, results) = match task()? {
                 Task::Scene(scene) if scene.accuracy.is_some() => {
-                    let found = accuracy::reach(&scene, backend, Extent::Program, caller)?;
+                    let found = accuracy::reach(&scene, backend, Extent::Program, None, caller)?;
                     (found.analysis, found.results)
                 }
                 Task::Scene(scene) => as_it_stands(Model::new(&scene)?, backend, caller)?,

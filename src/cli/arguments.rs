@@ -138,9 +138,13 @@ pub(super) struct RunArguments {
     /// Directory for the results; `run` takes SCENE with the ending .out if it is not given
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Choose mesh and tolerances so that the stated errors stay within this, such as 1%; like the scene's key `accuracy`
-    #[arg(long, value_name = "PERCENT")]
+    /// Run finer and finer meshes until the stated errors are within this: 1% for all quantities, load=0.5%,dent=2% for
+    /// those that are named; like the scene's key `accuracy`
+    #[arg(long, value_name = "DEMAND")]
     pub accuracy: Option<String>,
+    /// Time for that, such as 60s or 10min: a mesh that would not fit is not begun
+    #[arg(long, value_name = "TIME", value_parser = super::study::duration)]
+    pub budget: Option<f64>,
     /// Do not estimate the errors: leaves out the runs on other meshes
     #[arg(long)]
     pub no_estimate: bool,

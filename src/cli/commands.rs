@@ -55,6 +55,8 @@ fn analyse(
 ) -> Result<()> {
     let common = &arguments.common;
     let demand = arguments.accuracy.as_ref();
+    let without_demand =
+        || Error::input("--budget is the time for an accuracy; demand one with --accuracy");
     let marked = |error: Error| {
         if out
             .as_deref()
@@ -65,6 +67,9 @@ fn analyse(
         error
     };
     let scene = prepare(common, demand.map(|a| format!("accuracy={a}"))).map_err(marked)?;
+    if arguments.budget.is_some() && scene.accuracy.is_none() {
+        return Err(marked(without_demand()));
+    }
     // A directory that cannot be written is better found before an hour's run than after it.
     let claim = out.as_deref().map(Claim::new).transpose()?;
     let places = restart.zip(out.as_deref());
@@ -102,7 +107,8 @@ fn compute(
     let mut progress = Progress::new(arguments.quiet, arguments.progress, start);
     let (scene, analysis, mut results) = match scene.accuracy {
         Some(_) => {
-            let found = accuracy::reach(&scene, common.solver.into(), extent, &mut progress)?;
+            let (backend, budget) = (common.solver.into(), arguments.budget);
+            let found = accuracy::reach(&scene, backend, extent, budget, &mut progress)?;
             (found.scene, found.analysis, found.results)
         }
         None => {

@@ -28,7 +28,7 @@ pub(super) struct StudyArguments {
     /// Meshes in a series: the finest has twice as many elements along a line as the scene, the next each 1/sqrt(2) of that
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u16).range(2..=12))]
     pub levels: u16,
-    /// What to turn, separated by commas: resolution, element, grading, stepping, tolerance, gamma, algorithm, backend; default all
+    /// What to turn, separated by commas: resolution, element, stepping, tolerance, gamma, algorithm, backend; default all
     #[arg(long, value_name = "KNOBS", value_delimiter = ',')]
     pub knobs: Vec<String>,
     /// No progress, only results and errors
@@ -37,7 +37,7 @@ pub(super) struct StudyArguments {
 }
 
 /// `60`, `60s`, `2min`, `1h` in seconds.
-fn duration(text: &str) -> std::result::Result<f64, String> {
+pub(super) fn duration(text: &str) -> std::result::Result<f64, String> {
     let wanted = "give a positive time, such as 60s or 10min";
     let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
     let unit = match &text[digits.len()..] {

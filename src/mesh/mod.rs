@@ -98,6 +98,12 @@ impl Mesh {
         self.shapes.len()
     }
 
+    /// Lowest polynomial degree of the elements, 1 or 2.
+    pub fn degree(&self) -> usize {
+        let quadratic = self.shapes.iter().all(|shape| shape.is_quadratic());
+        if quadratic { 2 } else { 1 }
+    }
+
     /// Coordinates of a node.
     pub fn point(&self, node: usize) -> [f64; 2] {
         [self.coordinates[2 * node], self.coordinates[2 * node + 1]]

@@ -36,9 +36,12 @@ mod tests {
         assert!(ending(&results).is_ok());
         let demand = |reached| Demand {
             accuracy: 0.01,
+            demanded: "1 %".to_string(),
             reached,
+            reason: (!reached).then(|| "time".to_string()),
             unknown: Vec::new(),
             stated: 0.02,
+            worst: Some("yield.load".to_string()),
             choices: Vec::new(),
             work: 0.0,
         };
@@ -53,7 +56,7 @@ mod tests {
         assert_eq!(error.kind(), ErrorKind::Inaccurate);
         assert_eq!(
             error.message(),
-            "state `pressed`\nDemanded accuracy 1.0 %: NOT reached, the largest stated error is 2.0 %"
+            "state `pressed`\nDemanded accuracy 1 %: NOT reached: time; the stated error is 2.0 % (yield.load)"
         );
         results.incomplete = Some("stopped".to_string());
         results.incomplete_kind = Some(ErrorKind::Stopped);

@@ -177,6 +177,7 @@ impl Summary<'_> {
                 contact_pairs: count(&root["contact_pairs"]),
                 zone_freedoms: count(&root["zone_freedoms"]),
                 zone_elements: count(&root["zone_elements"]),
+                ..Sizes::default()
             },
             effects: self
                 .entries("effects")
@@ -193,6 +194,7 @@ impl Summary<'_> {
                 load: float(&root["yield"]["load"]),
                 max_pressure: float(&root["yield"]["max_pressure"]),
                 half_width: float(&root["yield"]["half_width"]),
+                half_width_reading: Default::default(),
                 location: ["x", "y"].map(|key| float(&root["yield"]["location"][key])),
                 body: body(header, &root["yield"]["location"]["body"]),
             }),

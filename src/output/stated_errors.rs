@@ -91,33 +91,11 @@ fn method(accuracy: &Accuracy) -> String {
     let ratios = accuracy.companions.iter().map(|c| significant(c.ratio, 3));
     match accuracy.method {
         EstimateMethod::CoarserMeshes => format!(
-            "The mesh's part is extrapolated from runs with elements {} times as large; it counts up to twice.{}",
+            "The mesh's part follows from runs with elements {} times as large, factor of safety included.",
             ratios.collect::<Vec<_>>().join(" and "),
-            extrapolated(accuracy)
         ),
-        _ => "The mesh's part is the energy norm of the stress error, a rough figure: this mesh is not refined in passing. \
-              `brinell accuracy` does."
+        _ => "The mesh's part is the energy norm of the stress error, a rough figure: no other mesh could be run."
             .to_string(),
-    }
-}
-
-/// Which values are not those of the mesh, and what that says of the rest.
-fn extrapolated(accuracy: &Accuracy) -> String {
-    let of_mesh = accuracy.quantities.iter().filter_map(|q| {
-        let own = q.of_mesh?;
-        let scale = q.error? / q.relative_error?;
-        Some(own.error / scale)
-    });
-    let errors: Vec<f64> = of_mesh.filter(|e| e.is_finite()).collect();
-    match errors.iter().copied().reduce(f64::max) {
-        None => String::new(),
-        Some(most) => format!(
-            " {} of {} values are extrapolated from these meshes, which makes them better known than on any of them; on the mesh itself they may be \
-             wrong by up to {} %, and with them profiles, fields and history.",
-            errors.len(),
-            accuracy.quantities.len(),
-            percent(Some(most))
-        ),
     }
 }
 
@@ -125,19 +103,27 @@ fn extrapolated(accuracy: &Accuracy) -> String {
 pub(crate) fn demand(demand: &Demand) -> String {
     let stated = match demand.stated.is_finite() {
         true => format!(
-            "the largest stated error is {} %",
+            "the stated error is {} %",
             significant(100.0 * demand.stated, 2)
         ),
         false => "no error was stated".to_string(),
     };
-    let became = match (demand.reached, demand.unknown.as_slice()) {
+    let worst = demand
+        .worst
+        .as_ref()
+        .map_or(String::new(), |worst| format!(" ({worst})"));
+    let unknown = match demand.unknown.as_slice() {
+        [] => String::new(),
+        unknown => format!("; no error is known of {}", unknown.join(", ")),
+    };
+    let became = match (demand.reached, &demand.reason) {
         (true, _) => "reached".to_string(),
-        (false, []) => "NOT reached".to_string(),
-        (false, unknown) => format!("NOT reached, no error is known of {}", unknown.join(", ")),
+        (false, None) => "NOT reached".to_string(),
+        (false, Some(why)) => format!("NOT reached: {why}"),
     };
     format!(
-        "Demanded accuracy {} %: {became}, {stated}",
-        significant(100.0 * demand.accuracy, 2)
+        "Demanded accuracy {}: {became}; {stated}{worst}{unknown}",
+        demand.demanded
     )
 }
 

@@ -86,7 +86,6 @@ pub fn study_json(header: &RunHeader, study: &Study) -> Value {
         "runs": study.runs.iter().map(run).collect::<Vec<_>>(),
         "quantities": study.quantities.iter().map(quantity).collect::<Vec<_>>(),
         "left_out": study.left_out,
-        "grading": study.grading,
     })
 }
 

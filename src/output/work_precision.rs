@@ -69,7 +69,7 @@ fn curves<'s>(study: &'s Study, quantity: &QuantityStudy) -> Vec<Curve<'s>> {
             Some(curve) => curve.points.push(point),
             None => out.push(Curve {
                 name: &run.series,
-                is_mesh: matches!(run.knob, Knob::Resolution | Knob::Element | Knob::Grading),
+                is_mesh: matches!(run.knob, Knob::Resolution | Knob::Element),
                 points: vec![point],
             }),
         }

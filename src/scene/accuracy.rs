@@ -1,35 +1,121 @@
-//! `accuracy = "1 %"`: how wrong the results may be.
+//! `accuracy = "1 %"`: how wrong the results may be, all of them or those that are named.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
-/// A demanded relative accuracy, read from `"1 %"` or `0.01`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+/// Quantities whose accuracy can be demanded: their keys in `summary.json`, and short names.
+pub const DEMANDED: [(&str, &str); 8] = [
+    ("load", "load"),
+    ("max_pressure", "pressure"),
+    ("pole_pressure", "pole"),
+    ("half_width", "width"),
+    ("approach", "approach"),
+    ("residual_depth", "dent"),
+    ("max_equivalent_plastic_strain", "strain"),
+    ("plastic_zone_size", "zone"),
+];
+
+/// A demanded relative accuracy: of every quantity (`"1 %"` or `0.01`), or of those that are named
+/// (`"load = 0.5 %, dent = 2 %"` or a table). A name is a key of `summary.json`, its short name or a whole path such as
+/// `states.pressed.load`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Written", into = "String")]
-pub struct AccuracyDemand(f64);
+pub struct AccuracyDemand {
+    /// Of quantities that are not named; `None` where some are.
+    all: Option<f64>,
+    /// By key or path.
+    named: BTreeMap<String, f64>,
+}
 
 impl AccuracyDemand {
     /// Largest accuracy that can be demanded.
-    pub const LARGEST: f64 = 0.5;
+    pub const LARGEST: f64 = 1.0;
 
-    /// A relative accuracy.
+    /// One relative accuracy for every quantity.
     ///
     /// # Errors
-    /// Unless `0 < accuracy <= 0.5`, in words.
+    /// Unless `0 < accuracy < 1`, in words.
     pub fn new(accuracy: f64) -> Result<Self, String> {
-        if accuracy > 0.0 && accuracy <= Self::LARGEST {
-            Ok(AccuracyDemand(accuracy))
-        } else {
-            Err(format!(
-                "an accuracy of {accuracy} makes no sense; give one above 0 and up to 50 %, such as \"1 %\""
-            ))
+        Ok(AccuracyDemand {
+            all: Some(checked(accuracy)?),
+            named: BTreeMap::new(),
+        })
+    }
+
+    /// The demand on a quantity that is named, by its path (`yield.KEY`, `states.NAME.KEY`) or its key.
+    pub fn named(&self, path: &str) -> Option<f64> {
+        let key = path.rsplit('.').next().unwrap_or(path);
+        self.named
+            .get(path)
+            .or_else(|| self.named.get(key))
+            .copied()
+    }
+
+    /// The demand on quantities that are not named.
+    pub fn all(&self) -> Option<f64> {
+        self.all
+    }
+
+    /// The tightest of all.
+    pub fn tightest(&self) -> f64 {
+        let named = self.named.values().copied();
+        named.chain(self.all).fold(Self::LARGEST, f64::min)
+    }
+
+    fn with(mut self, name: &str, accuracy: f64) -> Result<Self, String> {
+        let name = key(name)?;
+        match self.named.insert(name.clone(), checked(accuracy)?) {
+            None => Ok(self),
+            Some(_) => Err(format!("the accuracy of `{name}` is demanded twice")),
         }
     }
 
-    /// The largest stated error relative to the size of a quantity.
-    pub fn relative(self) -> f64 {
-        self.0
+    fn of_nothing() -> Self {
+        AccuracyDemand {
+            all: None,
+            named: BTreeMap::new(),
+        }
+    }
+}
+
+/// A relative accuracy within its bounds.
+fn checked(accuracy: f64) -> Result<f64, String> {
+    if accuracy > 0.0 && accuracy < AccuracyDemand::LARGEST {
+        Ok(accuracy)
+    } else {
+        Err(format!(
+            "an accuracy of {accuracy:?} makes no sense; give one above 0 and below 100 %, such as \"1 %\""
+        ))
+    }
+}
+
+/// The key of a quantity, or a whole path that ends with one.
+fn key(name: &str) -> Result<String, String> {
+    let name = name.trim();
+    let (prefix, last) = match name.rsplit_once('.') {
+        Some((prefix, last)) => (Some(prefix), last),
+        None => (None, name),
+    };
+    let is_place = prefix.is_none_or(|p| p == "yield" || p.starts_with("states."));
+    let known = DEMANDED
+        .iter()
+        .find(|(key, short)| last == *key || last == *short);
+    match (known, prefix) {
+        (Some((key, _)), Some(prefix)) if is_place => Ok(format!("{prefix}.{key}")),
+        (Some((key, _)), None) => Ok((*key).to_string()),
+        _ => {
+            let all = DEMANDED.map(|(key, short)| match key == short {
+                true => key.to_string(),
+                false => format!("{key} (or {short})"),
+            });
+            Err(format!(
+                "`{name}` is no quantity whose accuracy can be demanded; there are {}, also of one state as yield.load or \
+                 states.NAME.load",
+                all.join(", ")
+            ))
+        }
     }
 }
 
@@ -39,20 +125,38 @@ impl JsonSchema for AccuracyDemand {
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({
-            "description": "Largest error of each quantity relative to its size, above 0 and up to 50 %: \"1 %\" or 0.01.",
+        let one = json_schema!({
             "type": ["string", "number"],
             "exclusiveMinimum": 0,
-            "maximum": Self::LARGEST,
-            "pattern": "^\\s*[0-9.eE+-]+\\s*%?\\s*$",
+            "exclusiveMaximum": Self::LARGEST,
+        });
+        json_schema!({
+            "description": "Largest stated error of each quantity relative to its size, above 0 and below 100 %: \"1 %\" or 0.01 for \
+                            all; \"load = 0.5 %, dent = 2 %\" or a table for those that are named.",
+            "type": ["string", "number", "object"],
+            "exclusiveMinimum": 0,
+            "exclusiveMaximum": Self::LARGEST,
+            "additionalProperties": one,
         })
     }
 }
 
 /// As it stands in a scene.
 #[derive(Deserialize)]
-#[serde(untagged, expecting = "an accuracy such as \"1 %\"")]
+#[serde(
+    untagged,
+    expecting = "an accuracy such as \"1 %\" or \"load = 0.5 %, dent = 2 %\""
+)]
 enum Written {
+    Text(String),
+    Number(f64),
+    Table(BTreeMap<String, WrittenShare>),
+}
+
+/// The accuracy of one quantity.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "an accuracy such as \"1 %\"")]
+enum WrittenShare {
     Text(String),
     Number(f64),
 }
@@ -64,35 +168,68 @@ impl TryFrom<Written> for AccuracyDemand {
         match written {
             Written::Text(text) => Self::try_from(text),
             Written::Number(value) => Self::new(value),
+            Written::Table(table) => {
+                let of = |demand: Self, (name, share): (String, WrittenShare)| match share {
+                    WrittenShare::Text(text) => demand.with(&name, share_of(&text)?),
+                    WrittenShare::Number(value) => demand.with(&name, value),
+                };
+                if table.is_empty() {
+                    return Err("no quantity is named".to_string());
+                }
+                table.into_iter().try_fold(Self::of_nothing(), of)
+            }
         }
     }
+}
+
+/// `1 %` or `0.01`.
+fn share_of(text: &str) -> Result<f64, String> {
+    let (number, unit) = match text.trim().strip_suffix('%') {
+        Some(number) => (number, 0.01),
+        None => (text.trim(), 1.0),
+    };
+    let value: f64 = number
+        .trim()
+        .parse()
+        .map_err(|_| format!("\"{text}\" is no accuracy; give one such as \"1 %\""))?;
+    Ok(value * unit)
 }
 
 impl TryFrom<String> for AccuracyDemand {
     type Error = String;
 
     fn try_from(text: String) -> Result<Self, String> {
-        let (number, unit) = match text.trim().strip_suffix('%') {
-            Some(number) => (number, 0.01),
-            None => (text.trim(), 1.0),
-        };
-        let value: f64 = number
-            .trim()
-            .parse()
-            .map_err(|_| format!("\"{text}\" is no accuracy; give one such as \"1 %\""))?;
-        Self::new(value * unit)
+        if !text.contains('=') {
+            return Self::new(share_of(&text)?);
+        }
+        text.split(',').try_fold(Self::of_nothing(), |demand, one| {
+            let (name, share) = one.split_once('=').ok_or_else(|| {
+                format!("\"{one}\" names no quantity; give one such as \"load = 1 %\"")
+            })?;
+            demand.with(name, share_of(share)?)
+        })
     }
 }
 
 impl From<AccuracyDemand> for String {
     fn from(demand: AccuracyDemand) -> String {
-        format!("{} %", 100.0 * demand.0)
+        let share = |share: f64| format!("{} %", 100.0 * share);
+        let named = demand
+            .named
+            .iter()
+            .map(|(name, of)| format!("{name} = {}", share(*of)));
+        let all: Vec<String> = demand.all.map(share).into_iter().chain(named).collect();
+        all.join(", ")
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn read(text: &str) -> Result<AccuracyDemand, String> {
+        AccuracyDemand::try_from(text.to_string())
+    }
 
     #[test]
     fn per_cent_and_shares_are_read() {
@@ -101,29 +238,58 @@ mod tests {
             ("0.3%", 0.003),
             ("0.1", 0.1),
             (" 10 % ", 0.1),
+            ("99 %", 0.99),
         ] {
-            let read = AccuracyDemand::try_from(text.to_string()).unwrap();
-            assert!((read.relative() - value).abs() < 1e-15, "{text}");
+            let read = read(text).unwrap();
+            assert!((read.tightest() - value).abs() < 1e-15, "{text}");
+            assert_eq!(read.all(), Some(read.tightest()));
         }
-        for wrong in ["", "%", "0 %", "-1 %", "60 %", "a few %", "nan"] {
-            assert!(
-                AccuracyDemand::try_from(wrong.to_string()).is_err(),
-                "{wrong}"
-            );
+        for wrong in ["", "%", "0 %", "-1 %", "100 %", "a few %", "nan"] {
+            assert!(read(wrong).is_err(), "{wrong}");
         }
     }
 
     #[test]
-    fn a_number_is_a_share() {
-        let read =
-            |text: &str| toml::from_str::<std::collections::BTreeMap<String, AccuracyDemand>>(text);
+    fn only_what_is_named_is_demanded() {
+        let demand = read("load=0.5%, dent = 2 %, states.hot.load = 1%").unwrap();
+        assert_eq!(demand.named("yield.load"), Some(0.005));
+        assert_eq!(demand.named("states.hot.load"), Some(0.01));
+        assert_eq!(demand.named("states.off.residual_depth"), Some(0.02));
+        assert_eq!(
+            (demand.named("yield.half_width"), demand.all()),
+            (None, None)
+        );
+        assert_eq!(demand.tightest(), 0.005);
+        let written = String::from(demand.clone());
+        assert_eq!(read(&written).unwrap(), demand, "{written}");
+        for (wrong, says) in [
+            ("load=1%, presure=1%", "`presure` is no quantity"),
+            ("states.load=1%", "`states.load` is no quantity"),
+            ("load=1%, load=2%", "demanded twice"),
+            ("load=1%, 2%", "names no quantity"),
+            ("dent=0", "above 0"),
+        ] {
+            let error = read(wrong).unwrap_err();
+            assert!(error.contains(says), "{wrong}: {error}");
+        }
+    }
+
+    #[test]
+    fn a_number_is_a_share_and_a_table_names_quantities() {
+        let read = |text: &str| toml::from_str::<BTreeMap<String, AccuracyDemand>>(text);
         let shares = read("accuracy = 0.01").unwrap();
-        assert_eq!(shares["accuracy"].relative(), 0.01);
+        assert_eq!(shares["accuracy"].tightest(), 0.01);
         assert_eq!(read("accuracy = \"1 %\"").unwrap(), shares);
+        let table = read("accuracy = { load = 0.005, dent = \"2 %\" }").unwrap();
+        assert_eq!(
+            table,
+            read("accuracy = \"load = 0.5 %, dent = 2 %\"").unwrap()
+        );
         for (wrong, says) in [
             ("0", "such as \"1 %\""),
-            ("1", "up to 50 %"),
+            ("1", "below 100 %"),
             ("true", "an accuracy such as"),
+            ("{}", "no quantity is named"),
         ] {
             let error = read(&format!("accuracy = {wrong}")).unwrap_err();
             assert!(error.to_string().contains(says), "{error}");

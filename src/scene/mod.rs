@@ -27,7 +27,7 @@ mod units;
 mod unsupported;
 mod validate;
 
-pub use accuracy::AccuracyDemand;
+pub use accuracy::{AccuracyDemand, DEMANDED};
 pub use boundary::{Contact, Direction, Displacement, History, Kirsch, Load, PlaneForce, Support};
 pub use geometry::{
     Block, CylinderOnHalfPlane, Disc, DiscInPlate, MeshSource, Part, Piece, Ring, SurfaceCircle,
@@ -83,8 +83,9 @@ pub struct Scene {
     /// How to compute: every value has a default that needs no thought.
     #[serde(default)]
     pub analysis: Settings,
-    /// How wrong the results may be, such as `"1 %"`: with this key mesh and tolerances are chosen by the program, and values are reported that its meshes
-    /// lead to together where these are better known. In Rust `accuracy::reach` does that; an `Analysis` runs on the mesh that the scene describes.
+    /// How wrong the results may be, such as `"1 %"` or `"load = 0.5 %, dent = 2 %"`: the scene is then run on finer and finer meshes
+    /// of its family until the stated errors are within it. In Rust `accuracy::reach` does that; an `Analysis` runs on the mesh
+    /// that the scene describes.
     #[serde(default)]
     pub accuracy: Option<AccuracyDemand>,
     /// Published or exact values to put beside the computed ones.

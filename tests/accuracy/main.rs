@@ -1,14 +1,12 @@
-//! What a run says about its own errors, against closed forms.
+//! What a run says about its own errors, against closed forms and finer meshes.
 
 #[path = "../running/mod.rs"]
 mod running;
 
-mod claim;
-mod consistent;
+mod claims;
 mod demand;
-mod effectivity;
+mod estimate;
+mod families;
 mod file_mesh;
 mod indicator;
-mod parts;
-mod price;
 mod study;

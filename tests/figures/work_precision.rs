@@ -1,15 +1,11 @@
 //! The page of data/accuracy: what each digit costs, for the paper's applications and cases with known answers. Run with
 //! `cargo run --release --example work_precision [-- SCENE]...` (names below; all without any).
 
-use brinell::accuracy::{
-    Extent, Knob, Meter, Plan, QuantityStudy, Study, quantities, reach, study,
-};
-use brinell::analysis::Analysis;
+use brinell::accuracy::{Knob, Plan, QuantityStudy, Study, study};
 use brinell::linalg::Backend;
-use brinell::model::Model;
 use brinell::output;
 use brinell::progress::Observer;
-use brinell::scene::{AccuracyDemand, Scene};
+use brinell::scene::Scene;
 use std::error::Error;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -26,9 +22,6 @@ struct Case {
     levels: usize,
     budget: f64,
     quantities: &'static [&'static str],
-    /// `accuracy = x` is tried for these x, how far the scene is run for it.
-    demands: &'static [f64],
-    extent: Extent,
     /// Orders of convergence that theory has.
     theory: &'static str,
     remark: &'static str,
@@ -45,14 +38,12 @@ const EDGE_AND_FRONT: &str = "2 for linear elements; for quadratic ones no more 
 const PATH: &[Knob] = &[
     Knob::Resolution,
     Knob::Element,
-    Knob::Grading,
     Knob::Tolerance,
     Knob::Gamma,
     Knob::Stepping,
     Knob::Algorithm,
 ];
-const MESH: &[Knob] = &[Knob::Resolution, Knob::Element, Knob::Grading];
-const ALL: &[f64] = &[0.1, 0.03, 0.01, 0.003];
+const MESH: &[Knob] = &[Knob::Resolution, Knob::Element];
 
 const CASES: [Case; 6] = [
     Case {
@@ -68,10 +59,8 @@ const CASES: [Case; 6] = [
             "states.1.5 b*.max_pressure",
             "states.unloaded.residual_depth",
         ],
-        demands: ALL,
-        extent: Extent::Program,
         theory: EDGE_AND_FRONT,
-        remark: "Beyond yield the contact edge travels over flowing elements: the dent converges with an order between one and \
+        remark: "Beyond yield the contact edge travels over yielding elements: the dent converges with an order between one and \
                  two, whatever the element. A target read off the state (1.5 b*) can be missed with the loosest tolerances.",
     },
     Case {
@@ -90,12 +79,9 @@ const CASES: [Case; 6] = [
             "yield.half_width",
             "states.alpha 2.max_pressure",
         ],
-        demands: ALL,
-        extent: Extent::Yield,
         theory: EDGE_AND_FRONT,
         remark: "The half width is read off a contact that ends inside an element, so that its error is a share of one: first order. While it is \
-                 unloaded the pressure peaks at the edge of the dent, the higher the finer the mesh (load factor 1 again: 93 with 80 elements over a quarter, 106 \
-                 with 160): no mesh is fine enough for those states, and `accuracy = x` over the whole program ends without having reached it, or with what it would take.",
+                 unloaded the pressure peaks at the edge of the dent, the higher the finer the mesh: those states have no limit under refinement.",
     },
     Case {
         name: "hertz_line",
@@ -109,8 +95,6 @@ const CASES: [Case; 6] = [
         levels: 6,
         budget: 120.0,
         quantities: &["yield.load", "yield.max_pressure", "yield.half_width"],
-        demands: ALL,
-        extent: Extent::Yield,
         theory: EDGE,
         remark: "Second order in load and pressure down to 1e-4, where the finite size of the bodies shows. The singular slope of the \
                  pressure at the contact edge (a square root) keeps quadratic elements from a higher one.",
@@ -129,8 +113,6 @@ const CASES: [Case; 6] = [
         levels: 6,
         budget: 120.0,
         quantities: &["yield.load", "yield.max_pressure", "yield.half_width"],
-        demands: ALL,
-        extent: Extent::Yield,
         theory: EDGE,
         remark: "The largest pressure is that of the node on the axis, whose share of the surface is the least well known: order 1.4 \
                  only, and the price of every digit of this scene.",
@@ -144,8 +126,6 @@ const CASES: [Case; 6] = [
         levels: 6,
         budget: 120.0,
         quantities: &["yield.alpha", "states.alpha 190.approach"],
-        demands: ALL,
-        extent: Extent::Program,
         theory: "2 for linear and 4 for quadratic elements at first yield, where all is smooth; beyond it between 1 and 2, the front of the plastic zone being inside elements",
         remark: "Quadratic elements win by a factor. The displacement near collapse is governed by increments as much as by the mesh.",
     },
@@ -158,20 +138,15 @@ const CASES: [Case; 6] = [
         levels: 5,
         budget: 120.0,
         quantities: &["states.flow.load"],
-        demands: ALL,
-        extent: Extent::Program,
         theory: "1: the velocity of the exact mechanism jumps, and continuous elements smear the jump over one of theirs",
         remark: "The velocity jumps at the punch's edge: first order from above, whatever else is refined.",
     },
 ];
 
-/// Seconds from which on a time is not taken again.
-const LONG: f64 = 10.0;
+/// Prints phases on standard error.
+struct Printed;
 
-/// Tells phases on standard error.
-struct Told;
-
-impl Observer for Told {
+impl Observer for Printed {
     fn phase(&mut self, name: &str) {
         if name.starts_with("run ") {
             eprintln!("{name}");
@@ -209,8 +184,8 @@ fn main() -> Outcome<()> {
             levels: case.levels,
             budget: Some(case.budget),
         };
-        let found = study(&scene, Backend::default(), &plan, &mut Told)?;
-        let mut text = section(case, &found)?;
+        let found = study(&scene, Backend::default(), &plan, &mut Printed)?;
+        let text = section(case, &found)?;
         for name in case.quantities {
             let quantity = quantity(&found, name)?;
             std::fs::write(
@@ -218,7 +193,6 @@ fn main() -> Outcome<()> {
                 output::plot(&found, quantity)?,
             )?;
         }
-        demands(case, &scene, &found, &mut text)?;
         std::fs::write(folder.join(format!("{}.md", case.name)), text)?;
     }
     Ok(())
@@ -260,15 +234,7 @@ fn section(case: &Case, study: &Study) -> Outcome<String> {
     if !turned(Knob::Tolerance) && !turned(Knob::Stepping) {
         writeln!(
             text,
-            "Up to first yield nothing flows and the path is followed exactly: there are no increments and no tolerances to turn, and none are wasted.\n"
-        )?;
-    }
-    if let Some(grading) = &study.grading {
-        writeln!(
-            text,
-            "Graded meshes: a pilot ({}) told how fine the part away from contact and first yield must be for the error of the quantities; the \
-             mesh that is cheapest for it, as fine as the pilot: {}. The pilot's runs took {:.1e} operations.\n",
-            grading.pilot, grading.graded, grading.work
+            "Up to first yield nothing yields and the path is followed exactly: there are no increments and no tolerances to turn, and none are wasted.\n"
         )?;
     }
     for name in case.quantities {
@@ -341,149 +307,4 @@ fn section(case: &Case, study: &Study) -> Outcome<String> {
         writeln!(text, "Left out: {left}")?;
     }
     Ok(text)
-}
-
-/// `accuracy = x` beside the cheapest run of the study that reaches x in truth, not by chance: in a series of meshes every finer one
-/// reaches it too. Both are run three times in turn, once where that takes long; times are medians.
-fn demands(case: &Case, scene: &Scene, study: &Study, text: &mut String) -> Outcome<()> {
-    if case.demands.is_empty() {
-        return Ok(());
-    }
-    // Of a whole program all that governs, not what the page draws.
-    let drawn = |name: &str| name.starts_with("yield.") && case.quantities.contains(&name);
-    let governs = |name: &str| name != "all" && !name.ends_with("plastic_zone_size");
-    let names: Vec<&str> = (study.quantities.iter().map(|q| q.quantity.as_str()))
-        .filter(|name| match case.extent {
-            Extent::Program => governs(name),
-            Extent::Yield => drawn(name),
-        })
-        .collect();
-    let error = |run: usize| -> f64 {
-        let errors = names.iter().map(|name| {
-            let found = quantity(study, name).ok();
-            found.and_then(|q| q.errors[run]).unwrap_or(f64::INFINITY)
-        });
-        errors.fold(0.0, f64::max)
-    };
-    let until = match case.extent {
-        Extent::Yield => "to first yield",
-        Extent::Program => "the whole program",
-    };
-    writeln!(
-        text,
-        "## accuracy = x, {until}\n\n| demanded | stated | true, at most | mesh | operations, all trials and estimates | time [s] | \
-         cheapest run picked by hand | its operations | its time [s] | operations, ratio | time, ratio |\n|{}",
-        "---|".repeat(11)
-    )?;
-    let settings = brinell::accuracy::settings(scene, Backend::default(), case.knobs, case.levels);
-    for &demand in case.demands {
-        let not_by_chance = |i: usize| {
-            let run = &study.runs[i];
-            (0..study.runs.len())
-                .filter(|&j| study.runs[j].series == run.series && study.runs[j].ratio < run.ratio)
-                .all(|j| error(j) <= demand)
-        };
-        let cheapest = (0..study.runs.len())
-            .filter(|&i| study.runs[i].knob != Knob::Grading)
-            .filter(|&i| error(i) <= demand && not_by_chance(i))
-            .min_by(|&a, &b| study.runs[a].work.total_cmp(&study.runs[b].work));
-        let setting = cheapest.and_then(|i| {
-            let run = &study.runs[i];
-            (settings.iter()).find(|s| s.series == run.series && s.value == run.value)
-        });
-        let mut asked = scene.clone();
-        asked.accuracy = Some(AccuracyDemand::new(demand)?);
-        let (mut times, mut hand) = (Vec::new(), Vec::new());
-        let mut last = None;
-        while times.len() < 3 && times.iter().sum::<f64>() < LONG {
-            let meter = Meter::start();
-            let found = reach(&asked, Backend::default(), case.extent, &mut Told);
-            times.push(meter.stop().undisturbed_seconds());
-            last = Some(found);
-            if let Some(setting) = setting {
-                let meter = Meter::start();
-                let mut analysis = Analysis::new(Model::new(&setting.scene)?, setting.backend)?;
-                match case.extent {
-                    Extent::Yield => analysis.yield_load(&mut Told)?,
-                    Extent::Program => analysis.run(&mut Told)?,
-                };
-                hand.push(meter.stop().undisturbed_seconds());
-            }
-        }
-        let found = match last {
-            Some(Ok(found)) => found,
-            Some(Err(why)) => {
-                writeln!(text, "| {} % | {why} {}", 100.0 * demand, "| ".repeat(10))?;
-                continue;
-            }
-            None => continue,
-        };
-        let told = found
-            .results
-            .accuracy
-            .as_ref()
-            .and_then(|a| a.demand.as_ref());
-        let (stated, work) = told.map_or((f64::NAN, f64::NAN), |d| (d.stated, d.work));
-        let missed = if told.is_some_and(|d| d.reached) {
-            ""
-        } else {
-            ", missed"
-        };
-        let reported = quantities(&found.results);
-        let errors = names.iter().filter_map(|name| {
-            let mut exact = found.results.reference.iter();
-            if let Some(row) = exact.find(|r| r.quantity == *name) {
-                return Some((row.ratio - 1.0).abs());
-            }
-            let reference = quantity(study, name).ok()?.reference.as_ref()?;
-            let reported = reported.iter().find(|q| q.path == *name && q.scale > 0.0)?;
-            Some((reported.value - reference.value).abs() / reported.scale)
-        });
-        let actual = errors.reduce(f64::max);
-        let mesh = &found.scene.mesh;
-        let mesh = match (
-            &mesh.cylinder_on_half_plane,
-            &mesh.disc_in_plate,
-            &mesh.parts,
-        ) {
-            (Some(p), ..) => format!("resolution {}, growth {:.2}", p.resolution, p.growth),
-            (_, Some(p), _) => format!("resolution {}, growth {:.2}", p.resolution, p.growth),
-            (.., Some(parts)) => match (&parts[0].ring, &parts[0].block) {
-                (Some(r), _) => format!("{} x {}", r.elements[0], r.elements[1]),
-                (_, Some(b)) => format!("{} x {}", b.elements[0], b.elements[1]),
-                _ => String::new(),
-            },
-            _ => String::new(),
-        };
-        let time = median(times);
-        write!(
-            text,
-            "| {} % | {:.2} %{missed} | {} | {mesh} | {work:.1e} | {time:.2} |",
-            100.0 * demand,
-            100.0 * stated,
-            actual.map_or("-".into(), |a| format!("{:.2} %", 100.0 * a)),
-        )?;
-        match cheapest {
-            Some(i) => {
-                let run = &study.runs[i];
-                let by_hand = median(hand);
-                writeln!(
-                    text,
-                    " {}, {} | {:.1e} | {by_hand:.2} | {:.2} | {:.2} |",
-                    run.series,
-                    run.value,
-                    run.work,
-                    work / run.work,
-                    time / by_hand
-                )?;
-            }
-            None => writeln!(text, " none | - | - | - | - |")?,
-        }
-    }
-    Ok(())
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }

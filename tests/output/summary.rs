@@ -100,10 +100,11 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
             "companions": [{"ratio": 2.0, "freedoms": 9, "seconds": 0.25}],
             "quantities": [{
                 "quantity": "yield.load", "value": 60.0, "error": 0.5, "relative_error": 0.005,
-                "discretisation": 0.4, "path": 0.09, "algebraic": 0.01, "order": null, "of_mesh": null
+                "discretisation": 0.4, "path": 0.09, "algebraic": 0.01, "order": null, "extrapolated": 60.2
             }],
             "demand": {
-                "accuracy": 0.01, "reached": false, "unknown": ["states.s.load"], "stated": 0.005, "choices": ["resolution 16"], "work": 3e9
+                "accuracy": 0.01, "demanded": "1 %", "reached": false, "reason": "time", "unknown": ["states.s.load"],
+                "stated": 0.005, "worst": "yield.load", "choices": ["resolution 16"], "work": 3e9
             },
             "seconds": 0.5, "work": 1e9,
             "notes": ["a mesh failed"]

@@ -24,6 +24,7 @@ fn full() -> Results {
             contact_pairs: 4321,
             zone_freedoms: 98765,
             zone_elements: 54321,
+            ..Sizes::default()
         },
         effects: vec![
             Effect {
@@ -46,6 +47,7 @@ fn full() -> Results {
             load: 217.0,
             max_pressure: 896.85,
             half_width: 0.15543,
+            half_width_reading: Default::default(),
             location: [0.0, -0.10947],
             body: 1,
         }),

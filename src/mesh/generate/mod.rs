@@ -8,6 +8,7 @@
 mod angle;
 mod cylinder;
 mod disc;
+mod family;
 mod grading;
 mod grid;
 mod limits;
@@ -19,6 +20,7 @@ mod tests;
 
 pub use cylinder::{ContactSize, WIDEST, cylinder_on_half_plane};
 pub use disc::disc_in_plate;
+pub use family::Family;
 pub use parts::parts;
 
 use super::{Mesh, gmsh};

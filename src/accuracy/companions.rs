@@ -1,0 +1,79 @@
+//! The other meshes of its family that a run is compared with.
+
+use crate::mesh::generate::Family;
+use crate::model::Model;
+use crate::results::{Results, State};
+use crate::scene::Scene;
+
+/// Element sizes of coarser meshes, over that of the run, most wanted first: near enough to lie in the same range of
+/// convergence, and together dearer than half the run nowhere.
+const COARSER: [f64; 4] = [1.5, 2.0, 3.0, 4.0];
+/// Those of finer ones, for a run that is too coarse to have coarser ones.
+const FINER: [f64; 4] = [1.0 / 1.5, 0.5, 1.0 / 3.0, 0.25];
+/// Least ratio of two element sizes: nearer meshes differ by how counts are rounded.
+const LEAST_RATIO: f64 = 1.15;
+/// Closed pairs that a side of a contact needs for its edge to be read ([`crate::results::State::half_width_reading`]).
+const READABLE: usize = 3;
+/// Elements up to which a run is compared with meshes of sixteen times as many, where coarser ones do not tell; beyond, four times.
+const SMALL: usize = 1000;
+
+/// A scene with another mesh of its family.
+#[derive(Debug, Clone)]
+pub struct Level {
+    /// The scene.
+    pub scene: Scene,
+    /// Element size over that of the scene it was made from.
+    pub ratio: f64,
+}
+
+/// The scene with elements about `ratio` times as large.
+///
+/// # Errors
+/// Why there is no such member of the family, in words.
+pub fn member(scene: &Scene, ratio: f64) -> Result<Level, String> {
+    let (mesh, ratio) = scene.mesh.member(ratio)?;
+    let scene = Scene {
+        mesh,
+        ..scene.clone()
+    };
+    Ok(Level { scene, ratio })
+}
+
+/// The two meshes from which the error of a run is extrapolated, finer one first; fewer where the family has not that many. Coarser
+/// ones, where every contact of the run is resolved so well that its edges can still be read on them, else finer ones.
+pub fn companions(scene: &Scene, results: &Results) -> Vec<Level> {
+    let pairs = fewest_pairs(results);
+    let can_be_read = |ratio: f64| pairs.is_none_or(|n| n as f64 >= ratio * READABLE as f64);
+    let coarser = COARSER.into_iter().filter(|ratio| can_be_read(*ratio));
+    let finest = if results.sizes.elements <= SMALL {
+        0.25
+    } else {
+        0.5
+    };
+    let finer = FINER.into_iter().filter(|ratio| *ratio >= finest);
+    let mut levels: Vec<Level> = Vec::new();
+    for ratio in coarser.chain(finer) {
+        let Ok(level) = member(scene, ratio) else {
+            continue;
+        };
+        let differs = |other: f64| level.ratio.max(other) / level.ratio.min(other) >= LEAST_RATIO;
+        let is_new = differs(1.0) && levels.iter().all(|l| differs(l.ratio));
+        if is_new && Model::new(&level.scene).is_ok() {
+            levels.push(level);
+        }
+        if levels.len() == 2 {
+            break;
+        }
+    }
+    levels.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
+    levels
+}
+
+/// The fewest closed pairs on one side of a contact: at first yield and in the state that carries most. `None` without contact.
+fn fewest_pairs(results: &Results) -> Option<usize> {
+    let first = results.first_yield.map(|y| y.half_width_reading.pairs);
+    let strongest = |a: &&State, b: &&State| a.contact_force.total_cmp(&b.contact_force);
+    let state = results.states.iter().max_by(strongest);
+    let state = state.map(|s| s.half_width_reading.pairs);
+    first.into_iter().chain(state).filter(|n| *n > 0).min()
+}

@@ -1,0 +1,145 @@
+//! Runs of one scene and its relatives, each made once.
+
+use crate::analysis::Analysis;
+use crate::error::{Error, ErrorKind, Result};
+use crate::linalg::Backend;
+use crate::model::Model;
+use crate::progress::{Flow, Observer};
+use crate::results::{HistoryRow, Results};
+use crate::scene::Scene;
+use std::time::Instant;
+
+/// How far a run goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// The yield load only.
+    Yield,
+    /// The whole load program.
+    Program,
+}
+
+/// A finished run, without its fields.
+#[derive(Clone)]
+pub(super) struct Finished {
+    pub scene: Scene,
+    pub results: Results,
+    pub seconds: f64,
+}
+
+impl Finished {
+    /// A run that was made elsewhere.
+    pub(super) fn of(scene: &Scene, results: &Results) -> Self {
+        let mut results = results.clone();
+        for state in &mut results.states {
+            state.fields = None;
+        }
+        Finished {
+            scene: scene.clone(),
+            results,
+            seconds: 0.0,
+        }
+    }
+}
+
+/// Finished runs, to be used again.
+pub(super) struct Runs {
+    backend: Backend,
+    extent: Extent,
+    finished: Vec<Finished>,
+}
+
+impl Runs {
+    pub(super) fn new(backend: Backend, extent: Extent) -> Self {
+        Runs {
+            backend,
+            extent,
+            finished: Vec::new(),
+        }
+    }
+
+    /// Keeps a run that was made elsewhere.
+    pub(super) fn keep(&mut self, scene: &Scene, results: &Results, seconds: f64) {
+        let run = Finished::of(scene, results);
+        self.finished.push(Finished { seconds, ..run });
+    }
+
+    /// The run of a scene, and whether it was made for this.
+    ///
+    /// # Errors
+    /// Those of the run; one that ended before its program did is one.
+    pub(super) fn of(
+        &mut self,
+        scene: &Scene,
+        observer: &mut dyn Observer,
+    ) -> Result<(Finished, bool)> {
+        if let Some(known) = self.finished.iter().find(|known| known.scene == *scene) {
+            return Ok((known.clone(), false));
+        }
+        let started = Instant::now();
+        let quiet = &mut Quiet(observer);
+        let results = run(scene, self.backend, self.extent, quiet)?;
+        let new = Finished {
+            scene: scene.clone(),
+            results,
+            seconds: started.elapsed().as_secs_f64(),
+        };
+        self.finished.push(new.clone());
+        Ok((new, true))
+    }
+}
+
+/// Runs a scene without fields.
+///
+/// # Errors
+/// Those of the run; one that ended before its program did is one.
+pub(super) fn run(
+    scene: &Scene,
+    backend: Backend,
+    extent: Extent,
+    observer: &mut dyn Observer,
+) -> Result<Results> {
+    let mut bare = scene.clone();
+    for target in &mut bare.program.targets {
+        target.fields = false;
+    }
+    let (_, results) = analyse(Model::new(&bare)?, backend, extent, observer)?;
+    match &results.incomplete {
+        None => Ok(results),
+        Some(why) => {
+            let kind = results.incomplete_kind.unwrap_or(ErrorKind::Analysis);
+            Err(Error::new(kind, why.clone()))
+        }
+    }
+}
+
+/// Analyses a model as far as the extent says.
+pub(super) fn analyse(
+    model: Model,
+    backend: Backend,
+    extent: Extent,
+    observer: &mut dyn Observer,
+) -> Result<(Analysis, Results)> {
+    let mut analysis = Analysis::new(model, backend)?;
+    let results = match extent {
+        Extent::Yield => analysis.yield_load(observer)?,
+        Extent::Program => analysis.run(observer)?,
+    };
+    Ok((analysis, results))
+}
+
+/// Passes on only the wish to stop: phases, increments and warnings of another run would be taken for the run's own.
+struct Quiet<'o>(&'o mut dyn Observer);
+
+impl Observer for Quiet<'_> {
+    fn increment(&mut self, _: &HistoryRow, _: f64) -> Flow {
+        if self.0.stop_requested() {
+            Flow::Stop
+        } else {
+            Flow::Continue
+        }
+    }
+
+    fn stop_requested(&self) -> bool {
+        self.0.stop_requested()
+    }
+}

@@ -1,0 +1,341 @@
+//! Families of meshes: the same source with larger or smaller elements.
+//!
+//! In a family every element size is multiplied by one ratio, also where elements grow with the distance: only then does
+//! the error of a value follow one power of the element size, and can be extrapolated. A growth `g` from element to
+//! element becomes `g^ratio`; a bias `B` of `n` elements, which is a growth of `B^(1/(n-1))`, becomes that of `m` elements
+//! with the same sizes along the line, `B^(n (m-1) / (m (n-1)))`. The parts of a mesh are scaled together, so that surfaces
+//! which face each other node by node go on doing so. A mesh from a file has its subdivisions.
+
+use crate::mesh::Shape;
+use crate::scene::{Block, CylinderOnHalfPlane, DiscInPlate, MeshSource, Part};
+
+/// Most by which rounding to whole elements may distort a part of the mesh against the others.
+const DISTORTION: f64 = 0.1;
+/// Farthest from the wanted ratio that a member in exact proportion is taken before counts are rounded.
+const NEAR: f64 = 1.2;
+/// Greatest growth the generators take.
+const MOST_GROWTH: f64 = 100.0;
+/// Distance between a piece's end and a node, in elements, up to which they coincide.
+const ON_NODE: f64 = 1e-6;
+/// Largest number that element counts are made multiples of, but for the scene's own.
+const LARGEST_STEP: usize = 1000;
+/// Most elements along a line that a member has: more than any machine holds.
+const MOST_ELEMENTS: f64 = 1e9;
+
+/// A source of meshes that differ in their element size alone.
+pub trait Family: Sized {
+    /// The member whose elements are nearest to `ratio` times as large, and its own ratio.
+    ///
+    /// # Errors
+    /// Why there is none near, in words.
+    fn member(&self, ratio: f64) -> Result<(Self, f64), String>;
+
+    /// Its resolution, as a scene has it.
+    fn words(&self) -> String;
+
+    /// The shape of its elements; `None` where a file decides.
+    fn shape(&self) -> Option<Shape>;
+
+    /// Takes another shape, where no file decides.
+    fn set_shape(&mut self, shape: Shape);
+}
+
+impl Family for MeshSource {
+    fn member(&self, ratio: f64) -> Result<(Self, f64), String> {
+        let mut out = self.clone();
+        let ratio = if let Some(p) = &mut out.cylinder_on_half_plane {
+            replace(p, ratio)?
+        } else if let Some(p) = &mut out.disc_in_plate {
+            replace(p, ratio)?
+        } else if let Some(p) = &mut out.parts {
+            replace(p, ratio)?
+        } else {
+            let halvings = -ratio.log2().round();
+            let subdivisions = self.subdivisions as f64 + halvings;
+            if !(0.0..=f64::from(u16::MAX)).contains(&subdivisions) {
+                return Err("a mesh from a file has no coarser member than the file".to_string());
+            }
+            out.subdivisions = subdivisions as usize;
+            0.5f64.powf(halvings)
+        };
+        Ok((out, ratio))
+    }
+
+    fn words(&self) -> String {
+        if let Some(p) = &self.cylinder_on_half_plane {
+            p.words()
+        } else if let Some(p) = &self.disc_in_plate {
+            p.words()
+        } else if let Some(p) = &self.parts {
+            p.words()
+        } else {
+            format!("subdivisions {}", self.subdivisions)
+        }
+    }
+
+    fn shape(&self) -> Option<Shape> {
+        let generated = self.cylinder_on_half_plane.as_ref().map(|p| p.element);
+        let generated = generated.or(self.disc_in_plate.as_ref().map(|p| p.element));
+        generated.or_else(|| self.parts.as_ref()?.shape())
+    }
+
+    fn set_shape(&mut self, shape: Shape) {
+        self.cylinder_on_half_plane
+            .iter_mut()
+            .for_each(|p| p.set_shape(shape));
+        self.disc_in_plate
+            .iter_mut()
+            .for_each(|p| p.set_shape(shape));
+        self.parts.iter_mut().for_each(|p| p.set_shape(shape));
+    }
+}
+
+/// Puts a member in the place of its family.
+fn replace<F: Family>(family: &mut F, ratio: f64) -> Result<f64, String> {
+    let (member, ratio) = family.member(ratio)?;
+    *family = member;
+    Ok(ratio)
+}
+
+/// `n` elements scaled by a ratio, to a multiple of `step`.
+fn scaled(n: usize, step: usize, ratio: f64) -> usize {
+    let steps = (n as f64 / (ratio * step as f64)).round();
+    (steps.clamp(1.0, MOST_ELEMENTS) as usize).saturating_mul(step)
+}
+
+impl Family for CylinderOnHalfPlane {
+    fn member(&self, ratio: f64) -> Result<(Self, f64), String> {
+        let resolution = scaled(self.resolution, 1, ratio);
+        let ratio = self.resolution as f64 / resolution as f64;
+        let out = CylinderOnHalfPlane {
+            resolution,
+            growth: self.growth.powf(ratio).min(MOST_GROWTH),
+            far_growth: self.far_growth.map(|g| g.powf(ratio).min(MOST_GROWTH)),
+            ..self.clone()
+        };
+        Ok((out, ratio))
+    }
+
+    fn words(&self) -> String {
+        let far = self
+            .far_growth
+            .map_or(String::new(), |g| format!(", far_growth {g:.4}"));
+        format!(
+            "resolution {}, growth {:.4}{far}",
+            self.resolution, self.growth
+        )
+    }
+
+    fn shape(&self) -> Option<Shape> {
+        Some(self.element)
+    }
+
+    fn set_shape(&mut self, shape: Shape) {
+        self.element = shape;
+    }
+}
+
+impl Family for DiscInPlate {
+    fn member(&self, ratio: f64) -> Result<(Self, f64), String> {
+        let resolution = scaled(self.resolution, 2, ratio);
+        let ratio = self.resolution as f64 / resolution as f64;
+        let out = DiscInPlate {
+            resolution,
+            growth: self.growth.powf(ratio).min(MOST_GROWTH),
+            far_growth: self.far_growth.map(|g| g.powf(ratio).min(MOST_GROWTH)),
+            ..self.clone()
+        };
+        Ok((out, ratio))
+    }
+
+    fn words(&self) -> String {
+        let far = self
+            .far_growth
+            .map_or(String::new(), |g| format!(", far_growth {g:.4}"));
+        format!(
+            "resolution {}, growth {:.4}{far}",
+            self.resolution, self.growth
+        )
+    }
+
+    fn shape(&self) -> Option<Shape> {
+        Some(self.element)
+    }
+
+    fn set_shape(&mut self, shape: Shape) {
+        self.element = shape;
+    }
+}
+
+impl Family for Vec<Part> {
+    /// In exact proportion where the element counts have a common divisor that allows it, else each rounded.
+    fn member(&self, ratio: f64) -> Result<(Self, f64), String> {
+        if let Some(part) = self.iter().find(|part| !ends_on_nodes(part, None)) {
+            return Err(format!(
+                "a piece of the block of `{}` does not begin and end at nodes of an even mesh, so that it would be longer or \
+                 shorter on another; give counts for which it does, without bias along it",
+                part.body
+            ));
+        }
+        let exact = proportional(self, ratio);
+        let is_near = |other: f64| (ratio / other).max(other / ratio) <= NEAR;
+        let near = exact.as_ref().filter(|(_, exact)| is_near(*exact));
+        near.cloned().or_else(|| rounded(self, ratio)).or(exact).ok_or_else(|| {
+            "its element counts have no common divisor and are too small to be rounded; give counts that are multiples of 4"
+                .to_string()
+        })
+    }
+
+    fn words(&self) -> String {
+        let counts = self.iter().map(|p| match (&p.block, &p.ring, &p.disc) {
+            (Some(b), _, _) => format!("{} x {}", b.elements[0], b.elements[1]),
+            (_, Some(r), _) => format!("{} x {}", r.elements[0], r.elements[1]),
+            (_, _, Some(d)) => d.elements.to_string(),
+            _ => "?".to_string(),
+        });
+        format!("elements {}", counts.collect::<Vec<_>>().join(", "))
+    }
+
+    fn shape(&self) -> Option<Shape> {
+        self.first().map(|part| part.element)
+    }
+
+    fn set_shape(&mut self, shape: Shape) {
+        self.iter_mut().for_each(|part| part.element = shape);
+    }
+}
+
+/// All counts times one fraction: the nearest to the ratio that is whole and can be made.
+fn proportional(parts: &[Part], ratio: f64) -> Option<(Vec<Part>, f64)> {
+    let divisor = parts
+        .iter()
+        .flat_map(counts)
+        .fold(0, greatest_common_divisor);
+    let wanted = (divisor as f64 / ratio).min(MOST_ELEMENTS);
+    let mut multiples: Vec<usize> = (wanted.floor() as usize / 2..=2 * wanted.ceil() as usize)
+        .filter(|m| *m > 0)
+        .take(4 * LARGEST_STEP)
+        .collect();
+    let distance = |m: usize| (m as f64 / wanted).ln().abs();
+    multiples.sort_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+    let made = |m: usize| with_counts(parts, |n| n / divisor * m);
+    let found = multiples.into_iter().find(|m| {
+        let parity_fits = parts
+            .iter()
+            .zip(made(*m))
+            .all(|(old, new)| is_alike(old, &new));
+        parity_fits && made(*m).iter().all(|part| ends_on_nodes(part, None))
+    })?;
+    Some((made(found), divisor as f64 / found as f64))
+}
+
+/// Each count rounded for itself, equal ones alike: within the distortion.
+fn rounded(parts: &[Part], ratio: f64) -> Option<(Vec<Part>, f64)> {
+    let new = |n: usize| scaled(n, step(parts, n), ratio);
+    let out = with_counts(parts, new);
+    let all = parts.iter().flat_map(counts);
+    let ratios: Vec<(usize, f64)> = all.map(|n| (n, n as f64 / new(n) as f64)).collect();
+    let (_, of_most) = *ratios.iter().max_by_key(|r| r.0)?;
+    let is_alike = ratios
+        .iter()
+        .all(|(_, r)| (r / of_most - 1.0).abs() <= DISTORTION);
+    let fits = is_alike && out.iter().all(|part| ends_on_nodes(part, None));
+    fits.then_some((out, of_most))
+}
+
+fn greatest_common_divisor(a: usize, b: usize) -> usize {
+    if b == 0 {
+        a
+    } else {
+        greatest_common_divisor(b, a % b)
+    }
+}
+
+/// The element counts of a part: of a block along x and y.
+fn counts(part: &Part) -> Vec<usize> {
+    let block = part.block.iter().flat_map(|b| b.elements);
+    let ring = part.ring.iter().flat_map(|r| r.elements);
+    let disc = part.disc.iter().map(|d| d.elements);
+    block.chain(ring).chain(disc).collect()
+}
+
+/// The parts with other counts, their biases those of the same sizes along the lines.
+fn with_counts(parts: &[Part], new: impl Fn(usize) -> usize) -> Vec<Part> {
+    let mut out = parts.to_vec();
+    let biased = |n: usize, bias: &mut f64| {
+        let m = new(n);
+        if n > 1 && m > 1 {
+            let [n, m] = [n as f64, m as f64];
+            *bias = bias.powf(n * (m - 1.0) / (m * (n - 1.0)));
+        }
+        m
+    };
+    for part in &mut out {
+        if let Some(block) = &mut part.block {
+            for axis in 0..2 {
+                block.elements[axis] = biased(block.elements[axis], &mut block.bias[axis]);
+            }
+        }
+        if let Some(ring) = &mut part.ring {
+            ring.elements = [
+                biased(ring.elements[0], &mut ring.bias),
+                new(ring.elements[1]),
+            ];
+        }
+        if let Some(disc) = &mut part.disc {
+            disc.elements = new(disc.elements);
+        }
+    }
+    out
+}
+
+/// Whether counts that must be even are: of a disc, and those of triangles that were, whose diagonals alternate.
+fn is_alike(old: &Part, new: &Part) -> bool {
+    let is_disc = old.disc.is_some();
+    let alternates = |n: usize| old.element.n_corners() == 3 && n.is_multiple_of(2);
+    let pairs = counts(old).into_iter().zip(counts(new));
+    pairs
+        .into_iter()
+        .all(|(n, m)| !(is_disc || alternates(n)) || m.is_multiple_of(2))
+}
+
+/// The number of which a count of `n` elements may become a multiple: the same for all that are `n`, because surfaces in
+/// contact face each other node by node.
+fn step(parts: &[Part], n: usize) -> usize {
+    let fits = |part: &Part, step: usize| {
+        let is_disc = part.disc.as_ref().is_some_and(|d| d.elements == n);
+        let alternates = part.element.n_corners() == 3 && n.is_multiple_of(2);
+        let even = !(is_disc || alternates) || step.is_multiple_of(2);
+        even && ends_on_nodes(part, Some((n, step)))
+    };
+    let mut steps = 1..n.min(LARGEST_STEP);
+    steps
+        .find(|&step| parts.iter().all(|part| fits(part, step)))
+        .unwrap_or(n)
+}
+
+/// Whether every piece of the sides of a block begins and ends at a node, with its own counts, or with `count.1` elements
+/// along sides of `count.0`: else it would be longer or shorter than in the scene.
+fn ends_on_nodes(part: &Part, count: Option<(usize, usize)>) -> bool {
+    let Some(block) = &part.block else {
+        return true;
+    };
+    block.pieces.iter().all(|piece| {
+        let axis = usize::from(matches!(piece.side.as_str(), "left" | "right"));
+        let n = match count {
+            Some((of, n)) if block.elements[axis] == of => n,
+            Some(_) => return true,
+            None => block.elements[axis],
+        };
+        block.bias[axis] == 1.0
+            && [piece.from, piece.to]
+                .iter()
+                .all(|end| is_node(block, axis, n, *end))
+    })
+}
+
+fn is_node(block: &Block, axis: usize, n: usize, at: f64) -> bool {
+    let [from, to] = if axis == 0 { block.x } else { block.y };
+    let at = (at - from) / (to - from) * n as f64;
+    (at - at.round()).abs() < ON_NODE
+}
