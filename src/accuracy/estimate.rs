@@ -1,7 +1,7 @@
 //! The errors of every quantity of a run, estimated after it.
 
 use super::companions::{Level, companions};
-use super::extrapolation::extrapolate;
+use super::extrapolation::{Extrapolation, extrapolate};
 use super::meter::work;
 use super::path::{self, PathErrors};
 use super::quantities::{Quantity, formal_order, quantities, value_of};
@@ -13,6 +13,9 @@ use crate::progress::Observer;
 use crate::results::{Accuracy, Companion, EstimateMethod, QuantityError, Results, State};
 use crate::scene::Scene;
 use std::time::Instant;
+
+/// Stated errors from here on are worth a word where meshes do not converge.
+const NOTEWORTHY: f64 = 0.1;
 
 /// A run that is judged.
 pub(super) struct Judged<'r> {
@@ -108,6 +111,7 @@ pub(super) fn judge(
             extrapolated: mesh.limit,
         });
     }
+    out.notes.extend(said_without_limit(&out.quantities));
     if extent == Extent::Program {
         out.notes.extend(said_by_width(scene, &out.quantities));
     }
@@ -197,7 +201,7 @@ fn of_meshes(
         .iter()
         .filter_map(|(ratio, values)| Some((*ratio, value_of(values, &quantity.path)?)));
     let values: Vec<(f64, f64)> = own.chain(there).collect();
-    let found = extrapolate(&values, formal_order(quantity.key(), degree));
+    let found = by_asymptotic(&values, formal_order(quantity.key(), degree));
     // What changes by no more than the algebra leaves shows no order.
     let is_same = |value: &(f64, f64)| (value.1 - quantity.value).abs() <= algebraic;
     if values.len() > 1 && values.iter().all(is_same) {
@@ -212,6 +216,17 @@ fn of_meshes(
         order: found.and_then(|f| f.order),
         limit: found.and_then(|f| f.limit),
     }
+}
+
+/// The uncertainty by all meshes or, where only the finer three of four show an order that is believed, by these: the coarsest
+/// then lies outside the range in which the law holds (Eca and Hoekstra, section 2, ask for meshes within it).
+fn by_asymptotic(values: &[(f64, f64)], formal: f64) -> Option<Extrapolation> {
+    let all = extrapolate(values, formal)?;
+    if all.limit.is_some() || values.len() < 4 {
+        return Some(all);
+    }
+    let finer = extrapolate(&values[..3], formal)?;
+    Some(if finer.limit.is_some() { finer } else { all })
 }
 
 /// Error of the algebra: that of its state, at least the round-off of a factorisation; at first yield what `gamma` leaves of the
@@ -232,6 +247,22 @@ fn algebraic_error(run: &Judged, quantity: &Quantity) -> f64 {
 fn state_of<'r>(results: &'r Results, path: &str) -> Option<&'r State> {
     let (name, _) = path.strip_prefix("states.")?.rsplit_once('.')?;
     results.states.iter().find(|s| s.name == name)
+}
+
+/// Quantities that change more from mesh to mesh the finer these are, by more than what is wanted of any figure.
+fn said_without_limit(quantities: &[QuantityError]) -> Option<String> {
+    let grows = |row: &&QuantityError| {
+        row.order.is_some_and(|order| order < 0.0) && row.relative_error > Some(NOTEWORTHY)
+    };
+    let names: Vec<&str> = (quantities.iter().filter(grows))
+        .map(|row| row.quantity.as_str())
+        .collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "no limit is in sight under refinement, so that the stated error is none to rely on: {}",
+            names.join(", ")
+        )
+    })
 }
 
 /// What is to be known of targets by half width: the load at which a mesh reaches them is a result, and its error one of all that is

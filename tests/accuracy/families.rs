@@ -3,6 +3,7 @@
 //!
 //! The constants of `brinell::accuracy` were looked at on the thick cylinder and on Hertz' line contact alone
 //! ([`Family::calibrates`]); all others judge them.
+#![allow(dead_code)] // tests and the page each use a part of it
 
 use crate::running;
 use brinell::accuracy::{Extent, estimate, quantities};
@@ -210,7 +211,8 @@ pub fn judging_by_finer_meshes() -> Vec<Family> {
         let elements = format!("mesh.parts.0.block.elements=[{n},{n}]");
         running::load("flat_punch", &[&elements])
     };
-    let families: Vec<(&str, Vec<(String, Scene)>, Scene)> = vec![
+    type OnMeshes = (&'static str, Vec<(String, Scene)>, Scene);
+    let families: Vec<OnMeshes> = vec![
         (
             "Hertz point, beyond yield and off",
             named(&[4, 6, 8, 12, 16, 24], point),
