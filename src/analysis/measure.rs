@@ -388,6 +388,27 @@ mod tests {
         assert!((figures.max_pressure - 7.0).abs() <= 1e-13 * 7.0);
     }
 
+    /// Where the contact has left the axis the continuation is negative: the point there is open and carries nothing.
+    #[test]
+    fn a_point_on_the_axis_carries_no_tension() {
+        let model = model(
+            "ball_on_half_space",
+            &["mesh.cylinder_on_half_plane.element=quad8"],
+        );
+        let axis = model.contacts[0].axis.unwrap();
+        assert!(axis.begins);
+        let n = model.pairs.len();
+        let mut force = vec![0.0; n];
+        force[1] = 1.0;
+        let open: Vec<bool> = force.iter().map(|f| *f == 0.0).collect();
+        let pressure = pressures(&model, &force);
+        assert!(on_axis(&model, &model.contacts[0], &pressure).unwrap() < 0.0);
+        let states = pair_states(&model, &vec![0.5; n], &force, &open);
+        assert_eq!((states.len(), states[0].pair), (n + 1, n));
+        assert_eq!((states[0].pressure, states[0].status), (0.0, Status::Open));
+        assert!((states[0].gap - 0.5).abs() <= 1e-14);
+    }
+
     /// A pressure that is linear along a patch away from all planes of symmetry: at the patch's middle it is the line's.
     #[test]
     fn the_pole_of_a_patch_off_symmetry_is_its_middle() {

@@ -108,6 +108,9 @@ fn interference_comes_on_step_by_step() {
     close(first.max_pressure, yield_stress, 1e-6);
     let end = (0.5 * interference + yield_stress / hardening) / (1.0 / E + 1.0 / hardening);
     close(results.states[0].max_pressure, end, 1e-6);
+    // Both blocks flow, in both halves of what the model is the half of.
+    let doubled = run(&parse(&format!("symmetry = 2\n{text}")));
+    close(doubled.states[0].plastic_zone_size, 2.0 * 2.0, 1e-12);
 }
 
 /// A block that is pulled with a negative factor is pressed: sizes of loads have no sign, whatever their factors.
@@ -134,6 +137,35 @@ fn the_size_of_a_load_has_no_sign() {
     }
 }
 
+/// The approach is the mean over the loaded surface, by length: on a graded mesh the trapezoidal rule of the nodes' displacements.
+#[test]
+fn the_approach_is_a_mean_by_length() {
+    let text = format!(
+        "kind = \"plane_stress\"\n[[mesh.parts]]\nbody = \"b\"\n\
+         block = {{ x = [0.0, 4.0], y = [0.0, 1.0], elements = [6, 3], bias = [5.0, 1.0], \
+         pieces = [{{ name = \"foot\", side = \"bottom\", from = 0.0, to = 1.0 }}] }}\n\
+         [materials.steel]\nyoungs_modulus = {E:?}\npoissons_ratio = 0.3\n\
+         [bodies.b]\nmaterial = \"steel\"\n[[support]]\non = \"b.left\"\nfix = [\"x\"]\n\
+         [[support]]\non = \"b.foot\"\nfix = [\"y\"]\n\
+         [[load]]\non = \"b.top\"\npressure = 10.0\n{}",
+        program(1.0)
+    );
+    let scene = parse(&text);
+    let state = &run(&scene).states[0];
+    let mesh = Model::new(&scene).unwrap().mesh;
+    let fields = state.fields.as_ref().unwrap();
+    let top = (0..mesh.n_nodes()).filter(|&n| mesh.point(n)[1] == 1.0);
+    let mut top: Vec<[f64; 2]> = top
+        .map(|n| [mesh.point(n)[0], -fields.displacement[2 * n + 1]])
+        .collect();
+    top.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let area = |w: &[[f64; 2]]| 0.5 * (w[1][0] - w[0][0]) * (w[0][1] + w[1][1]);
+    let mean = top.windows(2).map(area).sum::<f64>() / 4.0;
+    let plain = top.iter().map(|p| p[1]).sum::<f64>() / top.len() as f64;
+    assert!((mean - plain).abs() > 0.01 * mean.abs());
+    close(state.approach, mean, 1e-12);
+}
+
 /// A contact normal that is not at right angles with an inclined support is turned until it is: contact and support then hold
 /// different freedoms.
 #[test]
@@ -141,7 +173,7 @@ fn contact_normals_are_turned_into_inclined_supports() {
     let angle = 10.0f64;
     let text = format!(
         "{}{}{}{}",
-        columns(&[(0.0, 1.0)], false).replace("fix = [\"x\"]", "fix = [\"x\"]\nangle = 10.0"),
+        columns(&[(0.0, 1.0)], false).replace("\nfix = ", "\nangle = 10.0\nfix = "),
         contact(0),
         press(0, 10.0),
         program(1.0)
