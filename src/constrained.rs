@@ -92,6 +92,8 @@ pub struct ConstrainedStructure {
     held: Cholesky<f64, Dyn>,
     /// A^-1.
     inverse: DMatrix<f64>,
+    /// T.
+    contact_matrix: Arc<DMatrix<f64>>,
     tableau: Tableau,
     state: State,
     way: Option<Way>,
@@ -180,6 +182,7 @@ impl ConstrainedStructure {
                 .ok_or_else(dependent)?
                 .inverse(),
         };
+        let contact_matrix = Arc::new(tied(&inverse, &shift));
         let mut structure = ConstrainedStructure {
             norm: linalg::norm(&stiffness),
             stiffness,
@@ -194,7 +197,8 @@ impl ConstrainedStructure {
             condensed_stiffness: Arc::new(c),
             rows: b,
             gaps: DVector::from_column_slice(gaps),
-            tableau: Tableau::new(tied(&inverse, &shift)),
+            tableau: Tableau::new(contact_matrix.clone()),
+            contact_matrix,
             shift,
             held,
             inverse,
@@ -226,7 +230,7 @@ impl ConstrainedStructure {
 
     /// `T`, `n_rows x n_rows`, symmetric: forces of the rows per gap.
     pub fn contact_matrix(&self) -> &DMatrix<f64> {
-        self.tableau.matrix()
+        &self.contact_matrix
     }
 
     /// Solves contact under the load `f` (all freedoms), from the statuses at hand.
@@ -292,7 +296,7 @@ impl ConstrainedStructure {
     /// `q` for a condensed load and `share` of the gaps.
     fn forces_if_tied(&self, condensed: &DVector<f64>, share: f64) -> DVector<f64> {
         let free = &self.rows * self.held.solve(condensed);
-        &self.inverse * free - self.tableau.matrix() * &self.gaps * share
+        &self.inverse * free - &*self.contact_matrix * &self.gaps * share
     }
 
     fn check_load(&self, load: &[f64]) -> Result<()> {

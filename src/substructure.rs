@@ -12,16 +12,16 @@
 //! and eliminating `v` leaves `r = t - T s = q + T g` with the gap `g = delta - s`, `q = t - T delta`. Where the second body is
 //! much the stiffer the two change places, and rigid motions of floating bodies are treated apart: see `tied`.
 
+mod groups;
 mod tied;
 
 use crate::assembly::System;
-use crate::contact::Tableau;
+use crate::contact::{PairBlock, PairMatrix, Tableau};
 use crate::error::{Error, Result};
 use crate::linalg::{self, Backend, Condensed, NotDefinite, Partition, Recovered, ZonePart};
-use crate::model::{Model, RigidMotion};
-use nalgebra::{DMatrix, DVector};
-use std::sync::Arc;
-use tied::{Tied, Trace};
+use crate::memory;
+use crate::model::Model;
+use groups::Groups;
 
 /// A load (or displacement) on zone and contact freedoms: first nodes of all pairs, then second nodes.
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
@@ -99,8 +99,8 @@ pub struct Substructure {
     pub partition: Partition,
     condensed: Box<dyn Condensed>,
     n_pairs: usize,
-    tied: Option<Tied>,
-    contact_matrix: Arc<DMatrix<f64>>,
+    tied: Option<Groups>,
+    contact_matrix: PairMatrix,
 }
 
 impl Substructure {
@@ -115,25 +115,28 @@ impl Substructure {
             contact: contact_freedoms(model)?,
         };
         let shift = shift(model, system, &partition);
+        let cost = ContactCost::of(model);
+        cost.require()?;
         let condensed = linalg::condense(backend, &system.stiffness, &partition, &shift)
             .map_err(|e| name_freedom(e, model))?;
         let n = model.pairs.len();
         let (tied, contact_matrix) = if n > 0 {
-            let part: Vec<usize> = (0..2 * n)
-                .map(|i| model.floating.part_of_pair[i % n][i / n])
-                .collect();
-            let traces = traces(model, &partition);
-            let (tied, matrix) = Tied::new(&condensed.contact_stiffness(), &traces, &part)?;
+            // What the factor left of the memory.
+            cost.require()?;
+            let stiffness = condensed.contact_stiffness();
+            let part = parts(model);
+            let motions = &model.floating.motions;
+            let (tied, matrix) = Groups::new(stiffness, motions, &partition.contact, &part)?;
             (Some(tied), matrix)
         } else {
-            (None, DMatrix::zeros(0, 0))
+            (None, PairMatrix::new(Vec::new()))
         };
         Ok(Substructure {
             partition,
             condensed,
             n_pairs: n,
             tied,
-            contact_matrix: Arc::new(contact_matrix),
+            contact_matrix,
         })
     }
 
@@ -179,8 +182,11 @@ impl Substructure {
     pub fn slip_forces(&self, slip: &[f64]) -> Vec<f64> {
         match &self.tied {
             Some(tied) => {
-                let forces = &*self.contact_matrix * tied.split_slip(slip).rest;
-                forces.as_slice().to_vec()
+                let mut forces = vec![0.0; self.n_pairs];
+                let rest = tied.split_slip(slip).rest;
+                self.contact_matrix
+                    .add_product(rest.as_slice(), &mut forces);
+                forces
             }
             None => Vec::new(),
         }
@@ -303,11 +309,7 @@ impl Substructure {
         let mut forces = vec![0.0; self.n_pairs];
         self.eliminate(&mut condensed, &mut forces);
         if let Some(tied) = &self.tied {
-            let split = tied.split(&condensed.contact, &slip);
-            condensed.contact = split.contact;
-            for (motion, more) in motions.iter_mut().zip(split.motions.iter()) {
-                *motion += more;
-            }
+            tied.split(&mut condensed.contact, &slip, &mut motions);
         }
         let Trailing { zone, contact } = &mut condensed;
         self.condensed.recover_zone(zone, contact);
@@ -325,8 +327,69 @@ impl Substructure {
 
     /// Bytes held by the dense contact matrices: `T`, what of it is swept in the tableau, and factor and coupling of the tied structure.
     pub fn contact_bytes(&self) -> u64 {
-        (4 * size_of::<f64>() * self.n_pairs * self.n_pairs) as u64
+        let tied = self.tied.as_ref().map_or(0, Groups::n_entries);
+        (size_of::<f64>() * (2 * self.contact_matrix.n_entries() + tied)) as u64
     }
+}
+
+/// What the dense part of contact costs, known from the model alone: a group of `p` pairs that bodies join takes `p^3` operations once and
+/// `p^2` numbers, for no matrix of the method has zeros there.
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
+pub struct ContactCost {
+    /// Pairs of nodes.
+    pub pairs: usize,
+    /// Groups of pairs that share no body.
+    pub groups: usize,
+    /// Pairs of the largest group.
+    pub largest_group: usize,
+    /// Floating point operations: factor (`p^3 / 3`), coupling (`p^3`) and contact matrix (`p^3`) of the tied pairs.
+    pub flops: f64,
+    /// Bytes at the peak.
+    pub memory_bytes: f64,
+}
+
+impl ContactCost {
+    /// Numbers of `p^2` entries that are there at the peak: factor, coupling and its transpose, contact matrix.
+    const MATRICES: f64 = 4.0;
+
+    /// The cost of a model's contact.
+    pub fn of(model: &Model) -> Self {
+        let mut sizes: Vec<usize> = Vec::new();
+        for group in groups::groups(&parts(model), std::iter::empty()) {
+            if group == sizes.len() {
+                sizes.push(0);
+            }
+            sizes[group] += 1;
+        }
+        let sum = |power: i32| sizes.iter().map(|&p| (p as f64).powi(power)).sum::<f64>();
+        ContactCost {
+            pairs: model.pairs.len(),
+            groups: sizes.len(),
+            largest_group: sizes.iter().copied().max().unwrap_or(0),
+            flops: 7.0 / 3.0 * sum(3),
+            memory_bytes: 8.0 * Self::MATRICES * sum(2),
+        }
+    }
+
+    /// Refuses what does not fit into the memory that is left.
+    ///
+    /// # Errors
+    /// `Analysis` with what is needed and what there is.
+    fn require(&self) -> Result<()> {
+        let what = format!(
+            "contact of {} pairs, {} of them joined by bodies (dense matrices: fewer pairs are what helps),",
+            self.pairs, self.largest_group
+        );
+        memory::require(&what, self.memory_bytes)
+    }
+}
+
+/// The part of the model that each contact freedom belongs to.
+fn parts(model: &Model) -> Vec<usize> {
+    let n = model.pairs.len();
+    (0..2 * n)
+        .map(|i| model.floating.part_of_pair[i % n][i / n])
+        .collect()
 }
 
 fn contact_freedoms(model: &Model) -> Result<Vec<usize>> {
@@ -341,24 +404,6 @@ fn contact_freedoms(model: &Model) -> Result<Vec<usize>> {
     let first = model.pairs.iter().map(|p| normal(p.first));
     let second = model.pairs.iter().map(|p| normal(p.second));
     first.chain(second).collect()
-}
-
-/// The rigid motions of floating bodies on the contact freedoms.
-fn traces(model: &Model, partition: &Partition) -> Vec<Trace> {
-    let values = |motion: &RigidMotion| {
-        let values = partition.contact.iter().map(|&f| motion.at(f));
-        DVector::from_iterator(partition.contact.len(), values)
-    };
-    let n_motions = model.floating.motions.len();
-    let motions = model.floating.motions.iter();
-    motions
-        .enumerate()
-        .map(|(j, motion)| Trace {
-            part: motion.part,
-            values: values(motion),
-            of_motion: DVector::from_fn(n_motions, |i, _| f64::from(u8::from(i == j))),
-        })
-        .collect()
 }
 
 /// The stiffness's own diagonal on the contact freedoms of bodies that supports do not hold, zero elsewhere.

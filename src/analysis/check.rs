@@ -7,6 +7,7 @@ use crate::linalg::{self, Backend, Partition, Prediction};
 use crate::model::Model;
 use crate::results::{Effect, Sizes};
 use crate::scene::Stepping;
+use crate::substructure::ContactCost;
 use serde::Serialize;
 
 /// What a run of the scene will do and cost.
@@ -18,6 +19,8 @@ pub struct Check {
     pub sizes: Sizes,
     /// Cost of the factorisation, from the symbolic analysis.
     pub prediction: Prediction,
+    /// Cost of the dense part of contact, from the pairs that bodies join.
+    pub contact: ContactCost,
     /// Rough time of one factorisation, at the speed that is typical of one core.
     pub predicted_seconds: f64,
     /// Rough time of the whole run without the estimate of its errors: the factorisation, and the trailing solves of its increments.
@@ -87,7 +90,9 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
         zone,
         contact,
     };
-    let prediction = linalg::predict(backend, &system.stiffness, &partition)?;
+    let mut prediction = linalg::predict(backend, &system.stiffness, &partition)?;
+    let contact = ContactCost::of(model);
+    prediction.memory_bytes += contact.memory_bytes;
     let sizes = Sizes {
         freedoms: model.freedoms.n,
         nodes: model.mesh.n_nodes(),
@@ -102,9 +107,20 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
     if model.scene.accuracy.is_some() {
         notes.push("the scene demands an accuracy: a run chooses its meshes itself, the figures here are of the scene's own".to_string());
     }
-    let factorisation =
-        prediction.flops / TYPICAL_FLOPS + prediction.factor_nonzeros / TYPICAL_ANALYSIS;
+    let of_contact = contact.flops / TYPICAL_FLOPS;
+    let factorisation = prediction.flops / TYPICAL_FLOPS
+        + prediction.factor_nonzeros / TYPICAL_ANALYSIS
+        + of_contact;
     let run = factorisation + solves(model, plastic) * prediction.trailing_nonzeros / TYPICAL_SOLVE;
+    if of_contact > LONG {
+        notes.push(format!(
+            "{} pairs are joined by bodies: the dense matrices of their contact take about {:.0} min (the cube of their number) and \
+             {:.0} MB (the square); fewer pairs, or bodies that nothing joins, take less",
+            contact.largest_group,
+            (of_contact / 60.0).ceil(),
+            (contact.memory_bytes / 1e6).ceil()
+        ));
+    }
     if run > LONG {
         notes.push(format!(
             "the run may take about {:.0} min, and the estimate of its errors once or twice that: fewer elements (resolution) or a \
@@ -116,6 +132,7 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
         effects: effects(model, plastic),
         sizes,
         prediction,
+        contact,
         predicted_seconds: factorisation,
         predicted_run_seconds: run,
         blas: linalg::blas_name(),

@@ -419,3 +419,83 @@ impl Engine<'_> {
         along.sum()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    fn model(name: &str, overrides: &[&str]) -> Model {
+        let path = format!("{}/data/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let overrides: Vec<String> = overrides.iter().map(|o| o.to_string()).collect();
+        Model::new(&Scene::load_with(path, &overrides).unwrap()).unwrap()
+    }
+
+    /// An even quadratic of the distance from the axis goes on to it exactly.
+    #[test]
+    fn the_pressure_on_the_axis_is_the_even_continuation() {
+        let model = model(
+            "ball_on_half_space",
+            &["mesh.cylinder_on_half_plane.element=quad8"],
+        );
+        let contact = &model.contacts[0];
+        let axis = contact.axis.expect("quadratic elements have no pair there");
+        let pressure = |k: usize| 7.0 - 3.0 * (model.pairs[k].arc - axis.arc).powi(2);
+        let values: Vec<f64> = (0..model.pairs.len()).map(pressure).collect();
+        let found = on_axis(&model, contact, &values).unwrap();
+        assert!((found - 7.0).abs() <= 1e-13 * 7.0, "{found}");
+        let force: Vec<f64> = (model.pairs.iter().zip(&values))
+            .map(|(pair, p)| pair.area * p.max(0.0))
+            .collect();
+        let figures = contact_figures(&model, &force, 1.0);
+        assert!((figures.pole_pressure - 7.0).abs() <= 1e-13 * 7.0);
+        assert!((figures.max_pressure - 7.0).abs() <= 1e-13 * 7.0);
+    }
+
+    /// Where the contact has left the axis the continuation is negative: the point there is open and carries nothing.
+    #[test]
+    fn a_point_on_the_axis_carries_no_tension() {
+        let model = model(
+            "ball_on_half_space",
+            &["mesh.cylinder_on_half_plane.element=quad8"],
+        );
+        let axis = model.contacts[0].axis.unwrap();
+        assert!(axis.begins);
+        let n = model.pairs.len();
+        let mut force = vec![0.0; n];
+        force[1] = 1.0;
+        let open: Vec<bool> = force.iter().map(|f| *f == 0.0).collect();
+        let pressure = pressures(&model, &force);
+        assert!(on_axis(&model, &model.contacts[0], &pressure).unwrap() < 0.0);
+        let states = pair_states(&model, &vec![0.5; n], &force, &open);
+        assert_eq!((states.len(), states[0].pair), (n + 1, n));
+        assert_eq!((states[0].pressure, states[0].status), (0.0, Status::Open));
+        assert!((states[0].gap - 0.5).abs() <= 1e-14);
+    }
+
+    /// A pressure that is linear along a patch away from all planes of symmetry: at the patch's middle it is the line's.
+    #[test]
+    fn the_pole_of_a_patch_off_symmetry_is_its_middle() {
+        let model = model("contact_patch", &[]);
+        let line = |arc: f64| 5.0 + 3.0 * arc;
+        let closed = |k: &usize| (2..7).contains(k);
+        let force: Vec<f64> = (0..model.pairs.len())
+            .map(|k| {
+                model.pairs[k].area * line(model.pairs[k].arc) * f64::from(u8::from(closed(&k)))
+            })
+            .collect();
+        let figures = contact_figures(&model, &force, 1.0);
+        let [from, to] = figures.patch.unwrap();
+        let middle = 0.5 * (from + to);
+        let between = (2..6).any(|k| {
+            let [a, b] = [k, k + 1].map(|k| model.pairs[k].arc);
+            (middle - a).abs().min((b - middle).abs()) > 0.01 * (b - a) && (a..b).contains(&middle)
+        });
+        assert!(between, "{middle} lies at a pair, which tests less");
+        let found = figures.pole_pressure;
+        assert!(
+            (found - line(middle)).abs() <= 1e-12 * line(middle),
+            "{found}"
+        );
+    }
+}

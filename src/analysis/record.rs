@@ -212,7 +212,9 @@ impl<'m> Engine<'m> {
                 hash.update(&value.to_bits().to_le_bytes());
             }
         };
-        add(self.tableau.matrix().as_slice());
+        for block in self.tableau.matrix().blocks() {
+            add(block.matrix.as_slice());
+        }
         self.reduced_loads.iter().for_each(|load| add(load));
         hash.digest128()
     }

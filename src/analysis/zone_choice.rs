@@ -256,3 +256,67 @@ impl Engine<'_> {
         load
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    fn scene(name: &str, overrides: &[&str]) -> Scene {
+        let path = format!("{}/data/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        let overrides: Vec<String> = overrides.iter().map(|o| o.to_string()).collect();
+        Scene::load_with(path, &overrides).unwrap()
+    }
+
+    /// Under a point contact stress falls with the cube root of the load: at an eighth of it an element is predicted to flow whose ratio at
+    /// the whole load is twice the limit, in line contact with its square root at a quarter.
+    #[test]
+    fn a_stage_of_the_load_takes_the_elements_that_flow_by_then() {
+        for (name, share) in [
+            ("ball_on_half_space", 0.125),
+            ("cylinder_on_half_plane", 0.25),
+        ] {
+            let model =
+                Model::new(&scene(name, &["mesh.cylinder_on_half_plane.resolution=4"])).unwrap();
+            let element = model.mesh.n_elements() / 2;
+            for (ratio, taken) in [(1.999, false), (2.001, true)] {
+                let mut ratios = vec![0.0; model.mesh.n_elements()];
+                ratios[element] = ratio * PREDICTED;
+                let choice = stage(&model, &ratios, share, &Choice::default());
+                let found = choice.elements.binary_search(&element);
+                assert_eq!(found.is_ok(), taken, "{name}");
+                assert!(found.is_err() || !choice.guard[found.unwrap()]);
+            }
+        }
+    }
+
+    /// Bodies that share nodes: of the neighbours only those that may yield join the zone.
+    #[test]
+    fn layers_end_where_material_stays_elastic() {
+        let scene = scene(
+            "contact_patch",
+            &[
+                "bodies.upper.material=hard",
+                "materials.hard={ youngs_modulus = 210000.0, poissons_ratio = 0.3 }",
+                "materials.steel.yield_stress=100.0",
+            ],
+        );
+        let mut model = Model::new(&scene).unwrap();
+        let upper = model.mesh.bodies.iter().position(|b| b == "upper").unwrap();
+        // The right half of the lower block becomes a part of the other body.
+        let n = model.mesh.n_elements();
+        for e in 0..n {
+            let x = model.element_coordinates(e)[0][0];
+            if x >= 1.0 {
+                model.mesh.element_body[e] = upper as u32;
+            }
+        }
+        let old = Choice {
+            elements: (0..n).filter(|&e| may_yield(&model, e)).take(1).collect(),
+            guard: vec![false],
+        };
+        let grown = grown(&model, &old);
+        assert!(grown.elements.len() > 4);
+        assert!(grown.elements.iter().all(|&e| may_yield(&model, e)));
+    }
+}

@@ -240,6 +240,23 @@ fn a_model_from_arrays_gives_the_bits_of_the_scene() {
         let mut found = null_mut();
         let status = brinell_model_run(model, null(), None, null_mut(), &mut found);
         assert_eq!(status, BRINELL_OK, "{}", message());
+        // First yield as the library has it, field by field.
+        let mut point: brinell_yield = std::mem::zeroed();
+        point.size = size_of::<brinell_yield>();
+        assert_eq!(brinell_results_yield(expected, &mut point), BRINELL_OK);
+        let own = (*expected).results.first_yield.unwrap();
+        assert_eq!([point.x, point.y], own.location);
+        assert!(point.x != point.y, "a place that tells x from y");
+        assert_eq!(
+            [
+                point.alpha,
+                point.load,
+                point.max_pressure,
+                point.half_width
+            ],
+            [own.alpha, own.load, own.max_pressure, own.half_width]
+        );
+        assert_eq!(point.body, own.body as u64);
         let (expected_bits, found_bits) = (all_bits(expected), all_bits(found));
         assert!(expected_bits.iter().any(|b| *b != 0));
         assert!(expected_bits == found_bits);

@@ -207,6 +207,37 @@ mod tests {
     }
 
     #[test]
+    fn scene_mesh_and_solver_must_be_the_same() {
+        let own = || Identity {
+            scene: "{\"a\":1}".into(),
+            mesh: 7,
+            backend: "cholmod".into(),
+        };
+        assert_eq!(own().difference(&own()), None);
+        let others = [
+            (
+                Identity {
+                    scene: "{\"a\":2}".into(),
+                    ..own()
+                },
+                "`a` was 1 and is 2",
+            ),
+            (Identity { mesh: 8, ..own() }, "the mesh differs"),
+            (
+                Identity {
+                    backend: "dense".into(),
+                    ..own()
+                },
+                "`cholmod` and is `dense`",
+            ),
+        ];
+        for (other, fragment) in others {
+            let why = own().difference(&other).unwrap();
+            assert!(why.contains(fragment), "{why}");
+        }
+    }
+
+    #[test]
     fn the_first_difference_is_named_by_its_key() {
         let then = json!({ "a": { "b": [1, { "c": 2.5 }] }, "d": "x" });
         let mut now = then.clone();

@@ -38,7 +38,7 @@ impl ConstrainedStructure {
         let change = self.forces_if_tied(&condensed_rate, 0.0);
         let scale = self.gaps.iter().fold(0.0f64, |m, g| m.max(g.abs()));
         // `q` is what is left of the load's part and that of the gaps.
-        let terms = (self.tableau.matrix() * &self.gaps).amax() + begin.amax();
+        let terms = (&*self.contact_matrix * &self.gaps).amax() + begin.amax();
         let path = Path::new(
             &mut self.tableau,
             begin.as_slice().to_vec(),

@@ -122,7 +122,7 @@ fn principal_pivoting(
     // Pairs whose tension is round-off: opening them could repeat a set without lowering the energy.
     let mut settled = vec![false; n];
     let mut entered: BTreeSet<(usize, Vec<bool>)> = BTreeSet::new();
-    let mut column = vec![0.0; n];
+    let mut column: Vec<(usize, f64)> = Vec::new();
     loop {
         tableau.solve_safely(q, gap, force);
         for g in gap.iter_mut() {
@@ -150,17 +150,17 @@ fn principal_pivoting(
             } else {
                 -force[k] / curvature
             };
-            column.copy_from_slice(tableau.swept_column(k));
-            let blocking = (0..n)
-                .filter(|&j| tableau.open()[j] && column[j] > 0.0)
-                .map(|j| (gap[j] / column[j], j))
+            column.clear();
+            column.extend(tableau.swept_column(k));
+            let blocking = column
+                .iter()
+                .filter(|&&(j, entry)| tableau.open()[j] && entry > 0.0)
+                .map(|&(j, entry)| (gap[j] / entry, j))
                 .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             match blocking {
                 Some((step, j)) if step < full => {
-                    for i in 0..n {
-                        if tableau.open()[i] {
-                            gap[i] = (gap[i] - step * column[i]).max(0.0);
-                        }
+                    for &(i, entry) in column.iter().filter(|(i, _)| tableau.open()[*i]) {
+                        gap[i] = (gap[i] - step * entry).max(0.0);
                     }
                     gap[k] += step;
                     gap[j] = 0.0;

@@ -7,10 +7,12 @@
 //! # Source
 //! Paper, section 4.1, with (4.17) read as `Delta alpha / psi`; parametric principal pivoting: Cottle, Pang, Stone (1992), section 4.5.
 
-use super::Tableau;
 use super::complementarity::{Unbounded, solve};
+use super::{PairBlock, PairMatrix, Tableau};
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// A change of contact.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -151,13 +153,12 @@ impl Path {
                 self.force[k] = 0.0;
             }
             let m = border.len();
-            let reduced = DMatrix::from_fn(m, m, |i, j| tableau.swept(border[i], border[j]));
             // A rate that is nothing but the round-off of what it is a sum of has no sign to follow: a body on which nothing acts
             // would be driven off by it.
             let terms = |k: usize| {
                 let column = tableau.matrix().column(k);
-                let of_gaps = column.iter().zip(&self.gap_rate);
-                self.rate[k].abs() + of_gaps.map(|(t, g)| (t * g).abs()).sum::<f64>()
+                let of_gaps = column.map(|(j, t)| (t * self.gap_rate[j]).abs());
+                self.rate[k].abs() + of_gaps.sum::<f64>()
             };
             let rates: Vec<f64> = border
                 .iter()
@@ -166,7 +167,7 @@ impl Path {
                     rate => rate,
                 })
                 .collect();
-            let mut small = Tableau::new(reduced);
+            let mut small = Tableau::new(among(tableau, &border));
             let (mut dg, mut dr) = (vec![0.0; m], vec![0.0; m]);
             solve(&mut small, &rates, &mut dg, &mut dr).map_err(|u| Unbounded {
                 pair: border[u.pair],
@@ -288,4 +289,22 @@ impl Path {
             *v = v.max(0.0);
         }
     }
+}
+
+/// The swept matrix among some of the pairs.
+fn among(tableau: &Tableau, pairs: &[usize]) -> PairMatrix {
+    let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (i, &k) in pairs.iter().enumerate() {
+        let (block, _) = tableau.matrix().place(k);
+        groups.entry(block).or_default().push(i);
+    }
+    let blocks = groups.into_values().map(|own| {
+        let entry = |i: usize, j: usize| tableau.swept(pairs[own[i]], pairs[own[j]]);
+        let matrix = DMatrix::from_fn(own.len(), own.len(), entry);
+        PairBlock {
+            pairs: own,
+            matrix: Arc::new(matrix),
+        }
+    });
+    PairMatrix::new(blocks.collect())
 }

@@ -1,10 +1,9 @@
 //! The contact matrix with a set of pairs opened: a principal pivotal transform.
 
+use super::matrix::{self, PairMatrix};
 use super::swept::Swept;
 use nalgebra::DMatrix;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
 
 /// Share of the original diagonal below which a pivot counts as zero: opening the pair would free a rigid motion.
 const SINGULAR: f64 = 1e-11;
@@ -12,8 +11,6 @@ const SINGULAR: f64 = 1e-11;
 const NOT_SINGULAR: f64 = 1e-4;
 /// Multiple of the round-off to be expected beyond which a solution has lost its digits.
 const LOST: f64 = 1e3;
-/// Rows that a thread takes at a time.
-const ROWS: usize = 512;
 /// Pivots after which the transform is rebuilt from the original matrix.
 const REBUILD: usize = 2000;
 
@@ -23,8 +20,9 @@ const REBUILD: usize = 2000;
 /// R. W. Cottle, J.-S. Pang, R. E. Stone, *The Linear Complementarity Problem* (1992), section 2.3.
 #[derive(Debug, Clone)]
 pub struct Tableau {
-    matrix: Arc<DMatrix<f64>>,
-    swept: Swept,
+    matrix: PairMatrix,
+    /// Of each block of the matrix.
+    swept: Vec<Swept>,
     open: Vec<bool>,
     way: TableauRecord,
     column: Vec<f64>,
@@ -41,11 +39,14 @@ pub struct TableauRecord {
 
 impl Tableau {
     /// The symmetric positive semidefinite matrix `T` with every pair closed.
-    pub fn new(matrix: impl Into<Arc<DMatrix<f64>>>) -> Self {
+    pub fn new(matrix: impl Into<PairMatrix>) -> Self {
         let matrix = matrix.into();
-        let n = matrix.nrows();
+        let n = matrix.len();
+        let blocks = matrix.blocks().iter();
         Tableau {
-            swept: Swept::new(DMatrix::clone(&matrix)),
+            swept: blocks
+                .map(|block| Swept::new(DMatrix::clone(&block.matrix)))
+                .collect(),
             matrix,
             open: vec![false; n],
             way: TableauRecord {
@@ -72,19 +73,32 @@ impl Tableau {
     }
 
     /// The original matrix T.
-    pub fn matrix(&self) -> &DMatrix<f64> {
+    pub fn matrix(&self) -> &PairMatrix {
         &self.matrix
     }
 
     /// An entry of the swept matrix.
     pub(super) fn swept(&self, i: usize, j: usize) -> f64 {
-        self.swept.get(i, j)
+        let ((block, i), (other, j)) = (self.matrix.place(i), self.matrix.place(j));
+        if block == other {
+            self.swept[block].get(i, j)
+        } else {
+            0.0
+        }
     }
 
-    /// A column of the swept matrix.
-    pub(super) fn swept_column(&mut self, j: usize) -> &[f64] {
-        self.swept.column(j, &mut self.column);
-        &self.column
+    /// A column of the swept matrix: the pairs of its group, ascending, and the entries.
+    pub(super) fn swept_column(&mut self, j: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.bring_column(j);
+        let pairs = &self.matrix.blocks()[self.matrix.place(j).0].pairs;
+        pairs.iter().copied().zip(self.column.iter().copied())
+    }
+
+    /// Puts a column of the swept matrix into `column`, for the pairs of its group.
+    fn bring_column(&mut self, j: usize) {
+        let (block, j) = self.matrix.place(j);
+        let n = self.matrix.blocks()[block].pairs.len();
+        self.swept[block].column(j, &mut self.column[..n]);
     }
 
     /// Whether opening pair `k` now would free a rigid motion.
@@ -92,15 +106,17 @@ impl Tableau {
     /// What is left of `T_kk` is `T_kk - T_ko w` with `w = T_oo^-1 T_ok`: the round-off of that is a share of
     /// `|T_kk| + 2 |T_ko| |w| + |w|' |T_oo| |w| <= (sqrt T_kk + sum |w_o| sqrt T_oo)^2`, since `|T_ij| <= sqrt(T_ii T_jj)`.
     pub fn would_free(&self, k: usize) -> bool {
-        let (left, whole) = (self.swept.get(k, k), self.matrix[(k, k)]);
+        let (block, own) = self.matrix.place(k);
+        let (left, whole) = (self.swept[block].get(own, own), self.matrix.diagonal(k));
         if self.open[k] || left > NOT_SINGULAR * whole {
             return false;
         }
-        let open = (0..self.len()).filter(|&j| self.open[j]);
+        let pairs = &self.matrix.blocks()[block].pairs;
+        let open = pairs.iter().enumerate().filter(|(_, k)| self.open[**k]);
         let moved: f64 = open
-            .map(|j| self.swept.get(j, k).abs() * self.matrix[(j, j)].sqrt())
+            .map(|(j, &k)| self.swept[block].get(j, own).abs() * self.matrix.diagonal(k).sqrt())
             .sum();
-        let n = (self.len() as f64).sqrt();
+        let n = (pairs.len() as f64).sqrt();
         let round_off = 8.0 * f64::EPSILON * n * (whole.sqrt() + moved).powi(2);
         left <= round_off.max(SINGULAR * whole)
     }
@@ -128,9 +144,11 @@ impl Tableau {
         }
         // Of y = b + S z with y = (r_closed, -g_open) and z = (g_closed, r_open) only b stands where z is zero.
         let b = if self.open[k] { -gap[k] } else { force[k] };
-        self.swept.column(k, &mut self.column);
-        let z = -b / self.column[k];
-        for (i, s) in self.column.iter().enumerate() {
+        let own = self.matrix.place(k).1;
+        self.bring_column(k);
+        let pairs = &self.matrix.blocks()[self.matrix.place(k).0].pairs;
+        let z = -b / self.column[own];
+        for (&i, s) in pairs.iter().zip(&self.column) {
             if self.open[i] {
                 gap[i] -= s * z;
             } else {
@@ -143,7 +161,9 @@ impl Tableau {
 
     /// Sets all statuses, starting from the original matrix; pairs whose opening would free a rigid motion stay closed.
     pub fn reset(&mut self, open: &[bool]) {
-        self.swept.copy_from(&self.matrix);
+        for (swept, block) in self.swept.iter_mut().zip(self.matrix.blocks()) {
+            swept.copy_from(&block.matrix);
+        }
         self.open.fill(false);
         self.way.flips.clear();
         for k in 0..self.len() {
@@ -175,7 +195,8 @@ impl Tableau {
 
     fn sweep(&mut self, k: usize) {
         let sign = if self.open[k] { -1.0 } else { 1.0 };
-        self.swept.pivot(k, sign);
+        let (block, own) = self.matrix.place(k);
+        self.swept[block].pivot(own, sign);
     }
 
     /// Gaps of the open pairs and forces of the closed ones for the given statuses: `r_o = 0`, `g_c = 0`,
@@ -202,7 +223,7 @@ impl Tableau {
         for _ in 0..2 {
             self.correct(force, gap);
             force.copy_from_slice(q);
-            add_product(&self.matrix, gap, force);
+            self.matrix.add_product(gap, force);
         }
         let mut residual = 0.0f64;
         for (f, _) in force.iter_mut().zip(&self.open).filter(|(_, open)| **open) {
@@ -222,7 +243,9 @@ impl Tableau {
             *r = 0.0;
         }
         self.column.fill(0.0);
-        add_product(self.swept.matrix(), residual, &mut self.column);
+        let blocks = self.matrix.blocks().iter().zip(&mut self.swept);
+        let blocks = blocks.map(|(block, swept)| (block.pairs.as_slice(), swept.matrix()));
+        matrix::add_products(blocks, residual, &mut self.column);
         let correction = gap.iter_mut().zip(&self.column).zip(&self.open);
         for ((g, c), _) in correction.filter(|(_, open)| **open) {
             *g += c;
@@ -232,7 +255,7 @@ impl Tableau {
     /// Round-off to be expected in the forces of a solution with these right-hand side and gaps.
     pub fn force_tolerance(&self, q: &[f64], gap: &[f64]) -> f64 {
         let largest_q = q.iter().fold(0.0f64, |m, v| m.max(v.abs()));
-        let largest_t = (0..self.len()).fold(0.0f64, |m, k| m.max(self.matrix[(k, k)]));
+        let largest_t = (0..self.len()).fold(0.0f64, |m, k| m.max(self.matrix.diagonal(k)));
         let largest_g = gap.iter().fold(0.0f64, |m, v| m.max(v.abs()));
         8.0 * f64::EPSILON
             * (self.len() as f64).sqrt().max(1.0)
@@ -241,28 +264,11 @@ impl Tableau {
 
     /// The gap that a force tolerance corresponds to.
     pub fn gap_tolerance(&self, force_tolerance: f64) -> f64 {
-        let largest_t = (0..self.len()).fold(0.0f64, |m, k| m.max(self.matrix[(k, k)]));
+        let largest_t = (0..self.len()).fold(0.0f64, |m, k| m.max(self.matrix.diagonal(k)));
         if largest_t > 0.0 {
             force_tolerance / largest_t
         } else {
             0.0
         }
-    }
-}
-
-/// `y += A x`, where few entries of `x` may be other than zero.
-fn add_product(a: &DMatrix<f64>, x: &[f64], y: &mut [f64]) {
-    let add = |(block, y): (usize, &mut [f64])| {
-        for (j, &x) in x.iter().enumerate().filter(|(_, x)| **x != 0.0) {
-            let rows = &a.as_slice()[j * a.nrows() + block * ROWS..][..y.len()];
-            for (y, a) in y.iter_mut().zip(rows) {
-                *y += a * x;
-            }
-        }
-    };
-    if y.len() <= ROWS {
-        add((0, y));
-    } else {
-        y.par_chunks_mut(ROWS).enumerate().for_each(add);
     }
 }

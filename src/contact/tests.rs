@@ -265,3 +265,63 @@ fn digits_lost_in_a_pivot_of_round_off_come_back() {
     assert!(solve(&mut tableau, &q, &mut g, &mut r).is_ok());
     check(&t, &q, &g, &r);
 }
+
+/// Pair 0 stands at the border (no gap, no force), and its rate of -1e-13 is the round-off of 1 - 1. When pair 2 opens half way, pair 0
+/// does not: a rate without a sign is no change of contact.
+#[test]
+fn a_rate_of_round_off_is_no_event() {
+    let t = DMatrix::from_row_slice(3, 3, &[2.0, 1.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
+    let mut tableau = Tableau::new(t);
+    tableau.reset(&[false, true, false]);
+    let start = vec![-1.0, -1.0, 1.0];
+    let rate = vec![-1.0 - 1e-13, -1.0, -2.0];
+    let (gap, force) = (vec![0.0, 1.0, 0.0], vec![0.0, 0.0, 1.0]);
+    let mut path = Path::new(&mut tableau, start, rate, gap, force, 1.0, 1.0).unwrap();
+    let end = path.advance(&mut tableau, 1.0);
+    assert_eq!(end, PathEnd::Event(vec![Change::Opens(2)]));
+    assert!((path.t - 0.5).abs() <= 1e-12, "{}", path.t);
+}
+
+/// Blocks and the whole matrix with zeros between them are one problem, along a path with events in both.
+#[test]
+fn groups_of_pairs_are_one_problem() {
+    let own = |n: usize| {
+        DMatrix::from_fn(n, n, |i, j| {
+            if i == j {
+                3.0
+            } else {
+                1.0 / (1 + i + j) as f64
+            }
+        })
+    };
+    let pairs = [vec![0, 2, 5], vec![1, 3, 4, 6]];
+    let blocks = pairs.iter().map(|pairs| PairBlock {
+        pairs: pairs.clone(),
+        matrix: std::sync::Arc::new(own(pairs.len())),
+    });
+    let blocks = PairMatrix::new(blocks.collect());
+    let whole = PairMatrix::from(blocks.dense());
+    assert_eq!((blocks.n_entries(), whole.n_entries()), (9 + 16, 49));
+    let q: Vec<f64> = (0..7).map(|k| (k as f64 * 2.3).sin()).collect();
+    let rate: Vec<f64> = (0..7).map(|k| (k as f64 * 1.1).cos() * 2.0).collect();
+    let run = |matrix: &PairMatrix| {
+        let mut tableau = Tableau::new(matrix.clone());
+        let (mut g, mut r) = (vec![0.0; 7], vec![0.0; 7]);
+        solve(&mut tableau, &q, &mut g, &mut r).unwrap();
+        check(&matrix.dense(), &q, &g, &r);
+        let mut path = Path::new(&mut tableau, q.clone(), rate.clone(), g, r, 1.0, 1.0).unwrap();
+        let mut events = Vec::new();
+        while let PathEnd::Event(changes) = path.advance(&mut tableau, 2.0) {
+            events.push(changes);
+            path.turn(&mut tableau).unwrap();
+        }
+        (events, path.gap, path.force)
+    };
+    let (a, b) = (run(&blocks), run(&whole));
+    assert!(a.0.len() >= 3, "{:?}", a.0);
+    assert_eq!(a.0, b.0);
+    for (a, b) in a.1.iter().chain(&a.2).zip(b.1.iter().chain(&b.2)) {
+        // A few operations on numbers of order 1 to 10.
+        assert!((a - b).abs() <= 1e-13, "{a} {b}");
+    }
+}

@@ -72,6 +72,23 @@ impl ContactStiffness {
         product
     }
 
+    /// The stiffness of each group of freedoms that no block couples with others: `place` says the group of each freedom and its number there,
+    /// which ascends with the freedoms of a block.
+    pub(crate) fn split(self, place: &[(usize, usize)], n_groups: usize) -> Vec<Self> {
+        let mut blocks: Vec<Vec<ContactBlock>> = vec![Vec::new(); n_groups];
+        for mut block in self.blocks {
+            let Some(&first) = block.freedoms.first() else {
+                continue;
+            };
+            let group = place[first].0;
+            for freedom in &mut block.freedoms {
+                *freedom = place[*freedom].1;
+            }
+            blocks[group].push(block);
+        }
+        blocks.into_iter().map(ContactStiffness::new).collect()
+    }
+
     /// The whole matrix, zeros between the blocks.
     pub fn dense(&self) -> DMatrix<f64> {
         let n = self.n_contact();

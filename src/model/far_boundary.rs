@@ -20,31 +20,38 @@ use std::collections::BTreeMap;
 /// nodes: half of the digits are left.
 const TOLD_APART: f64 = 1e-8;
 
-/// Finds the weights of each motion ([`RigidMotion::in_far_boundary`]); `work(motion, load)` is the work that a load does on
-/// a motion.
+/// Finds the weights of each motion ([`RigidMotion::in_far_boundary`]); `work(motion)` is the work that each load with forces on
+/// its bodies does on a motion, by the loads' numbers.
 pub(super) fn measure(
     motions: &mut [RigidMotion],
     part_of_node: &[usize],
     freedoms: &Freedoms,
     loads: &[LoadCase],
-    work: impl Fn(usize, &LoadCase) -> f64,
+    work: impl Fn(usize) -> BTreeMap<usize, f64>,
 ) {
-    let mut parts: Vec<usize> = motions.iter().map(|motion| motion.part).collect();
-    parts.sort_unstable();
-    parts.dedup();
-    for part in parts {
-        let of_part: Vec<usize> = (0..motions.len())
-            .filter(|&j| motions[j].part == part)
-            .collect();
-        let belongs = |node: &usize| part_of_node[*node] == part;
-        let loaded = loads.iter().flat_map(|load| {
-            let works = of_part.iter().map(|&j| work(j, load).powi(2));
-            let works = works.sum::<f64>().sqrt();
-            let nodes = load.nodes.iter().copied().zip(&load.shares);
+    let mut parts: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (j, motion) in motions.iter().enumerate() {
+        parts.entry(motion.part).or_default().push(j);
+    }
+    let mut nodes_of_part: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (node, part) in part_of_node.iter().enumerate() {
+        if parts.contains_key(part) {
+            nodes_of_part.entry(*part).or_default().push(node);
+        }
+    }
+    for (part, of_part) in parts {
+        let mut works: BTreeMap<usize, f64> = BTreeMap::new();
+        for (load, work) in of_part.iter().flat_map(|&j| work(j)) {
+            *works.entry(load).or_default() += work.powi(2);
+        }
+        let loaded = works.into_iter().flat_map(|(load, squares)| {
+            let works = squares.sqrt();
+            let nodes = loads[load].nodes.iter().copied().zip(&loads[load].shares);
             nodes.map(move |(node, share)| (node, works * share))
         });
-        let loaded = loaded.filter(|(node, weight)| belongs(node) && *weight > 0.0);
-        let all = (0..part_of_node.len()).filter(belongs).map(|n| (n, 1.0));
+        let loaded = loaded.filter(|(node, weight)| part_of_node[*node] == part && *weight > 0.0);
+        let all = nodes_of_part.get(&part).into_iter().flatten();
+        let all = all.map(|&node| (node, 1.0));
         let values: Vec<&[(u32, f64)]> = of_part.iter().map(|&j| &*motions[j].values).collect();
         let fitted = fit(&values, &on_freedoms(freedoms, loaded))
             .or_else(|| fit(&values, &on_freedoms(freedoms, all)));

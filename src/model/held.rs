@@ -4,11 +4,12 @@
 //! pairs. A motion that both leave free is an error that names the body and the motion, unless
 //! no load does work on it: then one freedom is pinned, which changes nothing but the free motion.
 
-use super::motions::Motions;
+use super::motions::{self, Motions};
 use super::{Freedoms, LoadCase, Pair, far_boundary};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
 use crate::scene::Kind;
+use std::collections::BTreeSet;
 
 /// Bodies that supports alone do not hold.
 #[derive(Debug, Clone, Default)]
@@ -78,36 +79,48 @@ pub(super) fn resolve(
             is_floating[group] = true;
         }
     }
+    let forces = motions.forces(loads);
+    let contact: BTreeSet<usize> = pairs.iter().flat_map(|p| [p.first, p.second]).collect();
     for _ in 0..3 * motions.names.len() {
         let free = motions.free(freedoms, pairs);
-        let Some(mode) = free.first() else { break };
-        let motion = motions.describe(mode);
-        for load in loads {
-            let (work, parts) = motions.work(mode, load);
-            if work.abs() > NO_WORK * parts {
-                return Err(Error::new(
-                    ErrorKind::Unheld,
-                    format!(
-                        "{motion}: neither supports nor contact hold this motion, and load `{}` drives it; add a support or a \
-                         contact",
-                        load.name
-                    ),
-                ));
-            }
+        if free.is_empty() {
+            break;
         }
-        let freedom = motions.largest(mode, freedoms, pairs).ok_or_else(|| {
-            Error::new(
-                ErrorKind::Unheld,
-                format!("{motion}: nothing holds this motion"),
-            )
-        })?;
-        let node = freedoms.owners[freedom].0 as usize;
-        warnings.push(format!(
-            "{motion}: nothing holds this motion and no load drives it; it is held at node {}",
-            mesh.node_label(node)
-        ));
-        floating.pins.push(Pin { motion, node });
-        freedoms.pin(freedom);
+        // Motions that have no body in common stay free when one of them is pinned: all of these in one go.
+        let mut moved = vec![false; motions.names.len()];
+        for mode in &free {
+            let groups = motions.moved(mode);
+            if groups.iter().any(|&group| moved[group]) {
+                continue;
+            }
+            groups.iter().for_each(|&group| moved[group] = true);
+            let motion = motions.describe(mode);
+            for (load, work) in motions.work(mode, &forces) {
+                if work.abs() > NO_WORK * forces.size[load] * mode.largest() {
+                    return Err(Error::new(
+                        ErrorKind::Unheld,
+                        format!(
+                            "{motion}: neither supports nor contact hold this motion, and load `{}` drives it; add a \
+                             support or a contact",
+                            loads[load].name
+                        ),
+                    ));
+                }
+            }
+            let freedom = motions.largest(mode, freedoms, &contact).ok_or_else(|| {
+                Error::new(
+                    ErrorKind::Unheld,
+                    format!("{motion}: nothing holds this motion"),
+                )
+            })?;
+            let node = freedoms.owners[freedom].0 as usize;
+            warnings.push(format!(
+                "{motion}: nothing holds this motion and no load drives it; it is held at node {}",
+                mesh.node_label(node)
+            ));
+            floating.pins.push(Pin { motion, node });
+            freedoms.pin(freedom);
+        }
     }
     floating.of_pair = pairs
         .iter()
@@ -126,19 +139,20 @@ pub(super) fn resolve(
         .iter()
         .map(|p| [p.first, p.second].map(|node| part[motions.group_of_node[node]]))
         .collect();
+    let owned = motions::owned(freedoms, mesh.n_nodes());
     floating.motions = modes
         .iter()
         .filter_map(|mode| {
             let group = *motions.moved(mode).first()?;
             Some(RigidMotion {
                 part: part[group],
-                values: motions.on_freedoms(mode, freedoms),
+                values: motions.on_freedoms(mode, freedoms, &owned),
                 in_far_boundary: Vec::new(),
             })
         })
         .collect();
     let part_of_node: Vec<usize> = motions.group_of_node.iter().map(|&g| part[g]).collect();
-    let work = |j: usize, load: &LoadCase| motions.work(&modes[j], load).0;
+    let work = |j: usize| motions.work(&modes[j], &forces);
     far_boundary::measure(&mut floating.motions, &part_of_node, freedoms, loads, work);
     Ok(floating)
 }

@@ -4,7 +4,7 @@ use super::{Freedoms, LoadCase, Pair, Slot};
 use crate::mesh::Mesh;
 use crate::scene::Kind;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Singular values below this, relative to the largest, are free motions.
 const FREE: f64 = 1e-7;
@@ -22,6 +22,36 @@ pub(super) struct Motions<'a> {
     size: Vec<f64>,
     /// Names of the bodies of each group.
     pub(super) names: Vec<Vec<String>>,
+    /// Nodes of each group, ascending.
+    nodes: Vec<Vec<usize>>,
+}
+
+/// A rigid motion of some groups: what it costs to handle is a matter of these, not of how many bodies there are beside them.
+pub(super) struct Mode {
+    /// Group and rigid motion, as `per_group * group + motion`, ascending; whole groups.
+    rows: Vec<usize>,
+    values: DVector<f64>,
+}
+
+impl Mode {
+    /// The entry of a row; 0 where the group does not move.
+    fn at(&self, row: usize) -> f64 {
+        let place = self.rows.binary_search(&row);
+        place.map_or(0.0, |k| self.values[k])
+    }
+
+    /// Its largest entry.
+    pub(super) fn largest(&self) -> f64 {
+        self.values.amax()
+    }
+}
+
+/// The nodal forces of all loads, by the group that they act on.
+pub(super) struct Forces {
+    /// Load, node and force of each group.
+    of_group: Vec<Vec<(usize, usize, [f64; 2])>>,
+    /// Sum of the sizes of the components of each load.
+    pub(super) size: Vec<f64>,
 }
 
 impl<'a> Motions<'a> {
@@ -73,6 +103,10 @@ impl<'a> Motions<'a> {
             .zip(&high)
             .map(|(l, h)| (h[0] - l[0]).hypot(h[1] - l[1]))
             .collect();
+        let mut nodes = vec![Vec::new(); names.len()];
+        for (node, &group) in group_of_node.iter().enumerate() {
+            nodes[group].push(node);
+        }
         Motions {
             kind,
             mesh,
@@ -80,6 +114,7 @@ impl<'a> Motions<'a> {
             center,
             size,
             names,
+            nodes,
         }
     }
 
@@ -105,8 +140,9 @@ impl<'a> Motions<'a> {
         ]
     }
 
-    /// Motions that supports and (bilateral) pairs leave free: unit vectors, one entry per group and rigid motion.
-    pub(super) fn free(&self, freedoms: &Freedoms, pairs: &[Pair]) -> Vec<DVector<f64>> {
+    /// Motions that supports and (bilateral) pairs leave free: unit vectors, one entry per rigid motion of each group that nothing but
+    /// these conditions couples.
+    pub(super) fn free(&self, freedoms: &Freedoms, pairs: &[Pair]) -> Vec<Mode> {
         let per = self.per_group();
         let gram = self.gram(freedoms, pairs);
         let largest = gram.largest_diagonal().max(1.0);
@@ -114,11 +150,12 @@ impl<'a> Motions<'a> {
         for block in gram.uncoupled(per) {
             // Most are held: that takes no more than a factorisation.
             if !gram.is_definite(&block, HELD * largest) {
-                free.extend(plain(gram.null_vectors(&block, FREE * FREE * largest), per));
+                let (rows, vectors) = gram.null_vectors(&block, FREE * FREE * largest);
+                free.extend(plain(&rows, vectors, per));
             }
         }
         free.sort_by_key(|motion| (motion.pivot % per, std::cmp::Reverse(motion.pivot)));
-        free.into_iter().map(|motion| motion.vector).collect()
+        free.into_iter().map(|motion| motion.mode).collect()
     }
 
     /// Sum of the squares of all conditions that supports and pairs put on the motions.
@@ -175,16 +212,19 @@ impl<'a> Motions<'a> {
         gram
     }
 
-    pub(super) fn moved(&self, mode: &DVector<f64>) -> Vec<usize> {
+    /// The groups that move, ascending.
+    pub(super) fn moved(&self, mode: &Mode) -> Vec<usize> {
         let per = self.per_group();
-        let largest = mode.amax();
-        (0..self.names.len())
-            .filter(|&g| (0..per).any(|m| mode[per * g + m].abs() > 1e-6 * largest))
-            .collect()
+        let round_off = 1e-6 * mode.largest();
+        let entries = mode.rows.iter().zip(&mode.values);
+        let moving = entries.filter(|(_, value)| value.abs() > round_off);
+        let mut groups: Vec<usize> = moving.map(|(row, _)| row / per).collect();
+        groups.dedup();
+        groups
     }
 
     /// The part of the model that each group belongs to: groups that a free motion moves together are one.
-    pub(super) fn parts(&self, modes: &[DVector<f64>]) -> Vec<usize> {
+    pub(super) fn parts(&self, modes: &[Mode]) -> Vec<usize> {
         let mut parent: Vec<usize> = (0..self.names.len()).collect();
         for mode in modes {
             for pair in self.moved(mode).windows(2) {
@@ -195,73 +235,94 @@ impl<'a> Motions<'a> {
         (0..parent.len()).map(|g| root(&mut parent, g)).collect()
     }
 
-    /// A motion on the free freedoms.
-    pub(super) fn on_freedoms(&self, mode: &DVector<f64>, freedoms: &Freedoms) -> Vec<(u32, f64)> {
-        let per = self.per_group();
-        let round_off = 1e-12 * mode.amax();
+    /// Share of a mode in the displacement along `axis` of a node, with shares up to `round_off` left out.
+    fn along(&self, mode: &Mode, node: usize, axis: [f64; 2], round_off: f64) -> f64 {
+        let group = self.group_of_node[node];
+        let row = self.row(group, self.mesh.point(node), axis);
+        let shares = row
+            .iter()
+            .enumerate()
+            .map(|(m, v)| (v, mode.at(row.len() * group + m)));
+        shares
+            .filter(|(_, share)| share.abs() > round_off)
+            .map(|(v, share)| v * share)
+            .sum()
+    }
+
+    /// The nodes of the groups that a mode has entries for, ascending.
+    fn nodes_of(&self, mode: &Mode) -> Vec<usize> {
+        let groups = mode.rows.iter().step_by(self.per_group());
+        let nodes = groups.flat_map(|row| &self.nodes[row / self.per_group()]);
+        let mut nodes: Vec<usize> = nodes.copied().collect();
+        nodes.sort_unstable();
+        nodes
+    }
+
+    /// A motion on the free freedoms; `owned` are those that each node owns, with the axis of each ([`owned`]).
+    pub(super) fn on_freedoms(
+        &self,
+        mode: &Mode,
+        freedoms: &Freedoms,
+        owned: &[Vec<(u32, u8)>],
+    ) -> Vec<(u32, f64)> {
+        let round_off = 1e-12 * mode.largest();
         let mut values = Vec::new();
-        for (freedom, &(node, local)) in freedoms.owners.iter().enumerate() {
-            let node = node as usize;
-            let group = self.group_of_node[node];
-            let axis = freedoms.local(node)[local as usize];
-            let row = self.row(group, self.mesh.point(node), axis);
-            let value: f64 = row
-                .iter()
-                .enumerate()
-                .map(|(m, v)| (v, mode[per * group + m]))
-                .filter(|(_, share)| share.abs() > round_off)
-                .map(|(v, share)| v * share)
-                .sum();
-            if value != 0.0 {
-                values.push((freedom as u32, value));
+        for node in self.nodes_of(mode) {
+            for &(freedom, local) in &owned[node] {
+                let axis = freedoms.local(node)[local as usize];
+                let value = self.along(mode, node, axis, round_off);
+                if value != 0.0 {
+                    values.push((freedom, value));
+                }
             }
         }
+        values.sort_unstable_by_key(|&(freedom, _)| freedom);
         values
     }
 
-    pub(super) fn work(&self, mode: &DVector<f64>, load: &LoadCase) -> (f64, f64) {
-        let per = self.per_group();
-        let (mut work, mut parts) = (0.0, 0.0);
-        for &(node, force) in load.nodal() {
-            let group = self.group_of_node[node];
-            for (d, axis) in [[1.0, 0.0], [0.0, 1.0]].into_iter().enumerate() {
-                let row = self.row(group, self.mesh.point(node), axis);
-                let motion: f64 = row
-                    .iter()
-                    .enumerate()
-                    .map(|(m, v)| v * mode[per * group + m])
-                    .sum();
-                work += force[d] * motion;
-                parts += force[d].abs();
+    /// The nodal forces of the loads by groups.
+    pub(super) fn forces(&self, loads: &[LoadCase]) -> Forces {
+        let mut of_group = vec![Vec::new(); self.names.len()];
+        let mut size = vec![0.0; loads.len()];
+        for (load, case) in loads.iter().enumerate() {
+            for &(node, force) in case.nodal() {
+                of_group[self.group_of_node[node]].push((load, node, force));
+                size[load] += force[0].abs() + force[1].abs();
             }
         }
-        (work, parts * mode.amax())
+        Forces { of_group, size }
     }
 
-    /// The free freedom, not of a contact normal, that moves most in a motion.
+    /// The work of each load that has forces on the groups of a mode, by the loads' numbers.
+    pub(super) fn work(&self, mode: &Mode, forces: &Forces) -> BTreeMap<usize, f64> {
+        let per = self.per_group();
+        let mut work = BTreeMap::new();
+        for group in mode.rows.iter().step_by(per).map(|row| row / per) {
+            for &(load, node, force) in &forces.of_group[group] {
+                let motion = |axis| self.along(mode, node, axis, 0.0);
+                let own: &mut f64 = work.entry(load).or_default();
+                *own += force[0] * motion([1.0, 0.0]);
+                *own += force[1] * motion([0.0, 1.0]);
+            }
+        }
+        work
+    }
+
+    /// The free freedom, not of a contact normal (`contact` has the nodes), that moves most in a motion.
     pub(super) fn largest(
         &self,
-        mode: &DVector<f64>,
+        mode: &Mode,
         freedoms: &Freedoms,
-        pairs: &[Pair],
+        contact: &BTreeSet<usize>,
     ) -> Option<usize> {
-        let per = self.per_group();
-        let contact: std::collections::BTreeSet<usize> =
-            pairs.iter().flat_map(|p| [p.first, p.second]).collect();
         let mut best = None;
-        for (node, slots) in freedoms.slots.iter().enumerate() {
-            let group = self.group_of_node[node];
-            for (local, slot) in slots.iter().enumerate() {
+        for node in self.nodes_of(mode) {
+            for (local, slot) in freedoms.slots[node].iter().enumerate() {
                 let Slot::Free(f) = slot else { continue };
                 if local == 0 && contact.contains(&node) {
                     continue;
                 }
-                let row = self.row(group, self.mesh.point(node), freedoms.local(node)[local]);
-                let motion: f64 = row
-                    .iter()
-                    .enumerate()
-                    .map(|(m, v)| v * mode[per * group + m])
-                    .sum();
+                let motion = self.along(mode, node, freedoms.local(node)[local], 0.0);
                 if best.is_none_or(|(b, _)| motion.abs() > b) {
                     best = Some((motion.abs(), *f as usize));
                 }
@@ -270,7 +331,7 @@ impl<'a> Motions<'a> {
         best.filter(|(b, _)| *b > 0.0).map(|(_, f)| f)
     }
 
-    pub(super) fn describe(&self, mode: &DVector<f64>) -> String {
+    pub(super) fn describe(&self, mode: &Mode) -> String {
         let per = self.per_group();
         let groups = self.moved(mode);
         let bodies: Vec<String> = groups
@@ -282,9 +343,9 @@ impl<'a> Motions<'a> {
         let motion = if self.kind == Kind::Axisymmetric {
             "move along the axis".to_string()
         } else {
-            let part = |m: usize| mode[per * first + m];
+            let part = |m: usize| mode.at(per * first + m);
             let (x, y, turn) = (part(0), part(1), part(2));
-            if turn.abs() > 1e-6 * mode.amax() {
+            if turn.abs() > 1e-6 * mode.largest() {
                 let (c, s) = (self.center[first], 2.0 / self.size[first]);
                 format!(
                     "rotate about ({:.4}, {:.4})",
@@ -411,20 +472,24 @@ impl Gram {
         true
     }
 
-    /// Eigenvectors of a block with eigenvalues below `limit`, of the length of the whole.
-    fn null_vectors(&self, block: &[usize], limit: f64) -> Vec<DVector<f64>> {
+    /// Rows of a block, ascending, and on them its eigenvectors with eigenvalues below `limit`.
+    fn null_vectors(&self, block: &[usize], limit: f64) -> (Vec<usize>, Vec<DVector<f64>>) {
         let n = block.len();
-        let matrix = DMatrix::from_fn(n, n, |i, j| self.get(block[i], block[j]));
+        let mut place = BTreeMap::new();
+        place.extend(block.iter().enumerate().map(|(k, &row)| (row, k)));
+        let mut matrix = DMatrix::zeros(n, n);
+        for (k, &row) in block.iter().enumerate() {
+            for (j, &value) in &self.rows[row] {
+                matrix[(k, place[j])] = value;
+            }
+        }
         let eigen = SymmetricEigen::new(matrix);
         let found = (0..n).filter(|&k| eigen.eigenvalues[k] < limit);
-        let whole = found.map(|k| {
-            let mut vector = DVector::zeros(self.rows.len());
-            for (&row, &value) in block.iter().zip(&eigen.eigenvectors.column(k)) {
-                vector[row] = value;
-            }
-            vector
+        let vectors = found.map(|k| {
+            let entries = place.values().map(|&at| eigen.eigenvectors[(at, k)]);
+            DVector::from_iterator(n, entries)
         });
-        whole.collect()
+        (place.keys().copied().collect(), vectors.collect())
     }
 }
 
@@ -432,16 +497,15 @@ impl Gram {
 struct Plain {
     /// The entry that is its own: 0 in all others.
     pivot: usize,
-    vector: DVector<f64>,
+    mode: Mode,
 }
 
 /// The same motions by a basis that can be told in words: rotations are taken out of all vectors but as many as it takes, then
 /// motions along y, then along x (reduced echelon form).
-fn plain(mut motions: Vec<DVector<f64>>, per: usize) -> Vec<Plain> {
-    let n = motions.first().map_or(0, DVector::len);
+fn plain(rows: &[usize], mut motions: Vec<DVector<f64>>, per: usize) -> Vec<Plain> {
     let mut pivots = Vec::new();
     for kind in (0..per).rev() {
-        for row in (kind..n).step_by(per) {
+        for row in (kind..rows.len()).step_by(per) {
             let done = pivots.len();
             let Some(pivot) = (done..motions.len())
                 .max_by(|&a, &b| motions[a][row].abs().total_cmp(&motions[b][row].abs()))
@@ -457,16 +521,28 @@ fn plain(mut motions: Vec<DVector<f64>>, per: usize) -> Vec<Plain> {
                 }
             }
             motions[done] = vector;
-            pivots.push(row);
+            pivots.push(rows[row]);
         }
     }
     let named = pivots.into_iter().zip(motions);
     named
         .map(|(pivot, motion)| Plain {
             pivot,
-            vector: motion.normalize(),
+            mode: Mode {
+                rows: rows.to_vec(),
+                values: motion.normalize(),
+            },
         })
         .collect()
+}
+
+/// The free freedoms that each node owns, with the place of each in the node's axes.
+pub(super) fn owned(freedoms: &Freedoms, n_nodes: usize) -> Vec<Vec<(u32, u8)>> {
+    let mut owned = vec![Vec::new(); n_nodes];
+    for (freedom, &(node, local)) in freedoms.owners.iter().enumerate() {
+        owned[node as usize].push((freedom as u32, local));
+    }
+    owned
 }
 
 fn root(parent: &mut [usize], mut i: usize) -> usize {

@@ -24,7 +24,7 @@
 
 use crate::error::{Error, Result};
 use crate::linalg::{ContactStiffness, blocked};
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use nalgebra::{Cholesky, DMatrix, DVector, DVectorView, Dyn};
 use rayon::prelude::*;
 
 /// A rigid motion on the contact freedoms: first nodes of all pairs, then second nodes.
@@ -167,7 +167,8 @@ impl Tied {
                 *moved = forces[(f, a)];
             }
         });
-        let energy = lifted.tr_mul(&forces);
+        // The product of many motions is that of matrices, which has a kernel of its own.
+        let energy = lifted.transpose() * &forces;
         tied.view_mut((n_w, n_w), (n_a, n_a)).copy_from(&energy);
         let factor = blocked::cholesky(tied).ok_or_else(|| {
             Error::internal(
@@ -210,6 +211,15 @@ impl Tied {
             coupling,
         };
         Ok((tied, matrix))
+    }
+
+    /// Numbers that the dense matrices hold.
+    pub(super) fn n_entries(&self) -> usize {
+        self.factor.l_dirty().len()
+            + self.coupling.len()
+            + self.motions.len()
+            + self.lifted.len()
+            + self.rigid_share.len()
     }
 
     /// On entry forces on the contact freedoms; on return the first `n` of `contact` hold the unknowns of the tied
@@ -385,17 +395,32 @@ fn basis(rigid: &[Trace], part: &[usize], n: usize) -> (DMatrix<f64>, Vec<usize>
     let all = DMatrix::from_fn(n, rigid.len(), |k, j| on_pair(&rigid[j], k));
     let mut rest = all.clone();
     let scale = all.amax();
+    // Row and size of the largest entry of each column: a pivot changes the columns of motions of the same pairs only.
+    let largest = |column: DVectorView<f64>| {
+        let row = if column.is_empty() { 0 } else { column.iamax() };
+        (row, column.get(row).map_or(0.0, |entry| entry.abs()))
+    };
+    let mut tops: Vec<(usize, f64)> = rest.column_iter().map(largest).collect();
     let mut pivots: Vec<(usize, usize)> = Vec::new();
     while pivots.len() < rigid.len().min(n) {
-        let (row, column) = rest.iamax_full();
-        if rest[(row, column)].abs() <= 1e-9 * scale {
+        let mut column = 0;
+        for (j, top) in tops.iter().enumerate() {
+            if top.1 > tops[column].1 {
+                column = j;
+            }
+        }
+        let (row, size) = tops[column];
+        if size <= 1e-9 * scale {
             break;
         }
         pivots.push((row, column));
         let pivot = rest.column(column) / rest[(row, column)];
         for j in 0..rest.ncols() {
             let share = rest[(row, j)];
-            rest.column_mut(j).axpy(-share, &pivot, 1.0);
+            if share != 0.0 {
+                rest.column_mut(j).axpy(-share, &pivot, 1.0);
+                tops[j] = largest(rest.column(j));
+            }
         }
     }
     let mut columns: Vec<usize> = pivots.iter().map(|p| p.1).collect();

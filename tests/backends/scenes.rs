@@ -44,7 +44,7 @@ fn condensed_contact_matrices_agree() {
         for zone in zones {
             let [a, b] = [Backend::Cholmod, Backend::Dense].map(|backend| {
                 let sub = Substructure::new(&model, &system, zone.clone(), backend).unwrap();
-                sub.tableau().matrix().clone()
+                sub.tableau().matrix().dense()
             });
             let off = (&a - &b).amax();
             close(name, off, 0.0, a.amax(), AGREEMENT);

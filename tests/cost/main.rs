@@ -3,5 +3,7 @@
 mod allocations;
 #[cfg(feature = "cholmod")]
 mod counts;
+#[cfg(feature = "cholmod")]
+mod many;
 #[path = "../running/mod.rs"]
 mod running;

@@ -4,6 +4,7 @@ mod circular_punch;
 mod contact_patch;
 mod cyclic_element;
 mod disc_in_plate;
+mod figures;
 mod flat_punch;
 mod hertz_line;
 mod hertz_line_history;

@@ -216,6 +216,7 @@ fn a_check_tells_effects_cost_and_notes() {
         effects: full.effects,
         sizes: full.sizes,
         prediction: full.factor,
+        contact: Default::default(),
         predicted_seconds: 12.34,
         predicted_run_seconds: 56.78,
         blas: "OpenBLAS 0.3.21".into(),

@@ -378,7 +378,9 @@ fn prediction(
     let [_, first_trailing, first_contact, n] = groups.starts();
     let trailing: i64 = factor.column_counts()[first_trailing..].iter().sum();
     let entries = matrix.nnz();
-    let contact = (n - first_contact) as f64;
+    // Contact columns of a body are coupled with one another, all of them, and with no others: half of each block.
+    let of_contact: i64 = factor.column_counts()[first_contact..].iter().sum();
+    let blocks = 2.0 * of_contact as f64 - (n - first_contact) as f64;
     Prediction {
         ordering: name,
         factor_nonzeros: factor.nonzeros(),
@@ -389,7 +391,7 @@ fn prediction(
         memory_bytes: 24.0 * entries as f64
             + factor.bytes(entries)
             + 8.0 * trailing as f64
-            + 8.0 * 3.0 * contact * contact
+            + 8.0 * 3.0 * blocks
             + 8.0 * 8.0 * n as f64,
     }
 }

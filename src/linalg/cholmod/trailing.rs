@@ -250,7 +250,8 @@ impl Trailing {
     /// `L_cc L_cc' - diag(shift)`, symmetric to the last bit.
     pub(super) fn contact_stiffness(&self, shift: &[f64]) -> ContactStiffness {
         let bodies = self.uncoupled_contact().into_iter();
-        let blocks = bodies.map(|panels| self.contact_block(&panels, shift));
+        let mut number = vec![usize::MAX; self.contact.len()];
+        let blocks = bodies.map(|panels| self.contact_block(&panels, shift, &mut number));
         ContactStiffness::new(blocks.collect())
     }
 
@@ -276,12 +277,16 @@ impl Trailing {
         trees
     }
 
-    /// The block of `L_cc L_cc' - diag(shift)` of the columns in `panels`.
-    fn contact_block(&self, panels: &[&Panel], shift: &[f64]) -> ContactBlock {
+    /// The block of `L_cc L_cc' - diag(shift)` of the columns in `panels`; `number` is room for a number for each contact column.
+    fn contact_block(
+        &self,
+        panels: &[&Panel],
+        shift: &[f64],
+        number: &mut [usize],
+    ) -> ContactBlock {
         let columns = panels.iter().flat_map(|p| p.first..p.first + p.width);
         let columns: Vec<usize> = columns.map(|column| column - self.n_zone).collect();
         let n = columns.len();
-        let mut number = vec![usize::MAX; self.contact.len()];
         for (k, &column) in columns.iter().enumerate() {
             number[column] = k;
         }
@@ -316,7 +321,7 @@ impl Trailing {
         let freedom_of = |&column: &usize| self.contact[column] as usize;
         let mut freedoms: Vec<usize> = columns.iter().map(freedom_of).collect();
         freedoms.sort_unstable();
-        let mut place = number;
+        let place = number;
         for (k, &freedom) in freedoms.iter().enumerate() {
             place[freedom] = k;
         }

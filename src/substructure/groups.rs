@@ -1,0 +1,244 @@
+//! The tied structure by groups of pairs: bodies that nothing joins with others are tied, and solved, apart from them.
+//!
+//! Pairs belong to one group where their nodes are coupled by the condensed stiffness (the nodes of one body are) or by a rigid motion. A group
+//! of `p` pairs costs `p^3` operations once and `p^2` numbers from then on, whatever there is beside it: many separate joints cost
+//! what each of them costs.
+
+use super::tied::{SplitSlip, Tied, Trace};
+use super::{PairBlock, PairMatrix};
+use crate::error::Result;
+use crate::linalg::ContactStiffness;
+use crate::model::RigidMotion;
+use nalgebra::DVector;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// All groups of tied pairs.
+pub(super) struct Groups {
+    groups: Vec<Group>,
+    n_pairs: usize,
+    n_motions: usize,
+}
+
+/// Tied pairs that feel one another.
+struct Group {
+    /// Ascending.
+    pairs: Vec<usize>,
+    /// The rigid motions of the model that move them.
+    motions: Vec<usize>,
+    tied: Tied,
+}
+
+impl Groups {
+    /// Tied structures and contact matrix for the condensed stiffness (`2n x 2n`), the rigid motions of floating parts, the free freedom and the
+    /// part of each contact freedom.
+    ///
+    /// # Errors
+    /// Those of [`Tied::new`].
+    pub(super) fn new(
+        stiffness: ContactStiffness,
+        motions: &[RigidMotion],
+        freedoms: &[usize],
+        part: &[usize],
+    ) -> Result<(Self, PairMatrix)> {
+        let n = freedoms.len() / 2;
+        let coupled = stiffness.blocks().map(|block| block.freedoms.as_slice());
+        let group_of = groups(part, coupled);
+        let n_groups = group_of.iter().max().map_or(0, |last| last + 1);
+        let mut pairs = vec![Vec::new(); n_groups];
+        let mut place = vec![(0, 0); 2 * n];
+        for (k, &group) in group_of.iter().enumerate() {
+            place[k] = (group, pairs[group].len());
+            pairs[group].push(k);
+        }
+        for k in 0..n {
+            let (group, own) = place[k];
+            place[n + k] = (group, pairs[group].len() + own);
+        }
+        let mut group_of_part = BTreeMap::new();
+        group_of_part.extend((0..2 * n).map(|i| (part[i], group_of[i % n])));
+        let mut motions_of = vec![Vec::new(); n_groups];
+        for (j, motion) in motions.iter().enumerate() {
+            if let Some(&group) = group_of_part.get(&motion.part) {
+                motions_of[group].push(j);
+            }
+        }
+        let mut out = Vec::with_capacity(n_groups);
+        let mut blocks = Vec::with_capacity(n_groups);
+        let stiffness = stiffness.split(&place, n_groups).into_iter();
+        for ((stiffness, pairs), of_group) in stiffness.zip(pairs).zip(motions_of) {
+            let both = || pairs.iter().copied().chain(pairs.iter().map(|k| n + k));
+            let own_part: Vec<usize> = both().map(|i| part[i]).collect();
+            let own_freedoms: Vec<usize> = both().map(|i| freedoms[i]).collect();
+            let traces = traces(motions, &of_group, &own_freedoms);
+            let (tied, matrix) = Tied::new(&stiffness, &traces, &own_part)?;
+            blocks.push(PairBlock {
+                pairs: pairs.clone(),
+                matrix: Arc::new(matrix),
+            });
+            out.push(Group {
+                pairs,
+                motions: of_group,
+                tied,
+            });
+        }
+        let groups = Groups {
+            groups: out,
+            n_pairs: n,
+            n_motions: motions.len(),
+        };
+        Ok((groups, PairMatrix::new(blocks)))
+    }
+
+    /// As [`Tied::eliminate`]; what is left for [`Groups::recover`] stands in the places of the pairs of each group.
+    pub(super) fn eliminate(&self, contact: &mut [f64], forces: &mut [f64]) {
+        if let [only] = self.groups.as_slice() {
+            return only.tied.eliminate(contact, forces);
+        }
+        let mut own_forces = Vec::new();
+        for group in &self.groups {
+            let mut own = self.take(group, contact);
+            own_forces.clear();
+            own_forces.resize(group.pairs.len(), 0.0);
+            group.tied.eliminate(&mut own, &mut own_forces);
+            self.put(group, &own, contact);
+            for (&k, &force) in group.pairs.iter().zip(&own_forces) {
+                forces[k] = force;
+            }
+        }
+    }
+
+    /// As [`Tied::recover`].
+    pub(super) fn recover(&self, contact: &mut [f64], slip: &[f64]) {
+        if let [only] = self.groups.as_slice() {
+            return only.tied.recover(contact, slip);
+        }
+        for group in &self.groups {
+            let mut own = self.take(group, contact);
+            group.tied.recover(&mut own, &of_pairs(group, slip));
+            self.put(group, &own, contact);
+        }
+    }
+
+    /// As [`Tied::split_slip`], amplitudes of all rigid motions of the model.
+    pub(super) fn split_slip(&self, slip: &[f64]) -> SplitSlip {
+        let mut rest = DVector::zeros(self.n_pairs);
+        let mut motions = DVector::zeros(self.n_motions);
+        for group in &self.groups {
+            let split = group.tied.split_slip(&of_pairs(group, slip));
+            for (&k, &value) in group.pairs.iter().zip(split.rest.iter()) {
+                rest[k] = value;
+            }
+            for (&j, &value) in group.motions.iter().zip(split.motions.iter()) {
+                motions[j] += value;
+            }
+        }
+        SplitSlip { rest, motions }
+    }
+
+    /// As [`Tied::split`]: displacements go to `contact`, amplitudes of rigid motions are added to `motions`.
+    pub(super) fn split(&self, contact: &mut [f64], slip: &[f64], motions: &mut [f64]) {
+        for group in &self.groups {
+            let own = self.take(group, contact);
+            let split = group.tied.split(&own, &of_pairs(group, slip));
+            self.put(group, &split.contact, contact);
+            for (&j, &value) in group.motions.iter().zip(split.motions.iter()) {
+                motions[j] += value;
+            }
+        }
+    }
+
+    /// Numbers that the tied structures hold.
+    pub(super) fn n_entries(&self) -> usize {
+        self.groups.iter().map(|group| group.tied.n_entries()).sum()
+    }
+
+    fn take(&self, group: &Group, contact: &[f64]) -> Vec<f64> {
+        let [first, second] = [0, self.n_pairs];
+        let firsts = group.pairs.iter().map(|k| contact[first + k]);
+        let seconds = group.pairs.iter().map(|k| contact[second + k]);
+        firsts.chain(seconds).collect()
+    }
+
+    fn put(&self, group: &Group, own: &[f64], contact: &mut [f64]) {
+        let (firsts, seconds) = own.split_at(group.pairs.len());
+        for ((&k, &first), &second) in group.pairs.iter().zip(firsts).zip(seconds) {
+            contact[k] = first;
+            contact[self.n_pairs + k] = second;
+        }
+    }
+}
+
+fn of_pairs(group: &Group, values: &[f64]) -> Vec<f64> {
+    group.pairs.iter().map(|&k| values[k]).collect()
+}
+
+/// The rigid motions of a group on its contact freedoms.
+fn traces(motions: &[RigidMotion], of_group: &[usize], freedoms: &[usize]) -> Vec<Trace> {
+    let own = of_group.iter().enumerate();
+    own.map(|(j, &motion)| {
+        let values = freedoms.iter().map(|&f| motions[motion].at(f));
+        Trace {
+            part: motions[motion].part,
+            values: DVector::from_iterator(freedoms.len(), values),
+            of_motion: DVector::from_fn(of_group.len(), |i, _| f64::from(u8::from(i == j))),
+        }
+    })
+    .collect()
+}
+
+/// The group of each pair, numbered in the order of their first pairs: pairs are in one where nodes of theirs are of one part, or where
+/// a list of `coupled` contact freedoms (first nodes of all pairs, then second nodes) has nodes of both.
+pub(super) fn groups<'a>(part: &[usize], coupled: impl Iterator<Item = &'a [usize]>) -> Vec<usize> {
+    let n = part.len() / 2;
+    let mut parent: Vec<usize> = (0..n).collect();
+    let mut join = |a: usize, b: usize| {
+        let (a, b) = (root(&mut parent, a), root(&mut parent, b));
+        parent[a.max(b)] = a.min(b);
+    };
+    let mut first_of_part = BTreeMap::new();
+    for (i, part) in part.iter().enumerate() {
+        join(i % n, *first_of_part.entry(*part).or_insert(i % n));
+    }
+    for freedoms in coupled {
+        for freedom in freedoms {
+            join(freedom % n, freedoms[0] % n);
+        }
+    }
+    let mut number = vec![usize::MAX; n];
+    let mut count = 0;
+    (0..n)
+        .map(|k| {
+            // The root of a group is its first pair.
+            let root = root(&mut parent, k);
+            if root == k {
+                number[k] = count;
+                count += 1;
+            }
+            number[root]
+        })
+        .collect()
+}
+
+fn root(parent: &mut [usize], mut i: usize) -> usize {
+    while parent[i] != i {
+        parent[i] = parent[parent[i]];
+        i = parent[i];
+    }
+    i
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pairs_are_joined_by_parts_and_by_stiffness() {
+        // Four pairs on six parts: 0 and 2 share part 5; the first nodes of 1 and 3 are coupled though of different parts.
+        let part = [0, 1, 5, 3, 5, 2, 4, 6];
+        assert_eq!(groups(&part, std::iter::empty()), [0, 1, 0, 2]);
+        let coupled: [&[usize]; 2] = [&[1, 3], &[6]];
+        assert_eq!(groups(&part, coupled.into_iter()), [0, 1, 0, 1]);
+        assert!(groups(&[], std::iter::empty()).is_empty());
+    }
+}

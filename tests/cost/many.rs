@@ -1,0 +1,124 @@
+//! Many bodies: what they cost grows with their number, not with its square or cube.
+
+use super::running::{parse, try_run};
+use brinell::assembly::assemble;
+use brinell::linalg::Backend;
+use brinell::model::Model;
+use brinell::substructure::{ContactCost, Substructure};
+use std::fmt::Write;
+
+/// Stacks of one-element blocks, each of `height` of them, pressed by 10 + the number of the stack. The lowest `held` of each are held along x.
+fn stacks(n: usize, height: usize) -> String {
+    stacks_held(n, height, height)
+}
+
+fn stacks_held(n: usize, height: usize, held: usize) -> String {
+    let mut text = String::from(
+        "kind = \"plane_strain\"\n[materials.steel]\nyoungs_modulus = 210000.0\npoissons_ratio = 0.3\n",
+    );
+    let mut conditions = String::new();
+    for i in 0..n {
+        for j in 0..height {
+            let (x, y) = (2.0 * i as f64, j as f64);
+            write!(
+                text,
+                "[[mesh.parts]]\nbody = \"b{i}_{j}\"\nblock = {{ x = [{x:?}, {:?}], y = [{y:?}, {:?}], elements = [1, 1] }}\n",
+                x + 1.0,
+                y + 1.0
+            )
+            .unwrap();
+            writeln!(conditions, "[bodies.b{i}_{j}]\nmaterial = \"steel\"").unwrap();
+            if j < held {
+                writeln!(
+                    conditions,
+                    "[[support]]\non = \"b{i}_{j}.left\"\nfix = [\"x\"]"
+                )
+                .unwrap();
+            }
+            if j > 0 {
+                write!(
+                    conditions,
+                    "[[contact]]\nfirst = \"b{i}_{j}.bottom\"\nsecond = \"b{i}_{}.top\"\n",
+                    j - 1
+                )
+                .unwrap();
+            }
+        }
+        write!(
+            conditions,
+            "[[support]]\non = \"b{i}_0.bottom\"\nfix = [\"y\"]\n\
+             [[load]]\non = \"b{i}_{}.top\"\npressure = {:?}\n",
+            height - 1,
+            10.0 + i as f64
+        )
+        .unwrap();
+    }
+    text + &conditions + "[program]\ntargets = [{ name = \"end\", load_factor = 1.0 }]\n"
+}
+
+fn structure(text: &str) -> (ContactCost, Substructure) {
+    let model = Model::new(&parse(text)).unwrap();
+    let system = assemble(&model).unwrap();
+    let structure = Substructure::new(&model, &system, vec![], Backend::default()).unwrap();
+    (ContactCost::of(&model), structure)
+}
+
+#[test]
+fn separate_bodies_cost_what_each_of_them_costs() {
+    let [(one, single), (few, tens), (many, hundreds)] =
+        [1, 40, 160].map(|n| structure(&stacks(n, 2)));
+    for (n, cost, structure) in [(40, few, tens), (160, many, hundreds)] {
+        assert_eq!((cost.groups, cost.largest_group), (n, 2));
+        let times = n as f64;
+        assert_eq!(cost.flops, times * one.flops);
+        assert_eq!(cost.memory_bytes, times * one.memory_bytes);
+        assert_eq!(structure.contact_bytes(), n as u64 * single.contact_bytes());
+        assert_eq!(structure.tableau().matrix().n_entries(), 4 * n);
+        // The factor has no entries between bodies either.
+        assert_eq!(
+            structure.cost().trailing_nonzeros,
+            times * single.cost().trailing_nonzeros
+        );
+    }
+}
+
+#[test]
+fn pairs_that_bodies_join_are_dense_and_said_to_be() {
+    let (cost, tower) = structure(&stacks(1, 21));
+    assert_eq!((cost.pairs, cost.groups, cost.largest_group), (40, 1, 40));
+    assert_eq!(tower.tableau().matrix().n_entries(), 40 * 40);
+    let (half, _) = structure(&stacks(1, 11));
+    assert_eq!(cost.flops, 8.0 * half.flops);
+    assert_eq!(cost.memory_bytes, 4.0 * half.memory_bytes);
+}
+
+/// Beside others every stack does what it does alone: uniform pressure, its own.
+#[test]
+fn groups_do_not_feel_one_another() {
+    let results = try_run(&parse(&stacks(12, 3)), Backend::default()).unwrap();
+    let state = &results.states[0];
+    for pair in &state.pairs {
+        let stack = (pair.position[0] / 2.0).floor();
+        // Round-off of a stack of three elements; forces of all stacks share a scale.
+        assert!(
+            (pair.pressure - (10.0 + stack)).abs() <= 1e-11 * 22.0,
+            "{pair:?}"
+        );
+    }
+    assert_eq!(state.pairs.len(), 12 * 4);
+}
+
+/// Nothing holds the upper blocks along x: each is pinned for itself, and the work of finding them is that of the blocks.
+#[test]
+fn every_free_body_is_pinned() {
+    let text = stacks_held(9, 2, 1);
+    let model = Model::new(&parse(&text)).unwrap();
+    assert_eq!(model.floating.pins.len(), 9);
+    assert!(
+        model
+            .floating
+            .pins
+            .iter()
+            .all(|pin| pin.motion.contains("move along x"))
+    );
+}
