@@ -61,6 +61,9 @@ pub(super) struct Run<'m, 'o> {
     pub(super) choice: Choice,
     /// Quality at first yield, where that is all that is asked for.
     pub(super) at_yield: Option<Quality>,
+    /// Elastic von Mises stress over yield stress of each element where first yield was last looked
+    /// for; empty where the zone holds all that may yield.
+    pub(super) ratios_before_yield: Vec<f64>,
     /// What the zone follows the load by.
     pub(super) spread: Option<Spread>,
     pub(super) observer: &'o mut dyn Observer,
@@ -114,6 +117,7 @@ impl<'m, 'o> Run<'m, 'o> {
             recovery: None,
             choice,
             at_yield: None,
+            ratios_before_yield: Vec::new(),
             spread: None,
             observer,
             results,
