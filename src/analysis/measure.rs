@@ -308,11 +308,12 @@ impl Engine<'_> {
         contact_figures(self.model, &self.contact_forces(), self.force_scale)
     }
 
-    /// The contact forces. Residual stresses balance to the tolerance of the plastic iteration only: where all contact
-    /// forces together are less than that, the bodies have parted and nothing is left but the imbalance.
+    /// The contact forces. Residual stresses balance to the tolerance of the plastic iteration only, and to round-off: where all
+    /// contact forces together are less than that, the bodies have parted and nothing is left but the imbalance.
     pub fn contact_forces(&self) -> Cow<'_, [f64]> {
         let force = &self.now.force;
-        let imbalance = self.model.scene.analysis.tolerance * self.force_scale;
+        let tolerance = self.model.scene.analysis.tolerance * self.force_scale;
+        let imbalance = tolerance.max(self.round_off_of_contact());
         if self.now.initial.load.largest() > 0.0 && sum(force) <= imbalance {
             return Cow::Owned(vec![0.0; force.len()]);
         }
