@@ -162,7 +162,9 @@ pub struct State {
     pub plastic_zone_size: f64,
     /// Estimated energy norm of the stress error over that of the stress (Zienkiewicz-Zhu); known where fields are.
     pub energy_error: Option<f64>,
-    /// Relative approach of the bodies: mean displacement of the loaded surface in the load's direction.
+    /// Relative approach of the bodies: the work of the loads that vary with the load factor on the displacements, over
+    /// the largest force that they exert on one body. Of a single load that is the mean displacement of its surface along it.
+    /// Prescribed displacements, where there are any, count instead of forces: their mean on each body, added up.
     pub approach: f64,
     /// Each contact pair.
     pub pairs: Vec<PairState>,
@@ -181,7 +183,7 @@ pub struct PairState {
     pub contact: usize,
     /// Position (on the second surface, undeformed).
     pub position: [f64; 2],
-    /// Gap, >= 0.
+    /// Gap, >= 0; on the axis of revolution, where quadratic elements have no pair, negative where the surfaces overlap.
     pub gap: f64,
     /// Force, compressive positive.
     pub force: f64,
