@@ -369,10 +369,11 @@ impl Engine<'_> {
         if driving.is_empty() {
             driving = loads.iter().collect();
         }
-        let prescribes = |l: &&LoadCase| l.measures == Magnitude::Displacement;
-        let prescribed = driving.iter().any(|l| prescribes(&l));
+        let prescribed = driving
+            .iter()
+            .any(|l| l.measures == Magnitude::Displacement);
         if prescribed {
-            driving.retain(prescribes);
+            driving.retain(|l| l.measures == Magnitude::Displacement);
         }
         // Sizes and, times these, displacements of the loads on each body.
         let mut of_body: BTreeMap<u32, [f64; 2]> = BTreeMap::new();
