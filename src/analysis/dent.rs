@@ -8,7 +8,8 @@ use crate::model::ContactSurface;
 /// The dent of a state.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Dent {
-    /// Depth of both surfaces together at the deepest place.
+    /// Depth of both surfaces together at the deepest place; negative where they have moved towards each other
+    /// everywhere.
     pub depth: f64,
     /// Each body's share in it.
     pub by_body: Vec<f64>,
@@ -33,6 +34,7 @@ impl Engine<'_> {
         }
         let model = self.model;
         let sunk = self.sunk();
+        let mut largest = None;
         let mut deepest_of = vec![None; dent.by_body.len()];
         for contact in &model.contacts {
             let places = places_of(contact, &sunk, |side| {
@@ -43,7 +45,8 @@ impl Engine<'_> {
                 .iter()
                 .max_by(|a, b| (a[0] + a[1]).total_cmp(&(b[0] + b[1])));
             let Some(&deepest) = deepest else { continue };
-            dent.depth = dent.depth.max(deepest[0] + deepest[1]);
+            let depth = deepest[0] + deepest[1];
+            largest = Some(largest.map_or(depth, |other: f64| other.max(depth)));
             for (name, share) in contact.names.iter().zip(deepest) {
                 if let Some(body) = body_of(&model.mesh, name) {
                     let known = &mut deepest_of[body];
@@ -55,6 +58,7 @@ impl Engine<'_> {
                 .flatten()
                 .fold(dent.rim, |m, sunk| m.max(-sunk));
         }
+        dent.depth = largest.unwrap_or(0.0);
         for (depth, deepest) in dent.by_body.iter_mut().zip(deepest_of) {
             *depth = deepest.unwrap_or(0.0);
         }

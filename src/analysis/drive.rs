@@ -244,7 +244,7 @@ impl Engine<'_> {
                 if let Some(arrival) = self.follow_elastic(end, monitor, &mut leg, watcher)? {
                     return Ok(arrival);
                 }
-                if self.at.distance(end) < ARRIVED * leg.whole {
+                if self.at.distance(end) < ARRIVED * leg.whole || self.is_round_off(end) {
                     let solves = self.counts.trailing_solves;
                     self.arrive(end);
                     return Ok(if self.note(watcher, "target", solves)? {

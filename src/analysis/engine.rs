@@ -2,13 +2,14 @@
 
 use super::equilibrium::{EliminatedLoad, Equilibrium};
 use super::gather::Places;
+use super::quality::LOOSEST;
 use super::zone::Zone;
 use super::zone_choice::zone_freedoms;
 use crate::assembly::System;
 use crate::contact::Tableau;
 use crate::error::{Error, Result};
 use crate::linalg::Backend;
-use crate::model::Model;
+use crate::model::{Magnitude, Model};
 use crate::results::Counts;
 use crate::substructure::{Substructure, Trailing};
 use rayon::prelude::*;
@@ -362,6 +363,39 @@ impl<'m> Engine<'m> {
         (0..self.gap.len())
             .map(|k| self.closed_force_terms(point, k).map(f64::abs).sum())
             .fold(0.0, f64::max)
+    }
+
+    /// What round-off may leave in the sum of the contact forces: the tied structure comes from a factor that keeps
+    /// `eps` times the condition of what it is made from. Far from Poisson's ratio 1/2 that is
+    /// less than the tolerance of any iteration.
+    pub fn round_off_of_contact(&self) -> f64 {
+        let initial = self.now.initial.forces.iter().map(|r| r.abs());
+        let terms: f64 = (0..self.gap.len())
+            .map(|k| {
+                let terms = self.closed_force_terms(&self.at, k);
+                terms.map(f64::abs).sum::<f64>()
+            })
+            .chain(initial)
+            .sum();
+        (8.0 * f64::EPSILON * self.condition * terms).min(LOOSEST * self.force_scale)
+    }
+
+    /// Whether the load that is left up to `end` is no more than what round-off leaves in the contact forces.
+    pub(super) fn is_round_off(&self, end: &LoadPoint) -> bool {
+        let factors = self.at.factors.iter().zip(&end.factors);
+        let loads = self.model.loads.iter().zip(&self.loads).zip(factors);
+        let left: f64 = loads
+            .map(|((load, condensed), (from, to))| {
+                let size = match load.measures {
+                    Magnitude::Displacement => condensed.load.iter().map(|f| f.abs()).sum(),
+                    _ => load.size(),
+                };
+                (to - from).abs() * size
+            })
+            .sum();
+        !self.gap.is_empty()
+            && self.at.interference == end.interference
+            && left <= self.round_off_of_contact()
     }
 
     /// The next increment is predicted as if no point flowed.

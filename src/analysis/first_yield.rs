@@ -221,6 +221,8 @@ impl Run<'_, '_> {
             .filter(|e| self.choice.elements.binary_search(e).is_err())
             .map(|e| ratios[e])
             .fold(0.0, f64::max);
-        Ok((outside > 1.0).then(|| zone_choice::predict(self.model(), &ratios)))
+        let missed = (outside > 1.0).then(|| zone_choice::predict(self.model(), &ratios));
+        self.ratios_before_yield = ratios;
+        Ok(missed)
     }
 }

@@ -2,10 +2,11 @@
 
 use super::contact_edge::{EdgePoint, Tail};
 use super::engine::Engine;
-use crate::model::{AxisPoint, ContactSurface, Magnitude, Model};
+use crate::model::{AxisPoint, ContactSurface, LoadCase, Magnitude, Model};
 use crate::results::{EdgeReading, PairState, Status};
 use crate::scene::Kind;
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 /// Pairs at the edge, the last closed one included, whose pressures are not believed one by one, only their force together: how they share
 /// it depends on where in the facet the contact ends (on Hertz' line contact the last two put the edge off by 0.08 and -0.06
@@ -63,8 +64,14 @@ pub(super) fn on_axis(model: &Model, contact: &ContactSurface, values: &[f64]) -
 }
 
 /// Pairs with what they carry, and the points on the axis that are no pairs: these have no area and no force, and are numbered after
-/// the pairs.
-pub fn pair_states(model: &Model, gap: &[f64], force: &[f64], open: &[bool]) -> Vec<PairState> {
+/// the pairs. Nothing holds their nodes apart: `apart` gives how far they are from each other, negative where they overlap.
+pub fn pair_states(
+    model: &Model,
+    gap: &[f64],
+    force: &[f64],
+    open: &[bool],
+    apart: impl Fn(&AxisPoint) -> f64,
+) -> Vec<PairState> {
     let pressure = pressures(model, force);
     let status = |open: bool| if open { Status::Open } else { Status::Closed };
     let mut out = Vec::with_capacity(gap.len());
@@ -83,7 +90,6 @@ pub fn pair_states(model: &Model, gap: &[f64], force: &[f64], open: &[bool]) -> 
         let (Some(axis), Some(p)) = (contact.axis, on_axis(model, contact, &pressure)) else {
             continue;
         };
-        let apart = on_axis(model, contact, gap).unwrap_or(0.0);
         let place = if axis.begins {
             out.len() - contact.range.len()
         } else {
@@ -95,7 +101,7 @@ pub fn pair_states(model: &Model, gap: &[f64], force: &[f64], open: &[bool]) -> 
                 pair: number,
                 contact: index,
                 position: model.mesh.point(axis.node),
-                gap: if p > 0.0 { 0.0 } else { apart.max(0.0) },
+                gap: apart(&axis),
                 force: 0.0,
                 area: 0.0,
                 pressure: p.max(0.0),
@@ -372,11 +378,12 @@ impl Engine<'_> {
         contact_figures(self.model, &self.contact_forces(), self.force_scale)
     }
 
-    /// The contact forces. Residual stresses balance to the tolerance of the plastic iteration only: where all contact
-    /// forces together are less than that, the bodies have parted and nothing is left but the imbalance.
+    /// The contact forces. Residual stresses balance to the tolerance of the plastic iteration only, and to round-off: where all
+    /// contact forces together are less than that, the bodies have parted and nothing is left but the imbalance.
     pub fn contact_forces(&self) -> Cow<'_, [f64]> {
         let force = &self.now.force;
-        let imbalance = self.model.scene.analysis.tolerance * self.force_scale;
+        let tolerance = self.model.scene.analysis.tolerance * self.force_scale;
+        let imbalance = tolerance.max(self.round_off_of_contact());
         if self.now.initial.load.largest() > 0.0 && sum(force) <= imbalance {
             return Cow::Owned(vec![0.0; force.len()]);
         }
@@ -407,16 +414,51 @@ impl Engine<'_> {
         }
     }
 
-    /// Mean displacement over the surface (or nodes) of the first varying load along the load, for displacements of the whole model.
+    /// Distance of the two nodes of a point on the axis, for displacements of the whole model.
+    pub fn distance_on_axis(&self, axis: &AxisPoint, u: &[f64]) -> f64 {
+        let of = |node| self.model.freedoms.displacement(node, u, &self.at.factors);
+        let (first, second) = (of(axis.first), of(axis.node));
+        let opened = [first[0] - second[0], first[1] - second[1]];
+        axis.gap - self.at.interference * axis.interference
+            + opened[0] * axis.normal[0]
+            + opened[1] * axis.normal[1]
+    }
+
+    /// How far the loads that vary have brought the bodies together ([`crate::results::State::approach`]), for displacements of
+    /// the whole model.
     pub fn approach(&self, u: &[f64]) -> f64 {
-        let Some(load) = self.leading_load().map(|i| &self.model.loads[i]) else {
-            return 0.0;
-        };
-        let along = load.nodes.iter().zip(&load.shares).map(|(&node, share)| {
-            let d = self.model.freedoms.displacement(node, u, &self.at.factors);
-            share * (d[0] * load.direction[0] + d[1] * load.direction[1])
-        });
-        along.sum()
+        let loads = &self.model.loads;
+        let driven = |l: &&LoadCase| l.driven(self.unit) > 0.0;
+        let mut driving: Vec<&LoadCase> = loads.iter().filter(driven).collect();
+        if driving.is_empty() {
+            driving = loads.iter().collect();
+        }
+        let prescribed = driving
+            .iter()
+            .any(|l| l.measures == Magnitude::Displacement);
+        if prescribed {
+            driving.retain(|l| l.measures == Magnitude::Displacement);
+        }
+        // Sizes and, times these, displacements of the loads on each body.
+        let mut of_body: BTreeMap<u32, [f64; 2]> = BTreeMap::new();
+        for load in driving {
+            let size = Some(load.driven(self.unit))
+                .filter(|s| *s > 0.0)
+                .unwrap_or(1.0);
+            let along = load.nodes.iter().zip(&load.shares).map(|(&node, share)| {
+                let d = self.model.freedoms.displacement(node, u, &self.at.factors);
+                share * (d[0] * load.direction[0] + d[1] * load.direction[1])
+            });
+            let sums = of_body.entry(load.body).or_default();
+            sums[0] += size;
+            sums[1] += size * along.sum::<f64>();
+        }
+        if prescribed {
+            return of_body.values().map(|[size, work]| work / size).sum();
+        }
+        let largest = of_body.values().fold(0.0f64, |m, [size, _]| m.max(*size));
+        let work: f64 = of_body.values().map(|[_, work]| work).sum();
+        if largest > 0.0 { work / largest } else { 0.0 }
     }
 }
 

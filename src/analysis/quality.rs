@@ -158,7 +158,7 @@ impl Engine<'_> {
         let mut quality = Quality {
             backward_error: self.backward_error(u),
             componentwise_error: Some(u.componentwise_error),
-            round_off: Some(self.share_of_forces(ROUND_OFF_OF_FORCES * u.terms)),
+            round_off: Some(self.share_of_forces(ROUND_OFF_OF_FORCES * self.terms_of_run(u))),
             equilibrium: self.share_of_forces(largest(&out_of_balance)),
             ..Quality::default()
         };
@@ -180,6 +180,17 @@ impl Engine<'_> {
             }
         }
         quality
+    }
+
+    /// `|K| |u|` of the current state; where plastic strains stay, of a state as large as the largest of the run: they were
+    /// balanced to the round-off of displacements that may be gone.
+    fn terms_of_run(&self, u: &Displacements) -> f64 {
+        let here = largest(u.deformation());
+        if here > 0.0 && self.now.initial.load.largest() > 0.0 {
+            u.terms * (self.deformation_scale / here).max(1.0)
+        } else {
+            u.terms
+        }
     }
 
     /// A force over the largest of the run.

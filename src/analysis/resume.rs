@@ -114,6 +114,7 @@ impl<'m, 'o> Run<'m, 'o> {
             recovery: None,
             choice: Choice { elements, guard },
             at_yield: None,
+            ratios_before_yield: Vec::new(),
             spread,
             observer,
             standing,

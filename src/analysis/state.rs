@@ -75,6 +75,7 @@ impl Engine<'_> {
                 &self.now.gap,
                 &self.contact_forces(),
                 self.tableau.open(),
+                |axis| self.distance_on_axis(axis, u),
             ),
             fields,
             quality,

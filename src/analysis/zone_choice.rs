@@ -139,15 +139,19 @@ pub fn predict(model: &Model, ratios: &[f64]) -> Choice {
     Choice::from_marks(model, widen(model, hot, MARGIN), GUARD)
 }
 
-/// The zone while the load is a share of the one that `ratios` belong to, which all loads are proportional to, with
-/// the `old` one: below a contact stress falls with the load no slower than the pressure does, with its square root in line contact and
-/// its cube root in point contact.
-pub fn stage(model: &Model, ratios: &[f64], share: f64, old: &Choice) -> Choice {
-    let decline = match model.kind {
+/// What contact pressure falls to as the load does to a share, as a share of its own: the square root in line contact,
+/// the cube root in point contact.
+pub fn decline(model: &Model, share: f64) -> f64 {
+    match model.kind {
         Kind::Axisymmetric => share.cbrt(),
         Kind::PlaneStrain | Kind::PlaneStress => share.sqrt(),
-    };
-    let limit = PREDICTED / decline;
+    }
+}
+
+/// The zone while the load is a share of the one that `ratios` belong to, which all loads are proportional to, with
+/// the `old` one: stress is taken to fall with the load no slower than the pressure does.
+pub fn stage(model: &Model, ratios: &[f64], share: f64, old: &Choice) -> Choice {
+    let limit = PREDICTED / decline(model, share);
     let hot: Vec<bool> = ratios
         .iter()
         .enumerate()

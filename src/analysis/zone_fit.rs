@@ -13,7 +13,8 @@ const STAGE: f64 = 1.1;
 
 /// How far yielding will spread, by the elastic stress at the program's extreme loads.
 pub(super) struct Spread {
-    /// Elastic von Mises stress over yield stress of each element.
+    /// Elastic von Mises stress over yield stress of each element at the largest load, and no less
+    /// than what it is at first yield lets expect there.
     pub(super) ratios: Vec<f64>,
     /// The largest load factor.
     pub(super) highest: f64,
@@ -60,9 +61,16 @@ impl Run<'_, '_> {
         let proportional = |l: &crate::model::LoadCase| matches!(l.history, History::Proportional);
         if model.loads.iter().all(proportional) && model.pairs.iter().all(|p| p.interference == 0.0)
         {
+            let highest = extremes.iter().fold(0.0f64, |m, a| m.max(a.abs()));
+            // Under a contact that has grown far beyond it, the place of first yield has less
+            // stress than the law gives it: near a surface von Mises stress falls as pressure evens out.
+            let growth = 1.0 / zone_choice::decline(model, at_yield.abs() / highest);
+            for (ratio, before) in ratios.iter_mut().zip(&self.ratios_before_yield) {
+                *ratio = ratio.max(before * growth);
+            }
             self.spread = Some(Spread {
                 ratios,
-                highest: extremes.iter().fold(0.0, |m, a| m.max(a.abs())),
+                highest,
                 until: 0.0,
             });
         }

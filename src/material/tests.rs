@@ -135,6 +135,68 @@ fn softening_is_the_derivative_of_the_stress() {
     }
 }
 
+/// The tangent of plane stress against central differences over many states: strains from just
+/// beyond yield to fifty times that, histories of either sign, all curves. Unloading points are elastic and
+/// lose nothing; points whose differences straddle the knee of a table are left out.
+#[test]
+fn the_tangent_of_plane_stress_is_consistent_in_states_of_all_kinds() {
+    let mut seed = 1u64;
+    let mut random = || {
+        seed = seed
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    };
+    let (mut flowing, mut elastic) = (0, 0);
+    for round in 0..3000 {
+        let curve = curves()[round % 3].clone();
+        let knees: &[f64] = if round % 3 == 2 { &[0.004, 0.01] } else { &[] };
+        let m = material(Kind::PlaneStress, [0.0, 0.3, 0.49][round % 7 % 3], curve);
+        let d = m.elastic_matrix();
+        let size = 0.003 * 80f64.powf(0.5 + 0.5 * random());
+        let strain = [size * random(), size * random(), 0.0, size * random()];
+        let p = [
+            0.2 * size * random(),
+            0.2 * size * random(),
+            0.2 * size * random(),
+        ];
+        let old = PlasticState {
+            strain: [p[0], p[1], -p[0] - p[1], p[2]],
+            equivalent: 0.3 * size * (1.0 + random()),
+        };
+        let update = m.integrate(&d, &strain, &old);
+        if !update.flows {
+            assert_eq!(update.softening, [[0.0; 4]; 4]);
+            elastic += 1;
+            continue;
+        }
+        let h = 1e-6 * size;
+        let near_knee = |k: &f64| (update.state.equivalent - k).abs() <= 10.0 * h;
+        let just_flows = update.state.equivalent - old.equivalent <= 10.0 * h;
+        if just_flows || knees.iter().any(near_knee) {
+            continue;
+        }
+        flowing += 1;
+        for j in [0, 1, 3] {
+            let at = |t: f64| {
+                let mut e = strain;
+                e[j] += t;
+                stress(&d, &e, &m.integrate(&d, &e, &old).state.strain)
+            };
+            let (plus, minus) = (at(h), at(-h));
+            for i in [0, 1, 3] {
+                let derivative = (plus[i] - minus[i]) / (2.0 * h);
+                let consistent = d[i][j] - update.softening[i][j];
+                assert!(
+                    (derivative - consistent).abs() <= 1e-5 * d[0][0],
+                    "{round} {i}{j}: {derivative} {consistent}"
+                );
+            }
+        }
+    }
+    assert!(flowing > 1000 && elastic > 100, "{flowing} {elastic}");
+}
+
 /// One-element cyclic test, uniaxial stress in plane stress: the yield stress grows with the path length.
 #[test]
 fn cyclic_uniaxial_stress_follows_the_hardening_curve() {

@@ -41,6 +41,8 @@ pub struct LoadCase {
     /// Share of each of these nodes in the mean over the set: its part of a surface's area (the integral of its shape function), equal
     /// parts of a node set. They add up to 1.
     pub shares: Vec<f64>,
+    /// Body of these nodes, for the approach.
+    pub body: u32,
     /// Unit direction of the load, for the approach.
     pub direction: [f64; 2],
 }
@@ -53,6 +55,26 @@ impl LoadCase {
             History::Constant => 1.0,
             History::Table(rows) => interpolate(rows, alpha),
         }
+    }
+
+    /// Sum of the sizes of the nodal forces at factor 1.
+    pub fn size(&self) -> f64 {
+        self.nodal.iter().map(|(_, f)| f[0].hypot(f[1])).sum()
+    }
+
+    /// The largest size that the load factor drives it to, for a load factor of 1 where it is proportional: a force on nodes, or a
+    /// displacement; zero for a constant load.
+    pub fn driven(&self, unit: f64) -> f64 {
+        let factor = match &self.history {
+            History::Proportional => unit.abs(),
+            History::Constant => 0.0,
+            History::Table(rows) => rows.iter().fold(0.0f64, |m, row| m.max(row[1].abs())),
+        };
+        let size = match self.measures {
+            Magnitude::Displacement => self.magnitude.abs(),
+            _ => self.size(),
+        };
+        factor * size
     }
 
     /// Load factors at which the history has a kink.
@@ -110,6 +132,16 @@ pub(super) fn renumber(mut loads: Vec<LoadCase>, freedoms: &Freedoms) -> Vec<Loa
     loads
 }
 
+/// The body of the first of some nodes.
+fn body_of(mesh: &Mesh, nodes: &[usize]) -> u32 {
+    let holds = |e: &usize| {
+        let first = nodes.first();
+        first.is_some_and(|first| mesh.nodes(*e).contains(&(*first as u32)))
+    };
+    let element = (0..mesh.n_elements()).find(holds);
+    element.map_or(0, |e| mesh.element_body[e])
+}
+
 fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) -> Result<LoadCase> {
     let entry = Entry::of_list(scene, "load", index);
     let nodes = entry.nodes(mesh, &load.on)?;
@@ -126,6 +158,7 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
         magnitude: 0.0,
         measures: Magnitude::Force,
         shares: shares(scene.kind, mesh, &load.on, &nodes),
+        body: body_of(mesh, &nodes),
         nodes,
         direction: [0.0, 0.0],
     };

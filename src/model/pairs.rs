@@ -58,6 +58,14 @@ pub struct ContactSurface {
 pub struct AxisPoint {
     /// Node of the second surface.
     pub node: usize,
+    /// Node of the first surface.
+    pub first: usize,
+    /// Unit normal from the second surface to the first.
+    pub normal: [f64; 2],
+    /// Initial gap.
+    pub gap: f64,
+    /// Interference.
+    pub interference: f64,
     /// Distance along the second surface from its begin.
     pub arc: f64,
     /// Whether the surface begins on the axis (else it ends there).
@@ -274,6 +282,10 @@ fn take_axis_pair(
             let pair = pairs.remove(end);
             return Some(AxisPoint {
                 node: pair.second,
+                first: pair.first,
+                normal: pair.normal,
+                gap: pair.gap,
+                interference: pair.interference,
                 arc: pair.arc,
                 begins: end == start,
             });

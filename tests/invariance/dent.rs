@@ -195,3 +195,31 @@ fn a_load_beside_does_not_move_the_reference() {
         }
     }
 }
+
+/// Two blocks that never touch, squeezed from their sides until they flow: their faces come towards each other. The depth
+/// is negative then, and the sum of the shares, as everywhere.
+#[test]
+fn faces_that_grow_towards_each_other_have_a_negative_depth() {
+    let set = [
+        "kind=plane_stress",
+        "mesh.parts.1.block.y=[1.5, 2.5]",
+        "materials.steel.yield_stress=500.0",
+        "materials.steel.plastic_modulus=2e4",
+        "load=[{name=\"a\",on=\"lower.right\",pressure=600.0},\
+         {name=\"b\",on=\"upper.right\",pressure=500.1}]",
+        "support=[{on=\"lower.bottom\",fix=[\"y\"]},{on=\"lower.left\",fix=[\"x\"]},\
+         {on=\"upper.left\",fix=[\"x\"]},{on=\"upper.top\",fix=[\"y\"]}]",
+        "program.targets=[{name=\"pressed\",load_factor=1.0},\
+         {name=\"unloaded\",load_factor=0.0}]",
+    ];
+    let results = run(&load("contact_patch", &set));
+    for state in &results.states {
+        // Uniaxial flow that keeps its volume: half the plastic strain along x, of a height of 1.
+        let strains = [100.0, 0.1].map(|beyond| beyond / 2e4);
+        let grown: f64 = strains.iter().map(|strain| 0.5 * strain).sum();
+        close("depth", state.residual_depth, -grown, grown, 1e-8);
+        let shares: f64 = state.residual_depth_by_body.iter().sum();
+        close("shares", shares, state.residual_depth, grown, 1e-12);
+        close("rim", state.rim_height, 0.5 * strains[0], grown, 1e-8);
+    }
+}

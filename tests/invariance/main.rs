@@ -2,6 +2,7 @@
 
 mod arrays;
 mod dent;
+mod loads;
 mod mirrors;
 mod numbering;
 #[path = "../running/mod.rs"]

@@ -151,7 +151,8 @@ pub fn healthy(results: &Results) {
             0.0
         };
         assert!(q.penetration <= 1e-12 * (1.0 + cancelled), "{name}: {q:?}");
-        for pair in &state.pairs {
+        // Points on the axis that are no pairs have no area: what they tell is what the pairs beside them make of them.
+        for pair in state.pairs.iter().filter(|pair| pair.area > 0.0) {
             assert!(pair.gap >= 0.0 && pair.force >= 0.0, "{name}: {pair:?}");
             match pair.status {
                 Status::Open => assert_eq!(pair.force, 0.0, "{name}: {pair:?}"),

@@ -6,8 +6,8 @@ use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::mesh::Mesh;
 use brinell::model::Model;
-use brinell::progress::Silent;
-use brinell::results::{Results, State};
+use brinell::progress::{Flow, Observer, Silent};
+use brinell::results::{HistoryRow, Results, State};
 
 /// What was computed up to the end of a run that need not complete, and the mesh.
 fn as_far_as_it_goes(name: &str, overrides: &[&str]) -> (Mesh, Results) {
@@ -305,5 +305,119 @@ fn a_ball_of_quadratic_elements_flows_like_one_of_linear_elements() {
         ] {
             close(&format!("{what} at {}", a.name), x, y, x, 0.05);
         }
+    }
+}
+
+/// On the axis quadratic elements have no pair: nothing keeps the surfaces apart there, and what is told is how far they are, overlap
+/// included: by the displacements of the two nodes.
+#[test]
+fn overlap_on_the_axis_of_quadratic_elements_is_told() {
+    let results = run_file(
+        "ball_on_half_space",
+        &[
+            "mesh.cylinder_on_half_plane.far_size=60.0",
+            "mesh.cylinder_on_half_plane.element=quad8",
+            "mesh.cylinder_on_half_plane.resolution=4",
+            "program.targets=[{ yield = true }, { load_factor = 3.0 }, { load_factor = 0.0 }]",
+        ],
+    );
+    let mut overlaps = 0;
+    for state in &results.states {
+        let axis = state.pairs.iter().find(|p| p.area == 0.0).unwrap();
+        assert_eq!(axis.position[0], 0.0);
+        let fields = state.fields.as_ref().unwrap();
+        let model = Model::new(&load(
+            "ball_on_half_space",
+            &[
+                "mesh.cylinder_on_half_plane.far_size=60.0",
+                "mesh.cylinder_on_half_plane.element=quad8",
+                "mesh.cylinder_on_half_plane.resolution=4",
+            ],
+        ))
+        .unwrap();
+        let nodes = model.contacts[0].axis.unwrap();
+        let along = |node: usize| fields.displacement[2 * node + 1];
+        let apart = along(nodes.first) - along(nodes.node);
+        close("gap", axis.gap, apart, state.approach, 1e-9);
+        overlaps += usize::from(axis.gap < 0.0);
+        // Small beside the dent, and no more.
+        assert!(axis.gap.abs() <= 0.05 * state.approach, "{}", axis.gap);
+    }
+    assert!(overlaps > 0);
+}
+
+/// Two blocks under a pressure beyond yield, plane stress and next to no hardening: the tangent's solve takes many steps. The nodes of
+/// closed pairs carry forces that no step sees, whose round-off each multiplied, until the contact passed on another force
+/// than was applied.
+#[test]
+fn newton_finds_what_the_plain_iteration_finds_across_closed_pairs() {
+    let pressed = |iteration: &str| {
+        let results = run_file(
+            "contact_patch",
+            &[
+                "kind=plane_stress",
+                "materials.steel.yield_stress=500.0",
+                "materials.steel.plastic_modulus=1000.0",
+                "support=[{on=\"lower.bottom\",fix=[\"y\"]},{on=\"lower.left\",fix=[\"x\"]},\
+                 {on=\"upper.left\",fix=[\"x\"]},{on=\"upper.top\",fix=[\"x\"]}]",
+                "load.0.pressure=600.0",
+                "program.targets=[{load_factor=1.0},{load_factor=0.0}]",
+                &format!("analysis.plastic_iteration={iteration}"),
+            ],
+        );
+        healthy(&results);
+        results
+    };
+    let (newton, plain) = (pressed("newton"), pressed("plain"));
+    for (a, b) in newton.states.iter().zip(&plain.states) {
+        close("force", a.contact_force, b.contact_force, 1200.0, 1e-9);
+        let strain = b.max_equivalent_plastic_strain;
+        close(
+            "strain",
+            a.max_equivalent_plastic_strain,
+            strain,
+            strain,
+            1e-6,
+        );
+        close(
+            "dent",
+            a.residual_depth,
+            b.residual_depth,
+            b.residual_depth,
+            1e-6,
+        );
+    }
+    close(
+        "force",
+        newton.states[0].contact_force,
+        1200.0,
+        1200.0,
+        1e-9,
+    );
+}
+
+/// Far below a load of the program that takes the contact to a hundred times its area the zone still holds the place of first yield: stress
+/// near the surface falls as the pressure evens out, and what it is at the largest load does not tell.
+#[test]
+fn first_yield_lies_in_the_zone_whatever_load_follows() {
+    struct UpTo(f64);
+    impl Observer for UpTo {
+        fn increment(&mut self, row: &HistoryRow, _fraction: f64) -> Flow {
+            if row.alpha < self.0 {
+                Flow::Continue
+            } else {
+                Flow::Stop
+            }
+        }
+    }
+    let targets = "program.targets=[{yield=true},{load_factor=200}]";
+    let scene = load("cylinder_on_half_plane", &[targets]);
+    let model = Model::new(&scene).unwrap();
+    let mut analysis = Analysis::new(model, Backend::default()).unwrap();
+    let results = analysis.run(&mut UpTo(3.0)).unwrap();
+    assert_eq!(results.incomplete_kind, Some(brinell::ErrorKind::Stopped));
+    let beyond = results.history.iter().filter(|row| row.alpha > 1.1);
+    for row in beyond {
+        assert!(row.plastic_points > 0, "nothing flows at {}", row.alpha);
     }
 }

@@ -6,6 +6,7 @@ use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::model::Model;
 use brinell::progress::Silent;
+use brinell::results::Status;
 
 /// Limit pressure of the tube over Hill's, and the warnings; `None` where no collapse was found up to 200 (1.04 of the limit).
 fn limit(shape: &str, nu: f64) -> (Option<f64>, Vec<String>) {
@@ -135,5 +136,41 @@ fn contact_near_incompressibility_is_as_good_as_its_round_off() {
                 "{scene}, figure {i}: {last:e} after {before:e}"
             );
         }
+    }
+}
+
+/// Contact forces below what round-off leaves in them are none: parted bodies are apart, and where elastic states balance to no
+/// more than their round-off the run says to what.
+#[test]
+fn parted_bodies_carry_nothing_and_round_off_is_told() {
+    for nu in ["0.499999", "0.4999999"] {
+        let nu = format!("materials.steel.poissons_ratio={nu}");
+        let results = run_file("hard/separation", &[&nu]);
+        let unloaded = crate::running::state(&results, "unloaded");
+        assert_eq!(unloaded.contact_force, 0.0);
+        for pair in &unloaded.pairs {
+            assert_eq!((pair.force, pair.status), (0.0, Status::Open), "{nu}");
+        }
+    }
+    let set = [
+        "materials.steel.poissons_ratio=0.499999",
+        "program.targets=[{ yield = true }]",
+    ];
+    let results = run_file("cylinder_on_half_plane", &set);
+    assert!(results.inaccurate.is_empty(), "{:?}", results.inaccurate);
+    let told = |w: &String| w.contains("forces balance to their round-off");
+    assert!(results.states[0].quality.equilibrium > 1e-8);
+    assert!(results.warnings.iter().any(told), "{:?}", results.warnings);
+}
+
+/// The last pair opens at a load that is less than what round-off leaves in its force: the program ends there all the same.
+#[test]
+fn the_last_of_the_load_may_be_round_off() {
+    for nu in ["0.4999", "0.499999"] {
+        let nu = format!("materials.steel.poissons_ratio={nu}");
+        let results = run_file("cylinder_on_half_plane", &[&nu]);
+        let unloaded = crate::running::state(&results, "unloaded");
+        assert_eq!((unloaded.load, unloaded.contact_force), (0.0, 0.0));
+        assert!(results.inaccurate.is_empty(), "{:?}", results.inaccurate);
     }
 }
