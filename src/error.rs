@@ -1,5 +1,6 @@
 //! The one error type: a kind, a message with entities and numbers, and the cause behind it.
 
+use crate::text::short;
 use std::error::Error as StdError;
 use std::fmt;
 
@@ -62,7 +63,7 @@ impl Error {
     pub fn new(kind: ErrorKind, message: impl Into<String>) -> Self {
         Error {
             kind,
-            message: message.into(),
+            message: short(&message.into()).into_owned(),
             cause: None,
         }
     }

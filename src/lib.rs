@@ -57,13 +57,13 @@
 #![warn(missing_docs)]
 
 // Blank lines keep the order of the data: rustfmt sorts neighbouring lines.
+mod text;
+
 pub mod error;
 
 pub mod memory;
 
 mod files;
-
-mod text;
 
 pub mod panics;
 

@@ -175,9 +175,9 @@ pub struct State {
 /// A contact pair's state.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PairState {
-    /// Pair index.
+    /// Pair index, from 0; events, messages and `contact.csv` count from 1.
     pub pair: usize,
-    /// Contact (scene entry) index.
+    /// Contact (scene entry) index, from 0; `contact.csv` counts from 1.
     pub contact: usize,
     /// Position (on the second surface, undeformed).
     pub position: [f64; 2],
@@ -355,7 +355,7 @@ pub struct ReferenceRow {
     pub reference: f64,
     /// The computed value.
     pub computed: f64,
-    /// computed / reference.
+    /// computed / reference; not a number where both are 0.
     pub ratio: f64,
     /// The paper's own figure for the ratio, where it gives one.
     pub published_ratio: Option<f64>,

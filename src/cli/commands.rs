@@ -127,8 +127,8 @@ fn compute(
             .push(("output".to_string(), seconds() - computed));
     }
     progress.finish();
-    if let Some((_, checkpoints)) = &restart {
-        restart::settle(checkpoints, &results)?;
+    if let Some((_, out)) = places {
+        restart::settle(out, &results)?;
     }
     let text = if common.json {
         json(&output::summary(&header, &results))?

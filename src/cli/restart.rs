@@ -35,12 +35,8 @@ pub(super) struct RestartArguments {
 impl RestartArguments {
     /// Where checkpoints go, if the user wants any: beside the results `out`.
     pub fn checkpoints(&self, out: &Path) -> Option<Checkpoints> {
-        if self.checkpoint.is_none() && !self.resume {
-            return None;
-        }
-        let mut dir = out.as_os_str().to_os_string();
-        dir.push(".checkpoint");
-        Some(Checkpoints::new(dir).every(self.checkpoint.unwrap_or(1) as usize))
+        let wanted = self.checkpoint.is_some() || self.resume;
+        wanted.then(|| beside(out).every(self.checkpoint.unwrap_or(1) as usize))
     }
 
     /// Runs with checkpoints.
@@ -74,10 +70,19 @@ pub(super) fn not_with_accuracy() -> Error {
     )
 }
 
-/// After the results are written: a run that came to its end needs its checkpoints no more.
-pub(super) fn settle(checkpoints: &Checkpoints, results: &Results) -> Result<()> {
+/// The checkpoints that belong to the results `out`.
+fn beside(out: &Path) -> Checkpoints {
+    // Without a slash at its end, after which they would lie within.
+    let mut dir = out.components().as_path().as_os_str().to_os_string();
+    dir.push(".checkpoint");
+    Checkpoints::new(dir)
+}
+
+/// After the results are written to `out`: a run that came to its end needs its
+/// checkpoints no more, nor those that an earlier run with the same results left when it was killed.
+pub(super) fn settle(out: &Path, results: &Results) -> Result<()> {
     match results.incomplete_kind {
         Some(ErrorKind::Stopped) => Ok(()),
-        _ => checkpoints.remove(),
+        _ => beside(out).remove(),
     }
 }

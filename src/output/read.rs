@@ -319,7 +319,8 @@ fn pairs(rows: &Rows, model: &Model) -> Result<Vec<(usize, PairState)>> {
                 rows.count(row, "contact")?,
                 rows.count(row, "state")?,
             ];
-            if pair >= n_points || contact >= model.contacts.len() || state == 0 {
+            let is_of = |number: usize, n: usize| (1..=n).contains(&number);
+            if !is_of(pair, n_points) || !is_of(contact, model.contacts.len()) || state == 0 {
                 return Err(Error::input(format!(
                     "{}: row {}: pair {pair} of contact {contact} in state {state} does not belong to this model",
                     rows.path().display(),
@@ -327,8 +328,8 @@ fn pairs(rows: &Rows, model: &Model) -> Result<Vec<(usize, PairState)>> {
                 )));
             }
             let pair = PairState {
-                pair,
-                contact,
+                pair: pair - 1,
+                contact: contact - 1,
                 position: [number("x")?, number("y")?],
                 gap: number("gap")?,
                 force: number("force")?,
