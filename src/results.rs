@@ -42,6 +42,8 @@ pub struct Results {
     pub states: Vec<State>,
     /// One row per accepted increment.
     pub history: Vec<HistoryRow>,
+    /// Points of the path between the rows of the history, where its figures bend: for curves.
+    pub path: Vec<PathPoint>,
     /// Seconds by phase, in order of execution.
     pub timings: Vec<(String, f64)>,
     /// Machine-independent cost.
@@ -250,6 +252,22 @@ pub struct HistoryRow {
     pub residual: f64,
     /// What ended it: `closes: pair 12`, `opens: pair 3`, `target: NAME`, `step`, `yield`.
     pub event: String,
+}
+
+/// A row of `path.csv`: a point of the path between two rows of the history. Contact forces are
+/// taken to change evenly from the one to the other, which they do where nothing flows.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct PathPoint {
+    /// Number of the increment that it is on the way of.
+    pub increment: usize,
+    /// Load factor, in the program's unit.
+    pub alpha: f64,
+    /// Total load.
+    pub load: f64,
+    /// Maximum contact pressure.
+    pub max_pressure: f64,
+    /// Contact half width.
+    pub half_width: f64,
 }
 
 /// Machine-independent cost of a run.

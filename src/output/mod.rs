@@ -3,6 +3,7 @@
 //! ```text
 //! DIR/summary.json          figures of the run and of each state      (summary; schema: SUMMARY_SCHEMA)
 //!     history.csv           a row per accepted increment              (history)
+//!     path.csv              points of the path between increments       (history)
 //!     contact.csv           a row per state and contact pair          (contact)
 //!     fields.pvd            the states with fields, as a time series  (fields)
 //!     state_01_NAME.vtu     mesh and fields of one state              (fields, vtu)
@@ -72,6 +73,8 @@ const SUMMARY_FILE: &str = "summary.json";
 /// The study: marks a directory like the summary.
 const STUDY_FILE: &str = "accuracy.json";
 const HISTORY_FILE: &str = "history.csv";
+/// Written where there are such points.
+const PATH_FILE: &str = "path.csv";
 const CONTACT_FILE: &str = "contact.csv";
 const COLLECTION_FILE: &str = "fields.pvd";
 
@@ -231,6 +234,10 @@ fn write_tables_and_fields(
     results: &Results,
 ) -> Result<()> {
     staging.file(HISTORY_FILE, |out| history::write(out, &results.history))?;
+    let path = &results.path;
+    if !path.is_empty() {
+        staging.file(PATH_FILE, |out| history::write_path(out, path))?;
+    }
     staging.file(CONTACT_FILE, |out| contact::write(out, &results.states))?;
     fields::write(staging, header, mesh, &results.states)?;
     staging.file(SUMMARY_FILE, |out| {
@@ -255,6 +262,7 @@ fn is_result_file(name: &OsStr) -> bool {
         [
             SUMMARY_FILE,
             HISTORY_FILE,
+            PATH_FILE,
             CONTACT_FILE,
             COLLECTION_FILE,
             report::REPORT_FILE,

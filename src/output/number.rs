@@ -23,8 +23,11 @@ pub(crate) fn significant(value: f64, digits: usize) -> String {
     }
 }
 
-/// Six significant digits: what the tables show.
+/// Six significant digits: what the tables show; of what there is not, that.
 pub(crate) fn number(value: f64) -> String {
+    if value.is_nan() {
+        return "none".to_string();
+    }
     significant(value, 6)
 }
 

@@ -4,12 +4,13 @@
 //! was run makes the model. Numbers that were not finite were written as null (or an empty cell) and come back as NaN.
 
 use super::rows::{self, Rows};
-use super::{CONTACT_FILE, HISTORY_FILE, RunHeader, SUMMARY_FILE, record, vtu_read};
+use super::{CONTACT_FILE, HISTORY_FILE, PATH_FILE, RunHeader, SUMMARY_FILE, record, vtu_read};
 use crate::error::{Error, Result};
 use crate::linalg::Prediction;
 use crate::model::Model;
 use crate::results::{
-    Effect, HistoryRow, PairState, Quality, ReferenceRow, Results, Sizes, State, Status, YieldPoint,
+    Effect, HistoryRow, PairState, PathPoint, Quality, ReferenceRow, Results, Sizes, State, Status,
+    YieldPoint,
 };
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -80,6 +81,10 @@ pub fn read(dir: &Path) -> Result<Recorded> {
         }
     }
     results.history = history(&Rows::read(&dir.join(HISTORY_FILE))?)?;
+    let between = dir.join(PATH_FILE);
+    if between.exists() {
+        results.path = path_points(&Rows::read(&between)?)?;
+    }
     for (state, pairs) in pairs(&Rows::read(&dir.join(CONTACT_FILE))?, &model)? {
         let state = results.states.get_mut(state).ok_or_else(|| {
             Error::input(format!(
@@ -301,6 +306,21 @@ fn history(rows: &Rows) -> Result<Vec<HistoryRow>> {
                 trailing_solves: count("trailing_solves")?,
                 residual: number("residual")?,
                 event: rows.text(row, "event")?.to_string(),
+            })
+        })
+        .collect()
+}
+
+/// The points of the path between the rows of the history.
+fn path_points(rows: &Rows) -> Result<Vec<PathPoint>> {
+    (0..rows.len())
+        .map(|row| {
+            Ok(PathPoint {
+                increment: rows.count(row, "increment")?,
+                alpha: rows.number(row, "alpha")?,
+                load: rows.number(row, "load")?,
+                max_pressure: rows.number(row, "max_pressure")?,
+                half_width: rows.number(row, "half_width")?,
             })
         })
         .collect()
