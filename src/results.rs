@@ -50,13 +50,16 @@ pub struct Results {
     pub counts: Counts,
     /// Worst figures over all states.
     pub quality: Quality,
-    /// Lower bound of the condition of the factored matrix, rows and columns scaled to a unit diagonal: the largest loss of a pivot to
-    /// cancellation, of all the run's factorisations. Relative errors of displacements may be this times round-off.
+    /// Lower bound of the condition of the factored matrix, rows and columns scaled to a unit
+    /// diagonal: the largest loss of a pivot to cancellation, of all the run's factorisations.
+    /// Relative errors of displacements may be this times round-off.
     pub condition: f64,
-    /// Estimated condition of the same matrix, usually right to a factor of three: where the scene asks for it (`analysis.condition`), a state is
-    /// inaccurate, or the lower bound is beyond 1e10. It takes about six full solves.
+    /// Estimated condition of the same matrix, usually right to a factor of three: where the scene
+    /// asks for it (`analysis.condition`), a state is inaccurate, or the lower bound is beyond
+    /// 1e10. It takes about six full solves.
     pub condition_estimate: Option<f64>,
-    /// States whose quality misses its tolerance, with the figure: these results are not to be trusted.
+    /// States whose quality misses its tolerance, with the figure: these results are not to be
+    /// trusted.
     pub inaccurate: Vec<String>,
     /// What the factorisation cost.
     pub factor: crate::linalg::Prediction,
@@ -70,7 +73,8 @@ pub struct Results {
     pub resumed: usize,
     /// Set where the run ended before the program did: why.
     pub incomplete: Option<String>,
-    /// Set with [`Results::incomplete`]: the kind that decides the exit code (stopped, collapse, analysis).
+    /// Set with [`Results::incomplete`]: the kind that decides the exit code (stopped, collapse,
+    /// analysis).
     pub incomplete_kind: Option<crate::ErrorKind>,
 }
 
@@ -136,23 +140,24 @@ pub struct State {
     pub contact_force: f64,
     /// Maximum contact pressure.
     pub max_pressure: f64,
-    /// Pressure at the first pair of the contact surface that lies on a symmetry plane, or at the middle of the contact.
+    /// Pressure at the first pair of the contact surface that lies on a symmetry plane, or at the
+    /// middle of the contact.
     pub pole_pressure: f64,
     /// Contact half width.
     pub half_width: f64,
     /// For contacts on a circle: begin and end of the contact, in degrees from the middle of the
     /// contact's axis (the pole); `None` elsewhere.
     pub contact_arc: Option<[f64; 2]>,
-    /// The dent that the plastic strains leave once all loads and contact forces are gone: how far the two
-    /// surfaces of a contact have moved away from each other where that is most, each measured from its
-    /// undeformed shape. Rigid motion is that of the far boundary: supports, for a body without them the
-    /// surface through which it is loaded.
+    /// The dent that the plastic strains leave once all loads and contact forces are gone: how far
+    /// the two surfaces of a contact have moved away from each other where that is most, each
+    /// measured from its undeformed shape. Rigid motion is that of the far boundary: supports, for
+    /// a body without them the surface through which it is loaded.
     pub residual_depth: f64,
-    /// Each body's share in it: depth of its surface below the undeformed one at the deepest place of its
-    /// contacts. The shares of two bodies in one contact add up to its dent.
+    /// Each body's share in it: depth of its surface below the undeformed one at the deepest place
+    /// of its contacts. The shares of two bodies in one contact add up to its dent.
     pub residual_depth_by_body: Vec<f64>,
-    /// Height of the rim beside the dent: the most that the surface of a body rises above its undeformed shape
-    /// among the contact candidates.
+    /// Height of the rim beside the dent: the most that the surface of a body rises above its
+    /// undeformed shape among the contact candidates.
     pub rim_height: f64,
     /// Gauss points with plastic strain.
     pub plastic_points: usize,
@@ -162,9 +167,11 @@ pub struct State {
     pub max_equivalent_plastic_strain: f64,
     /// Area (axisymmetric: volume) of the whole whose Gauss points have plastic strain.
     pub plastic_zone_size: f64,
-    /// Estimated energy norm of the stress error over that of the stress (Zienkiewicz-Zhu); known where fields are.
+    /// Estimated energy norm of the stress error over that of the stress (Zienkiewicz-Zhu); known
+    /// where fields are.
     pub energy_error: Option<f64>,
-    /// Relative approach of the bodies: mean displacement of the loaded surface in the load's direction.
+    /// Relative approach of the bodies: mean displacement of the loaded surface in the load's
+    /// direction.
     pub approach: f64,
     /// Each contact pair.
     pub pairs: Vec<PairState>,
@@ -218,8 +225,9 @@ pub struct Fields {
     pub plastic_strain: Vec<f64>,
     /// `n_elements`: 1 where a Gauss point has yielded.
     pub yielded: Vec<u8>,
-    /// `n_elements` estimated discretisation error of the stress (Zienkiewicz-Zhu): its energy norm over the element, over the
-    /// energy norm of the stress of the whole model. The square root of the sum of squares is [`State::energy_error`].
+    /// `n_elements` estimated discretisation error of the stress (Zienkiewicz-Zhu): its energy norm
+    /// over the element, over the energy norm of the stress of the whole model. The square root of
+    /// the sum of squares is [`State::energy_error`].
     pub error: Vec<f64>,
 }
 
@@ -285,19 +293,23 @@ pub struct Counts {
     pub contact_changes: usize,
 }
 
-/// How good a state is: all figures are relative and dimensionless. Loads and displacements are measured against the largest of the
-/// run so far. Gaps are those of the displacements, contact forces those that the stresses leave over: both independent
-/// of the contact solve, neither clipped.
+/// How good a state is: all figures are relative and dimensionless. Loads and displacements are
+/// measured against the largest of the run so far. Gaps are those of the displacements, contact
+/// forces those that the stresses leave over: both independent of the contact solve, neither
+/// clipped.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Quality {
     /// Normwise backward error of the full solve: `|f - K u| / (|K| |u| + |f|)`, infinity norms.
     pub backward_error: f64,
-    /// Componentwise backward error, the largest of a row's `|f - K u|` over its `|K| |u| + |f|`; none in results of versions that did not
-    /// have it. It has no tolerance of its own: what it shows beside the normwise one are freedoms on which next to nothing acts.
+    /// Componentwise backward error, the largest of a row's `|f - K u|` over its `|K| |u| + |f|`;
+    /// none in results of versions that did not have it. It has no tolerance of its own: what it
+    /// shows beside the normwise one are freedoms on which next to nothing acts.
     pub componentwise_error: Option<f64>,
-    /// What round-off alone may leave out of balance, over the largest applied or contact force: `2 eps |K| |u|`, the largest of a row, with
-    /// `u` free of rigid motions: storing `u` and summing up the forces of its elements costs as much, whatever solved for it. Forces that
-    /// are out of balance by no more are as good as the mesh allows. None in results of versions that did not have it.
+    /// What round-off alone may leave out of balance, over the largest applied or contact force:
+    /// `2 eps |K| |u|`, the largest of a row, with `u` free of rigid motions: storing `u` and
+    /// summing up the forces of its elements costs as much, whatever solved for it. Forces that are
+    /// out of balance by no more are as good as the mesh allows. None in results of versions that
+    /// did not have it.
     pub round_off: Option<f64>,
     /// Out-of-balance force of the stresses over the largest applied or contact force.
     pub equilibrium: f64,
@@ -338,8 +350,8 @@ impl Quality {
         }
     }
 
-    /// The figures that miss their tolerance (or are not numbers), each with its name, value and tolerance. Those of forces may be as large
-    /// as the round-off of the mesh.
+    /// The figures that miss their tolerance (or are not numbers), each with its name, value and
+    /// tolerance. Those of forces may be as large as the round-off of the mesh.
     pub fn misses(&self, tolerances: &Tolerances) -> Vec<(&'static str, f64, f64)> {
         let round_off = self.round_off.unwrap_or(0.0).min(tolerances.loosest);
         let forces = tolerances.contact.max(round_off);
@@ -395,7 +407,8 @@ pub struct Accuracy {
     /// Seconds that the estimate took.
     #[serde(deserialize_with = "null_is_not_a_number")]
     pub seconds: f64,
-    /// Floating point operations of the factorisations and solves of the runs that were made for it.
+    /// Floating point operations of the factorisations and solves of the runs that were made for
+    /// it.
     #[serde(default, deserialize_with = "null_is_not_a_number")]
     pub work: f64,
     /// What the estimate could not do, and why.
@@ -410,15 +423,18 @@ pub struct Demand {
     pub accuracy: f64,
     /// Whether every stated error is within it, that of every quantity that governs.
     pub reached: bool,
-    /// Quantities that govern and whose error was never estimated: nothing can be said of them, so that the demand is not reached.
+    /// Quantities that govern and whose error was never estimated: nothing can be said of them, so
+    /// that the demand is not reached.
     #[serde(default)]
     pub unknown: Vec<String>,
-    /// The largest stated relative error of the quantities that govern, as far as they were estimated.
+    /// The largest stated relative error of the quantities that govern, as far as they were
+    /// estimated.
     #[serde(deserialize_with = "null_is_not_a_number")]
     pub stated: f64,
     /// What was chosen, and why.
     pub choices: Vec<String>,
-    /// Floating point operations of the factorisations and solves of all trials, their estimates included.
+    /// Floating point operations of the factorisations and solves of all trials, their estimates
+    /// included.
     #[serde(default, deserialize_with = "null_is_not_a_number")]
     pub work: f64,
 }
@@ -427,7 +443,8 @@ pub struct Demand {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EstimateMethod {
-    /// The same scene on other meshes of the same family, coarser ones where the run is fine enough; the error is extrapolated.
+    /// The same scene on other meshes of the same family, coarser ones where the run is fine
+    /// enough; the error is extrapolated.
     CoarserMeshes,
     /// The energy norm of the recovered stress error: a rough figure, for large meshes from files.
     EnergyNorm,
@@ -457,7 +474,8 @@ pub struct QuantityError {
     /// The reported value.
     #[serde(deserialize_with = "null_is_not_a_number")]
     pub value: f64,
-    /// The stated error: the discretisation error with its factor of safety, path and algebraic error together.
+    /// The stated error: the discretisation error with its factor of safety, path and algebraic
+    /// error together.
     pub error: Option<f64>,
     /// The stated error over the largest size that the quantity has in the run.
     pub relative_error: Option<f64>,
@@ -465,12 +483,15 @@ pub struct QuantityError {
     pub discretisation: Option<f64>,
     /// Estimated error of the path: increments, plastic iteration and event tolerance.
     pub path: Option<f64>,
-    /// Estimated error of the algebra: backward error, equilibrium, complementarity, and at first yield what `gamma` leaves of the largest stress.
+    /// Estimated error of the algebra: backward error, equilibrium, complementarity, and at first
+    /// yield what `gamma` leaves of the largest stress.
     #[serde(deserialize_with = "null_is_not_a_number")]
     pub algebraic: f64,
-    /// Order of convergence in the element size that the meshes show, within the range that is believed.
+    /// Order of convergence in the element size that the meshes show, within the range that is
+    /// believed.
     pub order: Option<f64>,
-    /// What the mesh itself gave, where `value` is extrapolated from it and coarser ones: with a demanded accuracy, where that is the better known.
+    /// What the mesh itself gave, where `value` is extrapolated from it and coarser ones: with a
+    /// demanded accuracy, where that is the better known.
     #[serde(default)]
     pub of_mesh: Option<OfMesh>,
 }

@@ -78,7 +78,8 @@ fn whole_part(digits: &str) -> &str {
 /// zeros or digits that no floating-point number has.
 const MOST_DIGITS: usize = 22;
 
-/// A number as it was given, to the last digit, but with an exponent where that is shorter: `1e300` has no 300 zeros.
+/// A number as it was given, to the last digit, but with an exponent where that is shorter: `1e300`
+/// has no 300 zeros.
 pub(crate) fn exact(value: f64) -> String {
     let plain = value.to_string();
     let scientific = format!("{value:e}");

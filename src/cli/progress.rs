@@ -1,4 +1,5 @@
-//! Progress on standard error: a bar per phase on a terminal, a line now and then elsewhere, or JSON lines.
+//! Progress on standard error: a bar per phase on a terminal, a line now and then elsewhere, or
+//! JSON lines.
 //!
 //! Each JSON line is an object with `event` and `seconds` since the start:
 //!
@@ -286,8 +287,9 @@ impl Shown {
     }
 }
 
-/// The bar of a phase: name, what is done, time, time that is left. What is done is the share of the load program where
-/// increments tell it, else the share of the predicted time, of which the last bit is only filled by the end.
+/// The bar of a phase: name, what is done, time, time that is left. What is done is the share of
+/// the load program where increments tell it, else the share of the predicted time, of which the
+/// last bit is only filled by the end.
 fn new_bar(phase: &str, predicted: f64, clock: Clock) -> ProgressBar {
     let done = move |state: &ProgressState| match (state.is_finished(), state.pos()) {
         (true, _) => 1.0,

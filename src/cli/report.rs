@@ -9,7 +9,8 @@ use crate::scene::{Kind, Scene, Unit};
 use crate::text::shown_in_line;
 use std::path::Path;
 
-/// The summary of a run or of a yield load. `bodies` are the names by index, `wall_seconds` is the time of the whole command.
+/// The summary of a run or of a yield load. `bodies` are the names by index, `wall_seconds` is the
+/// time of the whole command.
 pub(super) fn results(
     scene: &Scene,
     bodies: &[String],
@@ -80,7 +81,8 @@ fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{plural}")
 }
 
-/// Two figures of a state within this of each other need no column each: the table shows six digits.
+/// Two figures of a state within this of each other need no column each: the table shows six
+/// digits.
 const SAME: f64 = 1e-6;
 /// Width of the labels.
 const LABEL: usize = 9;

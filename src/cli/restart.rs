@@ -12,10 +12,11 @@ use std::path::Path;
 /// Whether a run leaves checkpoints, and goes on from one.
 #[derive(Debug, Args)]
 pub(super) struct RestartArguments {
-    /// Write a checkpoint at every N-th accepted increment (default 1), so that a run that is killed can go on with --resume
+    /// Write a checkpoint at every N-th accepted increment (default 1), so that a run that is
+    /// killed can go on with --resume
     ///
-    /// Goes to the directory of the results with the ending .checkpoint, and is deleted when the results are written.
-    /// Results do not depend on it.
+    /// Goes to the directory of the results with the ending .checkpoint, and is deleted when the
+    /// results are written. Results do not depend on it.
     #[arg(
         long,
         value_name = "N",
@@ -25,9 +26,11 @@ pub(super) struct RestartArguments {
         value_parser = clap::value_parser!(u32).range(1..)
     )]
     pub checkpoint: Option<u32>,
-    /// Go on from the last checkpoint; begin anew where there is none. Writes checkpoints like --checkpoint
+    /// Go on from the last checkpoint; begin anew where there is none. Writes checkpoints like
+    /// --checkpoint
     ///
-    /// The results are those of a run that was never stopped. A checkpoint of another scene, mesh, solver or version is refused.
+    /// The results are those of a run that was never stopped. A checkpoint of another scene, mesh,
+    /// solver or version is refused.
     #[arg(long)]
     pub resume: bool,
 }
@@ -79,7 +82,8 @@ fn beside(out: &Path) -> Checkpoints {
 }
 
 /// After the results are written to `out`: a run that came to its end needs its
-/// checkpoints no more, nor those that an earlier run with the same results left when it was killed.
+/// checkpoints no more, nor those that an earlier run with the same results left when it was
+/// killed.
 pub(super) fn settle(out: &Path, results: &Results) -> Result<()> {
     match results.incomplete_kind {
         Some(ErrorKind::Stopped) => Ok(()),

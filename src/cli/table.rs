@@ -32,7 +32,8 @@ impl Table {
         }
     }
 
-    /// Adds a row, a line of text to a cell; missing cells are empty, cells beyond the last column are dropped.
+    /// Adds a row, a line of text to a cell; missing cells are empty, cells beyond the last column
+    /// are dropped.
     pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
         let in_line = |cell: String| shown_in_line(&cell).into_owned();
         let mut cells: Vec<String> = cells.into_iter().map(in_line).collect();

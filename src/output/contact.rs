@@ -1,5 +1,5 @@
-//! `contact.csv`: a row per state and contact pair, states, pairs and contacts counted from 1. Units
-//! are the scene's; gap > 0 open, force and pressure > 0 compressive.
+//! `contact.csv`: a row per state and contact pair, states, pairs and contacts counted from 1.
+//! Units are the scene's; gap > 0 open, force and pressure > 0 compressive.
 
 use super::table;
 use crate::results::{PairState, State, Status};

@@ -1,6 +1,6 @@
-//! `history.csv`: a row per accepted increment, with the event that ended it. Columns are the fields
-//! of [`HistoryRow`]. `path.csv`: points between these rows, for curves. Columns are those of
-//! [`PathPoint`].
+//! `history.csv`: a row per accepted increment, with the event that ended it. Columns are the
+//! fields of [`HistoryRow`]. `path.csv`: points between these rows, for curves. Columns are those
+//! of [`PathPoint`].
 
 use super::table;
 use crate::results::{HistoryRow, PathPoint};

@@ -1,7 +1,8 @@
 //! A result directory read back: what its report shows, without running again.
 //!
-//! `summary.json` holds the figures, `history.csv` and `contact.csv` the rows, the `.vtu` files the fields, and the scene as it
-//! was run makes the model. Numbers that were not finite were written as null (or an empty cell) and come back as NaN.
+//! `summary.json` holds the figures, `history.csv` and `contact.csv` the rows, the `.vtu` files the
+//! fields, and the scene as it was run makes the model. Numbers that were not finite were written
+//! as null (or an empty cell) and come back as NaN.
 
 use super::rows::{self, Rows};
 use super::{CONTACT_FILE, HISTORY_FILE, PATH_FILE, RunHeader, SUMMARY_FILE, record, vtu_read};
@@ -52,8 +53,9 @@ pub struct Recorded {
 /// ```
 ///
 /// # Errors
-/// [`crate::ErrorKind::Io`] where a file cannot be read; [`crate::ErrorKind::Input`] naming the file where `dir` is no result of
-/// brinell, was written without its scene, is damaged, or where its parts do not belong together.
+/// [`crate::ErrorKind::Io`] where a file cannot be read; [`crate::ErrorKind::Input`] naming the
+/// file where `dir` is no result of brinell, was written without its scene, is damaged, or where
+/// its parts do not belong together.
 pub fn read(dir: &Path) -> Result<Recorded> {
     let path = dir.join(SUMMARY_FILE);
     let summary = Summary {

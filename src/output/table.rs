@@ -7,8 +7,8 @@ use serde::Serialize;
 use serde_json::Value;
 use std::io::{self, Write};
 
-/// Writes `rows` under a header made of the keys of `Row` (those of `sample`, so that a table without rows
-/// has its header too).
+/// Writes `rows` under a header made of the keys of `Row` (those of `sample`, so that a table
+/// without rows has its header too).
 ///
 /// # Errors
 /// Those of `out`.

@@ -123,8 +123,9 @@ fn cycles(cases: &mut Cases) -> Result<()> {
     Ok(())
 }
 
-/// A constant tension s along y, the strain along x cycled by +-e: at yield the stress along x is `s/2 +- q`, `q^2 = Y^2 - 3/4 s^2`, and the flow
-/// rule gives an equivalent plastic strain of `Y/q (2 e - 2 q/E)` in each half cycle. With hardening Y grows until `q = E e`.
+/// A constant tension s along y, the strain along x cycled by +-e: at yield the stress along x is
+/// `s/2 +- q`, `q^2 = Y^2 - 3/4 s^2`, and the flow rule gives an equivalent plastic strain of
+/// `Y/q (2 e - 2 q/E)` in each half cycle. With hardening Y grows until `q = E e`.
 fn ratchet(cases: &mut Cases) -> Result<()> {
     let (modulus, yield_stress, tension, amplitude) = (2e5f64, 200.0f64, 100.0f64, 0.003);
     let mut sheet = scene(include_str!("../../data/scenes/hard/ratchet.toml"))?;

@@ -112,7 +112,8 @@ struct Figure<'t> {
     at_zero: AtZero,
 }
 
-/// A figure of the history against the load, way there and way back, with first yield and the states.
+/// A figure of the history against the load, way there and way back, with first yield and the
+/// states.
 fn against_load(
     results: &Results,
     units: &Units,
@@ -196,7 +197,8 @@ fn curve(label: &str, color: usize, pen: Pen, points: Vec<[f64; 2]>) -> Curve {
     }
 }
 
-/// Place along a contact: an angle from the middle of its axis where the surface is a circle, else the length of arc.
+/// Place along a contact: an angle from the middle of its axis where the surface is a circle, else
+/// the length of arc.
 struct Along {
     label: String,
     of_pair: Vec<f64>,
@@ -291,7 +293,8 @@ fn pressure_profiles(
             curve(&state.name, i, pen, points)
         })
         .collect();
-    // Where nothing is pressed in any state there is nothing to see, but for one point on each side.
+    // Where nothing is pressed in any state there is nothing to see, but for one point on each
+    // side.
     let pressed: Vec<f64> = curves
         .iter()
         .flat_map(|c| &c.points)
