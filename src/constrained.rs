@@ -1,5 +1,5 @@
-//! A stiffness matrix with contact rows, for programs that have their own elements: condense, solve contact, follow the load from
-//! event to event.
+//! A stiffness matrix with contact rows, for programs that have their own elements: condense, solve
+//! contact, follow the load from event to event.
 //!
 //! Given the symmetric positive (semi)definite stiffness `K`, rows `B` and gaps `delta`,
 //!
@@ -7,16 +7,18 @@
 //!     K u = f - B' r,     g = delta - B u >= 0,     r >= 0,     g . r = 0
 //! ```
 //!
-//! A row is any linear combination of freedoms: the relative normal displacement of two nodes, or of a node and a point
-//! between others. The freedoms that occur in rows are the contact freedoms `c`; `K` is condensed on them to `C`. On
-//! the rows, `B u_c = delta - g` holds exactly, so that `M = C + B' S B` may stand for `C` (`S` a diagonal of the size
-//! of `C`'s own): it is definite also where a body is held by contact alone. With `A = B M^-1 B'`
+//! A row is any linear combination of freedoms: the relative normal displacement of two nodes, or
+//! of a node and a point between others. The freedoms that occur in rows are the contact freedoms
+//! `c`; `K` is condensed on them to `C`. On the rows, `B u_c = delta - g` holds exactly, so that
+//! `M = C + B' S B` may stand for `C` (`S` a diagonal of the size of `C`'s own): it is definite
+//! also where a body is held by contact alone. With `A = B M^-1 B'`
 //!
 //! ```text
 //!     r = q + T g,    T = A^-1 - S,    q = A^-1 B M^-1 f_c - T delta
 //! ```
 //!
-//! is the problem of [`crate::contact`]. Plastic strains are loads like any others: `f + sum of B_e' D eps_p` over elements.
+//! is the problem of [`crate::contact`]. Plastic strains are loads like any others:
+//! `f + sum of B_e' D eps_p` over elements.
 
 mod arrays;
 mod displacements;
@@ -40,7 +42,8 @@ const CANCELLED: f64 = 1e-12;
 
 /// A sparse stiffness with contact rows, factored and condensed once.
 ///
-/// Three springs of stiffness 1 in a row, the first to ground; the last node meets a wall at distance 1:
+/// Three springs of stiffness 1 in a row, the first to ground; the last node meets a wall at
+/// distance 1:
 ///
 /// ```
 /// use brinell::constrained::ConstrainedStructure;
@@ -110,12 +113,14 @@ struct State {
 }
 
 impl ConstrainedStructure {
-    /// Factors `stiffness` (upper triangle) and condenses it on the freedoms of `rows`. Each row lists (freedom,
-    /// coefficient) of `B`; `gaps` holds `delta`, one value for each row. The state is that without load.
+    /// Factors `stiffness` (upper triangle) and condenses it on the freedoms of `rows`. Each row
+    /// lists (freedom, coefficient) of `B`; `gaps` holds `delta`, one value for each row. The state
+    /// is that without load.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] where sizes, freedoms or values do not fit, or where rows depend on each other;
-    /// [`ErrorKind::Unheld`] naming the freedom where the structure is not held even with all rows closed; backend limits.
+    /// [`ErrorKind::Input`] where sizes, freedoms or values do not fit, or where rows depend on
+    /// each other; [`ErrorKind::Unheld`] naming the freedom where the structure is not held even
+    /// with all rows closed; backend limits.
     pub fn new(
         backend: Backend,
         stiffness: &SymmetricCsc,
@@ -125,7 +130,8 @@ impl ConstrainedStructure {
         Self::with_owned(backend, stiffness.clone(), rows, gaps)
     }
 
-    /// As [`ConstrainedStructure::new`], without the copy of the stiffness that the structure keeps (displacements are refined with it).
+    /// As [`ConstrainedStructure::new`], without the copy of the stiffness that the structure keeps
+    /// (displacements are refined with it).
     ///
     /// # Errors
     /// As [`ConstrainedStructure::new`].
@@ -218,7 +224,8 @@ impl ConstrainedStructure {
         self.gaps.len()
     }
 
-    /// The contact freedoms, ascending: rows and columns of [`ConstrainedStructure::condensed_stiffness`].
+    /// The contact freedoms, ascending: rows and columns of
+    /// [`ConstrainedStructure::condensed_stiffness`].
     pub fn contact_freedoms(&self) -> &[usize] {
         &self.partition.contact
     }
@@ -236,8 +243,9 @@ impl ConstrainedStructure {
     /// Solves contact under the load `f` (all freedoms), from the statuses at hand.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] where the load has the wrong length or holds a number that is not finite;
-    /// [`ErrorKind::Unheld`] naming the row where the load pushes a body away from every contact.
+    /// [`ErrorKind::Input`] where the load has the wrong length or holds a number that is not
+    /// finite; [`ErrorKind::Unheld`] naming the row where the load pushes a body away from every
+    /// contact.
     pub fn solve(&mut self, load: &[f64]) -> Result<()> {
         self.check_load(load)?;
         let condensed = self.condense(load)?;
@@ -265,12 +273,14 @@ impl ConstrainedStructure {
         &self.state.force
     }
 
-    /// [`ConstrainedStructure::gaps`] to be kept without a copy: those of this state, whatever comes after.
+    /// [`ConstrainedStructure::gaps`] to be kept without a copy: those of this state, whatever
+    /// comes after.
     pub fn shared_gaps(&self) -> Arc<Vec<f64>> {
         Arc::clone(&self.state.gap)
     }
 
-    /// [`ConstrainedStructure::forces`] to be kept without a copy: those of this state, whatever comes after.
+    /// [`ConstrainedStructure::forces`] to be kept without a copy: those of this state, whatever
+    /// comes after.
     pub fn shared_forces(&self) -> Arc<Vec<f64>> {
         Arc::clone(&self.state.force)
     }
@@ -317,7 +327,8 @@ impl ConstrainedStructure {
     }
 }
 
-/// The diagonal of `S`: the stiffness of each row's own freedoms in the condensed stiffness `c`, which it must be comparable with.
+/// The diagonal of `S`: the stiffness of each row's own freedoms in the condensed stiffness `c`,
+/// which it must be comparable with.
 fn shift(c: &DMatrix<f64>, rows: &DMatrix<f64>) -> DVector<f64> {
     let size = c.diagonal().amax();
     DVector::from_fn(rows.nrows(), |i, _| {
@@ -340,7 +351,8 @@ fn tied(inverse: &DMatrix<f64>, shift: &DVector<f64>) -> DMatrix<f64> {
     }
     let mut matrix = 0.5 * (&matrix + matrix.transpose());
     for i in 0..shift.len() {
-        // Where nothing but this row holds a body, T is zero: the difference of equals leaves round-off.
+        // Where nothing but this row holds a body, T is zero: the difference of equals leaves
+        // round-off.
         if matrix[(i, i)] <= CANCELLED * shift[i] {
             matrix.row_mut(i).fill(0.0);
             matrix.column_mut(i).fill(0.0);

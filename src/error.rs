@@ -1,5 +1,6 @@
 //! The one error type: a kind, a message with entities and numbers, and the cause behind it.
 
+use crate::text::short;
 use std::error::Error as StdError;
 use std::fmt;
 
@@ -18,15 +19,19 @@ pub enum ErrorKind {
     Unsupported,
     /// The model is not held: a body can move freely. Exit code 4.
     Unheld,
-    /// The analysis failed: a solve did not converge, a target was not reached, or the memory did not suffice. Exit code 5.
+    /// The analysis failed: a solve did not converge, a target was not reached, or the memory did
+    /// not suffice. Exit code 5.
     Analysis,
     /// The load passed the limit load; what was held before is in the message. Exit code 6.
     Collapse,
-    /// The run ended, but a state's quality misses its tolerance, or a demanded accuracy was not reached. Exit code 7.
+    /// The run ended, but a state's quality misses its tolerance, or a demanded accuracy was not
+    /// reached. Exit code 7.
     Inaccurate,
-    /// Contact reached the end of its candidates although the bodies go on there; what was computed before is right. Exit code 8.
+    /// Contact reached the end of its candidates although the bodies go on there; what was computed
+    /// before is right. Exit code 8.
     Outgrown,
-    /// The caller or the user stopped the run. Exit code 130; the program returns 128 and the number of the signal.
+    /// The caller or the user stopped the run. Exit code 130; the program returns 128 and the
+    /// number of the signal.
     Stopped,
     /// A fault of brinell itself. Exit code 70.
     Internal,
@@ -62,7 +67,7 @@ impl Error {
     pub fn new(kind: ErrorKind, message: impl Into<String>) -> Self {
         Error {
             kind,
-            message: message.into(),
+            message: short(&message.into()).into_owned(),
             cause: None,
         }
     }

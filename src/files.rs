@@ -12,8 +12,8 @@ pub(crate) const LARGEST_SCENE: u64 = 64 << 20;
 /// Reads the file at `path`; `what` names it in messages (`read the scene`).
 ///
 /// # Errors
-/// `Io` where it cannot be read; `Input` where it is no plain file (a device or a pipe may have no end), or larger than
-/// `largest` bytes or the memory that is available.
+/// `Io` where it cannot be read; `Input` where it is no plain file (a device or a pipe may have no
+/// end), or larger than `largest` bytes or the memory that is available.
 pub(crate) fn read(what: &str, path: &Path, largest: Option<u64>) -> Result<Vec<u8>> {
     let failed = |cause| Error::io(what, path, cause);
     let refused = |why: String| Error::input(format!("cannot {what} {}: {why}", path.display()));

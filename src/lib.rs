@@ -41,15 +41,19 @@
 //! | know whether a run kept what was asked of it | [`output::ending()`] |
 //! | compare with closed forms | [`analytical`] |
 //!
-//! The library never prints, never ends the process and holds no global state; everything that can fail returns [`Error`], whose
-//! [`ErrorKind`] says what kind of failure it is and whose message names file, key, node or body, the value, and what to do.
+//! The library never prints, never ends the process and holds no global state; everything that can
+//! fail returns [`Error`], whose [`ErrorKind`] says what kind of failure it is and whose message
+//! names file, key, node or body, the value, and what to do.
 //!
 //! # Features
 //!
-//! - `cholmod` (default): condense with CHOLMOD of SuiteSparse, which must be installed with its headers (and libclang, to
-//!   read them). Its supernodal module is GPL-2.0-or-later: so is what is linked with it.
-//! - `capi`: the C interface (`ffi/include/brinell.h`; `make install` builds the libraries with it).
-//! - Without features (`default-features = false`) the crate is pure Rust, MIT or Apache-2.0; the dense backend takes up to 6000 freedoms.
+//! - `cholmod` (default): condense with CHOLMOD of SuiteSparse, which must be installed with its
+//!   headers (and libclang, to read them). Its supernodal module is GPL-2.0-or-later: so is what is
+//!   linked with it.
+//! - `capi`: the C interface (`ffi/include/brinell.h`; `make install` builds the libraries with
+//!   it).
+//! - Without features (`default-features = false`) the crate is pure Rust, MIT or Apache-2.0; the
+//!   dense backend takes up to 6000 freedoms.
 //!
 //! # Stability
 //!
@@ -57,13 +61,13 @@
 #![warn(missing_docs)]
 
 // Blank lines keep the order of the data: rustfmt sorts neighbouring lines.
+mod text;
+
 pub mod error;
 
 pub mod memory;
 
 mod files;
-
-mod text;
 
 pub mod panics;
 

@@ -5,8 +5,8 @@ use std::io::Write;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The allocator of the system. Where it has no more the program says how much was asked for and ends with an exit
-/// code of its own; without this Rust would abort it.
+/// The allocator of the system. Where it has no more the program says how much was asked for and
+/// ends with an exit code of its own; without this Rust would abort it.
 struct OrEnd;
 
 #[global_allocator]

@@ -4,8 +4,9 @@ use crate::error::{Error, Result};
 #[cfg(target_os = "linux")]
 use std::path::Path;
 
-/// Memory that this process may still take, in bytes: the least of what the machine has free, what its control group and its own
-/// limits (`ulimit -v`, `ulimit -d`) leave. `None` where the system does not tell.
+/// Memory that this process may still take, in bytes: the least of what the machine has free, what
+/// its control group and its own limits (`ulimit -v`, `ulimit -d`) leave. `None` where the system
+/// does not tell.
 pub fn available() -> Option<f64> {
     [machine(), group(), limits()]
         .into_iter()
@@ -81,7 +82,8 @@ fn group() -> Option<f64> {
     groups.lines().filter_map(of_line).reduce(f64::min)
 }
 
-/// The least that a group or one of those around it leaves. Pages of files that were not used lately are given back at need.
+/// The least that a group or one of those around it leaves. Pages of files that were not used
+/// lately are given back at need.
 #[cfg(target_os = "linux")]
 fn left_in_groups(root: &str, path: &str, limit: &str, usage: &str) -> Option<f64> {
     let number = |folder: &Path, file: &str| -> Option<f64> {

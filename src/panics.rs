@@ -1,9 +1,10 @@
 //! Panics become errors where another language calls: none unwinds into it, and none is printed.
 //!
-//! A panic of brinell is a fault of brinell; its message and place belong into the error, not onto the screen of a
-//! program that brinell is a part of. The panic hook belongs to the process, though. The one that is set here, with the first
-//! call of [`contained`], keeps silent only about panics of threads that are inside such a call, and of rayon's
-//! workers while there is one; all others go on to the hook that was there before. A program in C or Python has a copy of Rust's
+//! A panic of brinell is a fault of brinell; its message and place belong into the error, not onto
+//! the screen of a program that brinell is a part of. The panic hook belongs to the process,
+//! though. The one that is set here, with the first call of [`contained`], keeps silent only about
+//! panics of threads that are inside such a call, and of rayon's workers while there is one; all
+//! others go on to the hook that was there before. A program in C or Python has a copy of Rust's
 //! runtime, and so a hook, that no one else uses.
 
 use crate::error::{Error, Result};
@@ -23,7 +24,8 @@ thread_local! {
 static CALLS: AtomicUsize = AtomicUsize::new(0);
 static HOOK: Once = Once::new();
 
-/// Runs `act`; its panic becomes an error of kind [`crate::ErrorKind::Internal`] and nothing is printed.
+/// Runs `act`; its panic becomes an error of kind [`crate::ErrorKind::Internal`] and nothing is
+/// printed.
 ///
 /// # Errors
 /// Those of `act`, and its panic.

@@ -1,5 +1,9 @@
 //! What an analysis computed: states, history, quality and cost, free of any solver's types.
 
+mod history;
+
+pub use history::{HistoryRow, PathPoint};
+
 use serde::{Deserialize, Deserializer, Serialize};
 
 /// Numbers that are not finite are written as null.
@@ -42,19 +46,24 @@ pub struct Results {
     pub states: Vec<State>,
     /// One row per accepted increment.
     pub history: Vec<HistoryRow>,
+    /// Points of the path between the rows of the history, where its figures bend: for curves.
+    pub path: Vec<PathPoint>,
     /// Seconds by phase, in order of execution.
     pub timings: Vec<(String, f64)>,
     /// Machine-independent cost.
     pub counts: Counts,
     /// Worst figures over all states.
     pub quality: Quality,
-    /// Lower bound of the condition of the factored matrix, rows and columns scaled to a unit diagonal: the largest loss of a pivot to
-    /// cancellation, of all the run's factorisations. Relative errors of displacements may be this times round-off.
+    /// Lower bound of the condition of the factored matrix, rows and columns scaled to a unit
+    /// diagonal: the largest loss of a pivot to cancellation, of all the run's factorisations.
+    /// Relative errors of displacements may be this times round-off.
     pub condition: f64,
-    /// Estimated condition of the same matrix, usually right to a factor of three: where the scene asks for it (`analysis.condition`), a state is
-    /// inaccurate, or the lower bound is beyond 1e10. It takes about six full solves.
+    /// Estimated condition of the same matrix, usually right to a factor of three: where the scene
+    /// asks for it (`analysis.condition`), a state is inaccurate, or the lower bound is beyond
+    /// 1e10. It takes about six full solves.
     pub condition_estimate: Option<f64>,
-    /// States whose quality misses its tolerance, with the figure: these results are not to be trusted.
+    /// States whose quality misses its tolerance, with the figure: these results are not to be
+    /// trusted.
     pub inaccurate: Vec<String>,
     /// What the factorisation cost.
     pub factor: crate::linalg::Prediction,
@@ -68,7 +77,8 @@ pub struct Results {
     pub resumed: usize,
     /// Set where the run ended before the program did: why.
     pub incomplete: Option<String>,
-    /// Set with [`Results::incomplete`]: the kind that decides the exit code (stopped, collapse, analysis).
+    /// Set with [`Results::incomplete`]: the kind that decides the exit code (stopped, collapse,
+    /// analysis).
     pub incomplete_kind: Option<crate::ErrorKind>,
 }
 
@@ -149,7 +159,8 @@ pub struct State {
     pub contact_force: f64,
     /// Maximum contact pressure.
     pub max_pressure: f64,
-    /// Pressure at the first pair of the contact surface that lies on a symmetry plane, or at the middle of the contact.
+    /// Pressure at the first pair of the contact surface that lies on a symmetry plane, or at the
+    /// middle of the contact.
     pub pole_pressure: f64,
     /// Contact half width.
     pub half_width: f64,
@@ -159,16 +170,16 @@ pub struct State {
     /// For contacts on a circle: begin and end of the contact, in degrees from the middle of the
     /// contact's axis (the pole); `None` elsewhere.
     pub contact_arc: Option<[f64; 2]>,
-    /// The dent that the plastic strains leave once all loads and contact forces are gone: how far the two
-    /// surfaces of a contact have moved away from each other where that is most, each measured from its
-    /// undeformed shape. Rigid motion is that of the far boundary: supports, for a body without them the
-    /// surface through which it is loaded.
+    /// The dent that the plastic strains leave once all loads and contact forces are gone: how far
+    /// the two surfaces of a contact have moved away from each other where that is most, each
+    /// measured from its undeformed shape. Rigid motion is that of the far boundary: supports, for
+    /// a body without them the surface through which it is loaded.
     pub residual_depth: f64,
-    /// Each body's share in it: depth of its surface below the undeformed one at the deepest place of its
-    /// contacts. The shares of two bodies in one contact add up to its dent.
+    /// Each body's share in it: depth of its surface below the undeformed one at the deepest place
+    /// of its contacts. The shares of two bodies in one contact add up to its dent.
     pub residual_depth_by_body: Vec<f64>,
-    /// Height of the rim beside the dent: the most that the surface of a body rises above its undeformed shape
-    /// among the contact candidates.
+    /// Height of the rim beside the dent: the most that the surface of a body rises above its
+    /// undeformed shape among the contact candidates.
     pub rim_height: f64,
     /// Gauss points with plastic strain.
     pub plastic_points: usize,
@@ -178,7 +189,8 @@ pub struct State {
     pub max_equivalent_plastic_strain: f64,
     /// Area (axisymmetric: volume) of the whole whose Gauss points have plastic strain.
     pub plastic_zone_size: f64,
-    /// Estimated energy norm of the stress error over that of the stress (Zienkiewicz-Zhu); known where fields are.
+    /// Estimated energy norm of the stress error over that of the stress (Zienkiewicz-Zhu); known
+    /// where fields are.
     pub energy_error: Option<f64>,
     /// Relative approach of the bodies: the work of the loads that vary with the load factor on the displacements, over
     /// the largest force that they exert on one body. Of a single load that is the mean displacement of its surface along it.
@@ -195,9 +207,9 @@ pub struct State {
 /// A contact pair's state.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PairState {
-    /// Pair index.
+    /// Pair index, from 0; events, messages and `contact.csv` count from 1.
     pub pair: usize,
-    /// Contact (scene entry) index.
+    /// Contact (scene entry) index, from 0; `contact.csv` counts from 1.
     pub contact: usize,
     /// Position (on the second surface, undeformed).
     pub position: [f64; 2],
@@ -236,40 +248,10 @@ pub struct Fields {
     pub plastic_strain: Vec<f64>,
     /// `n_elements`: 1 where a Gauss point has yielded.
     pub yielded: Vec<u8>,
-    /// `n_elements` estimated discretisation error of the stress (Zienkiewicz-Zhu): its energy norm over the element, over the
-    /// energy norm of the stress of the whole model. The square root of the sum of squares is [`State::energy_error`].
+    /// `n_elements` estimated discretisation error of the stress (Zienkiewicz-Zhu): its energy norm
+    /// over the element, over the energy norm of the stress of the whole model. The square root of
+    /// the sum of squares is [`State::energy_error`].
     pub error: Vec<f64>,
-}
-
-/// A row of `history.csv`: one accepted increment.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct HistoryRow {
-    /// Number, from 1.
-    pub increment: usize,
-    /// Load factor at its end, in the program's unit.
-    pub alpha: f64,
-    /// Total load.
-    pub load: f64,
-    /// Maximum contact pressure.
-    pub max_pressure: f64,
-    /// Contact half width.
-    pub half_width: f64,
-    /// Sum of the contact forces.
-    pub contact_force: f64,
-    /// Closed pairs.
-    pub closed_pairs: usize,
-    /// Gauss points with plastic strain.
-    pub plastic_points: usize,
-    /// Largest equivalent plastic strain.
-    pub max_equivalent_plastic_strain: f64,
-    /// Plastic iterations of this increment.
-    pub iterations: usize,
-    /// Trailing solves of this increment.
-    pub trailing_solves: usize,
-    /// Relative out-of-balance force at its end.
-    pub residual: f64,
-    /// What ended it: `closes: pair 12`, `opens: pair 3`, `target: NAME`, `step`, `yield`.
-    pub event: String,
 }
 
 /// Machine-independent cost of a run.
@@ -287,15 +269,17 @@ pub struct Counts {
     pub contact_changes: usize,
 }
 
-/// How good a state is: all figures are relative and dimensionless. Loads and displacements are measured against the largest of the
-/// run so far. Gaps are those of the displacements, contact forces those that the stresses leave over: both independent
-/// of the contact solve, neither clipped.
+/// How good a state is: all figures are relative and dimensionless. Loads and displacements are
+/// measured against the largest of the run so far. Gaps are those of the displacements, contact
+/// forces those that the stresses leave over: both independent of the contact solve, neither
+/// clipped.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Quality {
     /// Normwise backward error of the full solve: `|f - K u| / (|K| |u| + |f|)`, infinity norms.
     pub backward_error: f64,
-    /// Componentwise backward error, the largest of a row's `|f - K u|` over its `|K| |u| + |f|`; none in results of versions that did not
-    /// have it. It has no tolerance of its own: what it shows beside the normwise one are freedoms on which next to nothing acts.
+    /// Componentwise backward error, the largest of a row's `|f - K u|` over its `|K| |u| + |f|`;
+    /// none in results of versions that did not have it. It has no tolerance of its own: what it
+    /// shows beside the normwise one are freedoms on which next to nothing acts.
     pub componentwise_error: Option<f64>,
     /// What round-off alone may leave out of balance, over the largest applied or contact force: `2 eps |K| |u|`, the largest of a row, with
     /// `u` free of rigid motions: storing `u` and summing up the forces of its elements costs as much, whatever solved for it. Forces that
@@ -389,7 +373,7 @@ pub struct ReferenceRow {
     pub reference: f64,
     /// The computed value.
     pub computed: f64,
-    /// computed / reference.
+    /// computed / reference; not a number where both are 0.
     pub ratio: f64,
     /// The paper's own figure for the ratio, where it gives one.
     pub published_ratio: Option<f64>,
@@ -411,7 +395,8 @@ pub struct Accuracy {
     /// Seconds that the estimate took.
     #[serde(deserialize_with = "null_is_not_a_number")]
     pub seconds: f64,
-    /// Floating point operations of the factorisations and solves of the runs that were made for it.
+    /// Floating point operations of the factorisations and solves of the runs that were made for
+    /// it.
     #[serde(default, deserialize_with = "null_is_not_a_number")]
     pub work: f64,
     /// What the estimate could not do, and why.
@@ -444,7 +429,8 @@ pub struct Demand {
     pub worst: Option<String>,
     /// What was chosen, and why.
     pub choices: Vec<String>,
-    /// Floating point operations of the factorisations and solves of all trials, their estimates included.
+    /// Floating point operations of the factorisations and solves of all trials, their estimates
+    /// included.
     #[serde(default, deserialize_with = "null_is_not_a_number")]
     pub work: f64,
 }
@@ -492,7 +478,8 @@ pub struct QuantityError {
     pub discretisation: Option<f64>,
     /// Estimated error of the path: increments, plastic iteration and event tolerance.
     pub path: Option<f64>,
-    /// Estimated error of the algebra: backward error, equilibrium, complementarity, and at first yield what `gamma` leaves of the largest stress.
+    /// Estimated error of the algebra: backward error, equilibrium, complementarity, and at first
+    /// yield what `gamma` leaves of the largest stress.
     #[serde(deserialize_with = "null_is_not_a_number")]
     pub algebraic: f64,
     /// Order of convergence in the element size that three meshes or more show, believed or not.

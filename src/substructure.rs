@@ -1,16 +1,18 @@
 //! The structure as contact and plasticity see it: the only door from sparse to dense.
 //!
-//! The stiffness is factored in the order `[ interior | zone | contact ]` and condensed. On the contact freedoms
-//! `(u^1, u^2)` of the pairs' first and second nodes (normal displacements) the displacement condition suggests
-//! `v = u^1` and the relative displacement `s = u^2 - u^1 <= delta`, the paper's u_c^1 and (2.4). In these
+//! The stiffness is factored in the order `[ interior | zone | contact ]` and condensed. On the
+//! contact freedoms `(u^1, u^2)` of the pairs' first and second nodes (normal displacements) the
+//! displacement condition suggests `v = u^1` and the relative displacement
+//! `s = u^2 - u^1 <= delta`, the paper's u_c^1 and (2.4). In these
 //!
 //! ```text
 //!     [ S_vv  S_vs ] [ v ]   [ f_1 + f_2 ]       S_vv = sum of the bodies' condensed stiffness  (paper 3.8)
 //!     [ S_sv  S_ss ] [ s ] = [ f_2 - r   ]
 //! ```
 //!
-//! and eliminating `v` leaves `r = t - T s = q + T g` with the gap `g = delta - s`, `q = t - T delta`. Where the second body is
-//! much the stiffer the two change places, and rigid motions of floating bodies are treated apart: see `tied`.
+//! and eliminating `v` leaves `r = t - T s = q + T g` with the gap `g = delta - s`,
+//! `q = t - T delta`. Where the second body is much the stiffer the two change places, and rigid
+//! motions of floating bodies are treated apart: see `tied`.
 
 mod groups;
 mod tied;
@@ -23,7 +25,8 @@ use crate::memory;
 use crate::model::Model;
 use groups::Groups;
 
-/// A load (or displacement) on zone and contact freedoms: first nodes of all pairs, then second nodes.
+/// A load (or displacement) on zone and contact freedoms: first nodes of all pairs, then second
+/// nodes.
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Trailing {
     /// On the zone freedoms.
@@ -104,7 +107,8 @@ pub struct Substructure {
 }
 
 impl Substructure {
-    /// Factors and condenses the stiffness with the given zone freedoms (ascending, none of them a contact freedom).
+    /// Factors and condenses the stiffness with the given zone freedoms (ascending, none of them a
+    /// contact freedom).
     ///
     /// # Errors
     /// A matrix that is not positive definite, with body, node and direction; backend limits.
@@ -140,8 +144,8 @@ impl Substructure {
         })
     }
 
-    /// Changes the zone: freedoms that were factored as zone are chosen among (the backend may keep more of them), for others the
-    /// structure is factored again. Returns whether it was.
+    /// Changes the zone: freedoms that were factored as zone are chosen among (the backend may keep
+    /// more of them), for others the structure is factored again. Returns whether it was.
     ///
     /// # Errors
     /// Those of [`Substructure::new`].
@@ -161,8 +165,8 @@ impl Substructure {
         Ok(true)
     }
 
-    /// Gives the factor's memory back before another comes: two at once would be the peak of memory. One freedom of
-    /// stiffness 1 takes its place.
+    /// Gives the factor's memory back before another comes: two at once would be the peak of
+    /// memory. One freedom of stiffness 1 takes its place.
     fn release(&mut self) -> Result<()> {
         let one = linalg::SymmetricCsc::new_csc((1, 1), vec![0, 1], vec![0], vec![1.0]);
         let partition = Partition {
@@ -192,9 +196,10 @@ impl Substructure {
         }
     }
 
-    /// The relative displacement `delta - gap` of the pairs without what rigid motions of floating bodies contribute to it, and the amplitude
-    /// of each of these motions. Gaps that a body falls through are taken off before the difference is formed: what
-    /// deforms the bodies keeps its digits beside them.
+    /// The relative displacement `delta - gap` of the pairs without what rigid motions of floating
+    /// bodies contribute to it, and the amplitude of each of these motions. Gaps that a body falls
+    /// through are taken off before the difference is formed: what deforms the bodies keeps its
+    /// digits beside them.
     pub fn split_slip(&self, delta: &[f64], gap: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let Some(tied) = &self.tied else {
             return (Vec::new(), Vec::new());
@@ -215,11 +220,12 @@ impl Substructure {
         self.condensed.cost()
     }
 
-    /// Lower bound of the condition of the factored matrix, scaled to a unit diagonal: the largest loss of a pivot to cancellation.
+    /// Lower bound of the condition of the factored matrix, scaled to a unit diagonal: the largest
+    /// loss of a pivot to cancellation.
     ///
     /// # Source
-    /// N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., section 10.3: with `a_jj = 1`, `1 / l_jj^2` is no more than
-    /// a diagonal entry of the inverse.
+    /// N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., section 10.3: with
+    /// `a_jj = 1`, `1 / l_jj^2` is no more than a diagonal entry of the inverse.
     pub fn condition(&self) -> f64 {
         1.0 / self.condensed.weakest_pivot().ratio
     }
@@ -243,8 +249,9 @@ impl Substructure {
         Ok(out)
     }
 
-    /// Eliminates zone and tied contact freedoms: on entry a load; on return `load` holds what [`Substructure::recover`]
-    /// needs and `forces` (`n_pairs`) the forces `t` that the pairs would carry if tied without gap.
+    /// Eliminates zone and tied contact freedoms: on entry a load; on return `load` holds what
+    /// [`Substructure::recover`] needs and `forces` (`n_pairs`) the forces `t` that the pairs would
+    /// carry if tied without gap.
     pub fn eliminate(&self, load: &mut Trailing, forces: &mut [f64]) {
         self.condensed
             .eliminate_zone(&mut load.zone, &mut load.contact);
@@ -253,7 +260,8 @@ impl Substructure {
         }
     }
 
-    /// Recovers the displacements for relative displacements `slip = delta - g` of the pairs (paper's u^2 - u^1).
+    /// Recovers the displacements for relative displacements `slip = delta - g` of the pairs
+    /// (paper's u^2 - u^1).
     pub fn recover(&self, load: &mut Trailing, slip: &[f64]) {
         self.recover_part(&ZonePart::default(), load, slip);
     }
@@ -272,8 +280,8 @@ impl Substructure {
         self.condensed.part_of_zone(marked)
     }
 
-    /// Estimated condition of the factored matrix ([`linalg::condition`]). Costs about six full solves and a factor of the condensed
-    /// stiffness.
+    /// Estimated condition of the factored matrix ([`linalg::condition`]). Costs about six full
+    /// solves and a factor of the condensed stiffness.
     ///
     /// # Errors
     /// Failure of the backend's solve.
@@ -282,7 +290,8 @@ impl Substructure {
         linalg::condition(&*self.condensed, &system.stiffness, &self.partition, &shift)
     }
 
-    /// All freedoms, for a reduced load and the displacements of zone and contact freedoms. Costs about half a full solve.
+    /// All freedoms, for a reduced load and the displacements of zone and contact freedoms. Costs
+    /// about half a full solve.
     ///
     /// # Errors
     /// Failure of the backend's solve.
@@ -290,10 +299,12 @@ impl Substructure {
         self.condensed.recover_all(reduced, &u.zone, &u.contact)
     }
 
-    /// All freedoms without the rigid motions of floating bodies, and the amplitude of each of these motions: strains of the first
-    /// are free of the cancellation that those of the sum suffer. `load` is on all freedoms and includes initial loads and
-    /// contact forces; `reduced` are the external loads, `condensed` these and the initial loads on zone and contact freedoms; `slip` and
-    /// `motions` are those of [`Substructure::split_slip`]. `beside` as in [`linalg::recover_refined`].
+    /// All freedoms without the rigid motions of floating bodies, and the amplitude of each of
+    /// these motions: strains of the first are free of the cancellation that those of the sum
+    /// suffer. `load` is on all freedoms and includes initial loads and contact forces; `reduced`
+    /// are the external loads, `condensed` these and the initial loads on zone and contact
+    /// freedoms; `slip` and `motions` are those of [`Substructure::split_slip`]. `beside` as in
+    /// [`linalg::recover_refined`].
     ///
     /// # Errors
     /// Failure of the backend's solve.
@@ -325,7 +336,8 @@ impl Substructure {
         Ok((recovered, motions))
     }
 
-    /// Bytes held by the dense contact matrices: `T`, what of it is swept in the tableau, and factor and coupling of the tied structure.
+    /// Bytes held by the dense contact matrices: `T`, what of it is swept in the tableau, and
+    /// factor and coupling of the tied structure.
     pub fn contact_bytes(&self) -> u64 {
         let tied = self.tied.as_ref().map_or(0, Groups::n_entries);
         (size_of::<f64>() * (2 * self.contact_matrix.n_entries() + tied)) as u64

@@ -3,22 +3,83 @@
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// `text` with each character that a terminal, an SVG or a page would obey instead of showing written out, as `\u{1b}`: control
-/// characters but line breaks and tabs, changes of the direction of writing, and what XML forbids.
+/// `text` with each character that a terminal, an SVG or a page would obey or hide instead of
+/// showing it written out, as `\u{1b}`: control characters but line breaks and tabs, changes of the
+/// direction of writing, what has no width, and what XML forbids. Numbers are [`short`].
 pub(crate) fn shown(text: &str) -> Cow<'_, str> {
-    written_out(text, |c, out| {
-        let _ = write!(out, "{}", c.escape_unicode());
-    })
+    match written_out(text, is_obeyed, escape) {
+        Cow::Borrowed(text) => short(text),
+        Cow::Owned(text) => Cow::Owned(short(&text).into_owned()),
+    }
 }
 
-/// As [`shown`] for JSON, whose own form this is: what reads it gets the character back. All such characters lie within 16 bits.
+/// As [`shown`] for a name or a title, which is one line: line breaks and tabs are written out too.
+pub(crate) fn shown_in_line(text: &str) -> Cow<'_, str> {
+    written_out(text, |c| is_obeyed(c) || matches!(c, '\n' | '\t'), escape)
+}
+
+/// As [`shown`] for JSON, whose own form this is: what reads it gets the character back.
 pub(crate) fn shown_json(text: &str) -> Cow<'_, str> {
-    written_out(text, |c, out| {
-        let _ = write!(out, "\\u{:04x}", u32::from(c));
+    written_out(text, is_obeyed, |c, out| {
+        for unit in c.encode_utf16(&mut [0; 2]) {
+            let _ = write!(out, "\\u{unit:04x}");
+        }
     })
 }
 
-/// A number as it was given, to the last digit, but with an exponent where that is shorter: `1e300` has no 300 zeros.
+/// `text` with each number that was written out to its last of many digits, as others than
+/// brinell do in their messages, in the form of [`exact`]. What only looks like such a number (a
+/// file's name) stays: its digits are not those of a floating-point number.
+pub(crate) fn short(text: &str) -> Cow<'_, str> {
+    let belongs = |b: u8| b.is_ascii_alphanumeric() || b == b'.' || b == b'_';
+    let mut out = String::new();
+    let (mut copied, mut from) = (0, 0);
+    for word in text.as_bytes().chunk_by(|a, b| belongs(*a) == belongs(*b)) {
+        let range = from..from + word.len();
+        from = range.end;
+        // The dot behind may end the sentence.
+        let digits = text[range.clone()].trim_end_matches('.');
+        if let Some(shorter) = shortened(digits) {
+            out.push_str(&text[copied..range.start]);
+            out.push_str(&shorter);
+            copied = range.start + digits.len();
+        }
+    }
+    if copied == 0 {
+        return Cow::Borrowed(text);
+    }
+    out.push_str(&text[copied..]);
+    Cow::Owned(out)
+}
+
+/// A number of many digits with an exponent, if that is what `digits` is.
+fn shortened(digits: &str) -> Option<String> {
+    let is_digit = |b: u8| b.is_ascii_digit() || b == b'.';
+    if digits.len() <= MOST_DIGITS || !digits.bytes().all(is_digit) {
+        return None;
+    }
+    let value: f64 = digits
+        .parse()
+        .ok()
+        .filter(|value: &f64| value.is_finite())?;
+    let decimals = digits
+        .split_once('.')
+        .map_or(0, |(_, decimals)| decimals.len());
+    let written = format!("{value:.decimals$}") == digits || format!("{value:?}") == digits;
+    (written || whole_part(digits) == value.to_string()).then(|| format!("{value:e}"))
+}
+
+/// The digits before a fraction of zero.
+fn whole_part(digits: &str) -> &str {
+    digits.strip_suffix(".0").unwrap_or(digits)
+}
+
+/// Characters of the longest number between 1e-4 and 1e16 with all its digits: longer ones are
+/// zeros or digits that no floating-point number has.
+const MOST_DIGITS: usize = 22;
+
+/// A number as it was given, to the last digit, but with an exponent where that is shorter: `1e300`
+/// has no 300 zeros.
 pub(crate) fn exact(value: f64) -> String {
     let plain = value.to_string();
     let scientific = format!("{value:e}");
@@ -32,8 +93,16 @@ pub(crate) fn exact(value: f64) -> String {
 /// Digits that read well without an exponent.
 const LONGEST_PLAIN: usize = 12;
 
-fn written_out(text: &str, write: impl Fn(char, &mut String)) -> Cow<'_, str> {
-    if !text.contains(is_obeyed) {
+fn escape(c: char, out: &mut String) {
+    let _ = write!(out, "{}", c.escape_unicode());
+}
+
+fn written_out(
+    text: &str,
+    is_obeyed: impl Fn(char) -> bool,
+    write: impl Fn(char, &mut String),
+) -> Cow<'_, str> {
+    if !text.contains(&is_obeyed) {
         return Cow::Borrowed(text);
     }
     let mut out = String::with_capacity(text.len() + 16);
@@ -47,22 +116,22 @@ fn written_out(text: &str, write: impl Fn(char, &mut String)) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// Whether a character is obeyed and not shown.
+/// Whether a character is obeyed or hidden and not shown: what the standard library does not count
+/// as printable, but spaces of all widths (none is not a width).
 fn is_obeyed(c: char) -> bool {
-    let is_control = c.is_control() && c != '\n' && c != '\t';
-    is_control
-        || matches!(
-            c,
-            '\u{61c}'
-                | '\u{200e}'
-                | '\u{200f}'
-                | '\u{2028}'..='\u{202e}'
-                | '\u{2066}'..='\u{2069}'
-                | '\u{feff}'
-                | '\u{fff9}'..='\u{fffb}'
-                | '\u{fffe}'
-                | '\u{ffff}'
-        )
+    if c.is_ascii() {
+        return c.is_ascii_control() && c != '\n' && c != '\t';
+    }
+    match c {
+        '\u{2028}' | '\u{2029}' => true,
+        space if space.is_whitespace() && !space.is_control() => false,
+        // Accents that combine with what stands before them are printable where something does.
+        _ => {
+            let mut text = String::from("a");
+            text.push(c);
+            text.escape_debug().nth(2).is_some()
+        }
+    }
 }
 
 #[cfg(test)]
@@ -78,6 +147,14 @@ mod tests {
             ("\u{9b}2J\r", "\\u{9b}2J\\u{d}"),
             ("\u{202e}abc\u{2069}", "\\u{202e}abc\\u{2069}"),
             ("\u{0}\u{7f}\u{ffff}", "\\u{0}\\u{7f}\\u{ffff}"),
+            ("no\u{200b}width\u{2060}", "no\\u{200b}width\\u{2060}"),
+            ("soft\u{ad}hyphen\u{e0041}", "soft\\u{ad}hyphen\\u{e0041}"),
+            ("\u{2028}\u{85}", "\\u{2028}\\u{85}"),
+            // Letters, accents, spaces and pictures of all kinds.
+            (
+                "e\u{301} \u{a0}\u{202f}\u{3000}\u{1f600} \u{4e2d}",
+                "e\u{301} \u{a0}\u{202f}\u{3000}\u{1f600} \u{4e2d}",
+            ),
         ] {
             assert_eq!(shown(text), expected);
         }
@@ -99,11 +176,55 @@ mod tests {
     }
 
     #[test]
+    fn names_stay_in_their_line() {
+        assert_eq!(shown_in_line("a\nb\t\u{200b}c"), "a\\u{a}b\\u{9}\\u{200b}c");
+        assert!(matches!(shown_in_line("größe Ω"), Cow::Borrowed(_)));
+    }
+
+    /// As `toml` and `{}` write them, in the midst of sentences.
+    #[test]
+    fn numbers_of_many_digits_are_shortened_wherever_they_stand() {
+        for (value, exponent) in [
+            (1e300, "1e300"),
+            (3.5e-200, "3.5e-200"),
+            (5f64.powi(60), "8.673617379884035e41"),
+            (1.0 / 3.0 * 1e25, "3.3333333333333333e24"),
+        ] {
+            for (text, expected) in [
+                (
+                    format!("number `{value}`, expected"),
+                    format!("number `{exponent}`, expected"),
+                ),
+                (format!("-{value}."), format!("-{exponent}.")),
+                (
+                    format!("[{value}, {value}]"),
+                    format!("[{exponent}, {exponent}]"),
+                ),
+            ] {
+                assert_eq!(short(&text), expected);
+            }
+        }
+        assert_eq!(
+            short(&format!("`{:?}`, {:.1}", 1e20, 1e200)),
+            "`1e20`, 1e200"
+        );
+        assert_eq!(short(&format!("{}.0 {:.9}", 1e300, 2e40)), "1e300 2e40");
+        for kept in [
+            "20261123055350000000000000000001.msh",
+            "20261123055350000000000000000001 20261123055350000000000000000001",
+            "v1000000000000000000000000000000000000000000000000",
+            "0.30000000000000004 1.2.3 12345678901234567890",
+        ] {
+            assert!(matches!(short(kept), Cow::Borrowed(_)), "{kept}");
+        }
+    }
+
+    #[test]
     fn json_stays_json_and_means_the_same() {
-        let text = "\u{9b}31m\u{7f}\u{202e}";
+        let text = "\u{9b}31m\u{7f}\u{202e}\u{e0041}";
         let json = serde_json::to_string(text).unwrap();
         let escaped = shown_json(&json);
-        assert_eq!(escaped, r#""\u009b31m\u007f\u202e""#);
+        assert_eq!(escaped, r#""\u009b31m\u007f\u202e\udb40\udc41""#);
         assert_eq!(serde_json::from_str::<String>(&escaped).unwrap(), text);
     }
 }

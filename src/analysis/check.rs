@@ -4,9 +4,9 @@ use super::zone_choice;
 use crate::assembly::assemble;
 use crate::error::Result;
 use crate::linalg::{self, Backend, Partition, Prediction};
-use crate::model::Model;
+use crate::model::{Model, Pair};
 use crate::results::{Effect, Sizes};
-use crate::scene::Stepping;
+use crate::scene::{Program, Stepping};
 use crate::substructure::ContactCost;
 use serde::Serialize;
 
@@ -23,7 +23,10 @@ pub struct Check {
     pub contact: ContactCost,
     /// Rough time of one factorisation, at the speed that is typical of one core.
     pub predicted_seconds: f64,
-    /// Rough time of the whole run without the estimate of its errors: the factorisation, and the trailing solves of its increments.
+    /// Rough time of the whole run without the estimate of its errors and without the report: mesh
+    /// and assembly, factorisation, yield load, increments, states. On the machine that it was
+    /// fitted to it is within a factor of 3 of what the scenes of `data/scenes` take, but for runs
+    /// that come near a limit load, which may take 50 times as long.
     pub predicted_run_seconds: f64,
     /// The BLAS in use.
     pub blas: String,
@@ -32,42 +35,108 @@ pub struct Check {
 }
 
 /// Floating point operations per second of a supernodal factorisation that the rough time assumes.
-const TYPICAL_FLOPS: f64 = 5e9;
+const TYPICAL_FLOPS: f64 = 7e9;
 /// Nonzeros of the factor that ordering and analysis handle per second.
-const TYPICAL_ANALYSIS: f64 = 2e7;
+const TYPICAL_ANALYSIS: f64 = 2.7e7;
 
-/// Entries of the factor's trailing columns that a trailing solve handles per second: it reads each twice.
-const TYPICAL_SOLVE: f64 = 5e8;
-/// Trailing solves of an increment, measured over the scenes of `data/scenes`: 5 to 9 where the material hardens, and some 30 where
-/// much of it has next to no stiffness left.
-const SOLVES: [f64; 2] = [7.0, 30.0];
+/// What a run takes beside its factorisation, measured over the scenes of `data/scenes` and finer
+/// meshes of the paper's two: seconds to start; for each freedom of making the mesh, the assembly
+/// and the files; for each freedom of the zone of finding first yield; for each freedom and state.
+const START: f64 = 1.5e-3;
+const SETUP: f64 = 0.9e-6;
+const YIELD_LOAD: f64 = 2e-6;
+const STATE: f64 = 4.5e-7;
+/// Of the elastic path, per cube of the pairs: each change of contact goes over their matrix.
+const PATH: f64 = 1.5e-9;
+/// Of a trailing solve with its share of the plastic iteration: to begin with, and for each entry of
+/// the factor's trailing columns.
+const SOLVE: [f64; 2] = [2e-5, 5.5e-10];
+/// Share of the pairs that change their status in an increment of their own while the load goes one
+/// way: where gaps differ (the contact grows pair by pair), and where all are alike.
+const CHANGES: [f64; 2] = [0.7, 0.17];
+/// Trailing solves of an elastoplastic increment: where the material hardens; where it has next to
+/// no stiffness left, in a contact that grows; and where all of it may flow.
+const SOLVES: [f64; 3] = [6.0, 12.0, 30.0];
 /// Plastic modulus over Youngs modulus below which material counts as soft in that sense.
 const SOFT: f64 = 0.1;
 /// Seconds from which on a run is worth a warning before it begins.
 const LONG: f64 = 60.0;
 
-/// Rough number of trailing solves of a run: each pair closes and opens once, each in an increment of its own, or with fixed steps so many to
-/// a target.
-fn solves(model: &Model, plastic: bool) -> f64 {
+/// Rough number of trailing solves of a run.
+fn solves(model: &Model) -> f64 {
     let program = &model.scene.program;
+    let n_targets = program.targets.len() as f64;
+    let pairs_of = |alike: bool| -> f64 {
+        let contacts = model.contacts.iter().map(|c| &model.pairs[c.range.clone()]);
+        let those = contacts.filter(|pairs| gaps_are_alike(pairs) == alike);
+        those.map(|pairs| pairs.len() as f64).sum()
+    };
+    let [growing, alike] = [pairs_of(false), pairs_of(true)];
     let increments = match program.stepping {
-        Stepping::Events => 2.0 * model.pairs.len() as f64,
-        Stepping::Steps => (program.steps * program.targets.len()) as f64,
+        Stepping::Events => n_targets + ways(program) * (CHANGES[0] * growing + CHANGES[1] * alike),
+        Stepping::Steps => program.steps as f64 * n_targets,
     };
-    let soft = model
-        .materials
-        .iter()
-        .zip(&model.may_yield)
-        .any(|(material, may)| {
-            let slope = material.hardening.as_ref().map(|h| h.slope(0.0));
-            *may && slope.is_some_and(|slope| slope < SOFT * material.youngs_modulus)
-        });
-    let each = match (plastic, soft) {
-        (false, _) => 1.0,
-        (true, false) => SOLVES[0],
-        (true, true) => SOLVES[1],
+    let mut yielding = model.materials.iter().zip(&model.may_yield);
+    let soft = yielding.any(|(material, may)| {
+        let slope = material.hardening.as_ref().map(|h| h.slope(0.0));
+        *may && slope.is_some_and(|slope| slope < SOFT * material.youngs_modulus)
+    });
+    let each = match soft {
+        false => SOLVES[0],
+        true if growing > alike => SOLVES[1],
+        true => SOLVES[2],
     };
-    each * (increments + program.targets.len() as f64)
+    each * increments
+}
+
+/// Whether all pairs of a contact would close together.
+pub(super) fn gaps_are_alike(pairs: &[Pair]) -> bool {
+    let span = |of: fn(&Pair) -> f64| {
+        let ends = pairs
+            .iter()
+            .map(of)
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
+                [low.min(value), high.max(value)]
+            });
+        ends[1] - ends[0]
+    };
+    span(|pair| pair.gap) <= 1e-9 * span(|pair| pair.arc)
+}
+
+/// How often the load turns round on its way from zero to the last target, and once.
+fn ways(program: &Program) -> f64 {
+    let (mut at, mut upward, mut count) = (0.0, true, 1.0);
+    for target in &program.targets {
+        let displaced = target.displacement.as_ref().map(|d| d.value.abs());
+        let to = match (target.load_factor, target.half_width) {
+            (Some(factor), _) => factor,
+            // The load of a line contact goes with the square of its width.
+            (_, Some(width)) => width * width,
+            _ => displaced.unwrap_or(1.0),
+        };
+        if to != at && (to > at) != upward {
+            (upward, count) = (!upward, count + 1.0);
+        }
+        at = to;
+    }
+    count
+}
+
+/// Rough seconds of a run whose factorisation takes `factorisation`.
+fn run_seconds(model: &Model, sizes: &Sizes, prediction: &Prediction, factorisation: f64) -> f64 {
+    let n = sizes.freedoms as f64;
+    let states = model.scene.program.targets.len() as f64;
+    let elastic = START
+        + SETUP * n
+        + factorisation
+        + STATE * n * states
+        + PATH * (sizes.contact_pairs as f64).powi(3);
+    if sizes.zone_elements == 0 {
+        return elastic;
+    }
+    elastic
+        + YIELD_LOAD * sizes.zone_freedoms as f64
+        + solves(model) * (SOLVE[0] + SOLVE[1] * prediction.trailing_nonzeros)
 }
 
 /// Predicts effects and cost of a model; solves nothing.
@@ -111,7 +180,7 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
     let factorisation = prediction.flops / TYPICAL_FLOPS
         + prediction.factor_nonzeros / TYPICAL_ANALYSIS
         + of_contact;
-    let run = factorisation + solves(model, plastic) * prediction.trailing_nonzeros / TYPICAL_SOLVE;
+    let run = run_seconds(model, &sizes, &prediction, factorisation);
     if of_contact > LONG {
         notes.push(format!(
             "{} pairs are joined by bodies: the dense matrices of their contact take about {:.0} min (the cube of their number) and \

@@ -94,6 +94,9 @@ impl Engine<'_> {
             );
         }
         let settings = stepper.settings;
+        if !left.is_finite() || !residual.is_finite() {
+            return Error::analysis(no_number(held, tried, attempt.iterations));
+        }
         Error::analysis(format!(
             "not converged: load factor {held:.9} is the last that was held, at {tried:.9} (the \
              smallest increment, {SMALLEST_CUT:e} of the load step) the out-of-balance force was \
@@ -122,5 +125,31 @@ impl Engine<'_> {
         let softest = self.direction(load.clone());
         self.zone.softening_times(&softest.u, &mut load);
         1.0 - load.dot(&softest.u) / softest.initial.load.dot(&softest.u)
+    }
+}
+
+/// Why an increment was not found whose numbers went beyond all bounds, and what to do.
+fn no_number(held: f64, tried: f64, iterations: usize) -> String {
+    format!(
+        "not converged: load factor {held:.9} is the last that was held, at {tried:.9} (the \
+         smallest increment, {SMALLEST_CUT:e} of the load step) displacements or stresses grew \
+         beyond what a number can hold within {iterations} iterations, so that nothing can be said \
+         of the stiffness that is left. Check loads, target and material for values that are too \
+         large by far, and their units; if they are right, give more increments (program.steps, \
+         or more targets on the way) or another analysis.plastic_iteration"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_beyond_all_bounds_are_told_in_words() {
+        let text = no_number(0.5, 1e300, 7);
+        let message = Error::analysis(text).to_string();
+        assert!(message.contains("at 1e300 "), "{message}");
+        assert!(message.contains("beyond what a number can hold within 7 iterations"));
+        assert!(!message.contains("NaN") && message.contains("units"));
     }
 }

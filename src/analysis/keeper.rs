@@ -3,6 +3,7 @@
 //! Writing one changes nothing in the run, so that results do not depend on whether and how often that is done.
 
 use super::aim::Aim;
+use super::between::Between;
 use super::drive::IncrementReport;
 use super::engine::Engine;
 use super::packed::Ascending;
@@ -16,7 +17,7 @@ use super::zone_fit::Spread;
 use crate::checkpoint::{PartId, Store};
 use crate::error::Result;
 use crate::progress::{Flow, Observer};
-use crate::results::{HistoryRow, Results, YieldPoint};
+use crate::results::{HistoryRow, PathPoint, Results, YieldPoint};
 use serde::{Deserialize, Serialize};
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
@@ -62,6 +63,9 @@ pub(super) struct RunRecord {
     pub(super) states: Vec<PartId>,
     /// The rows since.
     pub(super) history: Vec<HistoryRow>,
+    /// The points between them, and the last row.
+    pub(super) path: Vec<PathPoint>,
+    pub(super) between: Between,
     /// Where the way to the target at hand began, and whether the zone was the one at hand.
     pub(super) start: Option<(PartId, bool)>,
 }
@@ -124,10 +128,20 @@ impl Keeper {
         results: &Results,
         kept: Kept,
         place: Place,
+        between: &Between,
     ) -> Result<()> {
+        let path_of = |rows: std::ops::Range<usize>| -> Vec<PathPoint> {
+            let points = results.path.iter();
+            let points = points.filter(|point| rows.contains(&(point.increment - 1)));
+            points.copied().collect()
+        };
         if results.states.len() > self.n_states {
             let rows = self.n_rows..self.rows_of_states;
-            let part = (&results.states[self.n_states..], &results.history[rows]);
+            let part = (
+                &results.states[self.n_states..],
+                &results.history[rows.clone()],
+                path_of(rows),
+            );
             self.states.push(self.store.add(&part)?);
             self.n_states = results.states.len();
             self.n_rows = self.rows_of_states;
@@ -166,6 +180,8 @@ impl Keeper {
             resumed: results.resumed,
             states: self.states.clone(),
             history: results.history[self.n_rows..].to_vec(),
+            path: path_of(self.n_rows..results.history.len()),
+            between: between.clone(),
             start: start.map(|(start, part)| (part, start.saved.is_of_zone(engine))),
         };
         let mut in_use = self.states.clone();
@@ -213,6 +229,7 @@ pub(super) struct Recorder<'r, 'o> {
     pub(super) results: &'r mut Results,
     pub(super) observer: &'r RefCell<&'r mut (dyn Observer + 'o)>,
     pub(super) progress: Behind<'r>,
+    pub(super) between: &'r mut Between,
     pub(super) keeper: Option<&'r mut Keeper>,
     pub(super) kept: Kept<'r>,
     pub(super) place: &'r Place,
@@ -227,6 +244,12 @@ impl Watcher for Recorder<'_, '_> {
         let row = row(engine, report, self.results.history.len() + 1);
         let mut observer = self.observer.borrow_mut();
         let flow = observer.increment(&row, self.progress.fraction(row.alpha));
+        // Rows may have been taken back since.
+        let (path, rows) = (&mut self.results.path, self.results.history.len());
+        while path.last().is_some_and(|point| point.increment > rows) {
+            path.pop();
+        }
+        path.extend(self.between.advance(engine, &row));
         self.results.history.push(row);
         let goes_on = flow == Flow::Continue && !observer.stop_requested();
         if let Some(keeper) = &mut self.keeper {
@@ -253,7 +276,7 @@ impl Watcher for Recorder<'_, '_> {
         let mut kept = self.kept;
         let spent = self.since.elapsed().as_secs_f64();
         kept.standing.seconds.add_drive(plastic, spent);
-        let outcome = keeper.write(engine, self.results, kept, place);
+        let outcome = keeper.write(engine, self.results, kept, place, self.between);
         note_failure(
             keeper,
             outcome,
@@ -321,7 +344,8 @@ impl Run<'_, '_> {
             spread: self.spread.as_ref(),
             start: None,
         };
-        let outcome = keeper.write(&self.engine, &self.results, kept, Place::default());
+        let place = Place::default();
+        let outcome = keeper.write(&self.engine, &self.results, kept, place, &self.between);
         note_failure(keeper, outcome, &mut *self.observer, &mut self.results);
     }
 }

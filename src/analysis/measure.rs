@@ -509,7 +509,7 @@ mod tests {
         let open: Vec<bool> = force.iter().map(|f| *f == 0.0).collect();
         let pressure = pressures(&model, &force);
         assert!(on_axis(&model, &model.contacts[0], &pressure).unwrap() < 0.0);
-        let states = pair_states(&model, &vec![0.5; n], &force, &open);
+        let states = pair_states(&model, &vec![0.5; n], &force, &open, |_| 0.5);
         assert_eq!((states.len(), states[0].pair), (n + 1, n));
         assert_eq!((states[0].pressure, states[0].status), (0.0, Status::Open));
         assert!((states[0].gap - 0.5).abs() <= 1e-14);

@@ -12,7 +12,7 @@
 //! | `program`, `targets`, `drive`, `stepping`, `hit` | from target to target, loading and unloading | 5.1, 5.2 |
 //! | `outgrown` | contact that reaches the end of its candidates | |
 //! | `keeper`, `resume`, `place`, `standing`, `record`, `saved`, `packed` | checkpoints, and going on from them | |
-//! | `aim` | how much of the way to a target lies behind | |
+//! | `aim`, `between` | how much of the way to a target lies behind; the path between increments | |
 //! | `measure`, `contact_edge`, `dent`, `state`, `quality` | pressure, half width, dent, quality of a state | 5 |
 //! | `stress_field`, `stresses` | stresses of all elements, the forces they exert | |
 //! | `indicator` | discretisation error of the stresses, element by element | |
@@ -20,6 +20,7 @@
 
 mod acceleration;
 mod aim;
+mod between;
 mod check;
 mod collapse;
 mod contact_edge;

@@ -1,6 +1,7 @@
 //! The load program: first yield, then target after target.
 
 use super::aim::Aim;
+use super::between::Between;
 use super::drive::{Arrival, Monitor, Stepper, stopped};
 use super::engine::{Engine, LoadPoint};
 use super::keeper::{Behind, Keeper, Kept, Recorder, Start};
@@ -73,6 +74,8 @@ pub(super) struct Run<'m, 'o> {
     pub(super) aim: Aim,
     /// Share of the load program that lies behind, as far as it was reported: it never falls.
     pub(super) fraction: f64,
+    /// The last row of the history, to see the path from there.
+    pub(super) between: Between,
     /// Where the way to the target at hand began: to be gone again with a wider zone.
     pub(super) start: Option<Start>,
     /// Where the run is on its way.
@@ -130,6 +133,7 @@ impl<'m, 'o> Run<'m, 'o> {
             },
             aim: Aim::Nothing,
             fraction: 0.0,
+            between: Between::default(),
             start: None,
             place: Place::default(),
             resumed: None,
@@ -332,6 +336,7 @@ impl<'m, 'o> Run<'m, 'o> {
                     done,
                     n_targets,
                 },
+                between: &mut self.between,
                 keeper: self.keeper.as_mut(),
                 kept: Kept {
                     standing: self.standing,

@@ -14,7 +14,7 @@ use crate::error::{Error, Result};
 use crate::linalg::Backend;
 use crate::model::Model;
 use crate::progress::Observer;
-use crate::results::{HistoryRow, Results, State};
+use crate::results::{HistoryRow, PathPoint, Results, State};
 use std::time::Instant;
 
 impl<'m, 'o> Run<'m, 'o> {
@@ -44,12 +44,15 @@ impl<'m, 'o> Run<'m, 'o> {
             ..Results::default()
         };
         for part in &record.states {
-            let (states, rows): (Vec<State>, Vec<HistoryRow>) = store.part_of(*part)?;
+            let (states, rows, path): (Vec<State>, Vec<HistoryRow>, Vec<PathPoint>) =
+                store.part_of(*part)?;
             results.states.extend(states);
             results.history.extend(rows);
+            results.path.extend(path);
         }
         let rows_of_states = results.history.len();
         results.history.extend(record.history);
+        results.path.extend(record.path);
         let (elements, guard) = record.engine.choice();
         let start = match record.start {
             Some((part, same_zone)) => {
@@ -120,6 +123,7 @@ impl<'m, 'o> Run<'m, 'o> {
             standing,
             aim: Aim::Nothing,
             fraction: standing.done as f64 / n_targets.max(1) as f64,
+            between: record.between,
             keeper: Some(keeper),
             start,
             place: Place {

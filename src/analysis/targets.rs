@@ -1,12 +1,13 @@
 //! Targets: from the current load factor to the next state that the program asks for.
 
 use super::aim::Aim;
+use super::check::gaps_are_alike;
 use super::drive::{Arrival, Monitor, stopped};
 use super::engine::Engine;
 use super::place::Search;
 use super::program::{DOUBLINGS, Run};
 use crate::error::{Error, Result};
-use crate::scene::{Direction, DisplacementTarget, Target};
+use crate::scene::{Direction, DisplacementTarget, Kind, Stepping, Target};
 
 impl Run<'_, '_> {
     /// Ends of the straight pieces from the current load factor to `alpha`: the kinks of the loads' histories in between.
@@ -74,7 +75,22 @@ impl Run<'_, '_> {
 
     fn aim_at_factor(&mut self, to: f64) {
         let from = self.engine.at.alpha;
-        self.aim = Aim::Factor { from, to };
+        let power = self.changes_by_load();
+        self.aim = Aim::Factor { from, to, power };
+    }
+
+    /// Power of the load in which changes of contact lie evenly: that of the width of Hertz'
+    /// contacts where the contact grows pair by pair.
+    fn changes_by_load(&self) -> f64 {
+        let model = self.model();
+        let mut contacts = model.contacts.iter().map(|c| &model.pairs[c.range.clone()]);
+        let grows = model.scene.program.stepping == Stepping::Events
+            && contacts.any(|pairs| !gaps_are_alike(pairs));
+        match (grows, model.kind) {
+            (false, _) => 1.0,
+            (true, Kind::Axisymmetric) => 1.0 / 3.0,
+            (true, _) => 0.5,
+        }
     }
 
     pub(super) fn reach(&mut self, target: &Target, label: &str) -> Result<()> {

@@ -268,3 +268,43 @@ fn a_search_ends_with_the_error_of_what_it_looks_at() {
         assert!(error.source().is_some());
     }
 }
+
+/// Progress covers the whole program, and each leg about as it takes time: the pairs of a ball that
+/// is let go open one after the other down to the smallest loads.
+#[test]
+fn progress_is_done_with_the_last_increment_only() {
+    struct Fractions(Vec<f64>);
+    impl crate::progress::Observer for Fractions {
+        fn increment(
+            &mut self,
+            _: &crate::results::HistoryRow,
+            fraction: f64,
+        ) -> crate::progress::Flow {
+            self.0.push(fraction);
+            crate::progress::Flow::Continue
+        }
+    }
+    let root = env!("CARGO_MANIFEST_DIR");
+    let path = format!("{root}/data/scenes/ball_on_half_space.toml");
+    let changes = [
+        "program.targets=[{ yield = true }, { load_factor = 8.0 }, { load_factor = 0.0 }]",
+        "mesh.cylinder_on_half_plane.resolution=8",
+    ];
+    let scene = Scene::load_with(path, &changes.map(str::to_string)).unwrap();
+    let mut analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::default()).unwrap();
+    let mut seen = Fractions(Vec::new());
+    let results = analysis.run(&mut seen).unwrap();
+    let [before, last] = seen.0[seen.0.len() - 2..] else {
+        panic!("{:?}", seen.0)
+    };
+    assert!(before < 0.995 && last == 1.0, "{:?}", seen.0);
+    assert!(seen.0.is_sorted());
+    // Half of the increments of the last leg lie behind at about half of its share.
+    let top = results
+        .history
+        .iter()
+        .rposition(|row| row.alpha == 8.0)
+        .unwrap();
+    let half = seen.0[(top + results.history.len()) / 2];
+    assert!((0.72..0.95).contains(&half), "{half}");
+}

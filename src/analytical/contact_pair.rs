@@ -18,8 +18,9 @@ pub fn contact_modulus(young1: f64, poisson1: f64, young2: f64, poisson2: f64) -
 
 /// Relative radius `R = [1/R1 + 1/R2]^-1` of two surfaces that touch.
 ///
-/// `f64::INFINITY` is a plane, a negative radius a hollow (a ball in a socket). Where the hollow is the
-/// tighter one the result is negative and the bodies do not touch in a point: constructors reject it.
+/// `f64::INFINITY` is a plane, a negative radius a hollow (a ball in a socket). Where the hollow is
+/// the tighter one the result is negative and the bodies do not touch in a point: constructors
+/// reject it.
 ///
 /// # Source
 /// K. L. Johnson, *Contact Mechanics*, Cambridge 1985, p. 85 and p. 100.

@@ -11,36 +11,36 @@ use std::sync::OnceLock;
 
 /// Frictionless disc in a hole of the same diameter and material, remote tension `S` along `x`.
 ///
-/// The hole closes on the disc round the two poles of the `y` axis and leaves it elsewhere. The contact
-/// recedes: its half angle `e` is 19.625 degrees from the first load on, whatever the tension, modulus,
-/// Poisson's ratio and plane; every stress is proportional to `S`.
+/// The hole closes on the disc round the two poles of the `y` axis and leaves it elsewhere. The
+/// contact recedes: its half angle `e` is 19.625 degrees from the first load on, whatever the
+/// tension, modulus, Poisson's ratio and plane; every stress is proportional to `S`.
 ///
 /// # Equations
 /// With `t` the angle from the pole and `p(t) = sum q_n cos n t` over even `n`, Muskhelishvili's
-/// potentials of a disc and of a hole under a radial pressure give the gap (`E*` the contact modulus of
-/// the equal bodies, `a` the radius)
+/// potentials of a disc and of a hole under a radial pressure give the gap (`E*` the contact
+/// modulus of the equal bodies, `a` the radius)
 ///
 /// ```text
 /// E* g(t)/(2 a) = S/4 (1 - 2 cos 2t) + q_0/2 + sum_{n>=2} n/(n^2-1) q_n cos n t.
 /// ```
 ///
-/// Zero gap on `|t| < e`, acted on by `d^2/dt^2 + 1`, is a Hilbert transform, finite in `tan t`. Inverted
-/// with `p` zero at both ends it is the closed form
+/// Zero gap on `|t| < e`, acted on by `d^2/dt^2 + 1`, is a Hilbert transform, finite in `tan t`.
+/// Inverted with `p` zero at both ends it is the closed form
 ///
 /// ```text
 /// p(t) = (q_0/2 + S/4) atanh w + (3/2) S w cos^2 t,        w = sqrt(1 - cos^2 e/cos^2 t),
 /// q_0 (1 - L/2) = S/4 L + 3/4 S sin^2 e,                   L = -ln cos e,
 /// ```
 ///
-/// and `e` is the root of the one condition the differentiation loses, `g(0) = 0`. The stress fields
-/// follow from `F(z) = q_0 + sum q_n z^n`, also closed. So nothing here is a table.
+/// and `e` is the root of the one condition the differentiation loses, `g(0) = 0`. The stress
+/// fields follow from `F(z) = q_0 + sum q_n z^n`, also closed. So nothing here is a table.
 ///
 /// Stresses positive in tension, pressures in compression; units consistent, any.
 ///
 /// # Source
 /// The problem: N. Endahl, section 5.2; M. Stippes, Proc. 4th U.S. Nat. Congr. Appl. Mech. (1962) 799. The
-/// solution is derived here as above from N. I. Muskhelishvili, *Some Basic Problems of the Mathematical
-/// Theory of Elasticity*, 1953, par. 54-56.
+/// solution is derived here as above from N. I. Muskhelishvili, *Some Basic Problems of the
+/// Mathematical Theory of Elasticity*, 1953, par. 54-56.
 ///
 /// ```
 /// use brinell::analytical::{DiscInPlate, Plane};
@@ -83,22 +83,22 @@ impl DiscInPlate {
         self.half_angle
     }
 
-    /// Contact pressure at the angle `from_pole` (radians from the `y` axis) under the remote tension
-    /// `tension >= 0`; 0 outside the contact. 0.60908 S at the pole.
+    /// Contact pressure at the angle `from_pole` (radians from the `y` axis) under the remote
+    /// tension `tension >= 0`; 0 outside the contact. 0.60908 S at the pole.
     pub fn pressure(&self, from_pole: f64, tension: f64) -> f64 {
         tension * unit_pressure(from_pole, self.half_angle, self.mean_pressure)
     }
 
-    /// Force by which the plate presses the disc at one pole, per thickness: the resultant of the pressure
-    /// along `y`.
+    /// Force by which the plate presses the disc at one pole, per thickness: the resultant of the
+    /// pressure along `y`.
     pub fn pole_force(&self, tension: f64) -> f64 {
         let e = self.half_angle;
         let half = integrate(|t| self.pressure(t, tension) * t.cos(), 0.0, e);
         2.0 * self.radius * half
     }
 
-    /// Gap between disc and hole at the angle `from_pole`, 0 in the contact. `contact_modulus` is `E*` of
-    /// the pair: half of [`Plane::modulus`] for the equal bodies. Length.
+    /// Gap between disc and hole at the angle `from_pole`, 0 in the contact. `contact_modulus` is
+    /// `E*` of the pair: half of [`Plane::modulus`] for the equal bodies. Length.
     pub fn gap(&self, from_pole: f64, tension: f64, contact_modulus: f64) -> f64 {
         // Fold to the quarter turn next to the pole: the state is symmetric in both axes.
         let t = (from_pole.sin().abs()).atan2(from_pole.cos().abs());
@@ -150,8 +150,8 @@ impl DiscInPlate {
         ]
     }
 
-    /// Remote tension at which the plate first yields after von Mises, at the edge of the hole at the
-    /// pole: 0.3392 Y in plane stress, 0.3566 Y in plane strain with `nu = 0.3`.
+    /// Remote tension at which the plate first yields after von Mises, at the edge of the hole at
+    /// the pole: 0.3392 Y in plane stress, 0.3566 Y in plane strain with `nu = 0.3`.
     ///
     /// # Errors
     /// Where Poisson's ratio lies outside (-1, 0.5] or the yield stress is not finite and positive.
@@ -163,7 +163,8 @@ impl DiscInPlate {
         Ok(yield_stress / von_mises([radial, hoop, out_of_plane], 0.0))
     }
 
-    /// The scaled point `(x, y)/radius` as a complex number whose real axis passes through the poles.
+    /// The scaled point `(x, y)/radius` as a complex number whose real axis passes through the
+    /// poles.
     fn pole_frame(&self, x: f64, y: f64) -> Complex<f64> {
         Complex::new(y, -x) / self.radius
     }
@@ -202,7 +203,8 @@ fn edge_factor(distance: f64) -> f64 {
     }
 }
 
-/// Stresses in `x`, `y` from `s_11 + s_22` and `s_22 - s_11 + 2 i s_12` in the pole frame (`1 = y`, `2 = -x`).
+/// Stresses in `x`, `y` from `s_11 + s_22` and `s_22 - s_11 + 2 i s_12` in the pole frame (`1 = y`,
+/// `2 = -x`).
 fn turned(sum: f64, deviator: Complex<f64>, tension: f64) -> [f64; 3] {
     let (s11, s22) = (0.5 * (sum - deviator.re), 0.5 * (sum + deviator.re));
     [tension * s22, tension * s11, -0.5 * tension * deviator.im]
@@ -218,7 +220,8 @@ fn mean_pressure(e: f64) -> f64 {
 fn unit_pressure(t: f64, e: f64, q0: f64) -> f64 {
     let (s, c) = t.sin_cos();
     let c2 = c * c;
-    // cos^2 t - cos^2 e = sin(e - t) sin(e + t), without cancellation at the edge; the period is pi.
+    // cos^2 t - cos^2 e = sin(e - t) sin(e + t), without cancellation at the edge; the period is
+    // pi.
     let near = s.abs().atan2(c.abs());
     if near >= e {
         return 0.0;
@@ -234,7 +237,8 @@ fn half_angle() -> f64 {
     *FOUND.get_or_init(|| root(pole_gap, 1e-3, PI / 6.0))
 }
 
-/// `E* g/(2 a S)` at the pole, by the closed Fourier sums of `p`, as an integral of a smooth function.
+/// `E* g/(2 a S)` at the pole, by the closed Fourier sums of `p`, as an integral of a smooth
+/// function.
 fn pole_gap(e: f64) -> f64 {
     let (s2, c2) = (e.sin().powi(2), e.cos().powi(2));
     let log = -e.cos().ln();
@@ -258,9 +262,11 @@ fn pole_gap(e: f64) -> f64 {
     -0.25 - 0.5 * q0 + (0.5 * q0 + 0.25) * j1 + 1.5 * j2
 }
 
-/// `E* g/(2 a S)` at the angle `t` in `[0, pi/2]`, by the integral of the pressure over the contact.
+/// `E* g/(2 a S)` at the angle `t` in `[0, pi/2]`, by the integral of the pressure over the
+/// contact.
 fn unit_gap(t: f64, e: f64, q0: f64) -> f64 {
-    // sum_{n even} n/(n^2-1) cos n x = cos x ln|cot(x/2)| - 1/2; the logarithm at x = 0 is put at an end.
+    // sum_{n even} n/(n^2-1) cos n x = cos x ln|cot(x/2)| - 1/2; the logarithm at x = 0 is put at
+    // an end.
     let kernel = |x: f64| x.cos() * (0.5 * x).tan().abs().ln();
     let right = |s: f64| unit_pressure(t + s, e, q0) * kernel(s);
     let left = |s: f64| unit_pressure(t - s, e, q0) * kernel(s);

@@ -72,7 +72,8 @@ fn rims_carry_the_pressure_and_no_shear() {
 #[test]
 fn fields_are_in_equilibrium_and_compatible() {
     let d = disc();
-    // Central differences, h^2 times third derivatives of order 10; second differences lose eps/h^2.
+    // Central differences, h^2 times third derivatives of order 10; second differences lose
+    // eps/h^2.
     let h = 1e-4;
     let disc_at = |x, y| d.disc_stress(x, y, 1.0);
     let plate_at = |x, y| d.plate_stress(x, y, 1.0);

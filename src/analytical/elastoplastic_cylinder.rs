@@ -8,14 +8,15 @@ use crate::error::Result;
 /// Elastic-perfectly plastic thick cylinder in plane strain, von Mises, exact for `nu = 1/2`.
 ///
 /// The plastic front stands at `c` under the pressure `p(c) = k [2 ln(c/a) + 1 - c^2/b^2]`,
-/// `k = Y/sqrt(3)`. In the plastic part `s_rr = -k [2 ln(c/r) + 1 - c^2/b^2]`, `s_tt = s_rr + 2 k`; outside
-/// `s_rr = -k c^2 (1/r^2 - 1/b^2)`, `s_tt = k c^2 (1/r^2 + 1/b^2)`; everywhere `s_zz = (s_rr + s_tt)/2` and,
-/// the volume being constant, `u = 3 k c^2/(2 E r)`. The elastic Poisson ratio of the exact solution is 1/2;
-/// below that it is close, not exact. Units consistent, any; displacement outwards.
+/// `k = Y/sqrt(3)`. In the plastic part `s_rr = -k [2 ln(c/r) + 1 - c^2/b^2]`, `s_tt = s_rr + 2 k`;
+/// outside `s_rr = -k c^2 (1/r^2 - 1/b^2)`, `s_tt = k c^2 (1/r^2 + 1/b^2)`; everywhere
+/// `s_zz = (s_rr + s_tt)/2` and, the volume being constant, `u = 3 k c^2/(2 E r)`. The elastic
+/// Poisson ratio of the exact solution is 1/2; below that it is close, not exact. Units consistent,
+/// any; displacement outwards.
 ///
 /// # Source
-/// R. Hill, *The Mathematical Theory of Plasticity*, Oxford 1950, ch. V par. 2, pp. 106-114; W. Prager,
-/// P. G. Hodge, *Theory of Perfectly Plastic Solids*, 1951, par. 15-17.
+/// R. Hill, *The Mathematical Theory of Plasticity*, Oxford 1950, ch. V par. 2, pp. 106-114; W.
+/// Prager, P. G. Hodge, *Theory of Perfectly Plastic Solids*, 1951, par. 15-17.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ElastoplasticCylinder {
     /// Inner radius `a`.
@@ -69,8 +70,8 @@ impl ElastoplasticCylinder {
     /// Radius of the plastic front under `pressure`; the inner radius while all is elastic.
     ///
     /// # Errors
-    /// Where the pressure is negative or not a number ([`Input`](crate::ErrorKind::Input)) or above collapse
-    /// ([`Collapse`](crate::ErrorKind::Collapse)).
+    /// Where the pressure is negative or not a number ([`Input`](crate::ErrorKind::Input)) or above
+    /// collapse ([`Collapse`](crate::ErrorKind::Collapse)).
     pub fn plastic_front(&self, pressure: f64) -> Result<f64> {
         let wall = [self.inner_radius, self.outer_radius];
         plastic_front("elastoplastic cylinder", pressure, wall, |front| {
@@ -114,8 +115,8 @@ impl ElastoplasticCylinder {
     /// Residual stresses `[s_rr, s_tt, s_zz]` after `pressure` has been taken off (autofrettage).
     ///
     /// # Errors
-    /// As [`plastic_front`](Self::plastic_front), and where the pressure exceeds twice the yield pressure:
-    /// the bore then yields again in unloading.
+    /// As [`plastic_front`](Self::plastic_front), and where the pressure exceeds twice the yield
+    /// pressure: the bore then yields again in unloading.
     pub fn residual_stress(&self, r: f64, pressure: f64) -> Result<[f64; 3]> {
         let loaded = self.stress(r, pressure)?;
         refuse_reverse_yield("elastoplastic cylinder", pressure, self.yield_pressure())?;

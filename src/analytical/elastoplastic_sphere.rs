@@ -4,10 +4,11 @@ use super::domain::{between, poisson as check_poisson, positive};
 use crate::error::Result;
 use std::f64::consts::PI;
 
-/// Elastic-perfectly plastic ball on a rigid flat, or rigid-plane equivalent, as the fitted laws take it.
+/// Elastic-perfectly plastic ball on a rigid flat, or rigid-plane equivalent, as the fitted laws
+/// take it.
 ///
-/// The laws differ among each other by some percent: they are bands for a comparison, not exact values.
-/// Units consistent, any.
+/// The laws differ among each other by some percent: they are bands for a comparison, not exact
+/// values. Units consistent, any.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ElastoplasticSphere {
     /// Relative radius `R`.
@@ -45,7 +46,8 @@ impl ElastoplasticSphere {
     /// A ball of relative radius `radius`.
     ///
     /// # Errors
-    /// Unless the radius, modulus and yield stress are finite and positive and `-1 < poisson <= 1/2`.
+    /// Unless the radius, modulus and yield stress are finite and positive and
+    /// `-1 < poisson <= 1/2`.
     pub fn new(radius: f64, contact_modulus: f64, poisson: f64, yield_stress: f64) -> Result<Self> {
         let what = "elastoplastic sphere";
         Ok(ElastoplasticSphere {
@@ -62,11 +64,12 @@ impl ElastoplasticSphere {
         self.interference_at_pressure((0.454 + 0.41 * self.poisson) * 2.8 * self.yield_stress)
     }
 
-    /// Load and area at `interference` after Kogut and Etsion, fits to finite elements. With `x` the
-    /// interference over that at first yield and `P_c`, `A_c` Hertz's values there:
+    /// Load and area at `interference` after Kogut and Etsion, fits to finite elements. With `x`
+    /// the interference over that at first yield and `P_c`, `A_c` Hertz's values there:
     ///
     /// `x <= 1`: Hertz; `1 < x <= 6`: `P/P_c = 1.03 x^1.425`, `A/A_c = 0.93 x^1.136`;
-    /// `6 < x <= 110`: `P/P_c = 1.40 x^1.263`, `A/A_c = 0.94 x^1.146`. The pieces do not quite join.
+    /// `6 < x <= 110`: `P/P_c = 1.40 x^1.263`, `A/A_c = 0.94 x^1.146`. The pieces do not quite
+    /// join.
     ///
     /// # Errors
     /// Where the interference is negative, not a number or beyond `x = 110`, the end of the fit.
@@ -94,15 +97,16 @@ impl ElastoplasticSphere {
         self.interference_at_pressure(self.jackson_green_constraint() * self.yield_stress)
     }
 
-    /// Load and area at `interference` after Jackson and Green, fits to finite elements. With `x` as above:
+    /// Load and area at `interference` after Jackson and Green, fits to finite elements. With `x`
+    /// as above:
     ///
     /// `x <= 1.9`: Hertz; beyond, `A/A_c = x (x/1.9)^B`, `B = 0.14 exp(23 Y/E*)`,
     /// `P/P_c = exp(-x^(5/12)/4) x^(3/2) + 4 H_G/(C Y) [1 - exp(-x^(5/9)/25)] x`,
     /// `H_G/Y = 2.84 [1 - exp(-0.82 (a/R)^-0.7)]` with the contact radius `a`.
     ///
     /// # Errors
-    /// Where the interference is negative or not a number, or the contact radius exceeds `0.41 R`, the end
-    /// of the fit.
+    /// Where the interference is negative or not a number, or the contact radius exceeds `0.41 R`,
+    /// the end of the fit.
     ///
     /// # Source
     /// R. L. Jackson, I. Green, J. Tribol. 127 (2005) 343-354, DOI 10.1115/1.1866166.
@@ -136,13 +140,13 @@ impl ElastoplasticSphere {
     /// `p = (2/3) Y [1 + ln(E* a/(3 Y R))]`.
     ///
     /// A hemispherical core of radius `a` under hydrostatic pressure drives the plastic front of an
-    /// infinite incompressible [`ThickSphere`](super::ThickSphere), `(c/a)^3 = E* a/(3 Y R)`. A model, not a
-    /// solution: for the range between first yield (about 1.1 Y) and full plasticity (about 3 Y); below
-    /// `E* a/(Y R)` of about 5.5 it falls under the pressure of first yield.
+    /// infinite incompressible [`ThickSphere`](super::ThickSphere), `(c/a)^3 = E* a/(3 Y R)`. A
+    /// model, not a solution: for the range between first yield (about 1.1 Y) and full plasticity
+    /// (about 3 Y); below `E* a/(Y R)` of about 5.5 it falls under the pressure of first yield.
     ///
     /// # Source
-    /// K. L. Johnson, *Contact Mechanics*, Cambridge 1985, par. 6.3, pp. 171-175; J. Mech. Phys. Solids 18
-    /// (1970) 115-126.
+    /// K. L. Johnson, *Contact Mechanics*, Cambridge 1985, par. 6.3, pp. 171-175; J. Mech. Phys.
+    /// Solids 18 (1970) 115-126.
     pub fn cavity_mean_pressure(&self, contact_radius: f64) -> f64 {
         let strain = self.contact_modulus * contact_radius / (self.yield_stress * self.radius);
         2.0 / 3.0 * self.yield_stress * (1.0 + (strain / 3.0).ln())
@@ -254,8 +258,8 @@ mod tests {
         let front = a * (1e5_f64 * a / (3.0 * 500.0 * 10.0)).cbrt();
         let body = ThickSphere::new(a, 1e6 * a, 1e5, 0.5, 500.0).unwrap();
         assert!((s.cavity_mean_pressure(a) / body.pressure(front) - 1.0).abs() < 1e-14);
-        // The front follows from conservation of volume: the wall of the core moves by a/(2 R) per growth
-        // of a, at fixed material radius r = a with c/a constant (so dc = c/a da).
+        // The front follows from conservation of volume: the wall of the core moves by a/(2 R) per
+        // growth of a, at fixed material radius r = a with c/a constant (so dc = c/a da).
         let h = 1e-5;
         let at = |c: f64| body.displacement(a, body.pressure(c)).unwrap();
         let rate = (at(front * (1.0 + h)) - at(front * (1.0 - h))) / (2.0 * h * a);

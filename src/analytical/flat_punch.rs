@@ -6,14 +6,15 @@ use std::f64::consts::PI;
 
 /// Smooth flat rigid punch of width `2 b` on a half plane in plane strain.
 ///
-/// Elastic: `p(x) = P/(pi sqrt(b^2 - x^2))`, infinite at the corners, so a real body yields there from the
-/// first load on. Perfectly plastic: the mean pressure cannot exceed `(2 + pi) k`, `k` the yield stress in
-/// shear (`Y/sqrt(3)` after von Mises, `Y/2` after Tresca), rough or smooth. Units consistent, any.
+/// Elastic: `p(x) = P/(pi sqrt(b^2 - x^2))`, infinite at the corners, so a real body yields there
+/// from the first load on. Perfectly plastic: the mean pressure cannot exceed `(2 + pi) k`, `k` the
+/// yield stress in shear (`Y/sqrt(3)` after von Mises, `Y/2` after Tresca), rough or smooth. Units
+/// consistent, any.
 ///
 /// # Source
 /// Elastic: K. L. Johnson, *Contact Mechanics*, Cambridge 1985, par. 2.8, eq. (2.64), p. 38. Limit:
-/// L. Prandtl, Nachr. Ges. Wiss. Goettingen (1920) 74; R. Hill, *The Mathematical Theory of Plasticity*,
-/// Oxford 1950, pp. 254-255.
+/// L. Prandtl, Nachr. Ges. Wiss. Goettingen (1920) 74; R. Hill, *The Mathematical Theory of
+/// Plasticity*, Oxford 1950, pp. 254-255.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FlatPunch {
     /// Half width `b`.
@@ -55,14 +56,15 @@ impl FlatPunch {
 
 /// Flat rigid punch of circular section on a half space.
 ///
-/// Elastic: `p(r) = P/(2 pi a sqrt(a^2 - r^2))`, penetration `P/(2 a E*)`. Perfectly plastic after Tresca:
-/// mean pressure 5.69 k for a smooth punch, 6.05 k for a rough one, `k = Y/2`; both are published numerical
-/// solutions of the slip-line equations, to the digits given. Units consistent, any.
+/// Elastic: `p(r) = P/(2 pi a sqrt(a^2 - r^2))`, penetration `P/(2 a E*)`. Perfectly plastic after
+/// Tresca: mean pressure 5.69 k for a smooth punch, 6.05 k for a rough one, `k = Y/2`; both are
+/// published numerical solutions of the slip-line equations, to the digits given. Units consistent,
+/// any.
 ///
 /// # Source
-/// Elastic: K. L. Johnson, *Contact Mechanics*, Cambridge 1985, par. 3.4, eqs (3.34), (3.36), pp. 59-60.
-/// Smooth: R. T. Shield, Proc. R. Soc. A 233 (1955) 267-287. Rough: G. Eason, R. T. Shield, ZAMP 11 (1960)
-/// 33-43.
+/// Elastic: K. L. Johnson, *Contact Mechanics*, Cambridge 1985, par. 3.4, eqs (3.34), (3.36), pp.
+/// 59-60. Smooth: R. T. Shield, Proc. R. Soc. A 233 (1955) 267-287. Rough: G. Eason, R. T. Shield,
+/// ZAMP 11 (1960) 33-43.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CircularPunch {
     /// Radius `a`.

@@ -8,11 +8,12 @@ use crate::error::Result;
 /// Frictionless line contact of elastic cylinders with parallel axes in plane strain.
 ///
 /// Half width `b = sqrt(4 P R/(pi E*))`, pressure `p(x) = p0 sqrt(1 - x^2/b^2)` with
-/// `p0 = sqrt(P E*/(pi R))`, load `P = pi b p0/2` per length. Valid for `b` small beside the radii and the
-/// size of the bodies. The approach of the bodies is *not* given: in the plane it depends on their size.
+/// `p0 = sqrt(P E*/(pi R))`, load `P = pi b p0/2` per length. Valid for `b` small beside the radii
+/// and the size of the bodies. The approach of the bodies is *not* given: in the plane it depends
+/// on their size.
 ///
-/// Units are consistent, any: `radius` a length, `contact_modulus` a stress, load a force per length.
-/// Stresses are positive in tension, pressures in compression.
+/// Units are consistent, any: `radius` a length, `contact_modulus` a stress, load a force per
+/// length. Stresses are positive in tension, pressures in compression.
 ///
 /// # Source
 /// K. L. Johnson, *Contact Mechanics*, Cambridge 1985, pp. 99-103, eqs (4.43)-(4.49).
@@ -75,14 +76,17 @@ impl HertzLine {
         self.max_pressure(load) * root / half_width
     }
 
-    /// Stresses `[s_xx, s_yy, s_zz, s_xz]` in either body at `x` along the surface and depth `z >= 0`.
+    /// Stresses `[s_xx, s_yy, s_zz, s_xz]` in either body at `x` along the surface and depth
+    /// `z >= 0`.
     ///
-    /// `y` is the axis of the cylinders, where the strain is zero: `s_yy = nu (s_xx + s_zz)`. At the edge
-    /// of the contact itself (`|x| = b`, `z = 0`) all are 0, as the limit along the surface is.
+    /// `y` is the axis of the cylinders, where the strain is zero: `s_yy = nu (s_xx + s_zz)`. At
+    /// the edge of the contact itself (`|x| = b`, `z = 0`) all are 0, as the limit along the
+    /// surface is.
     ///
     /// With `m` and `n` of the signs of `z` and `x` and `m^2 - n^2 = b^2 - x^2 + z^2`, `m n = x z`:
-    /// `s_xx = -(p0/b) [m (1 + (z^2+n^2)/(m^2+n^2)) - 2 z]`, `s_zz = -(p0/b) m (1 - (z^2+n^2)/(m^2+n^2))`,
-    /// `s_xz = -(p0/b) n (m^2-z^2)/(m^2+n^2)`, evaluated in a form that does not cancel at any distance.
+    /// `s_xx = -(p0/b) [m (1 + (z^2+n^2)/(m^2+n^2)) - 2 z]`,
+    /// `s_zz = -(p0/b) m (1 - (z^2+n^2)/(m^2+n^2))`, `s_xz = -(p0/b) n (m^2-z^2)/(m^2+n^2)`,
+    /// evaluated in a form that does not cancel at any distance.
     ///
     /// # Source
     /// E. McEwen, Phil. Mag. 40 (1949) 454; K. L. Johnson, *Contact Mechanics*, eq. (4.49), p. 103.
@@ -126,7 +130,8 @@ impl HertzLine {
 
 /// Stresses for `b = p0 = 1`.
 fn unit_stress(x: f64, z: f64, poisson: f64) -> [f64; 4] {
-    // m^2 and -n^2 are the roots of t^2 - q t - x^2 z^2: the larger by its sum, the other by the product.
+    // m^2 and -n^2 are the roots of t^2 - q t - x^2 z^2: the larger by its sum, the other by the
+    // product.
     let q = (1.0 - x) * (1.0 + x) + z * z;
     let root = q.hypot(2.0 * x * z);
     let (m, n) = if q >= 0.0 {
@@ -191,7 +196,8 @@ mod tests {
 
     #[test]
     fn incompressible_yield_is_trescas_and_small_poisson_yields_at_the_surface() {
-        // nu = 1/2: von Mises is sqrt(3) times the greatest shear, 0.300 p0 at 0.786 b (Johnson p. 102).
+        // nu = 1/2: von Mises is sqrt(3) times the greatest shear, 0.300 p0 at 0.786 b (Johnson p.
+        // 102).
         let (depth, peak) = peak_von_mises(0.5);
         assert!((peak / 3.0_f64.sqrt() - 0.300).abs() < 5e-4);
         assert!((depth - 0.786).abs() < 5e-4);
@@ -230,7 +236,8 @@ mod tests {
 
     #[test]
     fn field_is_in_equilibrium() {
-        // Central differences: error h^2/6 times third derivatives (of order 10 here), round-off eps/h.
+        // Central differences: error h^2/6 times third derivatives (of order 10 here), round-off
+        // eps/h.
         let h = 1e-4;
         for (x, z) in [(0.0, 0.7), (0.5, 0.3), (-0.9, 0.4), (1.5, 0.2), (-2.0, 3.0)] {
             let at = |x, z| unit_stress(x, z, 0.3);

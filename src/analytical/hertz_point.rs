@@ -77,12 +77,12 @@ impl HertzPoint {
         self.max_pressure(load) * root / contact_radius
     }
 
-    /// Stresses `[s_rr, s_tt (hoop), s_zz, s_rz]` at the radius `r >= 0` and depth `z >= 0`, on and off
-    /// the axis, at the surface too.
+    /// Stresses `[s_rr, s_tt (hoop), s_zz, s_rz]` at the radius `r >= 0` and depth `z >= 0`, on and
+    /// off the axis, at the surface too.
     ///
-    /// In oblate spheroidal coordinates, `u >= 0` with `r^2/(a^2+u) + z^2/u = 1` and `c = z/sqrt(u)`.
-    /// On the axis it reduces to `s_zz = -p0/(1 + z^2/a^2)`,
-    /// `s_rr = s_tt = -p0 [(1+nu)(1 - (z/a) atan(a/z)) - 1/(2 (1 + z^2/a^2))]`.
+    /// In oblate spheroidal coordinates, `u >= 0` with `r^2/(a^2+u) + z^2/u = 1` and
+    /// `c = z/sqrt(u)`. On the axis it reduces to `s_zz = -p0/(1 + z^2/a^2)`, `s_rr = s_tt = -p0
+    /// [(1+nu)(1 - (z/a) atan(a/z)) - 1/(2 (1 + z^2/a^2))]`.
     ///
     /// # Source
     /// M. T. Huber, Ann. Phys. 14 (1904) 153; on the axis and at the
@@ -96,8 +96,9 @@ impl HertzPoint {
         unit_stress(r / contact_radius, z / contact_radius, poisson).map(|s| peak * s)
     }
 
-    /// Pressure `p0` at first yield after von Mises of a body with Poisson's ratio `poisson` and tensile
-    /// yield stress `yield_stress`: 1.6128 Y for `nu = 0.3`. Found by maximising over the depth.
+    /// Pressure `p0` at first yield after von Mises of a body with Poisson's ratio `poisson` and
+    /// tensile yield stress `yield_stress`: 1.6128 Y for `nu = 0.3`. Found by maximising over the
+    /// depth.
     ///
     /// # Source
     /// K. L. Johnson, *Contact Mechanics*, p. 155 (1.60 Y).

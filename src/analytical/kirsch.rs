@@ -6,15 +6,15 @@ use crate::error::Result;
 
 /// Stress and displacement round a traction-free circular hole in an infinite plate.
 ///
-/// Origin at the centre of the hole; the remote state is `s_xx = stress_x`, `s_yy = stress_y`, `s_xy = 0`.
-/// The in-plane stresses hold in plane strain and plane stress alike. Used as far-field traction on the
-/// outer edge of a finite mesh. Stresses positive in tension; units consistent, any. Points inside the
-/// hole are outside the domain of the formulas.
+/// Origin at the centre of the hole; the remote state is `s_xx = stress_x`, `s_yy = stress_y`,
+/// `s_xy = 0`. The in-plane stresses hold in plane strain and plane stress alike. Used as far-field
+/// traction on the outer edge of a finite mesh. Stresses positive in tension; units consistent,
+/// any. Points inside the hole are outside the domain of the formulas.
 ///
 /// # Source
-/// G. Kirsch, Z. VDI 42 (1898) 797; S. P. Timoshenko, J. N. Goodier, *Theory of Elasticity*, 3rd ed. 1970,
-/// par. 35, pp. 90-92; displacements from the potentials of N. I. Muskhelishvili, *Some Basic Problems of
-/// the Mathematical Theory of Elasticity*, 1953, par. 56a.
+/// G. Kirsch, Z. VDI 42 (1898) 797; S. P. Timoshenko, J. N. Goodier, *Theory of Elasticity*, 3rd
+/// ed. 1970, par. 35, pp. 90-92; displacements from the potentials of N. I. Muskhelishvili, *Some
+/// Basic Problems of the Mathematical Theory of Elasticity*, 1953, par. 56a.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KirschField {
     /// Remote stress along `x`.
@@ -38,8 +38,8 @@ impl KirschField {
         })
     }
 
-    /// Polar stresses `[s_rr, s_tt (hoop), s_rt]` at the distance `r >= radius` and the angle `theta` from
-    /// the `x` axis. With `m = (s_x + s_y)/2`, `d = (s_x - s_y)/2`, `q = a^2/r^2`:
+    /// Polar stresses `[s_rr, s_tt (hoop), s_rt]` at the distance `r >= radius` and the angle
+    /// `theta` from the `x` axis. With `m = (s_x + s_y)/2`, `d = (s_x - s_y)/2`, `q = a^2/r^2`:
     /// `s_rr = m (1 - q) + d (1 - 4 q + 3 q^2) cos 2t`, `s_tt = m (1 + q) - d (1 + 3 q^2) cos 2t`,
     /// `s_rt = -d (1 + 2 q - 3 q^2) sin 2t`.
     pub fn polar_stress(&self, r: f64, theta: f64) -> [f64; 3] {
@@ -61,8 +61,8 @@ impl KirschField {
         ]
     }
 
-    /// Traction `[t_x, t_y]` that the material outside exerts on a cut at `(x, y)` with the unit outward
-    /// normal `normal`: what to apply to the edge of a finite mesh.
+    /// Traction `[t_x, t_y]` that the material outside exerts on a cut at `(x, y)` with the unit
+    /// outward normal `normal`: what to apply to the edge of a finite mesh.
     pub fn traction(&self, x: f64, y: f64, normal: [f64; 2]) -> [f64; 2] {
         let [sxx, syy, sxy] = self.stress(x, y);
         [
@@ -71,8 +71,8 @@ impl KirschField {
         ]
     }
 
-    /// Displacement `[u_x, u_y]` at `(x, y)` outside the hole, without rigid motion (0 along the axes of
-    /// symmetry across them).
+    /// Displacement `[u_x, u_y]` at `(x, y)` outside the hole, without rigid motion (0 along the
+    /// axes of symmetry across them).
     pub fn displacement(&self, x: f64, y: f64, young: f64, poisson: f64, plane: Plane) -> [f64; 2] {
         let kolosov = plane.kolosov(poisson);
         let shear = young / (2.0 * (1.0 + poisson));

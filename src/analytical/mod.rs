@@ -1,10 +1,10 @@
 //! Closed forms of contact and plasticity, as documented types that tests, plots and reports share.
 //!
-//! Each file is one solution with its equations, validity, units and source. All take and give consistent
-//! units of the caller's choice; stresses are positive in tension, pressures and contact forces in
-//! compression. Constructors check that the parameters lie where the solution holds; a method that takes a
-//! load or an angle states its domain, and returns an error where the closed form ends inside it.
-//! Nothing here depends on the rest of the crate but its error type.
+//! Each file is one solution with its equations, validity, units and source. All take and give
+//! consistent units of the caller's choice; stresses are positive in tension, pressures and contact
+//! forces in compression. Constructors check that the parameters lie where the solution holds; a
+//! method that takes a load or an angle states its domain, and returns an error where the closed
+//! form ends inside it. Nothing here depends on the rest of the crate but its error type.
 //!
 //! | case | file | what it gives | source |
 //! |---|---|---|---|
@@ -21,7 +21,8 @@
 //! | ball beyond yield | `elastoplastic_sphere.rs`: [`ElastoplasticSphere`] | load and area against interference, cavity model | Kogut and Etsion 2002; Jackson and Green 2005; Johnson 1970 |
 //! | two bodies as one | `contact_pair.rs`: [`contact_modulus`], [`relative_radius`] | contact modulus, relative radius | Johnson pp. 85-92 |
 //!
-//! The published figures that these reproduce are in `data/reference`; a test compares them row by row.
+//! The published figures that these reproduce are in `data/reference`; a test compares them row by
+//! row.
 
 mod bracketing;
 mod contact_pair;

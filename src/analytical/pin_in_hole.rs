@@ -7,8 +7,8 @@ use std::f64::consts::PI;
 
 /// Frictionless pin loaded at its centre in the hole of an infinite plate of the same material.
 ///
-/// With the half angle `e` of the contact and `t = tan(e/2)`, `Q` the load per thickness, `R` the radius,
-/// `dR` the clearance on the radius and `E*` the contact modulus
+/// With the half angle `e` of the contact and `t = tan(e/2)`, `Q` the load per thickness, `R` the
+/// radius, `dR` the clearance on the radius and `E*` the contact modulus
 ///
 /// ```text
 /// E* dR/Q = [2 - ln(1 + t^2) - 2 t^4]/[2 pi t^2 (1 + t^2)],
@@ -16,21 +16,22 @@ use std::f64::consts::PI;
 ///            y = tan(f/2), s = sqrt(1 + t^2), w = sqrt(t^2 - y^2).
 /// ```
 ///
-/// Neat fit (`dR = 0`): `e` = 84.828 degrees and `p(0) R/Q = 0.59963` at any load. With interference
-/// (`dR < 0`) the contact is wider, and closed all round below `Q = pi E* |dR|`, where
+/// Neat fit (`dR = 0`): `e` = 84.828 degrees and `p(0) R/Q = 0.59963` at any load. With
+/// interference (`dR < 0`) the contact is wider, and closed all round below `Q = pi E* |dR|`, where
 /// `p = E* |dR|/R + Q/(pi R) cos f`. Units consistent, any; pressures positive.
 ///
 /// # Source
-/// B. G. A. Persson, *On the stress distribution of cylindrical elastic bodies in contact*, dissertation,
-/// Chalmers, Gothenburg 1964; M. Ciavarella, P. Decuzzi, Int. J. Solids Structures 38 (2001) 4507-4523;
-/// K. L. Johnson, *Contact Mechanics*, Cambridge 1985, par. 5.3, pp. 114-119.
+/// B. G. A. Persson, *On the stress distribution of cylindrical elastic bodies in contact*,
+/// dissertation, Chalmers, Gothenburg 1964; M. Ciavarella, P. Decuzzi, Int. J. Solids Structures 38
+/// (2001) 4507-4523; K. L. Johnson, *Contact Mechanics*, Cambridge 1985, par. 5.3, pp. 114-119.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PinInHole {
     /// Radius `R` of the pin and, but for the clearance, of the hole.
     pub radius: f64,
     /// Clearance `dR` on the radius, negative for interference.
     pub clearance: f64,
-    /// Contact modulus `E*` of the two equal bodies, half of [`Plane::modulus`](super::Plane::modulus).
+    /// Contact modulus `E*` of the two equal bodies, half of
+    /// [`Plane::modulus`](super::Plane::modulus).
     pub contact_modulus: f64,
 }
 
@@ -48,8 +49,8 @@ impl PinInHole {
         })
     }
 
-    /// `E* dR/Q` at which the half angle of the contact is `half_angle`, in `(0, pi)`: falls from infinity
-    /// through 0 (neat fit) to `-1/pi`.
+    /// `E* dR/Q` at which the half angle of the contact is `half_angle`, in `(0, pi)`: falls from
+    /// infinity through 0 (neat fit) to `-1/pi`.
     pub fn clearance_ratio(half_angle: f64) -> f64 {
         let t2 = (0.5 * half_angle).tan().powi(2);
         (2.0 - t2.ln_1p() - 2.0 * t2 * t2) / (2.0 * PI * t2 * (1.0 + t2))
@@ -76,7 +77,8 @@ impl PinInHole {
         )))
     }
 
-    /// Half angle of the contact under `load` per thickness, in radians; `pi` where it is closed all round.
+    /// Half angle of the contact under `load` per thickness, in radians; `pi` where it is closed
+    /// all round.
     ///
     /// # Errors
     /// Where the load is not finite and positive.
@@ -170,7 +172,8 @@ mod tests {
     #[test]
     fn gap_is_closed_over_the_contact() {
         // sum_{n>=2} n/(n^2-1) cos n x = -cos x ln|2 sin(x/2)| - 1/2 - cos(x)/4 and the terms of n = 0;
-        // what is left of E* g/(2 R) after the rigid shift (cos f) must vanish: three angles fit two terms.
+        // what is left of E* g/(2 R) after the rigid shift (cos f) must vanish: three angles fit
+        // two terms.
         let e = 1.2;
         let q0 = integrate(|f| unit_pressure(f, e), 0.0, e) / PI;
         let residual = |f: f64| {

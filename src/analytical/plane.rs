@@ -13,7 +13,8 @@ impl Plane {
     /// Kolosov's constant: `3 - 4 nu` in plane strain, `(3 - nu)/(1 + nu)` in plane stress.
     ///
     /// # Source
-    /// N. I. Muskhelishvili, *Some Basic Problems of the Mathematical Theory of Elasticity*, 1953, par. 32.
+    /// N. I. Muskhelishvili, *Some Basic Problems of the Mathematical Theory of Elasticity*, 1953,
+    /// par. 32.
     pub fn kolosov(self, poisson: f64) -> f64 {
         match self {
             Plane::Strain => 3.0 - 4.0 * poisson,
@@ -21,7 +22,8 @@ impl Plane {
         }
     }
 
-    /// Modulus of the plane `E' = 8 G/(kolosov + 1)`: `E/(1 - nu^2)` in plane strain, `E` in plane stress.
+    /// Modulus of the plane `E' = 8 G/(kolosov + 1)`: `E/(1 - nu^2)` in plane strain, `E` in plane
+    /// stress.
     pub fn modulus(self, young: f64, poisson: f64) -> f64 {
         match self {
             Plane::Strain => young / (1.0 - poisson * poisson),

@@ -1,10 +1,12 @@
-//! A wall that is plastic up to a front, under internal pressure: what cylinder and sphere have in common.
+//! A wall that is plastic up to a front, under internal pressure: what cylinder and sphere have in
+//! common.
 
 use super::bracketing::root;
 use crate::error::{Error, ErrorKind, Result};
 
-/// Radius of the plastic front of `body` under `pressure`, in the wall `[a, b]` (radii); `of_front(c)` is the pressure that holds
-/// the front at `c`, rising from first yield at `a` to collapse at `b`. The inner radius while all is elastic.
+/// Radius of the plastic front of `body` under `pressure`, in the wall `[a, b]` (radii);
+/// `of_front(c)` is the pressure that holds the front at `c`, rising from first yield at `a` to
+/// collapse at `b`. The inner radius while all is elastic.
 ///
 /// # Errors
 /// Where the pressure is negative or not a number ([`ErrorKind::Input`]) or above collapse
@@ -33,7 +35,8 @@ pub(super) fn plastic_front(
     Ok(root(|front| of_front(front) - pressure, a, b))
 }
 
-/// Refuses a pressure after which unloading makes the bore yield again: that above twice the pressure at first yield.
+/// Refuses a pressure after which unloading makes the bore yield again: that above twice the
+/// pressure at first yield.
 ///
 /// # Errors
 /// [`ErrorKind::Input`].

@@ -6,13 +6,13 @@ use crate::error::{Error, Result};
 
 /// Elastic interference fit of a shaft, solid or hollow, in a ring; materials may differ.
 ///
-/// The pressure closes the interference: `p = d/(u_ring(p = 1) - u_shaft(p = 1))`. For a solid shaft and a
-/// ring of one material in plane stress `p = E d (b^2 - a^2)/(2 a b^2)`, `d` on the *radius*. Frictionless;
-/// units consistent, any.
+/// The pressure closes the interference: `p = d/(u_ring(p = 1) - u_shaft(p = 1))`. For a solid
+/// shaft and a ring of one material in plane stress `p = E d (b^2 - a^2)/(2 a b^2)`, `d` on the
+/// *radius*. Frictionless; units consistent, any.
 ///
 /// # Source
-/// S. Timoshenko, *Strength of Materials*, Part II, 3rd ed. 1956, ch. VI (shrink-fit pressures of built-up
-/// cylinders); the fields are Lame's, see [`ThickCylinder`].
+/// S. Timoshenko, *Strength of Materials*, Part II, 3rd ed. 1956, ch. VI (shrink-fit pressures of
+/// built-up cylinders); the fields are Lame's, see [`ThickCylinder`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShrinkFit {
     /// Interference on the radius: radius of the free shaft less that of the free bore.
@@ -28,11 +28,12 @@ pub struct ShrinkFit {
 }
 
 impl ShrinkFit {
-    /// A fit with the radial interference `interference >= 0` of a shaft in `ring`, both in the ring's plane.
+    /// A fit with the radial interference `interference >= 0` of a shaft in `ring`, both in the
+    /// ring's plane.
     ///
     /// # Errors
-    /// Where the interference is negative or not finite, the bore of the shaft is not inside the contact
-    /// radius, or the constants of the shaft are out of range.
+    /// Where the interference is negative or not finite, the bore of the shaft is not inside the
+    /// contact radius, or the constants of the shaft are out of range.
     pub fn new(
         interference: f64,
         ring: ThickCylinder,
@@ -102,7 +103,8 @@ impl ShrinkFit {
         })
     }
 
-    /// Radial displacement (inwards, so negative) of the shaft at `r` under the pressure `pressure`.
+    /// Radial displacement (inwards, so negative) of the shaft at `r` under the pressure
+    /// `pressure`.
     fn shaft_displacement(&self, r: f64, pressure: f64) -> f64 {
         match self.hollow_shaft() {
             Some(shaft) => shaft.displacement(r, 0.0, pressure),

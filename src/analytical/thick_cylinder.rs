@@ -7,8 +7,8 @@ use crate::error::Result;
 /// Elastic thick-walled cylinder (or ring) under internal and external pressure.
 ///
 /// `s_rr = A - B/r^2`, `s_tt = A + B/r^2` with `A = (p_i a^2 - p_o b^2)/(b^2 - a^2)`,
-/// `B = (p_i - p_o) a^2 b^2/(b^2 - a^2)`; plane strain (`e_zz = 0`) or plane stress. Stresses positive in
-/// tension, pressures in compression, displacement outwards; units consistent, any.
+/// `B = (p_i - p_o) a^2 b^2/(b^2 - a^2)`; plane strain (`e_zz = 0`) or plane stress. Stresses
+/// positive in tension, pressures in compression, displacement outwards; units consistent, any.
 ///
 /// # Source
 /// S. P. Timoshenko, J. N. Goodier, *Theory of Elasticity*, 3rd ed. 1970, par. 28, pp. 68-71.
@@ -60,7 +60,8 @@ impl ThickCylinder {
         ]
     }
 
-    /// Radial displacement `u = [(k - 1) A r/2 + B/r]/(2 G)` at the radius `r`, `k` Kolosov's constant.
+    /// Radial displacement `u = [(k - 1) A r/2 + B/r]/(2 G)` at the radius `r`, `k` Kolosov's
+    /// constant.
     pub fn displacement(&self, r: f64, inner_pressure: f64, outer_pressure: f64) -> f64 {
         let (uniform, ring) = self.constants(inner_pressure, outer_pressure);
         let bulk = 0.5 * (self.plane.kolosov(self.poisson) - 1.0);
@@ -68,7 +69,8 @@ impl ThickCylinder {
     }
 
     /// Internal pressure at which the bore first yields after von Mises (no external pressure):
-    /// `Y/sqrt(3 b^4 + (1 - 2 nu)^2 a^4) (b^2 - a^2)` in plane strain, with 1 for `1 - 2 nu` in plane stress.
+    /// `Y/sqrt(3 b^4 + (1 - 2 nu)^2 a^4) (b^2 - a^2)` in plane strain, with 1 for `1 - 2 nu` in
+    /// plane stress.
     pub fn yield_pressure(&self, yield_stress: f64) -> f64 {
         yield_stress / von_mises(self.stress(self.inner_radius, 1.0, 0.0), 0.0)
     }

@@ -1,4 +1,5 @@
-//! Hill's thick sphere: elastic-perfectly plastic under internal pressure, exact for any Poisson ratio.
+//! Hill's thick sphere: elastic-perfectly plastic under internal pressure, exact for any Poisson
+//! ratio.
 
 use super::domain::{nested_radii, poisson as check_poisson, positive};
 use super::plastic_wall::{plastic_front, refuse_reverse_yield};
@@ -7,11 +8,12 @@ use crate::error::Result;
 /// Thick-walled sphere under internal pressure, elastic or elastic-perfectly plastic.
 ///
 /// Tresca and von Mises agree. The plastic front stands at `c` under the pressure
-/// `p(c) = 2 Y ln(c/a) + (2/3) Y (1 - c^3/b^3)`. Plastic part: `s_rr = -2 Y ln(c/r) - (2/3) Y (1 - c^3/b^3)`,
-/// `s_tt = s_rr + Y`, `u = (Y r/E) [(1-nu) c^3/r^3 - (2/3)(1-2nu)(1 + 3 ln(c/r) - c^3/b^3)]`. Outside:
-/// `s_rr = -(2/3) Y c^3 (1/r^3 - 1/b^3)`, `s_tt = (2/3) Y c^3 (1/(2 r^3) + 1/b^3)`,
-/// `u = (Y c^3/E) [(2/3)(1-2nu) r/b^3 + (1+nu)/(3 r^2)]`, so `u(b) = Y c^3 (1-nu)/(E b^2)`.
-/// Units consistent, any; displacement outwards.
+/// `p(c) = 2 Y ln(c/a) + (2/3) Y (1 - c^3/b^3)`. Plastic part:
+/// `s_rr = -2 Y ln(c/r) - (2/3) Y (1 - c^3/b^3)`, `s_tt = s_rr + Y`, `u = (Y r/E) [(1-nu) c^3/r^3 -
+/// (2/3)(1-2nu)(1 + 3 ln(c/r) - c^3/b^3)]`. Outside: `s_rr = -(2/3) Y c^3 (1/r^3 - 1/b^3)`, `s_tt =
+/// (2/3) Y c^3 (1/(2 r^3) + 1/b^3)`, `u = (Y c^3/E)
+/// [(2/3)(1-2nu) r/b^3 + (1+nu)/(3 r^2)]`, so `u(b) = Y c^3 (1-nu)/(E b^2)`. Units consistent, any;
+/// displacement outwards.
 ///
 /// # Source
 /// R. Hill, *The Mathematical Theory of Plasticity*, Oxford 1950, ch. V par. 1, pp. 97-103.
@@ -72,14 +74,15 @@ impl ThickSphere {
     /// Radius of the plastic front under `pressure`; the inner radius while all is elastic.
     ///
     /// # Errors
-    /// Where the pressure is negative or not a number ([`Input`](crate::ErrorKind::Input)) or above collapse
-    /// ([`Collapse`](crate::ErrorKind::Collapse)).
+    /// Where the pressure is negative or not a number ([`Input`](crate::ErrorKind::Input)) or above
+    /// collapse ([`Collapse`](crate::ErrorKind::Collapse)).
     pub fn plastic_front(&self, pressure: f64) -> Result<f64> {
         let wall = [self.inner_radius, self.outer_radius];
         plastic_front("thick sphere", pressure, wall, |front| self.pressure(front))
     }
 
-    /// Stresses `[s_rr, s_tt]` (both hoop directions alike) at the radius `r` in `[a, b]` under `pressure`.
+    /// Stresses `[s_rr, s_tt]` (both hoop directions alike) at the radius `r` in `[a, b]` under
+    /// `pressure`.
     ///
     /// # Errors
     /// As [`plastic_front`](Self::plastic_front).
@@ -114,8 +117,8 @@ impl ThickSphere {
     /// Residual stresses `[s_rr, s_tt]` after `pressure` has been taken off.
     ///
     /// # Errors
-    /// As [`plastic_front`](Self::plastic_front), and where the pressure exceeds twice the yield pressure:
-    /// the bore then yields again in unloading.
+    /// As [`plastic_front`](Self::plastic_front), and where the pressure exceeds twice the yield
+    /// pressure: the bore then yields again in unloading.
     pub fn residual_stress(&self, r: f64, pressure: f64) -> Result<[f64; 2]> {
         let loaded = self.stress(r, pressure)?;
         refuse_reverse_yield("thick sphere", pressure, self.yield_pressure())?;

@@ -1,7 +1,7 @@
 //! The von Mises equivalent stress of closed-form stress states.
 
-/// Von Mises stress of three normal stresses and the one shear stress of a plane or axisymmetric state:
-/// `sqrt(((s1-s2)^2 + (s2-s3)^2 + (s3-s1)^2)/2 + 3 t^2)`. Units of stress.
+/// Von Mises stress of three normal stresses and the one shear stress of a plane or axisymmetric
+/// state: `sqrt(((s1-s2)^2 + (s2-s3)^2 + (s3-s1)^2)/2 + 3 t^2)`. Units of stress.
 pub fn von_mises(normal: [f64; 3], shear: f64) -> f64 {
     let [s1, s2, s3] = normal;
     let (d1, d2, d3) = (s1 - s2, s2 - s3, s3 - s1);

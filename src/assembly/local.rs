@@ -16,8 +16,8 @@ pub fn sampling_points_of(model: &Model, element: usize) -> Points {
     sampling(model.kind, model.mesh.shapes[element], &x)
 }
 
-/// Turns an element's stiffness (packed lower triangle in global axes) into the local axes of its nodes:
-/// `K <- R' K R`, the columns of `R` the axes.
+/// Turns an element's stiffness (packed lower triangle in global axes) into the local axes of its
+/// nodes: `K <- R' K R`, the columns of `R` the axes.
 pub(super) fn turn_stiffness(model: &Model, element: usize, stiffness: &mut [f64]) {
     let nodes = model.mesh.nodes(element);
     for (i, &node) in nodes.iter().enumerate() {

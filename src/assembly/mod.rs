@@ -1,8 +1,8 @@
 //! The elastic stiffness and the load vectors on the free freedoms.
 //!
-//! The pattern and the values are built column by column: every column is owned by one thread and gathers
-//! its elements' contributions in ascending element order, so the result has the same bits for any number
-//! of threads.
+//! The pattern and the values are built column by column: every column is owned by one thread and
+//! gathers its elements' contributions in ascending element order, so the result has the same bits
+//! for any number of threads.
 
 mod local;
 mod pattern;
@@ -23,7 +23,8 @@ pub struct System {
     pub stiffness: SymmetricCsc,
     /// Its infinity norm.
     pub norm: f64,
-    /// Load vector of each load at factor 1 (`n` each); those of prescribed displacements are `-K_fp u_p`.
+    /// Load vector of each load at factor 1 (`n` each); those of prescribed displacements are
+    /// `-K_fp u_p`.
     pub loads: Vec<Vec<f64>>,
 }
 

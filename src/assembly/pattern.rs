@@ -73,7 +73,8 @@ impl Incidence {
     /// Column pointers and sorted rows of the upper triangle.
     pub fn pattern(&self) -> (Vec<i64>, Vec<i64>) {
         let n = self.starts.len() - 1;
-        // Blocks of columns: their number, not the number of threads, decides what is computed together.
+        // Blocks of columns: their number, not the number of threads, decides what is computed
+        // together.
         let blocks: Vec<(Vec<u32>, Vec<i64>)> = (0..n.div_ceil(BLOCK))
             .into_par_iter()
             .map(|block| {

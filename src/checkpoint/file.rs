@@ -1,4 +1,5 @@
-//! A file that knows whether it is whole: a line that says what it is, the length and the hash of what follows.
+//! A file that knows whether it is whole: a line that says what it is, the length and the hash of
+//! what follows.
 
 use crate::error::{Error, Result};
 use crate::files;
@@ -21,8 +22,8 @@ fn first_line() -> String {
     )
 }
 
-/// Writes `value` to `path` by way of `path` with the ending `.partial`, on disk before it gets its name. Returns length and hash of
-/// its content.
+/// Writes `value` to `path` by way of `path` with the ending `.partial`, on disk before it gets its
+/// name. Returns length and hash of its content.
 pub(super) fn write(path: &Path, value: &impl Serialize) -> Result<(u64, u128)> {
     let content = postcard::to_stdvec(value)
         .map_err(|cause| Error::internal("a checkpoint cannot be encoded").because(cause))?;

@@ -6,13 +6,15 @@
 //!     lock            held by the run that writes here
 //! ```
 //!
-//! `checkpoint` is written beside its place, synchronised and renamed over its predecessor: at every moment there is a whole one. Parts are
-//! written before the first checkpoint that names them and deleted after the first that does not.
+//! `checkpoint` is written beside its place, synchronised and renamed over its predecessor: at
+//! every moment there is a whole one. Parts are written before the first checkpoint that names them
+//! and deleted after the first that does not.
 //!
-//! A run that goes on does what it would have done, bit for bit, in the same build on the same machine: with CHOLMOD that needs the same BLAS
-//! with the same number of its threads (the run says so where the factor differs). Each file carries a hash of its content; the
-//! checkpoint carries what it belongs to ([`Identity`]), and is refused with the first difference by name where that is not
-//! what is to be run.
+//! A run that goes on does what it would have done, bit for bit, in the same build on the same
+//! machine: with CHOLMOD that needs the same BLAS with the same number of its threads (the run says
+//! so where the factor differs). Each file carries a hash of its content; the checkpoint carries
+//! what it belongs to ([`Identity`]), and is refused with the first difference by name where that
+//! is not what is to be run.
 
 mod file;
 mod identity;
@@ -40,7 +42,8 @@ impl Checkpoints {
         }
     }
 
-    /// One at every `increments`-th accepted increment (0 counts as 1). The results do not depend on it.
+    /// One at every `increments`-th accepted increment (0 counts as 1). The results do not depend
+    /// on it.
     pub fn every(self, increments: usize) -> Self {
         Checkpoints {
             every: increments.max(1),
@@ -69,7 +72,8 @@ impl Checkpoints {
     /// [`crate::ErrorKind::Io`] naming the file that could not be deleted.
     pub fn remove(&self) -> Result<()> {
         let failed = |path: &Path, cause| Error::io("delete", path, cause);
-        // First what the rest hangs on: killed in between, there is no checkpoint rather than one without its parts.
+        // First what the rest hangs on: killed in between, there is no checkpoint rather than one
+        // without its parts.
         let first = self.dir.join(store::CHECKPOINT);
         match std::fs::remove_file(&first) {
             Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => {

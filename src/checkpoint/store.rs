@@ -34,7 +34,8 @@ pub(crate) struct Store {
 }
 
 impl Store {
-    /// Opens the directory, which is made where it is absent. What is in it stays until the first [`Store::write`].
+    /// Opens the directory, which is made where it is absent. What is in it stays until the first
+    /// [`Store::write`].
     ///
     /// # Errors
     /// `Input` where another run is writing there, `Io`.

@@ -44,10 +44,11 @@ VALUE is TOML, or else taken as a string. A table is merged with the one in the 
 a list replaces the list. KEY= without a value removes the key:
   --set 'materials.steel={ tangent_modulus = 2000.0 }' --set materials.steel.plastic_modulus=";
 
-/// Presses elastic-plastic bodies together without friction and lets them go again: where they touch, how hard, where the
-/// material yields, and what dent stays.
+/// Presses elastic-plastic bodies together without friction and lets them go again: where they
+/// touch, how hard, where the material yields, and what dent stays.
 ///
-/// A scene file (TOML) says what is pressed on what; see data/scenes for commented examples. Units are the scene's own.
+/// A scene file (TOML) says what is pressed on what; see data/scenes for commented examples. Units
+/// are the scene's own.
 #[derive(Debug, Parser)]
 #[command(name = "brinell", version, after_help = AFTER_HELP, max_term_width = 110)]
 pub(super) struct Arguments {
@@ -59,9 +60,10 @@ pub(super) struct Arguments {
 pub(super) enum Command {
     /// Run the load program: yield load, states at the targets, fields
     ///
-    /// Writes summary.json, history.csv (a row per increment), contact.csv (a row per state and contact pair) and fields.pvd
-    /// with .vtu files (for ParaView) to the output directory, and prints a summary.
-    /// Ctrl-C ends the run after the current increment and writes what there is; a second one ends it at once.
+    /// Writes summary.json, history.csv (a row per increment), contact.csv (a row per state and
+    /// contact pair) and fields.pvd with .vtu files (for ParaView) to the output directory, and
+    /// prints a summary. Ctrl-C ends the run after the current increment and writes what there is;
+    /// a second one ends it at once.
     #[command(after_help = "Example: brinell run data/scenes/disc_in_plate.toml --out disc")]
     Run(ProgramArguments),
     /// Compute the yield load only: the load at which the material first yields
@@ -74,19 +76,23 @@ pub(super) enum Command {
     Yield(RunArguments),
     /// Check the scene and predict what a run will cost, without running it
     ///
-    /// Reads the scene, builds the mesh and the model, and says which effects the run will simulate and why, its size, and
-    /// the time and memory of the factorisation, predicted from the pattern of the matrix.
+    /// Reads the scene, builds the mesh and the model, and says which effects the run will simulate
+    /// and why, its size, and the time and memory of the factorisation, predicted from the pattern
+    /// of the matrix.
     #[command(after_help = "Example: brinell check data/scenes/disc_in_plate.toml")]
     Check(CheckArguments),
-    /// Run hard cases on this machine and build: worst figure of each family, its bound, pass or fail
+    /// Run hard cases on this machine and build: worst figure of each family, its bound, pass or
+    /// fail
     ///
     /// Takes less than a minute. Exit code 7 where a family fails.
     Selftest(super::selftest::SelftestArguments),
-    /// Study what accuracy costs: errors against time over mesh, elements, increments, tolerances, algorithms
+    /// Study what accuracy costs: errors against time over mesh, elements, increments, tolerances,
+    /// algorithms
     ///
-    /// Runs the scene with many settings, cheapest first, and writes accuracy.json, accuracy.csv and log-log plots of error over
-    /// time. Errors are measured against the closed form where the scene names one, else against the values extrapolated
-    /// from the finest meshes. Ctrl-C ends the study and keeps what it has.
+    /// Runs the scene with many settings, cheapest first, and writes accuracy.json, accuracy.csv
+    /// and log-log plots of error over time. Errors are measured against the closed form where the
+    /// scene names one, else against the values extrapolated from the finest meshes. Ctrl-C ends
+    /// the study and keeps what it has.
     #[command(
         after_help = "Example: brinell accuracy data/scenes/thick_cylinder.toml --budget 60s"
     )]
@@ -99,8 +105,8 @@ pub(super) enum Command {
     Schema(super::schema::SchemaArguments),
     /// Make the report of a result directory anew, or plot its main figures in the terminal
     ///
-    /// Writes report.html and its figures from what the directory holds, without running anything; prints where the report is.
-    /// Serves nothing and opens nothing.
+    /// Writes report.html and its figures from what the directory holds, without running anything;
+    /// prints where the report is. Serves nothing and opens nothing.
     View(super::view::ViewArguments),
     /// Print completions for a shell
     #[command(
@@ -180,7 +186,8 @@ pub(super) struct CommonArguments {
     /// What factors the stiffness matrix
     #[arg(long, value_enum, value_name = "SOLVER", default_value_t)]
     pub solver: Solver,
-    /// Number of threads, at most 16 for each processor (or 64); by default as many as there are processors
+    /// Number of threads, at most 16 for each processor (or 64); by default as many as there are
+    /// processors
     #[arg(long, value_name = "N", value_parser = threads)]
     pub threads: Option<u16>,
     /// Print one JSON object (the content of summary.json) instead of tables
@@ -190,7 +197,8 @@ pub(super) struct CommonArguments {
     pub overrides: Vec<String>,
 }
 
-/// Threads for each processor that are taken at most, and for all of them at least: more only wait for each other.
+/// Threads for each processor that are taken at most, and for all of them at least: more only wait
+/// for each other.
 const MOST_THREADS: [usize; 2] = [16, 64];
 
 fn threads(text: &str) -> Result<u16, String> {

@@ -45,7 +45,8 @@ pub(super) fn execute(arguments: &Arguments, start: Instant) -> Result<()> {
     }
 }
 
-/// Scene, model, analysis, files, summary. Where a run fails before it has results of its own, those of an earlier one are marked.
+/// Scene, model, analysis, files, summary. Where a run fails before it has results of its own,
+/// those of an earlier one are marked.
 fn analyse(
     arguments: &RunArguments,
     restart: Option<&RestartArguments>,
@@ -133,8 +134,8 @@ fn compute(
             .push(("output".to_string(), seconds() - computed));
     }
     progress.finish();
-    if let Some((_, checkpoints)) = &restart {
-        restart::settle(checkpoints, &results)?;
+    if let Some((_, out)) = places {
+        restart::settle(out, &results)?;
     }
     let text = if common.json {
         json(&output::summary(&header, &results))?
@@ -232,8 +233,8 @@ pub(super) fn prepare(common: &CommonArguments, last: Option<String>) -> Result<
     Ok(scene)
 }
 
-/// This thread becomes one of the `threads` (all processors if not said): it works on small pieces itself where it would otherwise
-/// wake another one and wait.
+/// This thread becomes one of the `threads` (all processors if not said): it works on small pieces
+/// itself where it would otherwise wake another one and wait.
 fn start_threads(threads: Option<usize>) -> Result<()> {
     let start = |threads: usize| {
         rayon::ThreadPoolBuilder::new()

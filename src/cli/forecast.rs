@@ -1,21 +1,25 @@
-//! How long a phase will take: by the size of the model, the speed of this machine as far as the run has shown it, and the phases that
-//! lie behind.
+//! How long a phase will take: by the size of the model, the speed of this machine as far as the
+//! run has shown it, and the phases that lie behind.
 
 use crate::scene::Scene;
 use std::time::Instant;
 
-/// Seconds per freedom of making mesh and model, of the assembly, of a yield load, of a state and of its files, on a processor of 2020.
+/// Seconds per freedom of making mesh and model, of the assembly, of a yield load, of a state and
+/// of its files, on a processor of 2020.
 const MODEL: f64 = 1.0e-6;
 const ASSEMBLY: f64 = 1.3e-6;
 const YIELD_LOAD: f64 = 3e-6;
 const STATE: f64 = 1.0e-6;
 const FILES: f64 = 1.5e-6;
-/// Seconds of ordering, factorisation and condensation per freedom, per power 3/2 of the freedoms (the growth of nested
-/// dissection in the plane) and per cube of the pairs (the dense matrix of the contact).
+/// Seconds of ordering, factorisation and condensation per freedom, per power 3/2 of the freedoms
+/// (the growth of nested dissection in the plane) and per cube of the pairs (the dense matrix of
+/// the contact).
 const FACTORISATION: [f64; 3] = [2.5e-6, 7.75e-9, 1.2e-10];
-/// Seconds of the increments per square of the pairs: each pair that closes or opens costs solves with a zone that grows with them.
+/// Seconds of the increments per square of the pairs: each pair that closes or opens costs solves
+/// with a zone that grows with them.
 const INCREMENTS: f64 = 2e-4;
-/// Share of the run's own time that the estimate of its errors takes, in several phases of about one length.
+/// Share of the run's own time that the estimate of its errors takes, in several phases of about
+/// one length.
 const ESTIMATE: f64 = 0.4;
 /// The least that is predicted: the grain of what is shown.
 const LEAST: f64 = 0.01;
@@ -54,7 +58,8 @@ impl Forecast {
         let mesh = &scene.mesh;
         let square = |n: usize| (n * n) as f64;
         let mut freedoms = 0.0;
-        // Elements that grow with the distance make their number go with the square of the resolution.
+        // Elements that grow with the distance make their number go with the square of the
+        // resolution.
         if let Some(cylinder) = &mesh.cylinder_on_half_plane {
             freedoms = 60.0 * square(cylinder.resolution);
         } else if let Some(disc) = &mesh.disc_in_plate {

@@ -1,4 +1,5 @@
-//! Signals: the first asks the run to end at the last accepted increment, the second ends the program.
+//! Signals: the first asks the run to end at the last accepted increment, the second ends the
+//! program.
 
 use super::progress::json_line;
 use crate::error::{Error, ErrorKind, Result};
@@ -10,7 +11,8 @@ use std::time::{Duration, Instant};
 
 /// The signal that was heard first, 0 before that.
 static HEARD: AtomicI32 = AtomicI32::new(0);
-/// A second signal this soon is the same wish: `timeout` and terminals send one to the process and one to its group.
+/// A second signal this soon is the same wish: `timeout` and terminals send one to the process and
+/// one to its group.
 const SAME_WISH: Duration = Duration::from_millis(200);
 /// Ctrl-C, the same number everywhere.
 const SIGINT: i32 = 2;
@@ -41,8 +43,9 @@ pub(super) fn name() -> Option<&'static str> {
     }
 }
 
-/// Starts listening. What is heard is told on standard error: as a line for a reader, or where progress goes there as JSON since `json` as an
-/// event of its own. `at_once` is done before a second signal ends the program.
+/// Starts listening. What is heard is told on standard error: as a line for a reader, or where
+/// progress goes there as JSON since `json` as an event of its own. `at_once` is done before a
+/// second signal ends the program.
 ///
 /// # Errors
 /// The system refuses the signal handler.

@@ -1,7 +1,8 @@
 //! The command line: runs and studies, and what helps to write scenes and to look at results.
 //!
-//! Only this module prints. What was computed goes to standard output, progress and errors to standard error, and
-//! the exit code says what kind of end it was ([`crate::ErrorKind::exit_code`]).
+//! Only this module prints. What was computed goes to standard output, progress and errors to
+//! standard error, and the exit code says what kind of end it was
+//! ([`crate::ErrorKind::exit_code`]).
 
 mod arguments;
 mod commands;
@@ -68,7 +69,8 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// What clap has to say: help and version, or a usage error (exit code 2), which repeats what was typed.
+/// What clap has to say: help and version, or a usage error (exit code 2), which repeats what was
+/// typed.
 fn usage(problem: &clap::Error) -> ExitCode {
     let is_plain =
         |argument: OsString| matches!(text::shown(&argument.to_string_lossy()), Cow::Borrowed(_));
@@ -83,8 +85,9 @@ fn usage(problem: &clap::Error) -> ExitCode {
     u8::try_from(problem.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from)
 }
 
-/// Starts the program again with one thread of the BLAS where limits of the process leave no room for the work buffers of more: these are
-/// taken as the library is loaded, and asked for without end where there is no room.
+/// Starts the program again with one thread of the BLAS where limits of the process leave no room
+/// for the work buffers of more: these are taken as the library is loaded, and asked for without
+/// end where there is no room.
 #[cfg(all(unix, feature = "cholmod"))]
 fn start_again_with_fewer_threads() {
     use std::os::unix::process::CommandExt;
@@ -107,8 +110,8 @@ fn start_again_with_fewer_threads() {
 #[cfg(not(all(unix, feature = "cholmod")))]
 fn start_again_with_fewer_threads() {}
 
-/// Whether a command line (the program's name first) is understood; the usage error, or what `--help` and `--version` print, if not.
-/// Does nothing else.
+/// Whether a command line (the program's name first) is understood; the usage error, or what
+/// `--help` and `--version` print, if not. Does nothing else.
 ///
 /// # Errors
 /// The text that the program would end with.

@@ -1,5 +1,5 @@
-//! `brinell new`: a commented scene for a common problem from a few numbers. What a scene needs beyond them (how far the fine
-//! mesh reaches, which states to write) is set from the closed forms.
+//! `brinell new`: a commented scene for a common problem from a few numbers. What a scene needs
+//! beyond them (how far the fine mesh reaches, which states to write) is set from the closed forms.
 
 use super::number::significant;
 use super::print;
@@ -68,7 +68,8 @@ pub(super) struct Pressed {
     /// Largest load [N; roller: N/mm]; by default three times the load at first yield
     #[arg(long, value_name = "P", value_parser = positive, allow_negative_numbers = true)]
     pub load: Option<f64>,
-    /// Elements over the contact half width at first yield; with fewer than 16 errors are estimated on finer meshes, which costs more
+    /// Elements over the contact half width at first yield; with fewer than 16 errors are estimated
+    /// on finer meshes, which costs more
     #[arg(long, value_name = "N", default_value_t = 16)]
     pub resolution: usize,
     #[command(flatten)]

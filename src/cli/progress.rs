@@ -1,4 +1,5 @@
-//! Progress on standard error: a bar per phase on a terminal, a line now and then elsewhere, or JSON lines.
+//! Progress on standard error: a bar per phase on a terminal, a line now and then elsewhere, or
+//! JSON lines.
 //!
 //! Each JSON line is an object with `event` and `seconds` since the start:
 //!
@@ -18,7 +19,7 @@ use super::remaining::Remaining;
 use crate::progress::{Flow, Observer};
 use crate::results::HistoryRow;
 use crate::scene::Scene;
-use crate::text::{shown, shown_json};
+use crate::text::{shown, shown_in_line, shown_json};
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use serde_json::{Value, json};
 use std::fmt;
@@ -142,7 +143,7 @@ impl Progress {
                 if let Some(last) = bar.take() {
                     last.finish_with_message("");
                 }
-                let next = all.add(new_bar(&shown(phase), predicted, clock));
+                let next = all.add(new_bar(&shown_in_line(phase), predicted, clock));
                 next.enable_steady_tick(Duration::from_millis(100));
                 *bar = Some(next);
             }
@@ -195,6 +196,11 @@ impl Progress {
     }
 }
 
+/// Whole per cent that lie behind: 100 of them only when all does.
+fn per_cent(fraction: f64) -> String {
+    format!("{:3.0}", (100.0 * fraction).floor())
+}
+
 /// Writes an event to standard error as a line of its own.
 pub(super) fn json_line(started: Instant, event: &str, content: Value) {
     let seconds = started.elapsed().as_secs_f64();
@@ -233,12 +239,12 @@ impl Observer for Progress {
             Shown::Bars { bar, .. } => {
                 if let Some(bar) = bar {
                     bar.set_position((fraction.clamp(0.0, 1.0) * PARTS as f64) as u64);
-                    bar.set_message(shown(&describe(row)).into_owned());
+                    bar.set_message(shown_in_line(&describe(row)).into_owned());
                 }
             }
             Shown::Lines { last } if last.elapsed() >= PAUSE => {
                 *last = Instant::now();
-                self.line(&format!("{:3.0} %  {}", 100.0 * fraction, text()));
+                self.line(&format!("{} %  {}", per_cent(fraction), text()));
             }
             Shown::Lines { .. } => {}
             Shown::Json => self.json(
@@ -281,8 +287,9 @@ impl Shown {
     }
 }
 
-/// The bar of a phase: name, what is done, time, time that is left. What is done is the share of the load program where
-/// increments tell it, else the share of the predicted time, of which the last bit is only filled by the end.
+/// The bar of a phase: name, what is done, time, time that is left. What is done is the share of
+/// the load program where increments tell it, else the share of the predicted time, of which the
+/// last bit is only filled by the end.
 fn new_bar(phase: &str, predicted: f64, clock: Clock) -> ProgressBar {
     let done = move |state: &ProgressState| match (state.is_finished(), state.pos()) {
         (true, _) => 1.0,
@@ -433,6 +440,12 @@ mod tests {
         assert!(line("factorisation", "about 10 min left"), "{text}");
         assert!(line("load program", "============            "), "{text}");
         assert!(line("load program", "about 0.5 s left"), "{text}");
+    }
+
+    #[test]
+    fn all_is_done_at_the_end_only() {
+        let text = [0.0, 0.2999, 0.9999, 1.0].map(per_cent);
+        assert_eq!(text, ["  0", " 29", " 99", "100"]);
     }
 
     #[test]

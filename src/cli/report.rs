@@ -1,14 +1,16 @@
 //! The printed summaries.
 
-use super::number::{bytes, number, seconds, significant};
+use super::number::{bytes, number, ratio, seconds, significant};
 use super::table::{Column::*, Table, WIDTH, wrap};
 use crate::analysis::Check;
 use crate::linalg::Prediction;
 use crate::results::{Effect, Quality, ReferenceRow, Results, Sizes, State, YieldPoint};
 use crate::scene::{Kind, Scene, Unit};
+use crate::text::shown_in_line;
 use std::path::Path;
 
-/// The summary of a run or of a yield load. `bodies` are the names by index, `wall_seconds` is the time of the whole command.
+/// The summary of a run or of a yield load. `bodies` are the names by index, `wall_seconds` is the
+/// time of the whole command.
 pub(super) fn results(
     scene: &Scene,
     bodies: &[String],
@@ -79,7 +81,8 @@ fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{plural}")
 }
 
-/// Two figures of a state within this of each other need no column each: the table shows six digits.
+/// Two figures of a state within this of each other need no column each: the table shows six
+/// digits.
 const SAME: f64 = 1e-6;
 /// Width of the labels.
 const LABEL: usize = 9;
@@ -103,7 +106,7 @@ impl Report {
         let mut report = Report {
             text: String::new(),
         };
-        report.lines(&format!("{title} ({kind})"));
+        report.lines(&format!("{} ({kind})", shown_in_line(&title)));
         report.text.push('\n');
         report
     }
@@ -360,7 +363,7 @@ impl Report {
                 row.quantity.clone(),
                 number(row.reference),
                 number(row.computed),
-                number(row.ratio),
+                ratio(row.ratio),
             ];
             if published {
                 let ratio = row.published_ratio.map(|ratio| ratio.to_string());
@@ -380,6 +383,9 @@ impl Report {
             .map_or_else(String::new, |value| {
                 format!(" (row by row {})", figure(value))
             });
+        let round_off = quality.round_off.map_or_else(String::new, |value| {
+            format!(" (round-off alone {})", figure(value))
+        });
         let condition = match (results.condition_estimate, results.condition) {
             (Some(estimate), _) => format!("; condition about {}", figure(estimate)),
             (None, least) if least > 0.0 => format!("; condition at least {}", figure(least)),
@@ -389,7 +395,8 @@ impl Report {
         self.labelled(
             "Quality",
             &format!(
-                "backward error {}{componentwise}, equilibrium {}, complementarity {}, penetration {}, adhesion {}{condition}",
+                "backward error {}{componentwise}, equilibrium {}{round_off}, complementarity {}, \
+                 penetration {}, adhesion {}{condition}",
                 figure(quality.backward_error),
                 figure(quality.equilibrium),
                 figure(quality.complementarity),

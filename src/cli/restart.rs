@@ -12,10 +12,11 @@ use std::path::Path;
 /// Whether a run leaves checkpoints, and goes on from one.
 #[derive(Debug, Args)]
 pub(super) struct RestartArguments {
-    /// Write a checkpoint at every N-th accepted increment (default 1), so that a run that is killed can go on with --resume
+    /// Write a checkpoint at every N-th accepted increment (default 1), so that a run that is
+    /// killed can go on with --resume
     ///
-    /// Goes to the directory of the results with the ending .checkpoint, and is deleted when the results are written.
-    /// Results do not depend on it.
+    /// Goes to the directory of the results with the ending .checkpoint, and is deleted when the
+    /// results are written. Results do not depend on it.
     #[arg(
         long,
         value_name = "N",
@@ -25,9 +26,11 @@ pub(super) struct RestartArguments {
         value_parser = clap::value_parser!(u32).range(1..)
     )]
     pub checkpoint: Option<u32>,
-    /// Go on from the last checkpoint; begin anew where there is none. Writes checkpoints like --checkpoint
+    /// Go on from the last checkpoint; begin anew where there is none. Writes checkpoints like
+    /// --checkpoint
     ///
-    /// The results are those of a run that was never stopped. A checkpoint of another scene, mesh, solver or version is refused.
+    /// The results are those of a run that was never stopped. A checkpoint of another scene, mesh,
+    /// solver or version is refused.
     #[arg(long)]
     pub resume: bool,
 }
@@ -35,12 +38,8 @@ pub(super) struct RestartArguments {
 impl RestartArguments {
     /// Where checkpoints go, if the user wants any: beside the results `out`.
     pub fn checkpoints(&self, out: &Path) -> Option<Checkpoints> {
-        if self.checkpoint.is_none() && !self.resume {
-            return None;
-        }
-        let mut dir = out.as_os_str().to_os_string();
-        dir.push(".checkpoint");
-        Some(Checkpoints::new(dir).every(self.checkpoint.unwrap_or(1) as usize))
+        let wanted = self.checkpoint.is_some() || self.resume;
+        wanted.then(|| beside(out).every(self.checkpoint.unwrap_or(1) as usize))
     }
 
     /// Runs with checkpoints.
@@ -74,10 +73,20 @@ pub(super) fn not_with_accuracy() -> Error {
     )
 }
 
-/// After the results are written: a run that came to its end needs its checkpoints no more.
-pub(super) fn settle(checkpoints: &Checkpoints, results: &Results) -> Result<()> {
+/// The checkpoints that belong to the results `out`.
+fn beside(out: &Path) -> Checkpoints {
+    // Without a slash at its end, after which they would lie within.
+    let mut dir = out.components().as_path().as_os_str().to_os_string();
+    dir.push(".checkpoint");
+    Checkpoints::new(dir)
+}
+
+/// After the results are written to `out`: a run that came to its end needs its
+/// checkpoints no more, nor those that an earlier run with the same results left when it was
+/// killed.
+pub(super) fn settle(out: &Path, results: &Results) -> Result<()> {
     match results.incomplete_kind {
         Some(ErrorKind::Stopped) => Ok(()),
-        _ => checkpoints.remove(),
+        _ => beside(out).remove(),
     }
 }

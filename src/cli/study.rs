@@ -19,13 +19,16 @@ use std::time::Instant;
 pub(super) struct StudyArguments {
     #[command(flatten)]
     pub common: CommonArguments,
-    /// Directory for accuracy.json, accuracy.csv and the plots; SCENE with the ending .accuracy if it is not given
+    /// Directory for accuracy.json, accuracy.csv and the plots; SCENE with the ending .accuracy if
+    /// it is not given
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Time that the study may take, such as 60s or 10min; runs that would not fit are left out, but for the cheapest
+    /// Time that the study may take, such as 60s or 10min; runs that would not fit are left out,
+    /// but for the cheapest
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub budget: Option<f64>,
-    /// Meshes in a series: the finest has twice as many elements along a line as the scene, the next each 1/sqrt(2) of that
+    /// Meshes in a series: the finest has twice as many elements along a line as the scene, the
+    /// next each 1/sqrt(2) of that
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u16).range(2..=12))]
     pub levels: u16,
     /// What to turn, separated by commas: resolution, element, stepping, tolerance, gamma, algorithm, backend; default all

@@ -1,5 +1,7 @@
 //! Tables of text: aligned columns, no wider than a page, long text wrapped.
 
+use crate::text::shown_in_line;
+
 /// No line of a report is longer.
 pub(super) const WIDTH: usize = 110;
 const INDENT: usize = 2;
@@ -30,9 +32,11 @@ impl Table {
         }
     }
 
-    /// Adds a row; missing cells are empty, cells beyond the last column are dropped.
+    /// Adds a row, a line of text to a cell; missing cells are empty, cells beyond the last column
+    /// are dropped.
     pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
-        let mut cells: Vec<String> = cells.into_iter().collect();
+        let in_line = |cell: String| shown_in_line(&cell).into_owned();
+        let mut cells: Vec<String> = cells.into_iter().map(in_line).collect();
         cells.resize(self.columns.len(), String::new());
         self.rows.push(cells);
     }

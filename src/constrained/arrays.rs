@@ -17,8 +17,8 @@ pub enum Triangle {
     Lower,
 }
 
-/// A symmetric `n x n` matrix from its entries compressed by column: `n + 1` begins of the columns in `rows` and `values`.
-/// Repeated entries are added; rows need not be sorted.
+/// A symmetric `n x n` matrix from its entries compressed by column: `n + 1` begins of the columns
+/// in `rows` and `values`. Repeated entries are added; rows need not be sorted.
 ///
 /// ```
 /// use brinell::constrained::{ConstrainedStructure, Triangle, rows_from_csr, stiffness_from_csc};
@@ -38,12 +38,13 @@ pub enum Triangle {
 /// # }
 /// ```
 ///
-/// The arrays are read where they lie, indices of any width; what comes back is all that is allocated: the upper triangle with 64-bit
-/// indices, 16 bytes for each of its entries, as the factorisation takes it.
+/// The arrays are read where they lie, indices of any width; what comes back is all that is
+/// allocated: the upper triangle with 64-bit indices, 16 bytes for each of its entries, as the
+/// factorisation takes it.
 ///
 /// # Errors
-/// Lengths that do not fit, begins that fall, a row that is not in `0..n`, an entry outside of the triangle or not finite: by its
-/// place and value.
+/// Lengths that do not fit, begins that fall, a row that is not in `0..n`, an entry outside of the
+/// triangle or not finite: by its place and value.
 pub fn stiffness_from_csc<S: Index, I: Index>(
     n: usize,
     starts: &[S],
@@ -107,7 +108,8 @@ fn in_upper(triangle: Triangle, row: usize, column: usize) -> Result<Option<[usi
     )))
 }
 
-/// Sorts the rows of each column that needs it and adds repeated entries, in the order in which they were given.
+/// Sorts the rows of each column that needs it and adds repeated entries, in the order in which
+/// they were given.
 fn sort_and_add(columns: &mut [i64], rows: &mut Vec<i64>, values: &mut Vec<f64>) {
     let mut end = 0;
     let mut begin = 0;
@@ -136,8 +138,8 @@ fn sort_and_add(columns: &mut [i64], rows: &mut Vec<i64>, values: &mut Vec<f64>)
     values.truncate(end);
 }
 
-/// Contact rows on `n` freedoms from their coefficients compressed by row: begins of the rows in `freedoms` and `coefficients`, one
-/// more than there are rows.
+/// Contact rows on `n` freedoms from their coefficients compressed by row: begins of the rows in
+/// `freedoms` and `coefficients`, one more than there are rows.
 ///
 /// # Errors
 /// Lengths that do not fit, begins that fall, a freedom that is not in `0..n`.

@@ -6,7 +6,8 @@ use crate::linalg::{self, Refinement};
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 impl ConstrainedStructure {
-    /// Displacements of all freedoms (`n`) in the state at hand. Returns `|K u - f + B' r| / (|K| |u| + |f|)`. Costs one full solve.
+    /// Displacements of all freedoms (`n`) in the state at hand. Returns
+    /// `|K u - f + B' r| / (|K| |u| + |f|)`. Costs one full solve.
     ///
     /// # Errors
     /// [`ErrorKind::Input`] where `out` has the wrong length; failure of the backend's solve.
@@ -48,18 +49,21 @@ impl ConstrainedStructure {
         (pushed, load)
     }
 
-    /// As [`ConstrainedStructure::displacements`] with the residual in twice the working precision ([`linalg::refine`]): for a stiffness whose
-    /// entries are exact and whose condition is bad. Right to the last digits for the gaps and forces at hand, where the plain solution
-    /// is off by round-off times the condition. Returns what the refinement did. Costs a full solve for each step and a factor of the
-    /// condensed stiffness.
+    /// As [`ConstrainedStructure::displacements`] with the residual in twice the working precision
+    /// ([`linalg::refine`]): for a stiffness whose entries are exact and whose condition is bad.
+    /// Right to the last digits for the gaps and forces at hand, where the plain solution is off by
+    /// round-off times the condition. Returns what the refinement did. Costs a full solve for each
+    /// step and a factor of the condensed stiffness.
     ///
     /// # Errors
-    /// As [`ConstrainedStructure::displacements`]; [`ErrorKind::Unheld`] where the closed rows do not hold the structure.
+    /// As [`ConstrainedStructure::displacements`]; [`ErrorKind::Unheld`] where the closed rows do
+    /// not hold the structure.
     pub fn refined_displacements(&self, out: &mut [f64]) -> Result<Refinement> {
         self.displacements(out)?;
         let contact = &self.partition.contact;
         let (_, load) = self.contact_forces();
-        // (K + B' S B) u = f - B' r + B' S delta with the closed rows, whose gap is zero without round-off: definite also where K alone is not.
+        // (K + B' S B) u = f - B' r + B' S delta with the closed rows, whose gap is zero without
+        // round-off: definite also where K alone is not.
         let open = self.tableau.open();
         let spring = DVector::from_fn(open.len(), |i, _| if open[i] { 0.0 } else { self.shift[i] });
         let mut stiffness = DMatrix::clone(&self.condensed_stiffness);

@@ -4,8 +4,8 @@ use crate::contact::Unbounded;
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::{self, Backend, Condensed, NotDefinite, Partition, SymmetricCsc};
 
-/// Condenses; where the matrix alone is not definite once more with its own diagonal added on the contact freedoms and taken off
-/// again.
+/// Condenses; where the matrix alone is not definite once more with its own diagonal added on the
+/// contact freedoms and taken off again.
 pub(super) fn condense(
     backend: Backend,
     stiffness: &SymmetricCsc,

@@ -27,7 +27,8 @@ pub struct Event {
 }
 
 impl ConstrainedStructure {
-    /// Starts a piece of the load path: from the state at hand the load goes on as `f + t rate`, `t` from 0.
+    /// Starts a piece of the load path: from the state at hand the load goes on as `f + t rate`,
+    /// `t` from 0.
     ///
     /// # Errors
     /// As [`ConstrainedStructure::solve`].
@@ -62,8 +63,9 @@ impl ConstrainedStructure {
     /// Goes on to `t = end` or to the next change of contact, whichever comes first.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Input`] where no piece was started or `end` lies behind; [`crate::ErrorKind::Unheld`] naming the row where the
-    /// load pushes a body away from every contact.
+    /// [`crate::ErrorKind::Input`] where no piece was started or `end` lies behind;
+    /// [`crate::ErrorKind::Unheld`] naming the row where the load pushes a body away from every
+    /// contact.
     pub fn step(&mut self, end: f64) -> Result<Event> {
         let Some(way) = &mut self.way else {
             return Err(Error::input("no piece of the load path was started"));

@@ -1,7 +1,8 @@
 use super::*;
 use crate::contact::Change;
 
-/// Upper triangle of a chain of unit springs between `n` freedoms, those of `held` tied to the ground by another.
+/// Upper triangle of a chain of unit springs between `n` freedoms, those of `held` tied to the
+/// ground by another.
 fn chain(n: usize, held: &[usize]) -> SymmetricCsc {
     let mut triplets = sprs::TriMatI::<f64, i64>::new((n, n));
     for i in 0..n {
@@ -32,8 +33,8 @@ fn close(a: f64, b: f64) {
     );
 }
 
-/// A bar of three springs held at one end, a wall at the other at distance 1: it is touched at load 1/3 per... the end moves
-/// by 3 f under an end load f.
+/// A bar of three springs held at one end, a wall at the other at distance 1: it is touched at load
+/// 1/3 per... the end moves by 3 f under an end load f.
 #[test]
 fn a_bar_touches_a_wall_at_the_load_that_closes_its_gap() {
     for backend in backends() {
@@ -93,7 +94,8 @@ fn a_body_held_by_contact_alone_is_pushed_but_not_pulled() {
     }
 }
 
-/// Rows with weights (a node between two others) against the optimality conditions, whatever the load.
+/// Rows with weights (a node between two others) against the optimality conditions, whatever the
+/// load.
 #[test]
 fn random_structures_fulfil_all_conditions() {
     let mut seed = 7u64;
@@ -186,8 +188,9 @@ fn what_does_not_fit_is_refused_by_name() {
     assert!(bar.displacements(&mut [0.0]).is_err());
 }
 
-/// A clamped beam by differences, `1 -4 6 -4 1`: whole numbers, a condition of 1e10. The displacements under a load that is exact for whole
-/// numbers come out as these, where the plain solution has lost half its digits.
+/// A clamped beam by differences, `1 -4 6 -4 1`: whole numbers, a condition of 1e10. The
+/// displacements under a load that is exact for whole numbers come out as these, where the plain
+/// solution has lost half its digits.
 #[test]
 fn refined_displacements_are_right_to_the_last_digit() {
     let n = 500;

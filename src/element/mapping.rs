@@ -1,16 +1,17 @@
 //! Strains and forces of an element that is looked at once: without its strain operator.
 //!
-//! The gradients of the shape functions in the reference element are the same for all elements of a shape. With the Jacobian
-//! `J = sum_k x_k dN_k/dxi` of a point
+//! The gradients of the shape functions in the reference element are the same for all elements of a
+//! shape. With the Jacobian `J = sum_k x_k dN_k/dxi` of a point
 //!
 //! ```text
 //! du/dx = J^-T sum_k u_k dN_k/dxi          f_k = sum_g (J^-1 w sigma) dN_k/dxi
 //! ```
 //!
-//! take eight products each for a node and point, a fraction of what the gradients `dN_k/dx` of an operator
-//! ([`super::Points`]) take to be made. With a mean dilatation (B-bar) the trace of the strain is replaced by its mean over the
-//! element, and in the forces the mean stress by its mean: the same as the mean of `tr B` over the nodes. Points are computed
-//! side by side: every quantity is an array over them.
+//! take eight products each for a node and point, a fraction of what the gradients `dN_k/dx` of an
+//! operator ([`super::Points`]) take to be made. With a mean dilatation (B-bar) the trace of the
+//! strain is replaced by its mean over the element, and in the forces the mean stress by its mean:
+//! the same as the mean of `tr B` over the nodes. Points are computed side by side: every quantity
+//! is an array over them.
 
 use super::{MAX_NODES, MAX_POINTS, has_mean, rule, sampling_points, shape_functions};
 use crate::scene::Kind;
@@ -126,7 +127,8 @@ impl Mapping {
         self.n_points
     }
 
-    /// Weights of the points: quadrature weight times Jacobian times thickness (1) or circumference (2 pi r).
+    /// Weights of the points: quadrature weight times Jacobian times thickness (1) or circumference
+    /// (2 pi r).
     pub fn weights(&self) -> &[f64] {
         &self.weights[..self.n_points]
     }
@@ -245,8 +247,8 @@ impl Mapping {
     }
 }
 
-/// Strains at the points where stress is most accurate ([`sampling_points`]), their dilatation treated as in [`Mapping::strains`]; the
-/// number of these points.
+/// Strains at the points where stress is most accurate ([`sampling_points`]), their dilatation
+/// treated as in [`Mapping::strains`]; the number of these points.
 pub fn sampled_strains(
     kind: Kind,
     shape: Shape,
@@ -264,8 +266,8 @@ pub fn sampled_strains(
     (out, n_points)
 }
 
-/// Derivatives of a vector field with the values `of` at the nodes along the reference coordinates: of its first component, then of
-/// its second.
+/// Derivatives of a vector field with the values `of` at the nodes along the reference coordinates:
+/// of its first component, then of its second.
 #[inline]
 fn along_reference(
     reference: &Reference,

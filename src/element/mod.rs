@@ -1,21 +1,26 @@
 //! Element kernels: they see one element's coordinates, never the mesh or the global matrix.
 //!
 //! Strain is `[xx, yy, zz, xy]` (axisymmetric `[rr, zz, tt, rz]`) with engineering shear,
-//! `eps = B u_e`, `K_e = sum_g w_g B' D B`, `f_e = sum_g w_g B' sigma`. Element vectors run node by node,
-//! `[u_x0, u_y0, u_x1, ...]`.
+//! `eps = B u_e`, `K_e = sum_g w_g B' D B`, `f_e = sum_g w_g B' sigma`. Element vectors run node by
+//! node, `[u_x0, u_y0, u_x1, ...]`.
 //!
-//! `quad4` uses the mean dilatation (B-bar), `quad8` reduced integration: neither locks in isochoric
-//! plastic flow. `tri3` does.
+//! `quad4` uses the mean dilatation (B-bar), `quad8` reduced integration: neither locks in
+//! isochoric plastic flow. `tri3` does.
 //!
 //! # What `quad4` leaves at an axis of revolution
 //!
-//! Next to the axis a regular field is `u_r = a r z`, `u_z = b r^2 + c z^2` to second order. In a bilinear element `b r^2` has the slope of the centre, and the virtual work
-//! of its shear is wrong by a share that the next element makes good; on the axis there is none. What is left acts as a line load of the order `h^2` along the axis,
-//! and stresses beside it are of the order `h`: the pole's pressure of Hertz' point contact is 1.0 % low with 12 elements over its radius. With the shear
-//! `sqrt(r/r_c) (du_r/dz at the centre + du_z/dr)`, `r_c` the radius of the centre, that field is in equilibrium node by node, and the pressure is 0.07 % off; plates and rings
-//! of flat elements do not lock, but bend 2 % too easily with four elements over the thickness. It was built, measured and left out: errors of that size change their sign
-//! from mesh to mesh, so that what other meshes say of them was wrong by 0.1 to 19 times, and of 74 stated errors 64 held instead of 71. (With `du_r/dz` at
-//! the point, times `sqrt(r_c/r)`, the field is in equilibrium too, but a ring that turns in its section is 13 to 45 % too stiff.)
+//! Next to the axis a regular field is `u_r = a r z`, `u_z = b r^2 + c z^2` to second order. In a
+//! bilinear element `b r^2` has the slope of the centre, and the virtual work of its shear is wrong
+//! by a share that the next element makes good; on the axis there is none. What is left acts as a
+//! line load of the order `h^2` along the axis, and stresses beside it are of the order `h`: the
+//! pole's pressure of Hertz' point contact is 1.0 % low with 12 elements over its radius. With the
+//! shear `sqrt(r/r_c) (du_r/dz at the centre + du_z/dr)`, `r_c` the radius of the centre, that
+//! field is in equilibrium node by node, and the pressure is 0.07 % off; plates and rings of flat
+//! elements do not lock, but bend 2 % too easily with four elements over the thickness. It was
+//! built, measured and left out: errors of that size change their sign from mesh to mesh, so that
+//! what other meshes say of them was wrong by 0.1 to 19 times, and of 74 stated errors 64 held
+//! instead of 71. (With `du_r/dz` at the point, times `sqrt(r_c/r)`, the field is in equilibrium
+//! too, but a ring that turns in its section is 13 to 45 % too stiff.)
 
 mod facet;
 mod mapping;
@@ -78,7 +83,8 @@ impl Points {
         &self.positions[..self.len()]
     }
 
-    /// Weights of the points: quadrature weight times Jacobian times thickness (1) or circumference (2 pi r).
+    /// Weights of the points: quadrature weight times Jacobian times thickness (1) or circumference
+    /// (2 pi r).
     pub fn weights(&self) -> impl Iterator<Item = f64> {
         let stride = self.form.stride();
         (0..self.len()).map(move |g| self.values[g * stride])
@@ -124,8 +130,8 @@ fn rule(shape: Shape) -> &'static [([f64; 2], f64)] {
     }
 }
 
-/// Reference coordinates of the points at which stress is most accurate (superconvergent): the centre of linear
-/// elements, the 2 x 2 or 3 Gauss points of quadratic ones.
+/// Reference coordinates of the points at which stress is most accurate (superconvergent): the
+/// centre of linear elements, the 2 x 2 or 3 Gauss points of quadratic ones.
 pub fn sampling_points(shape: Shape) -> &'static [([f64; 2], f64)] {
     match shape {
         Shape::Quad4 => &[([0.0, 0.0], 4.0)],

@@ -1,7 +1,8 @@
 //! The strain operator of an element without its zeros.
 //!
-//! With the gradients `n_x = dN/dx`, `n_y = dN/dy`, `n_r = N/r` (axisymmetric) of a node's shape function at a point and the
-//! mean dilatation `m` of the element (B-bar) the operator, its transpose and the stiffness are
+//! With the gradients `n_x = dN/dx`, `n_y = dN/dy`, `n_r = N/r` (axisymmetric) of a node's shape
+//! function at a point and the mean dilatation `m` of the element (B-bar) the operator, its
+//! transpose and the stiffness are
 //!
 //! ```text
 //! e_xx = sum n_x u + c,  e_yy = sum n_y v + c,  e_zz = sum n_r u + c,  g_xy = sum n_y u + n_x v
@@ -11,8 +12,9 @@
 //! K    = sum_g w_g B' (D - kappa 1 1') B + V kappa m m'      kappa the bulk modulus, V the volume
 //! ```
 //!
-//! (`c`, `p` and `kappa` are zero without B-bar): for a quad4 about a sixth of the numbers of the full B. What one writes
-//! `B' sigma` in books is [`Form::forces`] here, `B u` is [`Form::strains`].
+//! (`c`, `p` and `kappa` are zero without B-bar): for a quad4 about a sixth of the numbers of the
+//! full B. What one writes `B' sigma` in books is [`Form::forces`] here, `B u` is
+//! [`Form::strains`].
 //!
 //! # Source
 //! T. J. R. Hughes, *The Finite Element Method* (1987), sections 2.7 and 4.5 (B-bar).
@@ -26,8 +28,8 @@ pub type AtPoints = [[f64; 4]; MAX_POINTS];
 /// Most numbers of an operator: four points with weight and three gradients of eight nodes.
 pub const MAX_VALUES: usize = MAX_POINTS * (1 + 3 * MAX_NODES);
 
-/// What stands in the values of an operator: per point weight, `n_x`, `n_y` and, axisymmetric, `n_r` of all nodes; then, with
-/// B-bar, `m_x` and `m_y` of all nodes.
+/// What stands in the values of an operator: per point weight, `n_x`, `n_y` and, axisymmetric,
+/// `n_r` of all nodes; then, with B-bar, `m_x` and `m_y` of all nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Form {
     /// Nodes of the element.
@@ -60,7 +62,8 @@ impl Form {
         self.mean_at() + 2 * usize::from(self.n_nodes) * usize::from(self.has_mean)
     }
 
-    /// `eps = B u` at all points, for element displacements `[u_x0, u_y0, u_x1, ...]` in global axes.
+    /// `eps = B u` at all points, for element displacements `[u_x0, u_y0, u_x1, ...]` in global
+    /// axes.
     #[inline]
     pub fn strains(self, values: &[f64], u: &[f64; MAX_FREEDOMS]) -> AtPoints {
         match self.n_nodes {

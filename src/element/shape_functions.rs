@@ -3,8 +3,8 @@
 use super::MAX_NODES;
 use crate::mesh::Shape;
 
-/// Values and gradients `(d/dxi, d/deta)` of the shape functions at a reference point: quadrilaterals on
-/// `[-1, 1]^2`, triangles on `xi, eta >= 0, xi + eta <= 1`.
+/// Values and gradients `(d/dxi, d/deta)` of the shape functions at a reference point:
+/// quadrilaterals on `[-1, 1]^2`, triangles on `xi, eta >= 0, xi + eta <= 1`.
 pub fn shape_functions(
     shape: Shape,
     [x, y]: [f64; 2],

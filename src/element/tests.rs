@@ -61,7 +61,8 @@ fn linear_fields_give_exact_strains() {
                 .collect();
             for points in [gauss_points(kind, shape, &x), sampling(kind, shape, &x)] {
                 for e in &points.strains(&full(&u))[..points.len()] {
-                    // The mean dilatation of a constant field is that field; e_zz then is round-off only.
+                    // The mean dilatation of a constant field is that field; e_zz then is round-off
+                    // only.
                     for (value, exact) in e.iter().zip([0.3, 0.1, 0.0, 0.3]) {
                         assert!((value - exact).abs() < 1e-14, "{shape:?} {e:?}");
                     }
@@ -79,7 +80,8 @@ fn full(u: &[f64]) -> [f64; MAX_FREEDOMS] {
 
 const KINDS: [Kind; 3] = [Kind::PlaneStrain, Kind::PlaneStress, Kind::Axisymmetric];
 
-/// The textbook's matrix B at each Gauss point with the point's weight: rows xx, yy, zz, xy, B-bar where it applies.
+/// The textbook's matrix B at each Gauss point with the point's weight: rows xx, yy, zz, xy, B-bar
+/// where it applies.
 fn textbook(kind: Kind, shape: Shape, x: &[[f64; 2]]) -> Vec<(f64, [[f64; MAX_FREEDOMS]; 4])> {
     let n = shape.n_nodes();
     let mut out: Vec<_> = rule(shape)
@@ -191,7 +193,8 @@ fn stiffness_is_free_of_rigid_motion() {
     }
 }
 
-/// Nothing but the rigid motion along the axis is free in an axisymmetric `quad4`, on the axis or off it, long or flat, upright or on its corner.
+/// Nothing but the rigid motion along the axis is free in an axisymmetric `quad4`, on the axis or
+/// off it, long or flat, upright or on its corner.
 #[test]
 fn no_other_motion_of_a_ring_is_free() {
     let block = |from: f64, [width, height]: [f64; 2]| {
@@ -210,7 +213,8 @@ fn no_other_motion_of_a_ring_is_free() {
         let matrix = nalgebra::SMatrix::<f64, 8, 8>::from_fn(|i, j| k[packed(i, j)]);
         let mut sizes = matrix.symmetric_eigenvalues().data.0[0];
         sizes.sort_by(f64::total_cmp);
-        // The softest motion is the bending of a plate: the fourth power of its slenderness, 1/20, beside the shear, times about a tenth.
+        // The softest motion is the bending of a plate: the fourth power of its slenderness, 1/20,
+        // beside the shear, times about a tenth.
         assert!(sizes[0].abs() < 1e-12 * sizes[7], "{x:?}: {sizes:?}");
         assert!(
             sizes[1] > 0.01 / 20f64.powi(4) * sizes[7],
@@ -245,8 +249,8 @@ fn facets_integrate_length_and_point_outward() {
     assert!(corner.abs() < 1e-14);
 }
 
-/// Without an operator strains, forces, weights and places are those with it, to the round-off of their sums: any shape, any kinematics,
-/// elements pulled out of shape at random.
+/// Without an operator strains, forces, weights and places are those with it, to the round-off of
+/// their sums: any shape, any kinematics, elements pulled out of shape at random.
 #[test]
 fn a_mapping_gives_what_the_operator_gives() {
     let mut number = {
@@ -274,7 +278,8 @@ fn a_mapping_gives_what_the_operator_gives() {
                 let mapping = Mapping::gauss(kind, shape, &nodes);
                 let name = format!("{shape:?} {kind:?}");
                 assert_eq!(mapping.n_points(), points.len());
-                // Sums of two dozen terms; no gradient is larger than the largest number of the operator.
+                // Sums of two dozen terms; no gradient is larger than the largest number of the
+                // operator.
                 let size = points.values().iter().fold(1.0f64, |m, b| m.max(b.abs()));
                 let round_off = 64.0 * f64::EPSILON * size;
                 let compare = |a: &Components, b: &AtPoints, n: usize| {

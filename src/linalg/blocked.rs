@@ -1,6 +1,7 @@
 //! Dense kernels by blocks, on all threads: what thousands of contact pairs spend their time in.
 //!
-//! Blocks have the same sizes and sums the same order whatever the number of threads: so have the bits.
+//! Blocks have the same sizes and sums the same order whatever the number of threads: so have the
+//! bits.
 //!
 //! # Source
 //! G. H. Golub, C. F. Van Loan, *Matrix Computations*, 4th ed., 2013, sections 3.1.7 and 4.2.9.
@@ -11,7 +12,8 @@ use rayon::prelude::*;
 /// Columns of a block.
 const BLOCK: usize = 96;
 
-/// The lower Cholesky factor of `a`, whose lower triangle is read; `None` where a pivot is not positive.
+/// The lower Cholesky factor of `a`, whose lower triangle is read; `None` where a pivot is not
+/// positive.
 pub(crate) fn cholesky(mut a: DMatrix<f64>) -> Option<DMatrix<f64>> {
     let n = a.nrows();
     for start in (0..n).step_by(BLOCK) {
@@ -64,15 +66,16 @@ pub(crate) fn solve_lower(l: &DMatrix<f64>, b: &mut DMatrix<f64>) {
         });
 }
 
-/// The lower triangle of `a a'`, by strips of columns: above the diagonal only within them. `depth(i)` says how many columns of the rows
-/// before `i` count, all where it is not less.
+/// The lower triangle of `a a'`, by strips of columns: above the diagonal only within them.
+/// `depth(i)` says how many columns of the rows before `i` count, all where it is not less.
 pub(crate) fn outer(a: &DMatrix<f64>, depth: impl Fn(usize) -> usize + Sync) -> DMatrix<f64> {
     let n = a.nrows();
     let mut product = DMatrix::zeros(n, n);
     if n == 0 {
         return product;
     }
-    // Wide strips: the kernel copies what stands left of a product into its own order once for each.
+    // Wide strips: the kernel copies what stands left of a product into its own order once for
+    // each.
     let strip = (n / 8).clamp(BLOCK, 4 * BLOCK);
     product
         .as_mut_slice()
@@ -99,7 +102,8 @@ mod tests {
         for n in [0, 1, 95, 96, 97, 250] {
             let mut numbers = Numbers::new(5);
             let random = DMatrix::from_vec(n, n, numbers.vector(n * n));
-            // Diagonally dominant: condition below 4, round-off n eps times the size of the entries.
+            // Diagonally dominant: condition below 4, round-off n eps times the size of the
+            // entries.
             let a = &random * random.transpose() + DMatrix::identity(n, n) * (n * n) as f64;
             let tolerance = n as f64 * f64::EPSILON * 2.0 * (n * n + 1) as f64;
             let l = cholesky(a.clone()).unwrap();

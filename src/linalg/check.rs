@@ -3,9 +3,9 @@
 use super::{Partition, SymmetricCsc};
 use crate::error::{Error, Result};
 
-/// Checks that the three arguments are well formed and fit together: `matrix` is `n x n`, compressed by column,
-/// upper triangle, finite, its diagonal stored; the freedoms of the partition are distinct and below `n`;
-/// `shift` is empty or has a finite value for each contact freedom.
+/// Checks that the three arguments are well formed and fit together: `matrix` is `n x n`,
+/// compressed by column, upper triangle, finite, its diagonal stored; the freedoms of the partition
+/// are distinct and below `n`; `shift` is empty or has a finite value for each contact freedom.
 pub(super) fn arguments(matrix: &SymmetricCsc, partition: &Partition, shift: &[f64]) -> Result<()> {
     let n = partition.n;
     if n == 0 {

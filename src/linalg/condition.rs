@@ -1,13 +1,15 @@
 //! The condition of a factored matrix, estimated with a few solves.
 //!
-//! For `A = K + diag(shift)` and `S = diag(a_ii^-1/2)` the estimate is `|B|_1 |B^-1|_1` with `B = S A S`: about the smallest that any
-//! scaling of rows and columns gives (van der Sluis), so that units and graded meshes do not count. `|B^-1|_1`, the maximum of a convex
-//! function over a polytope, is climbed to from vertex to vertex; each step takes two solves, and two or three steps are the rule.
-//! It is a lower bound, rarely off by more than a factor of three.
+//! For `A = K + diag(shift)` and `S = diag(a_ii^-1/2)` the estimate is `|B|_1 |B^-1|_1` with
+//! `B = S A S`: about the smallest that any scaling of rows and columns gives (van der Sluis), so
+//! that units and graded meshes do not count. `|B^-1|_1`, the maximum of a convex function over a
+//! polytope, is climbed to from vertex to vertex; each step takes two solves, and two or three
+//! steps are the rule. It is a lower bound, rarely off by more than a factor of three.
 //!
 //! # Source
-//! W. W. Hager (1984), doi:10.1137/0905023; N. J. Higham (1988), algorithm 674, doi:10.1145/50063.214386, as in LAPACK's `dlacn2`;
-//! A. van der Sluis (1969), doi:10.1007/BF02165096.
+//! W. W. Hager (1984), doi:10.1137/0905023; N. J. Higham (1988), algorithm 674,
+//! doi:10.1145/50063.214386, as in LAPACK's `dlacn2`; A. van der Sluis (1969),
+//! doi:10.1007/BF02165096.
 
 use super::{Condensed, Partition, SymmetricCsc, solve_whole};
 use crate::error::Result;
@@ -16,8 +18,9 @@ use nalgebra::Cholesky;
 /// Most steps from vertex to vertex.
 const MOST: usize = 5;
 
-/// Estimated condition of a factored `matrix` with its `shift` (empty for none), scaled to a unit diagonal; infinite where round-off has left
-/// no definite matrix on the contact freedoms. `partition` holds the zone as it is chosen.
+/// Estimated condition of a factored `matrix` with its `shift` (empty for none), scaled to a unit
+/// diagonal; infinite where round-off has left no definite matrix on the contact freedoms.
+/// `partition` holds the zone as it is chosen.
 ///
 /// # Errors
 /// Those of [`Condensed::recover_all`].
@@ -109,7 +112,8 @@ fn inverse_norm(n: usize, solve: impl Fn(&mut [f64]) -> Result<()>) -> Result<f6
         }
         vertex = next;
     }
-    // Matrices are known on which the climb stops at once: a vector with all frequencies in it finds most of them out.
+    // Matrices are known on which the climb stops at once: a vector with all frequencies in it
+    // finds most of them out.
     for (i, v) in x.iter_mut().enumerate() {
         let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
         *v = sign * (1.0 + i as f64 / (n.max(2) - 1) as f64);

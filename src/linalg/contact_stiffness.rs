@@ -1,11 +1,13 @@
 //! The condensed stiffness on the contact freedoms, by bodies.
 //!
-//! Bodies that touch share contact forces, not stiffness: freedoms of different bodies are not coupled in `C`. Two bodies of equally many
-//! contact freedoms need half the memory of the whole matrix, and a quarter of the work to form it.
+//! Bodies that touch share contact forces, not stiffness: freedoms of different bodies are not
+//! coupled in `C`. Two bodies of equally many contact freedoms need half the memory of the whole
+//! matrix, and a quarter of the work to form it.
 
 use nalgebra::DMatrix;
 
-/// `C = S_cc - S_cz S_zz^-1 S_zc` (force per displacement), `n_contact x n_contact`, symmetric to the last bit, as its diagonal blocks.
+/// `C = S_cc - S_cz S_zz^-1 S_zc` (force per displacement), `n_contact x n_contact`, symmetric to
+/// the last bit, as its diagonal blocks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactStiffness {
     blocks: Vec<ContactBlock>,

@@ -5,12 +5,13 @@
 //!     C   = S_cc - S_cz S_zz^-1 S_zc
 //! ```
 //!
-//! It is the reference that the sparse backend is tested against, and shares nothing with it but the trait.
+//! It is the reference that the sparse backend is tested against, and shares nothing with it but
+//! the trait.
 //!
 //! # Source
 //! R. J. Guyan, *Reduction of stiffness and mass matrices*, AIAA Journal 3 (2), 1965, p. 380,
-//! doi:10.2514/3.2874 (static condensation); G. H. Golub, C. F. Van Loan, *Matrix Computations*, 4th ed.,
-//! 2013, algorithm 4.2.7 (blocked Cholesky).
+//! doi:10.2514/3.2874 (static condensation); G. H. Golub, C. F. Van Loan, *Matrix Computations*,
+//! 4th ed., 2013, algorithm 4.2.7 (blocked Cholesky).
 
 use super::*;
 use crate::memory;
@@ -238,8 +239,8 @@ impl Pivots {
         }
     }
 
-    /// Lower Cholesky factor of `a` (its lower triangle is read), whose row `j` is the freedom `freedoms[j]`
-    /// with `diagonal(j)` in the matrix it was condensed from.
+    /// Lower Cholesky factor of `a` (its lower triangle is read), whose row `j` is the freedom
+    /// `freedoms[j]` with `diagonal(j)` in the matrix it was condensed from.
     fn factor(
         &mut self,
         mut a: DMatrix<f64>,

@@ -1,5 +1,5 @@
-//! Linear algebra that knows no mechanics: a symmetric positive definite matrix is factored once and
-//! condensed onto its trailing freedoms.
+//! Linear algebra that knows no mechanics: a symmetric positive definite matrix is factored once
+//! and condensed onto its trailing freedoms.
 //!
 //! The freedoms fall into three groups, `[ interior | zone | contact ]`. The trailing system is
 //!
@@ -9,8 +9,8 @@
 //! ```
 //!
 //! and everything the analysis needs is: the fully condensed contact stiffness
-//! `C = S_cc - S_cz S_zz^-1 S_zc`, static condensation of a load onto (z, c), the elimination of the
-//! zone for given (f_z, f_c), its recovery for given u_c, and the recovery of all freedoms.
+//! `C = S_cc - S_cz S_zz^-1 S_zc`, static condensation of a load onto (z, c), the elimination of
+//! the zone for given (f_z, f_c), its recovery for given u_c, and the recovery of all freedoms.
 //!
 //! | backend | how | for |
 //! |---|---|---|
@@ -68,24 +68,27 @@ pub struct Prediction {
     pub memory_bytes: f64,
 }
 
-/// A matrix `K + diag(shift)` factored and condensed. `shift` acts on contact freedoms only (one value for each,
-/// in the order of [`Partition::contact`], or none at all) and is taken off again: every result is that of `K` itself, so `K` may be singular as long as fixing its contact
+/// A matrix `K + diag(shift)` factored and condensed. `shift` acts on contact freedoms only (one
+/// value for each, in the order of [`Partition::contact`], or none at all) and is taken off again:
+/// every result is that of `K` itself, so `K` may be singular as long as fixing its contact
 /// freedoms makes it definite.
 pub trait Condensed: Send + Sync {
-    /// `C = S_cc - S_cz S_zz^-1 S_zc` of `K` (the shift taken off), `n_contact x n_contact`, symmetric; formed anew at each call.
+    /// `C = S_cc - S_cz S_zz^-1 S_zc` of `K` (the shift taken off), `n_contact x n_contact`,
+    /// symmetric; formed anew at each call.
     fn contact_stiffness(&self) -> ContactStiffness;
 
-    /// Makes a part of the factored zone the zone: the freedoms `wanted` (ascending) and those that the backend
-    /// cannot do without. Returns the zone freedoms from now on, the order of all zone vectors, or `None` where one of those wanted was not
-    /// factored as zone. The rest of the zone joins the interior; it can come back.
+    /// Makes a part of the factored zone the zone: the freedoms `wanted` (ascending) and those that
+    /// the backend cannot do without. Returns the zone freedoms from now on, the order of all zone
+    /// vectors, or `None` where one of those wanted was not factored as zone. The rest of the zone
+    /// joins the interior; it can come back.
     ///
     /// # Errors
     /// `Analysis` where the memory does not suffice.
     fn choose_zone(&mut self, wanted: &[usize]) -> Result<Option<Vec<usize>>>;
 
-    /// Reduces a load on all freedoms (`n`) to what [`Condensed::condense_load`] and [`Condensed::recover_all`] need of it
-    /// for whichever zone is chosen, linear in the load (`n`).
-    /// Costs about half a full solve.
+    /// Reduces a load on all freedoms (`n`) to what [`Condensed::condense_load`] and
+    /// [`Condensed::recover_all`] need of it for whichever zone is chosen, linear in the load
+    /// (`n`). Costs about half a full solve.
     ///
     /// # Errors
     /// As [`Condensed::recover_all`].
@@ -98,8 +101,8 @@ pub trait Condensed: Send + Sync {
     /// `Internal` where a vector has the wrong length.
     fn condense_load(&self, reduced: &[f64], zone: &mut [f64], contact: &mut [f64]) -> Result<()>;
 
-    /// Eliminates the zone: on entry (f_z, f_c); on return `contact` is `f_c - S_cz S_zz^-1 f_z` and
-    /// `zone` holds what [`Condensed::recover_zone`] needs.
+    /// Eliminates the zone: on entry (f_z, f_c); on return `contact` is `f_c - S_cz S_zz^-1 f_z`
+    /// and `zone` holds what [`Condensed::recover_zone`] needs.
     fn eliminate_zone(&self, zone: &mut [f64], contact: &mut [f64]);
 
     /// Recovers the zone: `zone` as left by [`Condensed::eliminate_zone`], on return
@@ -111,16 +114,19 @@ pub trait Condensed: Send + Sync {
         ZonePart::default()
     }
 
-    /// As [`Condensed::recover_zone`] where only the displacements in a part of the zone are asked for; what the others are is left open.
+    /// As [`Condensed::recover_zone`] where only the displacements in a part of the zone are asked
+    /// for; what the others are is left open.
     fn recover_part(&self, _part: &ZonePart, zone: &mut [f64], u_contact: &[f64]) {
         self.recover_zone(zone, u_contact);
     }
 
-    /// All freedoms for a reduced load, given the displacements of zone and contact freedoms (loads on these have no part
-    /// in it): `u_i = K_ii^-1 (load_i - K_it u_t)`. Costs about half a full solve.
+    /// All freedoms for a reduced load, given the displacements of zone and contact freedoms (loads
+    /// on these have no part in it): `u_i = K_ii^-1 (load_i - K_it u_t)`. Costs about half a full
+    /// solve.
     ///
     /// # Errors
-    /// `Analysis` where the memory does not suffice, `Internal` where a vector has the wrong length.
+    /// `Analysis` where the memory does not suffice, `Internal` where a vector has the wrong
+    /// length.
     fn recover_all(&self, reduced: &[f64], zone: &[f64], contact: &[f64]) -> Result<Vec<f64>>;
 
     /// What the factorisation cost (the same figures that were predicted).
@@ -145,8 +151,8 @@ impl ZonePart {
     }
 }
 
-/// A pivot of the factorisation of `A = K + diag(shift)`, relative to its diagonal entry: in (0, 1], small
-/// where the freedom is held only weakly by those eliminated before it and its supports.
+/// A pivot of the factorisation of `A = K + diag(shift)`, relative to its diagonal entry: in (0,
+/// 1], small where the freedom is held only weakly by those eliminated before it and its supports.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pivot {
     /// Freedom (row of the matrix as given).
@@ -155,16 +161,16 @@ pub struct Pivot {
     pub ratio: f64,
 }
 
-/// The pivot ratio that round-off alone produces on a singular matrix of `n` freedoms, `n eps`: a factorisation with
-/// a smaller one is refused as not definite, since its sign means nothing.
+/// The pivot ratio that round-off alone produces on a singular matrix of `n` freedoms, `n eps`: a
+/// factorisation with a smaller one is refused as not definite, since its sign means nothing.
 ///
-/// The computed factor is that of `A + E` with `|E_ij| <= (m + 1) eps sqrt(a_ii a_jj)`, m the nonzeros in a row of
-/// `L`. For a singular `A` with null vector `v` the last pivot is `v' E v / v_j^2`; the terms of the sum have either
-/// sign and stay below `n eps a_jj`.
+/// The computed factor is that of `A + E` with `|E_ij| <= (m + 1) eps sqrt(a_ii a_jj)`, m the
+/// nonzeros in a row of `L`. For a singular `A` with null vector `v` the last pivot is
+/// `v' E v / v_j^2`; the terms of the sum have either sign and stay below `n eps a_jj`.
 ///
 /// # Source
-/// N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., SIAM 2002, theorem 10.3,
-/// doi:10.1137/1.9780898718027.
+/// N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., SIAM 2002, theorem
+/// 10.3, doi:10.1137/1.9780898718027.
 pub fn smallest_pivot_ratio(n: usize) -> f64 {
     n as f64 * f64::EPSILON
 }
@@ -201,10 +207,11 @@ impl Default for Backend {
 /// Factors `K + diag(shift on contact freedoms)` and condenses it.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Internal`] naming the freedom as `freedom I` where the matrix is not positive definite,
-/// to working precision ([`smallest_pivot_ratio`]; callers map it back to body, node and direction through
-/// [`NotDefinite`] as cause), or where the arguments do not fit together; `Input` where the backend is not
-/// built in or the model is too large for it; `Analysis` where the memory does not suffice.
+/// [`crate::ErrorKind::Internal`] naming the freedom as `freedom I` where the matrix is not
+/// positive definite, to working precision ([`smallest_pivot_ratio`]; callers map it back to body,
+/// node and direction through [`NotDefinite`] as cause), or where the arguments do not fit
+/// together; `Input` where the backend is not built in or the model is too large for it; `Analysis`
+/// where the memory does not suffice.
 pub fn condense(
     backend: Backend,
     matrix: &SymmetricCsc,

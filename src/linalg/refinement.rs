@@ -1,17 +1,20 @@
 //! Iterative refinement with a residual in twice the working precision.
 //!
-//! Refinement with a residual in working precision makes the backward error small and stops there: the residual's own round-off, `eps |K| |u|`,
-//! hides what is left, and the solution keeps an error of `eps` times the condition. With the residual in twice the precision every
-//! step gains the digits that the factor has, until the solution is right to the last bit but one, as long as the condition is
-//! below about `1 / (n eps)`.
+//! Refinement with a residual in working precision makes the backward error small and stops there:
+//! the residual's own round-off, `eps |K| |u|`, hides what is left, and the solution keeps an error
+//! of `eps` times the condition. With the residual in twice the precision every step gains the
+//! digits that the factor has, until the solution is right to the last bit but one, as long as the
+//! condition is below about `1 / (n eps)`.
 //!
-//! The solution gained is that of the matrix as it is stored. Where the matrix is exact (a caller's own) that is the solution; where its entries
-//! are rounded sums of element stiffnesses their round-off costs as much as the solve's, and refinement gains nothing:
-//! the analysis of scenes does not use it (measured: `tests/stability/refinement.rs`).
+//! The solution gained is that of the matrix as it is stored. Where the matrix is exact (a caller's
+//! own) that is the solution; where its entries are rounded sums of element stiffnesses their
+//! round-off costs as much as the solve's, and refinement gains nothing: the analysis of scenes
+//! does not use it (measured: `tests/stability/refinement.rs`).
 //!
 //! # Source
-//! N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., theorem 12.1; T. Ogita, S. M. Rump, S. Oishi (2005), algorithm 5.3
-//! (`Dot2`), doi:10.1137/030601818; M. Arioli, J. W. Demmel, I. S. Duff (1989), doi:10.1137/0610013 (rows without load).
+//! N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., theorem 12.1; T. Ogita,
+//! S. M. Rump, S. Oishi (2005), algorithm 5.3 (`Dot2`), doi:10.1137/030601818; M. Arioli, J. W.
+//! Demmel, I. S. Duff (1989), doi:10.1137/0610013 (rows without load).
 
 use super::SymmetricCsc;
 use super::residual::Rows;
@@ -19,7 +22,8 @@ use crate::error::Result;
 
 /// Most steps: with a condition at which each gains a digit only.
 const MOST: usize = 20;
-/// A correction that is not smaller than this share of the one before says that the factor gains nothing any more.
+/// A correction that is not smaller than this share of the one before says that the factor gains
+/// nothing any more.
 const PROGRESS: f64 = 0.5;
 
 /// What a refinement did.
@@ -27,14 +31,15 @@ const PROGRESS: f64 = 0.5;
 pub struct Refinement {
     /// Corrections that were added.
     pub steps: usize,
-    /// Size of the first correction over the solution (largest values): the error that the solution had before.
+    /// Size of the first correction over the solution (largest values): the error that the solution
+    /// had before.
     pub first: f64,
     /// Size of the last correction that was found.
     pub last: f64,
 }
 
-/// Improves a solution `u` until it is right to round-off, or no longer improves: `residual` gives `f - A u` in twice the precision
-/// ([`twofold_residual`]), `solve` solves with a factor of `A`.
+/// Improves a solution `u` until it is right to round-off, or no longer improves: `residual` gives
+/// `f - A u` in twice the precision ([`twofold_residual`]), `solve` solves with a factor of `A`.
 ///
 /// # Errors
 /// Those of `solve`.
@@ -95,9 +100,10 @@ fn subtract_product(high: &mut f64, low: &mut f64, a: f64, b: f64) {
     *low += sum_error + product_error;
 }
 
-/// Componentwise backward error of `u` as a solution of `K u = load`: the smallest `omega` for which `u` solves exactly a system in which no
-/// entry of matrix and load is off by more than this share. Rows in which nothing acts and next to nothing moves are
-/// measured against their own stiffness times the largest displacement.
+/// Componentwise backward error of `u` as a solution of `K u = load`: the smallest `omega` for
+/// which `u` solves exactly a system in which no entry of matrix and load is off by more than this
+/// share. Rows in which nothing acts and next to nothing moves are measured against their own
+/// stiffness times the largest displacement.
 pub fn componentwise_backward_error(matrix: &SymmetricCsc, load: &[f64], u: &[f64]) -> f64 {
     let mut rows = Rows::new(matrix, load, u);
     rows.residual = twofold_residual(matrix, load, u);

@@ -5,15 +5,17 @@ use crate::error::Result;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Parts of the matrix that are gone through side by side: their number, not that of the threads, decides what is added to what.
+/// Parts of the matrix that are gone through side by side: their number, not that of the threads,
+/// decides what is added to what.
 const PARTS: usize = 4;
 /// Entries of a matrix whose parts take longer than to wake a thread for them.
 const MANY: usize = 1 << 15;
 /// Rows that a thread takes at a time.
 const GRAIN: usize = 1 << 14;
 
-/// A refinement step is tried where the backward error is above this: a rounding error for each entry of a row, as many as rows have in the
-/// mean. A smaller residual may be all round-off of its own, and a step that follows from it gains nothing.
+/// A refinement step is tried where the backward error is above this: a rounding error for each
+/// entry of a row, as many as rows have in the mean. A smaller residual may be all round-off of its
+/// own, and a step that follows from it gains nothing.
 pub(super) fn refine_above(matrix: &SymmetricCsc) -> f64 {
     let (n, upper) = (matrix.rows().max(1) as f64, matrix.nnz() as f64);
     (2.0 * upper / n - 1.0).max(1.0) * f64::EPSILON
@@ -93,7 +95,8 @@ struct Part<'a> {
     residual: &'a mut [f64],
     terms: &'a mut [f64],
     stiffness: &'a mut [f64],
-    /// What the columns add to rows before these, `K u`, `|K| |u|` and `|K|`: of row `columns.start - 1 - i` at place `i`.
+    /// What the columns add to rows before these, `K u`, `|K| |u|` and `|K|`: of row
+    /// `columns.start - 1 - i` at place `i`.
     before: Vec<[f64; 3]>,
 }
 
@@ -148,8 +151,9 @@ impl Rows {
         rows
     }
 
-    /// The componentwise backward error: the largest of a row's `|f - K u|` over its `|K| |u| + |f|`. Rows in which nothing acts and next to
-    /// nothing moves are measured against their own stiffness times the largest displacement (Arioli, Demmel, Duff 1989).
+    /// The componentwise backward error: the largest of a row's `|f - K u|` over its
+    /// `|K| |u| + |f|`. Rows in which nothing acts and next to nothing moves are measured against
+    /// their own stiffness times the largest displacement (Arioli, Demmel, Duff 1989).
     pub(super) fn componentwise_error(&self, f: &[f64], u: &[f64]) -> f64 {
         let moved = largest(u);
         let tiny = 1000.0 * u.len() as f64 * f64::EPSILON;
@@ -169,8 +173,8 @@ impl Rows {
 }
 
 impl Part<'_> {
-    /// Subtracts the products of the part's columns of the upper triangle, and of the rows that mirror them, from the residual and adds up
-    /// their sizes.
+    /// Subtracts the products of the part's columns of the upper triangle, and of the rows that
+    /// mirror them, from the residual and adds up their sizes.
     fn subtract_products(&mut self, matrix: &SymmetricCsc, pointers: &[i64], u: &[f64]) {
         let (rows, values) = (matrix.indices(), matrix.data());
         let first = self.columns.start;
@@ -221,8 +225,9 @@ pub struct Recovered {
     pub residual: f64,
     /// `|f - K u| / (|K| |u| + |f|)` in infinity norms; zero where all are zero, NaN where one is.
     pub backward_error: f64,
-    /// Componentwise backward error ([`super::componentwise_backward_error`]), with the residual in working precision: its own round-off, a
-    /// rounding error for each entry of a row, counts as an error of the solution.
+    /// Componentwise backward error ([`super::componentwise_backward_error`]), with the residual in
+    /// working precision: its own round-off, a rounding error for each entry of a row, counts as an
+    /// error of the solution.
     pub componentwise_error: f64,
     /// Largest `|K| |u|` of a row: what the round-off of forces that follow from `u` is a share of.
     pub terms: f64,
@@ -248,9 +253,11 @@ impl Recovered {
     }
 }
 
-/// [`Condensed::recover_all`] with its residual for the load `f` on all freedoms (contact forces included), and a step of iterative
-/// refinement of interior and zone where that lowers it. `norm` is that of `matrix` ([`norm`]); `beside` are a displacement and a load that the
-/// residual need only be small against, where they are larger than those of this solution: zeros, or the largest of others that go with it.
+/// [`Condensed::recover_all`] with its residual for the load `f` on all freedoms (contact forces
+/// included), and a step of iterative refinement of interior and zone where that lowers it. `norm`
+/// is that of `matrix` ([`norm`]); `beside` are a displacement and a load that the residual need
+/// only be small against, where they are larger than those of this solution: zeros, or the largest
+/// of others that go with it.
 ///
 /// # Errors
 /// Those of [`Condensed::recover_all`].

@@ -7,11 +7,12 @@ use crate::{Error, Result};
 /// Share of the radius that a node may lie off its circle: files are written with some six digits.
 const OFF: f64 = 1e-5;
 
-/// Gives a surface its circle: its nodes are moved onto it (what the digits of the file left out), normals become exact, and
-/// subdivision puts new nodes on the circle.
+/// Gives a surface its circle: its nodes are moved onto it (what the digits of the file left out),
+/// normals become exact, and subdivision puts new nodes on the circle.
 ///
 /// # Errors
-/// Input errors: an unknown surface, a node that does not lie on the circle, facets that face both inward and outward.
+/// Input errors: an unknown surface, a node that does not lie on the circle, facets that face both
+/// inward and outward.
 pub fn lay_on_circle(mesh: &mut Mesh, given: &SurfaceCircle) -> Result<()> {
     let Some(surface) = mesh.surfaces.get(&given.on) else {
         let known: Vec<&str> = mesh.surfaces.keys().map(String::as_str).collect();

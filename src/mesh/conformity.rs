@@ -120,8 +120,8 @@ const ON_EDGE: f64 = 1e-8;
 
 /// Finds boundary corners in the inside of a boundary edge of the same body.
 fn check_hanging(mesh: &Mesh, boundary: &[Facet]) -> Result<()> {
-    // Along this skew direction few boundary nodes share a value even where the boundary is parallel
-    // to an axis, so that sorting by it finds neighbours.
+    // Along this skew direction few boundary nodes share a value even where the boundary is
+    // parallel to an axis, so that sorting by it finds neighbours.
     let skew = |[x, y]: [f64; 2]| x + 0.618_033_988_749_895 * y;
     let body = |facet: &Facet| mesh.element_body[facet.element];
     let mut corners: Vec<(u32, f64, u32)> = boundary

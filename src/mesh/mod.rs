@@ -43,7 +43,8 @@ pub enum Curve {
         center: [f64; 2],
         /// Radius.
         radius: f64,
-        /// True where the body's outward normal points away from the centre (a disc), false for a hole.
+        /// True where the body's outward normal points away from the centre (a disc), false for a
+        /// hole.
         outward: bool,
     },
 }
@@ -123,7 +124,8 @@ impl Mesh {
             .map(move |&i| nodes[i] as usize)
     }
 
-    /// Nodes of a node set or of a surface, sorted, without duplicates; `None` if there is no such name.
+    /// Nodes of a node set or of a surface, sorted, without duplicates; `None` if there is no such
+    /// name.
     pub fn set_nodes(&self, name: &str) -> Option<Vec<usize>> {
         if let Some(nodes) = self.node_sets.get(name) {
             return Some(nodes.clone());

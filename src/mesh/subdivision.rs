@@ -1,4 +1,5 @@
-//! A mesh with every element cut in four: half the element size, the same bodies, sets and surfaces.
+//! A mesh with every element cut in four: half the element size, the same bodies, sets and
+//! surfaces.
 //!
 //! ```text
 //!      2                    3────6────2
@@ -10,10 +11,11 @@
 //!    0 └──┴───┘ 1
 //! ```
 //!
-//! New nodes lie on the sides of the elements (halfway; on the parabola of quadratic ones), on a surface whose [`Curve`] is
-//! known on that curve. Where a surface faces another one in a contact, its new nodes are put where those of the other's face
-//! them, so that the nodes of the finer mesh pair as those of the mesh did, and their gaps are those of the surfaces.
-//! Old nodes keep their indices and labels.
+//! New nodes lie on the sides of the elements (halfway; on the parabola of quadratic ones), on a
+//! surface whose [`Curve`] is known on that curve. Where a surface faces another one in a contact,
+//! its new nodes are put where those of the other's face them, so that the nodes of the finer mesh
+//! pair as those of the mesh did, and their gaps are those of the surfaces. Old nodes keep their
+//! indices and labels.
 
 use super::surface::{PAIRING, facing, longest_facet, normals};
 use super::{Curve, Facet, Mesh, Shape, Surface};
@@ -23,14 +25,15 @@ use std::collections::{BTreeMap, HashMap};
 
 /// Most elements that subdivision makes.
 const MOST_ELEMENTS: usize = 50_000_000;
-/// Steps of Newton's method for the place on a parabola: it converges quadratically from the middle of its half.
+/// Steps of Newton's method for the place on a parabola: it converges quadratically from the middle
+/// of its half.
 const NEWTON: usize = 8;
 
 /// The mesh `times` times subdivided. `contacts` say which surfaces face each other.
 ///
 /// # Errors
-/// Input errors: a node set that holds both ends of an element's side (it is not known whether the node between belongs to it),
-/// a mesh that would become too large.
+/// Input errors: a node set that holds both ends of an element's side (it is not known whether the
+/// node between belongs to it), a mesh that would become too large.
 pub fn subdivided(mesh: Mesh, times: usize, contacts: &[Contact]) -> Result<Mesh> {
     let factor = 4usize.checked_pow(u32::try_from(times).unwrap_or(u32::MAX));
     let elements = factor.and_then(|f| f.checked_mul(mesh.n_elements()));
@@ -380,7 +383,8 @@ fn cut(mesh: &Mesh, element: usize, sides: &Sides, out: &mut Mesh) {
         out.coordinates.extend(x);
         out.n_nodes() as u32 - 1
     };
-    // Nodes inside: the centre of a quadrilateral, the middles of the new sides of quadratic elements.
+    // Nodes inside: the centre of a quadrilateral, the middles of the new sides of quadratic
+    // elements.
     let center = match n {
         4 => {
             let corners = (0..4).map(|i| (-0.25, nodes[i]));

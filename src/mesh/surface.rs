@@ -7,8 +7,9 @@ use std::collections::BTreeMap;
 /// Two nodes pair if their distance across the normal is below this share of a facet's length.
 pub const PAIRING: f64 = 1e-5;
 
-/// The nodes of a surface along its arc, mid-side nodes included, with the body on the left (a hole is
-/// run through clockwise). A closed surface begins at its smallest node index and does not repeat it.
+/// The nodes of a surface along its arc, mid-side nodes included, with the body on the left (a hole
+/// is run through clockwise). A closed surface begins at its smallest node index and does not
+/// repeat it.
 ///
 /// # Errors
 /// An input error if the surface is empty, branches, or has several pieces; it names nodes.
@@ -78,10 +79,11 @@ pub fn ordered_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
 
 /// Outward unit normals of a surface at some of its nodes.
 ///
-/// Exact where the surface's [`Curve`] is known. Otherwise the mean of the normals of the facets that meet at
-/// the node, weighted with their lengths; the normal of a facet with a mid-side node is that of its
-/// parabola at the node. The body lies on the left of a facet, so the normal of a facet from `p` to `q` is
-/// `(q - p)` turned clockwise by 90 degrees. A node that is not on the surface gets `[0, 0]`.
+/// Exact where the surface's [`Curve`] is known. Otherwise the mean of the normals of the facets
+/// that meet at the node, weighted with their lengths; the normal of a facet with a mid-side node
+/// is that of its parabola at the node. The body lies on the left of a facet, so the normal of a
+/// facet from `p` to `q` is `(q - p)` turned clockwise by 90 degrees. A node that is not on the
+/// surface gets `[0, 0]`.
 pub fn normals(mesh: &Mesh, surface: &Surface, nodes: &[usize]) -> Vec<[f64; 2]> {
     match surface.curve {
         Some(Curve::Line { normal }) => vec![unit(normal); nodes.len()],
@@ -131,7 +133,8 @@ fn add_tangents(mesh: &Mesh, facet: Facet, sums: &mut BTreeMap<usize, [f64; 2]>)
         add(b, chord);
         return;
     };
-    // The parabola through p, m, q has the tangents chord + 4 sag at p, chord at m, chord - 4 sag at q.
+    // The parabola through p, m, q has the tangents chord + 4 sag at p, chord at m, chord - 4 sag
+    // at q.
     let at = mesh.point(m);
     let sag = [0, 1].map(|k| at[k] - 0.5 * (p[k] + q[k]));
     add(a, [0, 1].map(|k| chord[k] + 4.0 * sag[k]));
@@ -139,8 +142,8 @@ fn add_tangents(mesh: &Mesh, facet: Facet, sums: &mut BTreeMap<usize, [f64; 2]>)
     add(b, [0, 1].map(|k| chord[k] - 4.0 * sag[k]));
 }
 
-/// The index of the node of `candidates` on the line through `x` along the unit vector `normal`, off it by `tolerance` at most; the
-/// nearest if there are several.
+/// The index of the node of `candidates` on the line through `x` along the unit vector `normal`,
+/// off it by `tolerance` at most; the nearest if there are several.
 pub fn facing(
     mesh: &Mesh,
     x: [f64; 2],

@@ -5,18 +5,21 @@ use crate::{Error, Result};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// Smallest Jacobian determinant over (longest side)^2, about the inverse of the aspect ratio. The condition
-/// of an element grows with the square of the aspect ratio and reaches 1/epsilon at 1/sqrt(epsilon).
+/// Smallest Jacobian determinant over (longest side)^2, about the inverse of the aspect ratio. The
+/// condition of an element grows with the square of the aspect ratio and reaches 1/epsilon at
+/// 1/sqrt(epsilon).
 const FLATTEST: f64 = 1.490_116_119_384_765_6e-8;
 /// Elements that a thread takes at a time: fewer take less than waking it.
 const GRAIN: usize = 512;
 
-/// Checks a mesh: consistent arrays, finite coordinates, elements with distinct nodes and a positive
-/// Jacobian at corners and integration points, no unconnected nodes, unique labels and body names, no
-/// empty body, set or surface, no duplicate or overlapping elements, no hanging nodes.
+/// Checks a mesh: consistent arrays, finite coordinates, elements with distinct nodes and a
+/// positive Jacobian at corners and integration points, no unconnected nodes, unique labels and
+/// body names, no empty body, set or surface, no duplicate or overlapping elements, no hanging
+/// nodes.
 ///
 /// # Errors
-/// Input errors name the node, element, body or set by the number or name the user knows, and the value.
+/// Input errors name the node, element, body or set by the number or name the user knows, and the
+/// value.
 pub fn validate(mesh: &Mesh) -> Result<()> {
     check_arrays(mesh)?;
     check_labels(mesh)?;

@@ -5,10 +5,11 @@
 //! DIR a result  DIR ──rename──▶ .DIR.y.old/DIR,  .DIR.partial ──rename──▶ DIR,  delete .DIR.y.old
 //! ```
 //!
-//! `.DIR.partial` is locked by the process that writes it. The system takes the lock off when that ends, however it ends: what
-//! is found without a lock was left by one that was killed, and is used again. Both temporaries are siblings of DIR, so a rename never crosses file systems. Whatever fails, DIR is as it
-//! was and the temporaries are gone. Between the two renames of a replacement DIR is absent for an
-//! instant: a process killed just there leaves both results, whole, beside it.
+//! `.DIR.partial` is locked by the process that writes it. The system takes the lock off when that
+//! ends, however it ends: what is found without a lock was left by one that was killed, and is used
+//! again. Both temporaries are siblings of DIR, so a rename never crosses file systems. Whatever
+//! fails, DIR is as it was and the temporaries are gone. Between the two renames of a replacement
+//! DIR is absent for an instant: a process killed just there leaves both results, whole, beside it.
 
 use super::{STUDY_FILE, SUMMARY_FILE};
 use crate::error::{Error, Result};
@@ -61,7 +62,8 @@ impl Staging {
     /// Begins the directory `dir`.
     ///
     /// # Errors
-    /// `Input` where `dir` is in use by something else or another run is writing it, `Io` where its parent cannot be written.
+    /// `Input` where `dir` is in use by something else or another run is writing it, `Io` where its
+    /// parent cannot be written.
     pub(super) fn new(dir: &Path) -> Result<Self> {
         let target = resolve(dir)?;
         check_replaceable(&target)?;
@@ -109,11 +111,12 @@ impl Staging {
         self.partial.as_ref().map(|partial| partial.path.as_path())
     }
 
-    /// Puts the directory in its place. Of a directory that it replaces, the entries for which `is_ours` is
-    /// false are moved into the new one.
+    /// Puts the directory in its place. Of a directory that it replaces, the entries for which
+    /// `is_ours` is false are moved into the new one.
     ///
     /// # Errors
-    /// `Io`; the previous directory is then in its place again, unless the message says where it is.
+    /// `Io`; the previous directory is then in its place again, unless the message says where it
+    /// is.
     pub(super) fn publish(mut self, is_ours: impl Fn(&OsStr) -> bool) -> Result<()> {
         let Some(partial) = &self.partial else {
             return Ok(());
@@ -291,8 +294,8 @@ fn empty(dir: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// The absolute path of `dir`; symbolic links are followed, so that what is replaced is the directory
-/// and not the link.
+/// The absolute path of `dir`; symbolic links are followed, so that what is replaced is the
+/// directory and not the link.
 fn resolve(dir: &Path) -> Result<PathBuf> {
     if dir.as_os_str().is_empty() {
         return Err(Error::input("the output directory has an empty name"));

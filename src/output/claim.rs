@@ -11,8 +11,9 @@ use std::path::{Path, PathBuf};
 /// The file that marks results as not those of the last run.
 pub(super) const STALE_FILE: &str = "stale.txt";
 
-/// A result directory held for a run: no other run can write it meanwhile. Results of an earlier run in it are marked (`stale.txt`)
-/// until those of this run replace them, so that they are not taken for its own should it fail or be killed.
+/// A result directory held for a run: no other run can write it meanwhile. Results of an earlier
+/// run in it are marked (`stale.txt`) until those of this run replace them, so that they are not
+/// taken for its own should it fail or be killed.
 pub struct Claim {
     dir: PathBuf,
     staging: Staging,
@@ -40,7 +41,8 @@ impl Claim {
         &self.dir
     }
 
-    /// What must not stay where the process ends without dropping this: the directory in the making.
+    /// What must not stay where the process ends without dropping this: the directory in the
+    /// making.
     pub fn temporary(&self) -> Option<&Path> {
         self.staging.partial()
     }
@@ -80,7 +82,8 @@ impl Claim {
     }
 }
 
-/// Marks the results in `dir`, if there are any, as those of an earlier run than one that failed with `error`. Returns whether there are.
+/// Marks the results in `dir`, if there are any, as those of an earlier run than one that failed
+/// with `error`. Returns whether there are.
 pub fn mark_stale(dir: &Path, error: &Error) -> bool {
     mark(
         dir,

@@ -1,5 +1,5 @@
-//! `contact.csv`: a row per state and contact pair. Units are the scene's; gap > 0 open, force and
-//! pressure > 0 compressive.
+//! `contact.csv`: a row per state and contact pair, states, pairs and contacts counted from 1.
+//! Units are the scene's; gap > 0 open, force and pressure > 0 compressive.
 
 use super::table;
 use crate::results::{PairState, State, Status};
@@ -12,8 +12,9 @@ struct Row<'a> {
     /// Number of the state, from 1, as in the names of the field files.
     state: usize,
     alpha: f64,
-    /// Pair and contact indices, as in the history's events.
+    /// Number of the pair, from 1, as in the history's events and in messages.
     pair: usize,
+    /// Number of the contact, from 1, in the order of the scene.
     contact: usize,
     /// Undeformed position on the second surface; axisymmetric: (r, z).
     x: f64,
@@ -32,8 +33,8 @@ impl<'a> Row<'a> {
         Row {
             state,
             alpha,
-            pair: pair.pair,
-            contact: pair.contact,
+            pair: pair.pair + 1,
+            contact: pair.contact + 1,
             x: pair.position[0],
             y: pair.position[1],
             gap: pair.gap,

@@ -4,12 +4,12 @@ use super::stated_errors;
 use crate::error::{Error, ErrorKind, Result};
 use crate::results::Results;
 
-/// Whether a run kept what was asked of it: the program done to its end, the quality of every state within its tolerance, and an
-/// accuracy that was demanded reached.
+/// Whether a run kept what was asked of it: the program done to its end, the quality of every state
+/// within its tolerance, and an accuracy that was demanded reached.
 ///
 /// # Errors
-/// The kind of [`Results::incomplete_kind`] where the run ended before its program did; `Inaccurate` with every figure
-/// that falls short. The results are there in each case.
+/// The kind of [`Results::incomplete_kind`] where the run ended before its program did;
+/// `Inaccurate` with every figure that falls short. The results are there in each case.
 pub fn ending(results: &Results) -> Result<()> {
     if let Some(why) = &results.incomplete {
         let kind = results.incomplete_kind.unwrap_or(ErrorKind::Analysis);

@@ -1,5 +1,5 @@
-//! Fields on the mesh for ParaView, meshio and pyvista: one `.vtu` per state and `fields.pvd`, which makes a time
-//! series of them (time is the number of the state).
+//! Fields on the mesh for ParaView, meshio and pyvista: one `.vtu` per state and `fields.pvd`,
+//! which makes a time series of them (time is the number of the state).
 //!
 //! | array | on | type | components |
 //! |---|---|---|---|
@@ -58,8 +58,9 @@ pub(super) fn write(
     staging.file(COLLECTION_FILE, |out| vtu::write_collection(out, &series))
 }
 
-/// Name of the file of state `index` of `n_states`: `state_01_NAME.vtu`. The number keeps names apart and
-/// in order whatever becomes of the state's name, of which only ASCII letters, digits, `.`, `-` and `_` are safe everywhere.
+/// Name of the file of state `index` of `n_states`: `state_01_NAME.vtu`. The number keeps names
+/// apart and in order whatever becomes of the state's name, of which only ASCII letters, digits,
+/// `.`, `-` and `_` are safe everywhere.
 pub(super) fn file_name(index: usize, n_states: usize, state: &str) -> String {
     let width = n_states.to_string().len().max(2);
     let mut name = format!("{FILE_PREFIX}{:0width$}", index + 1);

@@ -3,6 +3,7 @@
 //! ```text
 //! DIR/summary.json          figures of the run and of each state      (summary; schema: SUMMARY_SCHEMA)
 //!     history.csv           a row per accepted increment              (history)
+//!     path.csv              points of the path between increments       (history)
 //!     contact.csv           a row per state and contact pair          (contact)
 //!     fields.pvd            the states with fields, as a time series  (fields)
 //!     state_01_NAME.vtu     mesh and fields of one state              (fields, vtu)
@@ -72,6 +73,8 @@ const SUMMARY_FILE: &str = "summary.json";
 /// The study: marks a directory like the summary.
 const STUDY_FILE: &str = "accuracy.json";
 const HISTORY_FILE: &str = "history.csv";
+/// Written where there are such points.
+const PATH_FILE: &str = "path.csv";
 const CONTACT_FILE: &str = "contact.csv";
 const COLLECTION_FILE: &str = "fields.pvd";
 
@@ -117,14 +120,14 @@ impl RunHeader {
 /// Writes the result directory `dir`: all of it or nothing.
 ///
 /// An earlier result of brinell in `dir` is replaced; files in it that are not brinell's (a plot, a
-/// ParaView state) are kept. Missing parent directories are made. `fields.pvd` is written where at least one
-/// state has fields.
+/// ParaView state) are kept. Missing parent directories are made. `fields.pvd` is written where at
+/// least one state has fields.
 ///
 /// # Errors
 /// [`crate::ErrorKind::Input`] where `dir` exists and is neither empty nor a result of brinell, or
 /// is not a directory; [`crate::ErrorKind::Io`] naming the path where something cannot be written;
-/// [`crate::ErrorKind::Internal`] where the fields of a state do not fit the mesh. After an error `dir` is as
-/// it was and nothing is left beside it.
+/// [`crate::ErrorKind::Internal`] where the fields of a state do not fit the mesh. After an error
+/// `dir` is as it was and nothing is left beside it.
 pub fn write(dir: &Path, header: &RunHeader, mesh: &Mesh, results: &Results) -> Result<()> {
     finish(Staging::new(dir)?, header, mesh, results, |_| Ok(()))
 }
@@ -142,7 +145,8 @@ fn finish(
     staging.publish(is_result_file)
 }
 
-/// As [`write()`], with the scene as it was run: [`read()`] takes such a directory back, and its report can be made later.
+/// As [`write()`], with the scene as it was run: [`read()`] takes such a directory back, and its
+/// report can be made later.
 ///
 /// # Errors
 /// As [`write()`].
@@ -194,11 +198,13 @@ fn finish_with_report(
     })
 }
 
-/// Makes the report of a result directory anew: `report.html` and its figures, each put in its place whole. Figures of an
-/// earlier report that this one does not have are removed; nothing else is touched. Returns the path of the page.
+/// Makes the report of a result directory anew: `report.html` and its figures, each put in its
+/// place whole. Figures of an earlier report that this one does not have are removed; nothing else
+/// is touched. Returns the path of the page.
 ///
 /// # Errors
-/// Those of [`read()`]; `Internal` where a figure cannot be drawn, `Io` naming the file that cannot be written.
+/// Those of [`read()`]; `Internal` where a figure cannot be drawn, `Io` naming the file that cannot
+/// be written.
 pub fn write_report(dir: &Path) -> Result<PathBuf> {
     let recorded = read(dir)?;
     let files = report::files(&recorded.header, &recorded.model, &recorded.results)?;
@@ -231,6 +237,10 @@ fn write_tables_and_fields(
     results: &Results,
 ) -> Result<()> {
     staging.file(HISTORY_FILE, |out| history::write(out, &results.history))?;
+    let path = &results.path;
+    if !path.is_empty() {
+        staging.file(PATH_FILE, |out| history::write_path(out, path))?;
+    }
     staging.file(CONTACT_FILE, |out| contact::write(out, &results.states))?;
     fields::write(staging, header, mesh, &results.states)?;
     staging.file(SUMMARY_FILE, |out| {
@@ -239,8 +249,8 @@ fn write_tables_and_fields(
     })
 }
 
-/// Checks that [`write()`] will be able to write `dir`, so that a long run does not end with a refusal. Leaves
-/// nothing behind.
+/// Checks that [`write()`] will be able to write `dir`, so that a long run does not end with a
+/// refusal. Leaves nothing behind.
 ///
 /// # Errors
 /// As [`write()`], before anything is computed.
@@ -255,6 +265,7 @@ fn is_result_file(name: &OsStr) -> bool {
         [
             SUMMARY_FILE,
             HISTORY_FILE,
+            PATH_FILE,
             CONTACT_FILE,
             COLLECTION_FILE,
             report::REPORT_FILE,

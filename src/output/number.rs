@@ -23,9 +23,21 @@ pub(crate) fn significant(value: f64, digits: usize) -> String {
     }
 }
 
-/// Six significant digits: what the tables show.
+/// Six significant digits: what the tables show; of what there is not, that.
 pub(crate) fn number(value: f64) -> String {
+    if value.is_nan() {
+        return "none".to_string();
+    }
     significant(value, 6)
+}
+
+/// Six significant digits of a ratio; where there is none, as of 0 to 0, that.
+pub(crate) fn ratio(value: f64) -> String {
+    if value.is_finite() {
+        number(value)
+    } else {
+        "none".to_string()
+    }
 }
 
 /// Bytes in the unit that fits.
@@ -78,6 +90,14 @@ mod tests {
             (f64::NAN, "NaN"),
         ] {
             assert_eq!(significant(value, 4), text);
+        }
+    }
+
+    #[test]
+    fn a_ratio_to_nothing_is_none() {
+        assert_eq!(ratio(0.25), "0.250000");
+        for there_is_none in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert_eq!(ratio(there_is_none), "none");
         }
     }
 

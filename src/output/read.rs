@@ -1,15 +1,17 @@
 //! A result directory read back: what its report shows, without running again.
 //!
-//! `summary.json` holds the figures, `history.csv` and `contact.csv` the rows, the `.vtu` files the fields, and the scene as it
-//! was run makes the model. Numbers that were not finite were written as null (or an empty cell) and come back as NaN.
+//! `summary.json` holds the figures, `history.csv` and `contact.csv` the rows, the `.vtu` files the
+//! fields, and the scene as it was run makes the model. Numbers that were not finite were written
+//! as null (or an empty cell) and come back as NaN.
 
 use super::rows::{self, Rows};
-use super::{CONTACT_FILE, HISTORY_FILE, RunHeader, SUMMARY_FILE, record, vtu_read};
+use super::{CONTACT_FILE, HISTORY_FILE, PATH_FILE, RunHeader, SUMMARY_FILE, record, vtu_read};
 use crate::error::{Error, Result};
 use crate::linalg::Prediction;
 use crate::model::Model;
 use crate::results::{
-    Effect, HistoryRow, PairState, Quality, ReferenceRow, Results, Sizes, State, Status, YieldPoint,
+    Effect, HistoryRow, PairState, PathPoint, Quality, ReferenceRow, Results, Sizes, State, Status,
+    YieldPoint,
 };
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -51,8 +53,9 @@ pub struct Recorded {
 /// ```
 ///
 /// # Errors
-/// [`crate::ErrorKind::Io`] where a file cannot be read; [`crate::ErrorKind::Input`] naming the file where `dir` is no result of
-/// brinell, was written without its scene, is damaged, or where its parts do not belong together.
+/// [`crate::ErrorKind::Io`] where a file cannot be read; [`crate::ErrorKind::Input`] naming the
+/// file where `dir` is no result of brinell, was written without its scene, is damaged, or where
+/// its parts do not belong together.
 pub fn read(dir: &Path) -> Result<Recorded> {
     let path = dir.join(SUMMARY_FILE);
     let summary = Summary {
@@ -80,6 +83,10 @@ pub fn read(dir: &Path) -> Result<Recorded> {
         }
     }
     results.history = history(&Rows::read(&dir.join(HISTORY_FILE))?)?;
+    let between = dir.join(PATH_FILE);
+    if between.exists() {
+        results.path = path_points(&Rows::read(&between)?)?;
+    }
     for (state, pairs) in pairs(&Rows::read(&dir.join(CONTACT_FILE))?, &model)? {
         let state = results.states.get_mut(state).ok_or_else(|| {
             Error::input(format!(
@@ -308,6 +315,21 @@ fn history(rows: &Rows) -> Result<Vec<HistoryRow>> {
         .collect()
 }
 
+/// The points of the path between the rows of the history.
+fn path_points(rows: &Rows) -> Result<Vec<PathPoint>> {
+    (0..rows.len())
+        .map(|row| {
+            Ok(PathPoint {
+                increment: rows.count(row, "increment")?,
+                alpha: rows.number(row, "alpha")?,
+                load: rows.number(row, "load")?,
+                max_pressure: rows.number(row, "max_pressure")?,
+                half_width: rows.number(row, "half_width")?,
+            })
+        })
+        .collect()
+}
+
 /// The pairs, each with the index of its state.
 fn pairs(rows: &Rows, model: &Model) -> Result<Vec<(usize, PairState)>> {
     // Points on the axis that are no pairs are numbered after them.
@@ -321,7 +343,8 @@ fn pairs(rows: &Rows, model: &Model) -> Result<Vec<(usize, PairState)>> {
                 rows.count(row, "contact")?,
                 rows.count(row, "state")?,
             ];
-            if pair >= n_points || contact >= model.contacts.len() || state == 0 {
+            let is_of = |number: usize, n: usize| (1..=n).contains(&number);
+            if !is_of(pair, n_points) || !is_of(contact, model.contacts.len()) || state == 0 {
                 return Err(Error::input(format!(
                     "{}: row {}: pair {pair} of contact {contact} in state {state} does not belong to this model",
                     rows.path().display(),
@@ -329,8 +352,8 @@ fn pairs(rows: &Rows, model: &Model) -> Result<Vec<(usize, PairState)>> {
                 )));
             }
             let pair = PairState {
-                pair,
-                contact,
+                pair: pair - 1,
+                contact: contact - 1,
                 position: [number("x")?, number("y")?],
                 gap: number("gap")?,
                 force: number("force")?,

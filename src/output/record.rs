@@ -1,5 +1,6 @@
-//! What was run, so that a result directory says by itself where it comes from: the scene with everything that was put over its
-//! file, and the mesh where the scene does not make one; or, of a model that was handed over in arrays, all of these.
+//! What was run, so that a result directory says by itself where it comes from: the scene with
+//! everything that was put over its file, and the mesh where the scene does not make one; or, of a
+//! model that was handed over in arrays, all of these.
 
 use super::atomic::Staging;
 use crate::error::{Error, Result};

@@ -1,4 +1,5 @@
-//! The stated errors as rows and columns, for terminal and report alike: a row per state, a column per quantity.
+//! The stated errors as rows and columns, for terminal and report alike: a row per state, a column
+//! per quantity.
 
 use super::number::significant;
 use crate::results::{Accuracy, Demand, EstimateMethod, QuantityError};

@@ -50,7 +50,8 @@ const PHASES: [&str; 5] = [
     "load program",
 ];
 
-/// Writes the study to `dir`, all of it or nothing. An earlier study or result of brinell is replaced, other files are kept.
+/// Writes the study to `dir`, all of it or nothing. An earlier study or result of brinell is
+/// replaced, other files are kept.
 ///
 /// # Errors
 /// As [`super::write()`].
@@ -186,7 +187,8 @@ fn table(out: &mut impl Write, study: &Study) -> std::io::Result<()> {
     writer.flush()
 }
 
-/// Name of a quantity's plot: only ASCII letters, digits, `-` and `_` of its path are safe everywhere.
+/// Name of a quantity's plot: only ASCII letters, digits, `-` and `_` of its path are safe
+/// everywhere.
 fn plot_file(path: &str) -> String {
     let name: String = path
         .chars()

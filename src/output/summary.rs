@@ -8,8 +8,9 @@ use std::path::Path;
 
 /// The content of `summary.json`. Numbers that are not finite become null.
 ///
-/// `timings` are the phases of [`Results::timings`] (a phase that ran more than once is summed) and `total`,
-/// the wall time of the run; `peak_memory_bytes` is that of this process, null where the system does not tell.
+/// `timings` are the phases of [`Results::timings`] (a phase that ran more than once is summed) and
+/// `total`, the wall time of the run; `peak_memory_bytes` is that of this process, null where the
+/// system does not tell.
 pub fn summary(header: &RunHeader, results: &Results) -> Value {
     let sizes = &results.sizes;
     let n_states = results.states.len();

@@ -1,11 +1,14 @@
-//! Rows as CSV: a header, full precision, an empty cell where a number is not finite.
+//! Rows as CSV: a header, full precision, an empty cell where a number is not finite. Texts are
+//! quoted where RFC 4180 asks for it; what a terminal would obey in them is written out, so that a
+//! row is a line.
 
+use crate::text::shown_in_line;
 use serde::Serialize;
 use serde_json::Value;
 use std::io::{self, Write};
 
-/// Writes `rows` under a header made of the keys of `Row` (those of `sample`, so that a table without rows
-/// has its header too).
+/// Writes `rows` under a header made of the keys of `Row` (those of `sample`, so that a table
+/// without rows has its header too).
 ///
 /// # Errors
 /// Those of `out`.
@@ -32,7 +35,7 @@ fn cells(row: &impl Serialize) -> io::Result<Vec<(String, String)>> {
         .map(|(key, value)| {
             let cell = match value {
                 Value::Null => String::new(),
-                Value::String(text) => text,
+                Value::String(text) => shown_in_line(&text).into_owned(),
                 other => other.to_string(),
             };
             (key, cell)

@@ -1,4 +1,5 @@
-//! Fields read back from the `.vtu` files that [`super::vtu`] writes. Not a reader of VTK files in general.
+//! Fields read back from the `.vtu` files that [`super::vtu`] writes. Not a reader of VTK files in
+//! general.
 
 use super::fields;
 use crate::error::{Error, Result};
@@ -18,7 +19,8 @@ const LENGTH_BYTES: usize = 8;
 /// Reads the fields of a state on a mesh.
 ///
 /// # Errors
-/// `Io` where the file cannot be read, `Input` naming it where it is damaged or belongs to another mesh.
+/// `Io` where the file cannot be read, `Input` naming it where it is damaged or belongs to another
+/// mesh.
 pub(super) fn read(path: &Path, mesh: &Mesh) -> Result<Fields> {
     let bytes = files::read("read", path, None)?;
     let damaged = |what: String| Error::input(format!("{}: {what}", path.display()));

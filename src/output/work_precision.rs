@@ -10,8 +10,8 @@ const FONT: &str = "Helvetica, Arial, sans-serif";
 const SIZE: (u32, u32) = (960, 540);
 /// Width of the names beside the plot.
 const LEGEND: u32 = 190;
-/// Colours of the series, told apart by readers who do not see all (P. Wong, Nature Methods 8 (2011) 441,
-/// doi:10.1038/nmeth.1618).
+/// Colours of the series, told apart by readers who do not see all (P. Wong, Nature Methods 8
+/// (2011) 441, doi:10.1038/nmeth.1618).
 const COLORS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -141,7 +141,8 @@ fn draw(
     }
     for (i, curve) in curves.iter().enumerate() {
         let color = COLORS[i % COLORS.len()];
-        // Runs with one knob turned are points round the scene's own: a line would suggest an order.
+        // Runs with one knob turned are points round the scene's own: a line would suggest an
+        // order.
         let (style, radius) = match curve.is_mesh {
             true => (color.filled(), 4),
             false => (color.stroke_width(2), 3),
@@ -188,7 +189,8 @@ fn name(text: &str, [x, y]: [i32; 2]) -> Text<'_, (i32, i32), &str> {
     Text::new(text, (x + 18, y - 7), (FONT, 13).into_font())
 }
 
-/// The label of a tick of a logarithmic axis, rounded to a digit: only 1, 2 and 5 of each decade, which do not run into each other.
+/// The label of a tick of a logarithmic axis, rounded to a digit: only 1, 2 and 5 of each decade,
+/// which do not run into each other.
 fn tick(value: f64, label: impl Fn(f64) -> String) -> String {
     let rounded = format!("{value:.0e}");
     match rounded.parse() {

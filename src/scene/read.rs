@@ -4,7 +4,9 @@ use super::document::{Places, Source};
 use super::{Scene, complete, overrides, unsupported, validate};
 use crate::error::{Error, ErrorKind, Result};
 use crate::files;
+use crate::text::short;
 use serde::Deserialize;
+use std::borrow::Cow;
 use std::path::Path;
 use toml::de::DeTable;
 
@@ -76,8 +78,16 @@ impl Scene {
     /// # Errors
     /// [`ErrorKind::Internal`] where a value has no form in TOML, which no scene that was read or built of finite numbers has.
     pub fn to_toml(&self) -> Result<String> {
-        toml::to_string(self)
-            .map_err(|cause| Error::internal("the scene cannot be written as TOML").because(cause))
+        let text = toml::to_string(self).map_err(|cause| {
+            Error::internal("the scene cannot be written as TOML").because(cause)
+        })?;
+        // Numbers with an exponent where that is shorter, unless that changed what is said.
+        let short = short(&text);
+        let said = |text: &str| text.parse::<toml::Table>().ok();
+        if matches!(short, Cow::Owned(_)) && said(&short) == said(&text) {
+            return Ok(short.into_owned());
+        }
+        Ok(text)
     }
 }
 

@@ -1,5 +1,5 @@
-//! The fast part of the stability suite, on the user's own machine and build: hard cases by family, the worst figure measured, its bound
-//! and where that comes from.
+//! The fast part of the stability suite, on the user's own machine and build: hard cases by family,
+//! the worst figure measured, its bound and where that comes from.
 //!
 //! | file | what |
 //! |---|---|
@@ -140,7 +140,8 @@ pub fn page(rows: &[Row]) -> String {
     text + &beside_others()
 }
 
-/// What another program made of the cases of `data/peers`: the part of that page which stands under its heading, as it was measured.
+/// What another program made of the cases of `data/peers`: the part of that page which stands under
+/// its heading, as it was measured.
 fn beside_others() -> String {
     const PAGE: &str = include_str!("../../data/peers/README.md");
     const HEADING: &str = "## Where contact codes fail silently";

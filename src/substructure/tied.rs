@@ -1,12 +1,13 @@
 //! The structure with all pairs tied, and the contact matrix, free of cancellation.
 //!
-//! Of the two nodes of a pair the stiffer one leads: `v` is its displacement, `s = u_follower - v` that of the softer one
-//! relative to it, and `s` is what is left after elimination. The other way round the contact matrix, no stiffer than
-//! the softer body, would be the difference of two matrices as large as the stiffer one.
+//! Of the two nodes of a pair the stiffer one leads: `v` is its displacement, `s = u_follower - v`
+//! that of the softer one relative to it, and `s` is what is left after elimination. The other way
+//! round the contact matrix, no stiffer than the softer body, would be the difference of two
+//! matrices as large as the stiffer one.
 //!
-//! A floating body that is stiff beside what it rests on hardly deforms. Its rigid motions cost the soft stiffness alone, which the
-//! round-off of its own stiffness swamps. Those motions are known exactly (`R`, from the geometry), so they are unknowns in
-//! their own right:
+//! A floating body that is stiff beside what it rests on hardly deforms. Its rigid motions cost the
+//! soft stiffness alone, which the round-off of its own stiffness swamps. Those motions are known
+//! exactly (`R`, from the geometry), so they are unknowns in their own right:
 //!
 //! ```text
 //!     v = R a + Z w        Z: unit vectors of all pairs but as many as there are motions
@@ -15,12 +16,13 @@
 //!     [ R'S Z  R'S R ] [ a ] = [ R' f ]      S_body r = 0 is put in exactly where r is a rigid motion of that body
 //! ```
 //!
-//! Cholesky's method does not care how rows are scaled: its error in each entry is a share of the geometric mean of the two
-//! diagonal entries.
+//! Cholesky's method does not care how rows are scaled: its error in each entry is a share of the
+//! geometric mean of the two diagonal entries.
 //!
 //! # Source
-//! C. Farhat, F.-X. Roux (1991), doi:10.1002/nme.1620320604 (floating subdomains and their rigid motions); A. van der Sluis (1969),
-//! doi:10.1007/BF02165096, and N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., theorem 10.5 (scaling).
+//! C. Farhat, F.-X. Roux (1991), doi:10.1002/nme.1620320604 (floating subdomains and their rigid
+//! motions); A. van der Sluis (1969), doi:10.1007/BF02165096, and N. J. Higham, *Accuracy and
+//! Stability of Numerical Algorithms*, 2nd ed., theorem 10.5 (scaling).
 
 use crate::error::{Error, Result};
 use crate::linalg::{ContactStiffness, blocked};
@@ -46,7 +48,8 @@ pub(super) struct Split {
     pub motions: DVector<f64>,
 }
 
-/// A relative displacement of the pairs, rigid motions of floating bodies apart: these cost nothing.
+/// A relative displacement of the pairs, rigid motions of floating bodies apart: these cost
+/// nothing.
 pub(super) struct SplitSlip {
     /// What deforms the bodies.
     pub rest: DVector<f64>,
@@ -60,9 +63,11 @@ struct RigidSlip {
     of_motion: DVector<f64>,
 }
 
-/// The second node leads only where it is stiffer than the first by this factor: for like bodies the paper's choice stands.
+/// The second node leads only where it is stiffer than the first by this factor: for like bodies
+/// the paper's choice stands.
 const STIFFER: f64 = 4.0;
-/// What is left of a motion, as a share of it, when that share is the round-off of taking the rest away.
+/// What is left of a motion, as a share of it, when that share is the round-off of taking the rest
+/// away.
 const ROUND_OFF: f64 = 1e-11;
 /// Entries that a thread takes at a time.
 const ENTRIES: usize = 1 << 14;
@@ -97,8 +102,9 @@ pub(super) struct Tied {
 }
 
 impl Tied {
-    /// The tied structure and the contact matrix `T` (force of each pair over slip of each pair, as in `r = t - T s`) for the
-    /// condensed stiffness (`2n x 2n`), the rigid motions of floating parts and the part of each contact freedom.
+    /// The tied structure and the contact matrix `T` (force of each pair over slip of each pair, as
+    /// in `r = t - T s`) for the condensed stiffness (`2n x 2n`), the rigid motions of floating
+    /// parts and the part of each contact freedom.
     ///
     /// # Errors
     /// Internal, where the tied structure is not held.
@@ -256,9 +262,11 @@ impl Tied {
         }
     }
 
-    /// Takes the rigid motions of floating bodies out of a relative displacement of the pairs. They cost nothing: forces and strains of
-    /// a gap that is large beside the deformation are those of the rest, and do not drown in its round-off. What is rigid to round-off
-    /// leaves nothing, so that a body which an interference lifts off another feels no force, rather than one whose sign is chance.
+    /// Takes the rigid motions of floating bodies out of a relative displacement of the pairs. They
+    /// cost nothing: forces and strains of a gap that is large beside the deformation are those of
+    /// the rest, and do not drown in its round-off. What is rigid to round-off leaves nothing, so
+    /// that a body which an interference lifts off another feels no force, rather than one whose
+    /// sign is chance.
     pub(super) fn split_slip(&self, slip: &[f64]) -> SplitSlip {
         let mut rest = DVector::from_column_slice(slip);
         let n_motions = self.rigid.first().map_or(0, |t| t.of_motion.len());
@@ -279,8 +287,8 @@ impl Tied {
         SplitSlip { rest, motions }
     }
 
-    /// As [`Tied::recover`], with rigid motions apart: the deformation of a stiff body keeps its digits beside a motion that is
-    /// larger by orders.
+    /// As [`Tied::recover`], with rigid motions apart: the deformation of a stiff body keeps its
+    /// digits beside a motion that is larger by orders.
     pub(super) fn split(&self, contact: &[f64], slip: &[f64]) -> Split {
         let unknowns = self.unknowns(contact, slip);
         let (n, n_w) = (self.n, self.kept.len());
@@ -333,7 +341,8 @@ impl Tied {
     }
 }
 
-/// The traces of each part made orthonormal; motions that leave no trace on the contact freedoms are left out.
+/// The traces of each part made orthonormal; motions that leave no trace on the contact freedoms
+/// are left out.
 fn orthonormal(traces: &[Trace]) -> Vec<Trace> {
     let mut out: Vec<Trace> = Vec::new();
     for trace in traces {
@@ -382,8 +391,9 @@ fn rigid_slips(rigid: &[Trace], n: usize) -> Vec<RigidSlip> {
     out
 }
 
-/// Motions of the tied pairs (`n x motions`, independent ones) and the pairs that remain unknowns beside them: Gaussian elimination
-/// with complete pivoting picks for each motion the pair that tells it best from the others.
+/// Motions of the tied pairs (`n x motions`, independent ones) and the pairs that remain unknowns
+/// beside them: Gaussian elimination with complete pivoting picks for each motion the pair that
+/// tells it best from the others.
 fn basis(rigid: &[Trace], part: &[usize], n: usize) -> (DMatrix<f64>, Vec<usize>) {
     let on_pair = |trace: &Trace, k: usize| {
         let sides = [k, n + k].map(|i| (part[i] == trace.part).then_some(trace.values[i]));
@@ -431,8 +441,9 @@ fn basis(rigid: &[Trace], part: &[usize], n: usize) -> (DMatrix<f64>, Vec<usize>
     (all.select_columns(&columns), kept)
 }
 
-/// Takes the rigid motions of each part out of a displacement of all contact freedoms and adds their amplitudes to `share`. What
-/// is rigid to round-off leaves nothing: it costs nothing, exactly.
+/// Takes the rigid motions of each part out of a displacement of all contact freedoms and adds
+/// their amplitudes to `share`. What is rigid to round-off leaves nothing: it costs nothing,
+/// exactly.
 fn take_rigid(column: &mut [f64], share: &mut [f64], rigid: &[Trace], part: &[usize]) {
     let mut parts: Vec<usize> = rigid.iter().map(|t| t.part).collect();
     parts.dedup();

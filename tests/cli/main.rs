@@ -11,6 +11,7 @@ mod pressure;
 mod readme;
 mod refusals;
 mod scene_help;
+mod shown;
 mod watching;
 
 use std::path::PathBuf;

@@ -351,3 +351,69 @@ fn a_study_leaves_its_data_and_plots() {
     assert_eq!(output.status.code(), Some(2));
     assert!(refused.join("mine.txt").exists());
 }
+
+/// What a killed run left beside its results goes with the next run that ends well, whether that
+/// goes on from it or not.
+#[test]
+fn a_leftover_checkpoint_goes_with_the_next_run_that_ends() {
+    let folder = Folder::with_changes("contact_patch", &[]);
+    let left = folder.path("out.checkpoint");
+    let leave = || {
+        std::fs::create_dir_all(&left).unwrap();
+        for name in ["checkpoint", "part-000001", "lock"] {
+            std::fs::write(left.join(name), "of a run that was killed").unwrap();
+        }
+    };
+    leave();
+    let output = folder.brinell("run", &["-q", "--set", "symmetry=3"]);
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
+    assert!(
+        left.join("checkpoint").exists(),
+        "a run that did not start took it"
+    );
+    let output = folder.brinell("run", &["-q"]);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    assert!(!left.exists());
+    // What is the user's stays.
+    leave();
+    std::fs::write(left.join("notes.txt"), "mine").unwrap();
+    assert_eq!(folder.brinell("run", &["-q"]).status.code(), Some(0));
+    let names = std::fs::read_dir(&left).unwrap();
+    let names: Vec<_> = names.map(|entry| entry.unwrap().file_name()).collect();
+    assert_eq!(names, ["notes.txt"]);
+}
+
+/// The prediction of `check` for what runs take: a rough one, for it depends on the machine.
+#[test]
+fn the_predicted_time_of_a_run_is_of_its_size() {
+    for name in [
+        "cylinder_on_half_plane",
+        "disc_in_plate",
+        "ball_on_half_space",
+        "nafems_cb1",
+    ] {
+        let seconds = |command: &str, key: &[&str]| {
+            let folder = tempfile::tempdir().unwrap();
+            let out = folder.path().join("out");
+            let scene = scene(name);
+            let mut arguments = vec![command, &scene, "--json"];
+            if command == "run" {
+                arguments.extend(["-q", "--no-estimate", "--no-report", "--out"]);
+                arguments.push(out.to_str().unwrap());
+            }
+            let found: Value = serde_json::from_str(&stdout(&brinell(&arguments))).unwrap();
+            key.iter()
+                .fold(&found, |value, key| &value[*key])
+                .as_f64()
+                .unwrap()
+        };
+        let predicted = seconds("check", &["predicted_run_seconds"]);
+        let taken = seconds("run", &["timings", "total"]);
+        // Within 3 on the machine that it was fitted to; other machines, and tests beside it.
+        let ratio = predicted / taken;
+        assert!(
+            (0.05..6.0).contains(&ratio),
+            "{name}: {predicted} for {taken}"
+        );
+    }
+}

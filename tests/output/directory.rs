@@ -30,10 +30,11 @@ fn write_minimal(dir: &Path) -> Result<(), Error> {
 
 const MINIMAL: [&str; 3] = ["contact.csv", "history.csv", "summary.json"];
 
-const ALL: [&str; 6] = [
+const ALL: [&str; 7] = [
     "contact.csv",
     "fields.pvd",
     "history.csv",
+    "path.csv",
     "state_01_b___1.5_b_.vtu",
     "state_03_released.vtu",
     "summary.json",

@@ -4,7 +4,7 @@ use brinell::mesh::{Mesh, Shape};
 use brinell::output::RunHeader;
 use brinell::results::{
     Accuracy, Companion, Counts, Demand, Effect, EstimateMethod, Fields, HistoryRow, PairState,
-    Quality, QuantityError, ReferenceRow, Results, Sizes, State, Status, YieldPoint,
+    PathPoint, Quality, QuantityError, ReferenceRow, Results, Sizes, State, Status, YieldPoint,
 };
 
 pub fn header() -> RunHeader {
@@ -138,6 +138,13 @@ pub fn results(mesh: &Mesh) -> Results {
             body: 1,
         }),
         states: vec![pressed, without_fields, released],
+        path: vec![PathPoint {
+            increment: 2,
+            alpha: 0.2,
+            load: 30.0,
+            max_pressure: 100.0,
+            half_width: 2.0 / 3.0,
+        }],
         history: vec![
             HistoryRow {
                 increment: 1,

@@ -1,4 +1,4 @@
-//! `history.csv` and `contact.csv`.
+//! `history.csv`, `path.csv` and `contact.csv`.
 
 use crate::fixture;
 use brinell::output::{RunHeader, write};
@@ -116,8 +116,8 @@ fn contact_has_a_row_per_state_and_pair() {
         [
             "1",
             "2.0635",
+            "2",
             "1",
-            "0",
             "0.1",
             "-0.0",
             "1e-17",
@@ -131,6 +131,20 @@ fn contact_has_a_row_per_state_and_pair() {
     assert_eq!(rows[4][0], "3");
     assert_eq!(rows[4][10], "closed");
     assert_eq!(rows[4][11], "released");
+}
+
+#[test]
+fn the_path_between_increments_has_a_row_per_point() {
+    let root = tempfile::tempdir().unwrap();
+    let dir = root.path().join("run.out");
+    let mesh = fixture::mesh();
+    write(&dir, &fixture::header(), &mesh, &fixture::results(&mesh)).unwrap();
+    let (header, rows) = read(&dir.join("path.csv"));
+    assert_eq!(
+        header,
+        ["increment", "alpha", "load", "max_pressure", "half_width"]
+    );
+    assert_eq!(rows, [["2", "0.2", "30.0", "100.0", "0.6666666666666666"]]);
 }
 
 #[test]

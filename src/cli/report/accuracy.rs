@@ -6,7 +6,8 @@ use crate::output::stated_errors::{self, StatedErrors};
 use crate::results::Accuracy;
 
 impl Report {
-    /// Stated errors relative to the largest size of each quantity, and the largest of each kind of error below them.
+    /// Stated errors relative to the largest size of each quantity, and the largest of each kind of
+    /// error below them.
     pub(super) fn accuracy(&mut self, accuracy: &Accuracy) {
         if let Some(stated) = StatedErrors::of(accuracy) {
             self.stated_errors(&stated);

@@ -69,8 +69,8 @@ impl Backward {
         self.subtrees.len()
     }
 
-    /// Solves in place: on entry `x` holds `y`, but the solution where `known`; a known column's rows are all known.
-    /// `above` is workspace of the same length.
+    /// Solves in place: on entry `x` holds `y`, but the solution where `known`; a known column's
+    /// rows are all known. `above` is workspace of the same length.
     pub(super) fn solve(&self, factor: &Factor, known: &[bool], x: &mut [f64], above: &mut [f64]) {
         let supernodes = match factor.columns() {
             Columns::Supernodal(supernodes) => supernodes,

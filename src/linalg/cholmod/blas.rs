@@ -2,15 +2,17 @@
 //!
 //! CHOLMOD spends its time in BLAS: without an optimised one it is several times slower.
 //!
-//! OpenBLAS takes a work buffer of up to 128 MB of address space for each thread, and asks for it again without end where
-//! the system refuses. So where the address space is limited (`ulimit -v`), one caller at a time enters the BLAS ([`enter`]), and
-//! the first makes sure beforehand that there is room for its buffer.
+//! OpenBLAS takes a work buffer of up to 128 MB of address space for each thread, and asks for it
+//! again without end where the system refuses. So where the address space is limited (`ulimit -v`),
+//! one caller at a time enters the BLAS ([`enter`]), and the first makes sure beforehand that there
+//! is room for its buffer.
 
 use crate::error::{Error, Result};
 use crate::memory;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
-/// Address space of the work buffer of one thread: the largest of OpenBLAS' builds (32 << 22 bytes).
+/// Address space of the work buffer of one thread: the largest of OpenBLAS' builds (32 << 22
+/// bytes).
 const BUFFER: f64 = (32u64 << 22) as f64;
 
 /// The right to call the BLAS; all threads have it at once where the address space has no limit.
@@ -46,8 +48,8 @@ pub(super) fn enter() -> Result<Entered> {
     Ok(Some(has_buffer))
 }
 
-/// Whether the limits of the process leave too little for the work buffers of all threads of the BLAS, as much for what else
-/// they hold, and for the work itself.
+/// Whether the limits of the process leave too little for the work buffers of all threads of the
+/// BLAS, as much for what else they hold, and for the work itself.
 pub fn blas_threads_are_too_many() -> bool {
     let threads = blas_threads().unwrap_or(1);
     let needed = 2.0 * BUFFER * (threads as f64 + 1.0);

@@ -9,11 +9,12 @@ pub(super) struct Common {
     raw: Box<sys::cholmod_common>,
 }
 
-// SAFETY: the workspace behind the pointers belongs to this object alone, and CHOLMOD keeps no state per
-// thread: what one thread started another may use.
+// SAFETY: the workspace behind the pointers belongs to this object alone, and CHOLMOD keeps no
+// state per thread: what one thread started another may use.
 unsafe impl Send for Common {}
 
-/// Memory that must be there before METIS is called, in multiples of the workspace that CHOLMOD expects of it.
+/// Memory that must be there before METIS is called, in multiples of the workspace that CHOLMOD
+/// expects of it.
 const METIS_RESERVE: f64 = 2.0;
 
 impl Common {
@@ -38,13 +39,15 @@ impl Common {
         raw.nmethods = 1;
         raw.current = 0;
         raw.method[0].ordering = sys::CHOLMOD_GIVEN as i32;
-        // A postorder of the whole elimination tree would mix the groups; `ordering` does it per group.
+        // A postorder of the whole elimination tree would mix the groups; `ordering` does it per
+        // group.
         raw.postorder = 0;
         raw.supernodal = sys::CHOLMOD_AUTO as i32;
         raw.final_ll = 1;
         raw.quick_return_if_not_posdef = 1;
         raw.useGPU = 0;
-        // METIS ends the process where its memory runs out: CHOLMOD asks beforehand whether there is enough.
+        // METIS ends the process where its memory runs out: CHOLMOD asks beforehand whether there
+        // is enough.
         raw.metis_memory = METIS_RESERVE;
         Ok(Common { raw })
     }

@@ -89,7 +89,8 @@ impl Factor {
         Ok(factor)
     }
 
-    /// Allocates the values of a supernodal factor, which its factorisation does otherwise, on large pages where there are any.
+    /// Allocates the values of a supernodal factor, which its factorisation does otherwise, on
+    /// large pages where there are any.
     pub(super) fn allocate(&mut self) -> Result<()> {
         if !self.is_supernodal() {
             return Ok(());
@@ -164,8 +165,8 @@ impl Factor {
         self.raw().is_super != 0
     }
 
-    /// Bytes of the numerical factor with what its computation needs beside it: the largest update block, and the
-    /// permuted copy of a matrix with `entries` stored entries.
+    /// Bytes of the numerical factor with what its computation needs beside it: the largest update
+    /// block, and the permuted copy of a matrix with `entries` stored entries.
     pub(super) fn bytes(&self, entries: usize) -> f64 {
         let raw = self.raw();
         let factor = if self.is_supernodal() {
@@ -216,8 +217,8 @@ impl Factor {
         }
     }
 
-    /// Solves for one right-hand side. The solution stays in the factor's workspace, which is allocated
-    /// by the first call and used by all later ones.
+    /// Solves for one right-hand side. The solution stays in the factor's workspace, which is
+    /// allocated by the first call and used by all later ones.
     pub(super) fn solve(&mut self, system: System, load: &[f64]) -> Result<&[f64]> {
         let n = self.n();
         debug_assert_eq!(load.len(), n);
@@ -296,8 +297,8 @@ pub(super) enum Columns<'a> {
     },
 }
 
-/// Neighbouring columns that share their rows, as dense trapezoids in a rectangle: each column has as many values as the
-/// supernode has rows, those above the diagonal without meaning.
+/// Neighbouring columns that share their rows, as dense trapezoids in a rectangle: each column has
+/// as many values as the supernode has rows, those above the diagonal without meaning.
 pub(super) struct Supernodes<'a> {
     starts: &'a [i64],
     row_starts: &'a [i64],

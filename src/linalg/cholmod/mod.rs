@@ -1,4 +1,5 @@
-//! CHOLMOD backend: one sparse factor `P (K + D) P' = L L'` in the order `[ interior | zone | contact ]`.
+//! CHOLMOD backend: one sparse factor `P (K + D) P' = L L'` in the order
+//! `[ interior | zone | contact ]`.
 //!
 //! ```text
 //!     L = [ L_ii           ]      L_tt = [ L_zz      ]    is the factor of the condensed matrix:
@@ -6,16 +7,17 @@
 //!         [ L_ci L_cz L_cc ]
 //! ```
 //!
-//! `D = diag(shift)` acts on contact freedoms only, so it enters `L_cc` alone: `L_cc L_cc' = C + D`.
-//! Of the whole module only `common`, `sparse`, `ordering`, `factor`, `blas` and `openmp` call C, and `pages` the system.
+//! `D = diag(shift)` acts on contact freedoms only, so it enters `L_cc` alone:
+//! `L_cc L_cc' = C + D`. Of the whole module only `common`, `sparse`, `ordering`, `factor`, `blas`
+//! and `openmp` call C, and `pages` the system.
 //!
-//! The same BLAS with the same number of threads gives the same bits in every run; another number of threads may
-//! add in another order and differ by round-off ([`set_blas_threads`]).
+//! The same BLAS with the same number of threads gives the same bits in every run; another number
+//! of threads may add in another order and differ by round-off ([`set_blas_threads`]).
 //!
 //! # Source
-//! T. A. Davis, *Direct Methods for Sparse Linear Systems*, SIAM 2006, chapter 4, doi:10.1137/1.9780898718881;
-//! Y. Chen, T. A. Davis, W. W. Hager, S. Rajamanickam, *Algorithm 887: CHOLMOD*, ACM TOMS 35 (3), 2008,
-//! doi:10.1145/1391989.1391995.
+//! T. A. Davis, *Direct Methods for Sparse Linear Systems*, SIAM 2006, chapter 4,
+//! doi:10.1137/1.9780898718881; Y. Chen, T. A. Davis, W. W. Hager, S. Rajamanickam, *Algorithm 887:
+//! CHOLMOD*, ACM TOMS 35 (3), 2008, doi:10.1145/1391989.1391995.
 
 mod backward;
 mod blas;
@@ -181,8 +183,8 @@ impl Condensed for CholmodCondensed {
         Ok(Some(self.zone.clone()))
     }
 
-    // y = L^-1 P load has y_i = L_ii^-1 load_i and y_t = L_tt^-1 (load_t - L_ti y_i). Since L_ti L_ii' = K_ti and
-    // L_ii L_ii' = K_ii,
+    // y = L^-1 P load has y_i = L_ii^-1 load_i and y_t = L_tt^-1 (load_t - L_ti y_i). Since L_ti
+    // L_ii' = K_ti and L_ii L_ii' = K_ii,
     //     L_tt y_t = load_t - L_ti L_ii^-1 load_i = load_t - K_ti K_ii^-1 load_i = f_t:
     // the shift is in L_tt alone, which is divided by and multiplied back.
     fn reduce_load(&self, load: &[f64]) -> Result<Vec<f64>> {
@@ -296,8 +298,8 @@ pub struct Unconstrained {
     pub solve_seconds: f64,
 }
 
-/// Analyses and factors `matrix` as CHOLMOD does by itself, without groups, and drops the factor: what the
-/// condensation is measured against.
+/// Analyses and factors `matrix` as CHOLMOD does by itself, without groups, and drops the factor:
+/// what the condensation is measured against.
 ///
 /// # Errors
 /// As [`super::condense`].
@@ -386,8 +388,9 @@ fn prediction(
         factor_nonzeros: factor.nonzeros(),
         flops: factor.flops(),
         trailing_nonzeros: trailing as f64,
-        // The matrix as given (16 bytes an entry), the copy of its values, the factor with its own needs; after it
-        // the trailing copy, condensed stiffness and vectors, smaller than what is gone by then or added here.
+        // The matrix as given (16 bytes an entry), the copy of its values, the factor with its own
+        // needs; after it the trailing copy, condensed stiffness and vectors, smaller than what is
+        // gone by then or added here.
         memory_bytes: 24.0 * entries as f64
             + factor.bytes(entries)
             + 8.0 * trailing as f64

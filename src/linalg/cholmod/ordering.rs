@@ -5,7 +5,8 @@
 //! | `CAMD` | approximate minimum degree, the groups as constraints | plane meshes |
 //! | `nested dissection + CAMD` | separators of the interior as further constraints | solid meshes |
 //!
-//! The candidate with the fewest floating point operations is kept. Both order supervariables (`supervariables`).
+//! The candidate with the fewest floating point operations is kept. Both order supervariables
+//! (`supervariables`).
 
 use super::common::Common;
 use super::sparse::SymmetricView;
@@ -208,9 +209,9 @@ fn minimum_degree(
     complete(common, matrix, groups, "CAMD", &permutation)
 }
 
-/// Nested dissection of the interior; then minimum degree within each part, the separators after the
-/// parts they separate, then the zone, then the contact freedoms. One elimination runs through all of them, so
-/// that the zone is ordered by the fill it really gets.
+/// Nested dissection of the interior; then minimum degree within each part, the separators after
+/// the parts they separate, then the zone, then the contact freedoms. One elimination runs through
+/// all of them, so that the zone is ordered by the fill it really gets.
 fn dissection(common: &mut Common, matrix: &SymmetricView, groups: &Groups) -> Result<Ordering> {
     let interior = groups.sizes[0];
     if interior == 0 {
@@ -314,11 +315,11 @@ fn interior_pattern(matrix: &SymmetricView, groups: &Groups) -> (Vec<i64>, Vec<i
     (local, columns, rows)
 }
 
-/// Postorders the elimination tree within each group, the child with the most nonzeros last, so that columns
-/// of the same structure become neighbours and form supernodes. Fill is not changed.
+/// Postorders the elimination tree within each group, the child with the most nonzeros last, so
+/// that columns of the same structure become neighbours and form supernodes. Fill is not changed.
 ///
-/// CHOLMOD's own postorder would follow the tree across groups: a part of the interior that hangs on
-/// a contact freedom alone would come after the zone.
+/// CHOLMOD's own postorder would follow the tree across groups: a part of the interior that hangs
+/// on a contact freedom alone would come after the zone.
 fn postorder_by_group(
     permutation: &[i64],
     parent: &[i64],
@@ -330,8 +331,8 @@ fn postorder_by_group(
     let starts = groups.starts();
     let group_end =
         |column: usize| starts[usize::from(groups.member[permutation[column] as usize]) + 1];
-    // Children are put in front of their siblings, so the list ends as the reverse of this one. The sort is
-    // stable: equals keep the order that the method gave them.
+    // Children are put in front of their siblings, so the list ends as the reverse of this one. The
+    // sort is stable: equals keep the order that the method gave them.
     let mut by_count: Vec<u32> = (0..n as u32).rev().collect();
     by_count.sort_by_key(|&column| std::cmp::Reverse(counts[column as usize]));
     let mut first_child = vec![NONE; n];

@@ -8,10 +8,11 @@
 //! | [`multiply`] | `y = A x` |
 //! | [`subtract_transposed`] | `x -= A' y` |
 //!
-//! Both parts are cut into strips of [`STRIP`] columns. A strip of the rectangle is stored in tiles of [`TILE`] rows,
-//! column by column within a tile; one of the triangle is a packed triangle of its own, then the tiles
-//! below it. So four columns share the loads and stores of the long vector, only every fourth column waits
-//! for those before it, and the memory is read in one stream in either direction of the solve.
+//! Both parts are cut into strips of [`STRIP`] columns. A strip of the rectangle is stored in tiles
+//! of [`TILE`] rows, column by column within a tile; one of the triangle is a packed triangle of
+//! its own, then the tiles below it. So four columns share the loads and stores of the long vector,
+//! only every fourth column waits for those before it, and the memory is read in one stream in
+//! either direction of the solve.
 
 use std::ops::Range;
 
@@ -129,7 +130,8 @@ fn subtract_strip_transposed(strip: &[f64], y: &[f64], x: &mut [f64]) {
     let (strip, end) = strip.split_at(x.len() * whole);
     let mut sums = [[0.0; LANES]; STRIP];
     if x.len() == STRIP {
-        // From the bottom up: in the triangle of a panel the values at the top are the last to be known.
+        // From the bottom up: in the triangle of a panel the values at the top are the last to be
+        // known.
         for (tile, y) in strip
             .chunks_exact(STRIP * TILE)
             .zip(y.chunks_exact(TILE))
@@ -273,7 +275,8 @@ fn multiply_by_strips(rectangle: &[f64], x: &[f64], y: &mut [f64]) {
 
 #[inline(always)]
 fn subtract_transposed_by_strips(rectangle: &[f64], y: &[f64], x: &mut [f64]) {
-    // From the last strip to the first, the way that a backward substitution goes through the memory.
+    // From the last strip to the first, the way that a backward substitution goes through the
+    // memory.
     let mut rest = rectangle;
     for strip in strips(x.len()).rev() {
         let x = &mut x[strip];
@@ -283,8 +286,9 @@ fn subtract_transposed_by_strips(rectangle: &[f64], y: &[f64], x: &mut [f64]) {
     }
 }
 
-/// Compiles a kernel twice, for any processor and for one with wider vectors, and picks at run time. The second
-/// has the same operations in the same order (no fused ones), so both give the same bits.
+/// Compiles a kernel twice, for any processor and for one with wider vectors, and picks at run
+/// time. The second has the same operations in the same order (no fused ones), so both give the
+/// same bits.
 macro_rules! for_this_processor {
     ($(#[$doc:meta])* $name:ident, $wide:ident, $kernel:ident, ($($arg:ident: $type:ty),*)) => {
         $(#[$doc])*

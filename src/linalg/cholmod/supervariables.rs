@@ -1,10 +1,11 @@
-//! Supervariables: runs of freedoms that couple to the same freedoms, as those of a node do. An order finds them next to each other anyway;
-//! found at once, a plane mesh leaves half the vertices and a quarter of the entries to be ordered.
+//! Supervariables: runs of freedoms that couple to the same freedoms, as those of a node do. An
+//! order finds them next to each other anyway; found at once, a plane mesh leaves half the vertices
+//! and a quarter of the entries to be ordered.
 //!
 //! # Source
-//! I. S. Duff, J. K. Reid, *The multifrontal solution of indefinite sparse symmetric linear equations*, ACM TOMS 9 (3), 1983,
-//! doi:10.1145/356044.356047; C. Ashcraft, *Compressed graphs and the minimum degree algorithm*, SIAM J. Sci. Comput. 16 (6), 1995,
-//! doi:10.1137/0916081.
+//! I. S. Duff, J. K. Reid, *The multifrontal solution of indefinite sparse symmetric linear
+//! equations*, ACM TOMS 9 (3), 1983, doi:10.1145/356044.356047; C. Ashcraft, *Compressed graphs and
+//! the minimum degree algorithm*, SIAM J. Sci. Comput. 16 (6), 1995, doi:10.1137/0916081.
 
 use super::ordering::Groups;
 use super::sparse::SymmetricView;
@@ -19,7 +20,8 @@ pub(super) struct Supervariables {
 }
 
 impl Supervariables {
-    /// The longest runs of consecutive freedoms of a group that have the same neighbours and each other.
+    /// The longest runs of consecutive freedoms of a group that have the same neighbours and each
+    /// other.
     pub(super) fn find(matrix: &SymmetricView, groups: &Groups) -> Self {
         let n = matrix.n();
         let goes_on = continued(matrix, groups);
@@ -141,7 +143,8 @@ mod tests {
         }
     }
 
-    /// A chain of three nodes of two freedoms: three supervariables, of which the last falls apart where one freedom is in contact.
+    /// A chain of three nodes of two freedoms: three supervariables, of which the last falls apart
+    /// where one freedom is in contact.
     #[test]
     fn the_freedoms_of_a_node_are_one_unless_their_groups_differ() {
         let mut edges = Vec::new();
@@ -166,7 +169,8 @@ mod tests {
         assert_eq!(split.rows, [0, 0, 1, 1, 2, 1, 2, 3]);
     }
 
-    /// Neighbours that differ above or right of the diagonal, or that do not touch each other, stay apart.
+    /// Neighbours that differ above or right of the diagonal, or that do not touch each other, stay
+    /// apart.
     #[test]
     fn freedoms_with_other_neighbours_stay_apart() {
         type Case<'a> = (&'a [(usize, usize)], &'a [usize]);

@@ -291,8 +291,8 @@ fn displacements_that_do_not_belong_to_the_load_show_in_the_backward_error() {
     assert!(found.backward_error > 1e-3);
 }
 
-/// The backward substitution cut into subtrees is that of CHOLMOD, with the same bits for any number of threads, whichever
-/// part of the zone is in use.
+/// The backward substitution cut into subtrees is that of CHOLMOD, with the same bits for any
+/// number of threads, whichever part of the zone is in use.
 #[test]
 fn subtrees_are_solved_like_the_whole() {
     let grid = Grid::<2>::new([120, 120], Support::Bottom);

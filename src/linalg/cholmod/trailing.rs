@@ -5,14 +5,15 @@
 //!            [ L_cz L_cc ]
 //! ```
 //!
-//! These solves are the hot loop of a plastic analysis: thousands of calls, each bound by how fast the
-//! memory delivers `L_tt`. Columns of the same structure are kept as dense panels of at most
-//! [`PANEL_WIDTH`] columns: a lower triangle, then a rectangle whose rows are listed once, both stored as the kernels ([`panel`])
-//! read them.
+//! These solves are the hot loop of a plastic analysis: thousands of calls, each bound by how fast
+//! the memory delivers `L_tt`. Columns of the same structure are kept as dense panels of at most
+//! [`PANEL_WIDTH`] columns: a lower triangle, then a rectangle whose rows are listed once, both
+//! stored as the kernels ([`panel`]) read them.
 //!
-//! Of the zone only a part may be needed. A set of columns that holds with a column all rows of its structure (its
-//! ancestors in the elimination tree) may as well have been eliminated after all others: its block of `L` is the
-//! factor of the structure condensed onto it. So a zone shrinks, and grows back, without another factorisation.
+//! Of the zone only a part may be needed. A set of columns that holds with a column all rows of its
+//! structure (its ancestors in the elimination tree) may as well have been eliminated after all
+//! others: its block of `L` is the factor of the structure condensed onto it. So a zone shrinks,
+//! and grows back, without another factorisation.
 
 mod substitution;
 
@@ -26,7 +27,8 @@ use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 use substitution::{Subtree, WorkOfSubtree};
 
-/// Columns of a panel: enough that rows are gathered rarely. 16, 32 and 64 differ by a few per cent.
+/// Columns of a panel: enough that rows are gathered rarely. 16, 32 and 64 differ by a few per
+/// cent.
 const PANEL_WIDTH: usize = 64;
 
 /// Neighbouring columns of one group with the same structure.
@@ -66,7 +68,8 @@ struct Work {
 #[derive(Debug)]
 pub(super) struct Trailing {
     n_zone: usize,
-    /// Trailing columns of the factor (0 is the first of the factored zone) that are kept, ascending.
+    /// Trailing columns of the factor (0 is the first of the factored zone) that are kept,
+    /// ascending.
     kept: Vec<u32>,
     /// Place in the kept zone of each zone column.
     zone: Vec<u32>,
@@ -74,7 +77,8 @@ pub(super) struct Trailing {
     contact: Vec<u32>,
     panels: Vec<Panel>,
     n_zone_panels: usize,
-    /// Of each zone panel the one that its first row below is in; `usize::MAX` where that is a contact freedom or there is none.
+    /// Of each zone panel the one that its first row below is in; `usize::MAX` where that is a
+    /// contact freedom or there is none.
     parents: Vec<usize>,
     /// Disjoint subtrees of the zone's panels, ascending.
     subtrees: Vec<Subtree>,
@@ -84,8 +88,9 @@ pub(super) struct Trailing {
 }
 
 impl Trailing {
-    /// Copies the trailing columns out of `factor`, whose groups are contiguous: those of the contact freedoms, and of the
-    /// zone those that the freedoms `wanted` need. Returns the zone freedoms kept (ascending) with it.
+    /// Copies the trailing columns out of `factor`, whose groups are contiguous: those of the
+    /// contact freedoms, and of the zone those that the freedoms `wanted` need. Returns the zone
+    /// freedoms kept (ascending) with it.
     pub(super) fn extract(
         factor: &Factor,
         groups: &Groups,
@@ -171,8 +176,8 @@ impl Trailing {
         Ok((trailing, zone))
     }
 
-    /// Appends the panels of those columns of the factor in `range` that have a `number` among the kept ones; `origin`
-    /// is the factor's first trailing column.
+    /// Appends the panels of those columns of the factor in `range` that have a `number` among the
+    /// kept ones; `origin` is the factor's first trailing column.
     fn copy_panels(
         &mut self,
         columns: &Columns,
@@ -236,8 +241,8 @@ impl Trailing {
         }
     }
 
-    /// Puts the displacements of zone and contact freedoms on the trailing columns of the factor that are kept; `known` says which
-    /// these are.
+    /// Puts the displacements of zone and contact freedoms on the trailing columns of the factor
+    /// that are kept; `known` says which these are.
     pub(super) fn place(&self, zone: &[f64], contact: &[f64], known: &mut [bool], x: &mut [f64]) {
         let values = (self.zone.iter().map(|&k| zone[k as usize]))
             .chain(self.contact.iter().map(|&k| contact[k as usize]));
@@ -255,7 +260,8 @@ impl Trailing {
         ContactStiffness::new(blocks.collect())
     }
 
-    /// The panels of contact columns (ascending) of each tree of the elimination forest: columns of different ones are not coupled.
+    /// The panels of contact columns (ascending) of each tree of the elimination forest: columns of
+    /// different ones are not coupled.
     fn uncoupled_contact(&self) -> Vec<Vec<&Panel>> {
         let panels = &self.panels[self.n_zone_panels..];
         let mut tree_of_column = vec![0; self.contact.len()];
@@ -297,7 +303,8 @@ impl Trailing {
             let list = &self.rows[p.rows.clone()];
             let first = number[p.first - self.n_zone];
             for k in 0..p.width {
-                // Column k is L times a unit vector: exact, and the storage stays the kernels' own affair.
+                // Column k is L times a unit vector: exact, and the storage stays the kernels' own
+                // affair.
                 let column = &mut unit[..p.width];
                 column.fill(0.0);
                 column[k] = 1.0;
@@ -342,8 +349,8 @@ impl Trailing {
     }
 }
 
-/// Which trailing columns (numbered from the first of the zone) are needed: the wanted ones, what their structure names, and
-/// all contact columns.
+/// Which trailing columns (numbered from the first of the zone) are needed: the wanted ones, what
+/// their structure names, and all contact columns.
 fn needed(
     columns: &Columns,
     permutation: &[i64],

@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-/// Subtrees are cut until none has more than this share of all work: 16 pieces keep two to eight threads busy, however they fall.
+/// Subtrees are cut until none has more than this share of all work: 16 pieces keep two to eight
+/// threads busy, however they fall.
 const LARGEST_SHARE: f64 = 1.0 / 16.0;
 /// Work (nonzeros) below which a subtree is not worth a thread's attention.
 const SMALLEST: u64 = 20_000;
@@ -16,8 +17,9 @@ pub(super) struct Forest<'a> {
 }
 
 impl Forest<'_> {
-    /// Disjoint subtrees, ascending, that hold most of the work between them; what is in none of them depends on them or they on it.
-    /// The choice depends on the tree alone, not on the threads of the machine. Empty where the tree is too small, or not postordered.
+    /// Disjoint subtrees, ascending, that hold most of the work between them; what is in none of
+    /// them depends on them or they on it. The choice depends on the tree alone, not on the threads
+    /// of the machine. Empty where the tree is too small, or not postordered.
     pub(super) fn subtrees(&self) -> Vec<Range<usize>> {
         let n = self.parent.len();
         let mut first: Vec<usize> = (0..n).collect();
@@ -114,7 +116,8 @@ mod tests {
 
     #[test]
     fn a_tree_out_of_postorder_is_left_whole() {
-        // Children 0 and 1 of 3 and 2 of 4, 3 of 4: the subtree of 3 is not contiguous once 2 is not its own.
+        // Children 0 and 1 of 3 and 2 of 4, 3 of 4: the subtree of 3 is not contiguous once 2 is
+        // not its own.
         let forest = Forest {
             parent: &[3, 4, 3, 5, 5, usize::MAX],
             work: &[30_000; 6],

@@ -6,7 +6,8 @@ use crate::linalg::{
     twofold_residual,
 };
 
-/// Bending of a clamped beam by differences, `1 -4 6 -4 1`: entries are whole numbers, the condition grows with `n^4`.
+/// Bending of a clamped beam by differences, `1 -4 6 -4 1`: entries are whole numbers, the
+/// condition grows with `n^4`.
 fn beam(n: usize) -> SymmetricCsc {
     let mut k = sprs::TriMatI::<f64, i64>::new((n, n));
     for j in 0..n {
@@ -48,8 +49,8 @@ fn error(x: &[f64], exact: &[f64]) -> f64 {
     off.fold(0.0f64, f64::max) / largest
 }
 
-/// Plain refinement stops at round-off times the condition, however often it is repeated, its backward error as small as can be; the residual in
-/// twice the precision goes on to the last bit.
+/// Plain refinement stops at round-off times the condition, however often it is repeated, its
+/// backward error as small as can be; the residual in twice the precision goes on to the last bit.
 #[test]
 fn refinement_goes_on_where_the_plain_one_stalls() {
     let k = beam(600);
@@ -88,7 +89,8 @@ fn refinement_goes_on_where_the_plain_one_stalls() {
     }
 }
 
-/// `|B|_1 |B^-1|_1` from the inverse, in one place after the other where the estimate could go wrong: graded, shifted, random.
+/// `|B|_1 |B^-1|_1` from the inverse, in one place after the other where the estimate could go
+/// wrong: graded, shifted, random.
 #[test]
 fn the_condition_is_estimated_within_a_factor_of_three() {
     let mut cases: Vec<(SymmetricCsc, Partition, Vec<f64>)> = vec![
@@ -131,7 +133,8 @@ fn the_condition_is_estimated_within_a_factor_of_three() {
     }
 }
 
-/// The loss of a pivot to cancellation bounds the condition from below, and may say nothing: a beam's pivots look harmless.
+/// The loss of a pivot to cancellation bounds the condition from below, and may say nothing: a
+/// beam's pivots look harmless.
 #[test]
 fn pivots_alone_do_not_show_a_bad_condition() {
     let k = beam(200);
@@ -166,8 +169,9 @@ fn the_componentwise_error_sees_a_small_row() {
     assert!(componentwise_backward_error(&k, &[1e12, 0.0], &[1.0, 1e-17]) < 1e-16);
 }
 
-/// The pass over the matrix in parts gives each row what its own entries give it, however far from the diagonal they lie: to the round-off of
-/// the row. Where a row hardly moves the error is measured by its own stiffness.
+/// The pass over the matrix in parts gives each row what its own entries give it, however far from
+/// the diagonal they lie: to the round-off of the row. Where a row hardly moves the error is
+/// measured by its own stiffness.
 #[test]
 fn the_pass_in_parts_gives_every_row_its_own() {
     use crate::linalg::residual::Rows;

@@ -155,7 +155,8 @@ fn neighbour<const D: usize>(
     Some(node)
 }
 
-/// `K_ai,bj = integral of lambda N_a,i N_b,j + mu N_a,j N_b,i + mu delta_ij N_a,k N_b,k`, two Gauss points a direction.
+/// `K_ai,bj = integral of lambda N_a,i N_b,j + mu N_a,j N_b,i + mu delta_ij N_a,k N_b,k`, two Gauss
+/// points a direction.
 fn element_stiffness<const D: usize>() -> Vec<f64> {
     let (modulus, ratio) = (1.0, 0.3);
     let lambda = modulus * ratio / ((1.0 + ratio) * (1.0 - 2.0 * ratio));

@@ -74,10 +74,11 @@ impl Sample {
         self.largest / self.smallest
     }
 
-    /// Relative error of a backward stable computation with the matrix: `n eps` times its condition.
+    /// Relative error of a backward stable computation with the matrix: `n eps` times its
+    /// condition.
     ///
-    /// Higham, *Accuracy and Stability*, 2nd ed., theorems 10.3 and 10.4 with a modest constant taken as 1: their
-    /// worst case grows with n, what happens with its root.
+    /// Higham, *Accuracy and Stability*, 2nd ed., theorems 10.3 and 10.4 with a modest constant
+    /// taken as 1: their worst case grows with n, what happens with its root.
     pub(super) fn tolerance(&self) -> f64 {
         self.partition.n as f64 * f64::EPSILON * self.condition()
     }
@@ -102,8 +103,8 @@ pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {
     norm(&a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>())
 }
 
-/// A graph Laplacian with random weights, `ground` added to the diagonal: singular for `ground = 0`,
-/// its null vector constant.
+/// A graph Laplacian with random weights, `ground` added to the diagonal: singular for
+/// `ground = 0`, its null vector constant.
 pub(super) fn laplacian(n: usize, edges_per_node: usize, ground: f64, seed: u64) -> SymmetricCsc {
     let mut numbers = Numbers::new(seed);
     let mut k = sprs::TriMatI::<f64, i64>::new((n, n));
@@ -161,8 +162,9 @@ pub(super) const SHARES: [(f64, f64); 8] = [
     (0.05, 0.02),
 ];
 
-/// Solves `(K + diag(springs on contact)) u = load` by way of the condensed system, and compares with the
-/// plain solve: elimination, contact, recovery of zone and of everything must be one consistent solution.
+/// Solves `(K + diag(springs on contact)) u = load` by way of the condensed system, and compares
+/// with the plain solve: elimination, contact, recovery of zone and of everything must be one
+/// consistent solution.
 pub(super) fn assert_condensation_is_the_plain_solve(sample: &Sample, condensed: &dyn Condensed) {
     let Sample {
         matrix, partition, ..
@@ -324,7 +326,8 @@ fn every_partition_gives_the_plain_solution() {
     }
 }
 
-/// A zone that shrinks and grows back within the factored one condenses like one that was factored so.
+/// A zone that shrinks and grows back within the factored one condenses like one that was factored
+/// so.
 #[test]
 fn a_zone_is_chosen_among_the_factored_one() {
     let matrix = laplacian(120, 3, 0.1, 3);

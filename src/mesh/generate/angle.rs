@@ -30,7 +30,8 @@ fn first_quadrant(degrees: f64) -> [f64; 2] {
     }
 }
 
-/// Directions at `2 n + 1` equal angles from `start` over `span` degrees: element corners and mid-sides.
+/// Directions at `2 n + 1` equal angles from `start` over `span` degrees: element corners and
+/// mid-sides.
 pub(super) fn directions(start: f64, span: f64, n: usize) -> Vec<[f64; 2]> {
     let halves = 2 * n;
     (0..=halves)

@@ -33,23 +33,27 @@ impl ContactSize {
 /// Half model (x >= 0) of a cylinder or ball on a half plane or half space.
 ///
 /// With `b` = `half_width` (contact half width at first yield, same unit as the radius `R`) and
-/// `W = far_size b`, the half plane is the block `[0, W] x [-W, 0]` and the cylinder the block `[0, W]` between
-/// its surface and the flat top `y = W`. The surface is the circle `y = R - sqrt(R^2 - x^2)` over the candidates and levels
-/// off beyond: as in Hertz' theory both bodies are half planes that differ from flat near the contact only. A body of
-/// finite size W changes the stress under the contact by the order b/W (a uniform stress along the surface), a true
-/// cylinder by b/R; `far_size` is therefore large, which the growing elements make cheap. Elements are even with
-/// size `b/resolution` out to `fine_width b` and down to `fine_depth b` (to the nearest whole
-/// element). Where the contact may reach further they grow by `1 + 1/resolution` from there on out to its reach, and
-/// down in proportion: a contact of any half width has at least `resolution` elements over it. Beyond, they
-/// grow by `growth`, by up to `far_growth` at the far end. Both surfaces have nodes at the same `x`; corner and mid-side
-/// nodes of the cylinder lie on the circle to round-off, so that nodal gaps are the exact gaps.
+/// `W = far_size b`, the half plane is the block `[0, W] x [-W, 0]` and the cylinder the block
+/// `[0, W]` between its surface and the flat top `y = W`. The surface is the circle
+/// `y = R - sqrt(R^2 - x^2)` over the candidates and levels off beyond: as in Hertz' theory both
+/// bodies are half planes that differ from flat near the contact only. A body of finite size W
+/// changes the stress under the contact by the order b/W (a uniform stress along the surface), a
+/// true cylinder by b/R; `far_size` is therefore large, which the growing elements make cheap.
+/// Elements are even with size `b/resolution` out to `fine_width b` and down to `fine_depth b` (to
+/// the nearest whole element). Where the contact may reach further they grow by `1 + 1/resolution`
+/// from there on out to its reach, and down in proportion: a contact of any half width has at least
+/// `resolution` elements over it. Beyond, they grow by `growth`, by up to `far_growth` at the far
+/// end. Both surfaces have nodes at the same `x`; corner and mid-side nodes of the cylinder lie on
+/// the circle to round-off, so that nodal gaps are the exact gaps.
 ///
-/// Only the even part of the surfaces, and what the contact may reach beyond, are contact candidates
-/// (`cylinder.contact`, `half_plane.contact`): the condensed matrix stays small. The rest is `cylinder.outside` and
-/// `half_plane.outside`. Node sets `cylinder.pole` and `half_plane.pole` are the two nodes at the origin.
+/// Only the even part of the surfaces, and what the contact may reach beyond, are contact
+/// candidates (`cylinder.contact`, `half_plane.contact`): the condensed matrix stays small. The
+/// rest is `cylinder.outside` and `half_plane.outside`. Node sets `cylinder.pole` and
+/// `half_plane.pole` are the two nodes at the origin.
 ///
 /// # Errors
-/// Input errors name the key, its value and what to give instead; among them a block wider than 0.9 radii.
+/// Input errors name the key, its value and what to give instead; among them a block wider than 0.9
+/// radii.
 pub fn cylinder_on_half_plane(p: &CylinderOnHalfPlane, contact: ContactSize) -> Result<Mesh> {
     let layout = Layout::new(p, contact)?;
     let Layout {
@@ -132,8 +136,9 @@ struct Layout {
 }
 
 impl Layout {
-    /// Height of the cylinder's surface: the circle, without the cancellation of `R - sqrt(R^2 - x^2)`, out to the last
-    /// candidate at `c`; beyond, with the slope there, `y_c + slope c (1 - exp(-(x - c)/c))`.
+    /// Height of the cylinder's surface: the circle, without the cancellation of
+    /// `R - sqrt(R^2 - x^2)`, out to the last candidate at `c`; beyond, with the slope there,
+    /// `y_c + slope c (1 - exp(-(x - c)/c))`.
     fn bottom(&self, radius: f64, x: f64) -> f64 {
         let root = |x: f64| ((radius - x) * (radius + x)).sqrt();
         let edge = self.x[2 * self.n_contact];
@@ -197,7 +202,8 @@ impl Layout {
 
         let h = half_width / resolution;
         let growth = Growth::new(p.growth, p.far_growth, 0.0);
-        // Not finer than the contact at its edge needs: the size over the distance is that at first yield.
+        // Not finer than the contact at its edge needs: the size over the distance is that at first
+        // yield.
         let slow = (1.0 + 1.0 / resolution).min(p.growth);
         let reach = reach.min(WIDEST * p.radius).min(0.5 * size);
         let near = |n: f64, until: f64| grading::even_then_slow(h, n as usize, until, slow);

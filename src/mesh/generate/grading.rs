@@ -37,8 +37,9 @@ pub(super) fn biased(key: &str, from: f64, to: f64, n: usize, bias: f64) -> Resu
     with_midpoints(key, corners)
 }
 
-/// How elements grow with the distance `r` from a point of interest: each is `near^((r/r0)^s)` times as large as the one before,
-/// from `near` at the beginning `r0` of the growing part to `far` at its end. With `far = near` the growth is geometric.
+/// How elements grow with the distance `r` from a point of interest: each is `near^((r/r0)^s)`
+/// times as large as the one before, from `near` at the beginning `r0` of the growing part to `far`
+/// at its end. With `far = near` the growth is geometric.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Growth {
     pub near: f64,
@@ -60,8 +61,8 @@ impl Growth {
         }
     }
 
-    /// How many elements it takes from `start` to `length`, the first of size `first`. A float, because a wrong input can ask for
-    /// more than any integer holds.
+    /// How many elements it takes from `start` to `length`, the first of size `first`. A float,
+    /// because a wrong input can ask for more than any integer holds.
     pub fn count(&self, first: f64, start: f64, length: f64) -> f64 {
         if self.far == self.near || length <= start {
             return grown_count(first, length - start, self.near);
@@ -96,13 +97,15 @@ struct Law {
 }
 
 impl Law {
-    /// Size of the element that begins at `at` over that of the one before, with `share` of the law's logarithm.
+    /// Size of the element that begins at `at` over that of the one before, with `share` of the
+    /// law's logarithm.
     fn ratio(&self, at: f64, share: f64) -> f64 {
         let distance = (self.origin + at) / self.begin;
         (share * self.near * distance.powf(self.power)).exp()
     }
 
-    /// Sizes of `n` elements over the first, with the share of the law that makes them fill `sum` firsts.
+    /// Sizes of `n` elements over the first, with the share of the law that makes them fill `sum`
+    /// firsts.
     fn sizes(&self, start: f64, first: f64, n: usize, sum: f64) -> Vec<f64> {
         let sizes = |share: f64| {
             let (mut at, mut size) = (0.0f64, 1.0);
@@ -136,7 +139,8 @@ impl Law {
     }
 }
 
-/// Corners from 0: `n_even` elements of `size`, then elements that grow by `ratio` until they reach `until`.
+/// Corners from 0: `n_even` elements of `size`, then elements that grow by `ratio` until they reach
+/// `until`.
 pub(super) fn even_then_slow(size: f64, n_even: usize, until: f64, ratio: f64) -> Vec<f64> {
     let mut corners: Vec<f64> = (0..=n_even).map(|i| size * i as f64).collect();
     let (mut at, mut step) = (size * n_even as f64, size);
@@ -163,8 +167,8 @@ pub(super) fn even_then_grown(
     then_grown(key, corners, first, length, growth)
 }
 
-/// From the last of `corners` to `length`: elements that grow by about `growth`, the first of them about as large as
-/// `first`, a little adjusted so that the last one ends exactly at `length`.
+/// From the last of `corners` to `length`: elements that grow by about `growth`, the first of them
+/// about as large as `first`, a little adjusted so that the last one ends exactly at `length`.
 pub(super) fn then_grown(
     key: &str,
     mut corners: Vec<f64>,
@@ -324,7 +328,8 @@ mod tests {
                 .collect();
             let ratios: Vec<f64> = sizes.windows(2).map(|p| p[1] / p[0]).collect();
             assert!(ratios.windows(2).all(|r| r[1] > r[0]), "{ratios:?}");
-            // The whole is stretched by less than half of the last element, an eighth or so of the law's logarithm.
+            // The whole is stretched by less than half of the last element, an eighth or so of the
+            // law's logarithm.
             assert!(
                 (ratios[0].ln() / 1.2f64.ln() - 1.0).abs() < 0.3,
                 "{ratios:?}"

@@ -1,9 +1,10 @@
-//! Structured patches of elements: `cells[0] x cells[1]` quadrilateral cells, each one quadrilateral
-//! or two triangles with alternating diagonals.
+//! Structured patches of elements: `cells[0] x cells[1]` quadrilateral cells, each one
+//! quadrilateral or two triangles with alternating diagonals.
 //!
-//! A patch is addressed by half steps: `(2 i, 2 j)` is a corner, `(2 i + 1, 2 j)` the mid-side between
-//! two corners, `(2 i + 1, 2 j + 1)` the middle of a cell (a node only of six-node triangles, on the
-//! diagonal). The first index runs so that (first, second) is a right-handed system.
+//! A patch is addressed by half steps: `(2 i, 2 j)` is a corner, `(2 i + 1, 2 j)` the mid-side
+//! between two corners, `(2 i + 1, 2 j + 1)` the middle of a cell (a node only of six-node
+//! triangles, on the diagonal). The first index runs so that (first, second) is a right-handed
+//! system.
 
 use crate::mesh::{Curve, Facet, Mesh, Shape, Surface};
 use crate::{Error, Result};

@@ -67,7 +67,8 @@ pub(super) fn growth(key: &str, value: f64) -> Result<()> {
     )))
 }
 
-/// A growth ratio and that at the far end: not less, and more only where there is a growth to rise from.
+/// A growth ratio and that at the far end: not less, and more only where there is a growth to rise
+/// from.
 pub(super) fn growths(key: &str, near: f64, far_key: &str, far: Option<f64>) -> Result<()> {
     growth(key, near)?;
     let Some(far) = far else { return Ok(()) };

@@ -30,8 +30,9 @@ use std::path::Path;
 
 /// The mesh that a scene's `[mesh]` asks for.
 ///
-/// A relative `file` is looked up in `directory` (the scene file's). `contact` gives the size of the contact of a
-/// cylinder on a half plane; it is only called for that geometry. What is made of the mesh of a file comes after: circles ([`super::lay_on_circle`]) and subdivisions
+/// A relative `file` is looked up in `directory` (the scene file's). `contact` gives the size of
+/// the contact of a cylinder on a half plane; it is only called for that geometry. What is made of
+/// the mesh of a file comes after: circles ([`super::lay_on_circle`]) and subdivisions
 /// ([`super::subdivided`]).
 ///
 /// # Errors

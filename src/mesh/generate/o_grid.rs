@@ -7,9 +7,10 @@
 //!   x(t) = a ((1 - b) + b cos t),   y(t) = a ((1 - b) tan t + b sin t),   a = R/2, b = 1/2,
 //! ```
 //!
-//! which makes the three angles at the core's corner about 120 degrees. The transfinite interpolation
-//! between the axes and these sides is the product `(s_i x_j, s_j x_i)` with `s = y/y(45 degrees)`:
-//! exactly symmetric, exactly zero on the axes. Spokes between core and circle are radial, at equal angles.
+//! which makes the three angles at the core's corner about 120 degrees. The transfinite
+//! interpolation between the axes and these sides is the product `(s_i x_j, s_j x_i)` with
+//! `s = y/y(45 degrees)`: exactly symmetric, exactly zero on the axes. Spokes between core and
+//! circle are radial, at equal angles.
 
 use super::angle::{direction, directions, turned};
 use super::grading;

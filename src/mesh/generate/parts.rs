@@ -11,7 +11,8 @@ use crate::{Error, Result};
 use std::collections::BTreeSet;
 
 /// Any number of bodies, each a block, a ring sector or a disc sector, with the surfaces and node
-/// sets that [`Part`] documents; a disc's centre is the node set `BODY.center`. Bodies never share nodes.
+/// sets that [`Part`] documents; a disc's centre is the node set `BODY.center`. Bodies never share
+/// nodes.
 ///
 /// # Errors
 /// Input errors name the part, the key, the value and what to give instead.

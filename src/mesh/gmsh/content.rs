@@ -9,8 +9,8 @@ use std::collections::{BTreeMap, HashMap};
 /// A physical group: dimension and tag.
 pub(super) type Group = (u64, u64);
 
-/// Nodes, elements and physical groups of a file. Elements refer to nodes by index; byte offsets lead
-/// messages back to the line.
+/// Nodes, elements and physical groups of a file. Elements refer to nodes by index; byte offsets
+/// lead messages back to the line.
 #[derive(Default)]
 pub(super) struct Content {
     /// Names of physical groups.

@@ -37,8 +37,8 @@ impl<'a> Cursor<'a> {
         self.error_at(self.at, message)
     }
 
-    /// An error at a byte offset: file and line number, in front of the message. The line is counted only
-    /// here, so that reading does not pay for it.
+    /// An error at a byte offset: file and line number, in front of the message. The line is
+    /// counted only here, so that reading does not pay for it.
     pub(super) fn error_at(&self, at: usize, message: impl std::fmt::Display) -> Error {
         let before = &self.text[..at.min(self.text.len())];
         let line = 1 + before.iter().filter(|&&b| b == b'\n').count();

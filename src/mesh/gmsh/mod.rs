@@ -1,8 +1,8 @@
 //! Gmsh meshes: `.msh` 2.2 and 4.1, ASCII.
 //!
-//! Physical surfaces are bodies, physical curves surfaces, physical points node sets; an unnamed group
-//! goes by its number. A physical curve on the edge between two bodies belongs to the body whose name
-//! begins its own (`shaft.contact` to `shaft`), otherwise to the element on its left.
+//! Physical surfaces are bodies, physical curves surfaces, physical points node sets; an unnamed
+//! group goes by its number. A physical curve on the edge between two bodies belongs to the body
+//! whose name begins its own (`shaft.contact` to `shaft`), otherwise to the element on its left.
 //! Nodes of no element of a body (centres of circles, for instance) are dropped, elements that are
 //! given clockwise are turned round.
 //!
@@ -42,8 +42,8 @@ pub fn read(path: &Path) -> Result<Mesh> {
 /// Reads a mesh from the bytes of a file; `name` is the file's name for messages.
 ///
 /// # Errors
-/// Input errors with file name and line number for anything that is not a complete, consistent file of
-/// version 2.2 or 4.1 in ASCII; unsupported errors for element types that brinell does not have.
+/// Input errors with file name and line number for anything that is not a complete, consistent file
+/// of version 2.2 or 4.1 in ASCII; unsupported errors for element types that brinell does not have.
 pub fn parse(text: &[u8], name: &str) -> Result<Mesh> {
     let mut cursor = Cursor::new(text, name);
     let mut content = Content::default();

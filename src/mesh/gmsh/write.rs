@@ -6,11 +6,12 @@ use std::collections::BTreeSet;
 use std::io::{Error, ErrorKind, Result, Write};
 
 /// Writes a mesh as Gmsh `.msh` 2.2 ASCII. Bodies, surfaces and node sets become physical groups;
-/// numbers are those the user knows, coordinates read back bit for bit. The exact [`Curve`](crate::mesh::Curve)
-/// of a surface has no place in the format and is lost.
+/// numbers are those the user knows, coordinates read back bit for bit. The exact
+/// [`Curve`](crate::mesh::Curve) of a surface has no place in the format and is lost.
 ///
 /// # Errors
-/// Those of `out`, and `InvalidInput` for a name with a double quote or a line end, which the format cannot hold.
+/// Those of `out`, and `InvalidInput` for a name with a double quote or a line end, which the
+/// format cannot hold.
 pub fn write(mesh: &Mesh, out: &mut dyn Write) -> Result<()> {
     let mut out = std::io::BufWriter::with_capacity(1 << 16, out);
     writeln!(out, "$MeshFormat\n2.2 0 8\n$EndMeshFormat")?;
@@ -68,7 +69,8 @@ fn write_elements(mesh: &Mesh, out: &mut dyn Write) -> Result<()> {
         }
         writeln!(out)?;
     }
-    // Lines and points are numbered after the largest number of an element; where that leaves no room, in the gaps.
+    // Lines and points are numbered after the largest number of an element; where that leaves no
+    // room, in the gaps.
     let needed = (n_lines + n_points) as u64;
     let mut numbers: Box<dyn Iterator<Item = u64>> = match largest.checked_add(needed) {
         Some(last) => Box::new(largest + 1..=last),

@@ -176,7 +176,8 @@ fn nodes_that_face_each_other_have_new_ones_that_do() {
 
 #[test]
 fn without_a_circle_nodes_still_face_each_other() {
-    // The lower side of the upper block is a polygon with unequal sides; its partner is the parabola of one.
+    // The lower side of the upper block is a polygon with unequal sides; its partner is the
+    // parabola of one.
     let mut mesh = ring(Shape::Tri6);
     let facing = ring(Shape::Tri6);
     let n = mesh.n_nodes();

@@ -4,7 +4,7 @@ use super::chart::{Chart, Curve, Pen};
 use super::fields::chosen;
 use super::units::{Units, labelled};
 use crate::model::Model;
-use crate::results::{HistoryRow, PairState, Results, State, Status};
+use crate::results::{HistoryRow, PairState, PathPoint, Results, State, Status};
 use crate::scene::Unit;
 use plotters::prelude::SeriesLabelPosition;
 
@@ -37,6 +37,7 @@ pub(super) fn charts(model: &Model, results: &Results, units: &Units) -> Vec<Tit
                 at_zero: AtZero::Proportional,
             },
             |row| row.max_pressure,
+            |point| point.max_pressure,
             |y| y.max_pressure,
         ));
         out.extend(against_load(
@@ -49,6 +50,7 @@ pub(super) fn charts(model: &Model, results: &Results, units: &Units) -> Vec<Tit
                 at_zero: AtZero::Constant,
             },
             |row| row.half_width,
+            |point| point.half_width,
             |y| y.half_width,
         ));
         for (index, contact) in model.contacts.iter().enumerate() {
@@ -110,12 +112,14 @@ struct Figure<'t> {
     at_zero: AtZero,
 }
 
-/// A figure of the history against the load, way there and way back, with first yield and the states.
+/// A figure of the history against the load, way there and way back, with first yield and the
+/// states.
 fn against_load(
     results: &Results,
     units: &Units,
     figure: Figure,
     value: impl Fn(&HistoryRow) -> f64,
+    between: impl Fn(&PathPoint) -> f64,
     at_yield: impl Fn(&crate::results::YieldPoint) -> f64,
 ) -> Option<Titled> {
     let history = &results.history;
@@ -124,7 +128,20 @@ fn against_load(
     }
     let top = (0..history.len()).max_by(|&a, &b| history[a].load.total_cmp(&history[b].load))?;
     let points = |rows: &[HistoryRow]| -> Vec<[f64; 2]> {
-        rows.iter().map(|row| [row.load, value(row)]).collect()
+        let mut out = Vec::new();
+        for (index, row) in rows.iter().enumerate() {
+            if index > 0 {
+                // Both are in the order of the run.
+                let first = results
+                    .path
+                    .partition_point(|p| p.increment < row.increment);
+                let on_the_way = results.path[first..].iter();
+                let on_the_way = on_the_way.take_while(|p| p.increment == row.increment);
+                out.extend(on_the_way.map(|p| [p.load, between(p)]));
+            }
+            out.push([row.load, value(row)]);
+        }
+        out
     };
     let mut loading = points(&history[..=top]);
     if history[0].load > 0.0 && results.states.iter().all(|s| s.alpha >= 0.0) {
@@ -158,7 +175,9 @@ fn against_load(
     Some(Titled {
         name: figure.name.to_string(),
         title: format!("{} against load", figure.title),
-        caption: "Every accepted increment of the load program, in its order.".to_string(),
+        caption: "Every accepted increment of the load program, in its order, and the way from \
+                  one to the next, contact forces changing evenly."
+            .to_string(),
         chart: Chart {
             labels: [load_label(units), figure.label],
             curves,
@@ -178,7 +197,8 @@ fn curve(label: &str, color: usize, pen: Pen, points: Vec<[f64; 2]>) -> Curve {
     }
 }
 
-/// Place along a contact: an angle from the middle of its axis where the surface is a circle, else the length of arc.
+/// Place along a contact: an angle from the middle of its axis where the surface is a circle, else
+/// the length of arc.
 struct Along {
     label: String,
     of_pair: Vec<f64>,
@@ -273,7 +293,8 @@ fn pressure_profiles(
             curve(&state.name, i, pen, points)
         })
         .collect();
-    // Where nothing is pressed in any state there is nothing to see, but for one point on each side.
+    // Where nothing is pressed in any state there is nothing to see, but for one point on each
+    // side.
     let pressed: Vec<f64> = curves
         .iter()
         .flat_map(|c| &c.points)

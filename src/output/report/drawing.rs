@@ -1,7 +1,7 @@
 //! A drawing: SVG text made by the plotting library, with images laid under it.
 //!
-//! The library places everything on whole units. Drawings are therefore made [`FINE`] times as large as they are shown,
-//! which puts lines to a quarter of a pixel.
+//! The library places everything on whole units. Drawings are therefore made [`FINE`] times as
+//! large as they are shown, which puts lines to a quarter of a pixel.
 
 use super::theme::{self, FAINT, INK, PAPER};
 use crate::error::{Error, Result};
@@ -89,7 +89,8 @@ impl Drawing {
         format!("{}{ground}{}</svg>\n", self.tag(&size), self.content)
     }
 
-    /// The text for the page: colours by name, as wide as there is room. `label` says to those who do not see it what it shows.
+    /// The text for the page: colours by name, as wide as there is room. `label` says to those who
+    /// do not see it what it shows.
     pub(super) fn inline(&self, label: &str) -> String {
         let label = label
             .replace('&', "&amp;")
@@ -208,7 +209,8 @@ pub(super) fn tick(value: f64) -> String {
     format!("{}{exponent}", digits.replace('-', "\u{2212}"))
 }
 
-/// Steps of 1, 2, 2.5 or 5 times a power of ten: the finest that covers `extent` with at most `most` of them.
+/// Steps of 1, 2, 2.5 or 5 times a power of ten: the finest that covers `extent` with at most
+/// `most` of them.
 pub(super) fn nice_step(extent: f64, most: usize) -> f64 {
     let rough = (extent / most as f64).max(f64::MIN_POSITIVE);
     let power = 10f64.powf(rough.log10().floor());

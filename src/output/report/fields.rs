@@ -69,7 +69,8 @@ pub(super) struct Gallery<'a> {
 /// Smallest and largest value of each quantity.
 type Ranges = [[f64; 2]; 3];
 
-/// A state whose values reach less than this share of the largest ones has a scale of its own: residual stresses are to be seen.
+/// A state whose values reach less than this share of the largest ones has a scale of its own:
+/// residual stresses are to be seen.
 const FAINT: f64 = 0.3;
 
 impl<'a> Gallery<'a> {
@@ -160,7 +161,8 @@ impl<'a> Gallery<'a> {
         let visible = picture.visible();
         let smooth = nodal_means(self.model, fields, quantity, &visible);
         for &element in &visible {
-            // Parts are bodies, and in the plastic picture zones of bodies: their borders are drawn.
+            // Parts are bodies, and in the plastic picture zones of bodies: their borders are
+            // drawn.
             let body = mesh.element_body[element] as u16;
             if quantity.is_shown(fields, element) {
                 let zone = u16::from(quantity == Quantity::PlasticZone);
@@ -188,7 +190,8 @@ impl<'a> Gallery<'a> {
     }
 }
 
-/// Means at the nodes of the values of the elements round them: smooth contours. Zero where no element is shown.
+/// Means at the nodes of the values of the elements round them: smooth contours. Zero where no
+/// element is shown.
 fn nodal_means(model: &Model, fields: &Fields, quantity: Quantity, elements: &[usize]) -> Vec<f64> {
     let mut sums = vec![0.0; model.mesh.n_nodes()];
     let mut counts = vec![0u32; model.mesh.n_nodes()];
@@ -207,7 +210,8 @@ fn nodal_means(model: &Model, fields: &Fields, quantity: Quantity, elements: &[u
     sums
 }
 
-/// States to show: at most `most` of those of interest, the first, the one with the largest load and the last among them.
+/// States to show: at most `most` of those of interest, the first, the one with the largest load
+/// and the last among them.
 pub(super) fn chosen(
     states: &[State],
     most: usize,

@@ -10,7 +10,8 @@
 //! | `picture`, `raster`, `bands`, `window` | elements as pixels under axes, their scale of colours; what is shown |
 //! | `drawing`, `theme`, `units` | SVG text, colours for light and dark, names of units |
 //!
-//! What a picture costs is set by its pixels: a mesh of a million freedoms adds a pass over its elements.
+//! What a picture costs is set by its pixels: a mesh of a million freedoms adds a pass over its
+//! elements.
 
 mod bands;
 mod chart;
@@ -46,7 +47,8 @@ pub(super) const REPORT_FILE: &str = "report.html";
 pub(super) const FIGURE_PREFIX: &str = "report_";
 /// How the name of a figure's file ends.
 pub(super) const FIGURE_SUFFIX: &str = ".svg";
-/// Least share of the area whose elements are large enough to be seen that is worth a drawing of the mesh.
+/// Least share of the area whose elements are large enough to be seen that is worth a drawing of
+/// the mesh.
 const LEAST_MESH: f64 = 0.2;
 /// Most states whose pictures the page shows.
 const MOST_STATES: usize = 4;
@@ -135,7 +137,8 @@ struct Sketched {
     meshed: bool,
 }
 
-/// The scene: all of it, and the surroundings of the contact; then both with the mesh, where it is coarse enough to be seen.
+/// The scene: all of it, and the surroundings of the contact; then both with the mesh, where it is
+/// coarse enough to be seen.
 fn scene(model: &Model, results: &Results, units: &Units) -> Result<Vec<Sketched>> {
     let Some(whole) = window::whole(model, [false; 2]) else {
         return Ok(Vec::new());

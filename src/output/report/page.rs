@@ -343,6 +343,9 @@ fn files(results: &Results) -> Markup {
         p {
             "Beside this page: " a href="summary.json" { "summary.json" } " (all figures), "
             a href="history.csv" { "history.csv" } " (a row per increment), "
+            @if !results.path.is_empty() {
+                a href="path.csv" { "path.csv" } " (points between them), "
+            }
             a href="contact.csv" { "contact.csv" } " (a row per state and contact pair)"
             @if fields { ", " a href="fields.pvd" { "fields.pvd" } " (fields for ParaView)" }
             ", the figures as " code { "report_*.svg" } "."

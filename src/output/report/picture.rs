@@ -37,7 +37,8 @@ pub(super) struct Picture<'a> {
 }
 
 impl<'a> Picture<'a> {
-    /// An empty picture of what lies in a window, with its mirror images. Three fit beside each other on a screen.
+    /// An empty picture of what lies in a window, with its mirror images. Three fit beside each
+    /// other on a screen.
     pub(super) fn new(
         mesh: &'a Mesh,
         displacement: Option<&'a [f64]>,
@@ -129,8 +130,8 @@ impl<'a> Picture<'a> {
         ]
     }
 
-    /// Paints an element and its mirror images: `values` at its nodes round its border (corners and mid-side nodes in
-    /// turn) and in its middle become colours.
+    /// Paints an element and its mirror images: `values` at its nodes round its border (corners and
+    /// mid-side nodes in turn) and in its middle become colours.
     pub(super) fn element(
         &mut self,
         element: usize,
@@ -159,8 +160,9 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Draws the surfaces from one pair of a contact to the next as far as they are less than a pixel apart: whether the middle of a pixel
-    /// lies in a crack thinner than that is chance, and it would show in dashes.
+    /// Draws the surfaces from one pair of a contact to the next as far as they are less than a
+    /// pixel apart: whether the middle of a pixel lies in a crack thinner than that is chance, and
+    /// it would show in dashes.
     pub(super) fn crack(&mut self, pairs: [&Pair; 2], color: u8) {
         let pixel = self.window.size()[0] / self.raster.width as f64;
         let apart = pairs.map(|pair| {
@@ -187,8 +189,8 @@ impl<'a> Picture<'a> {
         }
     }
 
-    /// Draws the sides of elements. Of those that are smaller than a few pixels only a grey would be seen: they are left out.
-    /// Returns the share of the elements' area whose sides are drawn.
+    /// Draws the sides of elements. Of those that are smaller than a few pixels only a grey would
+    /// be seen: they are left out. Returns the share of the elements' area whose sides are drawn.
     pub(super) fn sides(&mut self, elements: &[usize], color: u8) -> f64 {
         let (mut drawn, mut all) = (0.0, 0.0);
         for &element in elements {
@@ -232,7 +234,8 @@ impl<'a> Picture<'a> {
         (high[0] - low[0]).max(0.0) * (high[1] - low[1]).max(0.0)
     }
 
-    /// The drawing: the image under axes, a scale of colours where there is one, and what `over` draws on top.
+    /// The drawing: the image under axes, a scale of colours where there is one, and what `over`
+    /// draws on top.
     ///
     /// # Errors
     /// `Internal` where the plotting library or the image encoder fails.
@@ -301,7 +304,8 @@ mod tests {
     use crate::model::Model;
     use crate::scene::Scene;
 
-    /// The gap beside a contact opens slowly: as long as it is thinner than a pixel, pixels in it would be empty here and there.
+    /// The gap beside a contact opens slowly: as long as it is thinner than a pixel, pixels in it
+    /// would be empty here and there.
     #[test]
     fn a_gap_is_shown_from_one_place_on_and_not_in_dashes() {
         let text = include_str!("../../../data/scenes/cylinder_on_half_plane.toml");

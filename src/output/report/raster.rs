@@ -1,4 +1,5 @@
-//! Pixels: elements are painted into an image of a fixed size, so that a picture costs its pixels and not its mesh.
+//! Pixels: elements are painted into an image of a fixed size, so that a picture costs its pixels
+//! and not its mesh.
 
 use crate::error::{Error, Result};
 use base64::Engine as _;
@@ -12,7 +13,8 @@ const MOST_COLORS: usize = 256;
 /// A point of the image: right and down, in pixels.
 pub(super) type Spot = [f64; 2];
 
-/// An image of palette indices, with a second layer that says which body (or part) a pixel belongs to.
+/// An image of palette indices, with a second layer that says which body (or part) a pixel belongs
+/// to.
 pub(super) struct Raster {
     /// Pixels across.
     pub width: usize,
@@ -94,7 +96,8 @@ impl Raster {
         }
     }
 
-    /// Paints the pixels within `reach` of another part (or of nothing) in `color`: contours without edges of elements.
+    /// Paints the pixels within `reach` of another part (or of nothing) in `color`: contours
+    /// without edges of elements.
     pub(super) fn outline(&mut self, reach: usize, color: u8) {
         let mut border = Vec::new();
         for row in 0..self.height {

@@ -33,8 +33,8 @@ const TRIANGLE: f64 = 10.0;
 const ARROW: f64 = 26.0;
 const HEAD: f64 = 7.0;
 
-/// Draws what lies in a window, undeformed; with `mesh` the sides of the elements too, of those that are large enough to be seen.
-/// Returns the share of the area whose elements are.
+/// Draws what lies in a window, undeformed; with `mesh` the sides of the elements too, of those
+/// that are large enough to be seen. Returns the share of the area whose elements are.
 ///
 /// # Errors
 /// `Internal` where it cannot be drawn.
@@ -268,7 +268,8 @@ impl<'a> Signs<'a> {
         Ok(())
     }
 
-    /// An arrow whose tip or end is at a node, on the outer side. A prescribed displacement has an open head.
+    /// An arrow whose tip or end is at a node, on the outer side. A prescribed displacement has an
+    /// open head.
     fn arrow(
         &self,
         area: &Area,

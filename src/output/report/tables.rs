@@ -6,7 +6,7 @@ use super::theme::hex;
 use super::units::{Units, labelled};
 use crate::model::Model;
 use crate::output::RunHeader;
-use crate::output::number::{bytes, significant};
+use crate::output::number::{bytes, ratio, significant};
 use crate::results::{Results, State};
 use crate::scene::{Direction, History, Load};
 use maud::{Markup, PreEscaped, html};
@@ -316,8 +316,8 @@ pub(super) fn reference(results: &Results) -> Markup {
                 html! { code { (row.quantity) } },
                 plain(digits(row.reference)),
                 plain(digits(row.computed)),
-                plain(digits(row.ratio)),
-                plain(format!("{:+.2} %", 100.0 * (row.ratio - 1.0))),
+                plain(ratio(row.ratio)),
+                plain(difference(row.ratio)),
             ];
             if published {
                 cells.push(plain(
@@ -330,6 +330,15 @@ pub(super) fn reference(results: &Results) -> Markup {
         })
         .collect();
     table(&head, &rows)
+}
+
+/// How much more is computed than the reference says, where there is a ratio.
+fn difference(ratio: f64) -> String {
+    if ratio.is_finite() {
+        format!("{:+.2} %", 100.0 * (ratio - 1.0))
+    } else {
+        "none".to_string()
+    }
 }
 
 /// The ledger of effects.

@@ -1,5 +1,5 @@
-//! Colours by what they stand for: fixed in a figure's own file, CSS variables in the page, so that one drawing is read on
-//! light and on dark ground and on paper.
+//! Colours by what they stand for: fixed in a figure's own file, CSS variables in the page, so that
+//! one drawing is read on light and on dark ground and on paper.
 
 use plotters::style::RGBColor;
 

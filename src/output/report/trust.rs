@@ -62,6 +62,7 @@ pub(super) fn quality(results: &Results) -> Markup {
         numbers("backward error"),
         numbers("row by row"),
         numbers("equilibrium"),
+        numbers("round-off"),
         numbers("complementarity"),
         numbers("penetration"),
         numbers("adhesion"),
@@ -72,6 +73,7 @@ pub(super) fn quality(results: &Results) -> Markup {
             Some(q.backward_error),
             q.componentwise_error,
             Some(q.equilibrium),
+            q.round_off,
             Some(q.complementarity),
             Some(q.penetration),
             Some(q.adhesion),
@@ -84,9 +86,11 @@ pub(super) fn quality(results: &Results) -> Markup {
     rows.extend(results.states.iter().map(|s| row(&s.name, &s.quality)));
     html! {
         p.quiet {
-            "Relative and without dimension; 1e-16 is round-off. Backward error of the full solve, of the whole and of the worst row; out-of-balance force of the \
-             stresses over the forces that act; gap times force of a pair; penetration over the largest displacement; tension of a pair over the largest force. \
-             These say how well the equations were solved, not how fine the mesh is."
+            "Relative and without dimension; 1e-16 is round-off. Backward error of the full solve, \
+             of the whole and of the worst row; out-of-balance force of the stresses over the \
+             forces that act, and what round-off alone may leave of it on this mesh; gap times \
+             force of a pair; penetration over the largest displacement; tension of a pair over \
+             the largest force. These say how well the equations were solved, not how fine the mesh is."
         }
         @for text in &results.inaccurate { div.note.bad { b { "Not to be trusted: " } (text) } }
         (table(&head, &rows))

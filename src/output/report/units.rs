@@ -16,7 +16,8 @@ impl Units {
     pub(super) fn of(model: &Model) -> Self {
         let names = model.scene.units.clone();
         let load = names.as_ref().map_or(String::new(), |names| {
-            // The first load that varies is what the total load is said of; of a displacement it is the force that it takes.
+            // The first load that varies is what the total load is said of; of a displacement it is
+            // the force that it takes.
             let varies = |load: &&LoadCase| load.history != scene::History::Constant;
             let leading = model.loads.iter().find(varies).or(model.loads.first());
             match leading.map(|load| load.measures) {

@@ -76,8 +76,8 @@ impl Window {
 
 /// In which axes the model is a half of what it stands for: x (mirror at x = 0), y.
 ///
-/// A support that only holds x, all of whose nodes lie on x = 0 with the model on one side, is a plane of symmetry; so
-/// is the axis of an axisymmetric model that reaches it.
+/// A support that only holds x, all of whose nodes lie on x = 0 with the model on one side, is a
+/// plane of symmetry; so is the axis of an axisymmetric model that reaches it.
 pub(super) fn mirrors(model: &Model) -> [bool; 2] {
     let mesh = &model.mesh;
     let Some(all) = Window::round((0..mesh.n_nodes()).map(|n| mesh.point(n))) else {

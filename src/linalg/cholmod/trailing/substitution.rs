@@ -1,7 +1,7 @@
 //! Substitution with the trailing columns, subtree by subtree.
 //!
-//! What is the same for every thread count is the cut into subtrees and the order in which what they leave to the columns above
-//! them is summed: so are the bits.
+//! What is the same for every thread count is the cut into subtrees and the order in which what
+//! they leave to the columns above them is summed: so are the bits.
 
 use super::super::panel;
 use super::super::tree::Forest;
@@ -11,8 +11,9 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::PoisonError;
 
-/// Panels that may be solved while those of other subtrees are. They see a vector of their own, `[ columns | outer ]`: what a subtree
-/// does to rows outside it stands in the rows of its last panel, its root.
+/// Panels that may be solved while those of other subtrees are. They see a vector of their own,
+/// `[ columns | outer ]`: what a subtree does to rows outside it stands in the rows of its last
+/// panel, its root.
 #[derive(Debug)]
 pub(super) struct Subtree {
     pub(super) panels: Range<usize>,
@@ -83,7 +84,8 @@ impl Trailing {
         self.subtrees.len()
     }
 
-    /// The panels of the marked zone freedoms and all that these depend on: their ancestors in the elimination tree.
+    /// The panels of the marked zone freedoms and all that these depend on: their ancestors in the
+    /// elimination tree.
     pub(in super::super) fn part_of_zone(&self, marked: &[bool]) -> ZonePart {
         let mut blocks = vec![false; self.n_zone_panels];
         for k in 0..self.n_zone_panels {
@@ -116,8 +118,8 @@ impl Trailing {
         panels.map(|(k, &start)| (k, &tree.own_rows[start..start + self.panels[k].rows.len()]))
     }
 
-    /// Forward substitution with the columns of a panel: `own = L^-1 own`, and `below -= L own` for its rows, which `rows` number
-    /// from `offset`.
+    /// Forward substitution with the columns of a panel: `own = L^-1 own`, and `below -= L own` for
+    /// its rows, which `rows` number from `offset`.
     fn forward(
         &self,
         p: &Panel,
@@ -126,7 +128,8 @@ impl Trailing {
         offset: usize,
         sums: &mut [f64],
     ) {
-        // A load on a part of the zone (where the material flows) reaches only the panels above that part.
+        // A load on a part of the zone (where the material flows) reaches only the panels above
+        // that part.
         if own.iter().all(|value| *value == 0.0) {
             return;
         }
@@ -155,7 +158,8 @@ impl Trailing {
         panel::solve_upper(&self.values[p.triangle()], own);
     }
 
-    /// `f_t = L_tt y_t`, given for all trailing columns of the factor, returned for the kept ones in the partition's order.
+    /// `f_t = L_tt y_t`, given for all trailing columns of the factor, returned for the kept ones
+    /// in the partition's order.
     pub(in super::super) fn condensed_load(
         &self,
         y: &[f64],
@@ -230,7 +234,8 @@ impl Trailing {
         scatter(&self.contact, v_contact, contact);
     }
 
-    /// `u_z = L_zz^-T (y_z - L_cz' u_c)` in a part of the zone and zero elsewhere, with `zone` as [`Trailing::eliminate_zone`] left it.
+    /// `u_z = L_zz^-T (y_z - L_cz' u_c)` in a part of the zone and zero elsewhere, with `zone` as
+    /// [`Trailing::eliminate_zone`] left it.
     pub(in super::super) fn recover_zone(
         &self,
         part: &ZonePart,

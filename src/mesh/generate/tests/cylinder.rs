@@ -47,7 +47,8 @@ fn both_bodies_are_valid_and_match_in_x() {
                     "{yu} {exact}"
                 );
                 if piece == "contact" {
-                    // Relative accuracy of the small gaps near the pole, which a form that cancels would lose.
+                    // Relative accuracy of the small gaps near the pole, which a form that cancels
+                    // would lose.
                     let small = xu * xu / (2.0 * RADIUS);
                     assert!(yu >= small && yu <= small * (1.0 + 2.0 * (xu / RADIUS).powi(2)));
                 }
@@ -99,8 +100,9 @@ fn candidates_end_at_the_fine_width_and_are_even() {
     }
 }
 
-/// Beyond the even part the elements of the candidates grow so slowly that a contact of any half width has `resolution` of
-/// them over it at least; within it and without a reach beyond, nothing changes.
+/// Beyond the even part the elements of the candidates grow so slowly that a contact of any half
+/// width has `resolution` of them over it at least; within it and without a reach beyond, nothing
+/// changes.
 #[test]
 fn candidates_reach_as_far_as_the_contact_with_enough_elements_over_any_part_of_them() {
     for shape in SHAPES {
@@ -150,7 +152,8 @@ fn candidates_reach_as_far_as_the_contact_with_enough_elements_over_any_part_of_
     }
 }
 
-/// The surface of the example's cylinder: the circle out to the last candidate at `edge`, an exponential beyond.
+/// The surface of the example's cylinder: the circle out to the last candidate at `edge`, an
+/// exponential beyond.
 struct Profile {
     edge: f64,
     slope: f64,
@@ -186,7 +189,8 @@ impl Profile {
         circle + level - s * c * c * (1.0 - self.decay(end))
     }
 
-    /// Second and fourth derivative on the piece right (`outside`) or left of the edge; both grow with x there.
+    /// Second and fourth derivative on the piece right (`outside`) or left of the edge; both grow
+    /// with x there.
     fn derivatives(&self, x: f64, outside: bool) -> [f64; 2] {
         if outside {
             let second = -self.slope / self.edge * self.decay(x);
@@ -198,8 +202,9 @@ impl Profile {
     }
 }
 
-/// Linear sides are the trapezoidal rule for the area under the surface, parabolic sides are Simpson's. Their errors are
-/// `h^3 f^(2)/12` and `h^5 f^(4)/2880` at a point of each side: between the values at its ends.
+/// Linear sides are the trapezoidal rule for the area under the surface, parabolic sides are
+/// Simpson's. Their errors are `h^3 f^(2)/12` and `h^5 f^(4)/2880` at a point of each side: between
+/// the values at its ends.
 #[test]
 fn areas_are_those_of_the_quadrature_of_the_surface() {
     let size = 50.0 * HALF_WIDTH;

@@ -17,7 +17,8 @@ pub(super) fn example(resolution: usize, element: Shape) -> DiscInPlate {
     }
 }
 
-/// Area of the quarter of a polygon (or chain of parabolas) on a circle with `n` sides over 90 degrees.
+/// Area of the quarter of a polygon (or chain of parabolas) on a circle with `n` sides over 90
+/// degrees.
 pub(super) fn sector_area(radius: f64, angle: f64, n: usize, shape: Shape) -> f64 {
     let half = 0.5 * angle / n as f64;
     let triangles = radius * radius * half.sin() * half.cos();

@@ -9,7 +9,8 @@ use crate::mesh::{Curve, Mesh, Shape, surface, validate};
 
 pub(super) const SHAPES: [Shape; 4] = [Shape::Tri3, Shape::Tri6, Shape::Quad4, Shape::Quad8];
 
-/// Area of a body: corners by the shoelace formula, and 2/3 of chord times sag for each parabolic side.
+/// Area of a body: corners by the shoelace formula, and 2/3 of chord times sag for each parabolic
+/// side.
 pub(super) fn area(mesh: &Mesh, body: &str) -> f64 {
     let body = mesh.bodies.iter().position(|b| b == body).unwrap() as u32;
     let mut sum = 0.0;
@@ -30,8 +31,9 @@ pub(super) fn area(mesh: &Mesh, body: &str) -> f64 {
     sum
 }
 
-/// What holds for every generated mesh: it is valid, no two bodies share a node, each surface is one
-/// curve of facets of one body's boundary, and its exact normals agree with those of its facets.
+/// What holds for every generated mesh: it is valid, no two bodies share a node, each surface is
+/// one curve of facets of one body's boundary, and its exact normals agree with those of its
+/// facets.
 pub(super) fn check_common(mesh: &Mesh) {
     validate(mesh).unwrap();
     let mut owner = vec![None; mesh.n_nodes()];
@@ -67,7 +69,8 @@ pub(super) fn check_common(mesh: &Mesh) {
             continue;
         };
         let averaged = surface::normals(mesh, &unknown, &nodes);
-        // Half the largest angle of a facet bounds the deviation at the ends, where one facet decides.
+        // Half the largest angle of a facet bounds the deviation at the ends, where one facet
+        // decides.
         let tolerance = match curve {
             Curve::Line { .. } => 1e-12,
             Curve::Circle { radius, .. } => surface

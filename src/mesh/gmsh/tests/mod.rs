@@ -42,8 +42,8 @@ $Elements
 $EndElements
 "#;
 
-/// Version 4.1, as Gmsh writes it: second order, an unnamed curve, a parametric node block, sections
-/// that are of no use here.
+/// Version 4.1, as Gmsh writes it: second order, an unnamed curve, a parametric node block,
+/// sections that are of no use here.
 pub(super) const V4: &str = r#"$MeshFormat
 4.1 0 8
 $EndMeshFormat

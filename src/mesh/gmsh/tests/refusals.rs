@@ -247,7 +247,8 @@ fn sections_that_are_missing_double_or_out_of_order() {
     refused(&lines_only, &["no triangles or quadrilaterals"]);
 }
 
-/// A file cut off anywhere before its last section ends is refused; the message names the last line.
+/// A file cut off anywhere before its last section ends is refused; the message names the last
+/// line.
 #[test]
 fn truncated_files() {
     for text in [V2, V4] {

@@ -33,7 +33,7 @@ fn an_extent_does_not_grow_with_the_load_from_zero() {
             label: String::new(),
             at_zero,
         };
-        let found = against_load(&results, &units, figure, value, |_| 0.0);
+        let found = against_load(&results, &units, figure, value, |p| p.half_width, |_| 0.0);
         let curves = found.unwrap().chart.curves;
         curves.into_iter().map(|curve| curve.points).collect()
     };
@@ -51,4 +51,39 @@ fn an_extent_does_not_grow_with_the_load_from_zero() {
             vec![[600.0, 60.0], [100.0, 20.0], [0.0, 0.0]],
         ]
     );
+}
+
+/// What bends between two increments is drawn through the points there.
+#[test]
+fn a_curve_goes_through_the_points_between_increments() {
+    let root = env!("CARGO_MANIFEST_DIR");
+    let scene = format!("{root}/data/scenes/disc_in_plate.toml");
+    let coarse = "mesh.disc_in_plate.resolution=20".to_string();
+    let scene = crate::scene::Scene::load_with(scene, &[coarse]).unwrap();
+    let model = Model::new(&scene).unwrap();
+    let units = Units::of(&model);
+    let mut analysis =
+        crate::analysis::Analysis::new(model, crate::linalg::Backend::Dense).unwrap();
+    let results = analysis.run(&mut crate::progress::Silent).unwrap();
+    assert!(!results.path.is_empty());
+    // Between the rows in every figure, in their order.
+    for point in &results.path {
+        let [from, to] = [point.increment - 2, point.increment - 1].map(|i| &results.history[i]);
+        let within = |value: f64, a: f64, b: f64| {
+            let room = 1e-9 * a.abs().max(b.abs());
+            (a.min(b) - room..=a.max(b) + room).contains(&value)
+        };
+        assert!(within(point.alpha, from.alpha, to.alpha), "{point:?}");
+        assert!(within(point.load, from.load, to.load), "{point:?}");
+    }
+    assert!(results.path.is_sorted_by_key(|point| point.increment));
+    for chart in &charts(analysis.model(), &results, &units)[..2] {
+        let drawn: usize = chart.chart.curves[..2].iter().map(|c| c.points.len()).sum();
+        let rows = results.history.len();
+        assert!(
+            drawn >= rows + results.path.len(),
+            "{}: {drawn}",
+            chart.name
+        );
+    }
 }

@@ -1,0 +1,50 @@
+//! The history of a run, and the path between its rows.
+
+use serde::{Deserialize, Serialize};
+
+/// A row of `history.csv`: one accepted increment.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct HistoryRow {
+    /// Number, from 1.
+    pub increment: usize,
+    /// Load factor at its end, in the program's unit.
+    pub alpha: f64,
+    /// Total load.
+    pub load: f64,
+    /// Maximum contact pressure.
+    pub max_pressure: f64,
+    /// Contact half width.
+    pub half_width: f64,
+    /// Sum of the contact forces.
+    pub contact_force: f64,
+    /// Closed pairs.
+    pub closed_pairs: usize,
+    /// Gauss points with plastic strain.
+    pub plastic_points: usize,
+    /// Largest equivalent plastic strain.
+    pub max_equivalent_plastic_strain: f64,
+    /// Plastic iterations of this increment.
+    pub iterations: usize,
+    /// Trailing solves of this increment.
+    pub trailing_solves: usize,
+    /// Relative out-of-balance force at its end.
+    pub residual: f64,
+    /// What ended it: `closes: pair 12`, `opens: pair 3`, `target: NAME`, `step`, `yield`.
+    pub event: String,
+}
+
+/// A row of `path.csv`: a point of the path between two rows of the history. Contact forces are
+/// taken to change evenly from the one to the other, which they do where nothing flows.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct PathPoint {
+    /// Number of the increment that it is on the way of.
+    pub increment: usize,
+    /// Load factor, in the program's unit.
+    pub alpha: f64,
+    /// Total load.
+    pub load: f64,
+    /// Maximum contact pressure.
+    pub max_pressure: f64,
+    /// Contact half width.
+    pub half_width: f64,
+}
