@@ -8,6 +8,7 @@
 
 use super::companions::{Level, member};
 use super::estimate::{Judged, judge};
+use super::extrapolation::LEAST_ORDER;
 use super::meter::work;
 use super::path::{increments_taken, with_steps};
 use super::quantities::{is_demanded_with_all, quantities};
@@ -40,7 +41,7 @@ const AIM: f64 = 0.8;
 const PATH: [f64; 2] = [0.5, 0.25];
 /// How often that is done: what more increments do not mend is not theirs.
 const MORE_STEPS: usize = 3;
-/// Sequences of meshes without convergence, one after the other, until a quantity counts as without a limit.
+/// Meshes in a row on which a quantity comes hardly nearer until it counts as without a limit.
 const WITHOUT_LIMIT: usize = 2;
 /// Power of the number of elements with which the time of a factorisation grows in the plane (A. George, Nested dissection of a
 /// regular finite element mesh, SIAM J. Numer. Anal. 10 (1973) 345-363, doi:10.1137/0710032).
@@ -81,7 +82,7 @@ pub fn reach(
         runs: Runs::new(backend, extent),
         sequence: Vec::new(),
         choices: Vec::new(),
-        without_limit: BTreeMap::new(),
+        slow: BTreeMap::new(),
         more_steps: 0,
         work: 0.0,
     };
@@ -101,8 +102,8 @@ struct Pursuit {
     /// Element sizes of the meshes so far over those of the scene, and the seconds they took.
     sequence: Vec<(f64, f64)>,
     choices: Vec<String>,
-    /// How often in a row a quantity showed no convergence.
-    without_limit: BTreeMap<String, usize>,
+    /// Of quantities beyond their demand: how often in a row they came hardly nearer, the last error, and its mesh.
+    slow: BTreeMap<String, (usize, f64, f64)>,
     more_steps: usize,
     work: f64,
 }
@@ -274,19 +275,12 @@ impl Pursuit {
         if is_judged && outcome.is_within() {
             return Next::Within;
         }
-        for path in &outcome.missed {
-            let times = self.without_limit.entry(path.clone()).or_default();
-            let diverges = outcome.diverging.contains(path);
-            *times = if diverges && is_judged { *times + 1 } else { 0 };
-            if *times >= WITHOUT_LIMIT {
-                return Next::Never(format!(
-                    "{path} has no limit under refinement, it changes from mesh to mesh by as much or more; name the quantities that \
-                     you need, as in accuracy = \"load = 1 %\", or round the corner that makes it"
-                ));
-            }
+        if let Some(path) = self.without_limit(outcome, level.ratio, is_judged) {
+            return Next::Never(format!(
+                "{path} has no limit under refinement, or comes to it so slowly that no mesh will do; name the quantities that you \
+                 need, as in accuracy = \"load = 1 %\", or round the corner, spread the force that makes it"
+            ));
         }
-        self.without_limit
-            .retain(|path, _| outcome.missed.contains(path));
         if is_judged && outcome.algebra > 1.0 {
             return Next::Never(
                 "the round-off of the algebra alone leaves more than that".to_string(),
@@ -300,6 +294,28 @@ impl Pursuit {
         }
         let by = if is_judged { outcome.finer } else { STEP };
         Next::Finer(by.clamp(STEPS[0], STEPS[1]))
+    }
+
+    /// A quantity that showed no order that is believed, and whose stated error fell more slowly than with the lowest such, on
+    /// [`WITHOUT_LIMIT`] meshes one after the other.
+    fn without_limit(&mut self, outcome: &Outcome, ratio: f64, is_judged: bool) -> Option<String> {
+        let mut slow = BTreeMap::new();
+        for missed in &outcome.missed {
+            let before = self.slow.get(&missed.path);
+            let times = match before {
+                Some((times, error, other)) if is_judged => {
+                    let enough = error * (ratio / other).powf(LEAST_ORDER);
+                    let is_slow = missed.order < Some(LEAST_ORDER) && missed.relative > enough;
+                    if is_slow { times + 1 } else { 0 }
+                }
+                _ => 0,
+            };
+            slow.insert(missed.path.clone(), (times, missed.relative, ratio));
+        }
+        self.slow = slow;
+        let mut all = self.slow.iter();
+        let found = all.find(|(_, (times, _, _))| *times >= WITHOUT_LIMIT);
+        found.map(|(path, _)| path.clone())
     }
 
     fn no_such_quantity(&self, results: &Results) -> Error {
@@ -336,6 +352,13 @@ impl Pursuit {
     }
 }
 
+/// A quantity beyond its demand.
+struct Missed {
+    path: String,
+    relative: f64,
+    order: Option<f64>,
+}
+
 /// What the errors of a mesh say of the demand.
 #[derive(Default)]
 struct Outcome {
@@ -344,9 +367,8 @@ struct Outcome {
     worst: Option<String>,
     /// Quantities whose error is not known.
     unknown: Vec<String>,
-    /// Quantities beyond their demand, and those of them that the meshes do not bring nearer.
-    missed: Vec<String>,
-    diverging: Vec<String>,
+    /// Quantities beyond their demand.
+    missed: Vec<Missed>,
     /// Largest share of the demand of the meshes, of the path and of the algebra.
     mesh: f64,
     path: f64,
@@ -404,10 +426,11 @@ impl Outcome {
         if relative <= wanted {
             return;
         }
-        self.missed.push(errors.quantity.clone());
-        if errors.order.is_some_and(|order| order <= 0.0) {
-            self.diverging.push(errors.quantity.clone());
-        }
+        self.missed.push(Missed {
+            path: errors.quantity.clone(),
+            relative,
+            order: errors.order,
+        });
         // An order that is not believed says nothing: the lowest that is likely.
         let order = errors.order.filter(|_| errors.extrapolated.is_some());
         let left = (1.0 - path - algebra).max(1.0 - PATH[0]);
@@ -487,8 +510,9 @@ mod tests {
         assert!((second.finer - (4.0f64 / AIM).sqrt()).abs() < 1e-12);
         let unbelieved = judged("load = 1 %", [0.4, 0.0, 0.0], 0.3);
         assert!((unbelieved.finer - 4.0 / AIM).abs() < 1e-12);
-        let diverging = judged("load = 1 %", [0.4, 0.0, 0.0], -0.2);
-        assert_eq!(diverging.diverging, ["states.pressed.load"]);
+        let slow = judged("load = 1 %", [0.4, 0.0, 0.0], -0.2);
+        assert_eq!(slow.missed[0].path, "states.pressed.load");
+        assert_eq!(slow.missed[0].order, Some(-0.2));
         let path = judged("load = 1 %", [0.02, 0.09, 0.0], 2.0);
         assert!((path.path - 0.9).abs() < 1e-12 && path.mesh < 0.3 && !path.is_within());
     }

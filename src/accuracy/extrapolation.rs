@@ -20,7 +20,7 @@
 //! *Verification and Validation in Computational Science and Engineering*, Hermosa 1998, chapter 5.
 
 /// Lowest order that is believed (Eca and Hoekstra, section 3).
-const LEAST_ORDER: f64 = 0.5;
+pub(super) const LEAST_ORDER: f64 = 0.5;
 /// What an order may exceed the formal one by and still have the small factor of safety (the same).
 const ABOVE_FORMAL: f64 = 0.1;
 /// Factor of safety where the meshes show an order that is believed (Roache).

@@ -101,8 +101,8 @@ impl Observer for Caller {
 /// `*out` is NULL.
 ///
 /// A scene with the key `accuracy` is run on finer and finer meshes until their stated errors are within it: the callback sees
-/// the increments of each, counted from 1 anew, and the results are those of the last; a load, pressure or displacement of a state is the one that
-/// the meshes lead to together where that is better known (`accuracy.quantities[].of_mesh` of the summary).
+/// the increments of each, counted from 1 anew, and the results are those of the last (`accuracy` of the summary says what is
+/// stated of each figure, and why a demand was not reached).
 ///
 /// # Safety
 /// `scene` is a living scene, `options` NULL or as long as it says, `out` may be written to; `callback` does not unwind.

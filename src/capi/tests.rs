@@ -89,7 +89,7 @@ fn lost_accuracy_has_a_status() {
 fn a_demanded_accuracy_is_kept_or_has_a_status() {
     let scenes = [
         ("thick_cylinder", c"accuracy=5 %", BRINELL_OK),
-        ("three_bodies", c"accuracy=1 %", BRINELL_INACCURATE),
+        ("pin_in_hole", c"accuracy=approach=1 %", BRINELL_INACCURATE),
     ];
     for (name, set, expected) in scenes {
         let path = format!("{}/data/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));

@@ -22,8 +22,8 @@ def run(scene, overrides=None, *, solver=None, callback=None, estimate=False, th
 
     Raises `Error` (`InputError`, `UnheldError`, `CollapseError`, ...) with `kind`, `status` and, where the run failed on its way,
     `result`. A state whose quality misses its tolerance, or an accuracy that the scene demands (accuracy="1 %") and that was not
-    reached, is told by an `InaccurateWarning`; a scene with `accuracy` is run on finer and finer meshes; the result is that of the last, with
-    loads, pressures and displacements of the states that the meshes lead to together where these are better known (`accuracy.quantities[].of_mesh`).
+    reached, is told by an `InaccurateWarning`; a scene with `accuracy` is run on finer and finer meshes, and the result is that of
+    the last.
     """
     is_path = not isinstance(scene, str) or "\n" not in scene
     values = dict(overrides or {})
