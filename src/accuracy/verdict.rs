@@ -383,13 +383,13 @@ fn wasted(runs: &[StudyRun], path: &str, reference: &StudyReference) -> Vec<Stri
         let (idle, wasteful) = (names(&|e| e <= NOTHING * mesh), names(&|e| e > mesh));
         if !idle.is_empty() {
             out.push(format!(
-                "{} {idle}: the mesh's error hides that of the path, tighter ones buy nothing on this mesh",
+                "{} {idle}: the mesh limits, tighter ones buy nothing on it",
                 knob.name()
             ));
         }
         if !wasteful.is_empty() {
             out.push(format!(
-                "{} {wasteful}: the path's error exceeds the mesh's, the mesh is wasted",
+                "{} {wasteful}: the path limits, the mesh is wasted",
                 knob.name()
             ));
         }

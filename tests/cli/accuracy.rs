@@ -56,8 +56,8 @@ fn wasted_meshes_and_tolerances_that_buy_nothing_are_named() {
         .iter()
         .map(|w| w.as_str().unwrap())
         .collect();
-    let wasted = "the path's error exceeds the mesh's, the mesh is wasted";
-    let nothing = "the mesh's error hides that of the path, tighter ones buy nothing on this mesh";
+    let wasted = "the path limits, the mesh is wasted";
+    let nothing = "the mesh limits, tighter ones buy nothing on it";
     let line = |knob: &str, says: &str| {
         words
             .iter()
@@ -271,15 +271,6 @@ fn demands_that_make_no_sense_are_refused() {
             "demands nothing that this scene has",
         ),
         (&["--budget", "10s"], "--budget is the time for an accuracy"),
-        (
-            &[
-                "--accuracy",
-                "1%",
-                "--set",
-                "mesh.parts.0.ring.elements=[1,1]",
-            ],
-            "cannot be refined",
-        ),
     ] {
         let mut arguments = vec!["run", &file, "--quiet", "--out", out.to_str().unwrap()];
         arguments.extend(more);
@@ -289,6 +280,24 @@ fn demands_that_make_no_sense_are_refused() {
         assert!(errors.contains(says), "{more:?}: {errors}");
         assert!(!out.exists());
     }
+    // A piece that does not end at a node: longer or shorter on another mesh.
+    let file = folder.path().join("corner.toml");
+    let piece = CORNER.replace("from = 0.0, to = 1.0 }]", "from = 0.0, to = 1.01 }]");
+    std::fs::write(&file, piece).unwrap();
+    let arguments = [
+        "run",
+        file.to_str().unwrap(),
+        "--accuracy",
+        "10%",
+        "--quiet",
+    ];
+    let output = brinell(&arguments);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{errors}");
+    assert!(
+        errors.contains("cannot be refined") && errors.contains("`block`"),
+        "{errors}"
+    );
 }
 
 /// A time that is too short keeps the mesh that was run, and says why it is the last.
