@@ -10,7 +10,7 @@ use std::path::Path;
 
 /// What a run computed.
 pub struct brinell_results {
-    results: Results,
+    pub(super) results: Results,
     model: Model,
     header: RunHeader,
     /// Name of each state.
