@@ -155,7 +155,7 @@ impl Pursuit {
                     continue;
                 }
                 if results.incomplete_kind == Some(ErrorKind::Stopped) && last.is_some() {
-                    return self.end(last, format!("{words}: {why}"));
+                    return self.stopped(last);
                 }
                 let scene = level.scene;
                 let reached = Reached {
@@ -198,7 +198,7 @@ impl Pursuit {
             };
             last = Some((reached, outcome));
             if observer.stop_requested() {
-                return self.end(last, "stopped by the user".to_string());
+                return self.stopped(last);
             }
             same_mesh = matches!(next, Next::MoreSteps(_));
             match next {
@@ -325,6 +325,17 @@ impl Pursuit {
             String::from(self.demand.clone()),
             all.join(", ")
         ))
+    }
+
+    /// Ends with the last mesh that was run to its end, at the user's wish.
+    fn stopped(&mut self, mut last: Option<(Reached, Outcome)>) -> Result<Reached> {
+        let why = "stopped on the way to the demanded accuracy";
+        if let Some((reached, _)) = &mut last {
+            let results = &mut reached.results;
+            results.incomplete = Some(format!("{why}; the results are those of the last mesh"));
+            results.incomplete_kind = Some(ErrorKind::Stopped);
+        }
+        self.end(last, why.to_string())
     }
 
     /// Ends with the last mesh; without a reason the demand was reached.

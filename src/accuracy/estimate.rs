@@ -14,9 +14,6 @@ use crate::results::{Accuracy, Companion, EstimateMethod, QuantityError, Results
 use crate::scene::Scene;
 use std::time::Instant;
 
-/// Stated errors from here on are worth a word where meshes do not converge.
-const NOTEWORTHY: f64 = 0.1;
-
 /// A run that is judged.
 pub(super) struct Judged<'r> {
     pub scene: &'r Scene,
@@ -111,7 +108,6 @@ pub(super) fn judge(
             extrapolated: mesh.limit,
         });
     }
-    out.notes.extend(said_without_limit(&out.quantities));
     if extent == Extent::Program {
         out.notes.extend(said_by_width(scene, &out.quantities));
     }
@@ -247,22 +243,6 @@ fn algebraic_error(run: &Judged, quantity: &Quantity) -> f64 {
 fn state_of<'r>(results: &'r Results, path: &str) -> Option<&'r State> {
     let (name, _) = path.strip_prefix("states.")?.rsplit_once('.')?;
     results.states.iter().find(|s| s.name == name)
-}
-
-/// Quantities that change more from mesh to mesh the finer these are, by more than what is wanted of any figure.
-fn said_without_limit(quantities: &[QuantityError]) -> Option<String> {
-    let grows = |row: &&QuantityError| {
-        row.order.is_some_and(|order| order < 0.0) && row.relative_error > Some(NOTEWORTHY)
-    };
-    let names: Vec<&str> = (quantities.iter().filter(grows))
-        .map(|row| row.quantity.as_str())
-        .collect();
-    (!names.is_empty()).then(|| {
-        format!(
-            "no limit is in sight under refinement, so that the stated error is none to rely on: {}",
-            names.join(", ")
-        )
-    })
 }
 
 /// What is to be known of targets by half width: the load at which a mesh reaches them is a result, and its error one of all that is

@@ -170,8 +170,7 @@ fn series(
     levels: usize,
     out: &mut Vec<Setting>,
 ) {
-    for i in 0..levels.max(1) as i32 {
-        let ratio = STEP.powi(i) / FINEST;
+    for ratio in ratios(scene, levels) {
         // The scene itself belongs to every series, however its counts are rounded.
         let level = if (ratio - 1.0).abs() < 1e-9 {
             Ok(Level {
@@ -194,6 +193,16 @@ fn series(
             });
         }
     }
+}
+
+/// Element sizes of a series, finest first; of a mesh from a file, which is cut in halves, over the same range.
+fn ratios(scene: &Scene, levels: usize) -> Vec<f64> {
+    let last = levels.max(1) as i32 - 1;
+    if scene.mesh.file.is_none() {
+        return (0..=last).map(|i| STEP.powi(i) / FINEST).collect();
+    }
+    let range = (f64::from(last) * STEP.log2()).floor() as i32;
+    (0..=range).map(|i| 0.5f64.powi(range - i)).collect()
 }
 
 /// Tolerances, increments and algorithms.

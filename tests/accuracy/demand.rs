@@ -72,7 +72,7 @@ fn the_true_error_is_within_the_demanded_one() {
 #[test]
 fn increments_follow_where_the_path_is_too_coarse() {
     let targets = "program.targets=[{ load_factor = 140.0 }, { load_factor = 170.0 }]";
-    let found = reached(&tube("quad4", 16, targets), "0.3 %", Extent::Program);
+    let found = reached(&tube("quad8", 16, targets), "0.3 %", Extent::Program);
     let choices = demand(&found.results).choices;
     assert!(
         choices
