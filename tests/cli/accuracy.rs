@@ -43,7 +43,7 @@ fn wasted_meshes_and_tolerances_that_buy_nothing_are_named() {
             "--set",
             "mesh.parts.0.element=quad8",
             "--set",
-            "mesh.parts.0.ring.elements=[8,8]",
+            "mesh.parts.0.ring.elements=[12,12]",
             "--set",
             "program.targets=[{ load_factor = 180.0 }]",
         ],
