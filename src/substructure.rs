@@ -344,8 +344,9 @@ impl Substructure {
     }
 }
 
-/// What the dense part of contact costs, known from the model alone: a group of `p` pairs that bodies join takes `p^3` operations once and
-/// `p^2` numbers, for no matrix of the method has zeros there.
+/// What the dense part of contact costs, known from the model alone: a group of `p` pairs that
+/// bodies join takes `p^3` operations once and `p^2` numbers, for no matrix of the method has zeros
+/// there.
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct ContactCost {
     /// Pairs of nodes.
@@ -354,14 +355,16 @@ pub struct ContactCost {
     pub groups: usize,
     /// Pairs of the largest group.
     pub largest_group: usize,
-    /// Floating point operations: factor (`p^3 / 3`), coupling (`p^3`) and contact matrix (`p^3`) of the tied pairs.
+    /// Floating point operations: factor (`p^3 / 3`), coupling (`p^3`) and contact matrix (`p^3`)
+    /// of the tied pairs.
     pub flops: f64,
     /// Bytes at the peak.
     pub memory_bytes: f64,
 }
 
 impl ContactCost {
-    /// Numbers of `p^2` entries that are there at the peak: factor, coupling and its transpose, contact matrix.
+    /// Numbers of `p^2` entries that are there at the peak: factor, coupling and its transpose,
+    /// contact matrix.
     const MATRICES: f64 = 4.0;
 
     /// The cost of a model's contact.
@@ -389,7 +392,8 @@ impl ContactCost {
     /// `Analysis` with what is needed and what there is.
     fn require(&self) -> Result<()> {
         let what = format!(
-            "contact of {} pairs, {} of them joined by bodies (dense matrices: fewer pairs are what helps),",
+            "contact of {} pairs, {} of them joined by bodies (dense matrices: fewer pairs are \
+             what helps),",
             self.pairs, self.largest_group
         );
         memory::require(&what, self.memory_bytes)

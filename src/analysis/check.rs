@@ -183,8 +183,9 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
     let run = run_seconds(model, &sizes, &prediction, factorisation);
     if of_contact > LONG {
         notes.push(format!(
-            "{} pairs are joined by bodies: the dense matrices of their contact take about {:.0} min (the cube of their number) and \
-             {:.0} MB (the square); fewer pairs, or bodies that nothing joins, take less",
+            "{} pairs are joined by bodies: the dense matrices of their contact take about \
+             {:.0} min (the cube of their number) and {:.0} MB (the square); fewer pairs, or \
+             bodies that nothing joins, take less",
             contact.largest_group,
             (of_contact / 60.0).ceil(),
             (contact.memory_bytes / 1e6).ceil()

@@ -494,7 +494,8 @@ mod tests {
         assert!((figures.max_pressure - 7.0).abs() <= 1e-13 * 7.0);
     }
 
-    /// Where the contact has left the axis the continuation is negative: the point there is open and carries nothing.
+    /// Where the contact has left the axis the continuation is negative: the point there is open
+    /// and carries nothing.
     #[test]
     fn a_point_on_the_axis_carries_no_tension() {
         let model = model(
@@ -517,7 +518,8 @@ mod tests {
         assert!((axis.gap - 0.5).abs() <= 1e-14);
     }
 
-    /// A pressure that is linear along a patch away from all planes of symmetry: at the patch's middle it is the line's.
+    /// A pressure that is linear along a patch away from all planes of symmetry: at the patch's
+    /// middle it is the line's.
     #[test]
     fn the_pole_of_a_patch_off_symmetry_is_its_middle() {
         let model = model("contact_patch", &[]);

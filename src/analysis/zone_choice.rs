@@ -272,8 +272,9 @@ mod tests {
         Scene::load_with(path, &overrides).unwrap()
     }
 
-    /// Under a point contact stress falls with the cube root of the load: at an eighth of it an element is predicted to flow whose ratio at
-    /// the whole load is twice the limit, in line contact with its square root at a quarter.
+    /// Under a point contact stress falls with the cube root of the load: at an eighth of it an
+    /// element is predicted to flow whose ratio at the whole load is twice the limit, in line
+    /// contact with its square root at a quarter.
     #[test]
     fn a_stage_of_the_load_takes_the_elements_that_flow_by_then() {
         for (name, share) in [

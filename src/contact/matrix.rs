@@ -1,7 +1,8 @@
 //! The matrix of the contact problem by groups of pairs.
 //!
-//! Pairs of bodies that nothing joins do not feel one another: of a thousand separate joints the matrix has a thousand small blocks, and
-//! so has whatever its pivots make of it. Memory and work are those of the blocks.
+//! Pairs of bodies that nothing joins do not feel one another: of a thousand separate joints the
+//! matrix has a thousand small blocks, and so has whatever its pivots make of it. Memory and work
+//! are those of the blocks.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;

@@ -10,7 +10,8 @@
 //! pairs; `q` holds the forces the pairs would carry if all were closed. This module knows neither meshes nor
 //! bodies. Groups of pairs that do not feel one another are blocks of `T` ([`PairMatrix`]).
 //!
-//! * [`Tableau`]: the matrix with a set of pairs opened, updated by principal pivots in O(n^2), n the pairs of the group;
+//! * [`Tableau`]: the matrix with a set of pairs opened, updated by principal pivots in O(n^2), n
+//!   the pairs of the group;
 //! * [`solve`]: statuses for a given `q` (paper 3.7 to 3.10), finite for every semidefinite `T`;
 //! * [`Path`]: statuses for `q` moving along a line, from one change of contact to the next (paper 4.10 to 4.23).
 

@@ -266,8 +266,9 @@ fn digits_lost_in_a_pivot_of_round_off_come_back() {
     check(&t, &q, &g, &r);
 }
 
-/// Pair 0 stands at the border (no gap, no force), and its rate of -1e-13 is the round-off of 1 - 1. When pair 2 opens half way, pair 0
-/// does not: a rate without a sign is no change of contact.
+/// Pair 0 stands at the border (no gap, no force), and its rate of -1e-13 is round-off of what it is
+/// the sum of, 1 and -1. When pair 2 opens half way, pair 0 does not: a rate without a sign is no
+/// change of contact.
 #[test]
 fn a_rate_of_round_off_is_no_event() {
     let t = DMatrix::from_row_slice(3, 3, &[2.0, 1.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
@@ -282,7 +283,8 @@ fn a_rate_of_round_off_is_no_event() {
     assert!((path.t - 0.5).abs() <= 1e-12, "{}", path.t);
 }
 
-/// Blocks and the whole matrix with zeros between them are one problem, along a path with events in both.
+/// Blocks and the whole matrix with zeros between them are one problem, along a path with events in
+/// both.
 #[test]
 fn groups_of_pairs_are_one_problem() {
     let own = |n: usize| {

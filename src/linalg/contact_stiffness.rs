@@ -74,8 +74,8 @@ impl ContactStiffness {
         product
     }
 
-    /// The stiffness of each group of freedoms that no block couples with others: `place` says the group of each freedom and its number there,
-    /// which ascends with the freedoms of a block.
+    /// The stiffness of each group of freedoms that no block couples with others: `place` says the
+    /// group of each freedom and its number there, which ascends with the freedoms of a block.
     pub(crate) fn split(self, place: &[(usize, usize)], n_groups: usize) -> Vec<Self> {
         let mut blocks: Vec<Vec<ContactBlock>> = vec![Vec::new(); n_groups];
         for mut block in self.blocks {

@@ -20,8 +20,8 @@ use std::collections::BTreeMap;
 /// nodes: half of the digits are left.
 const TOLD_APART: f64 = 1e-8;
 
-/// Finds the weights of each motion ([`RigidMotion::in_far_boundary`]); `work(motion)` is the work that each load with forces on
-/// its bodies does on a motion, by the loads' numbers.
+/// Finds the weights of each motion ([`RigidMotion::in_far_boundary`]); `work(motion)` is the work
+/// that each load with forces on its bodies does on a motion, by the loads' numbers.
 pub(super) fn measure(
     motions: &mut [RigidMotion],
     part_of_node: &[usize],

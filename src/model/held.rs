@@ -86,7 +86,8 @@ pub(super) fn resolve(
         if free.is_empty() {
             break;
         }
-        // Motions that have no body in common stay free when one of them is pinned: all of these in one go.
+        // Motions that have no body in common stay free when one of them is pinned: all of these in
+        // one go.
         let mut moved = vec![false; motions.names.len()];
         for mode in &free {
             let groups = motions.moved(mode);
@@ -100,8 +101,8 @@ pub(super) fn resolve(
                     return Err(Error::new(
                         ErrorKind::Unheld,
                         format!(
-                            "{motion}: neither supports nor contact hold this motion, and load `{}` drives it; add a \
-                             support or a contact",
+                            "{motion}: neither supports nor contact hold this motion, and load \
+                             `{}` drives it; add a support or a contact",
                             loads[load].name
                         ),
                     ));

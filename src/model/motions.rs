@@ -26,7 +26,8 @@ pub(super) struct Motions<'a> {
     nodes: Vec<Vec<usize>>,
 }
 
-/// A rigid motion of some groups: what it costs to handle is a matter of these, not of how many bodies there are beside them.
+/// A rigid motion of some groups: what it costs to handle is a matter of these, not of how many
+/// bodies there are beside them.
 pub(super) struct Mode {
     /// Group and rigid motion, as `per_group * group + motion`, ascending; whole groups.
     rows: Vec<usize>,
@@ -140,8 +141,8 @@ impl<'a> Motions<'a> {
         ]
     }
 
-    /// Motions that supports and (bilateral) pairs leave free: unit vectors, one entry per rigid motion of each group that nothing but
-    /// these conditions couples.
+    /// Motions that supports and (bilateral) pairs leave free: unit vectors, one entry per rigid
+    /// motion of each group that nothing but these conditions couples.
     pub(super) fn free(&self, freedoms: &Freedoms, pairs: &[Pair]) -> Vec<Mode> {
         let per = self.per_group();
         let gram = self.gram(freedoms, pairs);
@@ -235,7 +236,8 @@ impl<'a> Motions<'a> {
         (0..parent.len()).map(|g| root(&mut parent, g)).collect()
     }
 
-    /// Share of a mode in the displacement along `axis` of a node, with shares up to `round_off` left out.
+    /// Share of a mode in the displacement along `axis` of a node, with shares up to `round_off`
+    /// left out.
     fn along(&self, mode: &Mode, node: usize, axis: [f64; 2], round_off: f64) -> f64 {
         let group = self.group_of_node[node];
         let row = self.row(group, self.mesh.point(node), axis);
@@ -258,7 +260,8 @@ impl<'a> Motions<'a> {
         nodes
     }
 
-    /// A motion on the free freedoms; `owned` are those that each node owns, with the axis of each ([`owned`]).
+    /// A motion on the free freedoms; `owned` are those that each node owns, with the axis of each
+    /// ([`owned`]).
     pub(super) fn on_freedoms(
         &self,
         mode: &Mode,
@@ -308,7 +311,8 @@ impl<'a> Motions<'a> {
         work
     }
 
-    /// The free freedom, not of a contact normal (`contact` has the nodes), that moves most in a motion.
+    /// The free freedom, not of a contact normal (`contact` has the nodes), that moves most in a
+    /// motion.
     pub(super) fn largest(
         &self,
         mode: &Mode,

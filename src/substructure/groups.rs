@@ -1,8 +1,10 @@
-//! The tied structure by groups of pairs: bodies that nothing joins with others are tied, and solved, apart from them.
+//! The tied structure by groups of pairs: bodies that nothing joins with others are tied, and
+//! solved, apart from them.
 //!
-//! Pairs belong to one group where their nodes are coupled by the condensed stiffness (the nodes of one body are) or by a rigid motion. A group
-//! of `p` pairs costs `p^3` operations once and `p^2` numbers from then on, whatever there is beside it: many separate joints cost
-//! what each of them costs.
+//! Pairs belong to one group where their nodes are coupled by the condensed stiffness (the nodes of
+//! one body are) or by a rigid motion. A group of `p` pairs costs `p^3` operations once and `p^2`
+//! numbers from then on, whatever there is beside it: many separate joints cost what each of them
+//! costs.
 
 use super::tied::{SplitSlip, Tied, Trace};
 use super::{PairBlock, PairMatrix};
@@ -30,8 +32,8 @@ struct Group {
 }
 
 impl Groups {
-    /// Tied structures and contact matrix for the condensed stiffness (`2n x 2n`), the rigid motions of floating parts, the free freedom and the
-    /// part of each contact freedom.
+    /// Tied structures and contact matrix for the condensed stiffness (`2n x 2n`), the rigid
+    /// motions of floating parts, the free freedom and the part of each contact freedom.
     ///
     /// # Errors
     /// Those of [`Tied::new`].
@@ -90,7 +92,8 @@ impl Groups {
         Ok((groups, PairMatrix::new(blocks)))
     }
 
-    /// As [`Tied::eliminate`]; what is left for [`Groups::recover`] stands in the places of the pairs of each group.
+    /// As [`Tied::eliminate`]; what is left for [`Groups::recover`] stands in the places of the
+    /// pairs of each group.
     pub(super) fn eliminate(&self, contact: &mut [f64], forces: &mut [f64]) {
         if let [only] = self.groups.as_slice() {
             return only.tied.eliminate(contact, forces);
@@ -136,7 +139,8 @@ impl Groups {
         SplitSlip { rest, motions }
     }
 
-    /// As [`Tied::split`]: displacements go to `contact`, amplitudes of rigid motions are added to `motions`.
+    /// As [`Tied::split`]: displacements go to `contact`, amplitudes of rigid motions are added to
+    /// `motions`.
     pub(super) fn split(&self, contact: &mut [f64], slip: &[f64], motions: &mut [f64]) {
         for group in &self.groups {
             let own = self.take(group, contact);
@@ -187,8 +191,9 @@ fn traces(motions: &[RigidMotion], of_group: &[usize], freedoms: &[usize]) -> Ve
     .collect()
 }
 
-/// The group of each pair, numbered in the order of their first pairs: pairs are in one where nodes of theirs are of one part, or where
-/// a list of `coupled` contact freedoms (first nodes of all pairs, then second nodes) has nodes of both.
+/// The group of each pair, numbered in the order of their first pairs: pairs are in one where nodes
+/// of theirs are of one part, or where a list of `coupled` contact freedoms (first nodes of all
+/// pairs, then second nodes) has nodes of both.
 pub(super) fn groups<'a>(part: &[usize], coupled: impl Iterator<Item = &'a [usize]>) -> Vec<usize> {
     let n = part.len() / 2;
     let mut parent: Vec<usize> = (0..n).collect();
@@ -234,7 +239,8 @@ mod tests {
 
     #[test]
     fn pairs_are_joined_by_parts_and_by_stiffness() {
-        // Four pairs on six parts: 0 and 2 share part 5; the first nodes of 1 and 3 are coupled though of different parts.
+        // Four pairs on six parts: 0 and 2 share part 5; the first nodes of 1 and 3 are coupled
+        // though of different parts.
         let part = [0, 1, 5, 3, 5, 2, 4, 6];
         assert_eq!(groups(&part, std::iter::empty()), [0, 1, 0, 2]);
         let coupled: [&[usize]; 2] = [&[1, 3], &[6]];

@@ -405,7 +405,8 @@ fn basis(rigid: &[Trace], part: &[usize], n: usize) -> (DMatrix<f64>, Vec<usize>
     let all = DMatrix::from_fn(n, rigid.len(), |k, j| on_pair(&rigid[j], k));
     let mut rest = all.clone();
     let scale = all.amax();
-    // Row and size of the largest entry of each column: a pivot changes the columns of motions of the same pairs only.
+    // Row and size of the largest entry of each column: a pivot changes the columns of motions of
+    // the same pairs only.
     let largest = |column: DVectorView<f64>| {
         let row = if column.is_empty() { 0 } else { column.iamax() };
         (row, column.get(row).map_or(0.0, |entry| entry.abs()))

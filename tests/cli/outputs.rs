@@ -400,7 +400,7 @@ fn the_predicted_time_of_a_run_grows_with_its_mesh() {
             growth,
         ];
         let found: Value = serde_json::from_str(&stdout(&brinell(&arguments))).unwrap();
-        let elements = found["elements"].as_f64().unwrap();
+        let elements = found["sizes"]["elements"].as_f64().unwrap();
         (found["predicted_run_seconds"].as_f64().unwrap(), elements)
     };
     let [(coarse, few), (fine, many)] = [16, 48].map(predicted);

@@ -7,14 +7,16 @@ use brinell::model::Model;
 use brinell::substructure::{ContactCost, Substructure};
 use std::fmt::Write;
 
-/// Stacks of one-element blocks, each of `height` of them, pressed by 10 + the number of the stack. The lowest `held` of each are held along x.
+/// Stacks of one-element blocks, each of `height` of them, pressed by 10 + the number of the stack.
+/// The lowest `held` of each are held along x.
 fn stacks(n: usize, height: usize) -> String {
     stacks_held(n, height, height)
 }
 
 fn stacks_held(n: usize, height: usize, held: usize) -> String {
     let mut text = String::from(
-        "kind = \"plane_strain\"\n[materials.steel]\nyoungs_modulus = 210000.0\npoissons_ratio = 0.3\n",
+        "kind = \"plane_strain\"\n\
+         [materials.steel]\nyoungs_modulus = 210000.0\npoissons_ratio = 0.3\n",
     );
     let mut conditions = String::new();
     for i in 0..n {
@@ -22,7 +24,8 @@ fn stacks_held(n: usize, height: usize, held: usize) -> String {
             let (x, y) = (2.0 * i as f64, j as f64);
             write!(
                 text,
-                "[[mesh.parts]]\nbody = \"b{i}_{j}\"\nblock = {{ x = [{x:?}, {:?}], y = [{y:?}, {:?}], elements = [1, 1] }}\n",
+                "[[mesh.parts]]\nbody = \"b{i}_{j}\"\n\
+                 block = {{ x = [{x:?}, {:?}], y = [{y:?}, {:?}], elements = [1, 1] }}\n",
                 x + 1.0,
                 y + 1.0
             )
@@ -108,7 +111,8 @@ fn groups_do_not_feel_one_another() {
     assert_eq!(state.pairs.len(), 12 * 4);
 }
 
-/// Nothing holds the upper blocks along x: each is pinned for itself, and the work of finding them is that of the blocks.
+/// Nothing holds the upper blocks along x: each is pinned for itself, and the work of finding them
+/// is that of the blocks.
 #[test]
 fn every_free_body_is_pinned() {
     let text = stacks_held(9, 2, 1);

@@ -8,7 +8,8 @@ use brinell::scene::Scene;
 
 const E: f64 = 210_000.0;
 
-/// Columns of blocks of width `w` and height 1, each on top of one another: `(x, w)` of each column.
+/// Columns of blocks of width `w` and height 1, each on top of one another: `(x, w)` of each
+/// column.
 fn columns(columns: &[(f64, f64)], yields: bool) -> String {
     let mut text = String::from("kind = \"plane_stress\"\n");
     for (i, (x, w)) in columns.iter().enumerate() {
@@ -72,8 +73,9 @@ fn forces_of_history_and_state_are_those_of_the_whole() {
     close(results.history.last().unwrap().contact_force, 40.0, 1e-10);
 }
 
-/// Two contacts: 10 over a width of 4 carries more than 30 over 1. Half width and pole pressure are those of the patch that
-/// carries most, whichever contact comes first; the largest pressure is that of all.
+/// Two contacts: 10 over a width of 4 carries more than 30 over 1. Half width and pole pressure are
+/// those of the patch that carries most, whichever contact comes first; the largest pressure is
+/// that of all.
 #[test]
 fn the_largest_patch_is_the_one_that_carries_most() {
     let [wide, narrow] = [(0.0, 4.0, 10.0), (10.0, 1.0, 30.0)];
@@ -90,8 +92,9 @@ fn the_largest_patch_is_the_one_that_carries_most() {
     }
 }
 
-/// An interference of twice what the blocks take elastically: it comes on as a load does, so first yield is met on the way at the
-/// yield stress, and the end is that of the hardening law, `d = 2 h (s / E + (s - s_y) / H)`.
+/// An interference of twice what the blocks take elastically: it comes on as a load does, so first
+/// yield is met on the way at the yield stress, and the end is that of the hardening law, `d = 2 h
+/// (s / E + (s - s_y) / H)`.
 #[test]
 fn interference_comes_on_step_by_step() {
     let (yield_stress, hardening) = (100.0, 20_000.0);
@@ -113,11 +116,13 @@ fn interference_comes_on_step_by_step() {
     close(doubled.states[0].plastic_zone_size, 2.0 * 2.0, 1e-12);
 }
 
-/// A block that is pulled with a negative factor is pressed: sizes of loads have no sign, whatever their factors.
+/// A block that is pulled with a negative factor is pressed: sizes of loads have no sign, whatever
+/// their factors.
 #[test]
 fn the_size_of_a_load_has_no_sign() {
     let block = "kind = \"plane_stress\"\n\
-        [[mesh.parts]]\nbody = \"b\"\nblock = { x = [0.0, 3.0], y = [0.0, 2.0], elements = [2, 2] }\n\
+        [[mesh.parts]]\nbody = \"b\"\n\
+        block = { x = [0.0, 3.0], y = [0.0, 2.0], elements = [2, 2] }\n\
         [materials.steel]\nyoungs_modulus = 210000.0\npoissons_ratio = 0.3\n\
         [bodies.b]\nmaterial = \"steel\"\n[[support]]\non = \"b.left\"\nfix = [\"x\"]\n\
         [[support]]\non = \"b.bottom\"\nfix = [\"y\"]\n";
@@ -137,7 +142,8 @@ fn the_size_of_a_load_has_no_sign() {
     }
 }
 
-/// The approach is the mean over the loaded surface, by length: on a graded mesh the trapezoidal rule of the nodes' displacements.
+/// The approach is the mean over the loaded surface, by length: on a graded mesh the trapezoidal
+/// rule of the nodes' displacements.
 #[test]
 fn the_approach_is_a_mean_by_length() {
     let text = format!(
@@ -166,8 +172,8 @@ fn the_approach_is_a_mean_by_length() {
     close(state.approach, mean, 1e-12);
 }
 
-/// A contact normal that is not at right angles with an inclined support is turned until it is: contact and support then hold
-/// different freedoms.
+/// A contact normal that is not at right angles with an inclined support is turned until it is:
+/// contact and support then hold different freedoms.
 #[test]
 fn contact_normals_are_turned_into_inclined_supports() {
     let angle = 10.0f64;

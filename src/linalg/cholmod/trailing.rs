@@ -283,7 +283,8 @@ impl Trailing {
         trees
     }
 
-    /// The block of `L_cc L_cc' - diag(shift)` of the columns in `panels`; `number` is room for a number for each contact column.
+    /// The block of `L_cc L_cc' - diag(shift)` of the columns in `panels`; `number` is room for a
+    /// number for each contact column.
     fn contact_block(
         &self,
         panels: &[&Panel],
