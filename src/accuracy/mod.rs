@@ -8,7 +8,7 @@
 //! | `path` | the error of increments and tolerances |
 //! | `runs`, `estimate` | runs, each made once; discretisation, path and algebraic error of every quantity |
 //! | `demand` | finer and finer meshes until a demanded accuracy is reached |
-//! | `knobs`, `meter`, `study`, `verdict` | a study: what to turn, what it takes, the runs, what they say |
+//! | `knobs`, `meter`, `record`, `study`, `verdict` | a study: what to turn, what it takes, the runs, what they say |
 //!
 //! The stated error is the sum of three:
 //!
@@ -34,6 +34,7 @@ mod knobs;
 mod meter;
 mod path;
 mod quantities;
+mod record;
 mod runs;
 mod study;
 mod verdict;
@@ -47,6 +48,7 @@ pub use extrapolation::{Extrapolation, extrapolate};
 pub use knobs::{Knob, Setting, settings};
 pub use meter::{Forecast, Meter, Pace, PhaseUsage, Usage, forecast, work};
 pub use quantities::{Quantity, quantities, value_of};
+pub use record::StudyRun;
 pub use runs::Extent;
-pub use study::{Plan, Study, StudyRun, study};
+pub use study::{Plan, Study, study};
 pub use verdict::{Price, QuantityStudy, StudyReference, foremost, judge};

@@ -1,14 +1,14 @@
 //! The study: many settings of one scene, each run and measured, cheapest first.
 
 use super::knobs::{Knob, Setting, settings};
-use super::meter::{Forecast, Meter, Pace, PhaseMeter, PhaseUsage, Usage, forecast, work};
-use super::quantities::quantities;
+use super::meter::{Forecast, Meter, Pace, PhaseMeter, forecast};
+use super::record::StudyRun;
 use super::runs::{Extent, run};
 use super::verdict::{QuantityStudy, judge};
 use crate::error::{ErrorKind, Result};
 use crate::linalg::Backend;
 use crate::progress::{Flow, Observer};
-use crate::results::{Counts, HistoryRow, ReferenceRow, Results};
+use crate::results::{HistoryRow, ReferenceRow};
 use crate::scene::{MeshSource, Scene};
 use serde::Serialize;
 use std::time::{Duration, Instant};
@@ -36,41 +36,6 @@ impl Default for Plan {
             budget: None,
         }
     }
-}
-
-/// A setting with what came out and what it took.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct StudyRun {
-    /// The curve it belongs to.
-    pub series: String,
-    /// What was turned.
-    pub knob: Knob,
-    /// To what.
-    pub value: String,
-    /// Element size over that of the scene.
-    pub ratio: f64,
-    /// Why there are no values, where the run failed.
-    pub failed: Option<String>,
-    /// Freedoms.
-    pub freedoms: usize,
-    /// Lowest polynomial degree of the elements.
-    pub degree: usize,
-    /// Increments.
-    pub increments: usize,
-    /// Floating point operations of a factorisation, nonzeros of the factor and of its trailing columns.
-    pub factor: [f64; 3],
-    /// Machine-independent cost.
-    pub counts: Counts,
-    /// Cost in floating point operations ([`super::work()`]).
-    pub work: f64,
-    /// Time and memory.
-    pub usage: Usage,
-    /// Wall seconds by phase, as the run itself times them.
-    pub timings: Vec<(String, f64)>,
-    /// Wall and processor time by phase, as the run tells them.
-    pub phases: Vec<PhaseUsage>,
-    /// Quantities by path.
-    pub values: Vec<(String, f64)>,
 }
 
 /// A whole study.
@@ -197,7 +162,7 @@ pub fn study(
         }
         out.runs.push(StudyRun {
             phases,
-            ..record(setting, cost, usage, found)
+            ..StudyRun::of(setting, cost, usage, found)
         });
     }
     out.quantities = judge(&out.runs, &references);
@@ -249,55 +214,4 @@ impl Observer for Hurried<'_> {
     fn stop_requested(&self) -> bool {
         self.observer.stop_requested() || self.is_late()
     }
-}
-
-fn record(setting: &Setting, cost: &Forecast, usage: Usage, found: Result<Results>) -> StudyRun {
-    let mut out = StudyRun {
-        series: setting.series.clone(),
-        knob: setting.knob,
-        value: setting.value.clone(),
-        ratio: setting.ratio,
-        failed: None,
-        freedoms: 0,
-        degree: 1,
-        increments: 0,
-        factor: [
-            cost.factor.flops,
-            cost.factor.factor_nonzeros,
-            cost.factor.trailing_nonzeros,
-        ],
-        counts: Counts::default(),
-        work: 0.0,
-        usage,
-        timings: Vec::new(),
-        phases: Vec::new(),
-        values: Vec::new(),
-    };
-    match found {
-        Err(error) => out.failed = Some(error.to_string()),
-        Ok(results) => {
-            out.freedoms = results.sizes.freedoms;
-            out.degree = results.sizes.degree;
-            out.increments = results.history.len();
-            let factor = &results.factor;
-            out.factor = [
-                factor.flops,
-                factor.factor_nonzeros,
-                factor.trailing_nonzeros,
-            ];
-            out.counts = results.counts;
-            out.work = work(&results);
-            out.values = quantities(&results)
-                .into_iter()
-                .map(|q| (q.path, q.value))
-                .collect();
-            for row in &results.reference {
-                if out.values.iter().all(|v| v.0 != row.quantity) {
-                    out.values.push((row.quantity.clone(), row.computed));
-                }
-            }
-            out.timings = results.timings;
-        }
-    }
-    out
 }

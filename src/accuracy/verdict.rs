@@ -3,7 +3,7 @@
 use super::extrapolation::extrapolate;
 use super::knobs::Knob;
 use super::quantities::{formal_order, is_demanded_with_all};
-use super::study::StudyRun;
+use super::record::StudyRun;
 use crate::results::ReferenceRow;
 use serde::Serialize;
 use std::collections::BTreeMap;

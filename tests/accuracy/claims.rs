@@ -12,7 +12,6 @@ const WORST: f64 = 3.0;
 fn true_errors_lie_below_the_stated_ones_on_families_that_judge() {
     let folder = tempfile::tempdir().unwrap();
     let families = judging_exactly(folder.path());
-    assert!(families.iter().all(|family| !family.calibrates));
     let claims: Vec<Claim> = families.iter().flat_map(Family::claims).collect();
     let is_load = |claim: &&Claim| ["load", "max_pressure", "approach"].contains(&claim.key());
     let (loads, others): (Vec<&Claim>, Vec<&Claim>) = claims.iter().partition(is_load);

@@ -1,8 +1,7 @@
 //! The problems on which stated errors are held against true ones: families of meshes, with values that are known from closed
 //! forms or from a much finer mesh with many more increments.
 //!
-//! The constants of `brinell::accuracy` were looked at on the thick cylinder and on Hertz' line contact alone
-//! ([`Family::calibrates`]); all others judge them.
+//! The constants of `brinell::accuracy` were looked at on the families of `calibration` alone; these judge them.
 #![allow(dead_code)] // tests and the page each use a part of it
 
 use crate::running;
@@ -23,7 +22,6 @@ use std::path::Path;
 /// A problem on several meshes.
 pub struct Family {
     pub name: String,
-    pub calibrates: bool,
     pub extent: Extent,
     /// The meshes: a name for each, coarse to fine.
     pub meshes: Vec<(String, Scene)>,
@@ -113,14 +111,14 @@ fn run(scene: &Scene, extent: Extent) -> Option<Results> {
 }
 
 /// The scene with many increments.
-fn stepped(mut scene: Scene, steps: usize) -> Box<Scene> {
+pub fn stepped(mut scene: Scene, steps: usize) -> Box<Scene> {
     scene.program.stepping = Stepping::Steps;
     scene.program.steps = steps;
     Box::new(scene)
 }
 
 /// Loading far beyond yield, partly off, off.
-const HISTORY: &str = "program.targets=[{ yield = true }, { load_factor = 1.3 }, { load_factor = 2.0 }, \
+pub const HISTORY: &str = "program.targets=[{ yield = true }, { load_factor = 1.3 }, { load_factor = 2.0 }, \
      { name = \"peak\", load_factor = 3.0 }, { name = \"back\", load_factor = 1.5 }, { name = \"off\", load_factor = 0.0 }]";
 
 /// A cylinder or ball on a flat with `n` elements over the contact at first yield.
@@ -149,35 +147,12 @@ pub fn tube(element: &str, n: usize, targets: &str) -> Scene {
     )
 }
 
-const TUBE_HISTORY: &str = "program.targets=[{ name = \"pressed\", load_factor = 10.0 }, { yield = true }, \
+pub const TUBE_HISTORY: &str = "program.targets=[{ name = \"pressed\", load_factor = 10.0 }, { yield = true }, \
      { name = \"p130\", load_factor = 130.0 }, { name = \"p170\", load_factor = 170.0 }, { name = \"off\", load_factor = 0.0 }]";
 
-const SHAPES: [&str; 4] = ["quad4", "quad8", "tri3", "tri6"];
+pub const SHAPES: [&str; 4] = ["quad4", "quad8", "tri3", "tri6"];
 
-/// The families that constants were chosen on.
-pub fn calibrating() -> Vec<Family> {
-    let far = "mesh.cylinder_on_half_plane.far_size=20000.0";
-    let line = |n: usize| on_flat("cylinder_on_half_plane", n, &[far, HISTORY]);
-    let mut out = vec![Family {
-        name: "Hertz line, beyond yield and off".to_string(),
-        calibrates: true,
-        extent: Extent::Program,
-        meshes: named(&[4, 6, 8, 12, 16, 24], line),
-        truth: Truth::Finer(stepped(line(56), 40)),
-    }];
-    for shape in SHAPES {
-        out.push(Family {
-            name: format!("thick cylinder, {shape}"),
-            calibrates: true,
-            extent: Extent::Program,
-            meshes: named(&[4, 6, 8, 12, 16, 24, 32], |n| tube(shape, n, TUBE_HISTORY)),
-            truth: Truth::Finer(stepped(tube("quad8", 64, TUBE_HISTORY), 40)),
-        });
-    }
-    out
-}
-
-fn named(counts: &[usize], scene: impl Fn(usize) -> Scene) -> Vec<(String, Scene)> {
+pub fn named(counts: &[usize], scene: impl Fn(usize) -> Scene) -> Vec<(String, Scene)> {
     counts.iter().map(|n| (n.to_string(), scene(*n))).collect()
 }
 
@@ -242,7 +217,6 @@ pub fn judging_by_finer_meshes() -> Vec<Family> {
     ];
     let made = families.into_iter().map(|(name, meshes, finer)| Family {
         name: name.to_string(),
-        calibrates: false,
         extent: Extent::Program,
         meshes,
         truth: Truth::Finer(stepped(finer, 20)),
@@ -255,7 +229,6 @@ fn point_at_yield() -> Family {
     let far = "mesh.cylinder_on_half_plane.far_size=2000.0";
     Family {
         name: "Hertz point, first yield".to_string(),
-        calibrates: false,
         extent: Extent::Yield,
         meshes: named(&[4, 6, 8, 10, 12, 16, 20, 24], |n| {
             on_flat("ball_on_half_space", n, &[far])
@@ -286,7 +259,6 @@ fn disc_at_yield() -> Family {
     let yielding = "program.targets=[{ yield = true }]";
     Family {
         name: "disc in a plate, first yield".to_string(),
-        calibrates: false,
         extent: Extent::Yield,
         meshes: named(&[12, 20, 30, 44, 60, 90], |n| disc(n, yielding)),
         truth: Truth::Exact(vec![
@@ -314,7 +286,6 @@ fn pin(clearance: f64) -> Family {
     };
     Family {
         name: format!("pin in a hole, clearance {clearance}"),
-        calibrates: false,
         extent: Extent::Program,
         meshes: named(&[16, 24, 32, 48, 64], scene),
         truth: Truth::Exact(vec![
@@ -344,7 +315,6 @@ fn shrink_fit() -> Family {
     };
     Family {
         name: "shrink fit".to_string(),
-        calibrates: false,
         extent: Extent::Program,
         meshes: named(&[4, 8, 12, 16, 24], scene),
         truth: Truth::Exact(vec![("states.fitted.max_pressure", exact.pressure())]),
@@ -363,7 +333,6 @@ fn sphere(shape: &str) -> Family {
     };
     Family {
         name: format!("thick sphere, {shape}"),
-        calibrates: false,
         extent: Extent::Program,
         meshes: named(&[4, 6, 8, 12, 16, 24], |n| scene(shape, n)),
         truth: Truth::Finer(stepped(scene("quad8", 48), 40)),
@@ -387,7 +356,6 @@ fn tube_from_file(shape: &str, folder: &Path) -> Family {
     };
     Family {
         name: format!("thick cylinder from a file, {shape}"),
-        calibrates: false,
         extent: Extent::Program,
         meshes: named(&[0, 1, 2], subdivided),
         truth: Truth::Finer(stepped(tube("quad8", 64, TUBE_HISTORY), 40)),

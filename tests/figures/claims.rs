@@ -1,6 +1,7 @@
 //! The page data/accuracy/claims.md: stated errors beside true ones over families of meshes, and what demands cost. Run with
 //! `cargo run --release --example claims`.
 
+mod calibration;
 #[path = "../accuracy/families.rs"]
 mod families;
 #[path = "../running/mod.rs"]
@@ -25,24 +26,20 @@ const HEAD: &str = "# Stated errors beside true ones\n\n\
 
 fn main() {
     let folder = tempfile::tempdir().unwrap();
-    let mut all = families::calibrating();
-    all.extend(families::judging_exactly(folder.path()));
+    let calibrating = calibration::families();
+    let mut all = families::judging_exactly(folder.path());
     all.extend(families::judging_by_finer_meshes());
     let mut page = HEAD.to_string();
     page += "| family | figures | within the stated error | median of stated over true | largest true over stated |\n|---|---|---|---|---|\n";
     let mut judged: Vec<Claim> = Vec::new();
     let mut worst: Vec<Claim> = Vec::new();
-    for family in &all {
+    let of_calibration = calibrating.iter().map(|family| (family, " (calibration)"));
+    for (family, mark) in of_calibration.chain(all.iter().map(|family| (family, ""))) {
         let claims = family.claims();
-        let mark = if family.calibrates {
-            " (calibration)"
-        } else {
-            ""
-        };
         let row = row(&claims.iter().collect::<Vec<_>>());
         writeln!(page, "| {}{mark} | {row} |", family.name).unwrap();
         eprintln!("{}: {row}", family.name);
-        if !family.calibrates {
+        if mark.is_empty() {
             worst.extend(claims.iter().filter(|c| c.truth > c.stated).cloned());
             judged.extend(claims);
         }
