@@ -565,8 +565,8 @@ int32_t brinell_model_program(struct brinell_model *model, const struct brinell_
 // `*out` is NULL.
 //
 // A scene with the key `accuracy` is run on finer and finer meshes until their stated errors are within it: the callback sees
-// the increments of each, counted from 1 anew, and the results are those of the last; a load, pressure or displacement of a state is the one that
-// the meshes lead to together where that is better known (`accuracy.quantities[].of_mesh` of the summary).
+// the increments of each, counted from 1 anew, and the results are those of the last (`accuracy` of the summary says what is
+// stated of each figure, and why a demand was not reached).
 int32_t brinell_run(const struct brinell_scene *scene,
                     const struct brinell_options *options,
                     brinell_callback callback,

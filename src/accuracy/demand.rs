@@ -11,7 +11,7 @@ use super::estimate::{Judged, judge};
 use super::extrapolation::LEAST_ORDER;
 use super::meter::work;
 use super::path::{increments_taken, with_steps};
-use super::quantities::{is_demanded_with_all, quantities};
+use super::quantities::{formal_order, is_demanded_with_all, quantities};
 use super::runs::{Extent, Runs, analyse};
 use super::words::{duration, percent};
 use crate::analysis::Analysis;
@@ -434,13 +434,15 @@ impl Outcome {
                 out.worst = Some(quantity.path.clone());
             }
             if quantity.scale > 0.0 {
-                out.add(errors, relative, wanted, quantity.scale);
+                let formal = formal_order(quantity.key(), results.sizes.degree);
+                out.add(errors, [relative, wanted, quantity.scale], formal);
             }
         }
         out
     }
 
-    fn add(&mut self, errors: &QuantityError, relative: f64, wanted: f64, scale: f64) {
+    fn add(&mut self, errors: &QuantityError, of: [f64; 3], formal: f64) {
+        let [relative, wanted, scale] = of;
         let share = |error: f64| error / scale / wanted;
         let [mesh, path, algebra] = [
             errors.discretisation.unwrap_or(0.0),
@@ -459,8 +461,9 @@ impl Outcome {
             relative,
             order: errors.order,
         });
-        // An order that is not believed says nothing: the lowest that is likely.
-        let order = errors.order.filter(|_| errors.extrapolated.is_some());
+        // An order above the formal one is that of coarse meshes; one below what is believed says nothing.
+        let order = errors.order.filter(|order| *order >= LEAST_ORDER);
+        let order = order.map(|order| order.min(formal));
         let left = (1.0 - path - algebra).max(1.0 - PATH[0]);
         let finer = (mesh / (AIM * left)).powf(1.0 / order.unwrap_or(1.0));
         self.finer = self.finer.max(finer);

@@ -16,6 +16,7 @@ def run(
     callback: _Callback,
     estimate: bool,
     threads: Optional[int],
+    budget: Optional[float],
 ) -> Result: ...
 
 class State:

@@ -6,7 +6,7 @@ from . import _brinell
 from ._errors import InputError
 
 
-def run(scene, overrides=None, *, solver=None, callback=None, estimate=False, threads=None, **more):
+def run(scene, overrides=None, *, solver=None, callback=None, estimate=False, threads=None, budget=None, **more):
     """Runs a scene and returns its `Result`.
 
     scene: path of a scene file (a str without line breaks, or a path object), or the text of a scene (TOML).
@@ -18,7 +18,8 @@ def run(scene, overrides=None, *, solver=None, callback=None, estimate=False, th
         with `incomplete` set. What it raises (Ctrl-C too) is raised here.
     threads: how many threads to use, a pool of its own for this run; by default those that all runs share. The callback is then called in one of
         them, not in the calling thread.
-    estimate: estimate the errors of all figures too (summary["accuracy"]); this runs the scene on coarser meshes.
+    estimate: estimate the errors of all figures too (summary["accuracy"]); this runs the scene on other meshes.
+    budget: seconds that may be spent on an accuracy that the scene demands: a mesh that would not fit is not begun.
 
     Raises `Error` (`InputError`, `UnheldError`, `CollapseError`, ...) with `kind`, `status` and, where the run failed on its way,
     `result`. A state whose quality misses its tolerance, or an accuracy that the scene demands (accuracy="1 %") and that was not
@@ -30,7 +31,7 @@ def run(scene, overrides=None, *, solver=None, callback=None, estimate=False, th
     values.update((key.replace("__", "."), value) for key, value in more.items())
     pairs = [pair for key, value in values.items() for pair in _pairs(key, value)]
     text = os.fspath(scene) if is_path else scene
-    return _brinell.run(text, is_path, pairs, solver, callback, estimate, threads)
+    return _brinell.run(text, is_path, pairs, solver, callback, estimate, threads, budget)
 
 
 def _pairs(key, value):

@@ -406,6 +406,7 @@ impl Model {
             callback,
             estimate: false,
             threads: threads::number(py, threads)?,
+            budget: None,
         };
         let model = {
             let mut own = slf.try_borrow_mut()?;

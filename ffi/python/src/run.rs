@@ -35,11 +35,13 @@ pub struct Way {
     pub callback: Option<Py<PyAny>>,
     pub estimate: bool,
     pub threads: Option<usize>,
+    /// Seconds for an accuracy that the scene demands.
+    pub budget: Option<f64>,
 }
 
 /// Runs a scene; see `brinell.run`, which calls this.
 #[pyfunction]
-#[pyo3(signature = (scene, is_path, overrides, solver, callback, estimate, threads))]
+#[pyo3(signature = (scene, is_path, overrides, solver, callback, estimate, threads, budget))]
 pub fn run(
     py: Python<'_>,
     scene: &str,
@@ -49,6 +51,7 @@ pub fn run(
     callback: Option<Py<PyAny>>,
     estimate: bool,
     threads: Option<i64>,
+    budget: Option<f64>,
 ) -> PyResult<Py<RunResult>> {
     let read = || match is_path {
         true => Scene::load_with(scene, &overrides),
@@ -64,6 +67,7 @@ pub fn run(
         callback,
         estimate,
         threads: threads::number(py, threads)?,
+        budget,
     };
     execute(py, source, way)
 }
@@ -72,13 +76,14 @@ pub fn run(
 pub fn execute(py: Python<'_>, source: Source, way: Way) -> PyResult<Py<RunResult>> {
     let mut watcher = Watcher::new(way.callback);
     let start = Instant::now();
-    let backend = way.backend;
+    let (backend, budget) = (way.backend, way.budget);
     let signals = watcher.signals();
     let work = || {
         contained(|| {
             let model = match source {
                 Source::Scene(scene) if scene.accuracy.is_some() => {
-                    let found = accuracy::reach(&scene, backend, Extent::Program, &mut watcher)?;
+                    let extent = Extent::Program;
+                    let found = accuracy::reach(&scene, backend, extent, budget, &mut watcher)?;
                     return Ok((found.analysis.model().clone(), found.results));
                 }
                 Source::Scene(scene) => Model::new(&scene)?,

@@ -300,6 +300,8 @@ def test_a_demanded_accuracy_is_kept_or_warned_of():
     with pytest.warns(brinell.InaccurateWarning, match="Demanded accuracy approach = 1 %: NOT reached"):
         missed = brinell.run(SCENES / "pin_in_hole.toml", accuracy="approach = 1 %")
     assert not missed.summary["accuracy"]["demand"]["reached"]
+    with pytest.warns(brinell.InaccurateWarning, match="of the budget are left"):
+        brinell.run(SCENES / "thick_cylinder.toml", accuracy="0.001 %", budget=0.5)
 
 
 def model_of(result):
