@@ -11,7 +11,8 @@
 //! operator ([`super::Points`]) take to be made. With a mean dilatation (B-bar) the trace of the
 //! strain is replaced by its mean over the element, and in the forces the mean stress by its mean:
 //! the same as the mean of `tr B` over the nodes. Points are computed side by side: every quantity
-//! is an array over them.
+//! is an array over them. A gradient at the centre of a `quad4` is the plain mean of those along
+//! the reference coordinates at its points, through the inverse of the mean Jacobian.
 
 use super::{MAX_NODES, MAX_POINTS, has_mean, rule, sampling_points, shape_functions};
 use crate::scene::Kind;
@@ -72,6 +73,15 @@ pub struct Mapping {
     weights: Lanes,
     /// `1/r`, axisymmetric.
     per_radius: Option<Lanes>,
+    shear: Option<ShearFromCenter>,
+}
+
+/// The shear of an axisymmetric `quad4` ([`super`]).
+struct ShearFromCenter {
+    /// `sqrt(r/r_c)`.
+    factors: Lanes,
+    /// `dxi/dy, deta/dy` at the centre.
+    inverse: [f64; 2],
 }
 
 impl Mapping {
@@ -111,11 +121,21 @@ impl Mapping {
             inverse,
             weights,
             per_radius: None,
+            shear: None,
         };
         if kind == Kind::Axisymmetric {
             let radius = out.interpolated(|k| nodes[k][0]);
             for (weight, r) in out.weights.iter_mut().zip(&radius) {
                 *weight *= 2.0 * std::f64::consts::PI * r;
+            }
+            if out.has_mean {
+                let [x_xi, x_eta, y_xi, y_eta] = [x_xi, x_eta, y_xi, y_eta].map(|j| plain_mean(&j));
+                let determinant = x_xi * y_eta - y_xi * x_eta;
+                let of_center = plain_mean(&radius);
+                out.shear = Some(ShearFromCenter {
+                    factors: radius.map(|r| (r / of_center).sqrt()),
+                    inverse: [-x_eta / determinant, x_xi / determinant],
+                });
             }
             out.per_radius = Some(radius.map(|r| 1.0 / r));
         }
@@ -184,6 +204,14 @@ impl Mapping {
             out[3][g] = (xi_y[g] * u_xi[g] + eta_y[g] * u_eta[g])
                 + (xi_x[g] * v_xi[g] + eta_x[g] * v_eta[g]);
         }
+        if let Some(shear) = &self.shear {
+            let [xi, eta] = shear.inverse;
+            let slope = xi * plain_mean(&u_xi) + eta * plain_mean(&u_eta);
+            for g in 0..MAX_POINTS {
+                let of_y = xi_x[g] * v_xi[g] + eta_x[g] * v_eta[g];
+                out[3][g] = shear.factors[g] * (slope + of_y);
+            }
+        }
         if let Some(per_radius) = &self.per_radius {
             let radial = self.interpolated(|k| u[k][0]);
             for g in 0..MAX_POINTS {
@@ -198,6 +226,12 @@ impl Mapping {
         let [xi_x, eta_x, xi_y, eta_y] = &self.inverse;
         // What the reference gradients are multiplied by: for the forces along x and y.
         let mut fluxes = [[[0.0; MAX_POINTS]; 2]; 2];
+        let mut shears = [0.0; MAX_POINTS];
+        // How much of the shear acts at the points: along x, and along y.
+        let (at_point, factors) = match &self.shear {
+            Some(of_center) => (0.0, of_center.factors),
+            None => (1.0, [1.0; MAX_POINTS]),
+        };
         for g in 0..MAX_POINTS {
             let weight = self.weights[g];
             let (x, y, shear) = (
@@ -205,10 +239,19 @@ impl Mapping {
                 weight * stress[1][g],
                 weight * stress[3][g],
             );
-            fluxes[0][0][g] = xi_x[g] * x + xi_y[g] * shear;
-            fluxes[0][1][g] = eta_x[g] * x + eta_y[g] * shear;
-            fluxes[1][0][g] = xi_y[g] * y + xi_x[g] * shear;
-            fluxes[1][1][g] = eta_y[g] * y + eta_x[g] * shear;
+            let (along_x, along_y) = (at_point * shear, factors[g] * shear);
+            shears[g] = along_y;
+            fluxes[0][0][g] = xi_x[g] * x + xi_y[g] * along_x;
+            fluxes[0][1][g] = eta_x[g] * x + eta_y[g] * along_x;
+            fluxes[1][0][g] = xi_y[g] * y + xi_x[g] * along_y;
+            fluxes[1][1][g] = eta_y[g] * y + eta_x[g] * along_y;
+        }
+        if let Some(of_center) = &self.shear {
+            // The gradient at the centre is the mean of those at the points.
+            let share = 0.25 * sum(&shears);
+            for (fluxes, along) in fluxes[0].iter_mut().zip(of_center.inverse) {
+                fluxes.iter_mut().for_each(|flux| *flux += along * share);
+            }
         }
         let mut out = [[0.0; 2]; MAX_NODES];
         for (k, force) in out.iter_mut().enumerate().take(N) {
@@ -323,4 +366,10 @@ fn dot(a: &Lanes, b: &Lanes) -> f64 {
 #[inline]
 fn sum([a, b, c, d]: &Lanes) -> f64 {
     (a + b) + (c + d)
+}
+
+/// Mean over the four points, unweighted.
+#[inline]
+fn plain_mean(lanes: &Lanes) -> f64 {
+    0.25 * sum(lanes)
 }

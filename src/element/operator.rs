@@ -14,7 +14,8 @@
 //!
 //! (`c`, `p` and `kappa` are zero without B-bar): for a quad4 about a sixth of the numbers of the
 //! full B. What one writes `B' sigma` in books is [`Form::forces`] here, `B u` is
-//! [`Form::strains`].
+//! [`Form::strains`]. In the shear of an axisymmetric quad4 ([`super`]) `n_y` of the element's
+//! centre stands for that of the point, and all of it has a factor.
 //!
 //! # Source
 //! T. J. R. Hughes, *The Finite Element Method* (1987), sections 2.7 and 4.5 (B-bar).
@@ -25,11 +26,13 @@ use crate::material::Matrix4;
 /// Stresses or strains at the points of an element.
 pub type AtPoints = [[f64; 4]; MAX_POINTS];
 
-/// Most numbers of an operator: four points with weight and three gradients of eight nodes.
+/// Most numbers of an operator: four points with weight and three gradients of eight nodes (a quad4
+/// has more kinds of them, but four nodes).
 pub const MAX_VALUES: usize = MAX_POINTS * (1 + 3 * MAX_NODES);
 
 /// What stands in the values of an operator: per point weight, `n_x`, `n_y` and, axisymmetric,
-/// `n_r` of all nodes; then, with B-bar, `m_x` and `m_y` of all nodes.
+/// `n_r` of all nodes; then, with B-bar, `m_x` and `m_y` of all nodes. With a shear from the centre
+/// every point has its factor behind `n_r`, and `n_y` of the centre of all nodes comes last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Form {
     /// Nodes of the element.
@@ -49,7 +52,14 @@ impl Form {
     }
 
     fn stride_of(self, n_nodes: usize) -> usize {
-        1 + n_nodes * (2 + usize::from(self.is_axisymmetric))
+        let n_gradients = 2 + usize::from(self.is_axisymmetric);
+        1 + n_nodes * n_gradients + usize::from(self.has_shear_from_center())
+    }
+
+    /// Whether the slope `du_r/dz` in the shear is that of the centre, and the shear has a factor:
+    /// the axisymmetric quad4.
+    pub(super) fn has_shear_from_center(self) -> bool {
+        self.is_axisymmetric && self.has_mean
     }
 
     /// Where the mean dilatation begins.
@@ -57,9 +67,15 @@ impl Form {
         usize::from(self.n_points) * self.stride()
     }
 
+    /// Where the gradients of the centre begin.
+    pub(super) fn center_at(self) -> usize {
+        self.mean_at() + 2 * usize::from(self.n_nodes) * usize::from(self.has_mean)
+    }
+
     /// Numbers of the operator.
     pub fn n_values(self) -> usize {
-        self.mean_at() + 2 * usize::from(self.n_nodes) * usize::from(self.has_mean)
+        let of_center = usize::from(self.n_nodes) * usize::from(self.has_shear_from_center());
+        self.center_at() + of_center
     }
 
     /// `eps = B u` at all points, for element displacements `[u_x0, u_y0, u_x1, ...]` in global
@@ -108,12 +124,21 @@ impl Form {
         })
     }
 
+    /// `n_y` of the centre.
+    fn center<const N: usize>(self, values: &[f64]) -> Option<&[f64]> {
+        self.has_shear_from_center().then(|| {
+            let start = usize::from(self.n_points) * self.stride_of(N) + 2 * N;
+            &values[start..start + N]
+        })
+    }
+
     fn strains_of<const N: usize>(self, values: &[f64], nodal: &[f64; MAX_FREEDOMS]) -> AtPoints {
         let u: [f64; N] = std::array::from_fn(|k| nodal[2 * k]);
         let v: [f64; N] = std::array::from_fn(|k| nodal[2 * k + 1]);
         let mean = self
             .mean::<N>(values)
             .map(|(x, y)| dot::<N>(x, &u) + dot::<N>(y, &v));
+        let slope = self.center::<N>(values).map(|y| dot::<N>(y, &u));
         let mut out = AtPoints::default();
         for (strain, point) in out.iter_mut().zip(self.points::<N>(values)) {
             let (x, y) = (&point[1..=N], &point[1 + N..=2 * N]);
@@ -125,6 +150,9 @@ impl Form {
             ];
             if self.is_axisymmetric {
                 e[2] = dot::<N>(&point[1 + 2 * N..], &u);
+            }
+            if let Some(slope) = slope {
+                e[3] = point[1 + 3 * N] * (slope + dot::<N>(x, &v));
             }
             if let Some(mean) = mean {
                 let change = (mean - (e[0] + e[1] + e[2])) / 3.0;
@@ -140,7 +168,8 @@ impl Form {
     fn forces_of<const N: usize>(self, values: &[f64], stress: &AtPoints) -> [f64; MAX_FREEDOMS] {
         let mut fx = [0.0; N];
         let mut fy = [0.0; N];
-        let mut pressure = 0.0;
+        let center = self.center::<N>(values);
+        let (mut pressure, mut of_center) = (0.0, 0.0);
         for (s, point) in stress.iter().zip(self.points::<N>(values)) {
             let p = if self.has_mean {
                 (s[0] + s[1] + s[2]) / 3.0
@@ -151,9 +180,16 @@ impl Form {
             let [sx, sy, sz, t] = [s[0] - p, s[1] - p, s[2] - p, s[3]].map(|s| weight * s);
             pressure += weight * p;
             let (x, y) = (&point[1..=N], &point[1 + N..=2 * N]);
+            // What the shear does along x and along y here.
+            let [tx, ty] = if center.is_some() {
+                [0.0, point[1 + 3 * N] * t]
+            } else {
+                [t; 2]
+            };
+            of_center += ty;
             for k in 0..N {
-                fx[k] += x[k] * sx + y[k] * t;
-                fy[k] += y[k] * sy + x[k] * t;
+                fx[k] += x[k] * sx + y[k] * tx;
+                fy[k] += y[k] * sy + x[k] * ty;
             }
             if self.is_axisymmetric {
                 for (f, r) in fx.iter_mut().zip(&point[1 + 2 * N..]) {
@@ -167,6 +203,11 @@ impl Form {
                 fy[k] += y[k] * pressure;
             }
         }
+        if let Some(y) = center {
+            for k in 0..N {
+                fx[k] += y[k] * of_center;
+            }
+        }
         let mut out = [0.0; MAX_FREEDOMS];
         for k in 0..N {
             out[2 * k] = fx[k];
@@ -177,7 +218,7 @@ impl Form {
 
     fn stiffness_of<const N: usize>(self, values: &[f64], elastic: &Matrix4, out: &mut [f64]) {
         out[..N * (2 * N + 1)].fill(0.0);
-        let mean = self.mean::<N>(values);
+        let (mean, center) = (self.mean::<N>(values), self.center::<N>(values));
         let normal = elastic[..3].iter().flat_map(|row| &row[..3]);
         let bulk = if self.has_mean {
             normal.sum::<f64>() / 9.0
@@ -196,20 +237,29 @@ impl Form {
             if self.is_axisymmetric {
                 r.copy_from_slice(&point[1 + 2 * N..=3 * N]);
             }
+            // The gradients in the shear: of displacements along x, and along y.
+            let (by_x, by_y): ([f64; N], [f64; N]) = match center {
+                Some(y) => {
+                    let factor = point[1 + 3 * N];
+                    let times = |n: &[f64]| std::array::from_fn(|k| factor * n[k]);
+                    (times(y), times(x))
+                }
+                None => (std::array::from_fn(|k| y[k]), std::array::from_fn(|k| x[k])),
+            };
             for j in 0..N {
                 // Stresses of a unit displacement of node j along x and along y.
                 let along_x: [f64; 3] = std::array::from_fn(|i| d[i][0] * x[j] + d[i][2] * r[j]);
                 let along_y: [f64; 3] = std::array::from_fn(|i| d[i][1] * y[j]);
-                let (shear_x, shear_y) = (shear * y[j], shear * x[j]);
+                let (shear_x, shear_y) = (shear * by_x[j], shear * by_y[j]);
                 for i in j..N {
                     let column = 2 * j;
                     let upper = row_start(2 * i) + column;
                     let lower = row_start(2 * i + 1) + column;
-                    out[upper] += x[i] * along_x[0] + r[i] * along_x[2] + y[i] * shear_x;
-                    out[lower] += y[i] * along_x[1] + x[i] * shear_x;
-                    out[lower + 1] += y[i] * along_y[1] + x[i] * shear_y;
+                    out[upper] += x[i] * along_x[0] + r[i] * along_x[2] + by_x[i] * shear_x;
+                    out[lower] += y[i] * along_x[1] + by_y[i] * shear_x;
+                    out[lower + 1] += y[i] * along_y[1] + by_y[i] * shear_y;
                     if i > j {
-                        out[upper + 1] += x[i] * along_y[0] + r[i] * along_y[2] + y[i] * shear_y;
+                        out[upper + 1] += x[i] * along_y[0] + r[i] * along_y[2] + by_x[i] * shear_y;
                     }
                 }
             }

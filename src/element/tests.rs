@@ -112,6 +112,25 @@ fn textbook(kind: Kind, shape: Shape, x: &[[f64; 2]]) -> Vec<(f64, [[f64; MAX_FR
             (weight * det * around, b)
         })
         .collect();
+    if shape == Shape::Quad4 && kind == Kind::Axisymmetric {
+        // Slopes du/dy and radius of the centre, where the gradients along the reference
+        // coordinates are +-1/4.
+        let sign = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+        let sum = |a: usize, d: usize| (0..4).map(|i| 0.25 * sign[i][a] * x[i][d]).sum::<f64>();
+        let j = [[sum(0, 0), sum(0, 1)], [sum(1, 0), sum(1, 1)]];
+        let det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
+        let center = x.iter().map(|x| x[0]).sum::<f64>() / 4.0;
+        for ((_, b), (reference, _)) in out.iter_mut().zip(rule(shape)) {
+            let values = shape_functions(shape, *reference).0;
+            let r = (0..4).map(|i| values[i] * x[i][0]).sum::<f64>();
+            let factor = (r / center).sqrt();
+            for i in 0..4 {
+                let slope = 0.25 * (j[0][0] * sign[i][1] - j[1][0] * sign[i][0]) / det;
+                b[3][2 * i] = factor * slope;
+                b[3][2 * i + 1] *= factor;
+            }
+        }
+    }
     if shape == Shape::Quad4 && kind != Kind::PlaneStress {
         let volume: f64 = out.iter().map(|(w, _)| w).sum();
         for k in 0..2 * n {
@@ -164,6 +183,75 @@ fn strains_forces_and_stiffness_are_those_of_the_textbooks_b() {
                     let difference = packed_stiffness[packed(r, s)] - stiffness[r][s];
                     assert!(difference.abs() < 1e-12, "{shape:?} {kind:?} {difference}");
                 }
+            }
+        }
+    }
+}
+
+/// Rectangles of unlike sizes on the axis and beside it, their nodes moved as `u_r = a r z`,
+/// `u_z = b r^2 + c z^2` with `c` such that the stresses are in equilibrium: no node inside has a
+/// force left, nor one on the axis. With the shear of the bilinear field the nodes on the axis have
+/// one.
+#[test]
+fn what_is_regular_at_the_axis_is_in_equilibrium_node_by_node() {
+    let (r, z) = ([0.0, 0.7, 1.1, 2.0], [-0.3, 0.2, 1.0]);
+    let d = steel(Kind::Axisymmetric);
+    let (lambda, shear) = (d[0][1], d[3][3]);
+    for (a, b) in [(0.4, 0.3), (-0.4, 0.2), (0.0, 1.0)] {
+        // d(s_zz)/dz + d(r s_rz)/dr/r = 0.
+        let along_z = 2.0 * lambda * a + 2.0 * shear * (a + 2.0 * b);
+        let c = -along_z / (2.0 * lambda + 4.0 * shear);
+        let mut forces = [[[0.0f64; 2]; 3]; 4];
+        let mut largest = 0.0f64;
+        for i in 0..3 {
+            for j in 0..2 {
+                let corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
+                let x = corners.map(|[i, j]| [r[i], z[j]]);
+                let u = x.map(|[r, z]| [a * r * z, b * r * r + c * z * z]);
+                let points = gauss_points(Kind::Axisymmetric, Shape::Quad4, &x);
+                let strains = points.strains(&full(u.as_flattened()));
+                let stress = strains.map(|e| crate::material::stress(&d, &e, &[0.0; 4]));
+                let force = points.forces(&stress);
+                for (k, [i, j]) in corners.into_iter().enumerate() {
+                    for axis in 0..2 {
+                        forces[i][j][axis] += force[2 * k + axis];
+                        largest = largest.max(force[2 * k + axis].abs());
+                    }
+                }
+            }
+        }
+        // Sums of some dozen terms of the size of the largest force of an element.
+        for (i, column) in forces[..3].iter().enumerate() {
+            for axis in 0..2 {
+                let is_held = i == 0 && axis == 0;
+                let left = column[1][axis];
+                assert!(
+                    is_held || left.abs() <= 1e-14 * largest,
+                    "{i} {axis}: {left} of {largest}"
+                );
+            }
+        }
+    }
+}
+
+/// On the axis and off it, pulled out of shape: constant strains are exact, and a section that
+/// turns has the strain of its hoops, less in the mean dilatation, but no shear.
+#[test]
+fn constant_strains_are_exact_and_a_turning_section_has_no_shear() {
+    let on_axis = vec![[0.0, 0.2], [1.1, 0.0], [1.4, 1.3], [0.0, 1.0]];
+    for x in [coordinates(Shape::Quad4), on_axis] {
+        let moved =
+            |u: fn([f64; 2]) -> [f64; 2]| -> Vec<f64> { x.iter().flat_map(|x| u(*x)).collect() };
+        let stretched = full(&moved(|[r, z]| [0.3 * r, -0.2 * z]));
+        let turned = full(&moved(|[r, z]| [-0.4 * z, 0.4 * r]));
+        for points in [gauss_points, sampling].map(|f| f(Kind::Axisymmetric, Shape::Quad4, &x)) {
+            for e in &points.strains(&stretched)[..points.len()] {
+                for (value, exact) in e.iter().zip([0.3, -0.2, 0.3, 0.0]) {
+                    assert!((value - exact).abs() < 1e-14, "{x:?} {e:?}");
+                }
+            }
+            for e in &points.strains(&turned)[..points.len()] {
+                assert!(e[3].abs() < 1e-14, "{x:?} {e:?}");
             }
         }
     }
