@@ -12,8 +12,9 @@ const COARSER: [f64; 4] = [1.5, 2.0, 3.0, 4.0];
 const FINER: [f64; 4] = [1.0 / 1.5, 0.5, 1.0 / 3.0, 0.25];
 /// Least ratio of two element sizes: nearer meshes differ by how counts are rounded.
 const LEAST_RATIO: f64 = 1.15;
-/// Closed pairs that a side of a contact needs for its edge to be read ([`crate::results::State::half_width_reading`]).
-const READABLE: usize = 3;
+/// Closed pairs on a side of a contact over which its edge is read: the last two, and four before them from which the pressure
+/// near it is fitted ([`crate::results::EdgeReading`]).
+const READABLE: usize = 6;
 /// Elements up to which a run is compared with meshes of sixteen times as many, where coarser ones do not tell; beyond, four times.
 const SMALL: usize = 1000;
 

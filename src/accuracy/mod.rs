@@ -7,7 +7,7 @@
 //! | `extrapolation` | the uncertainty of a value from those on other meshes |
 //! | `path` | the error of increments and tolerances |
 //! | `runs`, `estimate` | runs, each made once; discretisation, path and algebraic error of every quantity |
-//! | `demand` | finer and finer meshes until a demanded accuracy is reached |
+//! | `demand`, `outcome` | finer and finer meshes until a demanded accuracy is reached; what a mesh says of it |
 //! | `knobs`, `meter`, `record`, `study`, `verdict` | a study: what to turn, what it takes, the runs, what they say |
 //!
 //! The stated error is the sum of three:
@@ -32,6 +32,7 @@ mod estimate;
 mod extrapolation;
 mod knobs;
 mod meter;
+mod outcome;
 mod path;
 mod quantities;
 mod record;

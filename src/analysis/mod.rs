@@ -24,6 +24,7 @@ mod between;
 mod check;
 mod collapse;
 mod contact_edge;
+mod contact_patch;
 mod dent;
 mod drive;
 mod elastic;

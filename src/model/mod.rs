@@ -9,6 +9,7 @@ mod ends;
 mod far_boundary;
 mod freedoms;
 mod given;
+mod gram;
 mod held;
 mod loads;
 mod motions;

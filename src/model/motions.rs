@@ -1,9 +1,10 @@
 //! Rigid motions of the bodies, and which of them supports and pairs leave free.
 
+use super::gram::{Gram, root};
 use super::{Freedoms, LoadCase, Pair, Slot};
 use crate::mesh::Mesh;
 use crate::scene::Kind;
-use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use nalgebra::DVector;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Singular values below this, relative to the largest, are free motions.
@@ -382,121 +383,6 @@ fn tidy(coordinate: f64, size: f64) -> f64 {
     }
 }
 
-/// A symmetric matrix by rows, its nonzeros only: bodies are coupled to few others.
-struct Gram {
-    rows: Vec<BTreeMap<usize, f64>>,
-}
-
-impl Gram {
-    fn new(n: usize) -> Self {
-        Gram {
-            rows: vec![BTreeMap::new(); n],
-        }
-    }
-
-    /// Adds `row row'`.
-    fn add(&mut self, row: &[(usize, f64)]) {
-        for &(i, a) in row {
-            for &(j, b) in row {
-                *self.rows[i].entry(j).or_insert(0.0) += a * b;
-            }
-        }
-    }
-
-    fn get(&self, i: usize, j: usize) -> f64 {
-        self.rows[i].get(&j).copied().unwrap_or(0.0)
-    }
-
-    fn largest_diagonal(&self) -> f64 {
-        (0..self.rows.len()).fold(0.0, |m, i| m.max(self.get(i, i)))
-    }
-
-    /// The rows of groups (of `per` rows each) that nothing couples with others, ascending. Within a block groups with few
-    /// neighbours come first, which keeps the envelope of its factor small.
-    fn uncoupled(&self, per: usize) -> Vec<Vec<usize>> {
-        let n = self.rows.len() / per;
-        let mut parent: Vec<usize> = (0..n).collect();
-        let mut neighbours = vec![0; n];
-        for (i, row) in self.rows.iter().enumerate() {
-            for &j in row.keys() {
-                let (a, b) = (root(&mut parent, i / per), root(&mut parent, j / per));
-                parent[a.max(b)] = a.min(b);
-            }
-            neighbours[i / per] += row.len();
-        }
-        let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        for group in 0..n {
-            groups
-                .entry(root(&mut parent, group))
-                .or_default()
-                .push(group);
-        }
-        let blocks = groups.into_values().map(|mut block| {
-            block.sort_by_key(|&group| neighbours[group]);
-            let rows = |group: usize| (0..per).map(move |m| per * group + m);
-            block.into_iter().flat_map(rows).collect()
-        });
-        blocks.collect()
-    }
-
-    /// Whether a block less `shift` times the identity has a Cholesky factor, which is kept from the first nonzero of each row on.
-    fn is_definite(&self, block: &[usize], shift: f64) -> bool {
-        let mut place = BTreeMap::new();
-        place.extend(block.iter().enumerate().map(|(k, &row)| (row, k)));
-        let mut factor: Vec<(usize, Vec<f64>)> = Vec::with_capacity(block.len());
-        for (k, &row) in block.iter().enumerate() {
-            let mut entries: Vec<(usize, f64)> = self.rows[row]
-                .iter()
-                .map(|(j, &value)| (place[j], value))
-                .filter(|&(j, _)| j <= k)
-                .collect();
-            entries.push((k, -shift));
-            let first = entries.iter().map(|e| e.0).min().unwrap_or(k);
-            let mut values = vec![0.0; k - first + 1];
-            for (j, value) in entries {
-                values[j - first] += value;
-            }
-            for j in first..k {
-                let (start, left) = &factor[j];
-                let from = first.max(*start);
-                let dot: f64 = (values[from - first..j - first].iter())
-                    .zip(&left[from - start..j - start])
-                    .map(|(a, b)| a * b)
-                    .sum();
-                values[j - first] = (values[j - first] - dot) / left[j - start];
-            }
-            let pivot =
-                values[k - first] - (values[..k - first].iter()).map(|v| v * v).sum::<f64>();
-            if pivot.is_nan() || pivot <= 0.0 {
-                return false;
-            }
-            values[k - first] = pivot.sqrt();
-            factor.push((first, values));
-        }
-        true
-    }
-
-    /// Rows of a block, ascending, and on them its eigenvectors with eigenvalues below `limit`.
-    fn null_vectors(&self, block: &[usize], limit: f64) -> (Vec<usize>, Vec<DVector<f64>>) {
-        let n = block.len();
-        let mut place = BTreeMap::new();
-        place.extend(block.iter().enumerate().map(|(k, &row)| (row, k)));
-        let mut matrix = DMatrix::zeros(n, n);
-        for (k, &row) in block.iter().enumerate() {
-            for (j, &value) in &self.rows[row] {
-                matrix[(k, place[j])] = value;
-            }
-        }
-        let eigen = SymmetricEigen::new(matrix);
-        let found = (0..n).filter(|&k| eigen.eigenvalues[k] < limit);
-        let vectors = found.map(|k| {
-            let entries = place.values().map(|&at| eigen.eigenvectors[(at, k)]);
-            DVector::from_iterator(n, entries)
-        });
-        (place.keys().copied().collect(), vectors.collect())
-    }
-}
-
 /// A motion of a basis that can be told in words.
 struct Plain {
     /// The entry that is its own: 0 in all others.
@@ -547,12 +433,4 @@ pub(super) fn owned(freedoms: &Freedoms, n_nodes: usize) -> Vec<Vec<(u32, u8)>> 
         owned[node as usize].push((freedom as u32, local));
     }
     owned
-}
-
-fn root(parent: &mut [usize], mut i: usize) -> usize {
-    while parent[i] != i {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    i
 }

@@ -45,9 +45,9 @@ fn strip_and_resolution_change_it_by_less_than_is_stated() {
             ))
         };
         let all = [
-            of(12, 1.7),
-            of(12, 2.0),
-            of(12, 6.0),
+            of(16, 1.7),
+            of(16, 2.0),
+            of(16, 6.0),
             of(8, 2.0),
             of(20, 2.0),
         ];

@@ -40,6 +40,7 @@ pub struct Way {
 }
 
 /// Runs a scene; see `brinell.run`, which calls this.
+#[allow(clippy::too_many_arguments)] // those of the Python function
 #[pyfunction]
 #[pyo3(signature = (scene, is_path, overrides, solver, callback, estimate, threads, budget))]
 pub fn run(

@@ -1,0 +1,181 @@
+//! What the errors of a mesh say of a demand.
+
+use super::extrapolation::LEAST_ORDER;
+use super::quantities::{formal_order, is_demanded_with_all, quantities};
+use super::words::percent;
+use crate::results::{Accuracy, QuantityError, Results};
+use crate::scene::AccuracyDemand;
+
+/// The next mesh is aimed at this share of the demand, so that it is not missed by a little.
+const AIM: f64 = 0.8;
+/// Share of the demand from which on the path is made finer where it limits more than the mesh, and to which.
+pub(super) const PATH: [f64; 2] = [0.5, 0.25];
+
+/// A quantity beyond its demand.
+pub(super) struct Missed {
+    pub path: String,
+    pub relative: f64,
+    pub order: Option<f64>,
+}
+
+/// What the errors of a mesh say of the demand.
+#[derive(Default)]
+pub(super) struct Outcome {
+    /// Relative error of the quantity that is farthest beyond its demand, or nearest to it; NaN where none is known.
+    pub stated: f64,
+    pub worst: Option<String>,
+    /// Quantities whose error is not known.
+    pub unknown: Vec<String>,
+    /// Quantities beyond their demand.
+    pub missed: Vec<Missed>,
+    /// Largest share of the demand of the meshes, of the path and of the algebra.
+    pub mesh: f64,
+    pub path: f64,
+    pub algebra: f64,
+    /// How many times finer the mesh has to be.
+    pub finer: f64,
+    pub is_of_nothing: bool,
+}
+
+impl Outcome {
+    pub(super) fn of(demand: &AccuracyDemand, results: &Results, found: &Accuracy) -> Self {
+        let mut out = Outcome {
+            stated: f64::NAN,
+            finer: 1.0,
+            is_of_nothing: true,
+            ..Outcome::default()
+        };
+        let mut excess = 0.0;
+        for (quantity, errors) in quantities(results).iter().zip(&found.quantities) {
+            let all = demand
+                .all()
+                .filter(|_| is_demanded_with_all(quantity.key()));
+            let Some(wanted) = demand.named(&quantity.path).or(all) else {
+                continue;
+            };
+            out.is_of_nothing = false;
+            let is_zero = quantity.scale == 0.0 && errors.error == Some(0.0);
+            let Some(relative) = errors.relative_error.or(is_zero.then_some(0.0)) else {
+                out.unknown.push(quantity.path.clone());
+                continue;
+            };
+            if out.worst.is_none() || relative / wanted > excess {
+                excess = relative / wanted;
+                out.stated = relative;
+                out.worst = Some(quantity.path.clone());
+            }
+            if quantity.scale > 0.0 {
+                let formal = formal_order(quantity.key(), results.sizes.degree);
+                out.add(errors, [relative, wanted, quantity.scale], formal);
+            }
+        }
+        out
+    }
+
+    fn add(&mut self, errors: &QuantityError, of: [f64; 3], formal: f64) {
+        let [relative, wanted, scale] = of;
+        let share = |error: f64| error / scale / wanted;
+        let [mesh, path, algebra] = [
+            errors.discretisation.unwrap_or(0.0),
+            errors.path.unwrap_or(0.0),
+            errors.algebraic,
+        ]
+        .map(share);
+        self.mesh = self.mesh.max(mesh);
+        self.path = self.path.max(path);
+        self.algebra = self.algebra.max(algebra);
+        if relative <= wanted {
+            return;
+        }
+        self.missed.push(Missed {
+            path: errors.quantity.clone(),
+            relative,
+            order: errors.order,
+        });
+        // An order above the formal one is that of coarse meshes; one below what is believed says nothing.
+        let order = errors.order.filter(|order| *order >= LEAST_ORDER);
+        let order = order.map(|order| order.min(formal));
+        let left = (1.0 - path - algebra).max(1.0 - PATH[0]);
+        let finer = (mesh / (AIM * left)).powf(1.0 / order.unwrap_or(1.0));
+        self.finer = self.finer.max(finer);
+    }
+
+    pub(super) fn is_within(&self) -> bool {
+        self.unknown.is_empty() && self.missed.is_empty()
+    }
+
+    pub(super) fn words(&self) -> String {
+        let worst = self.worst.iter().map(|worst| format!(" ({worst})"));
+        let mut out = percent(self.stated);
+        out.extend(worst);
+        if !self.unknown.is_empty() {
+            out += &format!(", none for {}", self.unknown.join(", "));
+        }
+        out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::results::State;
+
+    /// A run with one state of load 10, and the parts of the error of its load.
+    fn judged(demand: &str, parts: [f64; 3], order: f64) -> Outcome {
+        let state = State {
+            name: "pressed".into(),
+            load: 10.0,
+            ..State::default()
+        };
+        let results = Results {
+            states: vec![state],
+            ..Results::default()
+        };
+        let row = |quantity: &str, value: f64| QuantityError {
+            quantity: quantity.to_string(),
+            value,
+            error: Some(parts.iter().sum()),
+            relative_error: (value > 0.0).then(|| parts.iter().sum::<f64>() / value),
+            discretisation: Some(parts[0]),
+            path: Some(parts[1]),
+            algebraic: parts[2],
+            order: Some(order),
+            extrapolated: (order > 0.5).then_some(value),
+        };
+        let found = Accuracy {
+            quantities: vec![
+                row("states.pressed.load", 10.0),
+                row("states.pressed.approach", 0.0),
+            ],
+            ..Accuracy::default()
+        };
+        let demand = AccuracyDemand::try_from(demand.to_string()).unwrap();
+        Outcome::of(&demand, &results, &found)
+    }
+
+    #[test]
+    fn a_demand_is_judged_by_what_it_names() {
+        let near = judged("load = 1 %", [0.09, 0.0, 0.0], 2.0);
+        assert!(near.is_within() && (near.stated - 0.009).abs() < 1e-12);
+        assert_eq!(near.worst.as_deref(), Some("states.pressed.load"));
+        // The approach is zero with an error that is not: of unknown size, so that a demand on all is not kept.
+        let all = judged("1 %", [0.09, 0.0, 0.0], 2.0);
+        assert!(!all.is_within());
+        assert_eq!(all.unknown, ["states.pressed.approach"]);
+        assert!(judged("dent = 1 %", [0.0; 3], 2.0).is_of_nothing);
+    }
+
+    #[test]
+    fn the_next_mesh_follows_from_the_order() {
+        // Four times beyond the demand, with second order: twice as fine, and a little for the aim.
+        let second = judged("load = 1 %", [0.4, 0.0, 0.0], 2.0);
+        assert!((second.finer - (4.0f64 / AIM).sqrt()).abs() < 1e-12);
+        let unbelieved = judged("load = 1 %", [0.4, 0.0, 0.0], 0.3);
+        assert!((unbelieved.finer - 4.0 / AIM).abs() < 1e-12);
+        let slow = judged("load = 1 %", [0.4, 0.0, 0.0], -0.2);
+        assert_eq!(slow.missed[0].path, "states.pressed.load");
+        assert_eq!(slow.missed[0].order, Some(-0.2));
+        let path = judged("load = 1 %", [0.02, 0.09, 0.0], 2.0);
+        assert!((path.path - 0.9).abs() < 1e-12 && path.mesh < 0.3 && !path.is_within());
+    }
+}
