@@ -46,6 +46,8 @@ pub struct Increment {
 /// Why no increment was found.
 #[derive(Debug)]
 pub enum NoIncrement {
+    /// The statuses at the end of a fixed increment come back to what they were: no set of them is right to round-off.
+    Undecided,
     /// These pairs violate their condition at once: their statuses are wrong.
     WrongStatus(Vec<usize>),
     /// The iteration did not converge.

@@ -5,6 +5,7 @@ use super::engine::{Engine, LoadPoint};
 use super::increment::{EndsAt, Increment, NoIncrement};
 use crate::error::{Error, Result};
 use crate::scene::Stepping;
+use std::collections::HashSet;
 
 /// Cut factor after an increment that did not converge.
 const CUT: f64 = 0.25;
@@ -28,8 +29,10 @@ impl Engine<'_> {
         let mut corrections = 0;
         let mut crossings = 0;
         let mut seen: Vec<Vec<bool>> = Vec::new();
+        // A fixed increment at whose end no statuses are right is followed from change to change.
+        let mut stepping = stepper.stepping;
         loop {
-            let outcome = match stepper.stepping {
+            let outcome = match stepping {
                 Stepping::Events if corrections < MOST_CORRECTIONS => self.increment(
                     end,
                     most,
@@ -68,6 +71,10 @@ impl Engine<'_> {
                     }
                 }
                 Err(NoIncrement::Stopped) => return Err(stopped()),
+                Err(NoIncrement::Undecided) if stepping == Stepping::Steps => {
+                    stepping = Stepping::Events;
+                }
+                Err(NoIncrement::Undecided) => return Err(self.not_settled(end, most)),
                 Err(NoIncrement::NotConverged(attempt)) => {
                     // Written so that a way of no length, of which nothing is a share, ends here too.
                     let worth_cutting = CUT * most >= smallest;
@@ -106,6 +113,7 @@ impl Engine<'_> {
         let goal = self.at.towards(end, most);
         let mut fewest = usize::MAX;
         let mut patience = 6;
+        let mut seen: HashSet<Vec<bool>> = HashSet::new();
         for _ in 0..10 * (self.now.gap.len() + 10) {
             let increment = match self.increment(
                 &goal,
@@ -143,16 +151,23 @@ impl Engine<'_> {
                 patience -= i32::from(patience > 0);
             }
             let take = if patience > 0 { wrong.len() } else { 1 };
+            if take == 1 && !seen.insert(self.tableau.open().to_vec()) {
+                break;
+            }
             for &k in wrong.iter().take(take) {
                 if self.tableau.flip(k) {
                     self.counts.contact_changes += 1;
                 }
             }
         }
-        Err(Error::analysis(format!(
+        Ok(Err(NoIncrement::Undecided))
+    }
+
+    fn not_settled(&self, end: &LoadPoint, most: f64) -> Error {
+        Error::analysis(format!(
             "contact did not settle in the increment from load factor {:.6} to {:.6}: the statuses repeat",
             self.at.alpha,
             self.at.towards(end, most).alpha
-        )))
+        ))
     }
 }

@@ -48,7 +48,7 @@ fn strip_and_resolution_change_it_by_less_than_is_stated() {
             of(16, 1.7),
             of(16, 2.0),
             of(16, 6.0),
-            of(8, 2.0),
+            of(24, 2.0),
             of(20, 2.0),
         ];
         for a in all {
