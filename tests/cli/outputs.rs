@@ -385,6 +385,7 @@ fn a_leftover_checkpoint_goes_with_the_next_run_that_ends() {
 
 /// The time that `check` predicts grows with the mesh: more than the elements, less than the cube of those along a line.
 #[test]
+#[cfg_attr(not(feature = "cholmod"), ignore = "needs the build with CHOLMOD")]
 fn the_predicted_time_of_a_run_grows_with_its_mesh() {
     let predicted = |resolution: usize| {
         let scene = scene("cylinder_on_half_plane");
