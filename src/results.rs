@@ -140,7 +140,8 @@ pub struct YieldPoint {
 /// How well the half width of the largest contact patch is read off the pressures.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct EdgeReading {
-    /// How far another reading of the same pressures puts it off; half a spacing where there is none.
+    /// How far another reading of the same pressures puts it off; half a spacing where there is
+    /// none.
     pub error: f64,
     /// Closed pairs on one side of the middle.
     pub pairs: usize,
@@ -192,9 +193,10 @@ pub struct State {
     /// Estimated energy norm of the stress error over that of the stress (Zienkiewicz-Zhu); known
     /// where fields are.
     pub energy_error: Option<f64>,
-    /// Relative approach of the bodies: the work of the loads that vary with the load factor on the displacements, over
-    /// the largest force that they exert on one body. Of a single load that is the mean displacement of its surface along it.
-    /// Prescribed displacements, where there are any, count instead of forces: their mean on each body, added up.
+    /// Relative approach of the bodies: the work of the loads that vary with the load factor on the
+    /// displacements, over the largest force that they exert on one body. Of a single load that is
+    /// the mean displacement of its surface along it. Prescribed displacements, where there are
+    /// any, count instead of forces: their mean on each body, added up.
     pub approach: f64,
     /// Each contact pair.
     pub pairs: Vec<PairState>,
@@ -213,7 +215,8 @@ pub struct PairState {
     pub contact: usize,
     /// Position (on the second surface, undeformed).
     pub position: [f64; 2],
-    /// Gap, >= 0; on the axis of revolution, where quadratic elements have no pair, negative where the surfaces overlap.
+    /// Gap, >= 0; on the axis of revolution, where quadratic elements have no pair, negative where
+    /// the surfaces overlap.
     pub gap: f64,
     /// Force, compressive positive.
     pub force: f64,
@@ -281,9 +284,11 @@ pub struct Quality {
     /// none in results of versions that did not have it. It has no tolerance of its own: what it
     /// shows beside the normwise one are freedoms on which next to nothing acts.
     pub componentwise_error: Option<f64>,
-    /// What round-off alone may leave out of balance, over the largest applied or contact force: `2 eps |K| |u|`, the largest of a row, with
+    /// What round-off alone may leave out of balance, over the largest applied or contact force: `2
+    /// eps |K| |u|`, the largest of a row, with
     /// `u` free of rigid motions: storing `u` and summing up the forces of its elements costs as much, whatever solved for it. Forces that
-    /// are out of balance by no more are as good as the mesh allows. Where plastic strains stay, `u` counts as the largest of the run. None in results of versions that did not have it.
+    /// are out of balance by no more are as good as the mesh allows. Where plastic strains stay,
+    /// `u` counts as the largest of the run. None in results of versions that did not have it.
     pub round_off: Option<f64>,
     /// Out-of-balance force of the stresses over the largest applied or contact force.
     pub equilibrium: f64,
@@ -324,7 +329,8 @@ impl Quality {
         }
     }
 
-    /// The largest figure of forces that is beyond its tolerance and passes because round-off alone may leave as much.
+    /// The largest figure of forces that is beyond its tolerance and passes because round-off alone
+    /// may leave as much.
     pub fn excused(&self, tolerances: &Tolerances) -> Option<f64> {
         let round_off = self.round_off.unwrap_or(0.0).min(tolerances.loosest);
         [
@@ -338,8 +344,8 @@ impl Quality {
         .reduce(f64::max)
     }
 
-    /// The figures that miss their tolerance (or are not numbers), each with its name, value and tolerance. Those of forces may be as large
-    /// as the round-off of the mesh.
+    /// The figures that miss their tolerance (or are not numbers), each with its name, value and
+    /// tolerance. Those of forces may be as large as the round-off of the mesh.
     pub fn misses(&self, tolerances: &Tolerances) -> Vec<(&'static str, f64, f64)> {
         let round_off = self.round_off.unwrap_or(0.0).min(tolerances.loosest);
         let forces = tolerances.contact.max(round_off);
@@ -417,11 +423,12 @@ pub struct Demand {
     /// Why it was not reached.
     #[serde(default)]
     pub reason: Option<String>,
-    /// Quantities that are asked for and whose error was never estimated: nothing can be said of them, so that the demand is not
-    /// reached.
+    /// Quantities that are asked for and whose error was never estimated: nothing can be said of
+    /// them, so that the demand is not reached.
     #[serde(default)]
     pub unknown: Vec<String>,
-    /// The stated relative error of the quantity that is farthest beyond its demand, or nearest to it.
+    /// The stated relative error of the quantity that is farthest beyond its demand, or nearest to
+    /// it.
     #[serde(deserialize_with = "null_is_not_a_number")]
     pub stated: f64,
     /// That quantity.
@@ -439,8 +446,9 @@ pub struct Demand {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EstimateMethod {
-    /// The same scene on other meshes of the same family, coarser ones where the run is fine enough: the error follows from how the
-    /// values change (L. Eca, M. Hoekstra 2014, doi:10.1016/j.jcp.2014.01.006).
+    /// The same scene on other meshes of the same family, coarser ones where the run is fine
+    /// enough: the error follows from how the values change (L. Eca, M. Hoekstra 2014,
+    /// doi:10.1016/j.jcp.2014.01.006).
     CoarserMeshes,
     /// The energy norm of the recovered stress error: a rough figure, for large meshes from files.
     EnergyNorm,
@@ -474,7 +482,8 @@ pub struct QuantityError {
     pub error: Option<f64>,
     /// The stated error over the largest size that the quantity has in the run.
     pub relative_error: Option<f64>,
-    /// Estimated discretisation error, factor of safety included; of half widths with that of reading them off the pressures.
+    /// Estimated discretisation error, factor of safety included; of half widths with that of
+    /// reading them off the pressures.
     pub discretisation: Option<f64>,
     /// Estimated error of the path: increments, plastic iteration and event tolerance.
     pub path: Option<f64>,
@@ -484,7 +493,8 @@ pub struct QuantityError {
     pub algebraic: f64,
     /// Order of convergence in the element size that three meshes or more show, believed or not.
     pub order: Option<f64>,
-    /// The value that the meshes extrapolate to, where they show an order of convergence that is believed.
+    /// The value that the meshes extrapolate to, where they show an order of convergence that is
+    /// believed.
     #[serde(default)]
     pub extrapolated: Option<f64>,
 }

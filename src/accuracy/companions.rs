@@ -5,17 +5,19 @@ use crate::model::Model;
 use crate::results::{Results, State};
 use crate::scene::Scene;
 
-/// Element sizes of coarser meshes, over that of the run, most wanted first: near enough to lie in the same range of
-/// convergence, and together dearer than half the run nowhere.
+/// Element sizes of coarser meshes, over that of the run, most wanted first. The first two are near
+/// enough to lie in the same range of convergence, and have 0.7 times the elements of the run
+/// together.
 const COARSER: [f64; 4] = [1.5, 2.0, 3.0, 4.0];
 /// Those of finer ones, for a run that is too coarse to have coarser ones.
 const FINER: [f64; 4] = [1.0 / 1.5, 0.5, 1.0 / 3.0, 0.25];
 /// Least ratio of two element sizes: nearer meshes differ by how counts are rounded.
 const LEAST_RATIO: f64 = 1.15;
-/// Closed pairs on a side of a contact over which its edge is read: the last two, and four before them from which the pressure
-/// near it is fitted ([`crate::results::EdgeReading`]).
+/// Closed pairs on a side of a contact over which its edge is read: the last two, and four before
+/// them from which the pressure near it is fitted ([`crate::results::EdgeReading`]).
 const READABLE: usize = 6;
-/// Elements up to which a run is compared with meshes of sixteen times as many, where coarser ones do not tell; beyond, four times.
+/// Elements up to which a run is compared with meshes of sixteen times as many, where coarser ones
+/// do not tell; beyond, four times.
 const SMALL: usize = 1000;
 
 /// A scene with another mesh of its family.
@@ -40,8 +42,9 @@ pub fn member(scene: &Scene, ratio: f64) -> Result<Level, String> {
     Ok(Level { scene, ratio })
 }
 
-/// The two meshes from which the error of a run is extrapolated, finer one first; fewer where the family has not that many. Coarser
-/// ones, where every contact of the run is resolved so well that its edges can still be read on them, else finer ones.
+/// The two meshes from which the error of a run is extrapolated, finer one first; fewer where the
+/// family has not that many. Coarser ones, where every contact of the run is resolved so well that
+/// its edges can still be read on them, else finer ones.
 pub fn companions(scene: &Scene, results: &Results) -> Vec<Level> {
     let pairs = fewest_pairs(results);
     let can_be_read = |ratio: f64| pairs.is_none_or(|n| n as f64 >= ratio * READABLE as f64);
@@ -70,7 +73,8 @@ pub fn companions(scene: &Scene, results: &Results) -> Vec<Level> {
     levels
 }
 
-/// The fewest closed pairs on one side of a contact: at first yield and in the state that carries most. `None` without contact.
+/// The fewest closed pairs on one side of a contact: at first yield and in the state that carries
+/// most. `None` without contact.
 fn fewest_pairs(results: &Results) -> Option<usize> {
     let first = results.first_yield.map(|y| y.half_width_reading.pairs);
     let strongest = |a: &&State, b: &&State| a.contact_force.total_cmp(&b.contact_force);

@@ -1,10 +1,12 @@
 //! `accuracy = "1 %"`: the scene on finer and finer meshes of its family until the stated errors are within the demand.
 //!
-//! The sequence begins with elements [`COARSEST`] times as large as the scene's. Each mesh is judged by those before it, the last
-//! [`MESHES`] of them, as any run is judged by its companions ([`super::estimate()`]): they cost nothing again. The order that
-//! the meshes show says how much finer the next has to be. It ends with the first mesh on which every quantity that is asked for is
-//! within its demand, by meshes that span element sizes of [`SPAN`], or with the reason why not: a quantity that has no limit under
-//! refinement, memory, time, a run that failed. What is reported are the values of the last mesh that was run to its end.
+//! The sequence begins with elements [`COARSEST`] times as large as the scene's. Each mesh is
+//! judged by those before it, the last [`MESHES`] of them, as any run is judged by its companions
+//! ([`super::estimate()`]): they cost nothing again. The order that the meshes show says how much
+//! finer the next has to be. It ends with the first mesh on which every quantity that is asked for
+//! is within its demand, by meshes that span element sizes of [`SPAN`], or with the reason why not:
+//! a quantity that has no limit under refinement, memory, time, a run that failed. What is reported
+//! are the values of the last mesh that was run to its end.
 
 use super::companions::{Level, member};
 use super::estimate::{Judged, judge};
@@ -26,22 +28,25 @@ use crate::scene::{AccuracyDemand, Scene};
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-/// Element size of the first mesh over that of the scene's: a sixteenth of the elements, next to no time.
+/// Element size of the first mesh over that of the scene's: a sixteenth of the elements, next to no
+/// time.
 const COARSEST: f64 = 4.0;
-/// Ratio of the element sizes of neighbouring meshes, at least and at most, and where nothing is known.
+/// Ratio of the element sizes of neighbouring meshes, at least and at most, and where nothing is
+/// known.
 const STEPS: [f64; 2] = [1.25, 2.0];
 const STEP: f64 = 1.5;
 /// Meshes by which the last is judged, itself included (Eca and Hoekstra: at least four).
 const MESHES: usize = 4;
-/// Ratio of the element sizes that they span at least before a demand counts as reached: near meshes agree by chance. Four in
-/// steps of [`STEP`] span 3.4 but for the rounding of counts; three of a file, each cut in halves, 4.
+/// Ratio of the element sizes that they span at least before a demand counts as reached: near
+/// meshes agree by chance. Four in steps of [`STEP`] span 3.4 but for the rounding of counts; three
+/// of a file, each cut in halves, 4.
 const SPAN: f64 = 2.5;
 /// How often that is done: what more increments do not mend is not theirs.
 const MORE_STEPS: usize = 3;
 /// Meshes in a row on which a quantity comes hardly nearer until it counts as without a limit.
 const WITHOUT_LIMIT: usize = 2;
-/// Power of the number of elements with which the time of a factorisation grows in the plane (A. George, Nested dissection of a
-/// regular finite element mesh, SIAM J. Numer. Anal. 10 (1973) 345-363, doi:10.1137/0710032).
+/// Power of the number of elements with which the time of a factorisation grows in the plane (A.
+/// George, Nested dissection of a regular finite element mesh, SIAM J. Numer. Anal. 10 (1973) 345-363, doi:10.1137/0710032).
 const FACTORISATION: f64 = 1.5;
 
 /// A run that was made to a demand.
@@ -58,7 +63,8 @@ pub struct Reached {
 ///
 /// # Errors
 /// `Input` where the scene demands none, where its mesh cannot be refined or where it has no quantity that is named; those of the runs
-/// where no mesh can be run to its end. A demand that was not reached is no error: [`Demand::reason`] says why.
+/// where no mesh can be run to its end. A demand that was not reached is no error:
+/// [`Demand::reason`] says why.
 pub fn reach(
     scene: &Scene,
     backend: Backend,
@@ -99,7 +105,8 @@ struct Pursuit {
     /// Element sizes of the meshes so far over those of the scene, and the seconds they took.
     sequence: Vec<(f64, f64)>,
     choices: Vec<String>,
-    /// Of quantities beyond their demand: how often in a row they came hardly nearer, the last error, and its mesh.
+    /// Of quantities beyond their demand: how often in a row they came hardly nearer, the last
+    /// error, and its mesh.
     slow: BTreeMap<String, (usize, f64, f64)>,
     more_steps: usize,
     work: f64,
@@ -301,8 +308,8 @@ impl Pursuit {
         Next::Finer(by.clamp(STEPS[0], STEPS[1]))
     }
 
-    /// A quantity that showed no order that is believed, and whose stated error fell more slowly than with the lowest such, on
-    /// [`WITHOUT_LIMIT`] meshes one after the other.
+    /// A quantity that showed no order that is believed, and whose stated error fell more slowly
+    /// than with the lowest such, on [`WITHOUT_LIMIT`] meshes one after the other.
     fn without_limit(&mut self, outcome: &Outcome, ratio: f64, is_judged: bool) -> Option<String> {
         let mut slow = BTreeMap::new();
         for missed in &outcome.missed {

@@ -21,8 +21,9 @@ pub(super) struct Judged<'r> {
     pub extent: Extent,
 }
 
-/// Estimates the errors of `results`, those of a run of `scene` to `extent`. What could not be estimated is said in
-/// [`Accuracy::notes`]; another run that fails costs its estimate, never the results. A stop that the observer asks for ends it early.
+/// Estimates the errors of `results`, those of a run of `scene` to `extent`. What could not be
+/// estimated is said in [`Accuracy::notes`]; another run that fails costs its estimate, never the
+/// results. A stop that the observer asks for ends it early.
 pub fn estimate(
     scene: &Scene,
     backend: Backend,
@@ -150,7 +151,8 @@ fn run_others(
     others
 }
 
-/// The errors of the path, from the coarsest of the other runs in which everything yields that does in this one, or itself.
+/// The errors of the path, from the coarsest of the other runs in which everything yields that does
+/// in this one, or itself.
 fn path_errors<'f>(
     run: &Judged,
     others: impl Iterator<Item = &'f Finished>,
@@ -214,8 +216,9 @@ fn of_meshes(
     }
 }
 
-/// The uncertainty by all meshes or, where only the finer three of four show an order that is believed, by these: the coarsest
-/// then lies outside the range in which the law holds (Eca and Hoekstra, section 2, ask for meshes within it).
+/// The uncertainty by all meshes or, where only the finer three of four show an order that is
+/// believed, by these: the coarsest then lies outside the range in which the law holds (Eca and
+/// Hoekstra, section 2, ask for meshes within it).
 fn by_asymptotic(values: &[(f64, f64)], formal: f64) -> Option<Extrapolation> {
     let all = extrapolate(values, formal)?;
     if all.limit.is_some() || values.len() < 4 {
@@ -225,8 +228,8 @@ fn by_asymptotic(values: &[(f64, f64)], formal: f64) -> Option<Extrapolation> {
     Some(if finer.limit.is_some() { finer } else { all })
 }
 
-/// Error of the algebra: that of its state, at least the round-off of a factorisation; at first yield what `gamma` leaves of the
-/// largest stress, too.
+/// Error of the algebra: that of its state, at least the round-off of a factorisation; at first
+/// yield what `gamma` leaves of the largest stress, too.
 fn algebraic_error(run: &Judged, quantity: &Quantity) -> f64 {
     let results = run.results;
     let state = state_of(results, &quantity.path);
@@ -245,8 +248,8 @@ fn state_of<'r>(results: &'r Results, path: &str) -> Option<&'r State> {
     results.states.iter().find(|s| s.name == name)
 }
 
-/// What is to be known of targets by half width: the load at which a mesh reaches them is a result, and its error one of all that is
-/// said of the state and of those after it.
+/// What is to be known of targets by half width: the load at which a mesh reaches them is a result,
+/// and its error one of all that is said of the state and of those after it.
 fn said_by_width(scene: &Scene, quantities: &[QuantityError]) -> Option<String> {
     let labels = scene.program.labels();
     let targets = scene.program.targets.iter().zip(&labels);

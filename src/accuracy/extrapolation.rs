@@ -1,22 +1,25 @@
 //! The uncertainty of a value from those on other meshes: the procedure of Eca and Hoekstra.
 //!
-//! A quantity that converges with order `p` in the element size `h` obeys `q(h) = q0 + a h^p`. The constants come from a
-//! least-squares fit over the meshes, once with equal weights and once with weights `1/h`, whichever leaves less. An order
-//! between [`LEAST_ORDER`] and the formal one of the elements is believed; else the better of the laws of first and of formal
-//! order takes its place. With `s` the standard deviation of the fit and `d` the range of the values over the number of meshes
-//! less one, the uncertainty of the finest value `q` is
+//! A quantity that converges with order `p` in the element size `h` obeys `q(h) = q0 + a h^p`. The
+//! constants come from a least-squares fit over the meshes, once with equal weights and once with
+//! weights `1/h`, whichever leaves less. An order between [`LEAST_ORDER`] and the formal one of the
+//! elements is believed; else the better of the laws of first and of formal order takes its place.
+//! With `s` the standard deviation of the fit and `d` the range of the values over the number of
+//! meshes less one, the uncertainty of the finest value `q` is
 //!
 //! ```text
 //!     F |a| h^p + s + |q - q_fit|              where s < d,
 //!     3 s/d (|a| h^p + s + |q - q_fit|)        else,
 //! ```
 //!
-//! The factor of safety `F` is 1.25 where the order is believed and 3 otherwise; the uncertainty then is no smaller than `d`
-//! either: values that agree by chance have no order. Two meshes, which leave it open, state 3 times the error of the formal one.
+//! The factor of safety `F` is 1.25 where the order is believed and 3 otherwise; the uncertainty
+//! then is no smaller than `d` either: values that agree by chance have no order. Two meshes, which
+//! leave it open, state 3 times the error of the formal one.
 //!
 //! # Source
-//! L. Eca, M. Hoekstra, A procedure for the estimation of the numerical uncertainty of CFD calculations based on grid
-//! refinement studies, J. Comput. Phys. 262 (2014) 104-130, doi:10.1016/j.jcp.2014.01.006. The factors: P. J. Roache,
+//! L. Eca, M. Hoekstra, A procedure for the estimation of the numerical uncertainty of CFD
+//! calculations based on grid refinement studies, J. Comput. Phys. 262 (2014) 104-130,
+//! doi:10.1016/j.jcp.2014.01.006. The factors: P. J. Roache,
 //! *Verification and Validation in Computational Science and Engineering*, Hermosa 1998, chapter 5.
 
 /// Lowest order that is believed (Eca and Hoekstra, section 3).
@@ -27,7 +30,8 @@ const ABOVE_FORMAL: f64 = 0.1;
 const SAFETY: f64 = 1.25;
 /// The same where they do not (Roache).
 const SAFETY_WITHOUT_ORDER: f64 = 3.0;
-/// Orders among which the best is sought, and steps between them: beyond, meshes tell nothing of the order.
+/// Orders among which the best is sought, and steps between them: beyond, meshes tell nothing of
+/// the order.
 const SOUGHT: [f64; 2] = [-2.0, 8.0];
 const STEPS: usize = 200;
 
@@ -36,14 +40,15 @@ const STEPS: usize = 200;
 pub struct Extrapolation {
     /// Stated uncertainty of the first value, factor of safety included.
     pub uncertainty: f64,
-    /// The order of convergence that fits best; `None` with two meshes, and where all values are the same.
+    /// The order of convergence that fits best; `None` with two meshes, and where all values are
+    /// the same.
     pub order: Option<f64>,
     /// The value extrapolated to an element size of zero, where the order is believed.
     pub limit: Option<f64>,
 }
 
-/// The uncertainty of the first of values `(h, q)` with their element sizes, by the formal order of the elements. `None` for fewer
-/// than two values, equal sizes or values that are no numbers.
+/// The uncertainty of the first of values `(h, q)` with their element sizes, by the formal order of
+/// the elements. `None` for fewer than two values, equal sizes or values that are no numbers.
 pub fn extrapolate(values: &[(f64, f64)], formal: f64) -> Option<Extrapolation> {
     let [(h, q), others @ ..] = values else {
         return None;
@@ -127,8 +132,8 @@ struct Fit {
     square: f64,
 }
 
-/// The law that fits best, of these orders and both weightings; between two neighbouring orders by the parabola through
-/// their deviations.
+/// The law that fits best, of these orders and both weightings; between two neighbouring orders by
+/// the parabola through their deviations.
 fn best(values: &[(f64, f64)], orders: &[f64]) -> Fit {
     let total: f64 = values.iter().map(|(h, _)| 1.0 / h).sum();
     let equal = |_: f64| 1.0 / values.len() as f64;
@@ -192,7 +197,8 @@ mod tests {
         sizes.iter().map(|&h| (h, q(h))).collect()
     }
 
-    /// Three meshes determine a power law: its error comes out with the factor of safety of a believed order.
+    /// Three meshes determine a power law: its error comes out with the factor of safety of a
+    /// believed order.
     #[test]
     fn a_power_law_is_found_with_its_order_error_and_limit() {
         for order in [0.7, 1.0, 1.5, 2.0] {
@@ -233,7 +239,8 @@ mod tests {
         assert_eq!(extrapolate(&[(1.0, 3.0), (2.0, f64::NAN)], 2.0), None);
     }
 
-    /// Values that agree on two meshes by chance have at least the range that the third shows, per mesh.
+    /// Values that agree on two meshes by chance have at least the range that the third shows, per
+    /// mesh.
     #[test]
     fn agreement_by_chance_is_no_accuracy() {
         let found = extrapolate(&[(1.0, 7.0), (1.5, 7.0 + 1e-9), (2.0, 7.4)], 2.0).unwrap();
@@ -242,7 +249,8 @@ mod tests {
         assert_eq!((same.uncertainty, same.limit), (0.0, Some(7.0)));
     }
 
-    /// No power law: up and down. The deviation of the best line is in the statement, and more than the range per mesh.
+    /// No power law: up and down. The deviation of the best line is in the statement, and more than
+    /// the range per mesh.
     #[test]
     fn scatter_enters_the_uncertainty() {
         let found = extrapolate(&[(1.0, 0.0), (1.5, 1.0), (2.0, -1.0), (2.5, 1.0)], 2.0).unwrap();

@@ -1,7 +1,8 @@
 //! What a user may turn, and the settings that a study tries.
 //!
-//! A study turns one knob at a time from the scene's own settings, but for the mesh, which is refined with every element shape
-//! and once more with loose tolerances: work and precision both come from the mesh first.
+//! A study turns one knob at a time from the scene's own settings, but for the mesh, which is
+//! refined with every element shape and once more with loose tolerances: work and precision both
+//! come from the mesh first.
 
 use super::companions::{Level, member};
 use crate::error::{Error, Result};
@@ -98,8 +99,8 @@ pub struct Setting {
     pub backend: Backend,
 }
 
-/// The settings of a study: `levels` meshes in a series, the finest twice as fine as the scene's. The other knobs are turned on the
-/// scene's own mesh.
+/// The settings of a study: `levels` meshes in a series, the finest twice as fine as the scene's.
+/// The other knobs are turned on the scene's own mesh.
 pub fn settings(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) -> Vec<Setting> {
     let mut out = of_meshes(scene, backend, knobs, levels);
     // Up to first yield there is no iteration and no path to turn anything in.
@@ -195,7 +196,8 @@ fn series(
     }
 }
 
-/// Element sizes of a series, finest first; of a mesh from a file, which is cut in halves, over the same range.
+/// Element sizes of a series, finest first; of a mesh from a file, which is cut in halves, over the
+/// same range.
 fn ratios(scene: &Scene, levels: usize) -> Vec<f64> {
     let last = levels.max(1) as i32 - 1;
     if scene.mesh.file.is_none() {

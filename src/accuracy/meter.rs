@@ -22,16 +22,18 @@ pub struct Meter {
 pub struct Usage {
     /// Wall time in seconds.
     pub wall_seconds: f64,
-    /// Processor time of all threads of this process in seconds; `None` where the system does not tell.
+    /// Processor time of all threads of this process in seconds; `None` where the system does not
+    /// tell.
     pub cpu_seconds: Option<f64>,
-    /// Most memory resident during the run, that which the process held before included (the allocator returns large blocks
-    /// at once, small ones late); `None` where the system does not let the mark be set back (Linux: `clear_refs`).
+    /// Most memory resident during the run, that which the process held before included (the
+    /// allocator returns large blocks at once, small ones late); `None` where the system does not
+    /// let the mark be set back (Linux: `clear_refs`).
     pub peak_memory_bytes: Option<u64>,
 }
 
 impl Usage {
-    /// What the run takes when nothing disturbs it: wall time, or processor time where that is less, because the machine had
-    /// other things to do.
+    /// What the run takes when nothing disturbs it: wall time, or processor time where that is
+    /// less, because the machine had other things to do.
     pub fn undisturbed_seconds(&self) -> f64 {
         self.cpu_seconds
             .map_or(self.wall_seconds, |cpu| self.wall_seconds.min(cpu))
@@ -72,7 +74,8 @@ fn processor_seconds() -> Option<f64> {
     None
 }
 
-/// Tells what each phase of a run takes, by the phases that the run itself tells, and passes on the wish to stop.
+/// Tells what each phase of a run takes, by the phases that the run itself tells, and passes on the
+/// wish to stop.
 pub(super) struct PhaseMeter<'o> {
     observer: &'o mut dyn Observer,
     phases: Vec<PhaseUsage>,
@@ -147,14 +150,16 @@ impl Observer for PhaseMeter<'_> {
     }
 }
 
-/// Operations of assembly, ordering and analysis per nonzero of the factor: what they take beside those of the factorisation (the
-/// speeds that [`crate::analysis::check`] assumes). In small meshes they are most of the time.
+/// Operations of assembly, ordering and analysis per nonzero of the factor: what they take beside
+/// those of the factorisation (the speeds that [`crate::analysis::check`] assumes). In small meshes
+/// they are most of the time.
 const PER_NONZERO: f64 = 250.0;
-/// Operations of a solve per nonzero of the columns it goes through: back and forth, a multiplication and an addition each.
+/// Operations of a solve per nonzero of the columns it goes through: back and forth, a
+/// multiplication and an addition each.
 const PER_SOLVE: f64 = 4.0;
 
-/// Cost of a run in floating point operations: of its factorisations with what precedes them, and of its solves. It does not depend on
-/// the machine, nor on what else that does.
+/// Cost of a run in floating point operations: of its factorisations with what precedes them, and
+/// of its solves. It does not depend on the machine, nor on what else that does.
 pub fn work(results: &Results) -> f64 {
     let (counts, factor) = (&results.counts, &results.factor);
     counts.factorizations as f64 * (factor.flops + PER_NONZERO * factor.factor_nonzeros)
@@ -174,7 +179,8 @@ fn peak_memory() -> Option<u64> {
 pub struct Forecast {
     /// The factorisation.
     pub factor: Prediction,
-    /// Seconds at a typical speed; what this machine and this scene make of it is learnt from finished runs ([`Pace`]).
+    /// Seconds at a typical speed; what this machine and this scene make of it is learnt from
+    /// finished runs ([`Pace`]).
     pub seconds: f64,
 }
 
@@ -190,8 +196,9 @@ pub fn forecast(scene: &Scene, backend: Backend) -> Result<Forecast> {
     })
 }
 
-/// How long runs take beside their forecasts: `time = a forecast^b`, fitted to the finished ones. The power differs from 1
-/// where increments, which grow in number with the resolution too, cost more than the factorisation.
+/// How long runs take beside their forecasts: `time = a forecast^b`, fitted to the finished ones.
+/// The power differs from 1 where increments, which grow in number with the resolution too, cost
+/// more than the factorisation.
 #[derive(Debug, Clone, Default)]
 pub struct Pace {
     finished: Vec<(f64, f64)>,

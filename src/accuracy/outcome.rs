@@ -8,7 +8,8 @@ use crate::scene::AccuracyDemand;
 
 /// The next mesh is aimed at this share of the demand, so that it is not missed by a little.
 const AIM: f64 = 0.8;
-/// Share of the demand from which on the path is made finer where it limits more than the mesh, and to which.
+/// Share of the demand from which on the path is made finer where it limits more than the mesh, and
+/// to which.
 pub(super) const PATH: [f64; 2] = [0.5, 0.25];
 
 /// A quantity beyond its demand.
@@ -21,7 +22,8 @@ pub(super) struct Missed {
 /// What the errors of a mesh say of the demand.
 #[derive(Default)]
 pub(super) struct Outcome {
-    /// Relative error of the quantity that is farthest beyond its demand, or nearest to it; NaN where none is known.
+    /// Relative error of the quantity that is farthest beyond its demand, or nearest to it; NaN
+    /// where none is known.
     pub stated: f64,
     pub worst: Option<String>,
     /// Quantities whose error is not known.
@@ -92,7 +94,8 @@ impl Outcome {
             relative,
             order: errors.order,
         });
-        // An order above the formal one is that of coarse meshes; one below what is believed says nothing.
+        // An order above the formal one is that of coarse meshes; one below what is believed says
+        // nothing.
         let order = errors.order.filter(|order| *order >= LEAST_ORDER);
         let order = order.map(|order| order.min(formal));
         let left = (1.0 - path - algebra).max(1.0 - PATH[0]);
@@ -158,7 +161,8 @@ mod tests {
         let near = judged("load = 1 %", [0.09, 0.0, 0.0], 2.0);
         assert!(near.is_within() && (near.stated - 0.009).abs() < 1e-12);
         assert_eq!(near.worst.as_deref(), Some("states.pressed.load"));
-        // The approach is zero with an error that is not: of unknown size, so that a demand on all is not kept.
+        // The approach is zero with an error that is not: of unknown size, so that a demand on all
+        // is not kept.
         let all = judged("1 %", [0.09, 0.0, 0.0], 2.0);
         assert!(!all.is_within());
         assert_eq!(all.unknown, ["states.pressed.approach"]);

@@ -1,17 +1,19 @@
-//! The error of the way through the load program: the size of its increments, the tolerance of the plastic iteration and that
-//! with which changes of contact are found.
+//! The error of the way through the load program: the size of its increments, the tolerance of the
+//! plastic iteration and that with which changes of contact are found.
 //!
-//! The flow rule (implicit) is of first order in the increment: an error `c/n` for `n` increments changes by `c/n - c/m` when
-//! there are `m`, twice as many, or [`FEWEST`] where there were so few that first order is not to be seen yet. The changes of
-//! contact end the increments where the stepping is `events`, so there is nothing to divide; the scene is then run with fixed
-//! steps. Both are done on the coarsest mesh at hand on which everything yields that does in the run: the error of the path
-//! hardly depends on the mesh, but for the number of increments, by whose ratio it is scaled.
+//! The flow rule (implicit) is of first order in the increment: an error `c/n` for `n` increments
+//! changes by `c/n - c/m` when there are `m`, twice as many, or [`FEWEST`] where there were so few
+//! that first order is not to be seen yet. The changes of contact end the increments where the
+//! stepping is `events`, so there is nothing to divide; the scene is then run with fixed steps.
+//! Both are done on the coarsest mesh at hand on which everything yields that does in the run: the
+//! error of the path hardly depends on the mesh, but for the number of increments, by whose ratio
+//! it is scaled.
 //!
-//! Where nothing yields there is no such error: elastic contact follows its path exactly from event to event, and a state
-//! depends on its load alone.
+//! Where nothing yields there is no such error: elastic contact follows its path exactly from event
+//! to event, and a state depends on its load alone.
 //!
-//! Tolerances are changed by [`FACTOR`]: made tighter where they are loose (the difference is the error), looser
-//! where they are near round-off (the difference is the error times [`FACTOR`]).
+//! Tolerances are changed by [`FACTOR`]: made tighter where they are loose (the difference is the
+//! error), looser where they are near round-off (the difference is the error times [`FACTOR`]).
 
 use super::meter::work;
 use super::quantities::{quantities, value_of};
@@ -55,8 +57,8 @@ pub(super) fn matters(results: &Results) -> bool {
     results.states.iter().any(|s| s.plastic_points > 0)
 }
 
-/// Estimates the errors of the path of a run by repeating `base`, the coarsest run like it. Returns them with the operations of
-/// the runs that were made for them; what failed is noted.
+/// Estimates the errors of the path of a run by repeating `base`, the coarsest run like it. Returns
+/// them with the operations of the runs that were made for them; what failed is noted.
 pub(super) fn errors(
     base: &Finished,
     runs: &mut Runs,
@@ -118,8 +120,8 @@ fn with_other_tolerances(scene: &Scene) -> (Scene, f64) {
     }
 }
 
-/// The scene with more increments than its run took, and what multiple of the difference is their error: the difference is
-/// that from `c/taken` to `c/steps`.
+/// The scene with more increments than its run took, and what multiple of the difference is their
+/// error: the difference is that from `c/taken` to `c/steps`.
 fn with_more_increments(scene: &Scene, results: &Results) -> (Scene, f64) {
     let taken = increments_taken(scene, results);
     let steps = FEWEST.max(2 * taken);

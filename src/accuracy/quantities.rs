@@ -10,7 +10,8 @@ pub struct Quantity {
     pub path: String,
     /// Its value.
     pub value: f64,
-    /// The largest size that a quantity of this KEY has in the run: what its error is measured against.
+    /// The largest size that a quantity of this KEY has in the run: what its error is measured
+    /// against.
     pub scale: f64,
     /// What the reading of it off the pressures may be wrong by: of half widths, else 0.
     pub reading: f64,
@@ -23,9 +24,9 @@ impl Quantity {
     }
 }
 
-/// Whether a demand on all quantities holds for those of this key. The size of the plastic zone is counted in whole Gauss
-/// points; the largest plastic strain and the pressure at the pole are values at one point: their errors are stated, and
-/// demanded where they are named.
+/// Whether a demand on all quantities holds for those of this key. The size of the plastic zone is
+/// counted in whole Gauss points; the largest plastic strain and the pressure at the pole are
+/// values at one point: their errors are stated, and demanded where they are named.
 pub(super) fn is_demanded_with_all(key: &str) -> bool {
     ![
         "plastic_zone_size",
@@ -35,8 +36,8 @@ pub(super) fn is_demanded_with_all(key: &str) -> bool {
     .contains(&key)
 }
 
-/// Formal order of convergence: that of the displacements, one more than the degree of the elements (G. Strang, G. J. Fix, *An
-/// Analysis of the Finite Element Method*, Prentice-Hall 1973, chapter 3). The largest strain of the Gauss points and the zone
+/// Formal order of convergence: that of the displacements, one more than the degree of the elements
+/// (G. Strang, G. J. Fix, *An Analysis of the Finite Element Method*, Prentice-Hall 1973, chapter 3). The largest strain of the Gauss points and the zone
 /// that they count are those of the nearest point, a share of an element away: of first order.
 pub(super) fn formal_order(key: &str, degree: usize) -> f64 {
     match key {
@@ -45,8 +46,8 @@ pub(super) fn formal_order(key: &str, degree: usize) -> f64 {
     }
 }
 
-/// All reported quantities of a run, as far as the scene has contact and yields: loads, pressures, half widths, approach, dent,
-/// largest plastic strain and size of the plastic zone.
+/// All reported quantities of a run, as far as the scene has contact and yields: loads, pressures,
+/// half widths, approach, dent, largest plastic strain and size of the plastic zone.
 pub fn quantities(results: &Results) -> Vec<Quantity> {
     let contact = results.sizes.contact_pairs > 0;
     let plastic = results.states.iter().any(|s| s.plastic_points > 0);

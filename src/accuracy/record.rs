@@ -26,7 +26,8 @@ pub struct StudyRun {
     pub degree: usize,
     /// Increments.
     pub increments: usize,
-    /// Floating point operations of a factorisation, nonzeros of the factor and of its trailing columns.
+    /// Floating point operations of a factorisation, nonzeros of the factor and of its trailing
+    /// columns.
     pub factor: [f64; 3],
     /// Machine-independent cost.
     pub counts: Counts,

@@ -127,7 +127,8 @@ pub(super) fn analyse(
     Ok((analysis, results))
 }
 
-/// Passes on only the wish to stop: phases, increments and warnings of another run would be taken for the run's own.
+/// Passes on only the wish to stop: phases, increments and warnings of another run would be taken
+/// for the run's own.
 struct Quiet<'o>(&'o mut dyn Observer);
 
 impl Observer for Quiet<'_> {

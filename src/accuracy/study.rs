@@ -23,8 +23,8 @@ pub struct Plan {
     pub knobs: Vec<Knob>,
     /// Meshes in a series.
     pub levels: usize,
-    /// Seconds that the study may take, but for its cheapest run, which is always made: runs that would not fit are left out, one that
-    /// is under way at the end is given up.
+    /// Seconds that the study may take, but for its cheapest run, which is always made: runs that
+    /// would not fit are left out, one that is under way at the end is given up.
     pub budget: Option<f64>,
 }
 
@@ -53,8 +53,8 @@ pub struct Study {
     pub stopped: bool,
 }
 
-/// Studies a scene. Runs that fail are kept with the reason. When the observer asks to stop, or the budget is spent, the study is
-/// judged by what it has.
+/// Studies a scene. Runs that fail are kept with the reason. When the observer asks to stop, or the
+/// budget is spent, the study is judged by what it has.
 ///
 /// # Errors
 /// Where the scene itself makes no model.
@@ -75,7 +75,8 @@ pub fn study(
         if observer.stop_requested() {
             break;
         }
-        // Settings on one mesh have one forecast; the symbolic factorisation of a large one takes its time.
+        // Settings on one mesh have one forecast; the symbolic factorisation of a large one takes
+        // its time.
         let key = (setting.scene.mesh.clone(), setting.backend);
         let found = match known.iter().find(|k| k.0 == setting.ratio && k.1 == key) {
             Some(known) => Ok(known.2),

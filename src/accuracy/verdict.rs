@@ -1,4 +1,5 @@
-//! What a study says: the error of each run, the order of convergence, the Pareto front, and the price of a digit.
+//! What a study says: the error of each run, the order of convergence, the Pareto front, and the
+//! price of a digit.
 
 use super::extrapolation::extrapolate;
 use super::knobs::Knob;
@@ -26,8 +27,8 @@ pub struct StudyReference {
     pub uncertainty: f64,
     /// The closed form's source, or how it was extrapolated.
     pub source: String,
-    /// The value extrapolated from the meshes, where the reference is a closed form from which it differs by more than it is
-    /// uncertain: what the model itself converges to.
+    /// The value extrapolated from the meshes, where the reference is a closed form from which it
+    /// differs by more than it is uncertain: what the model itself converges to.
     pub limit: Option<f64>,
 }
 
@@ -47,7 +48,8 @@ pub struct QuantityStudy {
     pub quantity: String,
     /// The reference; `None` for `all`.
     pub reference: Option<StudyReference>,
-    /// Error of each run relative to the largest reference of its kind; `None` where the run failed or lacks the quantity.
+    /// Error of each run relative to the largest reference of its kind; `None` where the run failed
+    /// or lacks the quantity.
     pub errors: Vec<Option<f64>>,
     /// Observed order of convergence in the element size, by series of meshes.
     pub orders: Vec<(String, f64)>,
@@ -136,7 +138,8 @@ fn mesh_series(runs: &[StudyRun]) -> Vec<&str> {
     out
 }
 
-/// The closed form that the scene names, else the extrapolation of the scene's own series of meshes.
+/// The closed form that the scene names, else the extrapolation of the scene's own series of
+/// meshes.
 fn reference(runs: &[StudyRun], references: &[ReferenceRow], path: &str) -> Option<StudyReference> {
     let own = mesh_series(runs).first().copied()?;
     let values: Vec<(f64, f64)> = series(runs, own)
@@ -179,8 +182,9 @@ fn reference(runs: &[StudyRun], references: &[ReferenceRow], path: &str) -> Opti
     })
 }
 
-/// What the increments of the scene's own run lack: the two finest runs with fixed steps, on the same mesh, extrapolated with
-/// the first order of the flow rule; and by how much that may be wrong: the last change.
+/// What the increments of the scene's own run lack: the two finest runs with fixed steps, on the
+/// same mesh, extrapolated with the first order of the flow rule; and by how much that may be
+/// wrong: the last change.
 fn path_correction(runs: &[StudyRun], path: &str) -> Option<(f64, f64)> {
     let own = runs.iter().find(|r| is_own(r))?;
     let mut stepped: Vec<(usize, f64)> = runs
@@ -202,7 +206,8 @@ fn is_own(run: &StudyRun) -> bool {
     run.knob == Knob::Resolution && run.ratio == 1.0 && !run.series.contains(',')
 }
 
-/// The quantities a reader wants first: `all`, those at first yield, and of the states, key by key, the one of the largest size.
+/// The quantities a reader wants first: `all`, those at first yield, and of the states, key by key,
+/// the one of the largest size.
 pub fn foremost(quantities: &[QuantityStudy]) -> Vec<&QuantityStudy> {
     let mut largest: BTreeMap<&str, (f64, usize)> = BTreeMap::new();
     let mut out: Vec<usize> = Vec::new();
@@ -287,7 +292,8 @@ fn pareto(runs: &[StudyRun], errors: &[Option<f64>]) -> Vec<usize> {
     order
 }
 
-/// The fastest run that reaches an accuracy not by chance: in a series of meshes every finer one reaches it too.
+/// The fastest run that reaches an accuracy not by chance: in a series of meshes every finer one
+/// reaches it too.
 fn cheapest(runs: &[StudyRun], errors: &[Option<f64>], accuracy: f64) -> Option<usize> {
     let reaches = |i: usize| errors[i].is_some_and(|e| e <= accuracy);
     (0..runs.len())
@@ -297,7 +303,8 @@ fn cheapest(runs: &[StudyRun], errors: &[Option<f64>], accuracy: f64) -> Option<
                 .into_iter()
                 .filter(|(_, h)| *h < runs[i].ratio)
                 .all(|(finer, _)| errors[finer].is_none() || reaches(finer)),
-            // Turned on the scene's own mesh, a looser path is no better than the scene but by chance.
+            // Turned on the scene's own mesh, a looser path is no better than the scene but by
+            // chance.
             _ => runs.iter().position(is_own).is_none_or(reaches),
         })
         .min_by(|&a, &b| {
@@ -353,9 +360,10 @@ fn words(
     out
 }
 
-/// Which settings of the path buy nothing, because the mesh's error hides theirs, and which waste the mesh. Errors of path and
-/// mesh may cancel, so each is taken for itself: the path's is the distance from the tightest path on the same mesh, the mesh's
-/// that of this path from the reference.
+/// Which settings of the path buy nothing, because the mesh's error hides theirs, and which waste
+/// the mesh. Errors of path and mesh may cancel, so each is taken for itself: the path's is the
+/// distance from the tightest path on the same mesh, the mesh's that of this path from the
+/// reference.
 fn wasted(runs: &[StudyRun], path: &str, reference: &StudyReference) -> Vec<String> {
     let Some(own) = runs.iter().find(|r| is_own(r)).and_then(|r| value(r, path)) else {
         return Vec::new();
@@ -364,7 +372,8 @@ fn wasted(runs: &[StudyRun], path: &str, reference: &StudyReference) -> Vec<Stri
     let mesh = (own + correction - reference.value).abs();
     let mut out = Vec::new();
     for knob in [Knob::Tolerance, Knob::Gamma, Knob::Stepping] {
-        // Fixed steps approach the limit of many increments, tolerances that of the scene's own tight ones.
+        // Fixed steps approach the limit of many increments, tolerances that of the scene's own
+        // tight ones.
         let tight = own
             + if knob == Knob::Stepping {
                 correction

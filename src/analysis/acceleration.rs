@@ -1,10 +1,11 @@
 //! Anderson acceleration of the initial-load iteration.
 //!
-//! The plain iteration maps initial loads `J` to `J(u(J))`. From the last few pairs of iterate and residual the
-//! combination with the smallest residual is taken.
+//! The plain iteration maps initial loads `J` to `J(u(J))`. From the last few pairs of iterate and
+//! residual the combination with the smallest residual is taken.
 //!
 //! # Source
-//! H. F. Walker, P. Ni, *Anderson acceleration for fixed-point iterations* (2011), doi:10.1137/10078356X.
+//! H. F. Walker, P. Ni, *Anderson acceleration for fixed-point iterations* (2011),
+//! doi:10.1137/10078356X.
 
 use crate::substructure::Trailing;
 use nalgebra::{DMatrix, DVector};

@@ -48,8 +48,8 @@ const YIELD_LOAD: f64 = 2e-6;
 const STATE: f64 = 4.5e-7;
 /// Of the elastic path, per cube of the pairs: each change of contact goes over their matrix.
 const PATH: f64 = 1.5e-9;
-/// Of a trailing solve with its share of the plastic iteration: to begin with, and for each entry of
-/// the factor's trailing columns.
+/// Of a trailing solve with its share of the plastic iteration: to begin with, and for each entry
+/// of the factor's trailing columns.
 const SOLVE: [f64; 2] = [2e-5, 5.5e-10];
 /// Share of the pairs that change their status in an increment of their own while the load goes one
 /// way: where gaps differ (the contact grows pair by pair), and where all are alike.
@@ -210,7 +210,8 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
     })
 }
 
-/// The ledger: each effect on or off, and why. `yields` says whether the loads reach (or may reach) yield.
+/// The ledger: each effect on or off, and why. `yields` says whether the loads reach (or may reach)
+/// yield.
 pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
     let effect = |name: &str, on: bool, why: String| Effect {
         name: name.into(),

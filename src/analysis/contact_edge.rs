@@ -1,14 +1,15 @@
 //! Where a contact ends, to a hundredth of an element.
 //!
-//! Near the end of a smooth contact the pressure squared is `(e^2 - s^2) (c0 + c1 s^2)`, `s` the distance from the middle and `e`
-//! that of the edge: exactly so, with `c1 = 0`, in Hertz' contact. The pressures of the last two pairs depend on where in its facet the
-//! contact ends (on Hertz' line contact they alone would put the edge off by -0.06 and 0.08 elements, those before by
+//! Near the end of a smooth contact the pressure squared is `(e^2 - s^2) (c0 + c1 s^2)`, `s` the
+//! distance from the middle and `e` that of the edge: exactly so, with `c1 = 0`, in Hertz' contact.
+//! The pressures of the last two pairs depend on where in its facet the contact ends (on Hertz'
+//! line contact they alone would put the edge off by -0.06 and 0.08 elements, those before by
 //! 0.01), their force together does not: equilibrium passes it on whole. For any `e` the constants follow from the pairs before them
 //! by least squares; the edge is the `e` whose pressure over the last pairs has their force.
 //!
-//! Measured with 4 to 24 elements over the contact: off by 0.003 to 0.01 elements on Hertz' contact of a line and of a point,
-//! by 0.02 to 0.1 on the disc in a plate. A line through the squared pressures, extrapolated to zero without the force, is off by 0.015 to 0.4
-//! and by 0.08 to 0.2.
+//! Measured with 4 to 24 elements over the contact: off by 0.003 to 0.01 elements on Hertz' contact
+//! of a line and of a point, by 0.02 to 0.1 on the disc in a plate. A line through the squared
+//! pressures, extrapolated to zero without the force, is off by 0.015 to 0.4 and by 0.08 to 0.2.
 
 /// Points and weights of Gauss' rule on [0, 1].
 const GAUSS: [(f64, f64); 4] = [
@@ -46,7 +47,8 @@ pub(super) struct Tail<'a> {
 }
 
 impl Tail<'_> {
-    /// The distance of the edge from the middle, between the given ones, for which the last pairs carry `force`.
+    /// The distance of the edge from the middle, between the given ones, for which the last pairs
+    /// carry `force`.
     pub(super) fn edge(&self, force: f64, [mut low, mut high]: [f64; 2]) -> f64 {
         for _ in 0..HALVINGS {
             let edge = 0.5 * (low + high);
@@ -65,7 +67,8 @@ impl Tail<'_> {
         let pressure = |s: f64| ((edge * edge - s * s) * (c0 + c1 * s * s)).max(0.0).sqrt();
         let [(s0, w0), (s1, w1)] = self.near;
         let width = |s: f64| w0 + (w1 - w0) * (s - s0) / (s1 - s0);
-        // The area of the last pairs begins half the length of the first before it: there its shape function has risen from 0 to 1.
+        // The area of the last pairs begins half the length of the first before it: there its shape
+        // function has risen from 0 to 1.
         let begin = self.from - 0.5 * self.length;
         if edge <= begin {
             return 0.0;
@@ -79,7 +82,8 @@ impl Tail<'_> {
                 weight * 2.0 * t * pressure(s) * width(s)
             })
             .sum();
-        // It rises along an element, not at once: the pressure falls over it, so that this takes more.
+        // It rises along an element, not at once: the pressure falls over it, so that this takes
+        // more.
         let rise = self.length / 12f64.sqrt();
         let x = begin * begin;
         let fall = begin * (c0 + c1 * x - (edge * edge - x) * c1) / pressure(begin);
@@ -119,7 +123,8 @@ impl Tail<'_> {
 mod tests {
     use super::*;
 
-    /// Average of a pressure over the elements of size 1 beside a node, weighted with its shape function.
+    /// Average of a pressure over the elements of size 1 beside a node, weighted with its shape
+    /// function.
     fn nodal(pressure: &dyn Fn(f64) -> f64, node: f64) -> f64 {
         const N: usize = 4000;
         let points = (0..N).map(|i| 2.0 * (i as f64 + 0.5) / N as f64 - 1.0);
@@ -148,7 +153,8 @@ mod tests {
                 };
                 let force = nodal(&pressure, 8.0) + nodal(&pressure, 9.0);
                 let found = tail.edge(force, [8.5, 10.0].map(|e| e - 0.5));
-                // The averages before the last pairs fall short of the pressures, by a hundredth of an element of the edge.
+                // The averages before the last pairs fall short of the pressures, by a hundredth of
+                // an element of the edge.
                 assert!((found - edge).abs() < 0.015, "{bend} {edge}: {found}");
             }
         }

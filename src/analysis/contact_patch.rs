@@ -4,9 +4,9 @@ use super::contact_edge::{EdgePoint, Tail};
 use crate::model::{AxisPoint, Model};
 use crate::scene::Kind;
 
-/// Pairs at the edge, the last closed one included, whose pressures are not believed one by one, only their force together: how they share
-/// it depends on where in the facet the contact ends (on Hertz' line contact the last two put the edge off by 0.08 and -0.06
-/// elements, those before by 0.01).
+/// Pairs at the edge, the last closed one included, whose pressures are not believed one by one,
+/// only their force together: how they share it depends on where in the facet the contact ends (on
+/// Hertz' line contact the last two put the edge off by 0.08 and -0.06 elements, those before by 0.01).
 const EDGE_SKIP: isize = 2;
 /// Pairs before those from which the pressure near the edge is fitted.
 const EDGE_POINTS: isize = 4;
@@ -62,7 +62,8 @@ impl Patch<'_> {
         next.then_some(axis)
     }
 
-    /// Whether a pair ends its surface on a symmetry plane (both nodes are held along the surface) or beside the axis.
+    /// Whether a pair ends its surface on a symmetry plane (both nodes are held along the surface)
+    /// or beside the axis.
     pub(super) fn is_symmetric(&self, k: usize) -> bool {
         if self.axis_beside(k).is_some() {
             return true;
@@ -74,9 +75,10 @@ impl Patch<'_> {
                 .all(|&node| self.model.freedoms.slots[node][1] == crate::model::Slot::Fixed)
     }
 
-    /// Where contact ends beyond pair `last`, along the surface in direction `way`, read from the force of the last
-    /// [`EDGE_SKIP`] pairs: see [`Tail`]. Its error is measured by a second reading with one pair more; where the pairs
-    /// are too few for that, or a reading leaves its bracket, it is half a spacing.
+    /// Where contact ends beyond pair `last`, along the surface in direction `way`, read from the
+    /// force of the last [`EDGE_SKIP`] pairs: see [`Tail`]. Its error is measured by a second
+    /// reading with one pair more; where the pairs are too few for that, or a reading leaves its
+    /// bracket, it is half a spacing.
     pub(super) fn edge(&self, last: usize, way: isize, middle: f64) -> Edge {
         let arc = |k: usize| self.model.pairs[k].arc;
         let Some(beyond) = self.neighbour(last, way) else {
@@ -118,7 +120,8 @@ impl Patch<'_> {
             .filter(|i| self.range.contains(i))
     }
 
-    /// Distance of the edge from the middle, by the force of the last `skip` pairs and the pressures before them.
+    /// Distance of the edge from the middle, by the force of the last `skip` pairs and the
+    /// pressures before them.
     fn read_edge(&self, tail: &EdgeTail, skip: isize) -> Option<f64> {
         let &EdgeTail {
             last,
@@ -132,7 +135,8 @@ impl Patch<'_> {
             self.neighbour(last, -step * way)
                 .filter(|k| (self.begin..self.end).contains(k))
         };
-        // This side of the middle, as in half a model, and not on an axis, where next to no area belongs to a pair.
+        // This side of the middle, as in half a model, and not on an axis, where next to no area
+        // belongs to a pair.
         let beside =
             |k: &usize| way as f64 * (arc(*k) - middle) > -0.25 * spacing && self.width(*k) > 0.0;
         let inner = (skip..skip + EDGE_POINTS).filter_map(closed).filter(beside);

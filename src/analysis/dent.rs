@@ -1,4 +1,5 @@
-//! The dent: what plastic strains leave of the surfaces' shape once loads and contact forces are gone.
+//! The dent: what plastic strains leave of the surfaces' shape once loads and contact forces are
+//! gone.
 
 use super::engine::Engine;
 use super::measure::on_axis;
@@ -8,8 +9,8 @@ use crate::model::ContactSurface;
 /// The dent of a state.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Dent {
-    /// Depth of both surfaces together at the deepest place; negative where they have moved towards each other
-    /// everywhere.
+    /// Depth of both surfaces together at the deepest place; negative where they have moved towards
+    /// each other everywhere.
     pub depth: f64,
     /// Each body's share in it.
     pub by_body: Vec<f64>,
@@ -21,8 +22,9 @@ pub(super) struct Dent {
 type Sunk = [f64; 2];
 
 impl Engine<'_> {
-    /// The dent of the current plastic strains: displacements under their initial loads alone, every pair open,
-    /// less the rigid motion of each body's far boundary. Half a trailing solve where there are any.
+    /// The dent of the current plastic strains: displacements under their initial loads alone,
+    /// every pair open, less the rigid motion of each body's far boundary. Half a trailing solve
+    /// where there are any.
     pub(super) fn dent(&mut self) -> Dent {
         let mut dent = Dent {
             depth: 0.0,
@@ -73,7 +75,8 @@ impl Engine<'_> {
         unloaded.reset(&vec![true; n]);
         let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
         unloaded.solve(forces, &mut gap, &mut force);
-        // Pairs that hold the rigid motion of a floating body stay closed: initial loads balance, they carry nothing.
+        // Pairs that hold the rigid motion of a floating body stay closed: initial loads balance,
+        // they carry nothing.
         let slip: Vec<f64> = gap.iter().map(|g| -g).collect();
         let mut u = self.now.initial.eliminated.clone();
         self.sub.recover(&mut u, &slip);

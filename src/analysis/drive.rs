@@ -1,4 +1,5 @@
-//! Moving along the load path: increments, elastic or elastoplastic, until a point, a measured value or first yield.
+//! Moving along the load path: increments, elastic or elastoplastic, until a point, a measured
+//! value or first yield.
 
 use super::elastic::{ElasticPiece, describe};
 use super::engine::{Engine, LoadPoint};
@@ -64,17 +65,20 @@ pub struct Stepper<'a> {
     pub stop: &'a dyn Fn() -> bool,
 }
 
-/// Accuracy with which a monitored quantity (of order 1) is hit, and relative accuracy of the place.
+/// Accuracy with which a monitored quantity (of order 1) is hit, and relative accuracy of the
+/// place.
 pub(super) const MONITOR_ACCURACY: f64 = 1e-10;
-/// Share of a piece of the load path below which what is left of it is round-off. Unloaded to zero, the last pair's force is
-/// that of the load and of the iteration's imbalance: where it vanishes means nothing there.
+/// Share of a piece of the load path below which what is left of it is round-off. Unloaded to zero,
+/// the last pair's force is that of the load and of the iteration's imbalance: where it vanishes
+/// means nothing there.
 const ARRIVED: f64 = 1e-9;
-/// Share of a piece of the load path below which increments are not cut: the load has passed the limit load, which is then
-/// known to this share.
+/// Share of a piece of the load path below which increments are not cut: the load has passed the
+/// limit load, which is then known to this share.
 pub(super) const SMALLEST_CUT: f64 = 1e-6;
 
 impl Engine<'_> {
-    /// Elastic drive: contact changes alone. With `recovery` it stops at first yield. With `leg` it goes on from there.
+    /// Elastic drive: contact changes alone. With `recovery` it stops at first yield. With `leg` it
+    /// goes on from there.
     ///
     /// # Errors
     /// A load that drives a body away from every contact; those of the monitor.
@@ -207,7 +211,8 @@ impl Engine<'_> {
     /// Elastoplastic drive to `end`. With `leg` it goes on from there.
     ///
     /// # Errors
-    /// [`ErrorKind::Collapse`] with the load factor that was held; statuses that cycle; those of the monitor.
+    /// [`ErrorKind::Collapse`] with the load factor that was held; statuses that cycle; those of
+    /// the monitor.
     pub fn drive_plastic(
         &mut self,
         end: &LoadPoint,
@@ -334,7 +339,8 @@ impl Engine<'_> {
         Ok(PlasticLeg {
             watched: monitor.map(|m| m(self)).transpose()?,
             whole: self.at.distance(end),
-            // After an increment that did not converge the next ones are short, and grow again while they succeed.
+            // After an increment that did not converge the next ones are short, and grow again
+            // while they succeed.
             trust: f64::INFINITY,
             following: None,
         })
@@ -396,7 +402,8 @@ impl Engine<'_> {
     }
 }
 
-/// Whether a drive begins where the monitored quantity is zero already: on the way it would not change its sign there.
+/// Whether a drive begins where the monitored quantity is zero already: on the way it would not
+/// change its sign there.
 fn is_hit(watched: Option<f64>) -> bool {
     watched.is_some_and(|value| value.abs() <= MONITOR_ACCURACY)
 }
@@ -407,14 +414,16 @@ pub fn stopped() -> Error {
 }
 
 impl Engine<'_> {
-    /// Whether nothing has moved yet and nothing is to, on the way to `end`: what a solve would find there is round-off.
+    /// Whether nothing has moved yet and nothing is to, on the way to `end`: what a solve would
+    /// find there is round-off.
     fn rests_at(&self, end: &LoadPoint) -> bool {
         let still = self.now.u.largest() == 0.0 && self.now.force.iter().all(|r| *r == 0.0);
         let apart = self.now.gap.iter().all(|g| *g >= 0.0);
         self.at == *end && self.fresh && still && apart && self.now.gap == self.delta(end)
     }
 
-    /// Whether the way to `end` leads back against the last increment: then the material unloads elastically at first.
+    /// Whether the way to `end` leads back against the last increment: then the material unloads
+    /// elastically at first.
     fn turns_back(&self, end: &LoadPoint) -> bool {
         let step = self.at.step_to(end);
         let along: f64 = step.iter().zip(&self.last_step).map(|(a, b)| a * b).sum();

@@ -1,4 +1,5 @@
-//! Elastic pieces of the load path: contact alone changes, from event to event, on the dense matrix only.
+//! Elastic pieces of the load path: contact alone changes, from event to event, on the dense matrix
+//! only.
 
 use super::drive::{Arrival, IncrementReport, MONITOR_ACCURACY, Monitor};
 use super::engine::{Engine, LoadPoint};
@@ -48,7 +49,8 @@ impl ElasticPiece {
         })
     }
 
-    /// Goes to the next event, at most to share `t` of the piece; the engine's gaps and forces follow.
+    /// Goes to the next event, at most to share `t` of the piece; the engine's gaps and forces
+    /// follow.
     pub fn advance(&mut self, engine: &mut Engine, t: f64) -> PathEnd {
         let outcome = self.path.advance(&mut engine.tableau, t);
         self.write(engine);
@@ -102,14 +104,16 @@ pub struct Following {
 }
 
 impl Engine<'_> {
-    /// Follows unloading (or reloading) on the dense contact matrix for as long as no point flows, event by event; `None`
-    /// where the next stretch flows, with the last event before it as current state.
+    /// Follows unloading (or reloading) on the dense contact matrix for as long as no point flows,
+    /// event by event; `None` where the next stretch flows, with the last event before it as
+    /// current state.
     ///
-    /// This is the same path as that of elastoplastic increments in which nothing flows. Initial loads are constant, so the
-    /// first half of a trailing solve is linear in the load factor and done once for all events; each event costs the second
-    /// half and one look at all points of the zone. That look suffices: between two events strains are linear in the load
-    /// factor and von Mises' stress is a convex function of them, so where both ends of a stretch lie within the yield
-    /// surface all of it does.
+    /// This is the same path as that of elastoplastic increments in which nothing flows. Initial
+    /// loads are constant, so the first half of a trailing solve is linear in the load factor and
+    /// done once for all events; each event costs the second half and one look at all points of the
+    /// zone. That look suffices: between two events strains are linear in the load factor and von
+    /// Mises' stress is a convex function of them, so where both ends of a stretch lie within the
+    /// yield surface all of it does.
     ///
     /// With [`PlasticLeg::following`] it goes on from there.
     ///
@@ -287,8 +291,9 @@ impl Engine<'_> {
     }
 }
 
-/// A floating body with gaps all round moves rigidly under the first bit of load until it touches: the contact
-/// problem is solved directly there, and the gaps of that solution are where the path starts.
+/// A floating body with gaps all round moves rigidly under the first bit of load until it touches:
+/// the contact problem is solved directly there, and the gaps of that solution are where the path
+/// starts.
 fn close_gap_of_floating_bodies(engine: &mut Engine, q0: &[f64], rate: &[f64]) -> Result<()> {
     let n = q0.len();
     if engine.model.floating.bodies.is_empty() || (0..n).any(|k| engine.now.gap[k] <= 0.0) {

@@ -18,7 +18,8 @@ use std::sync::Arc;
 /// Freedoms that a thread takes at a time.
 const GRAIN: usize = 1 << 14;
 
-/// A point of the load path: the factor of each load and the share of the interference that is applied.
+/// A point of the load path: the factor of each load and the share of the interference that is
+/// applied.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct LoadPoint {
     /// Load factor in the program's unit.
@@ -69,9 +70,11 @@ pub struct Engine<'m> {
     pub(super) reduced_loads: Vec<Vec<f64>>,
     /// Condensed loads at factor 1.
     pub(super) loads: Vec<EliminatedLoad>,
-    /// Weights of each rigid motion in the far boundary ([`RigidMotion::in_far_boundary`]), reduced as loads are.
+    /// Weights of each rigid motion in the far boundary ([`RigidMotion::in_far_boundary`]), reduced
+    /// as loads are.
     reduced_far: Vec<Vec<f64>>,
-    /// The same on zone and contact freedoms: times their displacements they give the motion's amplitude.
+    /// The same on zone and contact freedoms: times their displacements they give the motion's
+    /// amplitude.
     pub(super) far: Vec<Trailing>,
     /// Forces `t` of the tied pairs for each load at factor 1.
     pub(super) load_forces: Vec<Vec<f64>>,
@@ -87,20 +90,24 @@ pub struct Engine<'m> {
     pub(super) half: bool,
     /// Largest nodal force seen (applied or contact): what residuals are measured against.
     pub force_scale: f64,
-    /// Largest lower bound of the condition among the factorisations so far ([`Substructure::condition`]): an inaccurate one is not forgotten
-    /// when another zone asks for the next.
+    /// Largest lower bound of the condition among the factorisations so far
+    /// ([`Substructure::condition`]): an inaccurate one is not forgotten when another zone asks for
+    /// the next.
     pub condition: f64,
     /// Largest displacement seen (of a state, or of the nodes of a pair against each other).
     pub displacement_scale: f64,
-    /// The same without rigid motions of floating bodies: what stresses and their round-off are a share of.
+    /// The same without rigid motions of floating bodies: what stresses and their round-off are a
+    /// share of.
     pub deformation_scale: f64,
-    /// Largest round-off that equilibrium was accepted at where it is above the tolerance asked for; zero where it never was.
+    /// Largest round-off that equilibrium was accepted at where it is above the tolerance asked
+    /// for; zero where it never was.
     pub round_off_floor: f64,
     /// Current load point.
     pub at: LoadPoint,
     /// Load factor of the last accepted increment.
     pub reached: f64,
-    /// Current equilibrium; its displacements are valid where `fresh`, without the rigid motions that gaps allow.
+    /// Current equilibrium; its displacements are valid where `fresh`, without the rigid motions
+    /// that gaps allow.
     pub now: Equilibrium,
     /// Whether the displacements belong to the current gaps and forces.
     pub fresh: bool,
@@ -108,19 +115,22 @@ pub struct Engine<'m> {
     pub border: Vec<usize>,
     /// Change of the load point over the piece of the last increment: tells loading from unloading.
     pub last_step: Vec<f64>,
-    /// Change of the initial loads over the last increment, for a load factor that changes by 1: the next one's are much the same.
+    /// Change of the initial loads over the last increment, for a load factor that changes by 1:
+    /// the next one's are much the same.
     pub pace: Option<EliminatedLoad>,
-    /// A state on the way to which the next increment leads, found before: it predicts the increment.
+    /// A state on the way to which the next increment leads, found before: it predicts the
+    /// increment.
     pub ahead: Option<(LoadPoint, Equilibrium)>,
     /// Elements outside the zone in which the last [`Engine::state`] found stress beyond yield.
     pub beyond_yield_outside: Vec<usize>,
-    /// Seconds spent on the stresses of all elements in the last state: forces, fields, error indicator.
+    /// Seconds spent on the stresses of all elements in the last state: forces, fields, error
+    /// indicator.
     pub stress_seconds: f64,
 }
 
 impl<'m> Engine<'m> {
-    /// Factors the structure so that zones may be chosen among the elements `within`, and chooses one of the given elements (`guard`
-    /// marks those that only watch).
+    /// Factors the structure so that zones may be chosen among the elements `within`, and chooses
+    /// one of the given elements (`guard` marks those that only watch).
     ///
     /// # Errors
     /// Those of [`Substructure::new`].
@@ -222,8 +232,8 @@ impl<'m> Engine<'m> {
         self.fresh = true;
     }
 
-    /// Changes the zone to the given elements, factoring the structure again only where it must. State, statuses and history
-    /// are kept.
+    /// Changes the zone to the given elements, factoring the structure again only where it must.
+    /// State, statuses and history are kept.
     ///
     /// # Errors
     /// Those of [`Substructure::new`].
@@ -273,9 +283,9 @@ impl<'m> Engine<'m> {
         Ok(())
     }
 
-    /// The weights of rigid motions in the far boundary are reduced like loads: with forces on zone and contact
-    /// freedoms alone, `w.u` of all freedoms is that of the condensed weights and the condensed structure's `u`
-    /// (Betti). Only dents ask for it.
+    /// The weights of rigid motions in the far boundary are reduced like loads: with forces on zone
+    /// and contact freedoms alone, `w.u` of all freedoms is that of the condensed weights and the
+    /// condensed structure's `u` (Betti). Only dents ask for it.
     fn reduce_far_boundary(&mut self) -> Result<()> {
         let (floating, n) = (&self.model.floating, self.model.freedoms.n);
         if self.gap.is_empty() || !self.model.may_yield.contains(&true) {
@@ -341,7 +351,8 @@ impl<'m> Engine<'m> {
             .collect()
     }
 
-    /// What the force of tied pair `k` is the sum of at a load point without initial loads: `t` of each load, and `-T delta`.
+    /// What the force of tied pair `k` is the sum of at a load point without initial loads: `t` of
+    /// each load, and `-T delta`.
     fn closed_force_terms(&self, point: &LoadPoint, k: usize) -> impl Iterator<Item = f64> {
         let loads = self.load_forces.iter().zip(&point.factors);
         let of_gaps = [
@@ -358,14 +369,16 @@ impl<'m> Engine<'m> {
             .collect()
     }
 
-    /// The largest sum of absolute values of the terms of [`Engine::closed_forces`]: what its round-off is a share of.
+    /// The largest sum of absolute values of the terms of [`Engine::closed_forces`]: what its
+    /// round-off is a share of.
     pub fn closed_forces_size(&self, point: &LoadPoint) -> f64 {
         (0..self.gap.len())
             .map(|k| self.closed_force_terms(point, k).map(f64::abs).sum())
             .fold(0.0, f64::max)
     }
 
-    /// What round-off may leave in the sum of the contact forces: the tied structure comes from a factor that keeps
+    /// What round-off may leave in the sum of the contact forces: the tied structure comes from a
+    /// factor that keeps
     /// `eps` times the condition of what it is made from. Far from Poisson's ratio 1/2 that is
     /// less than the tolerance of any iteration.
     pub fn round_off_of_contact(&self) -> f64 {
@@ -380,7 +393,8 @@ impl<'m> Engine<'m> {
         (8.0 * f64::EPSILON * self.condition * terms).min(LOOSEST * self.force_scale)
     }
 
-    /// Whether the load that is left up to `end` is no more than what round-off leaves in the contact forces.
+    /// Whether the load that is left up to `end` is no more than what round-off leaves in the
+    /// contact forces.
     pub(super) fn is_round_off(&self, end: &LoadPoint) -> bool {
         let factors = self.at.factors.iter().zip(&end.factors);
         let loads = self.model.loads.iter().zip(&self.loads).zip(factors);

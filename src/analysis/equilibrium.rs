@@ -1,10 +1,12 @@
 //! Displacements, gaps and contact forces in equilibrium, and the loads they answer to.
 //!
-//! All of it is linear for given contact statuses: states and changes of states are added up part by part.
+//! All of it is linear for given contact statuses: states and changes of states are added up part
+//! by part.
 
 use crate::substructure::Trailing;
 
-/// A load on zone and contact freedoms, and what its elimination leaves: the first half of its solve, the same for all contact statuses.
+/// A load on zone and contact freedoms, and what its elimination leaves: the first half of its
+/// solve, the same for all contact statuses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EliminatedLoad {
     /// The load.
@@ -63,8 +65,8 @@ impl EliminatedLoad {
     }
 }
 
-/// Displacements, gaps and contact forces in equilibrium with a load point and initial loads, for the
-/// contact statuses in the tableau; or a change of such.
+/// Displacements, gaps and contact forces in equilibrium with a load point and initial loads, for
+/// the contact statuses in the tableau; or a change of such.
 #[derive(Debug, Clone)]
 pub struct Equilibrium {
     /// Initial loads J of the plastic strains.

@@ -22,7 +22,8 @@ pub(super) enum Search {
 }
 
 impl Run<'_, '_> {
-    /// Finds the yield load on the path of growing load factor and comes back to the start; with `judge` takes note of the quality there.
+    /// Finds the yield load on the path of growing load factor and comes back to the start; with
+    /// `judge` takes note of the quality there.
     pub(super) fn find_yield(&mut self, required: bool, judge: bool) -> Result<()> {
         let unit_is_yield = self.model().scene.program.unit == Unit::Yield;
         if self.standing.plastic {
@@ -54,7 +55,8 @@ impl Run<'_, '_> {
             if let Search::Found(alpha, _) = found
                 && alpha == origin.0.alpha
             {
-                // The preload alone: the place was not looked at, so that it was gone through as if elastic.
+                // The preload alone: the place was not looked at, so that it was gone through as if
+                // elastic.
                 self.preload_anew()?;
                 return self.find_yield(required, judge);
             }
@@ -120,15 +122,17 @@ impl Run<'_, '_> {
         engine.now.force.clone_from(&now.force);
         engine.now.initial = EliminatedLoad::none(&engine.now.u, engine.now.gap.len());
         engine.border.clear();
-        // Where nothing acts yet the displacements are zero; a body held by contact alone must not be moved to it.
+        // Where nothing acts yet the displacements are zero; a body held by contact alone must not
+        // be moved to it.
         engine.fresh = now.u.largest() == 0.0;
         engine.now.u.fill(0.0);
         engine.refresh();
         self.standing.plastic = false;
     }
 
-    /// First yield along the path of growing load factor, up to the largest the program asks for unless yield is required. At the end of each
-    /// straight piece, where the stresses of a load that turns back are largest, those outside the zone are looked at too.
+    /// First yield along the path of growing load factor, up to the largest the program asks for
+    /// unless yield is required. At the end of each straight piece, where the stresses of a load
+    /// that turns back are largest, those outside the zone are looked at too.
     fn exact_yield(&mut self, required: bool) -> Result<Search> {
         let limit = if required {
             None
@@ -185,7 +189,8 @@ impl Run<'_, '_> {
         };
         self.engine.tableau.reset(&saved.2);
         (self.engine.at, self.engine.now, self.engine.fresh) = (saved.0, saved.1, true);
-        // Stress grows at least like the cube root of the load (point contact): aim beyond, doubling goes on from there.
+        // Stress grows at least like the cube root of the load (point contact): aim beyond,
+        // doubling goes on from there.
         Ok(estimate
             .filter(|r| r.is_finite() && *r > 0.0)
             .map_or(1.0, |r| 1.2 / r.min(r * r)))
@@ -209,8 +214,8 @@ impl Run<'_, '_> {
         Ok(())
     }
 
-    /// Up to first yield nothing outside the zone may be beyond yield: else the zone missed the place, and a better one is
-    /// returned.
+    /// Up to first yield nothing outside the zone may be beyond yield: else the zone missed the
+    /// place, and a better one is returned.
     fn missed_outside(&mut self) -> Result<Option<Choice>> {
         if self.choice.holds_all(self.model()) {
             return Ok(None);

@@ -1,12 +1,15 @@
 //! The strain of linear triangles, from displacements fitted over the nodes around.
 //!
-//! The strain of a linear triangle is constant, right to first order at its centroid at best, and wrong in a way that depends on how its neighbours lie: a fit over such
-//! strains carries that on. The gradient of the quadratic polynomial that fits the displacements of all nodes around by least squares is exact for a quadratic
-//! field on any mesh, and right to second order: yield loads are, on meshes that are cut in a pattern and on irregular ones.
+//! The strain of a linear triangle is constant, right to first order at its centroid at best, and
+//! wrong in a way that depends on how its neighbours lie: a fit over such strains carries that on.
+//! The gradient of the quadratic polynomial that fits the displacements of all nodes around by
+//! least squares is exact for a quadratic field on any mesh, and right to second order: yield loads
+//! are, on meshes that are cut in a pattern and on irregular ones.
 //!
 //! # Source
-//! Z. Zhang, A. Naga, A new finite element gradient recovery method: superconvergence property, SIAM J. Sci. Comput. 26 (2005) 1192-1213,
-//! doi:10.1137/S1064827503402837 (polynomial preserving recovery).
+//! Z. Zhang, A. Naga, A new finite element gradient recovery method: superconvergence property,
+//! SIAM J. Sci. Comput. 26 (2005) 1192-1213, doi:10.1137/S1064827503402837 (polynomial preserving
+//! recovery).
 
 use super::gather::{NodalPlaces, Places};
 use crate::mesh::Shape;
@@ -20,7 +23,8 @@ use std::collections::BTreeMap;
 const N: usize = 6;
 /// Least pivot of the scaled normal equations.
 const LEAST_PIVOT: f64 = 1e-2;
-/// Layers of elements around a triangle whose nodes are taken where those of fewer do not determine a quadratic.
+/// Layers of elements around a triangle whose nodes are taken where those of fewer do not determine
+/// a quadratic.
 const MOST_LAYERS: usize = 3;
 /// Triangles that a thread takes at a time.
 const GRAIN: usize = 64;
@@ -29,7 +33,8 @@ const GRAIN: usize = 64;
 #[derive(Debug, Default)]
 pub struct FittedStrains {
     nodes: Vec<NodalPlaces>,
-    /// Where the terms of each element begin. One that is no linear triangle, or cannot be fitted, has none.
+    /// Where the terms of each element begin. One that is no linear triangle, or cannot be fitted,
+    /// has none.
     first: Vec<u32>,
     terms: Vec<Term>,
 }
@@ -45,8 +50,8 @@ struct Term {
 }
 
 impl FittedStrains {
-    /// Fits around the linear triangles among `elements`; `around` has, for the place of each in that list, the places of those of its body that share a node with
-    /// it, itself included.
+    /// Fits around the linear triangles among `elements`; `around` has, for the place of each in
+    /// that list, the places of those of its body that share a node with it, itself included.
     pub fn new(
         model: &Model,
         elements: &[usize],
@@ -127,7 +132,8 @@ impl FittedStrains {
     }
 }
 
-/// What the displacements of nodes count in the quadratic fit at the centroid of a triangle; `None` where they do not determine it.
+/// What the displacements of nodes count in the quadratic fit at the centroid of a triangle; `None`
+/// where they do not determine it.
 fn terms(model: &Model, element: usize, nodes: Vec<u32>) -> Option<Vec<Term>> {
     let own = model.element_coordinates(element);
     let mean = |d: usize| own[..3].iter().map(|x| x[d]).sum::<f64>() / 3.0;
@@ -177,7 +183,8 @@ mod tests {
     use crate::scene::Scene;
     use crate::substructure::Trailing;
 
-    /// Strains of a quadratic field that vanishes where the supports are, in every triangle of tubes and spheres: exact to round-off.
+    /// Strains of a quadratic field that vanishes where the supports are, in every triangle of
+    /// tubes and spheres: exact to round-off.
     #[test]
     fn quadratic_displacements_have_exact_strains() {
         for name in ["thick_cylinder", "thick_sphere"] {
@@ -238,7 +245,8 @@ mod tests {
                     -0.01 * x - 0.03 * y,
                 ];
                 let found = fitted.strain(e, &moved).unwrap();
-                // Round-off of displacements over the size of an element, once for each pivot that is lost.
+                // Round-off of displacements over the size of an element, once for each pivot that
+                // is lost.
                 let size = moved.iter().flatten().fold(0.0f64, |m, u| m.max(u.abs()));
                 let tolerance = 100.0 * f64::EPSILON * size / LEAST_PIVOT;
                 for (a, b) in found.iter().zip(exact) {

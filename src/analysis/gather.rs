@@ -1,8 +1,8 @@
-//! The elements of the zone, packed for speed: strain operators without their zeros, and where freedoms find
-//! displacements.
+//! The elements of the zone, packed for speed: strain operators without their zeros, and where
+//! freedoms find displacements.
 //!
-//! An operator ([`Form`]) is a sixth of the numbers of the full B, which is what counts where thousands of evaluations run
-//! through memory.
+//! An operator ([`Form`]) is a sixth of the numbers of the full B, which is what counts where
+//! thousands of evaluations run through memory.
 
 use crate::element::{AtPoints, Form, MAX_FREEDOMS, Points};
 use crate::model::{Model, Slot};
@@ -107,7 +107,8 @@ impl Nodal {
     }
 }
 
-/// Where the displacements of a node stand in a [`Nodal`] vector, and along which axes they are: `u_x = a_0 u_0 - a_1 u_1`, `u_y = a_1 u_0 + a_0 u_1`.
+/// Where the displacements of a node stand in a [`Nodal`] vector, and along which axes they are:
+/// `u_x = a_0 u_0 - a_1 u_1`, `u_y = a_1 u_0 + a_0 u_1`.
 #[derive(Debug, Clone, Copy)]
 pub struct NodalPlaces {
     places: [u32; 2],
@@ -277,8 +278,9 @@ mod tests {
     use crate::assembly::gauss_points_of;
     use crate::scene::Scene;
 
-    /// Gathered displacements and scattered forces against the model's own axes and slots, on elements with turned
-    /// contact nodes: equal to round-off, and the one the transpose of the other.
+    /// Gathered displacements and scattered forces against the model's own axes and slots, on
+    /// elements with turned contact nodes: equal to round-off, and the one the transpose of the
+    /// other.
     #[test]
     fn gathered_elements_see_the_displacements_of_the_model() {
         for name in [

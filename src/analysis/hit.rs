@@ -9,7 +9,8 @@ use crate::error::Result;
 use std::cell::Cell;
 
 impl Engine<'_> {
-    /// Repeats the increment from `saved` so that it ends where the monitored quantity, `was` there and `is` now, is zero.
+    /// Repeats the increment from `saved` so that it ends where the monitored quantity, `was` there
+    /// and `is` now, is zero.
     pub(super) fn hit(
         &mut self,
         end: &LoadPoint,
@@ -58,7 +59,8 @@ impl Engine<'_> {
         Ok(())
     }
 
-    /// Whether the increment just taken had the statuses that it began with from `saved`; those beyond its end may be others.
+    /// Whether the increment just taken had the statuses that it began with from `saved`; those
+    /// beyond its end may be others.
     fn kept_statuses(&self, saved: &Saved) -> bool {
         let mut open = self.tableau.open().to_vec();
         for &k in &self.border {
@@ -68,7 +70,8 @@ impl Engine<'_> {
     }
 }
 
-/// The state at `t` on the parabola through the nearest three of the known ones; states add up to states, the statuses being the same.
+/// The state at `t` on the parabola through the nearest three of the known ones; states add up to
+/// states, the statuses being the same.
 fn between(known: &mut [(f64, Equilibrium)], t: f64) -> Equilibrium {
     known.sort_by(|a, b| (a.0 - t).abs().total_cmp(&(b.0 - t).abs()));
     let nearest = &known[..known.len().min(3)];

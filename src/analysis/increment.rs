@@ -1,9 +1,9 @@
 //! One elastoplastic increment: equilibrium iteration and step length together (paper, chapter 4).
 //!
-//! The unknowns are the initial loads `J`. For given `J` displacements, gaps and contact forces follow from one
-//! trailing solve (4.6); the flow rule gives `J(u)` back, and `J(u) - J` is the true out-of-balance force of
-//! the stresses. While it is brought to zero the increment is scaled so that it ends at the next change of
-//! contact (4.17, 4.22).
+//! The unknowns are the initial loads `J`. For given `J` displacements, gaps and contact forces
+//! follow from one trailing solve (4.6); the flow rule gives `J(u)` back, and `J(u) - J` is the
+//! true out-of-balance force of the stresses. While it is brought to zero the increment is scaled
+//! so that it ends at the next change of contact (4.17, 4.22).
 
 use super::acceleration::Anderson;
 use super::collapse::Attempt;
@@ -46,7 +46,8 @@ pub struct Increment {
 /// Why no increment was found.
 #[derive(Debug)]
 pub enum NoIncrement {
-    /// The statuses at the end of a fixed increment come back to what they were: no set of them is right to round-off.
+    /// The statuses at the end of a fixed increment come back to what they were: no set of them is
+    /// right to round-off.
     Undecided,
     /// These pairs violate their condition at once: their statuses are wrong.
     WrongStatus(Vec<usize>),
@@ -58,18 +59,22 @@ pub enum NoIncrement {
     Stopped,
 }
 
-/// Accuracy (energy norm) of the tangent that predicts an increment: what yields anew on the way changes more than that.
+/// Accuracy (energy norm) of the tangent that predicts an increment: what yields anew on the way
+/// changes more than that.
 const PREDICTION: f64 = 0.02;
-/// Accuracy (energy norm) of every Newton direction. Where points begin or cease to flow convergence is linear, however exact the
-/// directions are: forcing terms that follow the residual cost a tenth more trailing solves for 4 % fewer material evaluations.
+/// Accuracy (energy norm) of every Newton direction. Where points begin or cease to flow
+/// convergence is linear, however exact the directions are: forcing terms that follow the residual
+/// cost a tenth more trailing solves for 4 % fewer material evaluations.
 const FORCING: f64 = 0.05;
 /// Cuts of a line search.
 const BACKTRACKS: usize = 12;
-/// Share of the slope at the begin to which the slope beyond a minimum may grow: nearly the minimum.
+/// Share of the slope at the begin to which the slope beyond a minimum may grow: nearly the
+/// minimum.
 const OVERSHOOT: f64 = 0.1;
 /// Iterations of the unaccelerated or Anderson iteration count for this many of Newton's limit.
 const CHEAP_ITERATIONS: usize = 100;
-/// Newton's iteration is given up when the residual has not fallen below this share of the best for `PATIENCE` iterations.
+/// Newton's iteration is given up when the residual has not fallen below this share of the best for
+/// `PATIENCE` iterations.
 const PROGRESS: f64 = 0.7;
 /// See [`PROGRESS`].
 const PATIENCE: usize = 15;
@@ -99,7 +104,8 @@ impl Engine<'_> {
         let follows = matches!(ends_at, EndsAt::NextChange { .. });
         let values = |engine: &Self, state: &Equilibrium| engine.values(&state.gap, &state.force);
         let base = values(self, &before);
-        // A pair whose opening would set a body free cannot open: its force may come down to the round-off of zero.
+        // A pair whose opening would set a body free cannot open: its force may come down to the
+        // round-off of zero.
         let mut exempt = self.border.clone();
         exempt.extend((0..base.len()).filter(|&k| self.tableau.would_free(k)));
 
@@ -236,7 +242,8 @@ impl Engine<'_> {
                                 known = Some(evaluation);
                                 (newton, length)
                             }
-                            // The elastic stiffness bounds the tangent from above: the plain step always lowers the energy.
+                            // The elastic stiffness bounds the tangent from above: the plain step
+                            // always lowers the energy.
                             None => {
                                 damping = next_damping(damping, 0.0);
                                 (self.direction(balance.clone()), 1.0)
@@ -275,7 +282,8 @@ impl Engine<'_> {
         }
     }
 
-    /// Factor on the increment so far (share `t` of the piece) that brings it to the next change or to the end.
+    /// Factor on the increment so far (share `t` of the piece) that brings it to the next change or
+    /// to the end.
     fn reach(&self, limit: &StepLimit, t: f64, most: f64) -> f64 {
         if limit.share * t >= most * (1.0 - AT_END) {
             most / t
@@ -284,8 +292,8 @@ impl Engine<'_> {
         }
     }
 
-    /// Rates of everything with the share of the piece: elastic, plus plastic where points flow. The plastic part goes on as in the last
-    /// increment; after none it is that of the tangent.
+    /// Rates of everything with the share of the piece: elastic, plus plastic where points flow.
+    /// The plastic part goes on as in the last increment; after none it is that of the tangent.
     fn rates(&mut self, end: &LoadPoint, tangent: bool) -> Equilibrium {
         let flows = tangent && !self.zone.is_idle();
         let pace = self.pace.as_ref().filter(|_| flows);
@@ -324,8 +332,8 @@ impl Engine<'_> {
             .collect()
     }
 
-    /// Pairs that began at the border of their condition and end beyond it: their rate was right at the begin and turned
-    /// within the increment, where no step limit watches it.
+    /// Pairs that began at the border of their condition and end beyond it: their rate was right at
+    /// the begin and turned within the increment, where no step limit watches it.
     fn crosses_border(&self, state: &Equilibrium, tolerance: f64, force_scale: f64) -> Vec<usize> {
         let largest_gap = state.gap.iter().fold(0.0f64, |m, g| m.max(*g));
         let crosses = |k: usize| {
@@ -360,10 +368,10 @@ impl Engine<'_> {
             .collect()
     }
 
-    /// Length along a Newton direction. The energy of the increment is convex and the out-of-balance force times the
-    /// direction is the negative of its slope: while that has not turned, the energy has fallen all the way. A length
-    /// that overshoots is cut by the secant. `None` where the direction leads nowhere; else `trial` holds the state there and
-    /// the force out of balance.
+    /// Length along a Newton direction. The energy of the increment is convex and the
+    /// out-of-balance force times the direction is the negative of its slope: while that has not
+    /// turned, the energy has fallen all the way. A length that overshoots is cut by the secant.
+    /// `None` where the direction leads nowhere; else `trial` holds the state there and the force out of balance.
     fn line_search(
         &mut self,
         state: &Equilibrium,
@@ -395,8 +403,8 @@ impl Engine<'_> {
         None
     }
 
-    /// The force that the stresses at `state` leave out of balance: what the plastic strains there would be as initial loads, less
-    /// the initial loads that the state is in equilibrium with.
+    /// The force that the stresses at `state` leave out of balance: what the plastic strains there
+    /// would be as initial loads, less the initial loads that the state is in equilibrium with.
     pub(super) fn out_of_balance_at(
         &mut self,
         state: &Equilibrium,
@@ -409,7 +417,8 @@ impl Engine<'_> {
     }
 }
 
-/// Newton's tangent is damped towards the elastic stiffness after a short step and freed again after full ones.
+/// Newton's tangent is damped towards the elastic stiffness after a short step and freed again
+/// after full ones.
 fn next_damping(damping: f64, length: f64) -> f64 {
     if length < 0.5 {
         f64::min(4.0 * damping.max(0.01), 0.6)

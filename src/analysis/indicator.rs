@@ -1,17 +1,21 @@
-//! How much the stresses of an element differ from a smoother, more accurate field: where the mesh is too coarse.
+//! How much the stresses of an element differ from a smoother, more accurate field: where the mesh
+//! is too coarse.
 //!
-//! Around each element a polynomial of the degree of its displacements is fitted, by least squares, to the stresses at
-//! the superconvergent points of the element and of those that share a node with it. The recovered `sigma*` converges
-//! faster than `sigma_h`, so that their difference in the energy norm estimates the error of `sigma_h`:
+//! Around each element a polynomial of the degree of its displacements is fitted, by least squares,
+//! to the stresses at the superconvergent points of the element and of those that share a node with
+//! it. The recovered `sigma*` converges faster than `sigma_h`, so that their difference in the
+//! energy norm estimates the error of `sigma_h`:
 //!
 //! ```text
-//!     eta_e^2 = integral over e of (sigma* - sigma_h) : C (sigma* - sigma_h),     C the elastic compliance
+//!     eta_e^2 = integral over e of (sigma* - sigma_h) : C (sigma* - sigma_h),     C the elastic
+//! compliance
 //!     eta^2   = sum eta_e^2 / (sum of integral sigma_h : C sigma_h + sum eta_e^2)
 //! ```
 //!
 //! # Source
-//! O. C. Zienkiewicz, J. Z. Zhu, The superconvergent patch recovery and a posteriori error estimates, parts 1 and 2,
-//! Int. J. Numer. Meth. Engng 33 (1992) 1331-1382, doi:10.1002/nme.1620330702.
+//! O. C. Zienkiewicz, J. Z. Zhu, The superconvergent patch recovery and a posteriori error
+//! estimates, parts 1 and 2, Int. J. Numer. Meth. Engng 33 (1992) 1331-1382,
+//! doi:10.1002/nme.1620330702.
 
 use super::stress_field::{ElementStress, StressField};
 use crate::element::{n_gauss_points, shape_functions};
@@ -23,7 +27,8 @@ use rayon::prelude::*;
 
 /// Terms of a polynomial of degree 2.
 const MOST_TERMS: usize = 6;
-/// Smallest pivot of the scaled normal equations that counts as determined: the square root of what round-off leaves.
+/// Smallest pivot of the scaled normal equations that counts as determined: the square root of what
+/// round-off leaves.
 const DETERMINED: f64 = 1e-7;
 
 /// Energy of the estimated stress error and of the stress itself, element by element.
@@ -147,7 +152,8 @@ impl Samples {
     }
 }
 
-/// The centre of a linear element carries its mean, the Gauss points of a quadratic one are superconvergent themselves.
+/// The centre of a linear element carries its mean, the Gauss points of a quadratic one are
+/// superconvergent themselves.
 fn sample(model: &Model, e: usize, element: &ElementStress, out: &mut [Sample]) {
     let (mapping, stress) = (&element.mapping, &element.stress);
     let position = mapping.positions(&model.element_coordinates(e));
@@ -193,8 +199,8 @@ const QUADRILATERAL: [([f64; 2], f64); 9] = {
         ([G, G], A),
     ]
 };
-/// Reference coordinates and weights: six points, degree 4 (D. A. Dunavant, Int. J. Numer. Meth. Engng 21 (1985) 1129-1148,
-/// doi:10.1002/nme.1620210612).
+/// Reference coordinates and weights: six points, degree 4 (D. A. Dunavant, Int. J. Numer. Meth.
+/// Engng 21 (1985) 1129-1148, doi:10.1002/nme.1620210612).
 const TRIANGLE: [([f64; 2], f64); 6] = {
     const A: f64 = 0.445_948_490_915_965;
     const B: f64 = 0.091_576_213_509_771;
@@ -213,8 +219,9 @@ const TRIANGLE: [([f64; 2], f64); 6] = {
 /// A point of the quadrature: where, its weight, and `sigma_h` there.
 type Point = ([f64; 2], f64, [f64; 4]);
 
-/// Calls `visit` for each point at which the stresses are compared. Quadratic elements have their stress at the Gauss points,
-/// where it is superconvergent and its error all but vanishes: between them it is the polynomial through them.
+/// Calls `visit` for each point at which the stresses are compared. Quadratic elements have their
+/// stress at the Gauss points, where it is superconvergent and its error all but vanishes: between
+/// them it is the polynomial through them.
 fn quadrature(model: &Model, e: usize, element: &ElementStress, mut visit: impl FnMut(Point)) {
     let coordinates = model.element_coordinates(e);
     let stress = &element.stress;
@@ -275,7 +282,8 @@ fn energies(
 ) -> [f64; 2] {
     let material = &model.materials[model.mesh.element_body[e] as usize];
     let frame = Frame::new(model, e);
-    // A patch that does not determine the polynomial (a single element, a row of them) takes a lower degree.
+    // A patch that does not determine the polynomial (a single element, a row of them) takes a
+    // lower degree.
     let fit = match degree(model, e) {
         1 => None,
         _ => fit_of::<MOST_TERMS>(&frame, patch, samples),
@@ -336,8 +344,8 @@ impl Frame {
     }
 }
 
-/// Weight of a sample at `(x, y)` in element sizes from the centre: the nearer ones count more, else a field that turns within
-/// the patch (stresses round a hole) is smoothed away.
+/// Weight of a sample at `(x, y)` in element sizes from the centre: the nearer ones count more,
+/// else a field that turns within the patch (stresses round a hole) is smoothed away.
 fn weight(x: f64, y: f64) -> f64 {
     1.0 / (1.0 + (x * x + y * y).powi(2))
 }
@@ -348,7 +356,8 @@ struct Fit {
     coefficients: [[f64; 4]; MOST_TERMS],
 }
 
-/// The weighted least-squares polynomial with `N` terms; `None` where the samples do not determine it.
+/// The weighted least-squares polynomial with `N` terms; `None` where the samples do not determine
+/// it.
 fn fit_of<const N: usize>(frame: &Frame, patch: &[u32], samples: &Samples) -> Option<Fit> {
     let mut gram = SMatrix::<f64, N, N>::zeros();
     let mut right = SMatrix::<f64, N, 4>::zeros();

@@ -1,6 +1,7 @@
 //! Checkpoints of a run: when they are written, and what is in them.
 //!
-//! Writing one changes nothing in the run, so that results do not depend on whether and how often that is done.
+//! Writing one changes nothing in the run, so that results do not depend on whether and how often
+//! that is done.
 
 use super::aim::Aim;
 use super::between::Between;
@@ -54,7 +55,8 @@ pub(super) struct SpreadRecord {
 pub(super) struct RunRecord {
     pub(super) place: Place,
     pub(super) engine: EngineRecord,
-    /// The part with the elastic stress, the largest load factor and the one up to which the zone was chosen.
+    /// The part with the elastic stress, the largest load factor and the one up to which the zone
+    /// was chosen.
     pub(super) spread: Option<(PartId, f64, f64)>,
     pub(super) standing: Standing,
     pub(super) first_yield: Option<YieldPoint>,
@@ -287,7 +289,8 @@ impl Watcher for Recorder<'_, '_> {
     }
 }
 
-/// A run does not end because a checkpoint cannot be written: its results are worth more. It says so, once.
+/// A run does not end because a checkpoint cannot be written: its results are worth more. It says
+/// so, once.
 fn note_failure(
     keeper: &mut Keeper,
     outcome: Result<()>,

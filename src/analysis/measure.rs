@@ -7,8 +7,9 @@ use crate::results::{EdgeReading, PairState, Status};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// Forces below this share of the largest are of pairs about to open or just closed: at a change of contact the force is zero up
-/// to round-off or gamma, and the extent of the contact must not depend on what is left of it.
+/// Forces below this share of the largest are of pairs about to open or just closed: at a change of
+/// contact the force is zero up to round-off or gamma, and the extent of the contact must not
+/// depend on what is left of it.
 const VANISHING: f64 = 1e-7;
 /// Forces below this share of the largest of the run are round-off of an unloaded contact.
 const ROUND_OFF: f64 = 1e-13;
@@ -32,14 +33,16 @@ pub struct ContactFigures {
     pub contact: usize,
 }
 
-/// Pressure of each pair: its force over the integral of its node's shape function, which passes a uniform pressure exactly. With linear
-/// elements it is of first order beside the axis of revolution, as the displacements there are, whatever the weights: all errors have one sign.
+/// Pressure of each pair: its force over the integral of its node's shape function, which passes a
+/// uniform pressure exactly. With linear elements it is of first order beside the axis of
+/// revolution, as the displacements there are, whatever the weights: all errors have one sign.
 pub fn pressures(model: &Model, force: &[f64]) -> Vec<f64> {
     let pairs = model.pairs.iter();
     pairs.zip(force).map(|(pair, r)| r / pair.area).collect()
 }
 
-/// The even continuation of a quantity of the pairs to the axis of revolution, where a contact reaches it without a pair there.
+/// The even continuation of a quantity of the pairs to the axis of revolution, where a contact
+/// reaches it without a pair there.
 pub(super) fn on_axis(model: &Model, contact: &ContactSurface, values: &[f64]) -> Option<f64> {
     let axis = contact.axis?;
     let range = contact.range.clone();
@@ -56,8 +59,9 @@ pub(super) fn on_axis(model: &Model, contact: &ContactSurface, values: &[f64]) -
     Some((b * values[near] - a * values[next]) / (b - a))
 }
 
-/// Pairs with what they carry, and the points on the axis that are no pairs: these have no area and no force, and are numbered after
-/// the pairs. Nothing holds their nodes apart: `apart` gives how far they are from each other, negative where they overlap.
+/// Pairs with what they carry, and the points on the axis that are no pairs: these have no area and
+/// no force, and are numbered after the pairs. Nothing holds their nodes apart: `apart` gives how
+/// far they are from each other, negative where they overlap.
 pub fn pair_states(
     model: &Model,
     gap: &[f64],
@@ -138,7 +142,8 @@ pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigur
                 k += 1;
             }
             let sum: f64 = force[begin..k].iter().sum();
-            // Bodies in a row pass the same force on: the first of equal patches is taken, not that of the larger round-off.
+            // Bodies in a row pass the same force on: the first of equal patches is taken, not that
+            // of the larger round-off.
             if sum > largest * (1.0 + VANISHING) {
                 largest = sum;
                 let patch = Patch {
@@ -196,8 +201,9 @@ impl Engine<'_> {
         contact_figures(self.model, &self.contact_forces(), self.force_scale)
     }
 
-    /// The contact forces. Residual stresses balance to the tolerance of the plastic iteration only, and to round-off: where all
-    /// contact forces together are less than that, the bodies have parted and nothing is left but the imbalance.
+    /// The contact forces. Residual stresses balance to the tolerance of the plastic iteration
+    /// only, and to round-off: where all contact forces together are less than that, the bodies
+    /// have parted and nothing is left but the imbalance.
     pub fn contact_forces(&self) -> Cow<'_, [f64]> {
         let force = &self.now.force;
         let tolerance = self.model.scene.analysis.tolerance * self.force_scale;
@@ -219,9 +225,9 @@ impl Engine<'_> {
             .or(if loads.is_empty() { None } else { Some(0) })
     }
 
-    /// The total load of the current state: size of the leading load times its factor; of a force the whole's. Where it
-    /// prescribes displacements, the contact force, if there is contact; else NaN: the reaction is known with the state
-    /// only.
+    /// The total load of the current state: size of the leading load times its factor; of a force
+    /// the whole's. Where it prescribes displacements, the contact force, if there is contact; else
+    /// NaN: the reaction is known with the state only.
     pub fn total_load_size(&self) -> f64 {
         match self.leading_load() {
             Some(i) if self.model.loads[i].measures != Magnitude::Displacement => {
@@ -242,8 +248,8 @@ impl Engine<'_> {
             + opened[1] * axis.normal[1]
     }
 
-    /// How far the loads that vary have brought the bodies together ([`crate::results::State::approach`]), for displacements of
-    /// the whole model.
+    /// How far the loads that vary have brought the bodies together
+    /// ([`crate::results::State::approach`]), for displacements of the whole model.
     pub fn approach(&self, u: &[f64]) -> f64 {
         let loads = &self.model.loads;
         let driven = |l: &&LoadCase| l.driven(self.unit) > 0.0;

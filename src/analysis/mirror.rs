@@ -1,13 +1,15 @@
 //! Planes of symmetry that bound a body: there the stress goes on as its own mirror image.
 //!
-//! Along a straight boundary whose nodes are held across it and free along it (the axis of revolution is one), the body
-//! goes on as if mirrored. A fit of the stress from one side alone would leave out what is known of the other side, and would put a
-//! maximum that lies on the plane beside it.
+//! Along a straight boundary whose nodes are held across it and free along it (the axis of
+//! revolution is one), the body goes on as if mirrored. A fit of the stress from one side alone
+//! would leave out what is known of the other side, and would put a maximum that lies on the plane
+//! beside it.
 
 use crate::mesh::Facet;
 use crate::model::{Model, Slot};
 
-/// Sine of the angle up to which directions, and share of a facet's length up to which places, are the same.
+/// Sine of the angle up to which directions, and share of a facet's length up to which places, are
+/// the same.
 const SAME: f64 = 1e-9;
 
 /// A plane `normal . x = offset`; the body lies where `normal . x` is smaller.

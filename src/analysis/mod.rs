@@ -116,8 +116,9 @@ impl Analysis {
         &self.system
     }
 
-    /// Runs the whole load program. A run that fails after increments were accepted returns what was computed, with
-    /// [`Results::incomplete`] set. The observer sees every accepted increment, and may stop the run there:
+    /// Runs the whole load program. A run that fails after increments were accepted returns what
+    /// was computed, with [`Results::incomplete`] set. The observer sees every accepted increment,
+    /// and may stop the run there:
     ///
     /// ```
     /// use brinell::progress::{Flow, Observer};
@@ -153,12 +154,14 @@ impl Analysis {
         )
     }
 
-    /// As [`Analysis::run`], and writes checkpoints on the way: should the process be killed, [`Analysis::resume`] goes on from the last.
-    /// The results are those of [`Analysis::run`] to the last bit. A checkpoint that is there already is replaced by the first.
+    /// As [`Analysis::run`], and writes checkpoints on the way: should the process be killed,
+    /// [`Analysis::resume`] goes on from the last. The results are those of [`Analysis::run`] to
+    /// the last bit. A checkpoint that is there already is replaced by the first.
     ///
     /// # Errors
-    /// As [`Analysis::run`]; `Input` where another run is writing there; `Io` where the first checkpoint cannot be written
-    /// (a later one that cannot be ends the run like any other failure).
+    /// As [`Analysis::run`]; `Input` where another run is writing there; `Io` where the first
+    /// checkpoint cannot be written (a later one that cannot be ends the run like any other
+    /// failure).
     pub fn run_with_checkpoints(
         &mut self,
         checkpoints: &Checkpoints,
@@ -176,13 +179,15 @@ impl Analysis {
         program::complete(run.keeping(store, every), false)
     }
 
-    /// Goes on from the last checkpoint and writes further ones. The results are those of a run that was never stopped, to the
-    /// last bit where the factorisation is the same to the last bit (else [`Results::warnings`] says so); `timings` add up. Counts
-    /// are those of the one run, the factorisations done again left out.
+    /// Goes on from the last checkpoint and writes further ones. The results are those of a run
+    /// that was never stopped, to the last bit where the factorisation is the same to the last bit
+    /// (else [`Results::warnings`] says so); `timings` add up. Counts are those of the one run, the
+    /// factorisations done again left out.
     ///
     /// # Errors
-    /// As [`Analysis::run_with_checkpoints`]; `Input` where the checkpoint is damaged, of another version, or of another scene,
-    /// mesh or backend, naming what differs; `Io` where there is none.
+    /// As [`Analysis::run_with_checkpoints`]; `Input` where the checkpoint is damaged, of another
+    /// version, or of another scene, mesh or backend, naming what differs; `Io` where there is
+    /// none.
     pub fn resume(
         &mut self,
         checkpoints: &Checkpoints,
@@ -209,12 +214,13 @@ impl Analysis {
     /// The yield load only.
     ///
     /// ```
-    /// use brinell::{analysis::Analysis, linalg::Backend, model::Model, progress::Silent, scene::Scene};
+    /// use brinell::{analysis::Analysis, linalg::Backend, model::Model, progress::Silent,
+    /// scene::Scene};
     ///
     /// # fn main() -> brinell::Result<()> {
     /// let scene = Scene::load("data/scenes/thick_cylinder.toml")?;
-    /// let results = Analysis::new(Model::new(&scene)?, Backend::default())?.yield_load(&mut Silent)?;
-    /// let first = results.first_yield.expect("the tube yields");
+    /// let results = Analysis::new(Model::new(&scene)?, Backend::default())?.yield_load(&mut
+    /// Silent)?; let first = results.first_yield.expect("the tube yields");
     /// // Lame, von Mises at the bore in plane strain: 103.750 for a yield stress of 240.
     /// assert!((first.load / 103.750 - 1.0).abs() < 1e-3);
     /// # Ok(())

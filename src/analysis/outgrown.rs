@@ -1,4 +1,5 @@
-//! A contact that reaches the end of its candidates where the bodies go on: no result beyond it is to be believed.
+//! A contact that reaches the end of its candidates where the bodies go on: no result beyond it is
+//! to be believed.
 
 use super::drive::IncrementReport;
 use super::engine::Engine;
@@ -6,15 +7,16 @@ use super::place::Watcher;
 use crate::error::{Error, ErrorKind, Result};
 use crate::scene::Kind;
 
-/// Share of the largest contact force below which the force of a pair is that of one about to open or just closed.
+/// Share of the largest contact force below which the force of a pair is that of one about to open
+/// or just closed.
 const VANISHING: f64 = 1e-7;
 
 impl Engine<'_> {
     /// Passes an accepted increment on; whether the run goes on after it.
     ///
     /// # Errors
-    /// [`ErrorKind::Outgrown`] where contact has reached an end of the candidates beyond which the bodies go on; those of
-    /// the watcher.
+    /// [`ErrorKind::Outgrown`] where contact has reached an end of the candidates beyond which the
+    /// bodies go on; those of the watcher.
     pub(super) fn accepted(
         &mut self,
         watcher: &mut dyn Watcher,

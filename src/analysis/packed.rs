@@ -1,5 +1,5 @@
-//! Compact forms of what checkpoints hold much of: sets of numbers as runs, vectors that are mostly zero, histories of points most of
-//! which have none. Unpacked they are the same bits.
+//! Compact forms of what checkpoints hold much of: sets of numbers as runs, vectors that are mostly
+//! zero, histories of points most of which have none. Unpacked they are the same bits.
 
 use crate::material::PlasticState;
 use crate::substructure::Trailing;
@@ -113,7 +113,8 @@ impl SparseHistory {
         }))
     }
 
-    /// On return `out` holds the history of all points; false where it is of another number of points.
+    /// On return `out` holds the history of all points; false where it is of another number of
+    /// points.
     pub(super) fn unpack(&self, out: &mut [PlasticState]) -> bool {
         out.fill(PlasticState::default());
         self.0.unpack(out)

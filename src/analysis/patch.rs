@@ -6,7 +6,8 @@
 use super::mirror::Reflection;
 use std::collections::HashMap;
 
-/// Highest degree of the polynomials: cubic, and then quadratic, linear, constant where the samples do not determine it.
+/// Highest degree of the polynomials: cubic, and then quadratic, linear, constant where the samples
+/// do not determine it.
 const CUBIC: usize = 3;
 /// Terms of a cubic.
 const N: usize = n_terms(CUBIC);
@@ -17,11 +18,13 @@ const LEAST_PIVOT: f64 = 1e-2;
 /// Reach of the weights in distances between samples.
 const REACH: f64 = 3.25;
 
-/// How far from the middle points of an element may lie, in its extents: curved sides bulge beyond their nodes.
+/// How far from the middle points of an element may lie, in its extents: curved sides bulge beyond
+/// their nodes.
 const HALF: f64 = 0.6;
 
-/// Reach of the weights in sizes of an element with `n` samples: elements with more of them need fewer neighbours, and a fit over
-/// less of the field is closer to it (at a bore the error of the cubic falls with the fourth power of the reach).
+/// Reach of the weights in sizes of an element with `n` samples: elements with more of them need
+/// fewer neighbours, and a fit over less of the field is closer to it (at a bore the error of the
+/// cubic falls with the fourth power of the reach).
 pub fn reach(n: usize) -> f64 {
     REACH / (n as f64).sqrt()
 }
@@ -42,7 +45,8 @@ pub struct Patch {
     samples: Vec<Sample>,
     /// How many of the samples these are.
     n_near: usize,
-    /// The samples that count in the value last asked for, with their weights and places relative to it.
+    /// The samples that count in the value last asked for, with their weights and places relative
+    /// to it.
     weighted: Vec<(u32, f64, [f64; 2])>,
     /// Indices of samples and their shares in that value.
     shares: Vec<(u32, f64)>,
@@ -83,8 +87,9 @@ impl Patch {
         }
     }
 
-    /// Moving least squares at a point: the fit of the highest degree that the samples around determine. What each sample adds to it depends on
-    /// the point alone; `keep` has that ready where the same point is asked for again.
+    /// Moving least squares at a point: the fit of the highest degree that the samples around
+    /// determine. What each sample adds to it depends on the point alone; `keep` has that ready
+    /// where the same point is asked for again.
     pub fn value(&mut self, samples: &[[f64; 4]], at: [f64; 2], keep: bool) -> [f64; 4] {
         let place = at.map(f64::to_bits);
         if let Some(shares) = self.kept.get(&place) {
@@ -127,11 +132,12 @@ impl Patch {
         out
     }
 
-    /// The share that each weighted sample has in the value of the fit of a degree, by the normal equations; terms are centred at the point, so that the value
-    /// is the constant term. `false`, and no shares, where the samples do not determine it.
+    /// The share that each weighted sample has in the value of the fit of a degree, by the normal
+    /// equations; terms are centred at the point, so that the value is the constant term. `false`,
+    /// and no shares, where the samples do not determine it.
     ///
-    /// The matrix of the normal equations holds the moments of the weights, `G_ab = sum w p_a p_b`, which are monomials of twice the degree; a
-    /// sample's share is `w (c . p)` with `G c = e_0`.
+    /// The matrix of the normal equations holds the moments of the weights, `G_ab = sum w p_a p_b`,
+    /// which are monomials of twice the degree; a sample's share is `w (c . p)` with `G c = e_0`.
     fn fit<const D: usize>(&mut self) -> bool {
         self.shares.clear();
         let n = n_terms(D);
@@ -172,7 +178,8 @@ impl Patch {
         }
     }
 
-    /// Collects all samples, where those within reach determine nothing: with weights that reach on.
+    /// Collects all samples, where those within reach determine nothing: with weights that reach
+    /// on.
     fn weigh_all(&mut self, x: [f64; 2]) {
         let unit = 1.0 / (self.reach * self.reach);
         let weighted = self.samples.iter().zip(0..).map(|(sample, i)| {

@@ -1,4 +1,5 @@
-//! Where a run is on its way, as data: a run that goes on takes each routine's part of it in place of its begin.
+//! Where a run is on its way, as data: a run that goes on takes each routine's part of it in place
+//! of its begin.
 
 use super::drive::IncrementReport;
 use super::elastic::{ElasticPiece, Following};
@@ -14,7 +15,8 @@ pub trait Watcher {
     /// Ends the drive.
     fn increment(&mut self, engine: &mut Engine, report: &IncrementReport) -> Result<bool>;
 
-    /// The drive may go on from here in another process: all that it depends on is the engine and what `leg` returns.
+    /// The drive may go on from here in another process: all that it depends on is the engine and
+    /// what `leg` returns.
     ///
     /// # Errors
     /// Ends the drive.

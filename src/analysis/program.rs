@@ -23,7 +23,8 @@ use std::time::Instant;
 
 /// Doublings of the load in search of first yield or of a target.
 pub(super) const DOUBLINGS: usize = 60;
-/// Lower bound of the condition from which it is estimated without being asked for: six digits of a displacement may be left.
+/// Lower bound of the condition from which it is estimated without being asked for: six digits of a
+/// displacement may be left.
 const DOUBTFUL: f64 = 1e10;
 /// Choices of the zone that are tried in search of the place of first yield.
 pub(super) const ZONE_ATTEMPTS: usize = 8;
@@ -194,8 +195,9 @@ impl<'m, 'o> Run<'m, 'o> {
         Ok(true)
     }
 
-    /// Reaches a target and takes its state. The guard layer only sees what grows out of the zone: where the state shows
-    /// stress beyond yield elsewhere, the zone is widened to there and the way to the target is gone again.
+    /// Reaches a target and takes its state. The guard layer only sees what grows out of the zone:
+    /// where the state shows stress beyond yield elsewhere, the zone is widened to there and the
+    /// way to the target is gone again.
     pub(super) fn reach_with_right_zone(&mut self, target: &Target, label: &str) -> Result<State> {
         let begun = self.resumed.as_ref().map_or(0, |place| place.attempt);
         for attempt in begun..ZONE_ATTEMPTS {
@@ -221,7 +223,8 @@ impl<'m, 'o> Run<'m, 'o> {
             (self.standing.plastic, self.standing.yield_alpha) = (start.plastic, start.yield_alpha);
             self.results.first_yield = start.first_yield;
             self.results.history.truncate(start.increments);
-            // What was searched for first yield did not hold all that yields: the way is watched from its begin.
+            // What was searched for first yield did not hold all that yields: the way is watched
+            // from its begin.
             self.standing.elastic_range = [0.0; 2];
             let wider = zone_choice::including(self.model(), &self.choice, &missed);
             self.set_zone(wider)?;
@@ -266,7 +269,8 @@ impl<'m, 'o> Run<'m, 'o> {
             .reduce(f64::max)
     }
 
-    /// Drives to a load point, elastic before first yield, elastoplastic after, growing the zone where it must.
+    /// Drives to a load point, elastic before first yield, elastoplastic after, growing the zone
+    /// where it must.
     pub(super) fn drive(
         &mut self,
         end: &LoadPoint,
@@ -278,7 +282,8 @@ impl<'m, 'o> Run<'m, 'o> {
         let resumed = self.resumed.as_mut().and_then(|place| place.drive.take());
         let taken = Cell::new(resumed.as_ref().map_or(0, |drive| drive.taken));
         let mut leg = resumed.map(|drive| drive.leg);
-        // The increments' observer is told how far the monitored quantity is, which costs a solve for some.
+        // The increments' observer is told how far the monitored quantity is, which costs a solve
+        // for some.
         let last = Cell::new(f64::NAN);
         let remembering = monitor.map(|monitor| {
             let last = &last;
@@ -308,7 +313,8 @@ impl<'m, 'o> Run<'m, 'o> {
                 self.recovery();
             }
             if let (Some(monitor), Some(was)) = (monitor, watched) {
-                // Another zone puts the state in equilibrium anew, within the tolerance: that may be all that was missing.
+                // Another zone puts the state in equilibrium anew, within the tolerance: that may
+                // be all that was missing.
                 let is = monitor(&mut self.engine)?;
                 if is != was && (is > 0.0) != (was > 0.0) {
                     return Ok(Arrival::Monitor);

@@ -1,12 +1,12 @@
 //! How good a state is.
 //!
-//! Nothing here takes the solver's word: gaps are those of the displacements, contact forces those that the stresses leave over on
-//! the contact nodes, neither of them clipped. A wrong status shows as tension or penetration, a wrong condensed matrix or
-//! factor as forces out of balance.
+//! Nothing here takes the solver's word: gaps are those of the displacements, contact forces those
+//! that the stresses leave over on the contact nodes, neither of them clipped. A wrong status shows
+//! as tension or penetration, a wrong condensed matrix or factor as forces out of balance.
 //!
-//! Figures are relative to the largest load and displacement of the run up to here, so that they keep their meaning
-//! where everything is unloaded. Rigid motions of floating bodies, which stress nothing, are no part of the displacements that
-//! stresses and their round-off are held against.
+//! Figures are relative to the largest load and displacement of the run up to here, so that they
+//! keep their meaning where everything is unloaded. Rigid motions of floating bodies, which stress
+//! nothing, are no part of the displacements that stresses and their round-off are held against.
 
 #[cfg(test)]
 mod tests;
@@ -18,20 +18,22 @@ use crate::linalg::largest;
 use crate::model::Model;
 use crate::results::{Quality, Tolerances};
 
-/// Share of the largest force or displacement that an elastic state may be off: round-off times any condition that a state is worth
-/// having at.
+/// Share of the largest force or displacement that an elastic state may be off: round-off times any
+/// condition that a state is worth having at.
 const ROUND_OFF: f64 = 1e-8;
 
-/// Round-off of the forces `sum w B' (D (B u))` of elements, over the largest `|K| |u|` of a row: displacements, strains, stresses and forces
-/// are rounded one after the other, by half of `eps` each (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed.,
-/// section 3.5). How many terms are summed up is left out: their roundings have either sign.
+/// Round-off of the forces `sum w B' (D (B u))` of elements, over the largest `|K| |u|` of a row:
+/// displacements, strains, stresses and forces are rounded one after the other, by half of `eps`
+/// each (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., section 3.5). How
+/// many terms are summed up is left out: their roundings have either sign.
 pub(super) const ROUND_OFF_OF_FORCES: f64 = 2.0 * f64::EPSILON;
 
-/// What no setting of the scene makes acceptable: a thousandth of the largest force on the wrong side.
+/// What no setting of the scene makes acceptable: a thousandth of the largest force on the wrong
+/// side.
 pub(super) const LOOSEST: f64 = 1e-3;
 
-/// What the quality of a state of this model must keep: the tolerances that the scene asks for, with room for what
-/// is measured elsewhere than iterated, and round-off.
+/// What the quality of a state of this model must keep: the tolerances that the scene asks for,
+/// with room for what is measured elsewhere than iterated, and round-off.
 pub(super) fn tolerances(model: &Model) -> Tolerances {
     let settings = &model.scene.analysis;
     // Between events a pair may be beyond its condition by gamma.
@@ -112,7 +114,8 @@ impl Engine<'_> {
         Ok(out)
     }
 
-    /// Quality of the current state, where nothing else of it is wanted. Costs half a full solve and the stresses of all elements.
+    /// Quality of the current state, where nothing else of it is wanted. Costs half a full solve
+    /// and the stresses of all elements.
     ///
     /// # Errors
     /// Failure of the backend's solve.
@@ -129,7 +132,8 @@ impl Engine<'_> {
         self.quality(u, stresses.internal, &stresses.reactions)
     }
 
-    /// Quality of the current state with its `internal` forces and the `reactions` on prescribed displacements.
+    /// Quality of the current state with its `internal` forces and the `reactions` on prescribed
+    /// displacements.
     pub(super) fn quality(
         &mut self,
         u: &Displacements,

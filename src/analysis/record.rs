@@ -1,8 +1,8 @@
 //! What a checkpoint keeps of the structure under load, and the structure set up from it.
 //!
-//! What follows from the model (the factor, the condensed loads and matrices, the places of freedoms) is computed again: the same
-//! operations on the same numbers. What depends on the way here is kept: state, history, and the pivots that the
-//! tableau went through.
+//! What follows from the model (the factor, the condensed loads and matrices, the places of
+//! freedoms) is computed again: the same operations on the same numbers. What depends on the way
+//! here is kept: state, history, and the pivots that the tableau went through.
 
 use super::engine::{Engine, LoadPoint};
 use super::equilibrium::{EliminatedLoad, Equilibrium};
@@ -21,7 +21,8 @@ use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use xxhash_rust::xxh3::Xxh3;
 
-/// A load that was eliminated piece by piece: not what eliminating it at once gives, to the last bit.
+/// A load that was eliminated piece by piece: not what eliminating it at once gives, to the last
+/// bit.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 struct EliminatedRecord {
     load: SparseTrailing,
@@ -125,7 +126,8 @@ impl EngineRecord {
 }
 
 impl<'m> Engine<'m> {
-    /// The record of this structure; `guard` as it was given with the zone, [`Engine::fingerprint`] as it was computed.
+    /// The record of this structure; `guard` as it was given with the zone, [`Engine::fingerprint`]
+    /// as it was computed.
     pub(super) fn record(&self, guard: &[bool], fingerprint: u128) -> EngineRecord {
         EngineRecord {
             factored: Ascending::new(self.factored.iter().copied()),
@@ -204,7 +206,8 @@ impl<'m> Engine<'m> {
         Ok((engine, same))
     }
 
-    /// Hash of what the factorisation left of the model, whichever zone is chosen: contact matrix and reduced loads.
+    /// Hash of what the factorisation left of the model, whichever zone is chosen: contact matrix
+    /// and reduced loads.
     pub(super) fn fingerprint(&self) -> u128 {
         let mut hash = Xxh3::new();
         let mut add = |values: &[f64]| {

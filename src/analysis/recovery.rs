@@ -1,14 +1,16 @@
 //! Stress where it is most accurate, and its maximum between the points.
 //!
-//! Stresses are sampled at superconvergent points; linear triangles have none, their strains are fitted ([`super::fitted`]). Between them each component is a moving least-squares fit: at a
-//! point `x` a cubic polynomial is fitted to the samples of the same body around, with weights that fall smoothly to zero,
-//! so the recovered stress is continuous, across elements too. Von Mises' stress is maximised over it: yield load and
-//! yield depth then are continuous quantities, not quantised by the mesh. Beyond a plane of symmetry the samples go on as
-//! their mirror images: a maximum on the plane, as under a ball or cylinder, is found there.
+//! Stresses are sampled at superconvergent points; linear triangles have none, their strains are
+//! fitted ([`super::fitted`]). Between them each component is a moving least-squares fit: at a
+//! point `x` a cubic polynomial is fitted to the samples of the same body around, with weights that
+//! fall smoothly to zero, so the recovered stress is continuous, across elements too. Von Mises'
+//! stress is maximised over it: yield load and yield depth then are continuous quantities, not
+//! quantised by the mesh. Beyond a plane of symmetry the samples go on as their mirror images: a
+//! maximum on the plane, as under a ball or cylinder, is found there.
 //!
 //! # Source
-//! O. C. Zienkiewicz, J. Z. Zhu, superconvergent patch recovery (1992), doi:10.1002/nme.1620330702; P. Lancaster,
-//! K. Salkauskas, moving least squares (1981), doi:10.1090/S0025-5718-1981-0616367-1.
+//! O. C. Zienkiewicz, J. Z. Zhu, superconvergent patch recovery (1992), doi:10.1002/nme.1620330702;
+//! P. Lancaster, K. Salkauskas, moving least squares (1981), doi:10.1090/S0025-5718-1981-0616367-1.
 
 use super::fitted::FittedStrains;
 use super::gather::{GatheredElements, Nodal, Places};
@@ -30,8 +32,9 @@ const CANDIDATE: f64 = 0.93;
 const FAR_BELOW: f64 = 0.85;
 /// Stresses closer than this share are equal.
 const TIE: f64 = 1e-9;
-/// Share of the stress, times the square of a spacing, that may lie beside the highest point of that spacing. A search at that spacing leaves the same of its square,
-/// and ends where that is no more than `gamma`: first yield is an event as changes of contact are.
+/// Share of the stress, times the square of a spacing, that may lie beside the highest point of
+/// that spacing. A search at that spacing leaves the same of its square, and ends where that is no
+/// more than `gamma`: first yield is an event as changes of contact are.
 const CURVATURE: f64 = 0.1;
 /// What a search at a spacing leaves, as a share of the stress.
 fn left_after(spacing: f64) -> f64 {
@@ -44,7 +47,8 @@ pub fn left_of_search(gamma: f64) -> f64 {
     left_after(*last.unwrap_or(&SPACINGS[SPACINGS.len() - 1]))
 }
 
-/// Elements up to which the fits of one search are kept for the next one, at a load near by: a quarter of a megabyte for each at most.
+/// Elements up to which the fits of one search are kept for the next one, at a load near by: a
+/// quarter of a megabyte for each at most.
 const FEW: usize = 100;
 /// Elements that a thread takes at a time: fewer take less than waking it.
 const GRAIN: usize = 256;
@@ -201,9 +205,10 @@ impl Recovery {
         out
     }
 
-    /// The recovered maximum of von Mises stress over yield stress; `None` where there is no stress, and so no place of the largest.
-    /// Where the largest sample is far below yield it is returned as it is, with its own place: neither needs to be more exact.
-    /// Of equal maxima the first is named, in the order of the elements.
+    /// The recovered maximum of von Mises stress over yield stress; `None` where there is no
+    /// stress, and so no place of the largest. Where the largest sample is far below yield it is
+    /// returned as it is, with its own place: neither needs to be more exact. Of equal maxima the
+    /// first is named, in the order of the elements.
     pub fn peak(&mut self, model: &Model, samples: &Samples) -> Option<Peak> {
         let raw: Vec<f64> = (0..self.elements.list.len())
             .map(|i| {
@@ -220,8 +225,9 @@ impl Recovery {
         if highest < FAR_BELOW {
             return self.largest_sample(samples, &raw, highest);
         }
-        // A smooth field has its maximum in or beside an element whose sample is a local maximum. Of equal samples (all round a bore) each counts as
-        // one: which is the largest is for round-off to say, and what is recovered beside them is not the same.
+        // A smooth field has its maximum in or beside an element whose sample is a local maximum.
+        // Of equal samples (all round a bore) each counts as one: which is the largest is for
+        // round-off to say, and what is recovered beside them is not the same.
         let mut candidates: Vec<u32> = Vec::new();
         for i in (0..raw.len()).filter(|&i| raw[i] >= CANDIDATE * highest) {
             let around = self.neighbours_of(model, i);
@@ -266,8 +272,8 @@ impl Recovery {
         around
     }
 
-    /// The maximum over some elements. The recovered field is smooth in an element but not across: following the best element of the first search alone would
-    /// let round-off choose it.
+    /// The maximum over some elements. The recovered field is smooth in an element but not across:
+    /// following the best element of the first search alone would let round-off choose it.
     fn climb(&mut self, model: &Model, elements: &[u32], samples: &Samples) -> Option<Peak> {
         let keep = elements.len() <= FEW;
         let mut tops: Vec<(Square, Summit)> = Vec::with_capacity(elements.len());
@@ -294,7 +300,8 @@ impl Recovery {
             let least = highest(&tops) * (1.0 - CURVATURE * spacing * spacing);
             tops.retain(|t| t.1.value >= least);
         }
-        // Like bodies yield together: the first of equals is named (elements are in ascending order), not that of the larger round-off.
+        // Like bodies yield together: the first of equals is named (elements are in ascending
+        // order), not that of the larger round-off.
         let ratio = highest(&tops);
         let (square, top) = tops.iter().find(|t| t.1.value >= ratio * (1.0 - TIE))?;
         Some(Peak {
@@ -392,8 +399,9 @@ mod tests {
     use crate::progress::Silent;
     use crate::scene::Scene;
 
-    /// The search covers a triangle, whichever of its corners comes first: the highest point of this function lies on the side between the last two of one numbering, and
-    /// the corners are higher than what lies between.
+    /// The search covers a triangle, whichever of its corners comes first: the highest point of
+    /// this function lies on the side between the last two of one numbering, and the corners are
+    /// higher than what lies between.
     #[test]
     fn a_triangle_is_searched_whole() {
         let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
@@ -417,7 +425,8 @@ mod tests {
         }
     }
 
-    /// The largest sample with its own place, the first of equal ones whatever their round-off, none where there is no stress.
+    /// The largest sample with its own place, the first of equal ones whatever their round-off,
+    /// none where there is no stress.
     #[test]
     fn far_below_yield_the_first_of_the_largest_samples_is_the_peak() {
         let scene = Scene::load("data/scenes/thick_cylinder.toml").unwrap();
@@ -446,7 +455,8 @@ mod tests {
         }
     }
 
-    /// Looser searches miss no more than is said, and take fewer values. The field has its highest point between the samples.
+    /// Looser searches miss no more than is said, and take fewer values. The field has its highest
+    /// point between the samples.
     #[test]
     fn a_looser_search_misses_no_more_than_it_says() {
         let mut scene = Scene::load("data/scenes/thick_cylinder.toml").unwrap();

@@ -45,8 +45,8 @@ fn row(
     }
 }
 
-/// The coordinate `y` of first yield at a depth below the surface, which is at 0: bodies of one material yield alike on either side,
-/// and the point is that of the body that was named.
+/// The coordinate `y` of first yield at a depth below the surface, which is at 0: bodies of one
+/// material yield alike on either side, and the point is that of the body that was named.
 fn along_y(depth: f64, first: &YieldPoint) -> f64 {
     depth.copysign(first.location[1])
 }

@@ -1,6 +1,8 @@
-//! What the structure answers to loads and initial loads with the contact statuses at hand: trailing solves, by halves.
+//! What the structure answers to loads and initial loads with the contact statuses at hand:
+//! trailing solves, by halves.
 //!
-//! The first half of a solve, elimination, is the same for all statuses and linear in the load; the second gives displacements.
+//! The first half of a solve, elimination, is the same for all statuses and linear in the load; the
+//! second gives displacements.
 
 use super::engine::{Engine, LoadPoint};
 use super::equilibrium::{EliminatedLoad, Equilibrium};
@@ -25,7 +27,8 @@ impl Engine<'_> {
         out
     }
 
-    /// Equilibrium for a load point and initial loads with the current statuses (paper 4.2): the second half of a trailing solve.
+    /// Equilibrium for a load point and initial loads with the current statuses (paper 4.2): the
+    /// second half of a trailing solve.
     pub fn respond(&mut self, point: &LoadPoint, initial: EliminatedLoad) -> Equilibrium {
         let n = self.gap.len();
         let mut u = initial.eliminated.clone();
@@ -53,8 +56,9 @@ impl Engine<'_> {
         }
     }
 
-    /// Completes a change of state that follows from its initial loads alone, closed pairs staying closed; its displacements in a part of
-    /// the zone where only these are asked for. One trailing solve.
+    /// Completes a change of state that follows from its initial loads alone, closed pairs staying
+    /// closed; its displacements in a part of the zone where only these are asked for. One trailing
+    /// solve.
     pub fn respond_homogeneous(&mut self, change: &mut Equilibrium, part: &ZonePart) {
         let initial = &mut change.initial;
         initial.eliminated.copy_from(&initial.load);
@@ -66,7 +70,8 @@ impl Engine<'_> {
         self.recover_change(change, part);
     }
 
-    /// The displacements of a change of state from its other parts: the second half of a trailing solve.
+    /// The displacements of a change of state from its other parts: the second half of a trailing
+    /// solve.
     pub fn recover_change(&mut self, change: &mut Equilibrium, part: &ZonePart) {
         change.u.copy_from(&change.initial.eliminated);
         let slip: Vec<f64> = change.gap.iter().map(|g| -g).collect();

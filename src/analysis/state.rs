@@ -82,8 +82,8 @@ impl Engine<'_> {
         })
     }
 
-    /// Where the loads that vary are prescribed displacements only and nothing touches: the force that holds the first of
-    /// them, along its displacement, of the whole.
+    /// Where the loads that vary are prescribed displacements only and nothing touches: the force
+    /// that holds the first of them, along its displacement, of the whole.
     fn reaction(&self, reactions: &[f64]) -> Option<f64> {
         let model = self.model;
         let mut varying = model
@@ -137,8 +137,8 @@ fn fields(field: &StressField, nodal: Vec<[f64; 2]>, error: Vec<f64>) -> Fields 
     out
 }
 
-/// Begin and end of a patch in degrees about the centre of a circular surface: from the symmetry plane at the surface's
-/// nearer end, or from its middle where there is none.
+/// Begin and end of a patch in degrees about the centre of a circular surface: from the symmetry
+/// plane at the surface's nearer end, or from its middle where there is none.
 fn contact_arc(model: &Model, contact: usize, [from, to]: [f64; 2]) -> Option<[f64; 2]> {
     let surface = &model.contacts[contact];
     let (center, _) = surface.circle?;
@@ -165,7 +165,8 @@ fn contact_arc(model: &Model, contact: usize, [from, to]: [f64; 2]) -> Option<[f
     if from <= pairs[0].arc || to >= pairs[last].arc {
         return Some([0.0, extent]);
     }
-    // A patch that has left the symmetry plane is still measured from there, the nearer one if both ends lie on one.
+    // A patch that has left the symmetry plane is still measured from there, the nearer one if both
+    // ends lie on one.
     let on_symmetry = |k: usize| {
         let nodes = [pairs[k].first, pairs[k].second];
         nodes

@@ -1,7 +1,7 @@
 //! The step length: how much of an increment contact allows.
 //!
-//! For pair `k` let `v` be what must stay positive, the gap of an open pair or the force of a closed one. Over the
-//! increment it falls from `v` to `v + dv`; the paper's ratio is `psi = max_k |dv/v|` (4.16, 4.20), and the
+//! For pair `k` let `v` be what must stay positive, the gap of an open pair or the force of a
+//! closed one. Over the increment it falls from `v` to `v + dv`; the paper's ratio is `psi = max_k |dv/v|` (4.16, 4.20), and the
 //! increment is scaled by `1/psi` (4.17, 4.22).
 
 /// What contact says of an increment.
@@ -16,7 +16,8 @@ pub struct StepLimit {
 /// Pairs whose share differs by less than this from the smallest change together.
 const TIE: f64 = 1e-7;
 
-/// Share of the increment up to the first change. `before` and `after` are the values `v` and `v + dv`; pairs in
+/// Share of the increment up to the first change. `before` and `after` are the values `v` and `v +
+/// dv`; pairs in
 /// `border` are at zero already and are left out.
 pub fn step_limit(before: &[f64], after: &[f64], border: &[usize]) -> StepLimit {
     let share = |k: usize| {
@@ -43,12 +44,14 @@ pub fn step_limit(before: &[f64], after: &[f64], border: &[usize]) -> StepLimit 
 /// The search for the length of an increment: the iteration `t <- goal(t)` of the paper (4.17, 4.22), relaxed where it
 /// would swing about its end.
 ///
-/// The goal is found as if the response were linear. Where flow spreads it is not: with the slope `s` of the goal the error
-/// of `t` is multiplied by `s` at each step, and `s` comes near -1 and beyond as the material loses its stiffness. The
-/// secant through the last two goals gives `s`; `1/(1 - s)` of the way leads to where `t = goal(t)`.
+/// The goal is found as if the response were linear. Where flow spreads it is not: with the slope
+/// `s` of the goal the error of `t` is multiplied by `s` at each step, and `s` comes near -1 and beyond as the material loses its stiffness. The
+/// secant through the last two goals gives `s`; `1/(1 - s)` of the way leads to where `t =
+/// goal(t)`.
 ///
 /// # Source
-/// B. M. Irons, R. C. Tuck (1969), A version of the Aitken accelerator for computer iteration, doi:10.1002/nme.1620010306.
+/// B. M. Irons, R. C. Tuck (1969), A version of the Aitken accelerator for computer iteration,
+/// doi:10.1002/nme.1620010306.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct LengthSearch {
     last: Option<[f64; 2]>,
@@ -58,7 +61,8 @@ pub struct LengthSearch {
 const LEAST_RELAXATION: f64 = 0.1;
 
 impl LengthSearch {
-    /// The share of the way from `t` to `goal` that is to be gone; all of it while the goal does not swing.
+    /// The share of the way from `t` to `goal` that is to be gone; all of it while the goal does
+    /// not swing.
     pub fn relaxation(&mut self, t: f64, goal: f64) -> f64 {
         let slope = match self.last.replace([t, goal]) {
             Some([t0, goal0]) if t != t0 => (goal - goal0) / (t - t0),

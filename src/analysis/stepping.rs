@@ -1,4 +1,5 @@
-//! Finding an increment: statuses that come out wrong are mended, increments that do not converge cut.
+//! Finding an increment: statuses that come out wrong are mended, increments that do not converge
+//! cut.
 
 use super::drive::{Stepper, stopped};
 use super::engine::{Engine, LoadPoint};
@@ -17,7 +18,8 @@ const MOST_CROSSINGS: usize = 2;
 
 impl Engine<'_> {
     /// An increment with statuses that are right at its begin (events) or at its end (steps).
-    /// Increments that do not converge are cut, down to the share `smallest`; returns whether any was.
+    /// Increments that do not converge are cut, down to the share `smallest`; returns whether any
+    /// was.
     pub(super) fn find_increment(
         &mut self,
         end: &LoadPoint,
@@ -50,8 +52,8 @@ impl Engine<'_> {
                     self.refuse_free_motion(&increment)?;
                     return Ok((increment, most < left));
                 }
-                // The rate of a pair at its border turned within the increment: a shorter one shows where, unless it turned at
-                // the very begin.
+                // The rate of a pair at its border turned within the increment: a shorter one shows
+                // where, unless it turned at the very begin.
                 Err(NoIncrement::Crossed(_)) if crossings < MOST_CROSSINGS => {
                     crossings += 1;
                     most *= CUT;
@@ -59,7 +61,8 @@ impl Engine<'_> {
                 Err(NoIncrement::WrongStatus(pairs) | NoIncrement::Crossed(pairs)) => {
                     corrections += 1;
                     seen.push(self.tableau.open().to_vec());
-                    // All at once; one alone (the least index) once a set of statuses has come back.
+                    // All at once; one alone (the least index) once a set of statuses has come
+                    // back.
                     let repeated = seen[..seen.len() - 1].contains(&seen[seen.len() - 1]);
                     for &k in pairs.iter().take(if repeated { 1 } else { pairs.len() }) {
                         if self.tableau.flip(k) {
@@ -76,14 +79,16 @@ impl Engine<'_> {
                 }
                 Err(NoIncrement::Undecided) => return Err(self.not_settled(end, most)),
                 Err(NoIncrement::NotConverged(attempt)) => {
-                    // Written so that a way of no length, of which nothing is a share, ends here too.
+                    // Written so that a way of no length, of which nothing is a share, ends here
+                    // too.
                     let worth_cutting = CUT * most >= smallest;
                     if !worth_cutting {
                         let goal = self.at.towards(end, most);
                         return Err(self.not_found(&goal, &attempt, stepper));
                     }
                     most *= CUT;
-                    // The points flow as in the state that failed: its tangent, often singular, must not predict the next.
+                    // The points flow as in the state that failed: its tangent, often singular,
+                    // must not predict the next.
                     self.assume_elastic();
                 }
             }
@@ -101,15 +106,17 @@ impl Engine<'_> {
         }
     }
 
-    /// A fixed increment, contact solved at its end: statuses that come out wrong are flipped, all at once while that
-    /// makes them fewer, else the least index alone (finite: Habetler and Kostreva 1978, doi:10.1137/0316011).
+    /// A fixed increment, contact solved at its end: statuses that come out wrong are flipped, all
+    /// at once while that makes them fewer, else the least index alone (finite: Habetler and
+    /// Kostreva 1978, doi:10.1137/0316011).
     fn solve_step(
         &mut self,
         end: &LoadPoint,
         most: f64,
         stepper: Stepper,
     ) -> Result<std::result::Result<Increment, NoIncrement>> {
-        // The end of the increment is the end of a piece of its own: a pair that closes has no gap there, whatever gap it had.
+        // The end of the increment is the end of a piece of its own: a pair that closes has no gap
+        // there, whatever gap it had.
         let goal = self.at.towards(end, most);
         let mut fewest = usize::MAX;
         let mut patience = 6;

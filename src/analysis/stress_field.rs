@@ -1,6 +1,7 @@
 //! The stresses of a state, evaluated element by element where they are looked at.
 //!
-//! Nothing is stored: an element is quickly evaluated again, while the stresses of all take a tenth of the factor's memory.
+//! Nothing is stored: an element is quickly evaluated again, while the stresses of all take a tenth
+//! of the factor's memory.
 
 use super::zone::Zone;
 use crate::element::{Components, MAX_NODES, MAX_POINTS, Mapping};
@@ -32,8 +33,8 @@ pub(super) struct ElementStress<'a> {
 }
 
 impl<'a> StressField<'a> {
-    /// The stresses for nodal displacements in global axes and the committed history of the zone, whose elements are `in_zone`
-    /// (ascending).
+    /// The stresses for nodal displacements in global axes and the committed history of the zone,
+    /// whose elements are `in_zone` (ascending).
     pub(super) fn new(
         model: &'a Model,
         zone: &'a Zone,

@@ -1,15 +1,18 @@
-//! What the stresses of all elements amount to: the forces that they exert on the nodes, and what has yielded.
+//! What the stresses of all elements amount to: the forces that they exert on the nodes, and what
+//! has yielded.
 
 use super::stress_field::StressField;
 use crate::element::MAX_NODES;
 use crate::model::Slot;
 use rayon::prelude::*;
 
-/// Elements that are evaluated before their forces are summed: few enough to stay in the processor's cache.
+/// Elements that are evaluated before their forces are summed: few enough to stay in the
+/// processor's cache.
 const BLOCK: usize = 2048;
 /// Elements that a thread takes at a time.
 const GRAIN: usize = 128;
-/// Share by which a stress must be beyond yield to count: the accuracy of the equilibrium iteration.
+/// Share by which a stress must be beyond yield to count: the accuracy of the equilibrium
+/// iteration.
 const BEYOND: f64 = 1e-8;
 
 /// Sums and largest values over all elements.
@@ -35,7 +38,8 @@ struct Evaluated {
 }
 
 impl Stresses {
-    /// Evaluates all elements. Sums run in ascending element order: the bits do not depend on the number of threads.
+    /// Evaluates all elements. Sums run in ascending element order: the bits do not depend on the
+    /// number of threads.
     pub(super) fn new(field: &StressField) -> Self {
         let (forces, beyond_yield_outside) = nodal_forces(field);
         let model = field.model;
@@ -72,8 +76,8 @@ impl Stresses {
     }
 }
 
-/// Forces on the nodes in global axes, and the elements outside the zone that are beyond yield. While the forces of one block are summed
-/// the next is evaluated.
+/// Forces on the nodes in global axes, and the elements outside the zone that are beyond yield.
+/// While the forces of one block are summed the next is evaluated.
 fn nodal_forces(field: &StressField) -> (Vec<[f64; 2]>, Vec<usize>) {
     let mesh = &field.model.mesh;
     let n = mesh.n_elements();

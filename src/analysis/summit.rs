@@ -1,8 +1,10 @@
 //! The highest point of a smooth function on a square, from few values.
 //!
-//! Nine values on a stencil of points `spacing` apart lead, by least squares, to a quadratic whose highest point on the stencil is tried, too. The place then is
-//! right to the square of the spacing, so that the next spacing may be the square of this one; the value is right to the square of the place's error. Stencils
-//! lie on a lattice: where a function that differs little is searched again it is asked for at the same points.
+//! Nine values on a stencil of points `spacing` apart lead, by least squares, to a quadratic whose
+//! highest point on the stencil is tried, too. The place then is right to the square of the
+//! spacing, so that the next spacing may be the square of this one; the value is right to the
+//! square of the place's error. Stencils lie on a lattice: where a function that differs little is
+//! searched again it is asked for at the same points.
 
 /// Spacings of one search after the other, on a square of side 2: the whole square first.
 pub const SPACINGS: [f64; 4] = [1.0, 1.0 / 4.0, 1.0 / 16.0, 1.0 / 256.0];
@@ -29,7 +31,8 @@ impl Summit {
         }
     }
 
-    /// Looks round the point for a higher one, and goes on from stencil to stencil while that leads uphill. `f` is told, too, whether a point lies on the lattice.
+    /// Looks round the point for a higher one, and goes on from stencil to stencil while that leads
+    /// uphill. `f` is told, too, whether a point lies on the lattice.
     pub fn look_around(&mut self, spacing: f64, f: &mut impl FnMut([f64; 2], bool) -> f64) {
         for _ in 0..MOST_MOVES {
             let from = *self;
@@ -76,7 +79,8 @@ struct Quadratic {
 }
 
 impl Quadratic {
-    /// The least-squares fit to the values at `{-1, 0, 1}^2`, whose normal equations are diagonal up to the constant.
+    /// The least-squares fit to the values at `{-1, 0, 1}^2`, whose normal equations are diagonal
+    /// up to the constant.
     fn of(values: &[[f64; 3]; 3]) -> Self {
         let sum = |weight: &dyn Fn(f64, f64) -> f64| -> f64 {
             let rows = values.iter().zip([-1.0, 0.0, 1.0]);
@@ -142,7 +146,8 @@ mod tests {
         (summit, asked)
     }
 
-    /// Inside, on a side, at a corner, a ridge; the place is as near as the square of the last spacing, and the value as the square of that.
+    /// Inside, on a side, at a corner, a ridge; the place is as near as the square of the last
+    /// spacing, and the value as the square of that.
     #[test]
     fn finds_the_highest_point_from_few_values() {
         let near = SPACINGS[3] * SPACINGS[3];
@@ -154,7 +159,8 @@ mod tests {
             };
             let (summit, asked) = found(f);
             assert!(asked <= 60, "{asked}");
-            // Against the highest of a fine grid: no lower than what is left to gain within the error of the place.
+            // Against the highest of a fine grid: no lower than what is left to gain within the
+            // error of the place.
             let steps = |n: i32| (-n..=n).map(move |i| f64::from(i) / f64::from(n));
             let grid = steps(400).flat_map(|x| steps(400).map(move |y| [x, y]));
             let highest = grid.map(|x| (f(x), x)).max_by(|a, b| a.0.total_cmp(&b.0));

@@ -1,24 +1,27 @@
 //! The elastoplastic tangent, solved by conjugate gradients on the factored elastic stiffness.
 //!
-//! With `K_p = sum_g w_g B' (D - D_ep) B` the tangent is `S - K_p`. Preconditioned with `S` itself (one
-//! trailing solve), its condition is that of the material: `(3G + H)/H` at worst, and the product with `S` is
-//! never needed because `S p` follows from the recurrence of the search directions.
+//! With `K_p = sum_g w_g B' (D - D_ep) B` the tangent is `S - K_p`. Preconditioned with `S` itself
+//! (one trailing solve), its condition is that of the material: `(3G + H)/H` at worst, and the
+//! product with `S` is never needed because `S p` follows from the recurrence of the search
+//! directions.
 //!
-//! Closed pairs constrain the search to `u_second = u_first`: forces `(c, -c)` on the two nodes of one do no work and
-//! move nothing. No step takes them from the residual, and each would multiply their round-off by
-//! its length, by orders in a few steps where little stiffness is left: they are taken off and kept apart.
+//! Closed pairs constrain the search to `u_second = u_first`: forces `(c, -c)` on the two nodes of
+//! one do no work and move nothing. No step takes them from the residual, and each would multiply
+//! their round-off by its length, by orders in a few steps where little stiffness is left: they are
+//! taken off and kept apart.
 //!
 //! # Source
 //! N. I. M. Gould, M. E. Hribar, J. Nocedal, *On the solution of equality constrained quadratic
-//! programming problems arising in optimization* (2001), section 6 (the growth of the part of the residual
-//! that the constraints carry, and its removal), doi:10.1137/S1064827598345667.
+//! programming problems arising in optimization* (2001), section 6 (the growth of the part of the
+//! residual that the constraints carry, and its removal), doi:10.1137/S1064827598345667.
 
 use super::engine::Engine;
 use super::equilibrium::Equilibrium;
 use crate::linalg::ZonePart;
 use crate::substructure::Trailing;
 
-/// Most iterations of a solve: enough for perfect plasticity near collapse; a solve that needs more has no useful direction.
+/// Most iterations of a solve: enough for perfect plasticity near collapse; a solve that needs more
+/// has no useful direction.
 const MOST: usize = 400;
 
 impl Engine<'_> {
@@ -30,12 +33,14 @@ impl Engine<'_> {
         out
     }
 
-    /// Newton's direction: solves `(S - keep K_p) du = residual` to `tolerance` (energy norm, relative). The initial loads of
-    /// the direction are `S du`, what the direction asks the plastic strains to become. `keep = 1` is the tangent, 0 the plain
-    /// iteration; in between the condition is at most `1/(1 - keep)`, also where the material has no stiffness left.
+    /// Newton's direction: solves `(S - keep K_p) du = residual` to `tolerance` (energy norm,
+    /// relative). The initial loads of the direction are `S du`, what the direction asks the
+    /// plastic strains to become. `keep = 1` is the tangent, 0 the plain iteration; in between the
+    /// condition is at most `1/(1 - keep)`, also where the material has no stiffness left.
     ///
-    /// The search directions carry their gaps, forces and eliminated loads along, and the last preconditioned residual `z = S^-1 r` is
-    /// taken as a step of the plain iteration on top: beside the iteration's trailing solves the direction costs half a solve. In the iteration
+    /// The search directions carry their gaps, forces and eliminated loads along, and the last
+    /// preconditioned residual `z = S^-1 r` is taken as a step of the plain iteration on top:
+    /// beside the iteration's trailing solves the direction costs half a solve. In the iteration
     /// the second halves go through the part of the zone that counts.
     pub fn solve_tangent(&mut self, residual: &Trailing, tolerance: f64, keep: f64) -> Equilibrium {
         let mut softened = self.sub.zeros();
@@ -83,7 +88,8 @@ impl Engine<'_> {
         total
     }
 
-    /// Takes the forces `(c, -c)` on the nodes of closed pairs off a load and adds them to `carried`: what is left is the same on both nodes.
+    /// Takes the forces `(c, -c)` on the nodes of closed pairs off a load and adds them to
+    /// `carried`: what is left is the same on both nodes.
     fn take_what_closed_pairs_carry(&self, load: &mut Trailing, carried: &mut [f64]) {
         let (first, second) = load.contact.split_at_mut(carried.len());
         let pairs = first.iter_mut().zip(second).zip(carried);
@@ -96,7 +102,8 @@ impl Engine<'_> {
         }
     }
 
-    /// Where the displacements of search directions enter a tangent solve: where the material flows and where the residual acts.
+    /// Where the displacements of search directions enter a tangent solve: where the material flows
+    /// and where the residual acts.
     fn part_that_counts(&self, residual: &Trailing) -> ZonePart {
         let mut marks: Vec<bool> = residual.zone.iter().map(|r| *r != 0.0).collect();
         self.zone.mark_active(&mut marks);

@@ -10,7 +10,8 @@ use crate::error::{Error, Result};
 use crate::scene::{Direction, DisplacementTarget, Kind, Stepping, Target};
 
 impl Run<'_, '_> {
-    /// Ends of the straight pieces from the current load factor to `alpha`: the kinks of the loads' histories in between.
+    /// Ends of the straight pieces from the current load factor to `alpha`: the kinks of the loads'
+    /// histories in between.
     pub(super) fn stops(&self, alpha: f64) -> Vec<f64> {
         let from = self.engine.at.alpha;
         let mut stops: Vec<f64> = self
@@ -30,8 +31,9 @@ impl Run<'_, '_> {
         stops
     }
 
-    /// Drives to a load factor along straight pieces between the kinks of the loads' histories. Wherever the path leaves what
-    /// the search for the yield load went through, it is watched for first yield.
+    /// Drives to a load factor along straight pieces between the kinks of the loads' histories.
+    /// Wherever the path leaves what the search for the yield load went through, it is watched for
+    /// first yield.
     pub(super) fn drive_to_factor(
         &mut self,
         alpha: f64,
@@ -175,7 +177,8 @@ impl Run<'_, '_> {
         self.search(&monitor, upward, scale, label)
     }
 
-    /// Moves the load factor up (doubling) or down to zero until the monitored quantity, measured against `scale`, vanishes.
+    /// Moves the load factor up (doubling) or down to zero until the monitored quantity, measured
+    /// against `scale`, vanishes.
     pub(super) fn search(
         &mut self,
         monitor: &Monitor,

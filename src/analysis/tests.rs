@@ -1,5 +1,5 @@
-//! Runs whose answer is known in closed form, on paths that leave the usual one: no target that asks for first yield, loads
-//! that fall or turn, yielding far from the contact.
+//! Runs whose answer is known in closed form, on paths that leave the usual one: no target that
+//! asks for first yield, loads that fall or turn, yielding far from the contact.
 
 use super::Analysis;
 use super::engine::Engine;
@@ -141,7 +141,8 @@ fn tiny_displacement_targets_are_hit_as_accurately_as_large_ones() {
     }
 }
 
-/// Two blocks in contact, large enough for the zone to be a part of them, and far away a softer block that yields first.
+/// Two blocks in contact, large enough for the zone to be a part of them, and far away a softer
+/// block that yields first.
 fn blocks_and_a_soft_one(targets: &str) -> String {
     format!(
         r#"
@@ -223,7 +224,8 @@ fn first_yield_far_from_the_contact_is_found() {
 
 #[test]
 fn yielding_far_from_the_contact_is_noticed_without_a_yield_load() {
-    // Two blocks of height 1 compressed by 0.004: stress 2, twice the yield stress of the soft block under the same pressure.
+    // Two blocks of height 1 compressed by 0.004: stress 2, twice the yield stress of the soft
+    // block under the same pressure.
     let target =
         r#"targets = [{ displacement = { on = "upper.top", direction = "y", value = -0.004 } }]"#;
     let state = &sparse(&blocks_and_a_soft_one(target)).states[0];
@@ -235,7 +237,8 @@ fn yielding_far_from_the_contact_is_noticed_without_a_yield_load() {
     );
 }
 
-/// A solve that what is looked for needs may fail: the search ends with that error and its cause, wherever on the way that is.
+/// A solve that what is looked for needs may fail: the search ends with that error and its cause,
+/// wherever on the way that is.
 #[test]
 fn a_search_ends_with_the_error_of_what_it_looks_at() {
     let text = bar("", PULLED, "[program]\ntargets = [{ load_factor = 0.3 }]");

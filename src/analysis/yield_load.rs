@@ -1,8 +1,9 @@
 //! The load at first yield (paper, chapter 3).
 //!
-//! Exact: along the piecewise linear path of contact events the stress at any point is linear between two events, von
-//! Mises' stress convex; the first event with a ratio above 1 brackets the yield load, found there to round-off.
-//! Secant: the paper's (3.14), each iterate a contact problem solved from scratch, with a bracket.
+//! Exact: along the piecewise linear path of contact events the stress at any point is linear
+//! between two events, von Mises' stress convex; the first event with a ratio above 1 brackets the
+//! yield load, found there to round-off. Secant: the paper's (3.14), each iterate a contact problem
+//! solved from scratch, with a bracket.
 
 use super::engine::{Engine, LoadPoint};
 use super::recovery::{Peak, Recovery, Samples};
@@ -12,15 +13,16 @@ use std::convert::Infallible;
 
 /// Relative accuracy of the yield load.
 const ACCURACY: f64 = 1e-14;
-/// Share by which a ratio may be below 1 and still be that of first yield: far above [`ACCURACY`], far below any jump.
+/// Share by which a ratio may be below 1 and still be that of first yield: far above [`ACCURACY`],
+/// far below any jump.
 const BEFORE: f64 = 1e-9;
 /// Most iterations of a bracketed root search.
 const MOST: usize = 200;
 /// Steps of such a search that may leave more than half of the bracket before it is halved.
 const PATIENCE: usize = 3;
 
-/// Finds `s` in `[0, 1]` with a recovered stress ratio of 1 between two sampled stress fields, linear in between.
-/// The ratio is at most 1 at `s = 0`, at least 1 at `s = 1`.
+/// Finds `s` in `[0, 1]` with a recovered stress ratio of 1 between two sampled stress fields,
+/// linear in between. The ratio is at most 1 at `s = 0`, at least 1 at `s = 1`.
 pub fn yield_share(
     engine: &Engine,
     recovery: &mut Recovery,
@@ -39,7 +41,8 @@ pub fn yield_share(
     let mut found = None;
     let mut beyond = |s: f64| {
         let peak = at(s);
-        // On a coarse mesh the recovered maximum may jump where another place is searched: what yields is what lies beyond the jump.
+        // On a coarse mesh the recovered maximum may jump where another place is searched: what
+        // yields is what lies beyond the jump.
         if peak.is_some_and(|p| p.ratio >= 1.0 - BEFORE) {
             found = peak;
         }
@@ -52,8 +55,9 @@ pub fn yield_share(
     (share, found)
 }
 
-/// The root between two places (with the values there) of a function that is negative at the first and positive at the second: by inverse
-/// quadratic interpolation, halving where that is slow. Returns an end whose value has not the sign it should have.
+/// The root between two places (with the values there) of a function that is negative at the first
+/// and positive at the second: by inverse quadratic interpolation, halving where that is slow.
+/// Returns an end whose value has not the sign it should have.
 ///
 /// # Errors
 /// The first of the function's own.
@@ -108,7 +112,8 @@ pub fn bracketed_root<E>(
 }
 
 impl Engine<'_> {
-    /// Solves contact for the load point from scratch, elastic, and makes it the current state (paper 3.7 to 3.10).
+    /// Solves contact for the load point from scratch, elastic, and makes it the current state
+    /// (paper 3.7 to 3.10).
     ///
     /// # Errors
     /// A load that drives a body away from every contact.
@@ -138,7 +143,8 @@ impl Engine<'_> {
         recovery.peak(self.model, &samples)
     }
 
-    /// The yield load by the paper's secant (3.14), bracketed. The state at yield becomes the current one.
+    /// The yield load by the paper's secant (3.14), bracketed. The state at yield becomes the
+    /// current one.
     ///
     /// # Errors
     /// Where the stress does not grow with the load.
@@ -213,7 +219,8 @@ mod tests {
         assert!((root(&f).0 - 0.31).abs() < 1e-14);
         assert_eq!(root(&|x| x), (0.0, 0));
         assert_eq!(root(&|x| x - 2.0), (1.0, 0));
-        // Few calls where the function is smooth, and no more than halving takes four times over where it jumps.
+        // Few calls where the function is smooth, and no more than halving takes four times over
+        // where it jumps.
         let (x, calls) = root(&|x: f64| x.exp() - 1.5);
         assert!((x - 1.5f64.ln()).abs() < 1e-14 && calls <= 7, "{x} {calls}");
         let (x, calls) = root(&|x: f64| if x < 0.31 { -1e-3 } else { 1.0 });

@@ -5,7 +5,8 @@
 //! ```
 //!
 //! `J` are the paper's initial loads (4.1); the plastic strains depend on the committed history and on the
-//! total strain at the end of the increment only, so within an increment they are a function of `u`.
+//! total strain at the end of the increment only, so within an increment they are a function of
+//! `u`.
 
 mod record;
 
@@ -31,8 +32,8 @@ pub struct Evaluation {
     pub guard_flows: usize,
 }
 
-/// The plastic zone with its history. Arrays over points give every element the same number of places (`stride`), so
-/// that they are cut by element without a list.
+/// The plastic zone with its history. Arrays over points give every element the same number of
+/// places (`stride`), so that they are cut by element without a list.
 pub struct Zone {
     elements: GatheredElements,
     /// Elements in which flow means that the zone is too small.
@@ -58,8 +59,8 @@ pub struct Zone {
 }
 
 impl Zone {
-    /// Sets up the zone of the given elements (ascending); `guard` says which of them only watch. The free freedoms of
-    /// the elements must be zone or contact freedoms.
+    /// Sets up the zone of the given elements (ascending); `guard` says which of them only watch.
+    /// The free freedoms of the elements must be zone or contact freedoms.
     pub fn new(model: &Model, elements: &[usize], guard: &[bool], places: &Places) -> Self {
         let elements =
             GatheredElements::new(model, elements, places, |e| gauss_points_of(model, e));
@@ -103,8 +104,8 @@ impl Zone {
         self.nodal.set_factors(factors);
     }
 
-    /// Integrates the flow rule for displacements `u` and adds up the initial loads: those of the committed plastic
-    /// strains, plus what the points that flow add.
+    /// Integrates the flow rule for displacements `u` and adds up the initial loads: those of the
+    /// committed plastic strains, plus what the points that flow add.
     pub fn evaluate(&mut self, u: &Trailing, initial_load: &mut Trailing) -> Evaluation {
         let nodal = self.nodal.displacements(u);
         let (elements, materials, stride) = (&self.elements, &self.materials, self.stride);
@@ -234,7 +235,8 @@ impl Zone {
         self.renew_base();
     }
 
-    /// Puts the history of a zone of other elements (ascending) back; elements that were not in it have none.
+    /// Puts the history of a zone of other elements (ascending) back; elements that were not in it
+    /// have none.
     pub fn restore_of(&mut self, elements: &[usize], history: &[PlasticState]) {
         for (i, packed) in self.elements.list.iter().enumerate() {
             let states = &mut self.committed[i * self.stride..][..self.stride];

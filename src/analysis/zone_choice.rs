@@ -1,8 +1,8 @@
 //! Which elements may yield: the plastic zone is chosen by the program.
 //!
-//! A first guess from geometry (near the contact surfaces) lets the yield load be found. The elastic stress at the
-//! program's extreme loads then predicts how far yielding spreads; a guard layer round the prediction
-//! watches, and when it flows the zone grows.
+//! A first guess from geometry (near the contact surfaces) lets the yield load be found. The
+//! elastic stress at the program's extreme loads then predicts how far yielding spreads; a guard
+//! layer round the prediction watches, and when it flows the zone grows.
 
 use super::engine::{Engine, combination};
 use super::stress_field::{largest_von_mises, stress};
@@ -16,10 +16,12 @@ use rayon::prelude::*;
 const SMALL: usize = 1500;
 /// First yield is looked for as deep as this share of the contact surface's extent.
 const REACH: f64 = 1.2;
-/// The first guess of the zone reaches this multiple of the contact surface's extent into the bodies. Measured on the cylinder scene
-/// loaded to 1.5 b*: 2.0 is too small, and the factorisation takes no more operations with 5 than with 1.2.
+/// The first guess of the zone reaches this multiple of the contact surface's extent into the
+/// bodies. Measured on the cylinder scene loaded to 1.5 b*: 2.0 is too small, and the factorisation
+/// takes no more operations with 5 than with 1.2.
 const SPREAD: f64 = 3.0;
-/// Elastic von Mises stress over yield stress above which an element is predicted to yield: stress redistributes.
+/// Elastic von Mises stress over yield stress above which an element is predicted to yield: stress
+/// redistributes.
 pub(super) const PREDICTED: f64 = 0.95;
 /// Layers of elements put round the prediction.
 const MARGIN: usize = 2;
@@ -43,7 +45,8 @@ impl Choice {
         Choice { elements, guard }
     }
 
-    /// Whether it holds all elements that may yield. (That none of it watches does not say so: another body may be out of reach.)
+    /// Whether it holds all elements that may yield. (That none of it watches does not say so:
+    /// another body may be out of reach.)
     pub fn holds_all(&self, model: &Model) -> bool {
         let n = model.mesh.n_elements();
         self.elements.len() == (0..n).filter(|&e| may_yield(model, e)).count()
@@ -76,8 +79,9 @@ fn may_yield(model: &Model, element: usize) -> bool {
     model.may_yield[model.mesh.element_body[element] as usize]
 }
 
-/// What is factored as zone at first: elements so near the contact surfaces that yielding rarely spreads beyond, or all
-/// where there are few or no contact. A large zone costs the factorisation nothing; which part of it is used is chosen later.
+/// What is factored as zone at first: elements so near the contact surfaces that yielding rarely
+/// spreads beyond, or all where there are few or no contact. A large zone costs the factorisation
+/// nothing; which part of it is used is chosen later.
 pub fn first_guess(model: &Model) -> Choice {
     near_contact(model, SPREAD)
 }
@@ -129,7 +133,8 @@ fn near_contact(model: &Model, reach: f64) -> Choice {
     Choice::from_marks(model, core, GUARD)
 }
 
-/// Prediction from elastic stress ratios of all elements (largest over the program's extreme loads).
+/// Prediction from elastic stress ratios of all elements (largest over the program's extreme
+/// loads).
 pub fn predict(model: &Model, ratios: &[f64]) -> Choice {
     let hot: Vec<bool> = ratios
         .iter()
@@ -139,8 +144,8 @@ pub fn predict(model: &Model, ratios: &[f64]) -> Choice {
     Choice::from_marks(model, widen(model, hot, MARGIN), GUARD)
 }
 
-/// What contact pressure falls to as the load does to a share, as a share of its own: the square root in line contact,
-/// the cube root in point contact.
+/// What contact pressure falls to as the load does to a share, as a share of its own: the square
+/// root in line contact, the cube root in point contact.
 pub fn decline(model: &Model, share: f64) -> f64 {
     match model.kind {
         Kind::Axisymmetric => share.cbrt(),
@@ -148,8 +153,9 @@ pub fn decline(model: &Model, share: f64) -> f64 {
     }
 }
 
-/// The zone while the load is a share of the one that `ratios` belong to, which all loads are proportional to, with
-/// the `old` one: stress is taken to fall with the load no slower than the pressure does.
+/// The zone while the load is a share of the one that `ratios` belong to, which all loads are
+/// proportional to, with the `old` one: stress is taken to fall with the load no slower than the
+/// pressure does.
 pub fn stage(model: &Model, ratios: &[f64], share: f64, old: &Choice) -> Choice {
     let limit = PREDICTED / decline(model, share);
     let hot: Vec<bool> = ratios
@@ -208,8 +214,8 @@ fn widen(model: &Model, mut marked: Vec<bool>, layers: usize) -> Vec<bool> {
     marked
 }
 
-/// Elastic von Mises stress over yield stress at the sampling points of every element that may yield (0 elsewhere),
-/// for displacements of the whole model.
+/// Elastic von Mises stress over yield stress at the sampling points of every element that may
+/// yield (0 elsewhere), for displacements of the whole model.
 pub fn stress_ratios(model: &Model, u: &[f64], factors: &[f64]) -> Vec<f64> {
     let elastic: Vec<_> = model.materials.iter().map(|m| m.elastic_matrix()).collect();
     let displacements = model.nodal(u, factors);

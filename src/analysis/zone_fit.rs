@@ -1,4 +1,5 @@
-//! The zone of a run: fitted to the program's extreme loads, following the load, grown where it must.
+//! The zone of a run: fitted to the program's extreme loads, following the load, grown where it
+//! must.
 
 use super::program::Run;
 use super::recovery::Recovery;
@@ -7,8 +8,8 @@ use crate::error::Result;
 use crate::scene::History;
 use std::time::Instant;
 
-/// Factor on the load from one stage of the zone to the next: what it saves in trailing solves against what a stage costs, a
-/// copy of the zone's part of the factor.
+/// Factor on the load from one stage of the zone to the next: what it saves in trailing solves
+/// against what a stage costs, a copy of the zone's part of the factor.
 const STAGE: f64 = 1.1;
 
 /// How far yielding will spread, by the elastic stress at the program's extreme loads.
@@ -23,8 +24,8 @@ pub(super) struct Spread {
 }
 
 impl Run<'_, '_> {
-    /// Chooses the zone for the program's extreme loads from the elastic stress there. What was factored as zone usually holds
-    /// it; else this is the second factorisation, and the last.
+    /// Chooses the zone for the program's extreme loads from the elastic stress there. What was
+    /// factored as zone usually holds it; else this is the second factorisation, and the last.
     pub(super) fn fit_zone(&mut self) -> Result<()> {
         if self.choice.holds_all(self.model()) {
             return Ok(());
@@ -63,7 +64,8 @@ impl Run<'_, '_> {
         {
             let highest = extremes.iter().fold(0.0f64, |m, a| m.max(a.abs()));
             // Under a contact that has grown far beyond it, the place of first yield has less
-            // stress than the law gives it: near a surface von Mises stress falls as pressure evens out.
+            // stress than the law gives it: near a surface von Mises stress falls as pressure evens
+            // out.
             let growth = 1.0 / zone_choice::decline(model, at_yield.abs() / highest);
             for (ratio, before) in ratios.iter_mut().zip(&self.ratios_before_yield) {
                 *ratio = ratio.max(before * growth);
@@ -98,8 +100,8 @@ impl Run<'_, '_> {
         self.set_zone(next)
     }
 
-    /// Load factors between which the program moves, and those on the way at which a load turns; a target half width of m times that at yield
-    /// stands for m^2.
+    /// Load factors between which the program moves, and those on the way at which a load turns; a
+    /// target half width of m times that at yield stands for m^2.
     fn extreme_factors(&self, at_yield: f64) -> Vec<f64> {
         let mut all: Vec<f64> = Vec::new();
         for target in &self.model().scene.program.targets {

@@ -1,13 +1,16 @@
 //! Statuses for a given load: the total form of contact.
 //!
-//! Block pivoting flips every pair that violates its condition; that is fast but may cycle, so it is given up when the
-//! number of violations has not fallen for a while. Then the symmetric principal pivoting method of Dantzig and Cottle
-//! takes over: the energy `1/2 g'Tg + q'g` falls strictly from one set of open pairs to the next, no set can return,
-//! and there are finitely many. Where round-off says otherwise (a body that rests on nothing but round-off is handed from pair to pair by falls
-//! of 1e-30), a pair that would be opened twice from the same set stays closed from then on: no more than n times.
+//! Block pivoting flips every pair that violates its condition; that is fast but may cycle, so it
+//! is given up when the number of violations has not fallen for a while. Then the symmetric
+//! principal pivoting method of Dantzig and Cottle takes over: the energy `1/2 g'Tg + q'g` falls
+//! strictly from one set of open pairs to the next, no set can return, and there are finitely many.
+//! Where round-off says otherwise (a body that rests on nothing but round-off is handed from pair
+//! to pair by falls of 1e-30), a pair that would be opened twice from the same set stays closed
+//! from then on: no more than n times.
 //!
 //! # Source
-//! Cottle, Pang, Stone (1992), section 4.2; J. J. Júdice, F. M. Pires (1994), doi:10.1016/0305-0548(94)90106-6.
+//! Cottle, Pang, Stone (1992), section 4.2; J. J. Júdice, F. M. Pires (1994),
+//! doi:10.1016/0305-0548(94)90106-6.
 
 use super::Tableau;
 use std::collections::BTreeSet;
@@ -30,14 +33,14 @@ pub struct Unbounded {
     pub pair: usize,
 }
 
-/// Of pairs that violate their condition by the largest amount, or by no less than this share of it, the first comes first: which of
-/// equals is the largest is for round-off to say.
+/// Of pairs that violate their condition by the largest amount, or by no less than this share of
+/// it, the first comes first: which of equals is the largest is for round-off to say.
 const ALIKE: f64 = 1.0 - 1e-9;
 /// Rounds without progress after which block pivoting is given up.
 const PATIENCE: usize = 8;
 
-/// Finds statuses with `r = q + T g`, `g >= 0`, `r >= 0`, `g . r = 0`; starts from the statuses in the tableau and
-/// leaves the solution's there.
+/// Finds statuses with `r = q + T g`, `g >= 0`, `r >= 0`, `g . r = 0`; starts from the statuses in
+/// the tableau and leaves the solution's there.
 ///
 /// # Errors
 /// [`Unbounded`] where no solution exists (`T` singular and `q` works on its null space).
@@ -119,7 +122,8 @@ fn principal_pivoting(
     let n = tableau.len();
     tableau.reset(&vec![false; n]);
     gap.fill(0.0);
-    // Pairs whose tension is round-off: opening them could repeat a set without lowering the energy.
+    // Pairs whose tension is round-off: opening them could repeat a set without lowering the
+    // energy.
     let mut settled = vec![false; n];
     let mut entered: BTreeSet<(usize, Vec<bool>)> = BTreeSet::new();
     let mut column: Vec<(usize, f64)> = Vec::new();

@@ -1,14 +1,16 @@
 //! Contact without friction as a dense linear complementarity problem.
 //!
-//! In terms of the gaps `g` and the contact forces `r` (compressive positive) of the pairs, the condensed structure is
+//! In terms of the gaps `g` and the contact forces `r` (compressive positive) of the pairs, the
+//! condensed structure is
 //!
 //! ```text
 //!     r = q + T g,     g >= 0,  r >= 0,  g . r = 0
 //! ```
 //!
 //! `T` (`n_pairs x n_pairs`, symmetric, positive semidefinite) is the stiffness of the structure against opening the
-//! pairs; `q` holds the forces the pairs would carry if all were closed. This module knows neither meshes nor
-//! bodies. Groups of pairs that do not feel one another are blocks of `T` ([`PairMatrix`]).
+//! pairs; `q` holds the forces the pairs would carry if all were closed. This module knows neither
+//! meshes nor bodies. Groups of pairs that do not feel one another are blocks of `T`
+//! ([`PairMatrix`]).
 //!
 //! * [`Tableau`]: the matrix with a set of pairs opened, updated by principal pivots in O(n^2), n
 //!   the pairs of the group;

@@ -1,11 +1,13 @@
 //! Contact along a load path: from one change of status to the next.
 //!
-//! For `q(t) = q_0 + t q_1` and fixed statuses gaps and forces are linear in `t`, so the next change is computed, not
-//! searched. Pairs at the border of both conditions (gap and force zero) are settled together by the
-//! complementarity problem of their rates, so ties open or close together and nothing chatters.
+//! For `q(t) = q_0 + t q_1` and fixed statuses gaps and forces are linear in `t`, so the next
+//! change is computed, not searched. Pairs at the border of both conditions (gap and force zero)
+//! are settled together by the complementarity problem of their rates, so ties open or close
+//! together and nothing chatters.
 //!
 //! # Source
-//! Paper, section 4.1, with (4.17) read as `Delta alpha / psi`; parametric principal pivoting: Cottle, Pang, Stone (1992), section 4.5.
+//! Paper, section 4.1, with (4.17) read as `Delta alpha / psi`; parametric principal pivoting:
+//! Cottle, Pang, Stone (1992), section 4.5.
 
 use super::complementarity::{Unbounded, solve};
 use super::{PairBlock, PairMatrix, Tableau};
@@ -32,18 +34,22 @@ pub enum PathEnd {
     Event(Vec<Change>),
 }
 
-/// Gaps below this share of the largest, forces below this share of the largest, count as zero when ties are collected.
+/// Gaps below this share of the largest, forces below this share of the largest, count as zero when
+/// ties are collected.
 const TIE: f64 = 1e-10;
-/// Share of the terms of a force's rate that is their round-off: eps times the pairs and the condition of the tied structure that they come from.
+/// Share of the terms of a force's rate that is their round-off: eps times the pairs and the
+/// condition of the tied structure that they come from.
 const ROUND_OFF: f64 = 1e-11;
-/// Events over which gaps, forces and their rates are carried along at least, each for the cost of a column; then they are solved for anew,
-/// so that round-off does not add up.
+/// Events over which gaps, forces and their rates are carried along at least, each for the cost of
+/// a column; then they are solved for anew, so that round-off does not add up.
 const CARRIED: usize = 16;
-/// They may be as many as a share of the pairs, one to this number: a solution is a sum of that many terms itself.
+/// They may be as many as a share of the pairs, one to this number: a solution is a sum of that
+/// many terms itself.
 const PAIRS_PER_CARRIED: usize = 32;
 /// In place of their number where there are no rates yet.
 const NEVER: usize = usize::MAX;
-/// Share of a tie by which a pair may be beyond its condition at the end of a piece: round-off of an event that is due there.
+/// Share of a tie by which a pair may be beyond its condition at the end of a piece: round-off of
+/// an event that is due there.
 const AT_END: f64 = 1e-2;
 /// The same for the last pair that holds a body, as a share of its force at the begin.
 const LAST: f64 = 1e-7;
@@ -71,8 +77,9 @@ pub struct Path {
 }
 
 impl Path {
-    /// Starts at `t = 0` with `q(t) = start + t rate` and the gaps and forces that hold there (statuses are
-    /// those in the tableau). `gap_scale` is the size of gaps that matter (such as the largest initial gap),
+    /// Starts at `t = 0` with `q(t) = start + t rate` and the gaps and forces that hold there
+    /// (statuses are those in the tableau). `gap_scale` is the size of gaps that matter (such as
+    /// the largest initial gap),
     /// `terms` that of the terms of which `start` is a sum: they may cancel, their round-off does not.
     ///
     /// # Errors
@@ -105,8 +112,9 @@ impl Path {
         Ok(path)
     }
 
-    /// Gap and force that count as zero: `share` of those that make a tie, at least their round-off. That is a share of what they are the
-    /// sum of: all forces may have been zero so far.
+    /// Gap and force that count as zero: `share` of those that make a tie, at least their
+    /// round-off. That is a share of what they are the sum of: all forces may have been zero so
+    /// far.
     fn zero(&self, tableau: &Tableau, share: f64) -> (f64, f64) {
         let q: Vec<f64> = self
             .start
@@ -130,7 +138,8 @@ impl Path {
         self.carried >= CARRIED.max(self.gap.len() / PAIRS_PER_CARRIED)
     }
 
-    /// Settles the statuses of pairs at the border by the complementarity problem of the rates, then computes all rates.
+    /// Settles the statuses of pairs at the border by the complementarity problem of the rates,
+    /// then computes all rates.
     fn settle(&mut self, tableau: &mut Tableau) -> Result<(), Unbounded> {
         let n = tableau.len();
         let (zero_gap, zero_force) = self.zero(tableau, 1.0);
@@ -153,8 +162,8 @@ impl Path {
                 self.force[k] = 0.0;
             }
             let m = border.len();
-            // A rate that is nothing but the round-off of what it is a sum of has no sign to follow: a body on which nothing acts
-            // would be driven off by it.
+            // A rate that is nothing but the round-off of what it is a sum of has no sign to
+            // follow: a body on which nothing acts would be driven off by it.
             let terms = |k: usize| {
                 let column = tableau.matrix().column(k);
                 let of_gaps = column.map(|(j, t)| (t * self.gap_rate[j]).abs());
@@ -183,8 +192,8 @@ impl Path {
         if anew {
             tableau.solve(&self.rate, &mut self.gap_rate, &mut self.force_rate);
         }
-        // At the border a rate that leads beyond it is round-off, the complementarity problem has seen to that: taken at
-        // its word the path would stand still for ever.
+        // At the border a rate that leads beyond it is round-off, the complementarity problem has
+        // seen to that: taken at its word the path would stand still for ever.
         for &k in &border {
             self.gap_rate[k] = self.gap_rate[k].max(0.0);
             self.force_rate[k] = self.force_rate[k].max(0.0);
@@ -197,8 +206,8 @@ impl Path {
         Ok(())
     }
 
-    /// Goes on to `end` or to the next change of contact, whichever comes first. A change at the end, within round-off, counts
-    /// as the end.
+    /// Goes on to `end` or to the next change of contact, whichever comes first. A change at the
+    /// end, within round-off, counts as the end.
     pub fn advance(&mut self, tableau: &mut Tableau, end: f64) -> PathEnd {
         let room = end - self.t;
         let mut step = room;
@@ -210,7 +219,8 @@ impl Path {
                 let at_end = if tableau.open()[k] {
                     end_gap
                 } else if tableau.would_free(k) {
-                    // The last pair that holds a body cannot open: unloaded to nothing its force vanishes near the end.
+                    // The last pair that holds a body cannot open: unloaded to nothing its force
+                    // vanishes near the end.
                     LAST * value
                 } else {
                     end_force
@@ -235,7 +245,8 @@ impl Path {
             }
         }
         if let Some(k) = first {
-            // This pair is at its border by construction. Round-off that says otherwise would let the path stand still.
+            // This pair is at its border by construction. Round-off that says otherwise would let
+            // the path stand still.
             let value = if tableau.open()[k] {
                 &mut self.gap[k]
             } else {

@@ -1,18 +1,20 @@
 //! A symmetric matrix under principal pivots, a few of which wait before they are applied together.
 //!
-//! A pivot changes every entry of the matrix: with thousands of pairs its cost is that of reading and writing the whole of it from and to
-//! the memory. Here the last pivots are kept as their columns, an entry or a column is worked out from them when it is asked for
-//! (O(number of waiting pivots) each), and [`WAITING`] of them are applied in one pass. The operations on an entry are the same, in the same
-//! order, whenever they are applied: so are the bits.
+//! A pivot changes every entry of the matrix: with thousands of pairs its cost is that of reading
+//! and writing the whole of it from and to the memory. Here the last pivots are kept as their
+//! columns, an entry or a column is worked out from them when it is asked for (O(number of waiting
+//! pivots) each), and [`WAITING`] of them are applied in one pass. The operations on an entry are
+//! the same, in the same order, whenever they are applied: so are the bits.
 //!
 //! # Source
-//! Pivots: Cottle, Pang, Stone (1992), section 2.3. Waiting: as the delayed rank-one updates of P. K. V. V. Nukala et al. (2009),
-//! doi:10.1103/PhysRevB.80.195111.
+//! Pivots: Cottle, Pang, Stone (1992), section 2.3. Waiting: as the delayed rank-one updates of P.
+//! K. V. V. Nukala et al. (2009), doi:10.1103/PhysRevB.80.195111.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-/// Pivots that wait at most: their columns, [`ROWS`] rows of each, fit into the first level of the processor's memory.
+/// Pivots that wait at most: their columns, [`ROWS`] rows of each, fit into the first level of the
+/// processor's memory.
 const WAITING: usize = 16;
 /// Rows that are taken at a time.
 const ROWS: usize = 256;
@@ -134,7 +136,8 @@ impl Swept {
     }
 }
 
-/// Takes column `j` through the pivots; `row(k)` gives the entries in the rows of the pivots, in their order.
+/// Takes column `j` through the pivots; `row(k)` gives the entries in the rows of the pivots, in
+/// their order.
 fn bring_forward(
     pivots: &[Pivot],
     j: usize,
@@ -205,7 +208,8 @@ mod tests {
 
     #[test]
     fn waiting_changes_no_bit() {
-        // Both below and above the order from which on threads share the work, with rows left over in the last block.
+        // Both below and above the order from which on threads share the work, with rows left over
+        // in the last block.
         for n in [7, SHARED + 13] {
             let a = DMatrix::from_fn(n, n, |i, j| {
                 let bump = 1.0 / (1.0 + (i as f64 - j as f64).abs());

@@ -5,7 +5,8 @@ use super::swept::Swept;
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
-/// Share of the original diagonal below which a pivot counts as zero: opening the pair would free a rigid motion.
+/// Share of the original diagonal below which a pivot counts as zero: opening the pair would free a
+/// rigid motion.
 const SINGULAR: f64 = 1e-11;
 /// Share beyond which it certainly does not.
 const NOT_SINGULAR: f64 = 1e-4;
@@ -103,7 +104,8 @@ impl Tableau {
 
     /// Whether opening pair `k` now would free a rigid motion.
     ///
-    /// What is left of `T_kk` is `T_kk - T_ko w` with `w = T_oo^-1 T_ok`: the round-off of that is a share of
+    /// What is left of `T_kk` is `T_kk - T_ko w` with `w = T_oo^-1 T_ok`: the round-off of that is
+    /// a share of
     /// `|T_kk| + 2 |T_ko| |w| + |w|' |T_oo| |w| <= (sqrt T_kk + sum |w_o| sqrt T_oo)^2`, since `|T_ij| <= sqrt(T_ii T_jj)`.
     pub fn would_free(&self, k: usize) -> bool {
         let (block, own) = self.matrix.place(k);
@@ -121,7 +123,8 @@ impl Tableau {
         left <= round_off.max(SINGULAR * whole)
     }
 
-    /// Opens or closes pair `k`; false (and nothing changed) if opening it would free a rigid motion.
+    /// Opens or closes pair `k`; false (and nothing changed) if opening it would free a rigid
+    /// motion.
     pub fn flip(&mut self, k: usize) -> bool {
         if self.would_free(k) {
             return false;
@@ -136,13 +139,14 @@ impl Tableau {
         true
     }
 
-    /// As [`Tableau::flip`]; keeps `gap` and `force` what [`Tableau::solve`] gives for their right-hand side, for the new statuses: one column
-    /// instead of the whole matrix.
+    /// As [`Tableau::flip`]; keeps `gap` and `force` what [`Tableau::solve`] gives for their
+    /// right-hand side, for the new statuses: one column instead of the whole matrix.
     pub fn flip_with(&mut self, k: usize, gap: &mut [f64], force: &mut [f64]) -> bool {
         if self.would_free(k) {
             return false;
         }
-        // Of y = b + S z with y = (r_closed, -g_open) and z = (g_closed, r_open) only b stands where z is zero.
+        // Of y = b + S z with y = (r_closed, -g_open) and z = (g_closed, r_open) only b stands
+        // where z is zero.
         let b = if self.open[k] { -gap[k] } else { force[k] };
         let own = self.matrix.place(k).1;
         self.bring_column(k);
@@ -159,7 +163,8 @@ impl Tableau {
         self.flip(k)
     }
 
-    /// Sets all statuses, starting from the original matrix; pairs whose opening would free a rigid motion stay closed.
+    /// Sets all statuses, starting from the original matrix; pairs whose opening would free a rigid
+    /// motion stay closed.
     pub fn reset(&mut self, open: &[bool]) {
         for (swept, block) in self.swept.iter_mut().zip(self.matrix.blocks()) {
             swept.copy_from(&block.matrix);
@@ -180,7 +185,8 @@ impl Tableau {
         &self.way
     }
 
-    /// Repeats what a tableau of the same matrix went through; false (and the tableau of no use) where the record is of another one.
+    /// Repeats what a tableau of the same matrix went through; false (and the tableau of no use)
+    /// where the record is of another one.
     pub fn replay(&mut self, record: &TableauRecord) -> bool {
         if record.base.len() != self.len() || record.flips.len() >= REBUILD {
             return false;
@@ -199,14 +205,16 @@ impl Tableau {
         self.swept[block].pivot(own, sign);
     }
 
-    /// Gaps of the open pairs and forces of the closed ones for the given statuses: `r_o = 0`, `g_c = 0`,
+    /// Gaps of the open pairs and forces of the closed ones for the given statuses: `r_o = 0`, `g_c
+    /// = 0`,
     /// `r = q + T g`. The gaps are refined once against `T`, so that errors of many pivots do not stay.
     pub fn solve(&mut self, q: &[f64], gap: &mut [f64], force: &mut [f64]) {
         self.solve_with_residual(q, gap, force);
     }
 
-    /// As [`Tableau::solve`], starting again from the original matrix where pivots have lost the digits (a pivot that was hardly more than
-    /// round-off): pairs that then turn out to hold a rigid motion are closed.
+    /// As [`Tableau::solve`], starting again from the original matrix where pivots have lost the
+    /// digits (a pivot that was hardly more than round-off): pairs that then turn out to hold a
+    /// rigid motion are closed.
     pub fn solve_safely(&mut self, q: &[f64], gap: &mut [f64], force: &mut [f64]) {
         let residual = self.solve_with_residual(q, gap, force);
         if residual > LOST * self.force_tolerance(q, gap) {

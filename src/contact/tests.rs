@@ -35,7 +35,8 @@ fn check(t: &DMatrix<f64>, q: &[f64], g: &[f64], r: &[f64]) {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(10_000))]
 
-    /// Every semidefinite problem is solved, or shown to have no solution by a direction that costs no energy.
+    /// Every semidefinite problem is solved, or shown to have no solution by a direction that costs
+    /// no energy.
     #[test]
     fn complementarity_terminates(n in 1usize..14, rank in 1usize..16,
             entries in proptest::collection::vec(-1.0f64..1.0, 224), q in proptest::collection::vec(-1.0f64..1.0, 14)) {
@@ -167,7 +168,8 @@ fn ties_open_together() {
     assert!(path.gap.windows(2).all(|w| (w[0] - w[1]).abs() < 1e-15));
 }
 
-/// Pair 1 stays at the border of both its conditions along the whole path, up to round-off of either sign.
+/// Pair 1 stays at the border of both its conditions along the whole path, up to round-off of
+/// either sign.
 #[test]
 fn a_pair_that_stays_at_the_border_does_not_hold_up_the_path() {
     let t = DMatrix::from_column_slice(3, 3, &[1.0, 0.0, 0.0, 0.0, 6.0, 1.0, 0.0, 1.0, 3.0]);
@@ -188,7 +190,8 @@ fn a_pair_that_stays_at_the_border_does_not_hold_up_the_path() {
     }
 }
 
-/// Opening seven pairs of a matrix of rank six: the seventh pivot is round-off, and closing the pair again does not bring the digits back.
+/// Opening seven pairs of a matrix of rank six: the seventh pivot is round-off, and closing the
+/// pair again does not bring the digits back.
 #[test]
 fn digits_lost_in_a_pivot_of_round_off_come_back() {
     let (n, rank) = (9, 6);
@@ -266,9 +269,9 @@ fn digits_lost_in_a_pivot_of_round_off_come_back() {
     check(&t, &q, &g, &r);
 }
 
-/// Pair 0 stands at the border (no gap, no force), and its rate of -1e-13 is round-off of what it is
-/// the sum of, 1 and -1. When pair 2 opens half way, pair 0 does not: a rate without a sign is no
-/// change of contact.
+/// Pair 0 stands at the border (no gap, no force), and its rate of -1e-13 is round-off of what it
+/// is the sum of, 1 and -1. When pair 2 opens half way, pair 0 does not: a rate without a sign is
+/// no change of contact.
 #[test]
 fn a_rate_of_round_off_is_no_event() {
     let t = DMatrix::from_row_slice(3, 3, &[2.0, 1.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0]);

@@ -23,7 +23,7 @@ const HEAD: &str = "# Stated errors beside true ones\n\n\
     the quantity in the run; those below 1e-6 are left out.\n\n\
     The constants of `brinell::accuracy` come from L. Eca, M. Hoekstra 2014, P. Roache 1998 and from how an edge is read; the families marked `calibration` were looked at while the procedure was put together. The others were run once it stood, and two \
     things were changed after that, both seen elsewhere first: finer meshes for comparison where a contact has fewer than nine pairs on a side (the dent of a ball, stated at 20 to 50 % in a test of its own), and no floor beneath an order that is believed (the \
-    demand on Hertz' line). All are shown as they came then, quantities without a limit among them (the plastic strain at the punch's corner, pressures while the disc unloads).\n\n";
+    demand on Hertz' line). Before these two changes 96.1 % of 1524 figures were within, the median was 6.3, the largest true over stated error 6.1 (5.5 on the disc). All are shown as they came then, quantities without a limit among them (the plastic strain at the punch's corner, pressures while the disc unloads).\n\n";
 
 fn main() {
     let folder = tempfile::tempdir().unwrap();

