@@ -3,7 +3,7 @@
 
 use super::elastic::{ElasticPiece, describe};
 use super::engine::{Engine, LoadPoint};
-use super::increment::Increment;
+use super::increment::{Increment, STRETCH};
 use super::place::{Leg, PlasticLeg, Watcher};
 use super::recovery::{Peak, Recovery};
 use super::saved::Saved;
@@ -377,7 +377,9 @@ impl Engine<'_> {
             })
             .collect();
         let way = increment.t * start.distance(end);
-        self.pace = (way > 0.0 && !self.zone.is_idle()).then(|| {
+        // What a far shorter increment leaves is mostly its round-off.
+        let is_known = way > 0.0 && increment.t > 1.0 / STRETCH && !self.zone.is_idle();
+        self.pace = is_known.then(|| {
             let mut pace = increment.state.initial.clone();
             pace.add(-1.0, &self.now.initial);
             pace.scale(1.0 / way);

@@ -84,6 +84,10 @@ const AT_END: f64 = 1e-9;
 const BORDER: f64 = 1e-8;
 /// A share of the increment below this means that a pair changes at once.
 const AT_ONCE: f64 = 1e-12;
+/// Most that a change of state may be stretched before its loads are eliminated anew: load and
+/// eliminated load are rounded apart, by `eps` of the whole, and that grows with the change. It
+/// stays below 1e-12, a hundredth of the tightest tolerance.
+pub(super) const STRETCH: f64 = 1e4;
 
 impl Engine<'_> {
     /// Goes from the current state towards `end`, at most to share `most` of the way.
@@ -143,6 +147,7 @@ impl Engine<'_> {
         let mut damping = 0.0;
         let mut length_search = LengthSearch::default();
         let mut may_settle = true;
+        let mut stretched = 1.0;
         let newton = settings.plastic_iteration == PlasticIteration::Newton;
         let most_iterations = match settings.plastic_iteration {
             PlasticIteration::Newton => settings.max_iterations,
@@ -191,6 +196,12 @@ impl Engine<'_> {
                     balanced = self.settles(&state, floor);
                     may_settle = balanced;
                 }
+            }
+            if balanced && arrived && stretched > STRETCH {
+                stretched = 1.0;
+                let initial = self.eliminate(state.initial.load);
+                state = self.respond(&start.towards(end, t), initial);
+                continue;
             }
             if balanced && arrived {
                 if follows {
@@ -273,7 +284,11 @@ impl Engine<'_> {
                     } else {
                         next
                     };
+                    if next <= AT_ONCE {
+                        return Err(NoIncrement::WrongStatus(limit.pairs));
+                    }
                     state.rescale(&before, next / t);
+                    stretched *= f64::max(next / t, 1.0);
                     t = next;
                     known = None;
                     anderson.restart();

@@ -172,3 +172,23 @@ fn where_nothing_acts_nothing_moves() {
     );
     assert!(results.inaccurate.is_empty(), "{:?}", results.inaccurate);
 }
+
+/// Changes of contact that follow one another within 1e-9 of the load, in a tube with a fiftieth of its stiffness left: codes that
+/// take the last increment's rates for the next stretch its round-off by as much, and lose equilibrium or the way.
+#[test]
+fn contact_that_comes_nearly_at_once_keeps_its_equilibrium() {
+    let results = run_file("hard/nearly_at_once", &[]);
+    healthy(&results);
+    let other = run_file(
+        "hard/nearly_at_once",
+        &[
+            "analysis.plastic_iteration=anderson",
+            "analysis.tolerance=1e-8",
+        ],
+    );
+    for name in ["alpha 60", "alpha 150", "off"] {
+        let (newton, anderson) = (state(&results, name), state(&other, name));
+        let force = newton.contact_force;
+        close(name, force, anderson.contact_force, force, 1e-6);
+    }
+}
