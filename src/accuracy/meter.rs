@@ -4,8 +4,7 @@ use crate::analysis::check;
 use crate::error::Result;
 use crate::linalg::{Backend, Prediction};
 use crate::model::Model;
-use crate::progress::{Flow, Observer};
-use crate::results::{HistoryRow, Results};
+use crate::results::Results;
 use crate::scene::Scene;
 use std::time::Instant;
 
@@ -72,82 +71,6 @@ fn processor_seconds() -> Option<f64> {
 #[cfg(not(unix))]
 fn processor_seconds() -> Option<f64> {
     None
-}
-
-/// Tells what each phase of a run takes, by the phases that the run itself tells, and passes on the
-/// wish to stop.
-pub(super) struct PhaseMeter<'o> {
-    observer: &'o mut dyn Observer,
-    phases: Vec<PhaseUsage>,
-    /// The phase under way, and the wall and processor time at its beginning.
-    current: (String, Instant, Option<f64>),
-}
-
-/// What a phase took.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
-pub struct PhaseUsage {
-    /// Its name.
-    pub phase: String,
-    /// Wall time in seconds.
-    pub wall_seconds: f64,
-    /// Processor time of all threads in seconds, where the system tells.
-    pub cpu_seconds: Option<f64>,
-}
-
-impl<'o> PhaseMeter<'o> {
-    /// Begins with the phase `name`.
-    pub(super) fn start(name: &str, observer: &'o mut dyn Observer) -> Self {
-        PhaseMeter {
-            observer,
-            phases: Vec::new(),
-            current: (name.to_string(), Instant::now(), processor_seconds()),
-        }
-    }
-
-    /// The phases in the order in which they first began; one that came more than once is summed.
-    pub(super) fn stop(mut self) -> Vec<PhaseUsage> {
-        self.turn("");
-        self.phases
-    }
-
-    fn turn(&mut self, next: &str) {
-        let next = (next.to_string(), Instant::now(), processor_seconds());
-        let (name, wall, processor) = std::mem::replace(&mut self.current, next);
-        let wall_seconds = self.current.1.duration_since(wall).as_secs_f64();
-        let cpu_seconds = self
-            .current
-            .2
-            .zip(processor)
-            .map(|(end, start)| end - start);
-        match self.phases.iter_mut().find(|p| p.phase == name) {
-            Some(phase) => {
-                phase.wall_seconds += wall_seconds;
-                phase.cpu_seconds = phase.cpu_seconds.zip(cpu_seconds).map(|(a, b)| a + b);
-            }
-            None => self.phases.push(PhaseUsage {
-                phase: name,
-                wall_seconds,
-                cpu_seconds,
-            }),
-        }
-    }
-}
-
-impl Observer for PhaseMeter<'_> {
-    fn phase(&mut self, name: &str) {
-        self.turn(name);
-    }
-
-    fn increment(&mut self, _: &HistoryRow, _: f64) -> Flow {
-        match self.observer.stop_requested() {
-            true => Flow::Stop,
-            false => Flow::Continue,
-        }
-    }
-
-    fn stop_requested(&self) -> bool {
-        self.observer.stop_requested()
-    }
 }
 
 /// Operations of assembly, ordering and analysis per nonzero of the factor: what they take beside
@@ -225,9 +148,10 @@ impl Pace {
         let (mx, my) = (mean(&|p| p.0), mean(&|p| p.1));
         let variance = mean(&|p| (p.0 - mx).powi(2));
         // Runs of one size say nothing of the power.
-        let power = match variance > 0.1 {
-            true => (mean(&|p| (p.0 - mx) * (p.1 - my)) / variance).clamp(POWERS[0], POWERS[1]),
-            false => 1.0,
+        let power = if variance > 0.1 {
+            (mean(&|p| (p.0 - mx) * (p.1 - my)) / variance).clamp(POWERS[0], POWERS[1])
+        } else {
+            1.0
         };
         (my + power * (forecast.ln() - mx)).exp()
     }
@@ -268,22 +192,6 @@ mod tests {
         if let Some(peak) = usage.peak_memory_bytes {
             assert!(peak >= 64 << 20, "{peak}");
         }
-    }
-
-    #[test]
-    fn phases_are_told_apart_and_summed() {
-        let mut silent = crate::progress::Silent;
-        let mut meter = PhaseMeter::start("assembly", &mut silent);
-        meter.phase("factorisation");
-        std::thread::sleep(std::time::Duration::from_millis(20));
-        meter.phase("load program");
-        meter.phase("factorisation");
-        let phases = meter.stop();
-        let names: Vec<&str> = phases.iter().map(|p| p.phase.as_str()).collect();
-        assert_eq!(names, ["assembly", "factorisation", "load program"]);
-        assert!(phases[1].wall_seconds >= 0.02);
-        // How much processor time that is depends on the tests beside it.
-        assert_eq!(phases[1].cpu_seconds.is_some(), cfg!(unix));
     }
 
     #[test]

@@ -8,7 +8,8 @@
 //! | `path` | the error of increments and tolerances |
 //! | `runs`, `estimate` | runs, each made once; discretisation, path and algebraic error of every quantity |
 //! | `demand`, `outcome` | finer and finer meshes until a demanded accuracy is reached; what a mesh says of it |
-//! | `knobs`, `meter`, `record`, `study`, `verdict` | a study: what to turn, what it takes, the runs, what they say |
+//! | `knobs`, `meter`, `record`, `study` | a study: what to turn, what a run takes, the runs |
+//! | `verdict`, `advice` | what the runs of a study show, and the same in words |
 //!
 //! The stated error is the sum of three:
 //!
@@ -26,6 +27,7 @@
 //! A goal-oriented estimate (dual-weighted residuals) was built and measured before: pressure and stress at a point are so local
 //! that its products cancel, and the reading of a contact's edge is in none of them.
 
+mod advice;
 mod companions;
 mod demand;
 mod estimate;
@@ -47,7 +49,7 @@ pub use demand::{Reached, reach};
 pub use estimate::estimate;
 pub use extrapolation::{Extrapolation, extrapolate};
 pub use knobs::{Knob, Setting, settings};
-pub use meter::{Forecast, Meter, Pace, PhaseUsage, Usage, forecast, work};
+pub use meter::{Forecast, Meter, Pace, Usage, forecast, work};
 pub use quantities::{Quantity, quantities, value_of};
 pub use record::StudyRun;
 pub use runs::Extent;

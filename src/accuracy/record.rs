@@ -1,7 +1,7 @@
 //! What is kept of a run of a study.
 
 use super::knobs::{Knob, Setting};
-use super::meter::{Forecast, PhaseUsage, Usage, work};
+use super::meter::{Forecast, Usage, work};
 use super::quantities::quantities;
 use crate::error::Result;
 use crate::results::{Counts, Results};
@@ -35,10 +35,8 @@ pub struct StudyRun {
     pub work: f64,
     /// Time and memory.
     pub usage: Usage,
-    /// Wall seconds by phase, as the run itself times them.
+    /// Wall seconds by phase.
     pub timings: Vec<(String, f64)>,
-    /// Wall and processor time by phase, as the run tells them.
-    pub phases: Vec<PhaseUsage>,
     /// Quantities by path.
     pub values: Vec<(String, f64)>,
 }
@@ -69,7 +67,6 @@ impl StudyRun {
             work: 0.0,
             usage,
             timings: Vec::new(),
-            phases: Vec::new(),
             values: Vec::new(),
         };
         match found {

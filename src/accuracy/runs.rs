@@ -129,7 +129,7 @@ pub(super) fn analyse(
 
 /// Passes on only the wish to stop: phases, increments and warnings of another run would be taken
 /// for the run's own.
-struct Quiet<'o>(&'o mut dyn Observer);
+pub(super) struct Quiet<'o>(pub &'o mut dyn Observer);
 
 impl Observer for Quiet<'_> {
     fn increment(&mut self, _: &HistoryRow, _: f64) -> Flow {

@@ -1,15 +1,15 @@
 //! The study: many settings of one scene, each run and measured, cheapest first.
 
 use super::knobs::{Knob, Setting, settings};
-use super::meter::{Forecast, Meter, Pace, PhaseMeter, forecast};
+use super::meter::{Forecast, Meter, Pace, forecast};
 use super::record::StudyRun;
-use super::runs::{Extent, run};
+use super::runs::{Extent, Quiet, run};
 use super::verdict::{QuantityStudy, judge};
 use crate::error::{ErrorKind, Result};
 use crate::linalg::Backend;
-use crate::progress::{Flow, Observer};
-use crate::results::{HistoryRow, ReferenceRow};
-use crate::scene::{MeshSource, Scene};
+use crate::progress::Observer;
+use crate::results::ReferenceRow;
+use crate::scene::Scene;
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
@@ -65,94 +65,55 @@ pub fn study(
     observer: &mut dyn Observer,
 ) -> Result<Study> {
     let start = Instant::now();
-    let mut out = Study::default();
     observer.phase("study: predicting the cost of each setting");
     forecast(scene, backend)?;
-    let mut queue: Vec<(Setting, Forecast)> = Vec::new();
-    let mut known: Vec<(f64, (MeshSource, Backend), Forecast)> = Vec::new();
-    let all = settings(scene, backend, &plan.knobs, plan.levels);
-    for setting in all {
-        if observer.stop_requested() {
-            break;
-        }
-        // Settings on one mesh have one forecast; the symbolic factorisation of a large one takes
-        // its time.
-        let key = (setting.scene.mesh.clone(), setting.backend);
-        let found = match known.iter().find(|k| k.0 == setting.ratio && k.1 == key) {
-            Some(known) => Ok(known.2),
-            None => forecast(&setting.scene, setting.backend),
-        };
-        match found {
-            Ok(forecast) => {
-                known.push((setting.ratio, key, forecast));
-                queue.push((setting, forecast));
-            }
-            Err(error) => out
-                .left_out
-                .push(format!("{}, {}: {error}", setting.series, setting.value)),
-        }
-    }
-    queue.sort_by(|a, b| a.1.seconds.total_cmp(&b.1.seconds));
+    let mut out = Study::default();
+    let settings = settings(scene, backend, &plan.knobs, plan.levels);
+    let queue = cheapest_first(settings, &mut out.left_out, observer);
+    out.stopped = observer.stop_requested();
     let mut pace = Pace::default();
     let mut references: Vec<ReferenceRow> = Vec::new();
-    let n = queue.len();
-    out.stopped = observer.stop_requested();
-    for i in 0..n {
-        let (setting, cost) = &queue[i];
-        if observer.stop_requested() {
-            out.stopped = true;
+    for (i, (setting, cost)) in queue.iter().enumerate() {
+        if out.stopped {
             break;
         }
+        let name = format!("{}, {}", setting.series, setting.value);
         let expected = pace.seconds(cost.seconds);
-        let spent = start.elapsed().as_secs_f64();
-        if let Some(budget) = plan.budget
-            && !out.runs.is_empty()
-            && spent + expected > budget
-        {
-            out.left_out.push(format!(
-                "{}, {}: about {expected:.1} s, beyond the budget of {budget} s",
-                setting.series, setting.value
-            ));
-            continue;
-        }
-        let left: f64 = queue[i..]
-            .iter()
-            .map(|(_, c)| pace.seconds(c.seconds))
-            .sum();
-        let left = match out.runs.len() < TRUSTED {
-            true => String::new(),
-            false => format!(" (about {left:.0} s left)"),
-        };
-        let name = format!(
-            "run {} of {n}{left}: {}, {}",
-            i + 1,
-            setting.series,
-            setting.value
-        );
-        observer.phase_of(&name, expected);
-        let meter = Meter::start();
         // The cheapest run is made whatever the budget: else there would be nothing to go by.
         let budget = plan.budget.filter(|_| !out.runs.is_empty());
+        if let Some(budget) = budget.filter(|b| start.elapsed().as_secs_f64() + expected > *b) {
+            let why = format!("about {expected:.1} s, beyond the budget of {budget} s");
+            out.left_out.push(format!("{name}: {why}"));
+            continue;
+        }
+        let left = if out.runs.len() < TRUSTED {
+            String::new()
+        } else {
+            let all = queue[i..]
+                .iter()
+                .map(|(_, cost)| pace.seconds(cost.seconds));
+            format!(" (about {:.0} s left)", all.sum::<f64>())
+        };
+        let phase = format!("run {} of {}{left}: {name}", i + 1, queue.len());
+        observer.phase_of(&phase, expected);
+        let meter = Meter::start();
         let mut hurried = Hurried::new(observer, start, budget);
-        let mut phases = PhaseMeter::start("assembly", &mut hurried);
+        let extent = Extent::Program;
         let found = run(
             &setting.scene,
             setting.backend,
-            Extent::Program,
-            &mut phases,
+            extent,
+            &mut Quiet(&mut hurried),
         );
-        let phases = phases.stop();
         let usage = meter.stop();
         let late = hurried.is_late();
-        if observer.stop_requested() {
-            out.stopped = true;
+        out.stopped = observer.stop_requested();
+        if out.stopped {
             break;
         }
         if late && matches!(&found, Err(error) if error.kind() == ErrorKind::Stopped) {
-            out.left_out.push(format!(
-                "{}, {}: under way when the budget was spent",
-                setting.series, setting.value
-            ));
+            let why = "under way when the budget was spent";
+            out.left_out.push(format!("{name}: {why}"));
             continue;
         }
         pace.learn(cost.seconds, usage.undisturbed_seconds());
@@ -161,17 +122,41 @@ pub fn study(
         {
             references.clone_from(&results.reference);
         }
-        out.runs.push(StudyRun {
-            phases,
-            ..StudyRun::of(setting, cost, usage, found)
-        });
+        out.runs.push(StudyRun::of(setting, cost, usage, found));
     }
     out.quantities = judge(&out.runs, &references);
     out.seconds = start.elapsed().as_secs_f64();
     Ok(out)
 }
 
-/// Passes everything on, and asks to stop when it is late.
+/// The settings with their forecasts, by predicted time; those that make no model are left out.
+fn cheapest_first(
+    settings: Vec<Setting>,
+    left_out: &mut Vec<String>,
+    observer: &mut dyn Observer,
+) -> Vec<(Setting, Forecast)> {
+    let mut queue: Vec<(Setting, Forecast)> = Vec::new();
+    for setting in settings {
+        if observer.stop_requested() {
+            break;
+        }
+        // Settings on one mesh have one forecast; the symbolic factorisation of a large one takes
+        // its time.
+        let is_alike = |(other, _): &&(Setting, Forecast)| {
+            other.scene.mesh == setting.scene.mesh && other.backend == setting.backend
+        };
+        let known = queue.iter().find(is_alike).map(|(_, forecast)| *forecast);
+        let found = known.map_or_else(|| forecast(&setting.scene, setting.backend), Ok);
+        match found {
+            Ok(forecast) => queue.push((setting, forecast)),
+            Err(error) => left_out.push(format!("{}, {}: {error}", setting.series, setting.value)),
+        }
+    }
+    queue.sort_by(|a, b| a.1.seconds.total_cmp(&b.1.seconds));
+    queue
+}
+
+/// Asks to stop when the observer does, or when it is late.
 struct Hurried<'o> {
     observer: &'o mut dyn Observer,
     end: Option<Instant>,
@@ -192,26 +177,6 @@ impl<'o> Hurried<'o> {
 }
 
 impl Observer for Hurried<'_> {
-    fn phase(&mut self, name: &str) {
-        self.observer.phase(name);
-    }
-
-    fn phase_of(&mut self, name: &str, seconds: f64) {
-        self.observer.phase_of(name, seconds);
-    }
-
-    fn model(&mut self, freedoms: usize, contact_pairs: usize) {
-        self.observer.model(freedoms, contact_pairs);
-    }
-
-    fn increment(&mut self, row: &HistoryRow, fraction: f64) -> Flow {
-        self.observer.increment(row, fraction)
-    }
-
-    fn warning(&mut self, message: &str) {
-        self.observer.warning(message);
-    }
-
     fn stop_requested(&self) -> bool {
         self.observer.stop_requested() || self.is_late()
     }

@@ -1,22 +1,22 @@
 //! What a study says: the error of each run, the order of convergence, the Pareto front, and the
 //! price of a digit.
 
+use super::advice;
 use super::extrapolation::extrapolate;
 use super::knobs::Knob;
 use super::quantities::{formal_order, is_demanded_with_all};
 use super::record::StudyRun;
 use crate::results::ReferenceRow;
 use serde::Serialize;
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 /// Accuracies that are priced.
-const TARGETS: [f64; 3] = [0.1, 0.01, 0.001];
+pub(super) const TARGETS: [f64; 3] = [0.1, 0.01, 0.001];
 /// Finest meshes from which a reference is extrapolated.
 const FINEST: usize = 4;
 /// Errors below this are round-off, and no order is read off them.
 const ROUND_OFF: f64 = 1e-12;
-/// A tighter setting buys nothing where the error of the path is this small a share of the mesh's.
-const NOTHING: f64 = 0.1;
 
 /// What the runs are measured against.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -57,7 +57,7 @@ pub struct QuantityStudy {
     pub pareto: Vec<usize>,
     /// What accuracies cost.
     pub prices: Vec<Price>,
-    /// The same in words, and what buys nothing.
+    /// The same in words, what limits, and which looser settings would do.
     pub words: Vec<String>,
 }
 
@@ -106,7 +106,7 @@ pub fn judge(runs: &[StudyRun], references: &[ReferenceRow]) -> Vec<QuantityStud
     out
 }
 
-fn value(run: &StudyRun, path: &str) -> Option<f64> {
+pub(super) fn value(run: &StudyRun, path: &str) -> Option<f64> {
     run.values.iter().find(|v| v.0 == path).map(|v| v.1)
 }
 
@@ -167,9 +167,10 @@ fn reference(runs: &[StudyRun], references: &[ReferenceRow], path: &str) -> Opti
     let finest = || Some((values.first()?.1, found?.uncertainty));
     let (limit, doubt_of_mesh) = limit.or_else(finest)?;
     let (correction, doubt) = path_correction(runs, path).unwrap_or_default();
-    let increments = match correction == 0.0 && doubt == 0.0 {
-        true => "",
-        false => " and the finest increments",
+    let increments = if correction == 0.0 && doubt == 0.0 {
+        ""
+    } else {
+        " and the finest increments"
     };
     Some(StudyReference {
         value: limit + correction,
@@ -185,7 +186,7 @@ fn reference(runs: &[StudyRun], references: &[ReferenceRow], path: &str) -> Opti
 /// What the increments of the scene's own run lack: the two finest runs with fixed steps, on the
 /// same mesh, extrapolated with the first order of the flow rule; and by how much that may be
 /// wrong: the last change.
-fn path_correction(runs: &[StudyRun], path: &str) -> Option<(f64, f64)> {
+pub(super) fn path_correction(runs: &[StudyRun], path: &str) -> Option<(f64, f64)> {
     let own = runs.iter().find(|r| is_own(r))?;
     let mut stepped: Vec<(usize, f64)> = runs
         .iter()
@@ -202,7 +203,7 @@ fn path_correction(runs: &[StudyRun], path: &str) -> Option<(f64, f64)> {
 }
 
 /// Whether this is the scene as it stands.
-fn is_own(run: &StudyRun) -> bool {
+pub(super) fn is_own(run: &StudyRun) -> bool {
     run.knob == Knob::Resolution && run.ratio == 1.0 && !run.series.contains(',')
 }
 
@@ -246,7 +247,7 @@ fn finished(
             run: cheapest(runs, &errors, accuracy),
         })
         .collect();
-    let words = words(runs, path, reference.as_ref(), &prices);
+    let words = advice::words(runs, path, reference.as_ref(), &prices);
     QuantityStudy {
         quantity: path.to_string(),
         reference,
@@ -276,12 +277,7 @@ fn order(levels: &[(usize, f64)], errors: &[Option<f64>]) -> Option<f64> {
 /// Runs by time, each more accurate than all faster ones.
 fn pareto(runs: &[StudyRun], errors: &[Option<f64>]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..runs.len()).filter(|&i| errors[i].is_some()).collect();
-    order.sort_by(|&a, &b| {
-        runs[a]
-            .usage
-            .undisturbed_seconds()
-            .total_cmp(&runs[b].usage.undisturbed_seconds())
-    });
+    order.sort_by(|&a, &b| faster(&runs[a], &runs[b]));
     let mut best = f64::INFINITY;
     order.retain(|&i| {
         let error = errors[i].unwrap_or(f64::INFINITY);
@@ -307,114 +303,10 @@ fn cheapest(runs: &[StudyRun], errors: &[Option<f64>], accuracy: f64) -> Option<
             // chance.
             _ => runs.iter().position(is_own).is_none_or(reaches),
         })
-        .min_by(|&a, &b| {
-            runs[a]
-                .usage
-                .undisturbed_seconds()
-                .total_cmp(&runs[b].usage.undisturbed_seconds())
-        })
+        .min_by(|&a, &b| faster(&runs[a], &runs[b]))
 }
 
-fn words(
-    runs: &[StudyRun],
-    path: &str,
-    reference: Option<&StudyReference>,
-    prices: &[Price],
-) -> Vec<String> {
-    let percent = |e: f64| format!("{} %", significant(100.0 * e));
-    let costs: Vec<String> = prices
-        .iter()
-        .filter_map(|price| {
-            let run = &runs[price.run?];
-            Some(format!(
-                "{} costs {} s: {}, {}",
-                percent(price.accuracy),
-                significant(run.usage.undisturbed_seconds()),
-                run.series,
-                run.value
-            ))
-        })
-        .collect();
-    let mut out = Vec::new();
-    match costs.is_empty() {
-        true => out.push(format!("no setting tried reaches {}", percent(TARGETS[0]))),
-        false => out.push(costs.join("; ")),
-    }
-    if let Some(price) = prices.iter().find(|p| p.run.is_none())
-        && !costs.is_empty()
-    {
-        out.push(format!(
-            "{} is not reached by any setting tried",
-            percent(price.accuracy)
-        ));
-    }
-    if let Some((reference, limit)) = reference.and_then(|r| Some((r, r.limit?))) {
-        out.push(format!(
-            "the meshes converge to a value that is {} off the closed form: finer ones are wasted below that",
-            percent((limit / reference.value - 1.0).abs())
-        ));
-    }
-    if let Some(reference) = reference {
-        out.extend(wasted(runs, path, reference));
-    }
-    out
-}
-
-/// Which settings of the path buy nothing, because the mesh's error hides theirs, and which waste
-/// the mesh. Errors of path and mesh may cancel, so each is taken for itself: the path's is the
-/// distance from the tightest path on the same mesh, the mesh's that of this path from the
-/// reference.
-fn wasted(runs: &[StudyRun], path: &str, reference: &StudyReference) -> Vec<String> {
-    let Some(own) = runs.iter().find(|r| is_own(r)).and_then(|r| value(r, path)) else {
-        return Vec::new();
-    };
-    let correction = path_correction(runs, path).map_or(0.0, |c| c.0);
-    let mesh = (own + correction - reference.value).abs();
-    let mut out = Vec::new();
-    for knob in [Knob::Tolerance, Knob::Gamma, Knob::Stepping] {
-        // Fixed steps approach the limit of many increments, tolerances that of the scene's own
-        // tight ones.
-        let tight = own
-            + if knob == Knob::Stepping {
-                correction
-            } else {
-                0.0
-            };
-        let errors: Vec<(&str, f64)> = runs
-            .iter()
-            .filter(|r| r.knob == knob)
-            .filter_map(|r| Some((r.value.as_str(), (value(r, path)? - tight).abs())))
-            .collect();
-        let names = |keep: &dyn Fn(f64) -> bool| {
-            let names: Vec<&str> = errors.iter().filter(|e| keep(e.1)).map(|e| e.0).collect();
-            names.join(", ")
-        };
-        let (idle, wasteful) = (names(&|e| e <= NOTHING * mesh), names(&|e| e > mesh));
-        if !idle.is_empty() {
-            out.push(format!(
-                "{} {idle}: the mesh limits, tighter ones buy nothing on it",
-                knob.name()
-            ));
-        }
-        if !wasteful.is_empty() {
-            out.push(format!(
-                "{} {wasteful}: the path limits, the mesh is wasted",
-                knob.name()
-            ));
-        }
-    }
-    out
-}
-
-/// Two significant digits without an exponent.
-fn significant(value: f64) -> String {
-    if value <= 0.0 || !value.is_finite() {
-        return value.to_string();
-    }
-    let digits = (1 - value.log10().floor() as i32).max(0) as usize;
-    let text = format!("{value:.digits$}");
-    match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_string(),
-        false => text,
-    }
+fn faster(a: &StudyRun, b: &StudyRun) -> Ordering {
+    let [a, b] = [a, b].map(|run| run.usage.undisturbed_seconds());
+    a.total_cmp(&b)
 }

@@ -16,6 +16,7 @@ pub(crate) fn percent(share: f64) -> String {
 /// A time in the unit that suits it.
 pub(super) fn duration(seconds: f64) -> String {
     match seconds {
+        s if s < 0.1 => format!("{:.2} ms", 1e3 * s),
         s if s < 120.0 => format!("{s:.1} s"),
         s if s < 7200.0 => format!("{:.0} min", s / 60.0),
         s if s < 172_800.0 => format!("{:.0} h", s / 3600.0),
@@ -34,5 +35,6 @@ mod tests {
         assert_eq!(percent(1e-8), "1.0e-6 %");
         assert_eq!(duration(10_800.0), "3 h");
         assert_eq!(duration(90.0), "90.0 s");
+        assert_eq!(duration(0.0123), "12.30 ms");
     }
 }

@@ -12,7 +12,7 @@ use std::path::Path;
 const TABLE_FILE: &str = "accuracy.csv";
 const PLOT_SUFFIX: &str = ".svg";
 /// Columns of the table.
-const COLUMNS: [&str; 27] = [
+const COLUMNS: [&str; 22] = [
     "run",
     "series",
     "knob",
@@ -35,21 +35,7 @@ const COLUMNS: [&str; 27] = [
     "reference",
     "relative_error",
     "work",
-    "assembly_cpu_seconds",
-    "factorisation_cpu_seconds",
-    "preload_cpu_seconds",
-    "yield_load_cpu_seconds",
-    "load_program_cpu_seconds",
 ];
-/// Phases of a run, as it tells them, in the order of their columns.
-const PHASES: [&str; 5] = [
-    "assembly",
-    "factorisation",
-    "preload",
-    "yield load",
-    "load program",
-];
-
 /// Writes the study to `dir`, all of it or nothing. An earlier study or result of brinell is
 /// replaced, other files are kept.
 ///
@@ -108,7 +94,6 @@ fn run(run: &StudyRun) -> Value {
         "peak_memory_bytes": run.usage.peak_memory_bytes,
         "work": run.work,
         "timings": object(&run.timings),
-        "phases": run.phases,
         "values": object(&run.values),
     })
 }
@@ -177,10 +162,6 @@ fn table(out: &mut impl Write, study: &Study) -> std::io::Result<()> {
                 error.to_string(),
                 run.work.to_string(),
             ]);
-            row.extend(PHASES.map(|name| {
-                let phase = run.phases.iter().find(|p| p.phase == name);
-                optional(phase.and_then(|p| p.cpu_seconds))
-            }));
             writer.write_record(&row)?;
         }
     }

@@ -60,7 +60,12 @@ const SAME: f64 = 1e-6;
 impl Family {
     /// The claims of all its meshes; a mesh that cannot be run makes none.
     pub fn claims(&self) -> Vec<Claim> {
-        let truth: BTreeMap<String, f64> = match &self.truth {
+        self.claims_beside(&self.known())
+    }
+
+    /// The values that are known, by path.
+    pub fn known(&self) -> BTreeMap<String, f64> {
+        match &self.truth {
             Truth::Exact(values) => (values.iter())
                 .map(|(path, value)| (path.to_string(), *value))
                 .collect(),
@@ -69,7 +74,11 @@ impl Family {
                 let all = quantities(&results).into_iter();
                 all.map(|q| (q.path, q.value)).collect()
             }
-        };
+        }
+    }
+
+    /// The claims of all its meshes beside known values.
+    pub fn claims_beside(&self, truth: &BTreeMap<String, f64>) -> Vec<Claim> {
         let mut out = Vec::new();
         for (mesh, scene) in &self.meshes {
             let Some(results) = run(scene, self.extent) else {
@@ -101,7 +110,8 @@ impl Family {
     }
 }
 
-fn run(scene: &Scene, extent: Extent) -> Option<Results> {
+/// A run to its end; `None` where it does not get there.
+pub fn run(scene: &Scene, extent: Extent) -> Option<Results> {
     let mut analysis = Analysis::new(Model::new(scene).ok()?, Backend::default()).ok()?;
     let results = match extent {
         Extent::Yield => analysis.yield_load(&mut Silent),

@@ -1,0 +1,91 @@
+//! What a study says of a quantity in words: what accuracies cost, what limits, what would do.
+
+use super::knobs::Knob;
+use super::record::StudyRun;
+use super::verdict::{Price, StudyReference, is_own, path_correction, value};
+use super::words::{duration, percent};
+
+/// A looser setting would do where its error is this small a share of the mesh's.
+const HIDDEN: f64 = 0.1;
+
+/// The sentences on a quantity.
+pub(super) fn words(
+    runs: &[StudyRun],
+    path: &str,
+    reference: Option<&StudyReference>,
+    prices: &[Price],
+) -> Vec<String> {
+    let mut out = vec![costs(runs, prices)];
+    let Some(reference) = reference else {
+        return out;
+    };
+    if let Some(limit) = reference.limit {
+        let off = percent((limit / reference.value - 1.0).abs());
+        out.push(format!(
+            "the meshes converge to a value that is {off} off the closed form: finer ones gain nothing below that"
+        ));
+    }
+    if let Some(own) = runs.iter().find(|run| is_own(run))
+        && let Some(own) = value(own, path)
+    {
+        out.extend(limits(runs, path, reference.value, own));
+    }
+    out
+}
+
+/// The cheapest setting for each accuracy.
+fn costs(runs: &[StudyRun], prices: &[Price]) -> String {
+    let cost = |price: &Price| {
+        let accuracy = percent(price.accuracy);
+        match price.run.map(|i| &runs[i]) {
+            Some(run) => {
+                let seconds = duration(run.usage.undisturbed_seconds());
+                format!("{accuracy} costs {seconds} ({}, {})", run.series, run.value)
+            }
+            None => format!("{accuracy} is reached by no setting tried"),
+        }
+    };
+    prices.iter().map(cost).collect::<Vec<_>>().join("; ")
+}
+
+/// Whether mesh or increments limit the scene as it stands, and which looser settings the mesh
+/// hides. The two errors may cancel, so each is taken for itself: that of the increments is the
+/// distance from many more of them on the same mesh, that of the mesh what is left to the
+/// reference.
+fn limits(runs: &[StudyRun], path: &str, reference: f64, own: f64) -> Vec<String> {
+    let many = path_correction(runs, path).map(|(correction, _)| correction);
+    let mesh = (own + many.unwrap_or(0.0) - reference).abs();
+    let share = |error: f64| percent((error / reference).abs());
+    let first = match many {
+        Some(error) if error.abs() > mesh => format!(
+            "the increments limit the scene as it stands: {}, its mesh {}; more steps gain more than a finer mesh",
+            share(error),
+            share(mesh)
+        ),
+        Some(error) => format!(
+            "the mesh limits the scene as it stands: {}, its increments {}; a finer mesh gains more than more steps",
+            share(mesh),
+            share(error)
+        ),
+        None => format!("the mesh limits the scene as it stands: {}", share(mesh)),
+    };
+    let loosest: Vec<String> = [Knob::Tolerance, Knob::Gamma, Knob::Stepping]
+        .into_iter()
+        .filter_map(|knob| {
+            // Fixed steps approach many increments, tolerances the scene's own tight ones.
+            let many = many.filter(|_| knob == Knob::Stepping);
+            let error =
+                |run: &StudyRun| Some((value(run, path)? - own - many.unwrap_or(0.0)).abs());
+            let turned = runs.iter().filter(|run| run.knob == knob);
+            let hidden = turned.filter_map(|run| Some((run, error(run)?)));
+            let hidden = hidden.filter(|(_, error)| *error <= HIDDEN * mesh);
+            let (run, _) = hidden.max_by(|a, b| a.1.total_cmp(&b.1))?;
+            Some(format!("{} {}", knob.name(), run.value))
+        })
+        .collect();
+    let second = (!loosest.is_empty()).then(|| {
+        let all = loosest.join(", ");
+        format!("{all} would do: the mesh hides the difference")
+    });
+    std::iter::once(first).chain(second).collect()
+}
