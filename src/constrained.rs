@@ -9,12 +9,11 @@
 //!
 //! A row is any linear combination of freedoms: the relative normal displacement of two nodes, or
 //! of a node and a point between others. The freedoms that occur in rows are the contact freedoms
-//! `c`; `K` is condensed on them to `C`. On the rows, `B u_c = delta - g` holds exactly, so that
-//! `M = C + B' S B` may stand for `C` (`S` a diagonal of the size of `C`'s own): it is definite
-//! also where a body is held by contact alone. With `A = B M^-1 B'`
+//! `c`; `K` is condensed on them to `C`. With the rows `s = B u_c` as coordinates (a freedom of
+//! each row follows, the others lead: `v`) `v` is eliminated, as in scenes, and
 //!
 //! ```text
-//!     r = q + T g,    T = A^-1 - S,    q = A^-1 B M^-1 f_c - T delta
+//!     r = t - T s = q + T g,    q = t - T delta
 //! ```
 //!
 //! is the problem of [`crate::contact`]. Plastic strains are loads like any others:
@@ -29,15 +28,16 @@ pub use arrays::{Triangle, rows_from_csr, stiffness_from_csc};
 pub use path::Event;
 
 use crate::contact::{self, Tableau};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::linalg::{self, Backend, Condensed, Partition, SymmetricCsc};
+use crate::substructure::{Entries, Rows, Tied};
 use held::{condense, pushed_away};
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use nalgebra::{DMatrix, DVector};
 use path::Way;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Share of `S` below which a diagonal entry of `T = A^-1 - S` is round-off of the subtraction.
+/// Share of the stiffness of a row's own freedoms below which a diagonal entry of `T` is round-off.
 const CANCELLED: f64 = 1e-12;
 
 /// A sparse stiffness with contact rows, factored and condensed once.
@@ -89,12 +89,8 @@ pub struct ConstrainedStructure {
     /// `n_rows x n_contact`.
     rows: DMatrix<f64>,
     gaps: DVector<f64>,
-    /// Diagonal of S.
-    shift: DVector<f64>,
-    /// Factor of M.
-    held: Cholesky<f64, Dyn>,
-    /// A^-1.
-    inverse: DMatrix<f64>,
+    /// The structure with all rows closed.
+    tied: Tied,
     /// T.
     contact_matrix: Arc<DMatrix<f64>>,
     tableau: Tableau,
@@ -118,8 +114,8 @@ impl ConstrainedStructure {
     /// is that without load.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] where sizes, freedoms or values do not fit, or where rows depend on
-    /// each other; [`ErrorKind::Unheld`] naming the freedom where the structure is not held even
+    /// [`crate::ErrorKind::Input`] where sizes, freedoms or values do not fit, or where rows depend on
+    /// each other; [`crate::ErrorKind::Unheld`] naming the freedom where the structure is not held even
     /// with all rows closed; backend limits.
     pub fn new(
         backend: Backend,
@@ -160,35 +156,21 @@ impl ConstrainedStructure {
                 b[(i, place[freedom])] += coefficient;
             }
         }
-        let c = condensed.contact_stiffness().dense();
-        let shift = shift(&c, &b);
-        let mut m = c.clone_owned();
-        for i in 0..rows.len() {
-            m += b.row(i).transpose() * b.row(i) * shift[i];
-        }
-        let unheld = || {
-            Error::new(
-                ErrorKind::Unheld,
-                "the structure is not held even with all contact rows closed: its condensed stiffness is not positive definite",
-            )
+        let stiffness_of_contact = condensed.contact_stiffness();
+        let c = stiffness_of_contact.dense();
+        let entries = |row: &Vec<(usize, f64)>| -> Entries {
+            row.iter()
+                .map(|&(freedom, b)| (place[&freedom], b))
+                .collect()
         };
-        let held = Cholesky::new(m).ok_or_else(unheld)?;
-        let half = held
-            .l_dirty()
-            .solve_lower_triangular(&b.transpose())
-            .ok_or_else(unheld)?;
-        let dependent = || {
-            Error::input(
-                "the contact rows depend on each other: each must restrict a motion that the others leave free",
-            )
-        };
-        let inverse = match rows.len() {
-            0 => DMatrix::zeros(0, 0),
-            _ => Cholesky::new(half.tr_mul(&half))
-                .ok_or_else(dependent)?
-                .inverse(),
-        };
-        let contact_matrix = Arc::new(tied(&inverse, &shift));
+        let coordinates = Rows::any(
+            rows.iter().map(entries).collect(),
+            partition.contact.len(),
+            |i| c[(i, i)],
+        )?;
+        let (tied, mut matrix) = Tied::new(&stiffness_of_contact, coordinates, &[], &[])?;
+        drop_round_off(&mut matrix, &sizes(&c, &b));
+        let contact_matrix = Arc::new(matrix);
         let mut structure = ConstrainedStructure {
             norm: linalg::norm(&stiffness),
             stiffness,
@@ -205,9 +187,7 @@ impl ConstrainedStructure {
             gaps: DVector::from_column_slice(gaps),
             tableau: Tableau::new(contact_matrix.clone()),
             contact_matrix,
-            shift,
-            held,
-            inverse,
+            tied,
             way: None,
         };
         structure.solve(&vec![0.0; n])?;
@@ -243,8 +223,8 @@ impl ConstrainedStructure {
     /// Solves contact under the load `f` (all freedoms), from the statuses at hand.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] where the load has the wrong length or holds a number that is not
-    /// finite; [`ErrorKind::Unheld`] naming the row where the load pushes a body away from every
+    /// [`crate::ErrorKind::Input`] where the load has the wrong length or holds a number that is not
+    /// finite; [`crate::ErrorKind::Unheld`] naming the row where the load pushes a body away from every
     /// contact.
     pub fn solve(&mut self, load: &[f64]) -> Result<()> {
         self.check_load(load)?;
@@ -305,8 +285,11 @@ impl ConstrainedStructure {
 
     /// `q` for a condensed load and `share` of the gaps.
     fn forces_if_tied(&self, condensed: &DVector<f64>, share: f64) -> DVector<f64> {
-        let free = &self.rows * self.held.solve(condensed);
-        &self.inverse * free - &*self.contact_matrix * &self.gaps * share
+        let mut load = condensed.clone_owned();
+        let mut forces = DVector::zeros(self.n_rows());
+        self.tied
+            .eliminate(load.as_mut_slice(), forces.as_mut_slice());
+        forces - &*self.contact_matrix * &self.gaps * share
     }
 
     fn check_load(&self, load: &[f64]) -> Result<()> {
@@ -327,9 +310,9 @@ impl ConstrainedStructure {
     }
 }
 
-/// The diagonal of `S`: the stiffness of each row's own freedoms in the condensed stiffness `c`,
-/// which it must be comparable with.
-fn shift(c: &DMatrix<f64>, rows: &DMatrix<f64>) -> DVector<f64> {
+/// The stiffness of each row's own freedoms in the condensed stiffness `c`, per displacement of the
+/// row; that of the stiffest freedom where they have none.
+fn sizes(c: &DMatrix<f64>, rows: &DMatrix<f64>) -> DVector<f64> {
     let size = c.diagonal().amax();
     DVector::from_fn(rows.nrows(), |i, _| {
         let b = rows.row(i);
@@ -343,22 +326,15 @@ fn shift(c: &DMatrix<f64>, rows: &DMatrix<f64>) -> DVector<f64> {
     })
 }
 
-/// `T = A^-1 - S`, symmetric to the bit.
-fn tied(inverse: &DMatrix<f64>, shift: &DVector<f64>) -> DMatrix<f64> {
-    let mut matrix = inverse.clone();
-    for i in 0..shift.len() {
-        matrix[(i, i)] -= shift[i];
-    }
-    let mut matrix = 0.5 * (&matrix + matrix.transpose());
-    for i in 0..shift.len() {
-        // Where nothing but this row holds a body, T is zero: the difference of equals leaves
-        // round-off.
-        if matrix[(i, i)] <= CANCELLED * shift[i] {
+/// Where nothing but a row holds a body its part of `T` is zero: the difference of equals leaves
+/// round-off.
+fn drop_round_off(matrix: &mut DMatrix<f64>, sizes: &DVector<f64>) {
+    for i in 0..sizes.len() {
+        if matrix[(i, i)] <= CANCELLED * sizes[i] {
             matrix.row_mut(i).fill(0.0);
             matrix.column_mut(i).fill(0.0);
         }
     }
-    matrix
 }
 
 #[cfg(test)]

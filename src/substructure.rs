@@ -15,7 +15,11 @@
 //! motions of floating bodies are treated apart: see `tied`.
 
 mod groups;
+mod rows;
 mod tied;
+
+pub(crate) use rows::{Entries, Rows};
+pub(crate) use tied::{Tied, Trace};
 
 use crate::assembly::System;
 use crate::contact::{PairBlock, PairMatrix, Tableau};

@@ -1,6 +1,6 @@
 //! Displacements of the state at hand, of a badly conditioned structure to the last digits.
 
-use super::ConstrainedStructure;
+use super::{ConstrainedStructure, sizes};
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::{self, Refinement};
 use nalgebra::{Cholesky, DMatrix, DVector};
@@ -19,12 +19,13 @@ impl ConstrainedStructure {
                 self.partition.n
             )));
         }
+        let load = self.load_with_contact();
+        let mut contact = self.state.condensed.clone_owned();
+        let mut forces = vec![0.0; self.n_rows()];
+        self.tied.eliminate(contact.as_mut_slice(), &mut forces);
         let gap = DVector::from_column_slice(self.gaps());
-        let (pushed, load) = self.contact_forces();
-        let tied = self.shift.component_mul(&(&self.gaps - gap));
-        let contact = self
-            .held
-            .solve(&(&self.state.condensed + self.rows.tr_mul(&tied) - &pushed));
+        let slip = &self.gaps - gap;
+        self.tied.recover(contact.as_mut_slice(), slip.as_slice());
         let reduced = self.condensed.reduce_load(&self.state.load)?;
         let found = linalg::recover_refined(
             self.condensed.as_ref(),
@@ -39,14 +40,14 @@ impl ConstrainedStructure {
         Ok(found.backward_error)
     }
 
-    /// `B' r` on the contact freedoms, and `f - B' r` on all.
-    fn contact_forces(&self) -> (DVector<f64>, Vec<f64>) {
+    /// `f - B' r` on all freedoms.
+    fn load_with_contact(&self) -> Vec<f64> {
         let pushed = self.rows.tr_mul(&DVector::from_column_slice(self.forces()));
         let mut load = self.state.load.clone();
         for (&freedom, force) in self.partition.contact.iter().zip(pushed.iter()) {
             load[freedom] -= force;
         }
-        (pushed, load)
+        load
     }
 
     /// As [`ConstrainedStructure::displacements`] with the residual in twice the working precision
@@ -61,11 +62,12 @@ impl ConstrainedStructure {
     pub fn refined_displacements(&self, out: &mut [f64]) -> Result<Refinement> {
         self.displacements(out)?;
         let contact = &self.partition.contact;
-        let (_, load) = self.contact_forces();
+        let load = self.load_with_contact();
         // (K + B' S B) u = f - B' r + B' S delta with the closed rows, whose gap is zero without
         // round-off: definite also where K alone is not.
         let open = self.tableau.open();
-        let spring = DVector::from_fn(open.len(), |i, _| if open[i] { 0.0 } else { self.shift[i] });
+        let sizes = sizes(&self.condensed_stiffness, &self.rows);
+        let spring = DVector::from_fn(open.len(), |i, _| if open[i] { 0.0 } else { sizes[i] });
         let mut stiffness = DMatrix::clone(&self.condensed_stiffness);
         for i in (0..open.len()).filter(|&i| !open[i]) {
             let row = self.rows.row(i);

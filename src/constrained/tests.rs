@@ -1,4 +1,5 @@
 use super::*;
+use crate::ErrorKind;
 use crate::contact::Change;
 
 /// Upper triangle of a chain of unit springs between `n` freedoms, those of `held` tied to the
@@ -149,6 +150,87 @@ fn random_structures_fulfil_all_conditions() {
             structure.solve(&load).unwrap();
             for (a, b) in along.iter().zip(structure.forces()) {
                 close(*a, *b);
+            }
+        }
+    }
+}
+
+/// Two chains of springs, the one stiffer by `ratio`, end on end: `1/T = 3/k_1 + 3/k_2`. Whichever
+/// is listed first, `T` is no stiffer than the softer one, to its last digits.
+#[test]
+fn the_softer_side_follows_whatever_the_ratio() {
+    for backend in backends() {
+        for ratio in [1e-12, 1e-6, 1.0, 1e6, 1e12] {
+            let mut k = sprs::TriMatI::<f64, i64>::new((6, 6));
+            for (body, stiffness) in [(0, 1.0), (3, ratio)] {
+                for (value, (row, column)) in chain(3, &[0]).iter() {
+                    k.add_triplet(
+                        body + row as usize,
+                        body + column as usize,
+                        stiffness * value,
+                    );
+                }
+            }
+            let k: SymmetricCsc = k.to_csc();
+            let rows = [vec![(2, 1.0), (5, -1.0)]];
+            let chains = ConstrainedStructure::new(backend, &k, &rows, &[0.0]).unwrap();
+            let exact = 1.0 / (3.0 + 3.0 / ratio);
+            let found = chains.contact_matrix()[(0, 0)];
+            assert!(
+                (found / exact - 1.0).abs() < 1e-14,
+                "{ratio:e}: {found:e} {exact:e}"
+            );
+        }
+    }
+}
+
+/// Rows that share freedoms, so that no follower is in one row only: with all of them closed the
+/// chain hangs on them, and their forces are those of equilibrium.
+#[test]
+fn rows_may_share_freedoms() {
+    for backend in backends() {
+        let k = chain(4, &[0]);
+        // Each freedom against the next but one, and the last against a wall.
+        let rows = [
+            vec![(0, 1.0), (2, -0.5), (3, 0.25)],
+            vec![(0, -1.0), (2, 2.0), (3, 1.0)],
+            vec![(3, 1.0), (2, 1.0), (0, 0.5)],
+        ];
+        let mut tied = ConstrainedStructure::new(backend, &k, &rows, &[0.0; 3]).unwrap();
+        let load = [0.3, 0.2, 0.5, 1.0];
+        tied.solve(&load).unwrap();
+        let (mut u, mut residual) = ([0.0; 4], [0.0; 4]);
+        tied.displacements(&mut u).unwrap();
+        linalg::multiply(&k, &u, &mut residual);
+        for (i, row) in rows.iter().enumerate() {
+            let moved: f64 = row.iter().map(|(f, b)| b * u[*f]).sum();
+            close(-moved, tied.gaps()[i]);
+            for (f, b) in row {
+                residual[*f] += b * tied.forces()[i];
+            }
+        }
+        for (r, f) in residual.iter().zip(load) {
+            close(*r, f);
+        }
+        // T is the stiffness that the rows see: (B K^-1 B')^-1.
+        let mut inverse = DMatrix::zeros(4, 4);
+        for j in 0..4 {
+            let mut column = ConstrainedStructure::new(backend, &k, &[], &[]).unwrap();
+            let mut unit = [0.0; 4];
+            unit[j] = 1.0;
+            column.solve(&unit).unwrap();
+            let mut u = [0.0; 4];
+            column.displacements(&mut u).unwrap();
+            inverse.column_mut(j).copy_from_slice(&u);
+        }
+        let b = DMatrix::from_fn(3, 4, |i, f| {
+            let entry = rows[i].iter().find(|(freedom, _)| *freedom == f);
+            entry.map_or(0.0, |(_, b)| *b)
+        });
+        let unit = &b * inverse * b.transpose() * tied.contact_matrix();
+        for i in 0..3 {
+            for j in 0..3 {
+                close(unit[(i, j)], if i == j { 1.0 } else { 0.0 });
             }
         }
     }

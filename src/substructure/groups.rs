@@ -6,6 +6,7 @@
 //! numbers from then on, whatever there is beside it: many separate joints cost what each of them
 //! costs.
 
+use super::rows::Rows;
 use super::tied::{SplitSlip, Tied, Trace};
 use super::{PairBlock, PairMatrix};
 use crate::error::Result;
@@ -73,7 +74,8 @@ impl Groups {
             let own_part: Vec<usize> = both().map(|i| part[i]).collect();
             let own_freedoms: Vec<usize> = both().map(|i| freedoms[i]).collect();
             let traces = traces(motions, &of_group, &own_freedoms);
-            let (tied, matrix) = Tied::new(&stiffness, &traces, &own_part)?;
+            let rows = Rows::of_pairs(pairs.len(), |i| stiffness.diagonal(i));
+            let (tied, matrix) = Tied::new(&stiffness, rows, &traces, &own_part)?;
             blocks.push(PairBlock {
                 pairs: pairs.clone(),
                 matrix: Arc::new(matrix),

@@ -1,16 +1,21 @@
-//! The structure with all pairs tied, and the contact matrix, free of cancellation.
+//! The structure with all contact rows closed, and the contact matrix, free of cancellation.
 //!
-//! Of the two nodes of a pair the stiffer one leads: `v` is its displacement, `s = u_follower - v`
-//! that of the softer one relative to it, and `s` is what is left after elimination. The other way
+//! The stiffer freedoms of a row lead and the softest follows ([`Rows`]): `v` are the displacements
+//! of the leaders, `s` those of the rows, and `s` is what is left after elimination. The other way
 //! round the contact matrix, no stiffer than the softer body, would be the difference of two
-//! matrices as large as the stiffer one.
+//! matrices as large as the stiffer one. With `P = [1; G]` (leaders, followers)
+//!
+//! ```text
+//!     [ P'S P   P'S H  ] [ v ]   [ P' f         ]
+//!     [ H'S P   H'S H  ] [ s ] = [ H' f - r     ]       r = t - T s
+//! ```
 //!
 //! A floating body that is stiff beside what it rests on hardly deforms. Its rigid motions cost the
 //! soft stiffness alone, which the round-off of its own stiffness swamps. Those motions are known
 //! exactly (`R`, from the geometry), so they are unknowns in their own right:
 //!
 //! ```text
-//!     v = R a + Z w        Z: unit vectors of all pairs but as many as there are motions
+//!     v = R a + Z w      Z: unit vectors of all leaders but as many as there are motions
 //!
 //!     [ Z'S Z  Z'S R ] [ w ]   [ Z' f ]
 //!     [ R'S Z  R'S R ] [ a ] = [ R' f ]      S_body r = 0 is put in exactly where r is a rigid motion of that body
@@ -24,14 +29,15 @@
 //! motions); A. van der Sluis (1969), doi:10.1007/BF02165096, and N. J. Higham, *Accuracy and
 //! Stability of Numerical Algorithms*, 2nd ed., theorem 10.5 (scaling).
 
-use crate::error::{Error, Result};
+use super::rows::Rows;
+use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::{ContactStiffness, blocked};
 use nalgebra::{Cholesky, DMatrix, DVector, DVectorView, Dyn};
 use rayon::prelude::*;
 
-/// A rigid motion on the contact freedoms: first nodes of all pairs, then second nodes.
+/// A rigid motion on the contact freedoms.
 #[derive(Debug, Clone)]
-pub(super) struct Trace {
+pub(crate) struct Trace {
     /// The part of the model that moves.
     pub part: usize,
     /// Displacement of each contact freedom.
@@ -48,8 +54,7 @@ pub(super) struct Split {
     pub motions: DVector<f64>,
 }
 
-/// A relative displacement of the pairs, rigid motions of floating bodies apart: these cost
-/// nothing.
+/// A displacement of the rows, rigid motions of floating bodies apart: these cost nothing.
 pub(super) struct SplitSlip {
     /// What deforms the bodies.
     pub rest: DVector<f64>,
@@ -57,15 +62,12 @@ pub(super) struct SplitSlip {
     pub motions: DVector<f64>,
 }
 
-/// What a rigid motion moves the nodes of the pairs against each other: one of an orthonormal set.
+/// The displacement of the rows under a rigid motion: one of an orthonormal set.
 struct RigidSlip {
     values: DVector<f64>,
     of_motion: DVector<f64>,
 }
 
-/// The second node leads only where it is stiffer than the first by this factor: for like bodies
-/// the paper's choice stands.
-const STIFFER: f64 = 4.0;
 /// What is left of a motion, as a share of it, when that share is the round-off of taking the rest
 /// away.
 const ROUND_OFF: f64 = 1e-11;
@@ -73,154 +75,142 @@ const ROUND_OFF: f64 = 1e-11;
 const ENTRIES: usize = 1 << 14;
 
 /// The tied structure.
-pub(super) struct Tied {
-    n: usize,
-    /// Contact freedom of each pair's stiffer node.
-    lead: Vec<usize>,
-    /// Contact freedom of each pair's softer node.
-    follow: Vec<usize>,
-    /// Slip `u_second - u_first` over `s`: 1 where the second node follows, else -1.
-    sign: Vec<f64>,
-    /// Pairs whose `w` is an unknown.
+pub(crate) struct Tied {
+    rows: Rows,
+    /// Leaders whose `w` is an unknown.
     kept: Vec<usize>,
-    /// `n x motions`.
+    /// `leaders x motions`.
     motions: DMatrix<f64>,
-    /// The motions on both nodes of each pair, without what is rigid in each part (`2n x motions`).
+    /// The motions on all contact freedoms, without what is rigid in each part (`n_contact x motions`).
     lifted: DMatrix<f64>,
     /// What is rigid in them: amplitude of each trace (`traces x motions`).
     rigid_share: DMatrix<f64>,
     /// Orthonormal rigid traces of each part.
     rigid: Vec<Trace>,
-    /// Orthonormal relative displacements that rigid motions give.
+    /// Orthonormal displacements of the rows that rigid motions give.
     rigid_slips: Vec<RigidSlip>,
     /// Part of each contact freedom.
     part: Vec<usize>,
-    /// `L L' = [Z R]' S_vv [Z R]`.
+    /// `L L' = [Z R]' P'S P [Z R]`.
     factor: Cholesky<f64, Dyn>,
-    /// `L^-1 [Z R]' S_vs`, unknowns by followers.
+    /// `L^-1 [Z R]' P'S`, unknowns by followers.
     coupling: DMatrix<f64>,
 }
 
 impl Tied {
-    /// The tied structure and the contact matrix `T` (force of each pair over slip of each pair, as
-    /// in `r = t - T s`) for the condensed stiffness (`2n x 2n`), the rigid motions of floating
-    /// parts and the part of each contact freedom.
+    /// The tied structure and the contact matrix `T` (force of each row over displacement of each
+    /// row, as in `r = t - T s`) for the condensed stiffness, the rigid motions of floating parts
+    /// and the part of each contact freedom.
     ///
     /// # Errors
-    /// Internal, where the tied structure is not held.
-    pub(super) fn new(
+    /// `Unheld`, where the tied structure is not held.
+    pub(crate) fn new(
         stiffness: &ContactStiffness,
+        rows: Rows,
         traces: &[Trace],
         part: &[usize],
     ) -> Result<(Self, DMatrix<f64>)> {
-        let n = stiffness.n_contact() / 2;
-        let second_leads = |k| stiffness.diagonal(n + k) > STIFFER * stiffness.diagonal(k);
-        let (lead, follow): (Vec<usize>, Vec<usize>) = (0..n)
-            .map(|k| {
-                if second_leads(k) {
-                    (n + k, k)
-                } else {
-                    (k, n + k)
-                }
-            })
-            .unzip();
-        let sign: Vec<f64> = follow
-            .iter()
-            .map(|&f| if f >= n { 1.0 } else { -1.0 })
-            .collect();
-
+        let (n, n_contact) = (rows.len(), stiffness.n_contact());
         let rigid = orthonormal(traces);
-        let (motions, kept) = basis(&rigid, part, n);
-        // The motions on both nodes of each pair, and the forces they cost.
-        let mut lifted = DMatrix::from_fn(2 * n, motions.ncols(), |i, j| motions[(i % n, j)]);
+        let (motions, kept) = basis(&rigid, &rows, part);
+        // The motions on all contact freedoms, and the forces they cost.
+        let mut lifted = DMatrix::zeros(n_contact, motions.ncols());
         let mut rigid_share = DMatrix::zeros(rigid.len(), motions.ncols());
-        for (mut column, mut share) in lifted.column_iter_mut().zip(rigid_share.column_iter_mut()) {
-            take_rigid(column.as_mut_slice(), share.as_mut_slice(), &rigid, part);
+        let apart = DVector::zeros(n);
+        for (j, mut column) in lifted.column_iter_mut().enumerate() {
+            let column = column.as_mut_slice();
+            rows.spread(&motions.column(j).into_owned(), &apart, column);
+            let mut share = rigid_share.column_mut(j);
+            take_rigid(column, share.as_mut_slice(), &rigid, part);
         }
         let forces = stiffness.times(&lifted);
 
         let (n_w, n_a) = (kept.len(), motions.ncols());
-        let mut unknown = vec![usize::MAX; n];
-        for (i, &k) in kept.iter().enumerate() {
-            unknown[k] = i;
+        // Unknowns that feel a force on each contact freedom, and shares of it.
+        let mut felt: Vec<Vec<(usize, f64)>> = vec![Vec::new(); n_contact];
+        for (i, &leader) in kept.iter().enumerate() {
+            for &(freedom, weight) in &rows.moved[leader] {
+                felt[freedom].push((i, weight));
+            }
         }
-        // Adds the column of a contact freedom to what the pairs' unknowns feel of it.
-        let add = |freedom: usize, column: &mut [f64]| {
+        // Adds a share of the column of a contact freedom to what the unknowns feel of it.
+        let add = |freedom: usize, share: f64, column: &mut [f64]| {
             for (row, entry) in stiffness.column(freedom) {
-                if let Some(sum) = column.get_mut(unknown[row % n]) {
-                    *sum += entry;
+                for &(unknown, weight) in &felt[row] {
+                    column[unknown] += share * weight * entry;
                 }
             }
         };
         let mut tied = DMatrix::zeros(n_w + n_a, n_w + n_a);
         let columns = tied.as_mut_slice().par_chunks_mut((n_w + n_a).max(1));
         let columns = columns.with_min_len(at_once(n_w + n_a));
-        columns.zip(&kept).for_each(|(column, &k)| {
-            let (own, moved) = column.split_at_mut(n_w);
-            add(k, own);
-            add(n + k, own);
-            for (a, moved) in moved.iter_mut().enumerate() {
-                *moved = forces[(k, a)] + forces[(n + k, a)];
+        columns.zip(&kept).for_each(|(column, &leader)| {
+            let (own, of_motions) = column.split_at_mut(n_w);
+            for &(freedom, weight) in &rows.moved[leader] {
+                add(freedom, weight, own);
+                for (a, force) in of_motions.iter_mut().enumerate() {
+                    *force += weight * forces[(freedom, a)];
+                }
             }
         });
         let mut coupling = DMatrix::zeros(n_w + n_a, n);
         let columns = coupling.as_mut_slice().par_chunks_mut((n_w + n_a).max(1));
         let columns = columns.with_min_len(at_once(n_w + n_a));
-        columns.zip(&follow).for_each(|(column, &f)| {
-            let (own, moved) = column.split_at_mut(n_w);
-            add(f, own);
-            for (a, moved) in moved.iter_mut().enumerate() {
-                *moved = forces[(f, a)];
+        columns.zip(&rows.follow).for_each(|(column, &freedom)| {
+            let (own, of_motions) = column.split_at_mut(n_w);
+            add(freedom, 1.0, own);
+            for (a, force) in of_motions.iter_mut().enumerate() {
+                *force = forces[(freedom, a)];
             }
         });
         // The product of many motions is that of matrices, which has a kernel of its own.
         let energy = lifted.transpose() * &forces;
         tied.view_mut((n_w, n_w), (n_a, n_a)).copy_from(&energy);
         let factor = blocked::cholesky(tied).ok_or_else(|| {
-            Error::internal(
-                "the bodies are not held even with all contact pairs closed: the condensed stiffness of the tied structure is \
-                 not positive definite",
+            Error::new(
+                ErrorKind::Unheld,
+                "the structure is not held even with all contact rows closed: its condensed stiffness is not positive definite",
             )
         })?;
         blocked::solve_lower(&factor, &mut coupling);
         let factor = Cholesky::pack_dirty(factor);
-        // T = S_ss - C' C, its lower triangle.
+        // S_ff - C' C, its lower triangle.
+        let mut row_of = vec![None; n_contact];
+        for (j, &freedom) in rows.follow.iter().enumerate() {
+            row_of[freedom] = Some(j);
+        }
         let mut matrix = blocked::outer(&coupling.transpose(), |_| n_w + n_a);
         let columns = matrix.as_mut_slice().par_chunks_mut(n.max(1)).enumerate();
         let columns = columns.with_min_len(at_once(n));
         columns.for_each(|(j, column)| {
             column.iter_mut().for_each(|entry| *entry = -*entry);
-            for (row, entry) in stiffness.column(follow[j]) {
-                if follow[row % n] == row {
-                    column[row % n] += entry;
+            for (freedom, entry) in stiffness.column(rows.follow[j]) {
+                if let Some(i) = row_of[freedom] {
+                    column[i] += entry;
                 }
-            }
-            for (entry, of_row) in column.iter_mut().zip(&sign) {
-                *entry *= sign[j] * of_row;
             }
         });
         // Symmetric to the last bit.
         matrix.fill_upper_triangle_with_lower_triangle();
+        let mut matrix = rows.congruence(matrix);
+        matrix.fill_upper_triangle_with_lower_triangle();
         let tied = Tied {
-            n,
-            lead,
-            follow,
-            sign,
             kept,
             motions,
             lifted,
             rigid_share,
-            rigid_slips: rigid_slips(&rigid, n),
+            rigid_slips: rigid_slips(&rigid, &rows),
             rigid,
             part: part.to_vec(),
             factor,
             coupling,
+            rows,
         };
         Ok((tied, matrix))
     }
 
     /// Numbers that the dense matrices hold.
-    pub(super) fn n_entries(&self) -> usize {
+    pub(crate) fn n_entries(&self) -> usize {
         self.factor.l_dirty().len()
             + self.coupling.len()
             + self.motions.len()
@@ -228,41 +218,36 @@ impl Tied {
             + self.rigid_share.len()
     }
 
-    /// On entry forces on the contact freedoms; on return the first `n` of `contact` hold the unknowns of the tied
-    /// structure under them, and `forces` what each pair then carries.
-    pub(super) fn eliminate(&self, contact: &mut [f64], forces: &mut [f64]) {
-        let n = self.n;
-        let total = DVector::from_fn(n, |k, _| contact[k] + contact[n + k]);
+    /// On entry forces on the contact freedoms; on return the first of `contact` hold the unknowns
+    /// of the tied structure under them, and `forces` what each row then carries.
+    pub(crate) fn eliminate(&self, contact: &mut [f64], forces: &mut [f64]) {
+        let total = self.rows.on_leaders(contact);
         let n_w = self.kept.len();
         let mut unknowns = DVector::zeros(n_w + self.motions.ncols());
-        for (y, &k) in unknowns.iter_mut().zip(&self.kept) {
-            *y = total[k];
+        for (y, &leader) in unknowns.iter_mut().zip(&self.kept) {
+            *y = total[leader];
         }
         for (a, motion) in self.motions.column_iter().enumerate() {
             unknowns[n_w + a] = motion.dot(&total);
         }
         let factor = self.factor.l_dirty();
         factor.solve_lower_triangular_unchecked_mut(&mut unknowns);
-        for k in 0..n {
-            let carried = contact[self.follow[k]] - self.coupling.column(k).dot(&unknowns);
-            forces[k] = self.sign[k] * carried;
-        }
+        let follow = &self.rows.follow;
+        let carried = |j: usize| contact[follow[j]] - self.coupling.column(j).dot(&unknowns);
+        self.rows.forces(carried, forces);
         factor.tr_solve_lower_triangular_unchecked_mut(&mut unknowns);
-        contact[..n].fill(0.0);
+        contact.fill(0.0);
         contact[..unknowns.len()].copy_from_slice(unknowns.as_slice());
     }
 
-    /// Displacements for slips `u_second - u_first` of the pairs, of what [`Tied::eliminate`] left.
-    pub(super) fn recover(&self, contact: &mut [f64], slip: &[f64]) {
-        let unknowns = self.unknowns(contact, slip);
-        let v = self.spread(&unknowns);
-        for k in 0..self.n {
-            contact[self.lead[k]] = v[k];
-            contact[self.follow[k]] = v[k] + self.sign[k] * slip[k];
-        }
+    /// Displacements for displacements of the rows, of what [`Tied::eliminate`] left.
+    pub(crate) fn recover(&self, contact: &mut [f64], slip: &[f64]) {
+        let apart = self.rows.apart(slip);
+        let v = self.spread(&self.unknowns(contact, &apart));
+        self.rows.spread(&v, &apart, contact);
     }
 
-    /// Takes the rigid motions of floating bodies out of a relative displacement of the pairs. They
+    /// Takes the rigid motions of floating bodies out of a displacement of the rows. They
     /// cost nothing: forces and strains of a gap that is large beside the deformation are those of
     /// the rest, and do not drown in its round-off. What is rigid to round-off leaves nothing, so
     /// that a body which an interference lifts off another feels no force, rather than one whose
@@ -290,17 +275,18 @@ impl Tied {
     /// As [`Tied::recover`], with rigid motions apart: the deformation of a stiff body keeps its
     /// digits beside a motion that is larger by orders.
     pub(super) fn split(&self, contact: &[f64], slip: &[f64]) -> Split {
-        let unknowns = self.unknowns(contact, slip);
-        let (n, n_w) = (self.n, self.kept.len());
-        let amplitudes = unknowns.rows(n_w, self.motions.ncols());
+        let apart = self.rows.apart(slip);
+        let unknowns = self.unknowns(contact, &apart);
+        let amplitudes = unknowns.rows(self.kept.len(), self.motions.ncols());
         let mut out = &self.lifted * amplitudes;
         let mut share = &self.rigid_share * amplitudes;
-        for (&k, w) in self.kept.iter().zip(unknowns.iter()) {
-            out[k] += w;
-            out[n + k] += w;
+        for (&leader, w) in self.kept.iter().zip(unknowns.iter()) {
+            for &(freedom, weight) in &self.rows.moved[leader] {
+                out[freedom] += weight * w;
+            }
         }
-        for k in 0..n {
-            out[self.follow[k]] += self.sign[k] * slip[k];
+        for (&freedom, apart) in self.rows.follow.iter().zip(apart.iter()) {
+            out[freedom] += apart;
         }
         take_rigid(
             out.as_mut_slice(),
@@ -319,11 +305,11 @@ impl Tied {
         }
     }
 
-    /// `[w a]` for what [`Tied::eliminate`] left and slips of the pairs.
-    fn unknowns(&self, contact: &[f64], slip: &[f64]) -> DVector<f64> {
+    /// `[w a]` for what [`Tied::eliminate`] left and the followers' way apart.
+    fn unknowns(&self, contact: &[f64], apart: &DVector<f64>) -> DVector<f64> {
         let mut change = DVector::zeros(self.coupling.nrows());
-        for (k, &s) in slip.iter().enumerate().filter(|(_, s)| **s != 0.0) {
-            change.axpy(self.sign[k] * s, &self.coupling.column(k), 1.0);
+        for (j, &way) in apart.iter().enumerate().filter(|(_, way)| **way != 0.0) {
+            change.axpy(way, &self.coupling.column(j), 1.0);
         }
         let factor = self.factor.l_dirty();
         factor.tr_solve_lower_triangular_unchecked_mut(&mut change);
@@ -366,11 +352,11 @@ fn orthonormal(traces: &[Trace]) -> Vec<Trace> {
     out
 }
 
-/// The relative displacements of the pairs that rigid motions give, orthonormal.
-fn rigid_slips(rigid: &[Trace], n: usize) -> Vec<RigidSlip> {
+/// The displacements of the rows that rigid motions give, orthonormal.
+fn rigid_slips(rigid: &[Trace], rows: &Rows) -> Vec<RigidSlip> {
     let mut out: Vec<RigidSlip> = Vec::new();
     for trace in rigid {
-        let mut values = DVector::from_fn(n, |k, _| trace.values[n + k] - trace.values[k]);
+        let mut values = rows.slip(&trace.values);
         let mut of_motion = trace.of_motion.clone();
         let size = values.norm();
         for _ in 0..2 {
@@ -391,18 +377,14 @@ fn rigid_slips(rigid: &[Trace], n: usize) -> Vec<RigidSlip> {
     out
 }
 
-/// Motions of the tied pairs (`n x motions`, independent ones) and the pairs that remain unknowns
-/// beside them: Gaussian elimination with complete pivoting picks for each motion the pair that
-/// tells it best from the others.
-fn basis(rigid: &[Trace], part: &[usize], n: usize) -> (DMatrix<f64>, Vec<usize>) {
-    let on_pair = |trace: &Trace, k: usize| {
-        let sides = [k, n + k].map(|i| (part[i] == trace.part).then_some(trace.values[i]));
-        match sides {
-            [Some(a), Some(b)] => 0.5 * (a + b),
-            [a, b] => a.or(b).unwrap_or(0.0),
-        }
-    };
-    let all = DMatrix::from_fn(n, rigid.len(), |k, j| on_pair(&rigid[j], k));
+/// Motions of the leaders (`leaders x motions`, independent ones) and the leaders that remain
+/// unknowns beside them: Gaussian elimination with complete pivoting picks for each motion the
+/// leader that tells it best from the others.
+fn basis(rigid: &[Trace], rows: &Rows, part: &[usize]) -> (DMatrix<f64>, Vec<usize>) {
+    let n = rows.lead.len();
+    let all = DMatrix::from_fn(n, rigid.len(), |leader, j| {
+        rows.motion_of_leader(&rigid[j], part, leader)
+    });
     let mut rest = all.clone();
     let scale = all.amax();
     // Row and size of the largest entry of each column: a pivot changes the columns of motions of

@@ -1,0 +1,254 @@
+//! Contact rows as coordinates of the contact freedoms.
+//!
+//! A row is a relative displacement `s_j = sum_i b_ji u_i` of contact freedoms: of the two nodes of
+//! a pair, of a node and a point between others. Each has a freedom of its own that follows; the
+//! others lead:
+//!
+//! ```text
+//!     u_lead = v,     u_follow = G v + H s,     H = B_follow^-1,     G = -H B_lead
+//! ```
+//!
+//! Closed rows (`s = 0`) tie their followers to the leaders. For pairs `G` is one and `H` a sign.
+
+use super::Trace;
+use crate::error::{Error, Result};
+use nalgebra::{DMatrix, DVector};
+
+/// Places and coefficients of a sparse row.
+pub(crate) type Entries = Vec<(usize, f64)>;
+
+/// The second node of a pair leads only where it is stiffer than the first by this factor: for like
+/// bodies the paper's choice stands.
+const STIFFER: f64 = 4.0;
+/// What elimination leaves of a row that depends on the others, as a share of it.
+const DEPENDENT: f64 = 1e-10;
+
+/// Contact rows with their followers.
+pub(crate) struct Rows {
+    /// `B`, by rows: contact freedoms and coefficients.
+    pub entries: Vec<Entries>,
+    /// Contact freedoms that lead.
+    pub lead: Vec<usize>,
+    /// Contact freedom of each row that follows.
+    pub follow: Vec<usize>,
+    /// `G`, by rows: places among the leaders, and weights.
+    pub carried: Vec<Entries>,
+    /// `H`, by rows: rows, and weights.
+    pub of_slip: Vec<Entries>,
+    /// `P = [1; G]`, by leaders: the contact freedoms that move with it, and weights.
+    pub moved: Vec<Entries>,
+}
+
+impl Rows {
+    /// The rows `u_second - u_first` of `n` pairs (first nodes of all pairs, then second nodes),
+    /// for the diagonal of the condensed stiffness: of the two nodes the stiffer one leads.
+    pub(crate) fn of_pairs(n: usize, diagonal: impl Fn(usize) -> f64) -> Self {
+        let second_leads = |k: usize| diagonal(n + k) > STIFFER * diagonal(k);
+        let (lead, follow): (Vec<usize>, Vec<usize>) = (0..n)
+            .map(|k| {
+                if second_leads(k) {
+                    (n + k, k)
+                } else {
+                    (k, n + k)
+                }
+            })
+            .unzip();
+        let sign = |k: usize| if follow[k] >= n { 1.0 } else { -1.0 };
+        Rows {
+            entries: (0..n).map(|k| vec![(k, -1.0), (n + k, 1.0)]).collect(),
+            carried: (0..n).map(|k| vec![(k, 1.0)]).collect(),
+            of_slip: (0..n).map(|k| vec![(k, sign(k))]).collect(),
+            moved: (0..n).map(|k| vec![(k, 1.0), (n + k, 1.0)]).collect(),
+            lead,
+            follow,
+        }
+    }
+
+    /// Any rows on `n_contact` freedoms, for the diagonal of the condensed stiffness. Elimination
+    /// with complete pivoting picks the followers: large coefficients on soft freedoms.
+    ///
+    /// # Errors
+    /// `Input` where the rows depend on each other.
+    pub(crate) fn any(
+        entries: Vec<Entries>,
+        n_contact: usize,
+        diagonal: impl Fn(usize) -> f64,
+    ) -> Result<Self> {
+        let n = entries.len();
+        let mut b = DMatrix::zeros(n, n_contact);
+        for (j, row) in entries.iter().enumerate() {
+            for &(freedom, coefficient) in row {
+                b[(j, freedom)] += coefficient;
+            }
+        }
+        let follow = followers(&b, diagonal)?;
+        let leads = |freedom: &usize| !follow.contains(freedom);
+        let lead: Vec<usize> = (0..n_contact).filter(leads).collect();
+        let own = b.select_columns(&follow);
+        let is_diagonal = (0..n).all(|j| (0..n).all(|i| i == j || own[(i, j)] == 0.0));
+        let inverse = if is_diagonal {
+            DMatrix::from_diagonal(&own.diagonal().map(f64::recip))
+        } else {
+            own.try_inverse().ok_or_else(dependent)?
+        };
+        let carried = sparse(&(-(&inverse * b.select_columns(&lead))));
+        let mut moved: Vec<Entries> = lead.iter().map(|&freedom| vec![(freedom, 1.0)]).collect();
+        for (row, &freedom) in carried.iter().zip(&follow) {
+            for &(leader, weight) in row {
+                moved[leader].push((freedom, weight));
+            }
+        }
+        Ok(Rows {
+            entries,
+            lead,
+            follow,
+            carried,
+            of_slip: sparse(&inverse),
+            moved,
+        })
+    }
+
+    /// Number of rows.
+    pub(crate) fn len(&self) -> usize {
+        self.follow.len()
+    }
+
+    /// `B u`.
+    pub(super) fn slip(&self, u: &DVector<f64>) -> DVector<f64> {
+        let of = |row: &Entries| row.iter().map(|&(freedom, b)| b * u[freedom]).sum();
+        DVector::from_iterator(self.len(), self.entries.iter().map(of))
+    }
+
+    /// `H s`: how followers move against what carries them.
+    pub(super) fn apart(&self, slip: &[f64]) -> DVector<f64> {
+        let of = |row: &Entries| row.iter().map(|&(k, h)| h * slip[k]).sum();
+        DVector::from_iterator(self.len(), self.of_slip.iter().map(of))
+    }
+
+    /// `H' f`: forces of the rows for forces of the followers.
+    pub(super) fn forces(&self, of_followers: impl Fn(usize) -> f64, forces: &mut [f64]) {
+        forces.fill(0.0);
+        for (j, row) in self.of_slip.iter().enumerate() {
+            let force = of_followers(j);
+            for &(k, h) in row {
+                forces[k] += h * force;
+            }
+        }
+    }
+
+    /// `X` becomes `H' X H`, in place where `H` is diagonal.
+    pub(super) fn congruence(&self, matrix: DMatrix<f64>) -> DMatrix<f64> {
+        let single = |(j, row): (usize, &Entries)| match row.as_slice() {
+            [(k, h)] if *k == j => Some(*h),
+            _ => None,
+        };
+        let diagonal: Option<Vec<f64>> = self.of_slip.iter().enumerate().map(single).collect();
+        if let Some(h) = diagonal {
+            let mut matrix = matrix;
+            for (mut column, factor) in matrix.column_iter_mut().zip(&h) {
+                for (entry, other) in column.iter_mut().zip(&h) {
+                    *entry *= factor * other;
+                }
+            }
+            return matrix;
+        }
+        let mut h = DMatrix::zeros(self.len(), self.len());
+        for (j, row) in self.of_slip.iter().enumerate() {
+            for &(k, weight) in row {
+                h[(j, k)] = weight;
+            }
+        }
+        h.tr_mul(&(matrix * &h))
+    }
+
+    /// `P' f`: what the leaders feel of a load on all contact freedoms.
+    pub(super) fn on_leaders(&self, contact: &[f64]) -> DVector<f64> {
+        let of = |moved: &Entries| moved.iter().map(|&(freedom, w)| w * contact[freedom]).sum();
+        DVector::from_iterator(self.lead.len(), self.moved.iter().map(of))
+    }
+
+    /// `u` for `v` and the followers' way apart `H s`.
+    pub(super) fn spread(&self, v: &DVector<f64>, apart: &DVector<f64>, contact: &mut [f64]) {
+        for (&freedom, v) in self.lead.iter().zip(v.iter()) {
+            contact[freedom] = *v;
+        }
+        for ((&freedom, carried), apart) in self.follow.iter().zip(&self.carried).zip(apart.iter())
+        {
+            let along: f64 = carried.iter().map(|&(leader, w)| w * v[leader]).sum();
+            contact[freedom] = along + apart;
+        }
+    }
+
+    /// A rigid motion as motion of the leaders: their own, or that of the followers which they
+    /// carry, or the mean where the part that moves has both.
+    pub(super) fn motion_of_leader(&self, trace: &Trace, part: &[usize], leader: usize) -> f64 {
+        let moved = self.moved[leader].iter();
+        let own = moved.filter(|(freedom, _)| part[*freedom] == trace.part);
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for &(freedom, weight) in own {
+            sum += weight * trace.values[freedom];
+            weights += weight * weight;
+        }
+        if weights > 0.0 { sum / weights } else { 0.0 }
+    }
+}
+
+/// The follower of each row.
+fn followers(b: &DMatrix<f64>, diagonal: impl Fn(usize) -> f64) -> Result<Vec<usize>> {
+    let (n, m) = b.shape();
+    let stiffness = DVector::from_fn(m, |i, _| diagonal(i).max(0.0));
+    let least = f64::EPSILON * stiffness.amax();
+    let mut rest = b.clone();
+    for (mut column, stiffness) in rest.column_iter_mut().zip(stiffness.iter()) {
+        if *stiffness > 0.0 || least > 0.0 {
+            column /= stiffness.max(least).sqrt();
+        }
+    }
+    // Rows, so that elimination goes along columns of memory.
+    let mut rest = rest.transpose();
+    let sizes: Vec<f64> = rest.column_iter().map(|row| row.amax()).collect();
+    let mut follow = vec![usize::MAX; n];
+    let mut open: Vec<usize> = (0..n).collect();
+    let mut largest: Vec<usize> = (0..n).map(|j| rest.column(j).iamax()).collect();
+    while !open.is_empty() {
+        let mut best = 0;
+        for (at, &j) in open.iter().enumerate() {
+            let size = |j: usize| rest[(largest[j], j)].abs();
+            if size(j) > size(open[best]) {
+                best = at;
+            }
+        }
+        let row = open.remove(best);
+        let pivot = largest[row];
+        if rest[(pivot, row)].abs() <= DEPENDENT * sizes[row] {
+            return Err(dependent());
+        }
+        follow[row] = pivot;
+        let own = rest.column(row) / rest[(pivot, row)];
+        for &j in &open {
+            let share = rest[(pivot, j)];
+            if share != 0.0 {
+                rest.column_mut(j).axpy(-share, &own, 1.0);
+                rest[(pivot, j)] = 0.0;
+                largest[j] = rest.column(j).iamax();
+            }
+        }
+    }
+    Ok(follow)
+}
+
+fn dependent() -> Error {
+    Error::input(
+        "the contact rows depend on each other: each must restrict a motion that the others leave free",
+    )
+}
+
+/// The entries that are not zero, by rows.
+fn sparse(matrix: &DMatrix<f64>) -> Vec<Entries> {
+    let of_row = |j: usize| {
+        let row = matrix.row(j);
+        let entries = row.iter().copied().enumerate();
+        entries.filter(|(_, value)| *value != 0.0).collect()
+    };
+    (0..matrix.nrows()).map(of_row).collect()
+}
