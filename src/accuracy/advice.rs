@@ -4,6 +4,7 @@ use super::knobs::Knob;
 use super::record::StudyRun;
 use super::verdict::{Price, StudyReference, is_own, path_correction, value};
 use super::words::{duration, percent};
+use std::cmp::Ordering;
 
 /// A looser setting would do where its error is this small a share of the mesh's.
 const HIDDEN: f64 = 0.1;
@@ -73,13 +74,13 @@ fn limits(runs: &[StudyRun], path: &str, reference: f64, own: f64) -> Vec<String
         .into_iter()
         .filter_map(|knob| {
             // Fixed steps approach many increments, tolerances the scene's own tight ones.
-            let many = many.filter(|_| knob == Knob::Stepping);
-            let error =
-                |run: &StudyRun| Some((value(run, path)? - own - many.unwrap_or(0.0)).abs());
+            let many = many.filter(|_| knob == Knob::Stepping).unwrap_or(0.0);
+            let is_hidden = |run: &&StudyRun| {
+                let error = value(run, path).map(|value| (value - own - many).abs());
+                error.is_some_and(|error| error <= HIDDEN * mesh)
+            };
             let turned = runs.iter().filter(|run| run.knob == knob);
-            let hidden = turned.filter_map(|run| Some((run, error(run)?)));
-            let hidden = hidden.filter(|(_, error)| *error <= HIDDEN * mesh);
-            let (run, _) = hidden.max_by(|a, b| a.1.total_cmp(&b.1))?;
+            let run = turned.filter(is_hidden).max_by(|a, b| looser(a, b))?;
             Some(format!("{} {}", knob.name(), run.value))
         })
         .collect();
@@ -88,4 +89,10 @@ fn limits(runs: &[StudyRun], path: &str, reference: f64, own: f64) -> Vec<String
         format!("{all} would do: the mesh hides the difference")
     });
     std::iter::once(first).chain(second).collect()
+}
+
+/// By tolerance, or by the number of increments.
+fn looser(a: &StudyRun, b: &StudyRun) -> Ordering {
+    let [of_a, of_b] = [a, b].map(|run| run.value.parse::<f64>().unwrap_or(0.0));
+    of_a.total_cmp(&of_b).then(b.increments.cmp(&a.increments))
 }

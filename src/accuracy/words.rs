@@ -5,7 +5,8 @@ pub(crate) fn percent(share: f64) -> String {
     let value = 100.0 * share;
     match value {
         v if !v.is_finite() => "of unknown size".to_string(),
-        v if v != 0.0 && v.abs() < 1e-3 => format!("{v:.1e} %"),
+        0.0 => "0 %".to_string(),
+        v if v.abs() < 1e-3 => format!("{v:.1e} %"),
         v => {
             let digits = (1 - v.abs().max(1e-300).log10().floor() as i32).clamp(0, 6) as usize;
             format!("{v:.digits$} %")
@@ -33,6 +34,7 @@ mod tests {
         assert_eq!(percent(0.003), "0.30 %");
         assert_eq!(percent(0.1), "10 %");
         assert_eq!(percent(1e-8), "1.0e-6 %");
+        assert_eq!(percent(0.0), "0 %");
         assert_eq!(duration(10_800.0), "3 h");
         assert_eq!(duration(90.0), "90.0 s");
         assert_eq!(duration(0.0123), "12.30 ms");
