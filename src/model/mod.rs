@@ -4,7 +4,6 @@
 //! after works with numbers only.
 
 mod builder;
-pub(crate) mod contact_size;
 mod ends;
 mod far_boundary;
 mod freedoms;
@@ -135,7 +134,7 @@ impl Model {
         let loads = loads::renumber(loads, &freedoms);
         ends::find(&mesh, &freedoms, &pairs, &mut contacts);
         if matches!(origin, Origin::Scene) {
-            warnings.extend(contact_size::warning(scene));
+            warnings.extend(mesh::generate::contact_size::warning(scene));
         }
         Ok(Model {
             scene: scene.clone(),
@@ -194,7 +193,9 @@ impl Model {
 
 fn build_mesh(scene: &Scene) -> Result<Mesh> {
     let folder = scene.file.as_deref().and_then(std::path::Path::parent);
-    let made = mesh::generate::from_source(&scene.mesh, folder, |p| contact_size::of(scene, p));
+    let made = mesh::generate::from_source(&scene.mesh, folder, |p| {
+        mesh::generate::contact_size::of(scene, p)
+    });
     let mut mesh = made.map_err(|error| match scene.mesh.file {
         Some(_) => scene.places.in_front("mesh.file", error),
         None => scene.places.in_front("mesh", error),

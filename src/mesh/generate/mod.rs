@@ -6,6 +6,7 @@
 //! share nodes.
 
 mod angle;
+pub(crate) mod contact_size;
 mod cylinder;
 mod disc;
 mod family;

@@ -1,8 +1,8 @@
 //! How large the contact of a generated cylinder or ball becomes: what its mesh is made to the measure of.
 
+use super::{ContactSize, WIDEST};
 use crate::analytical::{self, HertzLine, HertzPoint};
 use crate::error::{Error, Result};
-use crate::mesh::generate::{ContactSize, WIDEST};
 use crate::scene::{
     CylinderOnHalfPlane, Direction, Displacement, History, Kind, Load, Plastic, Scene, Unit,
 };
@@ -130,7 +130,7 @@ fn reach(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<f64>
 
 /// What the user should know before a run whose contact may become wider than its candidates, if that is so. Displacements do not
 /// count: how much of them the rest of the bodies takes is not known before.
-pub(super) fn warning(scene: &Scene) -> Option<String> {
+pub(crate) fn warning(scene: &Scene) -> Option<String> {
     let p = scene.mesh.cylinder_on_half_plane.as_ref()?;
     let ContactSize { half_width, reach } = of(scene, p).ok()?;
     let [wanted, _] = widest(scene, p, half_width)?;
