@@ -21,9 +21,10 @@
 //! M. A. Crisfield, *Non-linear Finite Element Analysis of Solids and Structures*, vol. 1 (1991),
 //! chapter 9; J. C. Simo, T. J. R. Hughes, *Computational Inelasticity* (1998).
 
-use super::drive::{SMALLEST_CUT, Stepper};
-use super::engine::{Engine, LoadPoint};
+use super::drive::{Rules, SMALLEST_CUT};
+use super::engine::Engine;
 use super::equilibrium::Equilibrium;
+use super::load_point::LoadPoint;
 use super::quality::{LOOSEST, ROUND_OFF_OF_FORCES};
 use crate::error::{Error, ErrorKind};
 use crate::linalg::largest_terms;
@@ -72,12 +73,7 @@ impl Engine<'_> {
     /// The error of an increment to `goal`, the smallest that is tried, that was not found:
     /// [`ErrorKind::Collapse`] where the stiffness is lost, else [`ErrorKind::Analysis`] with what
     /// was tried.
-    pub(super) fn not_found(
-        &mut self,
-        goal: &LoadPoint,
-        attempt: &Attempt,
-        stepper: Stepper,
-    ) -> Error {
+    pub(super) fn not_found(&mut self, goal: &LoadPoint, attempt: &Attempt, rules: Rules) -> Error {
         let left = self.stiffness_left(&attempt.state);
         let residual = attempt.residual;
         let (held, tried) = (self.at.alpha, goal.alpha);
@@ -93,7 +89,7 @@ impl Engine<'_> {
                 ),
             );
         }
-        let settings = stepper.settings;
+        let settings = rules.settings;
         if !left.is_finite() || !residual.is_finite() {
             return Error::analysis(no_number(held, tried, attempt.iterations));
         }

@@ -1,7 +1,12 @@
 //! The structure under load: everything an increment works with.
 
+mod record;
+
+pub(super) use record::EngineRecord;
+
 use super::equilibrium::{EliminatedLoad, Equilibrium};
 use super::gather::Places;
+use super::load_point::LoadPoint;
 use super::quality::LOOSEST;
 use super::zone::Zone;
 use super::zone_choice::zone_freedoms;
@@ -17,35 +22,6 @@ use std::sync::Arc;
 
 /// Freedoms that a thread takes at a time.
 const GRAIN: usize = 1 << 14;
-
-/// A point of the load path: the factor of each load and the share of the interference that is
-/// applied.
-#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct LoadPoint {
-    /// Load factor in the program's unit.
-    pub alpha: f64,
-    /// Factor of each load.
-    pub factors: Vec<f64>,
-    /// Share of the interference, 0 to 1.
-    pub interference: f64,
-}
-
-impl LoadPoint {
-    /// The point at share `t` of the way to `end`.
-    pub fn towards(&self, end: &LoadPoint, t: f64) -> LoadPoint {
-        let mix = |a: f64, b: f64| if t == 1.0 { b } else { a + t * (b - a) };
-        LoadPoint {
-            alpha: mix(self.alpha, end.alpha),
-            factors: self
-                .factors
-                .iter()
-                .zip(&end.factors)
-                .map(|(a, b)| mix(*a, *b))
-                .collect(),
-            interference: mix(self.interference, end.interference),
-        }
-    }
-}
 
 /// The factored structure with its contact statuses, plastic zone and current state.
 pub struct Engine<'m> {
@@ -66,6 +42,8 @@ pub struct Engine<'m> {
     pub places: Places,
     /// Elements of the zone, ascending.
     pub elements: Arc<[usize]>,
+    /// Number of the zone among those that were chosen so far.
+    pub(super) zone_number: usize,
     /// Loads at factor 1, reduced.
     pub(super) reduced_loads: Vec<Vec<f64>>,
     /// Condensed loads at factor 1.
@@ -104,8 +82,6 @@ pub struct Engine<'m> {
     pub round_off_floor: f64,
     /// Current load point.
     pub at: LoadPoint,
-    /// Load factor of the last accepted increment.
-    pub reached: f64,
     /// Current equilibrium; its displacements are valid where `fresh`, without the rigid motions
     /// that gaps allow.
     pub now: Equilibrium,
@@ -118,14 +94,6 @@ pub struct Engine<'m> {
     /// Change of the initial loads over the last increment, for a load factor that changes by 1:
     /// the next one's are much the same.
     pub pace: Option<EliminatedLoad>,
-    /// A state on the way to which the next increment leads, found before: it predicts the
-    /// increment.
-    pub ahead: Option<(LoadPoint, Equilibrium)>,
-    /// Elements outside the zone in which the last [`Engine::state`] found stress beyond yield.
-    pub beyond_yield_outside: Vec<usize>,
-    /// Seconds spent on the stresses of all elements in the last state: forces, fields, error
-    /// indicator.
-    pub stress_seconds: f64,
 }
 
 impl<'m> Engine<'m> {
@@ -180,14 +148,9 @@ impl<'m> Engine<'m> {
             force_scale: 0.0,
             condition,
             displacement_scale: 0.0,
-            reached: 0.0,
             deformation_scale: 0.0,
             round_off_floor: 0.0,
-            at: LoadPoint {
-                alpha: 0.0,
-                factors: vec![0.0; model.loads.len()],
-                interference: 0.0,
-            },
+            at: LoadPoint::unloaded(model.loads.len()),
             now: Equilibrium {
                 gap: gap.clone(),
                 ..Equilibrium::none(&sub.zeros(), n)
@@ -196,15 +159,13 @@ impl<'m> Engine<'m> {
             border: Vec::new(),
             last_step: vec![0.0; model.loads.len() + 1],
             pace: None,
-            ahead: None,
-            beyond_yield_outside: Vec::new(),
-            stress_seconds: 0.0,
             gap,
             interference,
             sub,
             zone,
             places,
             elements: elements.into(),
+            zone_number: 0,
         };
         engine.reduce_loads()?;
         let open: Vec<bool> = engine.gap.iter().map(|g| *g > 0.0).collect();
@@ -215,11 +176,7 @@ impl<'m> Engine<'m> {
     /// Back to where nothing acts, with the zone at hand and no history.
     pub(super) fn begin_anew(&mut self) {
         let n = self.gap.len();
-        self.at = LoadPoint {
-            alpha: 0.0,
-            factors: vec![0.0; self.model.loads.len()],
-            interference: 0.0,
-        };
+        self.at = LoadPoint::unloaded(self.model.loads.len());
         self.now = Equilibrium {
             gap: self.gap.clone(),
             ..Equilibrium::none(&self.sub.zeros(), n)
@@ -258,6 +215,7 @@ impl<'m> Engine<'m> {
         zone.restore_of(&self.elements, self.zone.history());
         zone.set_factors(&self.at.factors);
         (self.zone, self.elements) = (zone, elements.into());
+        self.zone_number += 1;
         let initial = self.zone.initial_load(self.sub.zeros());
         let initial = self.eliminate(initial);
         self.now = self.respond(&self.at.clone(), initial);

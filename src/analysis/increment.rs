@@ -7,11 +7,13 @@
 
 use super::acceleration::Anderson;
 use super::collapse::Attempt;
-use super::engine::{Engine, LoadPoint};
+use super::drive::Rules;
+use super::engine::Engine;
 use super::equilibrium::Equilibrium;
+use super::load_point::LoadPoint;
 use super::step_length::{LengthSearch, StepLimit, step_limit};
 use super::zone::Evaluation;
-use crate::scene::{PlasticIteration, Settings};
+use crate::scene::PlasticIteration;
 use crate::substructure::Trailing;
 
 /// How an increment may end.
@@ -86,18 +88,20 @@ const BORDER: f64 = 1e-8;
 const AT_ONCE: f64 = 1e-12;
 
 impl Engine<'_> {
-    /// Goes from the current state towards `end`, at most to share `most` of the way.
+    /// Goes from the current state towards `end`, at most to share `most` of the way. A state that
+    /// is known `ahead` predicts it.
     pub fn increment(
         &mut self,
         end: &LoadPoint,
         most: f64,
         ends_at: EndsAt,
-        settings: &Settings,
-        stop: &dyn Fn() -> bool,
+        ahead: Option<(LoadPoint, Equilibrium)>,
+        rules: Rules,
     ) -> Result<Increment, NoIncrement> {
+        let settings = rules.settings;
         let start = self.at.clone();
         let before = self.now.clone();
-        let rates = match self.ahead.take() {
+        let rates = match ahead {
             Some(ahead) => self.secant(end, ahead),
             None => self.rates(end, settings.plastic_iteration == PlasticIteration::Newton),
         };
@@ -219,7 +223,7 @@ impl Engine<'_> {
             if !stalled {
                 best = (residual, iterations);
             }
-            if stop() {
+            if (rules.stop)() {
                 return Err(NoIncrement::Stopped);
             }
             let stuck = newton && iterations >= best.1 + PATIENCE;

@@ -12,6 +12,7 @@
 //! O. C. Zienkiewicz, J. Z. Zhu, superconvergent patch recovery (1992), doi:10.1002/nme.1620330702;
 //! P. Lancaster, K. Salkauskas, moving least squares (1981), doi:10.1090/S0025-5718-1981-0616367-1.
 
+use super::engine::Engine;
 use super::fitted::FittedStrains;
 use super::gather::{GatheredElements, Nodal, Places};
 use super::mirror::{self, Reflection, mirrors};
@@ -175,6 +176,12 @@ impl Recovery {
         };
         out.fitted = FittedStrains::new(model, elements, places, |i| out.neighbours_of(model, i));
         out
+    }
+
+    /// Elastic stresses at the sampling points in the current state.
+    pub fn sample_here(&mut self, engine: &mut Engine) -> Samples {
+        engine.refresh();
+        self.sample(&engine.now.u, &engine.at.factors)
     }
 
     /// Elastic stresses at the sampling points for displacements `u` and load factors.
@@ -434,7 +441,7 @@ mod tests {
         let (model, mut observer) = (analysis.model(), Silent);
         let system = analysis.system();
         let mut run = Run::new(model, system, Backend::Dense, &[], &mut observer).unwrap();
-        let recovery = run.recovery().unwrap();
+        let recovery = run.zone.recovery(&run.engine).unwrap();
         let n = recovery.positions.len();
         let yield_stress = recovery.materials[0].0.yield_stress();
         let pulled = |shares: &dyn Fn(usize) -> f64| -> Samples {
@@ -467,7 +474,7 @@ mod tests {
             let (model, mut observer) = (analysis.model(), Silent);
             let system = analysis.system();
             let mut run = Run::new(model, system, Backend::Dense, &[], &mut observer).unwrap();
-            let recovery = run.recovery().unwrap();
+            let recovery = run.zone.recovery(&run.engine).unwrap();
             let yield_stress = recovery.materials[0].0.yield_stress();
             let hill = |[x, y]: [f64; 2]| {
                 let (x, y) = ((x - 93.0) / 60.0, (y - 87.0) / 70.0);

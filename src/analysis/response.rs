@@ -4,8 +4,9 @@
 //! The first half of a solve, elimination, is the same for all statuses and linear in the load; the
 //! second gives displacements.
 
-use super::engine::{Engine, LoadPoint};
+use super::engine::Engine;
 use super::equilibrium::{EliminatedLoad, Equilibrium};
+use super::load_point::LoadPoint;
 use crate::linalg::ZonePart;
 use crate::substructure::Trailing;
 

@@ -1,9 +1,11 @@
 //! Finding an increment: statuses that come out wrong are mended, increments that do not converge
 //! cut.
 
-use super::drive::{Stepper, stopped};
-use super::engine::{Engine, LoadPoint};
+use super::drive::{Rules, stopped};
+use super::engine::Engine;
+use super::equilibrium::Equilibrium;
 use super::increment::{EndsAt, Increment, NoIncrement};
+use super::load_point::LoadPoint;
 use crate::error::{Error, Result};
 use crate::scene::Stepping;
 use std::collections::HashSet;
@@ -19,33 +21,32 @@ const MOST_CROSSINGS: usize = 2;
 impl Engine<'_> {
     /// An increment with statuses that are right at its begin (events) or at its end (steps).
     /// Increments that do not converge are cut, down to the share `smallest`; returns whether any
-    /// was.
+    /// was. A state that is known `ahead` predicts the first that is tried.
     pub(super) fn find_increment(
         &mut self,
         end: &LoadPoint,
         left: f64,
         smallest: f64,
-        stepper: Stepper,
+        mut ahead: Option<(LoadPoint, Equilibrium)>,
+        rules: Rules,
     ) -> Result<(Increment, bool)> {
         let mut most = left;
         let mut corrections = 0;
         let mut crossings = 0;
         let mut seen: Vec<Vec<bool>> = Vec::new();
         // A fixed increment at whose end no statuses are right is followed from change to change.
-        let mut stepping = stepper.stepping;
+        let mut stepping = rules.stepping;
         loop {
             let outcome = match stepping {
                 Stepping::Events if corrections < MOST_CORRECTIONS => self.increment(
                     end,
                     most,
-                    EndsAt::NextChange {
-                        gamma: stepper.gamma,
-                    },
-                    stepper.settings,
-                    stepper.stop,
+                    EndsAt::NextChange { gamma: rules.gamma },
+                    ahead.take(),
+                    rules,
                 ),
-                Stepping::Events => self.solve_step(end, 1e-3 * most, stepper)?,
-                Stepping::Steps => self.solve_step(end, most, stepper)?,
+                Stepping::Events => self.solve_step(end, 1e-3 * most, ahead.take(), rules)?,
+                Stepping::Steps => self.solve_step(end, most, ahead.take(), rules)?,
             };
             match outcome {
                 Ok(increment) => {
@@ -84,7 +85,7 @@ impl Engine<'_> {
                     let worth_cutting = CUT * most >= smallest;
                     if !worth_cutting {
                         let goal = self.at.towards(end, most);
-                        return Err(self.not_found(&goal, &attempt, stepper));
+                        return Err(self.not_found(&goal, &attempt, rules));
                     }
                     most *= CUT;
                     // The points flow as in the state that failed: its tangent, often singular,
@@ -113,7 +114,8 @@ impl Engine<'_> {
         &mut self,
         end: &LoadPoint,
         most: f64,
-        stepper: Stepper,
+        mut ahead: Option<(LoadPoint, Equilibrium)>,
+        rules: Rules,
     ) -> Result<std::result::Result<Increment, NoIncrement>> {
         // The end of the increment is the end of a piece of its own: a pair that closes has no gap
         // there, whatever gap it had.
@@ -122,13 +124,8 @@ impl Engine<'_> {
         let mut patience = 6;
         let mut seen: HashSet<Vec<bool>> = HashSet::new();
         for _ in 0..10 * (self.now.gap.len() + 10) {
-            let increment = match self.increment(
-                &goal,
-                1.0,
-                EndsAt::EndOfPiece,
-                stepper.settings,
-                stepper.stop,
-            ) {
+            let found = self.increment(&goal, 1.0, EndsAt::EndOfPiece, ahead.take(), rules);
+            let increment = match found {
                 Ok(increment) => increment,
                 Err(error) => return Ok(Err(error)),
             };

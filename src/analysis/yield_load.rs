@@ -5,7 +5,8 @@
 //! yield load, found there to round-off. Secant: the paper's (3.14), each iterate a contact problem
 //! solved from scratch, with a bracket.
 
-use super::engine::{Engine, LoadPoint};
+use super::engine::Engine;
+use super::load_point::LoadPoint;
 use super::recovery::{Peak, Recovery, Samples};
 use crate::contact;
 use crate::error::{Error, Result};
@@ -138,8 +139,7 @@ impl Engine<'_> {
 
     /// The recovered stress peak of the current (elastic) state.
     pub fn peak(&mut self, recovery: &mut Recovery) -> Option<Peak> {
-        self.refresh();
-        let samples = recovery.sample(&self.now.u, &self.at.factors);
+        let samples = recovery.sample_here(self);
         recovery.peak(self.model, &samples)
     }
 

@@ -2,7 +2,7 @@
 //! figures see the true one.
 
 use super::{Displacements, tolerances};
-use crate::analysis::drive::{Arrival, IncrementReport};
+use crate::analysis::drive::Arrival;
 use crate::analysis::engine::Engine;
 use crate::assembly::{System, assemble};
 use crate::contact::Tableau;
@@ -65,11 +65,10 @@ fn quality(
     engine.system = system;
     tamper(&mut engine);
     let end = engine.point(1.0);
-    let mut report = |_: &mut Engine, _: &IncrementReport| Ok(true);
-    let arrival = engine.drive_elastic(&end, None, None, None, &mut report);
+    let arrival = engine.drive_elastic(&end, None);
     assert_eq!(arrival.expect("drive"), Arrival::End);
     after(&mut engine);
-    engine.state("end", false).expect("state").quality
+    engine.figures("end", false).expect("state").state.quality
 }
 
 fn nothing(_: &mut Engine) {}
@@ -188,8 +187,7 @@ fn loaded<'m>(model: &'m Model, system: &'m System) -> Engine<'m> {
     let mut engine =
         Engine::new(model, system, Backend::default(), &[], Vec::new(), &[]).expect("engine");
     let end = engine.point(1.0);
-    let mut report = |_: &mut Engine, _: &IncrementReport| Ok(true);
-    let arrival = engine.drive_elastic(&end, None, None, None, &mut report);
+    let arrival = engine.drive_elastic(&end, None);
     assert_eq!(arrival.expect("drive"), Arrival::End);
     engine.refresh();
     engine

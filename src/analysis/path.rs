@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 /// The last row of the history, and the contact forces there.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
-pub(super) struct Between {
+pub(super) struct PathSampler {
     row: HistoryRow,
     forces: Vec<f64>,
 }
@@ -25,7 +25,7 @@ const HALVINGS: usize = 3;
 /// A point: how much of the way lies behind, maximum pressure, half width.
 type Figures = [f64; 3];
 
-impl Between {
+impl PathSampler {
     /// Takes note of the next row, at which the engine is; the points on the way to it that a
     /// curve needs.
     pub(super) fn advance(&mut self, engine: &Engine, row: &HistoryRow) -> Vec<PathPoint> {
@@ -35,7 +35,7 @@ impl Between {
         let forces = engine.contact_forces().into_owned();
         let from = std::mem::replace(
             self,
-            Between {
+            PathSampler {
                 row: row.clone(),
                 forces,
             },
