@@ -22,10 +22,10 @@
 //! chapter 9; J. C. Simo, T. J. R. Hughes, *Computational Inelasticity* (1998).
 
 use super::drive::{Rules, SMALLEST_CUT};
-use super::engine::Engine;
 use super::equilibrium::Equilibrium;
 use super::load_point::LoadPoint;
 use super::quality::{LOOSEST, ROUND_OFF_OF_FORCES};
+use super::solver::Solver;
 use crate::error::{Error, ErrorKind};
 use crate::linalg::largest_terms;
 use crate::substructure::Trailing;
@@ -48,18 +48,18 @@ pub struct Attempt {
     pub round_off: f64,
 }
 
-impl Engine<'_> {
+impl Solver<'_> {
     /// What no iteration can be sure to get below: the round-off of the forces of the zone's
     /// elements that follow from displacements `u`.
     pub(super) fn round_off_of_balance(&self, u: &Trailing) -> f64 {
-        let partition = &self.sub.partition;
+        let partition = &self.structure.sub.partition;
         let mut all = vec![0.0; partition.n];
         for (freedoms, values) in [(&partition.zone, &u.zone), (&partition.contact, &u.contact)] {
             for (&freedom, value) in freedoms.iter().zip(values) {
                 all[freedom] = *value;
             }
         }
-        ROUND_OFF_OF_FORCES * largest_terms(&self.system.stiffness, &all)
+        ROUND_OFF_OF_FORCES * largest_terms(&self.structure.system.stiffness, &all)
     }
 
     /// Whether forces out of balance by the share `floor` leave little open: displacements are off
@@ -109,7 +109,7 @@ impl Engine<'_> {
     /// structure moves there from the last state that was held; not a number where the iteration
     /// left all numbers.
     fn stiffness_left(&mut self, state: &Equilibrium) -> f64 {
-        let mut load = self.sub.zeros();
+        let mut load = self.structure.sub.zeros();
         self.out_of_balance_at(state, &mut load);
         let mut moved = state.u.clone();
         moved.add(-1.0, &self.now.u);

@@ -2,11 +2,11 @@
 //! measured value or first yield.
 
 use super::elastic::{ElasticDrive, describe};
-use super::engine::Engine;
 use super::increment::Increment;
 use super::load_point::LoadPoint;
 use super::plastic::PlasticDrive;
 use super::recovery::{Peak, Recovery};
+use super::solver::Solver;
 use crate::contact::Change;
 use crate::error::{Error, ErrorKind, Result};
 use crate::scene::{Settings, Stepping};
@@ -27,7 +27,7 @@ pub struct IncrementReport {
 }
 
 /// A measured quantity that ends a drive when it changes sign.
-pub type Monitor<'a> = dyn Fn(&mut Engine) -> Result<f64> + 'a;
+pub type Monitor<'a> = dyn Fn(&mut Solver) -> Result<f64> + 'a;
 
 /// How a drive ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,7 +84,7 @@ pub struct Rules<'a> {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum Drive {
     /// Contact changes alone.
-    Elastic(ElasticDrive),
+    Elastic(Box<ElasticDrive>),
     /// The material may yield.
     Plastic(PlasticDrive),
 }
@@ -97,15 +97,15 @@ impl Drive {
     /// Those of [`ElasticDrive::step`] and [`PlasticDrive::step`].
     pub fn step(
         &mut self,
-        engine: &mut Engine,
+        solver: &mut Solver,
         end: &LoadPoint,
         recovery: Option<&mut Recovery>,
         monitor: Option<&Monitor>,
         rules: Rules,
     ) -> Result<Step> {
         match self {
-            Drive::Elastic(drive) => drive.step(engine, end, recovery, monitor),
-            Drive::Plastic(drive) => drive.step(engine, end, monitor, rules),
+            Drive::Elastic(drive) => drive.step(solver, end, recovery, monitor),
+            Drive::Plastic(drive) => drive.step(solver, end, monitor, rules),
         }
     }
 
@@ -154,7 +154,7 @@ pub fn stopped() -> Error {
     Error::new(ErrorKind::Stopped, "stopped on request")
 }
 
-impl Engine<'_> {
+impl Solver<'_> {
     /// Goes to `end` elastically, or to first yield with `recovery`; nobody is told of the
     /// increments.
     ///
@@ -185,7 +185,7 @@ impl Engine<'_> {
     /// factor `from`, and after `solves_before` trailing solves.
     ///
     /// # Errors
-    /// Those of [`Engine::accepted`].
+    /// Those of [`Solver::accepted`].
     pub(super) fn contact_step(
         &mut self,
         from: f64,
@@ -196,7 +196,7 @@ impl Engine<'_> {
         self.update_scales();
         let report = IncrementReport {
             event: event.to_string(),
-            trailing_solves: self.counts.trailing_solves - solves_before,
+            trailing_solves: self.cost.counts.trailing_solves - solves_before,
             ..IncrementReport::default()
         };
         self.accepted(from, report, arrival)
@@ -220,7 +220,7 @@ impl Engine<'_> {
         reported: &mut IncrementReport,
     ) {
         let start = self.at.clone();
-        self.last_step = self.at.step_to(end);
+        self.predictor.last_step = self.at.step_to(end);
         let changes: Vec<Change> = increment
             .changes
             .iter()
@@ -233,7 +233,7 @@ impl Engine<'_> {
             })
             .collect();
         let way = increment.t * start.distance(end);
-        self.pace = (way > 0.0 && !self.zone.is_idle()).then(|| {
+        self.predictor.pace = (way > 0.0 && !self.zone.is_idle()).then(|| {
             let mut pace = increment.state.initial.clone();
             pace.add(-1.0, &self.now.initial);
             pace.scale(1.0 / way);
@@ -246,7 +246,7 @@ impl Engine<'_> {
         self.border = increment.changes;
         for k in self.border.clone() {
             if self.tableau.flip(k) {
-                self.counts.contact_changes += 1;
+                self.cost.counts.contact_changes += 1;
             }
         }
         // Within gamma of its condition's border a pair may be beyond it by as much.
@@ -261,14 +261,18 @@ impl Engine<'_> {
     pub(super) fn rests_at(&self, end: &LoadPoint) -> bool {
         let still = self.now.u.largest() == 0.0 && self.now.force.iter().all(|r| *r == 0.0);
         let apart = self.now.gap.iter().all(|g| *g >= 0.0);
-        self.at == *end && self.fresh && still && apart && self.now.gap == self.delta(end)
+        self.at == *end && self.fresh && still && apart && self.now.gap == self.structure.delta(end)
     }
 
     /// Whether the way to `end` leads back against the last increment: then the material unloads
     /// elastically at first.
     pub(super) fn turns_back(&self, end: &LoadPoint) -> bool {
         let step = self.at.step_to(end);
-        let along: f64 = step.iter().zip(&self.last_step).map(|(a, b)| a * b).sum();
+        let along: f64 = step
+            .iter()
+            .zip(&self.predictor.last_step)
+            .map(|(a, b)| a * b)
+            .sum();
         along <= 0.0
     }
 }

@@ -1,9 +1,9 @@
 //! Elastic drives: contact alone changes, from event to event, on the dense matrix only.
 
 use super::drive::{Arrival, MONITOR_ACCURACY, Monitor, Step, crosses, is_hit};
-use super::engine::Engine;
 use super::load_point::LoadPoint;
 use super::recovery::{Recovery, Samples};
+use super::solver::Solver;
 use super::yield_load::{bracketed_root, yield_share};
 use crate::contact::{self, Change, Path, PathEnd};
 use crate::error::Result;
@@ -19,30 +19,28 @@ pub struct ElasticPath {
 }
 
 impl ElasticPath {
-    /// A piece from the engine's current state to `end`.
+    /// A piece from the solver's current state to `end`.
     ///
     /// # Errors
     /// A load that drives a body away from every contact.
-    pub fn new(engine: &mut Engine, end: &LoadPoint) -> Result<Self> {
-        let start = engine.at.clone();
-        let mut q0 = engine.closed_forces(&start);
-        let q1 = engine.closed_forces(end);
+    pub fn new(solver: &mut Solver, end: &LoadPoint) -> Result<Self> {
+        let start = solver.at.clone();
+        let mut q0 = solver.structure.closed_forces(&start);
+        let q1 = solver.structure.closed_forces(end);
         let rate: Vec<f64> = q1.iter().zip(&q0).map(|(b, a)| b - a).collect();
-        for (q, t) in q0.iter_mut().zip(&engine.now.initial.forces) {
+        for (q, t) in q0.iter_mut().zip(&solver.now.initial.forces) {
             *q += t;
         }
-        if engine.now.force.iter().all(|r| *r == 0.0) {
-            close_gap_of_floating_bodies(engine, &q0, &rate)?;
+        if solver.now.force.iter().all(|r| *r == 0.0) {
+            close_gap_of_floating_bodies(solver, &q0, &rate)?;
         }
-        let gap_scale = engine
-            .delta(&start)
-            .iter()
-            .fold(0.0f64, |m, d| m.max(d.abs()));
-        let (gap, force) = (engine.now.gap.clone(), engine.now.force.clone());
-        let terms = engine.closed_forces_size(&start);
-        let path = Path::new(&mut engine.tableau, q0, rate, gap, force, gap_scale, terms)
-            .map_err(|u| engine.unbounded(u.pair, start.alpha))?;
-        engine.counts.contact_changes += path.changes;
+        let gaps = solver.structure.delta(&start);
+        let gap_scale = gaps.iter().fold(0.0f64, |m, d| m.max(d.abs()));
+        let (gap, force) = (solver.now.gap.clone(), solver.now.force.clone());
+        let terms = solver.structure.closed_forces_size(&start);
+        let path = Path::new(&mut solver.tableau, q0, rate, gap, force, gap_scale, terms)
+            .map_err(|u| solver.structure.unbounded(u.pair, start.alpha))?;
+        solver.cost.counts.contact_changes += path.changes;
         Ok(ElasticPath {
             start,
             end: end.clone(),
@@ -50,29 +48,29 @@ impl ElasticPath {
         })
     }
 
-    /// Goes to the next event, at most to share `t` of the piece; the engine's gaps and forces
+    /// Goes to the next event, at most to share `t` of the piece; the solver's gaps and forces
     /// follow.
-    pub fn advance(&mut self, engine: &mut Engine, t: f64) -> PathEnd {
-        let outcome = self.path.advance(&mut engine.tableau, t);
-        self.write(engine);
+    pub fn advance(&mut self, solver: &mut Solver, t: f64) -> PathEnd {
+        let outcome = self.path.advance(&mut solver.tableau, t);
+        self.write(solver);
         outcome
     }
 
     /// Goes to share `t` of the piece with the current statuses: they must hold there.
-    pub fn go_back(&mut self, engine: &mut Engine, t: f64) {
-        self.path.state_at(&mut engine.tableau, t);
-        self.write(engine);
+    pub fn go_back(&mut self, solver: &mut Solver, t: f64) {
+        self.path.state_at(&mut solver.tableau, t);
+        self.write(solver);
     }
 
     /// Settles the statuses beyond an event.
     ///
     /// # Errors
     /// A load that drives a body away from every contact.
-    pub fn turn(&mut self, engine: &mut Engine) -> Result<()> {
+    pub fn turn(&mut self, solver: &mut Solver) -> Result<()> {
         self.path
-            .turn(&mut engine.tableau)
-            .map_err(|u| engine.unbounded(u.pair, engine.at.alpha))?;
-        engine.counts.contact_changes += self.path.changes;
+            .turn(&mut solver.tableau)
+            .map_err(|u| solver.structure.unbounded(u.pair, solver.at.alpha))?;
+        solver.cost.counts.contact_changes += self.path.changes;
         Ok(())
     }
 
@@ -83,7 +81,7 @@ impl ElasticPath {
     /// Those of the monitor.
     pub fn land(
         &mut self,
-        engine: &mut Engine,
+        solver: &mut Solver,
         from: f64,
         [was, is]: [f64; 2],
         accuracy: f64,
@@ -92,11 +90,11 @@ impl ElasticPath {
         let sign = if is > was { 1.0 } else { -1.0 };
         let ends = [(from, sign * was), (self.t(), sign * is)];
         let t = bracketed_root(ends[0], ends[1], accuracy, |t| {
-            self.go_back(engine, t);
-            monitor(engine).map(|value| sign * value)
+            self.go_back(solver, t);
+            monitor(solver).map(|value| sign * value)
         })?;
-        self.go_back(engine, t);
-        engine.refresh();
+        self.go_back(solver, t);
+        solver.refresh();
         Ok(())
     }
 
@@ -110,12 +108,12 @@ impl ElasticPath {
         self.path.t
     }
 
-    fn write(&self, engine: &mut Engine) {
-        engine.at = self.start.towards(&self.end, self.path.t);
-        engine.now.gap.copy_from_slice(&self.path.gap);
-        engine.now.force.copy_from_slice(&self.path.force);
-        engine.fresh = false;
-        engine.border.clear();
+    fn write(&self, solver: &mut Solver) {
+        solver.at = self.start.towards(&self.end, self.path.t);
+        solver.now.gap.copy_from_slice(&self.path.gap);
+        solver.now.force.copy_from_slice(&self.path.force);
+        solver.fresh = false;
+        solver.border.clear();
     }
 }
 
@@ -141,7 +139,7 @@ impl ElasticDrive {
     /// # Errors
     /// A load that drives a body away from every contact; those of the monitor.
     pub fn begin(
-        engine: &mut Engine,
+        solver: &mut Solver,
         end: &LoadPoint,
         recovery: Option<&mut Recovery>,
         monitor: Option<&Monitor>,
@@ -149,24 +147,24 @@ impl ElasticDrive {
         let watches_yield = recovery.is_some();
         let mut samples = None;
         if let Some(recovery) = recovery {
-            let here = recovery.sample_here(engine);
-            let peak = recovery.peak(engine.model, &here);
+            let here = recovery.sample_here(solver);
+            let peak = recovery.peak(solver.structure.model, &here);
             if let Some(peak) = peak.filter(|p| p.ratio > 1.0) {
                 return Ok(ControlFlow::Break(Step::arrived(Arrival::Yield(peak))));
             }
             samples = Some(here);
         }
-        let monitored = monitor.map(|m| m(engine)).transpose()?;
+        let monitored = monitor.map(|m| m(solver)).transpose()?;
         if is_hit(monitored) {
             return Ok(ControlFlow::Break(Step::arrived(Arrival::Monitor)));
         }
-        if engine.rests_at(end) {
-            let (from, solves) = (engine.at.alpha, engine.counts.trailing_solves);
-            let step = engine.contact_step(from, "target", solves, Some(Arrival::End))?;
+        if solver.rests_at(end) {
+            let (from, solves) = (solver.at.alpha, solver.cost.counts.trailing_solves);
+            let step = solver.contact_step(from, "target", solves, Some(Arrival::End))?;
             return Ok(ControlFlow::Break(step));
         }
         Ok(ControlFlow::Continue(ElasticDrive {
-            path: ElasticPath::new(engine, end)?,
+            path: ElasticPath::new(solver, end)?,
             watches_yield,
             monitored,
             at_event: false,
@@ -178,58 +176,58 @@ impl ElasticDrive {
     ///
     /// # Errors
     /// A load that drives a body away from every contact; those of the monitor and of
-    /// [`Engine::accepted`].
+    /// [`Solver::accepted`].
     pub fn step(
         &mut self,
-        engine: &mut Engine,
+        solver: &mut Solver,
         end: &LoadPoint,
         recovery: Option<&mut Recovery>,
         monitor: Option<&Monitor>,
     ) -> Result<Step> {
         let mut recovery = recovery.filter(|_| self.watches_yield);
         let samples = match (&mut recovery, self.samples.take()) {
-            (Some(recovery), None) => Some(recovery.sample_here(engine)),
+            (Some(recovery), None) => Some(recovery.sample_here(solver)),
             (_, samples) => samples,
         };
         if std::mem::take(&mut self.at_event) {
-            self.path.turn(engine)?;
+            self.path.turn(solver)?;
         }
-        let (alpha, solves) = (engine.at.alpha, engine.counts.trailing_solves);
+        let (alpha, solves) = (solver.at.alpha, solver.cost.counts.trailing_solves);
         let before = self.path.t();
-        let outcome = self.path.advance(engine, 1.0);
+        let outcome = self.path.advance(solver, 1.0);
         if let (Some(recovery), Some(from)) = (recovery, samples) {
-            let to = recovery.sample_here(engine);
-            let peak = recovery.peak(engine.model, &to);
+            let to = recovery.sample_here(solver);
+            let peak = recovery.peak(solver.structure.model, &to);
             if peak.is_some_and(|p| p.ratio >= 1.0) {
-                let (share, peak) = yield_share(engine, recovery, &from, &to);
+                let (share, peak) = yield_share(solver, recovery, &from, &to);
                 let t = before + share * (self.path.t() - before);
-                self.path.go_back(engine, t);
-                engine.refresh();
+                self.path.go_back(solver, t);
+                solver.refresh();
                 if let Some(peak) = peak {
                     let arrival = Some(Arrival::Yield(peak));
-                    return engine.contact_step(alpha, "yield", solves, arrival);
+                    return solver.contact_step(alpha, "yield", solves, arrival);
                 }
             }
             self.samples = Some(to);
         }
         if let (Some(monitor), Some(was)) = (monitor, self.monitored) {
-            let is = monitor(engine)?;
+            let is = monitor(solver)?;
             self.monitored = Some(is);
             if crosses(was, is) {
                 let accuracy = MONITOR_ACCURACY;
                 self.path
-                    .land(engine, before, [was, is], accuracy, monitor)?;
-                return engine.contact_step(alpha, "target", solves, Some(Arrival::Monitor));
+                    .land(solver, before, [was, is], accuracy, monitor)?;
+                return solver.contact_step(alpha, "target", solves, Some(Arrival::Monitor));
             }
         }
         match outcome {
             PathEnd::Target => {
-                engine.at = end.clone();
-                engine.contact_step(alpha, "target", solves, Some(Arrival::End))
+                solver.at = end.clone();
+                solver.contact_step(alpha, "target", solves, Some(Arrival::End))
             }
             PathEnd::Event(changes) => {
                 self.at_event = true;
-                engine.contact_step(alpha, &describe(&changes), solves, None)
+                solver.contact_step(alpha, &describe(&changes), solves, None)
             }
         }
     }
@@ -238,9 +236,10 @@ impl ElasticDrive {
 /// A floating body with gaps all round moves rigidly under the first bit of load until it touches:
 /// the contact problem is solved directly there, and the gaps of that solution are where the path
 /// starts.
-fn close_gap_of_floating_bodies(engine: &mut Engine, q0: &[f64], rate: &[f64]) -> Result<()> {
+fn close_gap_of_floating_bodies(solver: &mut Solver, q0: &[f64], rate: &[f64]) -> Result<()> {
     let n = q0.len();
-    if engine.model.floating.bodies.is_empty() || (0..n).any(|k| engine.now.gap[k] <= 0.0) {
+    if solver.structure.model.floating.bodies.is_empty() || (0..n).any(|k| solver.now.gap[k] <= 0.0)
+    {
         return Ok(());
     }
     let largest = |v: &[f64]| v.iter().fold(0.0f64, |m, x| m.max(x.abs()));
@@ -250,10 +249,10 @@ fn close_gap_of_floating_bodies(engine: &mut Engine, q0: &[f64], rate: &[f64]) -
         .min(1.0);
     let q: Vec<f64> = q0.iter().zip(rate).map(|(a, b)| a + share * b).collect();
     let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
-    contact::solve(&mut engine.tableau, &q, &mut gap, &mut force)
-        .map_err(|u| engine.unbounded(u.pair, engine.at.alpha))?;
-    engine.now.gap = gap;
-    engine.now.force.fill(0.0);
+    contact::solve(&mut solver.tableau, &q, &mut gap, &mut force)
+        .map_err(|u| solver.structure.unbounded(u.pair, solver.at.alpha))?;
+    solver.now.gap = gap;
+    solver.now.force.fill(0.0);
     Ok(())
 }
 

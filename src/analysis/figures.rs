@@ -1,8 +1,8 @@
 //! What is reported of the state at a target: figures, and fields on the whole mesh.
 
-use super::engine::Engine;
 use super::indicator::indicator;
 use super::measure::pair_states;
+use super::solver::Solver;
 use super::stress_field::StressField;
 use super::stresses::Stresses;
 use crate::error::Result;
@@ -22,7 +22,7 @@ pub struct Figures {
     pub stress_seconds: f64,
 }
 
-impl Engine<'_> {
+impl Solver<'_> {
     /// The current state with its quality; fields where asked for. Costs half a full solve.
     ///
     /// # Errors
@@ -32,14 +32,20 @@ impl Engine<'_> {
         let u = &displacements.total;
         let begun = Instant::now();
         let nodal = self
+            .structure
             .model
             .nodal(displacements.deformation(), &self.at.factors);
-        let field = StressField::new(self.model, &self.zone, &self.elements, nodal);
+        let field = StressField::new(
+            self.structure.model,
+            &self.zone,
+            &self.structure.elements,
+            nodal,
+        );
         let stresses = Stresses::new(&field);
         let errors = with_fields.then(|| indicator(&field));
         let energy_error = errors.as_ref().map(|errors| errors.total);
         let fields = errors.map(|errors| {
-            let nodal = self.model.nodal(u, &self.at.factors);
+            let nodal = self.structure.model.nodal(u, &self.at.factors);
             fields(&field, nodal, errors.by_element)
         });
         let stress_seconds = begun.elapsed().as_secs_f64();
@@ -47,7 +53,7 @@ impl Engine<'_> {
         let dent = self.dent();
         let arc = figures
             .patch
-            .and_then(|patch| contact_arc(self.model, figures.contact, patch));
+            .and_then(|patch| contact_arc(self.structure.model, figures.contact, patch));
         let load = self
             .reaction(&stresses.reactions)
             .unwrap_or_else(|| self.total_load_size());
@@ -64,7 +70,7 @@ impl Engine<'_> {
             name: name.to_string(),
             alpha: self.at.alpha,
             load,
-            contact_force: figures.force * self.model.symmetry,
+            contact_force: figures.force * self.structure.model.symmetry,
             max_pressure: figures.max_pressure,
             pole_pressure: figures.pole_pressure,
             half_width: figures.half_width,
@@ -76,11 +82,11 @@ impl Engine<'_> {
             plastic_points: plastic_points.iter().sum(),
             plastic_points_by_body: plastic_points,
             max_equivalent_plastic_strain: plastic_strain,
-            plastic_zone_size: plastic_volume * self.model.symmetry,
+            plastic_zone_size: plastic_volume * self.structure.model.symmetry,
             energy_error,
             approach: self.approach(u),
             pairs: pair_states(
-                self.model,
+                self.structure.model,
                 &self.now.gap,
                 &self.contact_forces(),
                 self.tableau.open(),
@@ -99,7 +105,7 @@ impl Engine<'_> {
     /// Where the loads that vary are prescribed displacements only and nothing touches: the force
     /// that holds the first of them, along its displacement, of the whole.
     fn reaction(&self, reactions: &[f64]) -> Option<f64> {
-        let model = self.model;
+        let model = self.structure.model;
         let mut varying = model
             .loads
             .iter()

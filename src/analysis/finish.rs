@@ -11,29 +11,29 @@ const DOUBTFUL: f64 = 1e10;
 impl Run<'_, '_> {
     /// The results as far as they go.
     pub(super) fn finish(mut self) -> Results {
-        let model = self.engine.model;
+        let model = self.solver.structure.model;
         let mut results = std::mem::take(&mut self.results);
         results.sizes = Sizes {
             freedoms: model.freedoms.n,
             nodes: model.mesh.n_nodes(),
             elements: model.mesh.n_elements(),
             contact_pairs: model.pairs.len(),
-            zone_freedoms: self.engine.sub.partition.zone.len(),
+            zone_freedoms: self.solver.structure.sub.partition.zone.len(),
             zone_elements: self.zone.choice.elements.len(),
             degree: model.mesh.degree(),
         };
-        results.counts = self.engine.counts;
+        results.counts = self.solver.cost.counts;
         let (seconds, first_yield) = (self.position.seconds, self.position.first_yield);
         results.first_yield = first_yield.point;
-        results.factor = self.engine.sub.cost();
-        results.condition = self.engine.condition;
+        results.factor = self.solver.structure.sub.cost();
+        results.condition = self.solver.structure.condition;
         let tolerances = quality::tolerances(model);
         let states = results.states.iter().map(|s| (s.name.as_str(), s.quality));
         let judged: Vec<(&str, Quality)> =
             states.chain(self.at_yield.map(|q| ("yield", q))).collect();
         // An elastic state is not iterated: its forces are off by what round-off leaves.
         let excused = judged.iter().filter_map(|(_, q)| q.excused(&tolerances));
-        let floor = excused.fold(self.engine.round_off_floor, f64::max);
+        let floor = excused.fold(self.solver.scales.round_off, f64::max);
         if floor > 0.0 {
             let text = format!(
                 "forces balance to their round-off, {:.1e} of the largest force, and not to analysis.tolerance = {:.1e}: displacements are \
@@ -60,9 +60,10 @@ impl Run<'_, '_> {
         {
             // A figure beside the results: a solve that fails leaves it out.
             let estimate = self
-                .engine
+                .solver
+                .structure
                 .sub
-                .condition_estimate(model, self.engine.system);
+                .condition_estimate(model, self.solver.structure.system);
             results.condition_estimate = estimate.ok();
         }
         let qualities = judged.iter().map(|(_, q)| q);
@@ -82,11 +83,11 @@ impl Run<'_, '_> {
             match effect.name.as_str() {
                 "contact" => {
                     effect.seconds = seconds.contact + seconds.yield_load;
-                    effect.memory_bytes = self.engine.sub.contact_bytes();
+                    effect.memory_bytes = self.solver.structure.sub.contact_bytes();
                 }
                 "plasticity" if effect.on => {
                     effect.seconds = seconds.plasticity;
-                    effect.memory_bytes = self.engine.zone.bytes();
+                    effect.memory_bytes = self.solver.zone.bytes();
                 }
                 _ => {}
             }

@@ -33,14 +33,14 @@ impl Run<'_, '_> {
                 Ok(false)
             };
         }
-        let origin = self.engine.state();
+        let origin = self.solver.state();
         for _ in 0..ZONE_ATTEMPTS {
             let found = match self.model().scene.analysis.yield_load {
                 YieldMethod::Exact => self.exact_yield(required)?,
                 YieldMethod::Secant if required => {
-                    let recovery = self.zone.recovery(&self.engine);
+                    let recovery = self.zone.recovery(&self.solver);
                     let recovery = recovery.ok_or_else(|| Error::internal("no recovery"))?;
-                    let (alpha, peak) = self.engine.secant_yield_load(recovery)?;
+                    let (alpha, peak) = self.solver.secant_yield_load(recovery)?;
                     Search::Found(alpha, peak)
                 }
                 YieldMethod::Secant => Search::Nothing,
@@ -59,12 +59,12 @@ impl Run<'_, '_> {
                 if let Some((alpha, peak)) = found {
                     self.record_yield(peak);
                     if self.yield_only {
-                        self.at_yield = Some(self.engine.quality_here()?);
+                        self.at_yield = Some(self.solver.quality_here()?);
                     }
                     let unit = if unit_is_yield { 1.0 } else { alpha };
                     self.position.first_yield.alpha = Some(unit);
                     if unit_is_yield {
-                        self.engine.unit = alpha;
+                        self.solver.structure.unit = alpha;
                     }
                 }
                 let exact = self.model().scene.analysis.yield_load == YieldMethod::Exact;
@@ -85,13 +85,13 @@ impl Run<'_, '_> {
 
     /// Puts an elastic state back, also after the zone was chosen anew.
     fn come_back(&mut self, origin: &State) {
-        let engine = &mut self.engine;
-        engine.restore_elastic(origin);
+        let solver = &mut self.solver;
+        solver.restore_elastic(origin);
         // Where nothing acts yet the displacements are zero; a body held by contact alone must not
         // be moved to it.
-        engine.fresh = origin.equilibrium.u.largest() == 0.0;
-        engine.now.u.fill(0.0);
-        engine.refresh();
+        solver.fresh = origin.equilibrium.u.largest() == 0.0;
+        solver.now.u.fill(0.0);
+        solver.refresh();
         self.position.first_yield.is_behind = false;
     }
 
@@ -110,10 +110,10 @@ impl Run<'_, '_> {
         };
         for _ in 0..DOUBLINGS {
             for stop in self.stops(end) {
-                let point = self.engine.point(stop);
-                let recovery = self.zone.recovery(&self.engine);
-                if let Arrival::Yield(peak) = self.engine.drive_elastic(&point, recovery)? {
-                    return Ok(Search::Found(self.engine.at.alpha, peak));
+                let point = self.solver.structure.point(stop);
+                let recovery = self.zone.recovery(&self.solver);
+                if let Arrival::Yield(peak) = self.solver.drive_elastic(&point, recovery)? {
+                    return Ok(Search::Found(self.solver.at.alpha, peak));
                 }
                 if let Some(choice) = self.missed_outside()? {
                     return Ok(Search::Outside(choice));
@@ -134,15 +134,15 @@ impl Run<'_, '_> {
 
     /// A load factor of the size of the yield load: one contact solve at factor 1.
     pub(super) fn first_load_estimate(&mut self) -> Result<f64> {
-        let before = self.engine.state();
-        let point = self.engine.point(1.0);
-        let solved = self.engine.solve_contact_at(&point);
-        let recovery = self.zone.recovery(&self.engine);
+        let before = self.solver.state();
+        let point = self.solver.structure.point(1.0);
+        let solved = self.solver.solve_contact_at(&point);
+        let recovery = self.zone.recovery(&self.solver);
         let estimate = match (solved, recovery) {
-            (Ok(()), Some(recovery)) => self.engine.peak(recovery).map(|p| p.ratio),
+            (Ok(()), Some(recovery)) => self.solver.peak(recovery).map(|p| p.ratio),
             _ => None,
         };
-        self.engine.restore_elastic(&before);
+        self.solver.restore_elastic(&before);
         // Stress grows at least like the cube root of the load (point contact): aim beyond,
         // doubling goes on from there.
         Ok(estimate
@@ -152,11 +152,11 @@ impl Run<'_, '_> {
 
     /// The material yields here.
     pub(super) fn record_yield(&mut self, peak: Peak) {
-        let figures = self.engine.contact_figures();
+        let figures = self.solver.contact_figures();
         self.position.first_yield.is_behind = true;
         self.position.first_yield.point.get_or_insert(YieldPoint {
-            alpha: self.engine.at.alpha,
-            load: self.engine.total_load_size(),
+            alpha: self.solver.at.alpha,
+            load: self.solver.total_load_size(),
             max_pressure: figures.max_pressure,
             half_width: figures.half_width,
             half_width_reading: figures.half_width_reading,
@@ -171,8 +171,8 @@ impl Run<'_, '_> {
         if self.zone.choice.holds_all(self.model()) {
             return Ok(None);
         }
-        let u = self.engine.all_displacements()?;
-        let ratios = zone_choice::stress_ratios(self.model(), &u, &self.engine.at.factors);
+        let u = self.solver.all_displacements()?;
+        let ratios = zone_choice::stress_ratios(self.model(), &u, &self.solver.at.factors);
         let outside = (0..ratios.len())
             .filter(|e| self.zone.choice.elements.binary_search(e).is_err())
             .map(|e| ratios[e])

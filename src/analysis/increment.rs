@@ -8,9 +8,9 @@
 use super::acceleration::Anderson;
 use super::collapse::Attempt;
 use super::drive::Rules;
-use super::engine::Engine;
 use super::equilibrium::Equilibrium;
 use super::load_point::LoadPoint;
+use super::solver::Solver;
 use super::step_length::{LengthSearch, StepLimit, step_limit};
 use super::zone::Evaluation;
 use crate::scene::PlasticIteration;
@@ -87,7 +87,7 @@ const BORDER: f64 = 1e-8;
 /// A share of the increment below this means that a pair changes at once.
 const AT_ONCE: f64 = 1e-12;
 
-impl Engine<'_> {
+impl Solver<'_> {
     /// Goes from the current state towards `end`, at most to share `most` of the way. A state that
     /// is known `ahead` predicts it.
     pub fn increment(
@@ -106,7 +106,7 @@ impl Engine<'_> {
             None => self.rates(end, settings.plastic_iteration == PlasticIteration::Newton),
         };
         let follows = matches!(ends_at, EndsAt::NextChange { .. });
-        let values = |engine: &Self, state: &Equilibrium| engine.values(&state.gap, &state.force);
+        let values = |solver: &Self, state: &Equilibrium| solver.values(&state.gap, &state.force);
         let base = values(self, &before);
         // A pair whose opening would set a body free cannot open: its force may come down to the
         // round-off of zero.
@@ -138,10 +138,10 @@ impl Engine<'_> {
         state.add(t, &rates);
 
         let mut anderson = Anderson::default();
-        let mut balance = self.sub.zeros();
+        let mut balance = self.structure.sub.zeros();
         // A line search ends with the evaluation that the next iteration begins with.
         let mut known = None;
-        let mut trial = (state.clone(), self.sub.zeros());
+        let mut trial = (state.clone(), self.structure.sub.zeros());
         let mut iterations = 0;
         let mut best = (f64::INFINITY, 0);
         let mut damping = 0.0;
@@ -161,7 +161,7 @@ impl Engine<'_> {
                 }
             };
             iterations += 1;
-            let scale = state.force.iter().fold(self.force_scale, |m, r| m.max(*r));
+            let scale = state.force.iter().fold(self.scales.force, |m, r| m.max(*r));
             let residual = if scale > 0.0 {
                 balance.largest() / scale
             } else {
@@ -208,7 +208,7 @@ impl Engine<'_> {
                 } else {
                     Vec::new()
                 };
-                self.round_off_floor = self.round_off_floor.max(floor);
+                self.scales.round_off = self.scales.round_off.max(floor);
                 let at_end = start.towards(end, t);
                 state = self.respond(&at_end, state.initial);
                 return Ok(Increment {
@@ -300,7 +300,7 @@ impl Engine<'_> {
     /// The plastic part goes on as in the last increment; after none it is that of the tangent.
     fn rates(&mut self, end: &LoadPoint, tangent: bool) -> Equilibrium {
         let flows = tangent && !self.zone.is_idle();
-        let pace = self.pace.as_ref().filter(|_| flows);
+        let pace = self.predictor.pace.as_ref().filter(|_| flows);
         let needs_tangent = flows && pace.is_none();
         let mut initial = self.now.initial.clone();
         if let Some(pace) = pace {
@@ -310,7 +310,7 @@ impl Engine<'_> {
         let mut rates = self.respond(end, initial);
         rates.add(-1.0, &self.now);
         if needs_tangent {
-            let mut driven = self.sub.zeros();
+            let mut driven = self.structure.sub.zeros();
             self.zone.softening_times(&rates.u, &mut driven);
             let plastic = self.solve_tangent(&driven, PREDICTION, 1.0);
             rates.add(1.0, &plastic);
@@ -416,7 +416,7 @@ impl Engine<'_> {
     ) -> Evaluation {
         let evaluation = self.zone.evaluate(&state.u, balance);
         balance.add(-1.0, &state.initial.load);
-        self.counts.plastic_iterations += 1;
+        self.cost.counts.plastic_iterations += 1;
         evaluation
     }
 }

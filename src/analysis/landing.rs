@@ -1,15 +1,15 @@
 //! The last increment again, so that it ends where a monitored quantity is zero.
 
 use super::drive::{IncrementReport, MONITOR_ACCURACY, Monitor, Rules, SMALLEST_CUT};
-use super::engine::Engine;
 use super::equilibrium::Equilibrium;
 use super::load_point::LoadPoint;
+use super::solver::Solver;
 use super::state::State;
 use super::yield_load::bracketed_root;
 use crate::error::Result;
 use std::cell::Cell;
 
-impl Engine<'_> {
+impl Solver<'_> {
     /// Repeats the increment from the state `from` so that it ends where the monitored quantity, `was` there
     /// and `is` now, is zero.
     pub(super) fn land(
@@ -31,7 +31,7 @@ impl Engine<'_> {
         }
         let mut value_at = |t: f64| -> Result<f64> {
             self.restore(from);
-            self.pace = None;
+            self.predictor.pace = None;
             let goal = from.at.towards(end, t);
             let mut ahead = (known.len() > 1).then(|| (goal.clone(), between(&mut known, t)));
             // An increment may be cut short: the way to the goal then takes several.

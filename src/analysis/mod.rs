@@ -2,7 +2,7 @@
 //!
 //! | file | what | paper |
 //! |---|---|---|
-//! | `engine`, `equilibrium`, `response` | structure under load, response to loads and initial loads | 3.7, 4.1 to 4.6 |
+//! | `structure`, `solver`, `equilibrium`, `response` | structure, its state under load, response to loads | 3.7, 4.1 to 4.6 |
 //! | `yield_load`, `recovery`, `patch`, `mirror` | load at first yield, stress between the points | 3.11 to 3.14 |
 //! | `increment`, `step_length` | one elastoplastic increment that ends at the next change of contact | 4.7 to 4.23 |
 //! | `zone`, `gather`, `zone_choice`, `zone_fit` | elements that may yield, initial loads, their choice and growth | 4.1 |
@@ -26,7 +26,6 @@ mod contact_patch;
 mod dent;
 mod drive;
 mod elastic;
-mod engine;
 mod equilibrium;
 mod figures;
 mod finish;
@@ -51,12 +50,14 @@ mod recovery;
 mod reference;
 mod response;
 mod restart;
+mod solver;
 mod state;
 mod step_length;
 mod stepping;
 mod stress_field;
 mod stresses;
 mod stretch;
+mod structure;
 mod summit;
 mod tangent;
 mod targets;

@@ -2,7 +2,7 @@
 //! to be believed.
 
 use super::drive::{Arrival, IncrementReport, Step};
-use super::engine::Engine;
+use super::solver::Solver;
 use crate::error::{Error, ErrorKind, Result};
 use crate::scene::Kind;
 
@@ -10,7 +10,7 @@ use crate::scene::Kind;
 /// or just closed.
 const VANISHING: f64 = 1e-7;
 
-impl Engine<'_> {
+impl Solver<'_> {
     /// The step that an accepted increment is; the one before it ended at load factor `from`.
     ///
     /// # Errors
@@ -35,18 +35,23 @@ impl Engine<'_> {
     fn outgrown_at(&self) -> Option<usize> {
         let force = &self.now.force;
         let carries = |k: usize| {
-            let contact = &self.model.contacts[self.model.pairs[k].contact];
+            let contact = &self.structure.model.contacts[self.structure.model.pairs[k].contact];
             let largest = force[contact.range.clone()]
                 .iter()
                 .fold(0.0f64, |m, r| m.max(*r));
-            force[k] > VANISHING * largest.max(VANISHING * self.force_scale)
+            force[k] > VANISHING * largest.max(VANISHING * self.scales.force)
         };
-        let ends = self.model.contacts.iter().flat_map(|c| &c.goes_on);
+        let ends = self
+            .structure
+            .model
+            .contacts
+            .iter()
+            .flat_map(|c| &c.goes_on);
         ends.copied().find(|&k| carries(k))
     }
 
     fn outgrown(&self, pair: usize, reached: f64) -> Error {
-        let model = self.model;
+        let model = self.structure.model;
         let [x, y] = model.mesh.point(model.pairs[pair].second);
         let names = &model.contacts[model.pairs[pair].contact].names;
         let targets = model.scene.program.targets.iter();

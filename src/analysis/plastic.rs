@@ -1,8 +1,8 @@
 //! Elastoplastic drives: increments that end at the next change of contact, or fixed ones.
 
 use super::drive::{Arrival, IncrementReport, Monitor, Rules, SMALLEST_CUT, Step, crosses, is_hit};
-use super::engine::Engine;
 use super::load_point::LoadPoint;
+use super::solver::Solver;
 use super::stretch::ElasticStretch;
 use crate::error::Result;
 use crate::scene::Stepping;
@@ -47,26 +47,26 @@ impl PlasticDrive {
     /// # Errors
     /// Those of the monitor.
     pub fn begin(
-        engine: &mut Engine,
+        solver: &mut Solver,
         end: &LoadPoint,
         taken: usize,
         monitor: Option<&Monitor>,
     ) -> Result<ControlFlow<Step, Self>> {
-        engine.refresh();
-        engine.update_scales();
-        if engine.force_scale == 0.0 {
+        solver.refresh();
+        solver.update_scales();
+        if solver.scales.force == 0.0 {
             // Nothing acts yet: residuals are measured against what the end of the piece applies.
-            engine.force_scale = engine.external(end).largest();
+            solver.scales.force = solver.structure.external(end).largest();
         }
-        if engine.turns_back(end) {
-            engine.assume_elastic();
+        if solver.turns_back(end) {
+            solver.assume_elastic();
         }
-        let monitored = monitor.map(|m| m(engine)).transpose()?;
+        let monitored = monitor.map(|m| m(solver)).transpose()?;
         if is_hit(monitored) {
             return Ok(ControlFlow::Break(Step::arrived(Arrival::Monitor)));
         }
         Ok(ControlFlow::Continue(PlasticDrive {
-            whole: engine.at.distance(end),
+            whole: solver.at.distance(end),
             trust: f64::INFINITY,
             taken,
             monitored,
@@ -78,49 +78,49 @@ impl PlasticDrive {
     ///
     /// # Errors
     /// [`crate::ErrorKind::Collapse`] with the load factor that was held; statuses that cycle;
-    /// those of the monitor and of [`Engine::accepted`].
+    /// those of the monitor and of [`Solver::accepted`].
     pub fn step(
         &mut self,
-        engine: &mut Engine,
+        solver: &mut Solver,
         end: &LoadPoint,
         monitor: Option<&Monitor>,
         rules: Rules,
     ) -> Result<Step> {
         let follows = matches!(self.ahead, Ahead::Elastic(_));
-        if !follows && engine.at.alpha.abs() > rules.zone_until {
+        if !follows && solver.at.alpha.abs() > rules.zone_until {
             return Ok(Step::arrived(Arrival::ZoneOutgrown));
         }
-        let may_be_elastic = !matches!(self.ahead, Ahead::Unknown) || engine.zone.is_idle();
+        let may_be_elastic = !matches!(self.ahead, Ahead::Unknown) || solver.zone.is_idle();
         if may_be_elastic && rules.stepping == Stepping::Events {
-            if let Some(step) = self.follow(engine, end, monitor)? {
+            if let Some(step) = self.follow(solver, end, monitor)? {
                 return Ok(step);
             }
-            if engine.at.distance(end) < ARRIVED * self.whole || engine.is_round_off(end) {
-                let (from, solves) = (engine.at.alpha, engine.counts.trailing_solves);
-                engine.arrive(end);
-                return engine.contact_step(from, "target", solves, Some(Arrival::End));
+            if solver.at.distance(end) < ARRIVED * self.whole || solver.is_round_off(end) {
+                let (from, solves) = (solver.at.alpha, solver.cost.counts.trailing_solves);
+                solver.arrive(end);
+                return solver.contact_step(from, "target", solves, Some(Arrival::End));
             }
         }
         self.ahead = Ahead::Unknown;
-        self.increment(engine, end, monitor, rules)
+        self.increment(solver, end, monitor, rules)
     }
 
     /// The next event of a stretch on which nothing yields; `None` where there is none.
     fn follow(
         &mut self,
-        engine: &mut Engine,
+        solver: &mut Solver,
         end: &LoadPoint,
         monitor: Option<&Monitor>,
     ) -> Result<Option<Step>> {
         let stretch = match std::mem::replace(&mut self.ahead, Ahead::Plastic) {
             Ahead::Elastic(stretch) => *stretch,
             Ahead::Plastic => return Ok(None),
-            Ahead::Unknown => match ElasticStretch::begin(engine, end) {
+            Ahead::Unknown => match ElasticStretch::begin(solver, end) {
                 Some(stretch) => stretch,
                 None => return Ok(None),
             },
         };
-        let (step, stretch) = stretch.step(engine, end, monitor, &mut self.monitored)?;
+        let (step, stretch) = stretch.step(solver, end, monitor, &mut self.monitored)?;
         if let Some(stretch) = stretch {
             self.ahead = Ahead::Elastic(Box::new(stretch));
         }
@@ -130,7 +130,7 @@ impl PlasticDrive {
     /// An elastoplastic increment.
     fn increment(
         &mut self,
-        engine: &mut Engine,
+        solver: &mut Solver,
         end: &LoadPoint,
         monitor: Option<&Monitor>,
         rules: Rules,
@@ -139,25 +139,25 @@ impl PlasticDrive {
             Stepping::Events => 1.0,
             Stepping::Steps => 1.0 / rules.steps.saturating_sub(self.taken).max(1) as f64,
         };
-        let distance = engine.at.distance(end);
+        let distance = solver.at.distance(end);
         let trusted = if self.trust < left * distance {
             self.trust / distance
         } else {
             left
         };
-        let (from, solves) = (engine.at.alpha, engine.counts.trailing_solves);
-        let (open, border) = (engine.tableau.open().to_vec(), engine.border.clone());
+        let (from, solves) = (solver.at.alpha, solver.cost.counts.trailing_solves);
+        let (open, border) = (solver.tableau.open().to_vec(), solver.border.clone());
         // Only a search for the place of the target goes back behind an accepted increment.
-        let before = monitor.map(|_| engine.state());
+        let before = monitor.map(|_| solver.state());
         let smallest = SMALLEST_CUT * self.whole / distance;
-        let (increment, cut) = engine.find_increment(end, trusted, smallest, None, rules)?;
+        let (increment, cut) = solver.find_increment(end, trusted, smallest, None, rules)?;
         self.trust = match (cut, trusted < left) {
             (true, _) => increment.t * distance,
             (false, true) => 2.0 * self.trust,
             (false, false) => f64::INFINITY,
         };
         if increment.guard_flows > 0 {
-            engine.restore_statuses(&open, &border);
+            solver.restore_statuses(&open, &border);
             return Ok(Step::arrived(Arrival::ZoneTooSmall));
         }
         let mut report = IncrementReport {
@@ -167,30 +167,30 @@ impl PlasticDrive {
         };
         let full = increment.t >= left;
         let mut at_end = increment.t >= 1.0;
-        engine.accept(end, increment, &mut report);
-        if !at_end && engine.at.distance(end) <= ARRIVED * self.whole {
-            engine.arrive(end);
+        solver.accept(end, increment, &mut report);
+        if !at_end && solver.at.distance(end) <= ARRIVED * self.whole {
+            solver.arrive(end);
             at_end = true;
         }
         let mut arrival = at_end.then_some(Arrival::End);
         if let (Some(monitor), Some(was), Some(before)) = (monitor, self.monitored, before) {
-            let is = monitor(engine)?;
+            let is = monitor(solver)?;
             self.monitored = Some(is);
             if crosses(was, is) {
-                engine.land(end, &before, rules, monitor, [was, is], &mut report)?;
+                solver.land(end, &before, rules, monitor, [was, is], &mut report)?;
                 report.event = "target".to_string();
                 arrival = Some(Arrival::Monitor);
             }
         }
-        report.trailing_solves = engine.counts.trailing_solves - solves;
+        report.trailing_solves = solver.cost.counts.trailing_solves - solves;
         if arrival == Some(Arrival::End) {
-            engine.at = end.clone();
+            solver.at = end.clone();
         }
         if report.event.is_empty() {
             let event = if at_end { "target" } else { "step" };
             report.event = event.to_string();
         }
         self.taken += usize::from(full);
-        engine.accepted(from, report, arrival)
+        solver.accepted(from, report, arrival)
     }
 }

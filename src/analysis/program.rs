@@ -5,12 +5,12 @@
 
 use super::drive::{Arrival, Drive, IncrementReport, Monitor, Rules, Step, stopped};
 use super::elastic::ElasticDrive;
-use super::engine::Engine;
 use super::load_point::LoadPoint;
 use super::path::PathSampler;
 use super::plastic::PlasticDrive;
 use super::position::{Position, Stage};
 use super::restart::CheckpointWriter;
+use super::solver::Solver;
 use super::targets::Start;
 use super::zone_choice;
 use super::zone_fit::ZoneFit;
@@ -46,7 +46,7 @@ pub(super) fn complete(mut run: Run) -> Result<Results> {
 
 /// A structure on its way through the load program.
 pub(super) struct Run<'m, 'o> {
-    pub(super) engine: Engine<'m>,
+    pub(super) solver: Solver<'m>,
     pub(super) zone: ZoneFit,
     pub(super) position: Position,
     /// Where the way to the target at hand starts.
@@ -77,7 +77,7 @@ impl<'m, 'o> Run<'m, 'o> {
     /// A run at its start.
     ///
     /// # Errors
-    /// Those of [`Engine::new`].
+    /// Those of [`Solver::new`].
     pub(super) fn new(
         model: &'m Model,
         system: &'m System,
@@ -90,7 +90,7 @@ impl<'m, 'o> Run<'m, 'o> {
         let start = Instant::now();
         let within = zone_choice::first_guess(model).elements;
         let choice = zone_choice::place_of_first_yield(model);
-        let engine = Engine::new(
+        let solver = Solver::new(
             model,
             system,
             backend,
@@ -106,7 +106,7 @@ impl<'m, 'o> Run<'m, 'o> {
         for warning in &model.warnings {
             observer.warning(warning);
         }
-        let mut run = Run::of(engine, ZoneFit::new(choice), results, observer);
+        let mut run = Run::of(solver, ZoneFit::new(choice), results, observer);
         run.position.seconds.condensation = start.elapsed().as_secs_f64();
         run.begin_preload();
         Ok(run)
@@ -114,14 +114,14 @@ impl<'m, 'o> Run<'m, 'o> {
 
     /// A run that has done nothing yet.
     pub(super) fn of(
-        engine: Engine<'m>,
+        solver: Solver<'m>,
         zone: ZoneFit,
         results: Results,
         observer: &'o mut dyn Observer,
     ) -> Self {
         Run {
-            labels: engine.model.scene.program.labels(),
-            engine,
+            labels: solver.structure.model.scene.program.labels(),
+            solver,
             zone,
             position: Position::default(),
             start: None,
@@ -136,7 +136,7 @@ impl<'m, 'o> Run<'m, 'o> {
     }
 
     pub(super) fn model(&self) -> &'m Model {
-        self.engine.model
+        self.solver.structure.model
     }
 
     /// Goes through the program, event by event, with a checkpoint where one is due.
@@ -207,7 +207,7 @@ impl<'m, 'o> Run<'m, 'o> {
         while path.last().is_some_and(|point| point.increment > rows) {
             path.pop();
         }
-        path.extend(self.path.advance(&self.engine, &row));
+        path.extend(self.path.advance(&self.solver, &row));
         self.results.history.push(row);
         flow == Flow::Continue && !self.observer.stop_requested()
     }
@@ -215,7 +215,7 @@ impl<'m, 'o> Run<'m, 'o> {
     /// Takes the next step on the straight piece to a load factor; the row of the increment, if
     /// there was one.
     fn advance(&mut self, stop: f64) -> Result<Option<HistoryRow>> {
-        let end = self.engine.point(stop);
+        let end = self.solver.structure.point(stop);
         let plastic = self.increments_are_plastic();
         if plastic && self.position.drive.is_none() && self.follow_load()? {
             self.end_search();
@@ -256,19 +256,19 @@ impl<'m, 'o> Run<'m, 'o> {
     fn begin_drive(&mut self, end: &LoadPoint) -> Result<Step> {
         let begun = if self.increments_are_plastic() {
             let (taken, monitor) = (self.position.taken, self.monitor.as_deref());
-            PlasticDrive::begin(&mut self.engine, end, taken, monitor)?.map_continue(Drive::Plastic)
+            PlasticDrive::begin(&mut self.solver, end, taken, monitor)?.map_continue(Drive::Plastic)
         } else {
             let first_yield = &self.position.first_yield;
             let known = self.position.stage == Stage::Targets
-                && first_yield.excludes(self.engine.at.alpha, end.alpha);
+                && first_yield.excludes(self.solver.at.alpha, end.alpha);
             let watches_yield = !first_yield.is_behind && !known;
             let recovery = if watches_yield {
-                self.zone.recovery(&self.engine)
+                self.zone.recovery(&self.solver)
             } else {
                 None
             };
-            ElasticDrive::begin(&mut self.engine, end, recovery, self.monitor.as_deref())?
-                .map_continue(Drive::Elastic)
+            ElasticDrive::begin(&mut self.solver, end, recovery, self.monitor.as_deref())?
+                .map_continue(|drive| Drive::Elastic(Box::new(drive)))
         };
         match begun {
             ControlFlow::Break(step) => Ok(step),
@@ -281,7 +281,7 @@ impl<'m, 'o> Run<'m, 'o> {
 
     /// The next step of a drive.
     fn step(&mut self, mut drive: Drive, end: &LoadPoint) -> Result<Step> {
-        let scene = &self.engine.model.scene;
+        let scene = &self.solver.structure.model.scene;
         let observer = &*self.observer;
         let rules = Rules {
             settings: &scene.analysis,
@@ -295,11 +295,11 @@ impl<'m, 'o> Run<'m, 'o> {
             stop: &|| observer.stop_requested(),
         };
         let recovery = match drive.watches_yield() {
-            true => self.zone.recovery(&self.engine),
+            true => self.zone.recovery(&self.solver),
             false => None,
         };
         let monitor = self.monitor.as_deref();
-        let step = drive.step(&mut self.engine, end, recovery, monitor, rules)?;
+        let step = drive.step(&mut self.solver, end, recovery, monitor, rules)?;
         self.position.drive = Some(drive);
         Ok(step)
     }
@@ -318,7 +318,7 @@ impl<'m, 'o> Run<'m, 'o> {
             Arrival::Yield(peak) => {
                 self.record_yield(peak);
                 if self.position.stage == Stage::Targets {
-                    let alpha = self.engine.at.alpha;
+                    let alpha = self.solver.at.alpha;
                     self.position.first_yield.alpha.get_or_insert(alpha);
                 }
             }
@@ -337,17 +337,17 @@ impl<'m, 'o> Run<'m, 'o> {
 
     /// The row of an accepted increment.
     fn row(&self, report: &IncrementReport) -> HistoryRow {
-        let engine = &self.engine;
-        let figures = engine.contact_figures();
-        let (plastic_points, strain) = engine.zone.extent();
+        let solver = &self.solver;
+        let figures = solver.contact_figures();
+        let (plastic_points, strain) = solver.zone.extent();
         HistoryRow {
             increment: self.results.history.len() + 1,
-            alpha: engine.at.alpha,
-            load: engine.total_load_size(),
+            alpha: solver.at.alpha,
+            load: solver.total_load_size(),
             max_pressure: figures.max_pressure,
             half_width: figures.half_width,
-            contact_force: figures.force * engine.model.symmetry,
-            closed_pairs: engine.closed_pairs(),
+            contact_force: figures.force * solver.structure.model.symmetry,
+            closed_pairs: solver.closed_pairs(),
             plastic_points,
             max_equivalent_plastic_strain: strain,
             iterations: report.iterations,
@@ -359,10 +359,10 @@ impl<'m, 'o> Run<'m, 'o> {
 
     /// Applies constant loads and interference, before the load factor leaves zero.
     fn begin_preload(&mut self) {
-        let end = self.engine.point(0.0);
+        let end = self.solver.structure.point(0.0);
         let has_interference = self.model().pairs.iter().any(|p| p.interference != 0.0);
-        if self.engine.at.factors == end.factors && !has_interference {
-            self.engine.at = end;
+        if self.solver.at.factors == end.factors && !has_interference {
+            self.solver.at = end;
         } else {
             self.position.stops = vec![0.0];
         }
@@ -389,7 +389,7 @@ impl<'m, 'o> Run<'m, 'o> {
             let under_preload = self.find_yield(required)?;
             self.position.seconds.yield_load += start.elapsed().as_secs_f64();
             if under_preload {
-                self.engine.begin_anew();
+                self.solver.unload();
                 self.results.history.clear();
                 self.position.stage = Stage::Preload { again: true };
                 self.observer.phase("preload");

@@ -12,11 +12,11 @@
 //! O. C. Zienkiewicz, J. Z. Zhu, superconvergent patch recovery (1992), doi:10.1002/nme.1620330702;
 //! P. Lancaster, K. Salkauskas, moving least squares (1981), doi:10.1090/S0025-5718-1981-0616367-1.
 
-use super::engine::Engine;
 use super::fitted::FittedStrains;
 use super::gather::{GatheredElements, Nodal, Places};
 use super::mirror::{self, Reflection, mirrors};
 use super::patch::{Patch, Sample, reach};
+use super::solver::Solver;
 use super::summit::{SPACINGS, Summit};
 use crate::assembly::sampling_points_of;
 use crate::element::{AtPoints, MAX_NODES, shape_functions};
@@ -179,9 +179,9 @@ impl Recovery {
     }
 
     /// Elastic stresses at the sampling points in the current state.
-    pub fn sample_here(&mut self, engine: &mut Engine) -> Samples {
-        engine.refresh();
-        self.sample(&engine.now.u, &engine.at.factors)
+    pub fn sample_here(&mut self, solver: &mut Solver) -> Samples {
+        solver.refresh();
+        self.sample(&solver.now.u, &solver.at.factors)
     }
 
     /// Elastic stresses at the sampling points for displacements `u` and load factors.
@@ -441,7 +441,7 @@ mod tests {
         let (model, mut observer) = (analysis.model(), Silent);
         let system = analysis.system();
         let mut run = Run::new(model, system, Backend::Dense, &[], &mut observer).unwrap();
-        let recovery = run.zone.recovery(&run.engine).unwrap();
+        let recovery = run.zone.recovery(&run.solver).unwrap();
         let n = recovery.positions.len();
         let yield_stress = recovery.materials[0].0.yield_stress();
         let pulled = |shares: &dyn Fn(usize) -> f64| -> Samples {
@@ -474,7 +474,7 @@ mod tests {
             let (model, mut observer) = (analysis.model(), Silent);
             let system = analysis.system();
             let mut run = Run::new(model, system, Backend::Dense, &[], &mut observer).unwrap();
-            let recovery = run.zone.recovery(&run.engine).unwrap();
+            let recovery = run.zone.recovery(&run.solver).unwrap();
             let yield_stress = recovery.materials[0].0.yield_stress();
             let hill = |[x, y]: [f64; 2]| {
                 let (x, y) = ((x - 93.0) / 60.0, (y - 87.0) / 70.0);

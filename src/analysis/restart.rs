@@ -5,10 +5,10 @@
 //! again: the same operations on the same numbers. Writing one changes nothing in the run, so that
 //! results do not depend on whether and how often that is done.
 
-use super::engine::{Engine, EngineRecord};
 use super::path::PathSampler;
 use super::position::Position;
 use super::program::Run;
+use super::solver::{Solver, SolverRecord};
 use super::targets::Start;
 use super::zone_choice::Choice;
 use super::zone_fit::ZoneFit;
@@ -26,7 +26,7 @@ use std::time::Instant;
 #[derive(Serialize, Deserialize)]
 struct RunRecord {
     position: Position,
-    engine: EngineRecord,
+    solver: SolverRecord,
     parts: Parts,
     /// Rows and points of the path since the last state.
     history: Vec<HistoryRow>,
@@ -87,7 +87,7 @@ impl CheckpointWriter {
 
     fn write(
         &mut self,
-        engine: &Engine,
+        solver: &Solver,
         zone: &ZoneFit,
         position: &Position,
         start: Option<&Start>,
@@ -117,15 +117,15 @@ impl CheckpointWriter {
             (None, Some(_)) => parts.start = None,
             _ => {}
         }
-        let factorizations = engine.counts.factorizations;
+        let factorizations = solver.cost.counts.factorizations;
         let fingerprint = match self.fingerprint {
             Some((known, fingerprint)) if known == factorizations => fingerprint,
-            _ => engine.fingerprint(),
+            _ => solver.fingerprint(),
         };
         self.fingerprint = Some((factorizations, fingerprint));
         let record = RunRecord {
             position: position.clone(),
-            engine: engine.record(&zone.choice.guard, fingerprint),
+            solver: solver.record(&zone.choice.guard, fingerprint),
             parts: parts.clone(),
             history: results.history[parts.n_rows..].to_vec(),
             path: path_from(parts.n_rows, n_rows),
@@ -160,7 +160,7 @@ impl<'m, 'o> Run<'m, 'o> {
         }
         let start = self.start.as_ref();
         let reported = (&self.results, &self.path);
-        match writer.write(&self.engine, &self.zone, &self.position, start, reported) {
+        match writer.write(&self.solver, &self.zone, &self.position, start, reported) {
             Ok(()) => writer.failed = false,
             Err(error) if !writer.failed => {
                 writer.failed = true;
@@ -175,7 +175,7 @@ impl<'m, 'o> Run<'m, 'o> {
     /// The run that the last checkpoint is of.
     ///
     /// # Errors
-    /// Those of [`Store::read`] and [`Engine::recall`].
+    /// Those of [`Store::read`] and [`Solver::recall`].
     pub(super) fn resume(
         model: &'m Model,
         system: &'m System,
@@ -189,7 +189,7 @@ impl<'m, 'o> Run<'m, 'o> {
         observer.model(model.freedoms.n, model.pairs.len());
         observer.phase("factorisation");
         let begin = Instant::now();
-        let (engine, same) = Engine::recall(model, system, backend, &record.engine)?;
+        let (solver, same) = Solver::recall(model, system, backend, &record.solver)?;
         let mut results = Results {
             timings: timings.to_vec(),
             warnings: model.warnings.clone(),
@@ -218,9 +218,9 @@ impl<'m, 'o> Run<'m, 'o> {
         observer.phase(&format!(
             "going on after increment {}, load factor {:.6}",
             results.history.len(),
-            engine.at.alpha
+            solver.at.alpha
         ));
-        let (elements, guard) = record.engine.choice();
+        let (elements, guard) = record.solver.choice();
         let mut zone = ZoneFit::new(Choice { elements, guard });
         if let Some(part) = record.parts.spread {
             zone.spread = Some(store.part_of(part)?);
@@ -236,13 +236,13 @@ impl<'m, 'o> Run<'m, 'o> {
             && (position.target < n_targets || start.is_none())
             && start
                 .as_ref()
-                .is_none_or(|start| engine.knows(&start.state));
+                .is_none_or(|start| solver.knows(&start.state));
         if !fits {
             return Err(Error::input(
                 "the checkpoint does not belong to the program's targets: run the scene again from its beginning",
             ));
         }
-        let mut run = Run::of(engine, zone, results, observer);
+        let mut run = Run::of(solver, zone, results, observer);
         run.path = record.sampler;
         run.position = position;
         run.position.seconds.condensation += begin.elapsed().as_secs_f64();

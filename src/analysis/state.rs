@@ -1,10 +1,10 @@
 //! A committed state: what an increment starts from, what an attempt that fails goes back to, and
 //! what a checkpoint holds.
 
-use super::engine::Engine;
 use super::equilibrium::Equilibrium;
 use super::load_point::LoadPoint;
 use super::packed;
+use super::solver::Solver;
 use crate::material::PlasticState;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -49,7 +49,7 @@ impl State {
     }
 }
 
-impl Engine<'_> {
+impl Solver<'_> {
     /// The current state.
     pub(super) fn state(&self) -> State {
         State {
@@ -58,8 +58,8 @@ impl Engine<'_> {
             fresh: self.fresh,
             open: self.tableau.open().to_vec(),
             border: self.border.clone(),
-            zone: self.zone_number,
-            elements: Arc::clone(&self.elements),
+            zone: self.structure.zone_number,
+            elements: Arc::clone(&self.structure.elements),
             history: self.zone.history().to_vec(),
         }
     }
@@ -67,7 +67,7 @@ impl Engine<'_> {
     /// Goes back to a state of the run, of the zone at hand or of an earlier one.
     pub(super) fn restore(&mut self, state: &State) {
         self.at = state.at.clone();
-        if state.zone == self.zone_number {
+        if state.zone == self.structure.zone_number {
             self.zone.restore(&state.history);
             self.now.copy_from(&state.equilibrium);
             self.fresh = state.fresh;
@@ -75,8 +75,8 @@ impl Engine<'_> {
             self.zone.restore_of(&state.elements, &state.history);
             self.now.gap.copy_from_slice(&state.equilibrium.gap);
             self.now.force.copy_from_slice(&state.equilibrium.force);
-            let initial = self.zone.initial_load(self.sub.zeros());
-            self.now.initial = self.eliminate(initial);
+            let initial = self.zone.initial_load(self.structure.sub.zeros());
+            self.now.initial = self.structure.eliminate(initial, &mut self.cost);
             self.fresh = false;
         }
         self.restore_statuses(&state.open, &state.border);

@@ -2,10 +2,10 @@
 //! cut.
 
 use super::drive::{Rules, stopped};
-use super::engine::Engine;
 use super::equilibrium::Equilibrium;
 use super::increment::{EndsAt, Increment, NoIncrement};
 use super::load_point::LoadPoint;
+use super::solver::Solver;
 use crate::error::{Error, Result};
 use crate::scene::Stepping;
 use std::collections::HashSet;
@@ -18,7 +18,7 @@ const MOST_CORRECTIONS: usize = 60;
 /// Cuts of an increment in which a pair goes back over the border it began at.
 const MOST_CROSSINGS: usize = 2;
 
-impl Engine<'_> {
+impl Solver<'_> {
     /// An increment with statuses that are right at its begin (events) or at its end (steps).
     /// Increments that do not converge are cut, down to the share `smallest`; returns whether any
     /// was. A state that is known `ahead` predicts the first that is tried.
@@ -67,7 +67,7 @@ impl Engine<'_> {
                     let repeated = seen[..seen.len() - 1].contains(&seen[seen.len() - 1]);
                     for &k in pairs.iter().take(if repeated { 1 } else { pairs.len() }) {
                         if self.tableau.flip(k) {
-                            self.counts.contact_changes += 1;
+                            self.cost.counts.contact_changes += 1;
                         }
                         if !self.border.contains(&k) {
                             self.border.push(k);
@@ -100,9 +100,9 @@ impl Engine<'_> {
     fn refuse_free_motion(&self, increment: &Increment) -> Result<()> {
         let force = &increment.state.force;
         match (0..force.len())
-            .find(|&k| force[k] < -1e-6 * self.force_scale && self.tableau.would_free(k))
+            .find(|&k| force[k] < -1e-6 * self.scales.force && self.tableau.would_free(k))
         {
-            Some(k) => Err(self.unbounded(k, self.at.alpha)),
+            Some(k) => Err(self.structure.unbounded(k, self.at.alpha)),
             None => Ok(()),
         }
     }
@@ -130,7 +130,7 @@ impl Engine<'_> {
                 Err(error) => return Ok(Err(error)),
             };
             let (gap, force) = (&increment.state.gap, &increment.state.force);
-            let r_tol = 1e-9 * force.iter().fold(self.force_scale, |m, r| m.max(*r));
+            let r_tol = 1e-9 * force.iter().fold(self.scales.force, |m, r| m.max(*r));
             let g_tol = 1e-9 * gap.iter().fold(0.0f64, |m, g| m.max(*g));
             let wrong: Vec<usize> = (0..gap.len())
                 .filter(|&k| {
@@ -160,7 +160,7 @@ impl Engine<'_> {
             }
             for &k in wrong.iter().take(take) {
                 if self.tableau.flip(k) {
-                    self.counts.contact_changes += 1;
+                    self.cost.counts.contact_changes += 1;
                 }
             }
         }

@@ -9,8 +9,8 @@
 
 use super::drive::{Arrival, IncrementReport, MONITOR_ACCURACY, Monitor, Step, crosses};
 use super::elastic::{ElasticPath, describe};
-use super::engine::Engine;
 use super::load_point::LoadPoint;
+use super::solver::Solver;
 use crate::contact::{Change, PathEnd};
 use crate::error::Result;
 use crate::substructure::Trailing;
@@ -38,14 +38,14 @@ struct EliminatedPath {
 }
 
 impl EliminatedPath {
-    fn new(engine: &Engine, start: &LoadPoint, end: &LoadPoint) -> Self {
-        let mut forces = vec![0.0; engine.now.gap.len()];
-        let mut loads = engine.external(start);
-        let mut change = engine.external(end);
+    fn new(solver: &Solver, start: &LoadPoint, end: &LoadPoint) -> Self {
+        let mut forces = vec![0.0; solver.now.gap.len()];
+        let mut loads = solver.structure.external(start);
+        let mut change = solver.structure.external(end);
         change.add(-1.0, &loads);
-        loads.add(1.0, &engine.now.initial.load);
-        engine.sub.eliminate(&mut loads, &mut forces);
-        engine.sub.eliminate(&mut change, &mut forces);
+        loads.add(1.0, &solver.now.initial.load);
+        solver.structure.sub.eliminate(&mut loads, &mut forces);
+        solver.structure.sub.eliminate(&mut change, &mut forces);
         EliminatedPath {
             start: loads,
             change,
@@ -61,20 +61,20 @@ impl EliminatedPath {
 
 impl ElasticStretch {
     /// The start of a stretch on the way to `end`, if there can be one.
-    pub fn begin(engine: &mut Engine, end: &LoadPoint) -> Option<Self> {
-        if engine.now.force.iter().all(|r| *r == 0.0) {
+    pub fn begin(solver: &mut Solver, end: &LoadPoint) -> Option<Self> {
+        if solver.now.force.iter().all(|r| *r == 0.0) {
             return None;
         }
-        engine.refresh();
-        let border = engine.border.clone();
-        let open = engine.tableau.open().to_vec();
-        let Ok(path) = ElasticPath::new(engine, end) else {
-            engine.set_statuses(&open, border);
+        solver.refresh();
+        let border = solver.border.clone();
+        let open = solver.tableau.open().to_vec();
+        let Ok(path) = ElasticPath::new(solver, end) else {
+            solver.set_statuses(&open, border);
             return None;
         };
-        let loads = EliminatedPath::new(engine, path.start(), end);
-        engine.count_half();
-        engine.count_half();
+        let loads = EliminatedPath::new(solver, path.start(), end);
+        solver.cost.count_half();
+        solver.cost.count_half();
         Some(ElasticStretch {
             path,
             border,
@@ -87,45 +87,45 @@ impl ElasticStretch {
     /// the current state; without a stretch this is the last event of it.
     ///
     /// # Errors
-    /// Those of the monitor and of [`Engine::accepted`].
+    /// Those of the monitor and of [`Solver::accepted`].
     pub fn step(
         mut self,
-        engine: &mut Engine,
+        solver: &mut Solver,
         end: &LoadPoint,
         monitor: Option<&Monitor>,
         monitored: &mut Option<f64>,
     ) -> Result<(Option<Step>, Option<Self>)> {
-        let (from, solves) = (engine.at.clone(), engine.counts.trailing_solves);
-        let (gap, force) = (engine.now.gap.clone(), engine.now.force.clone());
+        let (from, solves) = (solver.at.clone(), solver.cost.counts.trailing_solves);
+        let (gap, force) = (solver.now.gap.clone(), solver.now.force.clone());
         let before = self.path.t();
-        let outcome = self.path.advance(engine, 1.0);
-        let Some(residual) = self.elastic_residual(engine, end) else {
-            engine.assume_elastic();
-            (engine.at, engine.now.gap, engine.now.force) = (from, gap, force);
-            engine.set_statuses(&self.open, self.border);
+        let outcome = self.path.advance(solver, 1.0);
+        let Some(residual) = self.elastic_residual(solver, end) else {
+            solver.assume_elastic();
+            (solver.at, solver.now.gap, solver.now.force) = (from, gap, force);
+            solver.set_statuses(&self.open, self.border);
             return Ok((None, None));
         };
         let mut report = IncrementReport {
             event: "target".to_string(),
             iterations: 1,
-            trailing_solves: engine.counts.trailing_solves - solves,
+            trailing_solves: solver.cost.counts.trailing_solves - solves,
             residual,
         };
         if let (Some(monitor), Some(was)) = (monitor, *monitored) {
-            let is = monitor(engine)?;
+            let is = monitor(solver)?;
             *monitored = Some(is);
             if crosses(was, is) {
                 let length = (self.path.t() - before).abs().max(f64::MIN_POSITIVE);
                 let accuracy = MONITOR_ACCURACY * length;
                 self.path
-                    .land(engine, before, [was, is], accuracy, monitor)?;
-                let step = engine.accepted(from.alpha, report, Some(Arrival::Monitor))?;
+                    .land(solver, before, [was, is], accuracy, monitor)?;
+                let step = solver.accepted(from.alpha, report, Some(Arrival::Monitor))?;
                 return Ok((Some(step), None));
             }
         }
         let PathEnd::Event(changes) = outcome else {
-            engine.at = end.clone();
-            let step = engine.accepted(from.alpha, report, Some(Arrival::End))?;
+            solver.at = end.clone();
+            let step = solver.accepted(from.alpha, report, Some(Arrival::End))?;
             return Ok((Some(step), None));
         };
         report.event = describe(&changes);
@@ -135,47 +135,47 @@ impl ElasticStretch {
                 Change::Closes(k) | Change::Opens(k) => k,
             })
             .collect();
-        self.open = engine.tableau.open().to_vec();
-        if self.path.turn(engine).is_err() {
+        self.open = solver.tableau.open().to_vec();
+        if self.path.turn(solver).is_err() {
             // No rates beyond this event: elastoplastic increments find out why.
-            engine.set_statuses(&self.open, self.border);
-            let step = engine.accepted(from.alpha, report, None)?;
+            solver.set_statuses(&self.open, self.border);
+            let step = solver.accepted(from.alpha, report, None)?;
             return Ok((Some(step), None));
         }
-        self.open = engine.tableau.open().to_vec();
-        let step = engine.accepted(from.alpha, report, None)?;
+        self.open = solver.tableau.open().to_vec();
+        let step = solver.accepted(from.alpha, report, None)?;
         Ok((Some(step), Some(self)))
     }
 
     /// Puts displacements to where the path is; what the stresses there leave out of balance, over
     /// the force scale, and `None` where a point yields.
-    fn elastic_residual(&mut self, engine: &mut Engine, end: &LoadPoint) -> Option<f64> {
+    fn elastic_residual(&mut self, solver: &mut Solver, end: &LoadPoint) -> Option<f64> {
         let start = self.path.start();
         let loads = self
             .loads
-            .get_or_insert_with(|| EliminatedPath::new(engine, start, end));
+            .get_or_insert_with(|| EliminatedPath::new(solver, start, end));
         let mut u = loads.at(self.path.t());
-        let delta = engine.delta(&engine.at);
-        let (slip, _) = engine.sub.split_slip(&delta, &engine.now.gap);
-        engine.sub.recover(&mut u, &slip);
-        engine.count_half();
-        engine.zone.set_factors(&engine.at.factors);
-        let mut balance = engine.sub.zeros();
-        let evaluation = engine.zone.evaluate(&u, &mut balance);
-        engine.counts.plastic_iterations += 1;
+        let delta = solver.structure.delta(&solver.at);
+        let (slip, _) = solver.structure.sub.split_slip(&delta, &solver.now.gap);
+        solver.structure.sub.recover(&mut u, &slip);
+        solver.cost.count_half();
+        solver.zone.set_factors(&solver.at.factors);
+        let mut balance = solver.structure.sub.zeros();
+        let evaluation = solver.zone.evaluate(&u, &mut balance);
+        solver.cost.counts.plastic_iterations += 1;
         if evaluation.flowing > 0 {
             return None;
         }
-        engine.now.u = u;
-        engine.fresh = true;
-        engine.last_step = start.step_to(end);
-        engine.update_scales();
-        balance.add(-1.0, &engine.now.initial.load);
-        Some(balance.largest() / engine.force_scale.max(f64::MIN_POSITIVE))
+        solver.now.u = u;
+        solver.fresh = true;
+        solver.predictor.last_step = start.step_to(end);
+        solver.update_scales();
+        balance.add(-1.0, &solver.now.initial.load);
+        Some(balance.largest() / solver.scales.force.max(f64::MIN_POSITIVE))
     }
 }
 
-impl Engine<'_> {
+impl Solver<'_> {
     fn set_statuses(&mut self, open: &[bool], border: Vec<usize>) {
         for (k, &open) in open.iter().enumerate() {
             if self.tableau.open()[k] != open {

@@ -2,9 +2,9 @@
 
 use super::check::gaps_are_alike;
 use super::drive::{Arrival, Monitor};
-use super::engine::Engine;
 use super::position::{FirstYield, Search, share_of_way};
 use super::program::{DOUBLINGS, Run, ZONE_ATTEMPTS};
+use super::solver::Solver;
 use super::state::State;
 use super::zone_choice;
 use crate::error::{Error, Result};
@@ -36,10 +36,10 @@ impl<'m> Run<'m, '_> {
             self.position.stops = self.stops(alpha);
         } else if target.half_width.is_some() {
             let monitor = self.monitor_of(target, &label, 1.0)?;
-            let off = monitor(&mut self.engine)?;
+            let off = monitor(&mut self.solver)?;
             self.search(monitor, off, off < 0.0, 1.0);
         } else if let Some(goal) = &target.displacement {
-            let off = self.monitor_of(target, &label, 1.0)?(&mut self.engine)?;
+            let off = self.monitor_of(target, &label, 1.0)?(&mut self.solver)?;
             let largest = goal.value.abs().max(off.abs());
             let scale = if largest > 0.0 { largest } else { 1.0 };
             let monitor = self.monitor_of(target, &label, scale)?;
@@ -55,7 +55,7 @@ impl<'m> Run<'m, '_> {
     /// Takes note of where the way to a target starts.
     pub(super) fn set_start(&mut self) {
         self.start = Some(Start {
-            state: self.engine.state(),
+            state: self.solver.state(),
             first_yield: self.position.first_yield,
             rows: self.results.history.len(),
         });
@@ -77,7 +77,7 @@ impl<'m> Run<'m, '_> {
     pub(super) fn finish_target(&mut self) -> Result<Option<results::State>> {
         let begun = Instant::now();
         let (target, label) = self.target();
-        let figures = self.engine.figures(&label, target.fields)?;
+        let figures = self.solver.figures(&label, target.fields)?;
         let seconds = &mut self.position.seconds;
         seconds.stresses += figures.stress_seconds;
         seconds.states += begun.elapsed().as_secs_f64() - figures.stress_seconds;
@@ -91,7 +91,7 @@ impl<'m> Run<'m, '_> {
         }
         let start = start.ok_or_else(|| Error::internal("the way to a target has no start"))?;
         self.position.attempt += 1;
-        self.engine.restore(&start.state);
+        self.solver.restore(&start.state);
         self.results.history.truncate(start.rows);
         // What was searched for first yield did not hold all that yields: the way is watched from
         // its start.
@@ -112,7 +112,7 @@ impl<'m> Run<'m, '_> {
     /// Ends of the straight pieces from the current load factor to `alpha`: the kinks of the loads'
     /// histories in between.
     pub(super) fn stops(&self, alpha: f64) -> Vec<f64> {
-        let from = self.engine.at.alpha;
+        let from = self.solver.at.alpha;
         let first_yield = &self.position.first_yield;
         let mut stops: Vec<f64> = self
             .model()
@@ -147,7 +147,7 @@ impl<'m> Run<'m, '_> {
             }
             (None, Some(&to)) => {
                 let power = self.changes_by_load();
-                share_of_way(self.engine.at.alpha, start.state.at.alpha, to, power)
+                share_of_way(self.solver.at.alpha, start.state.at.alpha, to, power)
             }
             (None, None) => 1.0,
         }
@@ -188,8 +188,8 @@ impl<'m> Run<'m, '_> {
                         "target `{label}`: the contact half width at yield is not known"
                     ))
                 })?;
-            return Ok(Box::new(move |engine: &mut Engine| {
-                Ok(engine.contact_figures().half_width / goal - 1.0)
+            return Ok(Box::new(move |solver: &mut Solver| {
+                Ok(solver.contact_figures().half_width / goal - 1.0)
             }));
         }
         let Some(goal) = &target.displacement else {
@@ -201,9 +201,9 @@ impl<'m> Run<'m, '_> {
             self.model().mesh.set_nodes(on).ok_or_else(|| {
                 Error::input(format!("target `{label}`: the mesh has no set `{on}`"))
             })?;
-        Ok(Box::new(move |engine: &mut Engine| {
-            let u = engine.all_displacements()?;
-            let (freedoms, factors) = (&engine.model.freedoms, &engine.at.factors);
+        Ok(Box::new(move |solver: &mut Solver| {
+            let u = solver.all_displacements()?;
+            let (freedoms, factors) = (&solver.structure.model.freedoms, &solver.at.factors);
             let along = |&n: &usize| freedoms.displacement(n, &u, factors)[direction];
             let mean = nodes.iter().map(along).sum::<f64>() / nodes.len() as f64;
             Ok((mean - value) / scale)
@@ -221,14 +221,17 @@ impl<'m> Run<'m, '_> {
 
     /// A monitored quantity at a load factor that is a little larger, nothing yielding on the way.
     fn a_little_ahead(&mut self, monitor: &Monitor) -> Result<f64> {
-        let before = self.engine.state();
+        let before = self.solver.state();
         let alpha = before.at.alpha;
-        let point = self.engine.point(alpha + 1e-3 * alpha.abs().max(1.0));
+        let point = self
+            .solver
+            .structure
+            .point(alpha + 1e-3 * alpha.abs().max(1.0));
         let initial = before.equilibrium.initial.clone();
-        self.engine.now = self.engine.respond(&point, initial);
-        self.engine.at = point;
-        let value = monitor(&mut self.engine);
-        self.engine.restore(&before);
+        self.solver.now = self.solver.respond(&point, initial);
+        self.solver.at = point;
+        let value = monitor(&mut self.solver);
+        self.solver.restore(&before);
         value
     }
 
@@ -237,7 +240,7 @@ impl<'m> Run<'m, '_> {
     pub(super) fn search(&mut self, monitor: Box<Monitor<'m>>, off: f64, upward: bool, scale: f64) {
         self.monitor = Some(monitor);
         self.position.search = Some(Search {
-            end: self.engine.at.alpha,
+            end: self.solver.at.alpha,
             rounds: 0,
             upward,
             scale,
@@ -275,14 +278,14 @@ impl<'m> Run<'m, '_> {
 
     fn never_reached(&mut self) -> Error {
         let off = match &self.monitor {
-            Some(monitor) => monitor(&mut self.engine),
+            Some(monitor) => monitor(&mut self.solver),
             None => Ok(f64::NAN),
         };
         match off {
             Ok(off) => Error::analysis(format!(
                 "target `{}` was never reached: the load factor went to {:.6} and the target quantity is still off by {off:.6e}",
                 self.target().1,
-                self.engine.at.alpha
+                self.solver.at.alpha
             )),
             Err(error) => error,
         }

@@ -2,8 +2,8 @@
 //! asks for first yield, loads that fall or turn, yielding far from the contact.
 
 use super::Analysis;
-use super::engine::Engine;
 use super::program::Run;
+use super::solver::Solver;
 use super::targets::Start;
 use crate::error::{Error, ErrorKind};
 use crate::linalg::Backend;
@@ -253,20 +253,20 @@ fn a_search_ends_with_the_error_of_what_it_looks_at() {
         run.execute().unwrap();
         let calls = Rc::new(Cell::new(0));
         let counted = Rc::clone(&calls);
-        let monitor = move |engine: &mut Engine| {
+        let monitor = move |solver: &mut Solver| {
             counted.set(counted.get() + 1);
             if counted.get() == fails_at {
                 let cause = std::io::Error::other("no memory");
                 return Err(Error::internal("a solve failed").because(cause));
             }
-            Ok(engine.at.alpha - 0.9)
+            Ok(solver.at.alpha - 0.9)
         };
         run.search(Box::new(monitor), 0.6, true, 1.0);
         while run.position.search.is_some() {
             run.next()?;
         }
         let yielded = run.position.first_yield.is_behind;
-        Ok::<_, Error>((run.engine.at.alpha, yielded, calls.get()))
+        Ok::<_, Error>((run.solver.at.alpha, yielded, calls.get()))
     };
     let (alpha, plastic, calls) = search(usize::MAX).unwrap();
     assert!((alpha - 0.9).abs() < 1e-9 && plastic, "{alpha}");
@@ -343,8 +343,8 @@ fn the_start_of_a_way_keeps_the_first_yield_that_was_known() {
     assert_eq!(start.first_yield.alpha, known.alpha);
     assert!(start.first_yield.is_behind);
     assert_eq!(start.rows, run.results.history.len());
-    assert!(run.engine.knows(&start.state));
-    assert_eq!(start.state.at, run.engine.at);
-    assert_eq!(start.state.history, run.engine.zone.history());
-    assert_eq!(start.state.open, run.engine.tableau.open());
+    assert!(run.solver.knows(&start.state));
+    assert_eq!(start.state.at, run.solver.at);
+    assert_eq!(start.state.history, run.solver.zone.history());
+    assert_eq!(start.state.open, run.solver.tableau.open());
 }

@@ -2,10 +2,10 @@
 //! must.
 
 use super::drive::crosses;
-use super::engine::Engine;
 use super::packed::Ascending;
 use super::program::Run;
 use super::recovery::Recovery;
+use super::solver::Solver;
 use super::zone_choice::{self, Choice, PREDICTED};
 use crate::error::Result;
 use crate::scene::History;
@@ -39,13 +39,15 @@ impl ZoneFit {
     }
 
     /// Recovered stress over the zone, if there is one.
-    pub(super) fn recovery(&mut self, engine: &Engine) -> Option<&mut Recovery> {
+    pub(super) fn recovery(&mut self, solver: &Solver) -> Option<&mut Recovery> {
         if self.choice.elements.is_empty() {
             return None;
         }
-        let (elements, places) = (&self.choice.elements, &engine.places);
+        let (elements, places) = (&self.choice.elements, &solver.structure.places);
         let recovery = &mut self.recovery;
-        Some(recovery.get_or_insert_with(|| Recovery::new(engine.model, elements, places)))
+        Some(
+            recovery.get_or_insert_with(|| Recovery::new(solver.structure.model, elements, places)),
+        )
     }
 }
 
@@ -95,24 +97,24 @@ impl Run<'_, '_> {
             // Nothing yields: the elastic path needs no zone at all.
             return Ok(());
         };
-        let before = self.engine.state();
+        let before = self.solver.state();
         let mut ratios = vec![0.0f64; self.model().mesh.n_elements()];
         let extremes = self.extreme_factors(at_yield);
         for &alpha in &extremes {
-            let point = self.engine.point(alpha);
-            if self.engine.solve_contact_at(&point).is_err() {
+            let point = self.solver.structure.point(alpha);
+            if self.solver.solve_contact_at(&point).is_err() {
                 continue;
             }
-            let u = self.engine.all_displacements()?;
+            let u = self.solver.all_displacements()?;
             for (r, new) in ratios.iter_mut().zip(zone_choice::stress_ratios(
                 self.model(),
                 &u,
-                &self.engine.at.factors,
+                &self.solver.at.factors,
             )) {
                 *r = r.max(new);
             }
         }
-        self.engine.restore_elastic(&before);
+        self.solver.restore_elastic(&before);
         self.set_zone(zone_choice::predict(self.model(), &ratios))?;
         let model = self.model();
         let proportional = |l: &crate::model::LoadCase| matches!(l.history, History::Proportional);
@@ -134,7 +136,7 @@ impl Run<'_, '_> {
     /// Lets the zone follow the load: while it is far below the program's largest, so is the zone.
     /// Whether the monitored quantity vanished by that.
     pub(super) fn follow_load(&mut self) -> Result<bool> {
-        let (reached, until) = (self.engine.at.alpha.abs(), self.position.zone_until);
+        let (reached, until) = (self.solver.at.alpha.abs(), self.position.zone_until);
         let Some(spread) = self.zone.spread.as_ref().filter(|_| reached >= until) else {
             return Ok(false);
         };
@@ -151,7 +153,7 @@ impl Run<'_, '_> {
         } else {
             until
         };
-        let model = self.engine.model;
+        let model = self.solver.structure.model;
         let ratios = spread.ratios(model.mesh.n_elements());
         let next = zone_choice::stage(model, &ratios, share, old);
         self.change_zone(next)
@@ -161,7 +163,7 @@ impl Run<'_, '_> {
     /// tolerance, which may be all that was missing: whether the monitored quantity vanished.
     pub(super) fn change_zone(&mut self, choice: Choice) -> Result<bool> {
         let measure = |run: &mut Self| match &run.monitor {
-            Some(monitor) => monitor(&mut run.engine).map(Some),
+            Some(monitor) => monitor(&mut run.solver).map(Some),
             None => Ok(None),
         };
         if choice == self.zone.choice {
@@ -197,7 +199,7 @@ impl Run<'_, '_> {
         }
         let start = Instant::now();
         self.zone.recovery = None;
-        self.engine
+        self.solver
             .set_zone(choice.elements.clone(), &choice.guard)?;
         self.zone.choice = choice;
         self.position.seconds.condensation += start.elapsed().as_secs_f64();
