@@ -2,7 +2,7 @@
 
 use super::indicator::indicator;
 use super::measure::pair_states;
-use super::solver::Solver;
+use super::reading::Reading;
 use super::stress_field::StressField;
 use super::stresses::Stresses;
 use crate::error::Result;
@@ -22,7 +22,7 @@ pub struct Figures {
     pub stress_seconds: f64,
 }
 
-impl Solver<'_> {
+impl Reading<'_, '_> {
     /// The current state with its quality; fields where asked for. Costs half a full solve.
     ///
     /// # Errors
@@ -32,31 +32,36 @@ impl Solver<'_> {
         let u = &displacements.total;
         let begun = Instant::now();
         let nodal = self
+            .solver
             .structure
             .model
-            .nodal(displacements.deformation(), &self.at.factors);
+            .nodal(displacements.deformation(), &self.solver.at.factors);
         let field = StressField::new(
-            self.structure.model,
-            &self.zone,
-            &self.structure.elements,
+            self.solver.structure.model,
+            &self.solver.zone,
+            &self.solver.structure.elements,
             nodal,
         );
         let stresses = Stresses::new(&field);
         let errors = with_fields.then(|| indicator(&field));
         let energy_error = errors.as_ref().map(|errors| errors.total);
         let fields = errors.map(|errors| {
-            let nodal = self.structure.model.nodal(u, &self.at.factors);
+            let nodal = self
+                .solver
+                .structure
+                .model
+                .nodal(u, &self.solver.at.factors);
             fields(&field, nodal, errors.by_element)
         });
         let stress_seconds = begun.elapsed().as_secs_f64();
-        let figures = self.contact_figures();
+        let figures = self.solver.contact_figures();
         let dent = self.dent();
         let arc = figures
             .patch
-            .and_then(|patch| contact_arc(self.structure.model, figures.contact, patch));
+            .and_then(|patch| contact_arc(self.solver.structure.model, figures.contact, patch));
         let load = self
             .reaction(&stresses.reactions)
-            .unwrap_or_else(|| self.total_load_size());
+            .unwrap_or_else(|| self.solver.total_load_size());
         let Stresses {
             internal,
             reactions,
@@ -68,9 +73,9 @@ impl Solver<'_> {
         let quality = self.quality(&displacements, internal, &reactions);
         let state = State {
             name: name.to_string(),
-            alpha: self.at.alpha,
+            alpha: self.solver.at.alpha,
             load,
-            contact_force: figures.force * self.structure.model.symmetry,
+            contact_force: figures.force * self.solver.structure.model.symmetry,
             max_pressure: figures.max_pressure,
             pole_pressure: figures.pole_pressure,
             half_width: figures.half_width,
@@ -82,14 +87,14 @@ impl Solver<'_> {
             plastic_points: plastic_points.iter().sum(),
             plastic_points_by_body: plastic_points,
             max_equivalent_plastic_strain: plastic_strain,
-            plastic_zone_size: plastic_volume * self.structure.model.symmetry,
+            plastic_zone_size: plastic_volume * self.solver.structure.model.symmetry,
             energy_error,
             approach: self.approach(u),
             pairs: pair_states(
-                self.structure.model,
-                &self.now.gap,
-                &self.contact_forces(),
-                self.tableau.open(),
+                self.solver.structure.model,
+                &self.solver.now.gap,
+                &self.solver.contact_forces(),
+                self.solver.tableau.open(),
                 |axis| self.distance_on_axis(axis, u),
             ),
             fields,
@@ -105,7 +110,7 @@ impl Solver<'_> {
     /// Where the loads that vary are prescribed displacements only and nothing touches: the force
     /// that holds the first of them, along its displacement, of the whole.
     fn reaction(&self, reactions: &[f64]) -> Option<f64> {
-        let model = self.structure.model;
+        let model = self.solver.structure.model;
         let mut varying = model
             .loads
             .iter()
@@ -125,7 +130,7 @@ impl Solver<'_> {
                 sum += force * prescribed.value.signum();
             }
         }
-        Some(sum * self.at.factors[leading].signum() * model.symmetry)
+        Some(sum * self.solver.at.factors[leading].signum() * model.symmetry)
     }
 }
 

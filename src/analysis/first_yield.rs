@@ -59,7 +59,7 @@ impl Run<'_, '_> {
                 if let Some((alpha, peak)) = found {
                     self.record_yield(peak);
                     if self.yield_only {
-                        self.at_yield = Some(self.solver.quality_here()?);
+                        self.at_yield = Some(self.solver.reading().quality_here()?);
                     }
                     let unit = if unit_is_yield { 1.0 } else { alpha };
                     self.position.first_yield.alpha = Some(unit);

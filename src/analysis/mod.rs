@@ -13,7 +13,7 @@
 //! | `state`, `restart`, `packed` | a committed state; checkpoints, and going on from them | |
 //! | `outgrown` | contact that reaches the end of its candidates | |
 //! | `path` | the path between increments | |
-//! | `measure`, `contact_edge`, `dent`, `figures`, `quality` | pressure, half width, dent, quality of a state | 5 |
+//! | `measure`, `contact_edge`, `reading`, `dent`, `figures`, `quality` | pressure, half width, dent, quality of a state | 5 |
 //! | `stress_field`, `stresses` | stresses of all elements, the forces they exert | |
 //! | `indicator` | discretisation error of the stresses, element by element | |
 //! | `check`, `reference` | effects and cost before a run; published values beside the computed ones | 5.1, 5.2 |
@@ -46,6 +46,7 @@ mod plastic;
 mod position;
 mod program;
 mod quality;
+mod reading;
 mod recovery;
 mod reference;
 mod response;

@@ -3,6 +3,7 @@
 use super::drive::{Arrival, IncrementReport, Monitor, Rules, SMALLEST_CUT, Step, crosses, is_hit};
 use super::load_point::LoadPoint;
 use super::solver::Solver;
+use super::stepping::Stepper;
 use super::stretch::ElasticStretch;
 use crate::error::Result;
 use crate::scene::Stepping;
@@ -150,7 +151,8 @@ impl PlasticDrive {
         // Only a search for the place of the target goes back behind an accepted increment.
         let before = monitor.map(|_| solver.state());
         let smallest = SMALLEST_CUT * self.whole / distance;
-        let (increment, cut) = solver.find_increment(end, trusted, smallest, None, rules)?;
+        let (increment, cut) =
+            Stepper::new(solver, rules).find_increment(end, trusted, smallest, None)?;
         self.trust = match (cut, trusted < left) {
             (true, _) => increment.t * distance,
             (false, true) => 2.0 * self.trust,
@@ -177,7 +179,8 @@ impl PlasticDrive {
             let is = monitor(solver)?;
             self.monitored = Some(is);
             if crosses(was, is) {
-                solver.land(end, &before, rules, monitor, [was, is], &mut report)?;
+                let mut stepper = Stepper::new(solver, rules);
+                stepper.land(end, &before, monitor, [was, is], &mut report)?;
                 report.event = "target".to_string();
                 arrival = Some(Arrival::Monitor);
             }

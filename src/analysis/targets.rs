@@ -77,7 +77,7 @@ impl<'m> Run<'m, '_> {
     pub(super) fn finish_target(&mut self) -> Result<Option<results::State>> {
         let begun = Instant::now();
         let (target, label) = self.target();
-        let figures = self.solver.figures(&label, target.fields)?;
+        let figures = self.solver.reading().figures(&label, target.fields)?;
         let seconds = &mut self.position.seconds;
         seconds.stresses += figures.stress_seconds;
         seconds.states += begun.elapsed().as_secs_f64() - figures.stress_seconds;

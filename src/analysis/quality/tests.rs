@@ -68,7 +68,12 @@ fn quality(
     let arrival = solver.drive_elastic(&end, None);
     assert_eq!(arrival.expect("drive"), Arrival::End);
     after(&mut solver);
-    solver.figures("end", false).expect("state").state.quality
+    solver
+        .reading()
+        .figures("end", false)
+        .expect("state")
+        .state
+        .quality
 }
 
 fn nothing(_: &mut Solver) {}
@@ -228,15 +233,19 @@ fn entry(system: &System, i: usize, j: usize) -> f64 {
 fn noise_in_a_displacement_shows_in_the_balance_of_forces() {
     let (model, system) = model();
     let mut solver = loaded(&model, &system);
-    let sound = solver.quality_here().expect("quality").equilibrium;
+    let sound = solver
+        .reading()
+        .quality_here()
+        .expect("quality")
+        .equilibrium;
     let of_contact = solver.structure.sub.partition.contact[0];
     for freedom in [of_contact, model.freedoms.n / 3, model.freedoms.n - 1] {
         let column = (0..model.freedoms.n).map(|i| entry(&system, i, freedom).abs());
         let stiffest = column.fold(0.0, f64::max);
         for share in [1e-6, 1e-3, 1.0] {
-            let mut u = solver.displacements().expect("displacements");
+            let mut u = solver.reading().displacements().expect("displacements");
             move_by(&mut u, freedom, share * solver.scales.force / stiffest);
-            let q = solver.quality_of(&u);
+            let q = solver.reading().quality_of(&u);
             shows(q.equilibrium, share, sound);
         }
     }
@@ -247,15 +256,15 @@ fn noise_in_a_displacement_shows_in_the_balance_of_forces() {
 fn noise_in_a_contact_force_shows_in_balance_and_backward_errors() {
     let (model, system) = model();
     let mut solver = loaded(&model, &system);
-    let sound = solver.quality_here().expect("quality");
+    let sound = solver.reading().quality_here().expect("quality");
     let n = model.pairs.len();
     for pair in [0, n - 1] {
         for share in [1e-6, 1e-3] {
             let noise = share * solver.scales.force;
             solver.now.force[pair] += noise;
-            let u = solver.displacements().expect("displacements");
+            let u = solver.reading().displacements().expect("displacements");
             let load = solver.total_load();
-            let q = solver.quality_of(&u);
+            let q = solver.reading().quality_of(&u);
             solver.now.force[pair] -= noise;
             shows(
                 q.equilibrium,
@@ -282,7 +291,7 @@ fn noise_in_a_contact_force_shows_in_balance_and_backward_errors() {
 fn tension_shows_as_adhesion() {
     let (model, system) = model();
     let mut solver = loaded(&model, &system);
-    let sound = solver.quality_here().expect("quality").adhesion;
+    let sound = solver.reading().quality_here().expect("quality").adhesion;
     let n = model.pairs.len();
     assert!(solver.tableau.open()[..2].iter().all(|open| *open));
     let contact = solver.structure.sub.partition.contact.clone();
@@ -290,7 +299,7 @@ fn tension_shows_as_adhesion() {
         let freedom = contact[place];
         for share in [1e-6, 1e-2] {
             let pull = share * solver.scales.force / entry(&system, freedom, freedom);
-            let mut u = solver.displacements().expect("displacements");
+            let mut u = solver.reading().displacements().expect("displacements");
             move_by(&mut u, freedom, towards * pull);
             let tension = (0..2 * n).map(|i| {
                 let side = if i < n { 1.0 } else { -1.0 };
@@ -299,7 +308,7 @@ fn tension_shows_as_adhesion() {
             });
             let expected = tension.fold(0.0, f64::max) / solver.scales.force;
             assert!(expected >= share * (1.0 - 1e-12));
-            shows(solver.quality_of(&u).adhesion, expected, sound);
+            shows(solver.reading().quality_of(&u).adhesion, expected, sound);
         }
     }
 }
@@ -309,7 +318,7 @@ fn tension_shows_as_adhesion() {
 fn a_wrong_gap_shows_in_complementarity_and_as_penetration() {
     let (model, system) = model();
     let mut solver = loaded(&model, &system);
-    let sound = solver.quality_here().expect("quality");
+    let sound = solver.reading().quality_here().expect("quality");
     let n = model.pairs.len();
     let pole = n - 1;
     let contact = solver.structure.sub.partition.contact.clone();
@@ -319,9 +328,9 @@ fn a_wrong_gap_shows_in_complementarity_and_as_penetration() {
         let apart = shift * solver.scales.displacement;
         // The first node moves up by it, or the second one down.
         for (place, by) in [(pole, apart), (n + pole, -apart)] {
-            let mut u = solver.displacements().expect("displacements");
+            let mut u = solver.reading().displacements().expect("displacements");
             u.total[contact[place]] += by;
-            let q = solver.quality_of(&u);
+            let q = solver.reading().quality_of(&u);
             let scale = solver.scales.displacement.max(widest);
             let product = apart.abs() / scale * share_of_force;
             shows(q.complementarity, product, sound.complementarity);
@@ -342,7 +351,7 @@ fn a_wrong_status_shows_with_its_tension_or_penetration() {
     let (model, system) = model();
     for closed in [true, false] {
         let mut solver = loaded(&model, &system);
-        let sound = solver.quality_here().expect("quality");
+        let sound = solver.reading().quality_here().expect("quality");
         let open = solver.tableau.open().to_vec();
         // The outermost pair is open, the pole is closed.
         let wrong = if closed { 0 } else { open.len() - 1 };
@@ -352,11 +361,11 @@ fn a_wrong_status_shows_with_its_tension_or_penetration() {
         solver.refresh();
         let worst = |values: &[f64]| values.iter().fold(0.0f64, |m, v| m.max(-v));
         let (tension, overlap) = (worst(&solver.now.force), worst(&solver.now.gap));
-        let u = solver.displacements().expect("displacements");
+        let u = solver.reading().displacements().expect("displacements");
         for value in solver.now.gap.iter_mut().chain(&mut solver.now.force) {
             *value = value.max(0.0);
         }
-        let q = solver.quality_of(&u);
+        let q = solver.reading().quality_of(&u);
         if closed {
             shows(q.adhesion, tension / solver.scales.force, sound.adhesion);
         } else {
@@ -374,18 +383,18 @@ fn the_bound_of_forces_follows_the_round_off_of_the_mesh() {
     let model = Model::new(&Scene::parse(&text, "test").expect("scene")).expect("model");
     let system = assemble(&model).expect("system");
     let mut solver = loaded(&model, &system);
-    let sound = solver.quality_here().expect("quality");
+    let sound = solver.reading().quality_here().expect("quality");
     let tolerances = tolerances(&model);
     assert!(sound.equilibrium > tolerances.equilibrium, "{sound:?}");
     assert_eq!(sound.misses(&tolerances), []);
     // Displacements are known to half a rounding error; a thousand times as much is a fault.
     for (size, accepted) in [(0.5, true), (500.0, false)] {
-        let mut u = solver.displacements().expect("displacements");
+        let mut u = solver.reading().displacements().expect("displacements");
         for (i, value) in u.deformation.iter_mut().flatten().enumerate() {
             let random = ((i * 7919) % 1013) as f64 / 506.0 - 1.0;
             *value += size * f64::EPSILON * random * *value;
         }
-        let q = solver.quality_of(&u);
+        let q = solver.reading().quality_of(&u);
         let bound = q.round_off.expect("stated");
         assert_eq!(q.equilibrium <= bound, accepted, "{q:?}");
         assert_eq!(q.misses(&tolerances).is_empty(), accepted, "{q:?}");
