@@ -82,15 +82,9 @@ impl Reading<'_, '_> {
         self.solver.structure.sub.recover(&mut u, &slip);
         self.solver.cost.count_half();
         let mut normal = u.contact.clone();
-        for (motion, far) in self
-            .solver
-            .structure
-            .model
-            .floating
-            .motions
-            .iter()
-            .zip(&self.solver.structure.loads.far)
-        {
+        let structure = &self.solver.structure;
+        let motions = structure.model.floating.motions.iter();
+        for (motion, far) in motions.zip(&structure.loads.far) {
             let amplitude = far.dot(&u);
             for (value, &freedom) in normal
                 .iter_mut()

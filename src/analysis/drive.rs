@@ -9,7 +9,7 @@ use super::recovery::{Peak, Recovery};
 use super::solver::Solver;
 use crate::contact::Change;
 use crate::error::{Error, ErrorKind, Result};
-use crate::scene::{Settings, Stepping};
+use crate::scene::{Program, Settings};
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
@@ -68,12 +68,8 @@ impl Step {
 pub struct Rules<'a> {
     /// Solver settings.
     pub settings: &'a Settings,
-    /// From event to event, or fixed.
-    pub stepping: Stepping,
-    /// Increments per piece where fixed.
-    pub steps: usize,
-    /// Tolerance of events.
-    pub gamma: f64,
+    /// The program: from event to event within a tolerance, or so many fixed increments per piece.
+    pub program: &'a Program,
     /// Absolute load factor up to which the zone was chosen.
     pub zone_until: f64,
     /// Asked between iterations: true stops the run at the last accepted increment.
@@ -166,17 +162,17 @@ impl Solver<'_> {
         mut recovery: Option<&mut Recovery>,
     ) -> Result<Arrival> {
         let begun = ElasticDrive::begin(self, end, recovery.as_deref_mut(), None)?;
-        let (mut drive, mut step) = match begun {
-            ControlFlow::Continue(drive) => (Some(drive), Step::default()),
-            ControlFlow::Break(step) => (None, step),
+        let mut drive = match begun {
+            ControlFlow::Continue(drive) => drive,
+            ControlFlow::Break(step) => {
+                let nowhere = || Error::internal("a drive that ended nowhere");
+                return step.arrival.ok_or_else(nowhere);
+            }
         };
         loop {
-            match (step.arrival, &mut drive) {
-                (Some(arrival), _) => return Ok(arrival),
-                (None, Some(drive)) => {
-                    step = drive.step(self, end, recovery.as_deref_mut(), None)?;
-                }
-                (None, None) => return Err(Error::internal("a drive that is nowhere")),
+            let step = drive.step(self, end, recovery.as_deref_mut(), None)?;
+            if let Some(arrival) = step.arrival {
+                return Ok(arrival);
             }
         }
     }

@@ -31,26 +31,12 @@ impl Reading<'_, '_> {
         let displacements = self.displacements()?;
         let u = &displacements.total;
         let begun = Instant::now();
-        let nodal = self
-            .solver
-            .structure
-            .model
-            .nodal(displacements.deformation(), &self.solver.at.factors);
-        let field = StressField::new(
-            self.solver.structure.model,
-            &self.solver.zone,
-            &self.solver.structure.elements,
-            nodal,
-        );
+        let field = self.stress_field(displacements.deformation());
         let stresses = Stresses::new(&field);
         let errors = with_fields.then(|| indicator(&field));
         let energy_error = errors.as_ref().map(|errors| errors.total);
         let fields = errors.map(|errors| {
-            let nodal = self
-                .solver
-                .structure
-                .model
-                .nodal(u, &self.solver.at.factors);
+            let nodal = field.model.nodal(u, &self.solver.at.factors);
             fields(&field, nodal, errors.by_element)
         });
         let stress_seconds = begun.elapsed().as_secs_f64();

@@ -59,11 +59,8 @@ impl Run<'_, '_> {
             || results.condition > DOUBTFUL
         {
             // A figure beside the results: a solve that fails leaves it out.
-            let estimate = self
-                .solver
-                .structure
-                .sub
-                .condition_estimate(model, self.solver.structure.system);
+            let structure = &self.solver.structure;
+            let estimate = structure.sub.condition_estimate(model, structure.system);
             results.condition_estimate = estimate.ok();
         }
         let qualities = judged.iter().map(|(_, q)| q);

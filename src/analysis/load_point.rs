@@ -27,26 +27,18 @@ impl LoadPoint {
     /// The point at share `t` of the way to `end`.
     pub fn towards(&self, end: &LoadPoint, t: f64) -> LoadPoint {
         let mix = |a: f64, b: f64| if t == 1.0 { b } else { a + t * (b - a) };
+        let factors = self.factors.iter().zip(&end.factors);
         LoadPoint {
             alpha: mix(self.alpha, end.alpha),
-            factors: self
-                .factors
-                .iter()
-                .zip(&end.factors)
-                .map(|(a, b)| mix(*a, *b))
-                .collect(),
+            factors: factors.map(|(a, b)| mix(*a, *b)).collect(),
             interference: mix(self.interference, end.interference),
         }
     }
 
     /// Change of all factors and of the interference on the way to `end`.
     pub fn step_to(&self, end: &LoadPoint) -> Vec<f64> {
-        let mut step: Vec<f64> = end
-            .factors
-            .iter()
-            .zip(&self.factors)
-            .map(|(b, a)| b - a)
-            .collect();
+        let factors = end.factors.iter().zip(&self.factors);
+        let mut step: Vec<f64> = factors.map(|(b, a)| b - a).collect();
         step.push(end.interference - self.interference);
         step
     }

@@ -145,7 +145,7 @@ impl Analysis {
     /// # Errors
     /// Failures before the first state: factorisation, yield load, a body that is not held.
     pub fn run(&mut self, observer: &mut dyn Observer) -> Result<Results> {
-        program::complete(self.begin(observer)?)
+        program::complete(program::Run::new(self, observer)?)
     }
 
     /// As [`Analysis::run`], and writes checkpoints on the way: should the process be killed,
@@ -162,7 +162,7 @@ impl Analysis {
         observer: &mut dyn Observer,
     ) -> Result<Results> {
         let store = self.store(checkpoints)?;
-        let run = self.begin(observer)?;
+        let run = program::Run::new(self, observer)?;
         program::complete(run.with_checkpoints(store, checkpoints.interval()))
     }
 
@@ -181,15 +181,8 @@ impl Analysis {
         observer: &mut dyn Observer,
     ) -> Result<Results> {
         let store = self.store(checkpoints)?;
-        let run = program::Run::resume(
-            &self.model,
-            &self.system,
-            self.backend,
-            &self.timings,
-            observer,
-            store,
-            checkpoints.interval(),
-        )?;
+        let every = checkpoints.interval();
+        let run = program::Run::resume(self, observer, store, every)?;
         program::complete(run)
     }
 
@@ -217,18 +210,8 @@ impl Analysis {
     /// # Errors
     /// As [`Analysis::run`].
     pub fn yield_load(&mut self, observer: &mut dyn Observer) -> Result<Results> {
-        let mut run = self.begin(observer)?;
+        let mut run = program::Run::new(self, observer)?;
         run.yield_only = true;
         program::complete(run)
-    }
-
-    fn begin<'o>(&self, observer: &'o mut dyn Observer) -> Result<program::Run<'_, 'o>> {
-        program::Run::new(
-            &self.model,
-            &self.system,
-            self.backend,
-            &self.timings,
-            observer,
-        )
     }
 }

@@ -41,12 +41,8 @@ impl Solver<'_> {
                 .fold(0.0f64, |m, r| m.max(*r));
             force[k] > VANISHING * largest.max(VANISHING * self.scales.force)
         };
-        let ends = self
-            .structure
-            .model
-            .contacts
-            .iter()
-            .flat_map(|c| &c.goes_on);
+        let contacts = self.structure.model.contacts.iter();
+        let ends = contacts.flat_map(|c| &c.goes_on);
         ends.copied().find(|&k| carries(k))
     }
 

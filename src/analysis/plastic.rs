@@ -92,7 +92,7 @@ impl PlasticDrive {
             return Ok(Step::arrived(Arrival::ZoneOutgrown));
         }
         let may_be_elastic = !matches!(self.ahead, Ahead::Unknown) || solver.zone.is_idle();
-        if may_be_elastic && rules.stepping == Stepping::Events {
+        if may_be_elastic && rules.program.stepping == Stepping::Events {
             if let Some(step) = self.follow(solver, end, monitor)? {
                 return Ok(step);
             }
@@ -136,9 +136,9 @@ impl PlasticDrive {
         monitor: Option<&Monitor>,
         rules: Rules,
     ) -> Result<Step> {
-        let left = match rules.stepping {
+        let left = match rules.program.stepping {
             Stepping::Events => 1.0,
-            Stepping::Steps => 1.0 / rules.steps.saturating_sub(self.taken).max(1) as f64,
+            Stepping::Steps => 1.0 / rules.program.steps.saturating_sub(self.taken).max(1) as f64,
         };
         let distance = solver.at.distance(end);
         let trusted = if self.trust < left * distance {

@@ -42,8 +42,8 @@ pub(super) enum Stage {
     },
     /// Target after target is reached.
     Targets,
-    /// Nothing is left.
-    Done,
+    /// First yield was found, and nothing else is asked for.
+    YieldOnly,
 }
 
 impl Default for Stage {

@@ -3,6 +3,7 @@
 //! It is a sequence of steps over a [`Position`] and the state of the structure; a step ends at the
 //! next accepted increment or at a target. A checkpoint is what stands between two steps.
 
+use super::Analysis;
 use super::drive::{Arrival, Drive, IncrementReport, Monitor, Rules, Step, stopped};
 use super::elastic::ElasticDrive;
 use super::load_point::LoadPoint;
@@ -14,9 +15,7 @@ use super::solver::Solver;
 use super::targets::Start;
 use super::zone_choice;
 use super::zone_fit::ZoneFit;
-use crate::assembly::System;
 use crate::error::{Error, Result};
-use crate::linalg::Backend;
 use crate::model::Model;
 use crate::progress::{Flow, Observer};
 use crate::results::{HistoryRow, Quality, Results, State};
@@ -78,28 +77,24 @@ impl<'m, 'o> Run<'m, 'o> {
     ///
     /// # Errors
     /// Those of [`Solver::new`].
-    pub(super) fn new(
-        model: &'m Model,
-        system: &'m System,
-        backend: Backend,
-        timings: &[(String, f64)],
-        observer: &'o mut dyn Observer,
-    ) -> Result<Self> {
+    pub(super) fn new(analysis: &'m Analysis, observer: &'o mut dyn Observer) -> Result<Self> {
+        let model = &analysis.model;
         observer.model(model.freedoms.n, model.pairs.len());
         observer.phase("factorisation");
         let start = Instant::now();
         let within = zone_choice::first_guess(model).elements;
         let choice = zone_choice::place_of_first_yield(model);
+        let (system, elements) = (&analysis.system, choice.elements.clone());
         let solver = Solver::new(
             model,
             system,
-            backend,
+            analysis.backend,
             &within,
-            choice.elements.clone(),
+            elements,
             &choice.guard,
         )?;
         let results = Results {
-            timings: timings.to_vec(),
+            timings: analysis.timings.clone(),
             warnings: model.warnings.clone(),
             ..Results::default()
         };
@@ -178,15 +173,13 @@ impl<'m, 'o> Run<'m, 'o> {
                 if let Some(state) = self.finish_target()? {
                     return Ok(Some(Event::Target(Box::new(state))));
                 }
-            } else if self.position.target == self.labels.len()
-                && self.position.stage == Stage::Targets
-            {
-                self.position.stage = Stage::Done;
             } else {
                 match self.position.stage {
                     Stage::Preload { again } => self.prepare(again)?,
-                    Stage::Targets => self.begin_target()?,
-                    Stage::Done => return Ok(None),
+                    Stage::Targets if self.position.target < self.labels.len() => {
+                        self.begin_target()?;
+                    }
+                    Stage::Targets | Stage::YieldOnly => return Ok(None),
                 }
             }
         }
@@ -285,9 +278,7 @@ impl<'m, 'o> Run<'m, 'o> {
         let observer = &*self.observer;
         let rules = Rules {
             settings: &scene.analysis,
-            stepping: scene.program.stepping,
-            steps: scene.program.steps,
-            gamma: scene.program.gamma,
+            program: &scene.program,
             zone_until: match self.zone.spread {
                 Some(_) => self.position.zone_until,
                 None => f64::INFINITY,
@@ -398,7 +389,7 @@ impl<'m, 'o> Run<'m, 'o> {
             }
         }
         if self.yield_only {
-            self.position.stage = Stage::Done;
+            self.position.stage = Stage::YieldOnly;
             return match self.position.first_yield.point {
                 Some(_) => Ok(()),
                 None => Err(Error::analysis(

@@ -12,7 +12,6 @@
 mod tests;
 
 use super::reading::Reading;
-use super::stress_field::StressField;
 use super::stresses::Stresses;
 use crate::linalg::largest;
 use crate::model::Model;
@@ -129,17 +128,7 @@ impl Reading<'_, '_> {
 
     /// Quality of the current state with its displacements.
     fn quality_of(&mut self, u: &Displacements) -> Quality {
-        let nodal = self
-            .solver
-            .structure
-            .model
-            .nodal(u.deformation(), &self.solver.at.factors);
-        let field = StressField::new(
-            self.solver.structure.model,
-            &self.solver.zone,
-            &self.solver.structure.elements,
-            nodal,
-        );
+        let field = self.stress_field(u.deformation());
         let stresses = Stresses::new(&field);
         self.quality(u, stresses.internal, &stresses.reactions)
     }
@@ -156,15 +145,10 @@ impl Reading<'_, '_> {
         let applied = external.iter().fold(0.0f64, |m, (_, f)| m.max(f.abs()));
         self.solver.update_scales();
         // Reactions measure the load where displacements are prescribed.
-        self.solver.scales.force = self
-            .solver
-            .scales
-            .force
-            .max(applied)
-            .max(largest(reactions));
-        self.solver.scales.displacement = self.solver.scales.displacement.max(largest(&u.total));
-        self.solver.scales.deformation =
-            self.solver.scales.deformation.max(largest(u.deformation()));
+        let scales = &mut self.solver.scales;
+        scales.force = scales.force.max(applied).max(largest(reactions));
+        scales.displacement = scales.displacement.max(largest(&u.total));
+        scales.deformation = scales.deformation.max(largest(u.deformation()));
         let mut out_of_balance = internal;
         for (freedom, force) in external {
             out_of_balance[freedom] -= force;
@@ -222,13 +206,8 @@ impl Reading<'_, '_> {
 
     /// The applied force of each freedom that one acts on.
     fn external_forces(&self) -> Vec<(usize, f64)> {
-        let loads = self
-            .solver
-            .structure
-            .model
-            .loads
-            .iter()
-            .zip(&self.solver.at.factors);
+        let loads = self.solver.structure.model.loads.iter();
+        let loads = loads.zip(&self.solver.at.factors);
         let mut forces: Vec<(usize, f64)> = loads
             .flat_map(|(load, &factor)| load.forces.iter().map(move |&(f, v)| (f, factor * v)))
             .collect();

@@ -1,6 +1,7 @@
 //! What is read off the current state beside contact pressures: approach, dent, quality.
 
 use super::solver::Solver;
+use super::stress_field::StressField;
 use crate::model::{AxisPoint, LoadCase, Magnitude};
 use std::collections::BTreeMap;
 
@@ -17,6 +18,13 @@ impl<'m> Solver<'m> {
 }
 
 impl Reading<'_, '_> {
+    /// Stresses that follow from displacements of the whole model.
+    pub(super) fn stress_field(&self, u: &[f64]) -> StressField<'_> {
+        let (solver, structure) = (&self.solver, &self.solver.structure);
+        let nodal = structure.model.nodal(u, &solver.at.factors);
+        StressField::new(structure.model, &solver.zone, &structure.elements, nodal)
+    }
+
     /// Distance of the two nodes of a point on the axis, for displacements of the whole model.
     pub fn distance_on_axis(&self, axis: &AxisPoint, u: &[f64]) -> f64 {
         let (freedoms, at) = (&self.solver.structure.model.freedoms, &self.solver.at);

@@ -439,8 +439,7 @@ mod tests {
         let scene = Scene::load("data/scenes/thick_cylinder.toml").unwrap();
         let analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::Dense).unwrap();
         let (model, mut observer) = (analysis.model(), Silent);
-        let system = analysis.system();
-        let mut run = Run::new(model, system, Backend::Dense, &[], &mut observer).unwrap();
+        let mut run = Run::new(&analysis, &mut observer).unwrap();
         let recovery = run.zone.recovery(&run.solver).unwrap();
         let n = recovery.positions.len();
         let yield_stress = recovery.materials[0].0.yield_stress();
@@ -472,8 +471,7 @@ mod tests {
             scene.program.gamma = gamma;
             let analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::Dense).unwrap();
             let (model, mut observer) = (analysis.model(), Silent);
-            let system = analysis.system();
-            let mut run = Run::new(model, system, Backend::Dense, &[], &mut observer).unwrap();
+            let mut run = Run::new(&analysis, &mut observer).unwrap();
             let recovery = run.zone.recovery(&run.solver).unwrap();
             let yield_stress = recovery.materials[0].0.yield_stress();
             let hill = |[x, y]: [f64; 2]| {

@@ -32,10 +32,8 @@ impl Solver<'_> {
         let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
         self.tableau.solve(&q, &mut gap, &mut force);
         // Displacements serve for strains: rigid motions, however large, are left out.
-        let (slip, _) = self
-            .structure
-            .sub
-            .split_slip(&self.structure.delta(point), &gap);
+        let delta = self.structure.delta(point);
+        let (slip, _) = self.structure.sub.split_slip(&delta, &gap);
         self.structure.sub.recover(&mut u, &slip);
         self.cost.count_half();
         Equilibrium {
@@ -78,12 +76,8 @@ impl Solver<'_> {
             self.now = self.respond(&point, initial);
             self.fresh = true;
             // Zero within round-off is zero; what is more than that stays to be seen.
-            let gap = self
-                .structure
-                .gaps
-                .initial
-                .iter()
-                .fold(0.0f64, |m, g| m.max(g.abs()));
+            let gaps = self.structure.gaps.initial.iter();
+            let gap = gaps.fold(0.0f64, |m, g| m.max(g.abs()));
             let force = (self.now.force.iter()).fold(self.scales.force, |m, r| m.max(*r));
             for (values, scale) in [(&mut self.now.gap, gap), (&mut self.now.force, force)] {
                 for value in values.iter_mut() {

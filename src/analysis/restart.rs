@@ -5,6 +5,7 @@
 //! again: the same operations on the same numbers. Writing one changes nothing in the run, so that
 //! results do not depend on whether and how often that is done.
 
+use super::Analysis;
 use super::path::PathSampler;
 use super::position::Position;
 use super::program::Run;
@@ -12,11 +13,8 @@ use super::solver::{Solver, SolverRecord};
 use super::targets::Start;
 use super::zone_choice::Choice;
 use super::zone_fit::ZoneFit;
-use crate::assembly::System;
 use crate::checkpoint::{PartId, Store};
 use crate::error::{Error, Result};
-use crate::linalg::Backend;
-use crate::model::Model;
 use crate::progress::Observer;
 use crate::results::{HistoryRow, PathPoint, Results, State};
 use serde::{Deserialize, Serialize};
@@ -177,21 +175,20 @@ impl<'m, 'o> Run<'m, 'o> {
     /// # Errors
     /// Those of [`Store::read`] and [`Solver::recall`].
     pub(super) fn resume(
-        model: &'m Model,
-        system: &'m System,
-        backend: Backend,
-        timings: &[(String, f64)],
+        analysis: &'m Analysis,
         observer: &'o mut dyn Observer,
         store: Store,
         every: usize,
     ) -> Result<Self> {
+        let model = &analysis.model;
         let record: RunRecord = store.read()?;
         observer.model(model.freedoms.n, model.pairs.len());
         observer.phase("factorisation");
         let begin = Instant::now();
+        let (system, backend) = (&analysis.system, analysis.backend);
         let (solver, same) = Solver::recall(model, system, backend, &record.solver)?;
         let mut results = Results {
-            timings: timings.to_vec(),
+            timings: analysis.timings.clone(),
             warnings: model.warnings.clone(),
             resumed: record.resumed + 1,
             ..Results::default()
@@ -233,7 +230,7 @@ impl<'m, 'o> Run<'m, 'o> {
         let n_targets = model.scene.program.targets.len();
         let fits = position.target <= n_targets
             && position.target == results.states.len()
-            && (position.target < n_targets || start.is_none())
+            && (position.target < n_targets || (start.is_none() && position.search.is_none()))
             && start
                 .as_ref()
                 .is_none_or(|start| solver.knows(&start.state));
@@ -248,7 +245,7 @@ impl<'m, 'o> Run<'m, 'o> {
         run.position.seconds.condensation += begin.elapsed().as_secs_f64();
         run.start = start;
         if let Some(search) = run.position.search {
-            run.monitor = Some(run.monitor_again(search.scale)?);
+            run.monitor = Some(run.monitor_of(search.scale)?);
         }
         run.checkpoints = Some(CheckpointWriter {
             parts: record.parts,

@@ -190,29 +190,20 @@ impl<'m> Solver<'m> {
         self.predictor.pace = None;
     }
 
-    /// Relative displacement `u_second - u_first` of each pair.
-    pub fn slip(&self) -> Vec<f64> {
-        let delta = self.structure.delta(&self.at);
-        delta
-            .iter()
-            .zip(&self.now.gap)
-            .map(|(d, g)| d - g)
-            .collect()
-    }
-
     /// Takes note of the forces and displacements at hand.
     pub fn update_scales(&mut self) {
-        let largest = |from: f64, values: &[f64]| values.iter().fold(from, |m, v| m.max(v.abs()));
         let (structure, scales) = (&self.structure, &self.scales);
-        let displacement = largest(scales.displacement, &self.slip());
         let delta = structure.delta(&self.at);
+        let slip = delta.iter().zip(&self.now.gap).map(|(d, g)| (d - g).abs());
+        let displacement = slip.fold(scales.displacement, f64::max);
         let (deforming, _) = structure.sub.split_slip(&delta, &self.now.gap);
         let moved = if self.fresh {
             self.now.u.largest()
         } else {
             0.0
         };
-        let deformation = largest(scales.deformation.max(moved), &deforming);
+        let deforming = deforming.iter().map(|s| s.abs());
+        let deformation = deforming.fold(scales.deformation.max(moved), f64::max);
         let applied = structure.external(&self.at).largest();
         let force = scales.force.max(applied);
         self.scales = Scales {

@@ -44,14 +44,14 @@ impl<'s, 'm> Stepper<'s, 'm> {
         let mut crossings = 0;
         let mut seen: Vec<Vec<bool>> = Vec::new();
         // A fixed increment at whose end no statuses are right is followed from change to change.
-        let mut stepping = self.rules.stepping;
+        let mut stepping = self.rules.program.stepping;
         loop {
             let outcome = match stepping {
                 Stepping::Events if corrections < MOST_CORRECTIONS => self.increment(
                     end,
                     most,
                     EndsAt::NextChange {
-                        gamma: self.rules.gamma,
+                        gamma: self.rules.program.gamma,
                     },
                     ahead.take(),
                 ),

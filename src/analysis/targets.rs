@@ -35,14 +35,14 @@ impl<'m> Run<'m, '_> {
         } else if let Some(alpha) = target.load_factor {
             self.position.stops = self.stops(alpha);
         } else if target.half_width.is_some() {
-            let monitor = self.monitor_of(target, &label, 1.0)?;
+            let monitor = self.monitor_of(1.0)?;
             let off = monitor(&mut self.solver)?;
             self.search(monitor, off, off < 0.0, 1.0);
         } else if let Some(goal) = &target.displacement {
-            let off = self.monitor_of(target, &label, 1.0)?(&mut self.solver)?;
+            let off = self.monitor_of(1.0)?(&mut self.solver)?;
             let largest = goal.value.abs().max(off.abs());
             let scale = if largest > 0.0 { largest } else { 1.0 };
-            let monitor = self.monitor_of(target, &label, scale)?;
+            let monitor = self.monitor_of(scale)?;
             let here = off / scale;
             let ahead = self.a_little_ahead(&monitor)?;
             self.search(monitor, here, (ahead - here) * here <= 0.0, scale);
@@ -172,12 +172,8 @@ impl<'m> Run<'m, '_> {
     ///
     /// # Errors
     /// A target that cannot be measured.
-    pub(super) fn monitor_of(
-        &self,
-        target: &Target,
-        label: &str,
-        scale: f64,
-    ) -> Result<Box<Monitor<'m>>> {
+    pub(super) fn monitor_of(&self, scale: f64) -> Result<Box<Monitor<'m>>> {
+        let (target, label) = self.target();
         if let Some(multiple) = target.half_width {
             let at_yield = self.position.first_yield.point;
             let at_yield = at_yield.map(|y| y.half_width).filter(|b| *b > 0.0);
@@ -210,23 +206,12 @@ impl<'m> Run<'m, '_> {
         }))
     }
 
-    /// What vanishes at the target that a run which goes on is on its way to.
-    ///
-    /// # Errors
-    /// Those of [`Run::monitor_of`].
-    pub(super) fn monitor_again(&self, scale: f64) -> Result<Box<Monitor<'m>>> {
-        let (target, label) = self.target();
-        self.monitor_of(target, &label, scale)
-    }
-
     /// A monitored quantity at a load factor that is a little larger, nothing yielding on the way.
     fn a_little_ahead(&mut self, monitor: &Monitor) -> Result<f64> {
         let before = self.solver.state();
         let alpha = before.at.alpha;
-        let point = self
-            .solver
-            .structure
-            .point(alpha + 1e-3 * alpha.abs().max(1.0));
+        let nearby = alpha + 1e-3 * alpha.abs().max(1.0);
+        let point = self.solver.structure.point(nearby);
         let initial = before.equilibrium.initial.clone();
         self.solver.now = self.solver.respond(&point, initial);
         self.solver.at = point;

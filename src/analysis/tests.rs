@@ -248,8 +248,7 @@ fn a_search_ends_with_the_error_of_what_it_looks_at() {
     let analysis = Analysis::new(model, Backend::Dense).unwrap();
     let search = |fails_at: usize| {
         let mut observer = Silent;
-        let (model, system) = (analysis.model(), analysis.system());
-        let mut run = Run::new(model, system, Backend::Dense, &[], &mut observer).unwrap();
+        let mut run = Run::new(&analysis, &mut observer).unwrap();
         run.execute().unwrap();
         let calls = Rc::new(Cell::new(0));
         let counted = Rc::clone(&calls);
@@ -330,9 +329,8 @@ fn the_start_of_a_way_keeps_the_first_yield_that_was_known() {
     );
     let model = Model::new(&Scene::load(path).unwrap()).unwrap();
     let analysis = Analysis::new(model, Backend::Dense).unwrap();
-    let (model, system) = (analysis.model(), analysis.system());
     let mut observer = Silent;
-    let mut run = Run::new(model, system, Backend::Dense, &[], &mut observer).unwrap();
+    let mut run = Run::new(&analysis, &mut observer).unwrap();
     run.execute().unwrap();
     let known = run.position.first_yield;
     assert!(known.point.is_some() && known.alpha.is_some() && known.is_behind);
