@@ -21,10 +21,11 @@
 //! M. A. Crisfield, *Non-linear Finite Element Analysis of Solids and Structures*, vol. 1 (1991),
 //! chapter 9; J. C. Simo, T. J. R. Hughes, *Computational Inelasticity* (1998).
 
-use super::drive::{SMALLEST_CUT, Stepper};
-use super::engine::{Engine, LoadPoint};
+use super::drive::SMALLEST_CUT;
 use super::equilibrium::Equilibrium;
+use super::load_point::LoadPoint;
 use super::quality::{LOOSEST, ROUND_OFF_OF_FORCES};
+use super::stepping::Stepper;
 use crate::error::{Error, ErrorKind};
 use crate::linalg::largest_terms;
 use crate::substructure::Trailing;
@@ -47,18 +48,18 @@ pub struct Attempt {
     pub round_off: f64,
 }
 
-impl Engine<'_> {
+impl Stepper<'_, '_> {
     /// What no iteration can be sure to get below: the round-off of the forces of the zone's
     /// elements that follow from displacements `u`.
     pub(super) fn round_off_of_balance(&self, u: &Trailing) -> f64 {
-        let partition = &self.sub.partition;
+        let partition = &self.solver.structure.sub.partition;
         let mut all = vec![0.0; partition.n];
         for (freedoms, values) in [(&partition.zone, &u.zone), (&partition.contact, &u.contact)] {
             for (&freedom, value) in freedoms.iter().zip(values) {
                 all[freedom] = *value;
             }
         }
-        ROUND_OFF_OF_FORCES * largest_terms(&self.system.stiffness, &all)
+        ROUND_OFF_OF_FORCES * largest_terms(&self.solver.structure.system.stiffness, &all)
     }
 
     /// Whether forces out of balance by the share `floor` leave little open: displacements are off
@@ -72,15 +73,10 @@ impl Engine<'_> {
     /// The error of an increment to `goal`, the smallest that is tried, that was not found:
     /// [`ErrorKind::Collapse`] where the stiffness is lost, else [`ErrorKind::Analysis`] with what
     /// was tried.
-    pub(super) fn not_found(
-        &mut self,
-        goal: &LoadPoint,
-        attempt: &Attempt,
-        stepper: Stepper,
-    ) -> Error {
+    pub(super) fn not_found(&mut self, goal: &LoadPoint, attempt: &Attempt) -> Error {
         let left = self.stiffness_left(&attempt.state);
         let residual = attempt.residual;
-        let (held, tried) = (self.at.alpha, goal.alpha);
+        let (held, tried) = (self.solver.at.alpha, goal.alpha);
         // Round-off disturbs the quotient by about its own share.
         if left <= LOST && attempt.round_off <= LOST {
             return Error::new(
@@ -93,7 +89,7 @@ impl Engine<'_> {
                 ),
             );
         }
-        let settings = stepper.settings;
+        let settings = self.rules.settings;
         if !left.is_finite() || !residual.is_finite() {
             return Error::analysis(no_number(held, tried, attempt.iterations));
         }
@@ -113,17 +109,17 @@ impl Engine<'_> {
     /// structure moves there from the last state that was held; not a number where the iteration
     /// left all numbers.
     fn stiffness_left(&mut self, state: &Equilibrium) -> f64 {
-        let mut load = self.sub.zeros();
+        let mut load = self.solver.structure.sub.zeros();
         self.out_of_balance_at(state, &mut load);
         let mut moved = state.u.clone();
-        moved.add(-1.0, &self.now.u);
-        self.zone.softening_times(&moved, &mut load);
+        moved.add(-1.0, &self.solver.now.u);
+        self.solver.zone.softening_times(&moved, &mut load);
         if load.largest() == 0.0 {
             return 1.0;
         }
         // What of the motion has stiffness left weighs less in the answer to the forces it loses.
-        let softest = self.direction(load.clone());
-        self.zone.softening_times(&softest.u, &mut load);
+        let softest = self.solver.direction(load.clone());
+        self.solver.zone.softening_times(&softest.u, &mut load);
         1.0 - load.dot(&softest.u) / softest.initial.load.dot(&softest.u)
     }
 }

@@ -1,8 +1,8 @@
 //! The dent: what plastic strains leave of the surfaces' shape once loads and contact forces are
 //! gone.
 
-use super::engine::Engine;
 use super::measure::on_axis;
+use super::reading::Reading;
 use crate::mesh::Mesh;
 use crate::model::ContactSurface;
 
@@ -21,20 +21,20 @@ pub(super) struct Dent {
 /// Displacement of the two surfaces at a place of a contact into their own bodies.
 type Sunk = [f64; 2];
 
-impl Engine<'_> {
+impl Reading<'_, '_> {
     /// The dent of the current plastic strains: displacements under their initial loads alone,
     /// every pair open, less the rigid motion of each body's far boundary. Half a trailing solve
     /// where there are any.
     pub(super) fn dent(&mut self) -> Dent {
         let mut dent = Dent {
             depth: 0.0,
-            by_body: vec![0.0; self.model.mesh.bodies.len()],
+            by_body: vec![0.0; self.solver.structure.model.mesh.bodies.len()],
             rim: 0.0,
         };
-        if self.now.initial.load.largest() == 0.0 || self.now.gap.is_empty() {
+        if self.solver.now.initial.load.largest() == 0.0 || self.solver.now.gap.is_empty() {
             return dent;
         }
-        let model = self.model;
+        let model = self.solver.structure.model;
         let sunk = self.sunk();
         let mut largest = None;
         let mut deepest_of = vec![None; dent.by_body.len()];
@@ -69,22 +69,27 @@ impl Engine<'_> {
 
     /// How far each pair's two nodes have sunk into their bodies without any load.
     fn sunk(&mut self) -> Vec<Sunk> {
-        let forces = &self.now.initial.forces;
+        let forces = &self.solver.now.initial.forces;
         let n = forces.len();
-        let mut unloaded = self.sub.tableau();
+        let mut unloaded = self.solver.structure.sub.tableau();
         unloaded.reset(&vec![true; n]);
         let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
         unloaded.solve(forces, &mut gap, &mut force);
         // Pairs that hold the rigid motion of a floating body stay closed: initial loads balance,
         // they carry nothing.
         let slip: Vec<f64> = gap.iter().map(|g| -g).collect();
-        let mut u = self.now.initial.eliminated.clone();
-        self.sub.recover(&mut u, &slip);
-        self.count_half();
+        let mut u = self.solver.now.initial.eliminated.clone();
+        self.solver.structure.sub.recover(&mut u, &slip);
+        self.solver.cost.count_half();
         let mut normal = u.contact.clone();
-        for (motion, far) in self.model.floating.motions.iter().zip(&self.far) {
+        let structure = &self.solver.structure;
+        let motions = structure.model.floating.motions.iter();
+        for (motion, far) in motions.zip(&structure.loads.far) {
             let amplitude = far.dot(&u);
-            for (value, &freedom) in normal.iter_mut().zip(&self.sub.partition.contact) {
+            for (value, &freedom) in normal
+                .iter_mut()
+                .zip(&self.solver.structure.sub.partition.contact)
+            {
                 *value -= amplitude * motion.at(freedom);
             }
         }

@@ -3,15 +3,22 @@
 //! All of it is linear for given contact statuses: states and changes of states are added up part
 //! by part.
 
+use super::packed;
 use crate::substructure::Trailing;
+use serde::{Deserialize, Serialize};
 
 /// A load on zone and contact freedoms, and what its elimination leaves: the first half of its
 /// solve, the same for all contact statuses.
-#[derive(Debug, Clone, PartialEq)]
+///
+/// Eliminated piece by piece it is not what eliminating it at once gives, to the last bit:
+/// checkpoints hold both.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EliminatedLoad {
     /// The load.
+    #[serde(with = "packed::trailing")]
     pub load: Trailing,
     /// What [`crate::substructure::Substructure::recover`] needs of it.
+    #[serde(with = "packed::trailing")]
     pub eliminated: Trailing,
     /// Force of each pair if all were tied without gap.
     pub forces: Vec<f64>,
@@ -26,6 +33,12 @@ impl EliminatedLoad {
             eliminated: zeros,
             forces: vec![0.0; n_pairs],
         }
+    }
+
+    /// Whether it is one of a structure with the same freedoms and pairs.
+    pub fn is_like(&self, other: &EliminatedLoad) -> bool {
+        let mut parts = self.parts().into_iter().zip(other.parts());
+        parts.all(|(own, other)| own.len() == other.len())
     }
 
     fn parts(&self) -> [&[f64]; 5] {
@@ -67,7 +80,7 @@ impl EliminatedLoad {
 
 /// Displacements, gaps and contact forces in equilibrium with a load point and initial loads, for
 /// the contact statuses in the tableau; or a change of such.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Equilibrium {
     /// Initial loads J of the plastic strains.
     pub initial: EliminatedLoad,

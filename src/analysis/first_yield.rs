@@ -1,11 +1,9 @@
 //! First yield of the program: where it lies, and that the zone did not miss it.
 
-use super::drive::{Arrival, IncrementReport, stopped};
-use super::engine::{Engine, LoadPoint};
-use super::equilibrium::{EliminatedLoad, Equilibrium};
-use super::place::Place;
+use super::drive::{Arrival, stopped};
 use super::program::{DOUBLINGS, Run, ZONE_ATTEMPTS};
 use super::recovery::Peak;
+use super::state::State;
 use super::zone_choice::{self, Choice};
 use crate::error::{Error, Result};
 use crate::results::YieldPoint;
@@ -22,43 +20,35 @@ pub(super) enum Search {
 }
 
 impl Run<'_, '_> {
-    /// Finds the yield load on the path of growing load factor and comes back to the start; with
-    /// `judge` takes note of the quality there.
-    pub(super) fn find_yield(&mut self, required: bool, judge: bool) -> Result<()> {
+    /// Finds the yield load on the path of growing load factor and comes back to the start. True
+    /// where the material yields under the preload already, which was gone through as if elastic.
+    pub(super) fn find_yield(&mut self, required: bool) -> Result<bool> {
         let unit_is_yield = self.model().scene.program.unit == Unit::Yield;
-        if self.standing.plastic {
+        if self.position.first_yield.is_behind {
             return if unit_is_yield {
                 Err(Error::analysis(
                     "`unit = \"yield\"`: the preload alone makes the material yield, so there is no yield load to count in; use `unit = \"load\"`",
                 ))
             } else {
-                Ok(())
+                Ok(false)
             };
         }
-        let origin = (
-            self.engine.at.clone(),
-            self.engine.now.clone(),
-            self.engine.tableau.open().to_vec(),
-        );
+        let origin = self.solver.state();
         for _ in 0..ZONE_ATTEMPTS {
             let found = match self.model().scene.analysis.yield_load {
                 YieldMethod::Exact => self.exact_yield(required)?,
                 YieldMethod::Secant if required => {
-                    self.recovery();
-                    let recovery = self.recovery.as_mut();
+                    let recovery = self.zone.recovery(&self.solver);
                     let recovery = recovery.ok_or_else(|| Error::internal("no recovery"))?;
-                    let (alpha, peak) = self.engine.secant_yield_load(recovery)?;
+                    let (alpha, peak) = self.solver.secant_yield_load(recovery)?;
                     Search::Found(alpha, peak)
                 }
                 YieldMethod::Secant => Search::Nothing,
             };
             if let Search::Found(alpha, _) = found
-                && alpha == origin.0.alpha
+                && alpha == origin.at.alpha
             {
-                // The preload alone: the place was not looked at, so that it was gone through as if
-                // elastic.
-                self.preload_anew()?;
-                return self.find_yield(required, judge);
+                return Ok(true);
             }
             let (found, missed) = match found {
                 Search::Found(alpha, peak) => (Some((alpha, peak)), self.missed_outside()?),
@@ -67,29 +57,24 @@ impl Run<'_, '_> {
             };
             if missed.is_none() {
                 if let Some((alpha, peak)) = found {
-                    self.record_yield(peak)?;
-                    if judge {
-                        self.at_yield = Some(self.engine.quality_here()?);
+                    self.record_yield(peak);
+                    if self.yield_only {
+                        self.at_yield = Some(self.solver.reading().quality_here()?);
                     }
-                    self.standing.yield_alpha = Some(if unit_is_yield { 1.0 } else { alpha });
+                    let unit = if unit_is_yield { 1.0 } else { alpha };
+                    self.position.first_yield.alpha = Some(unit);
                     if unit_is_yield {
-                        self.engine.unit = alpha;
+                        self.solver.structure.unit = alpha;
                     }
                 }
-                self.standing.elastic_range[1] =
-                    match (self.standing.yield_alpha, self.largest_factor()) {
-                        (Some(alpha), _) => alpha,
-                        (None, Some(largest))
-                            if self.model().scene.analysis.yield_load == YieldMethod::Exact =>
-                        {
-                            largest
-                        }
-                        _ => 0.0,
-                    };
+                let exact = self.model().scene.analysis.yield_load == YieldMethod::Exact;
+                let searched = self.largest_factor().filter(|_| exact);
+                let first_yield = &mut self.position.first_yield;
+                first_yield.elastic_range[1] = first_yield.alpha.or(searched).unwrap_or(0.0);
             }
             self.come_back(&origin);
             match missed {
-                None => return Ok(()),
+                None => return Ok(false),
                 Some(choice) => self.set_zone(choice)?,
             }
         }
@@ -98,36 +83,16 @@ impl Run<'_, '_> {
         ))
     }
 
-    /// Applies the preload from the begin, with the zone at hand.
-    fn preload_anew(&mut self) -> Result<()> {
-        self.engine.begin_anew();
-        self.results.history.clear();
-        self.place.preload = true;
-        self.preload()?;
-        self.place = Place::default();
-        if self.standing.plastic {
-            return Ok(());
-        }
-        Err(Error::internal(
-            "the material yields under the preload, and does not when that is applied anew",
-        ))
-    }
-
     /// Puts an elastic state back, also after the zone was chosen anew.
-    pub(super) fn come_back(&mut self, (at, now, open): &(LoadPoint, Equilibrium, Vec<bool>)) {
-        let engine = &mut self.engine;
-        engine.tableau.reset(open);
-        engine.at = at.clone();
-        engine.now.gap.clone_from(&now.gap);
-        engine.now.force.clone_from(&now.force);
-        engine.now.initial = EliminatedLoad::none(&engine.now.u, engine.now.gap.len());
-        engine.border.clear();
+    fn come_back(&mut self, origin: &State) {
+        let solver = &mut self.solver;
+        solver.restore_elastic(origin);
         // Where nothing acts yet the displacements are zero; a body held by contact alone must not
         // be moved to it.
-        engine.fresh = now.u.largest() == 0.0;
-        engine.now.u.fill(0.0);
-        engine.refresh();
-        self.standing.plastic = false;
+        solver.fresh = origin.equilibrium.u.largest() == 0.0;
+        solver.now.u.fill(0.0);
+        solver.refresh();
+        self.position.first_yield.is_behind = false;
     }
 
     /// First yield along the path of growing load factor, up to the largest the program asks for
@@ -143,19 +108,12 @@ impl Run<'_, '_> {
             Some(largest) => largest,
             None => self.first_load_estimate()?,
         };
-        self.recovery();
         for _ in 0..DOUBLINGS {
             for stop in self.stops(end) {
-                let point = self.engine.point(stop);
-                let mut quiet = |_: &mut Engine, _: &IncrementReport| Ok(true);
-                if let Arrival::Yield(peak) = self.engine.drive_elastic(
-                    &point,
-                    self.recovery.as_mut(),
-                    None,
-                    None,
-                    &mut quiet,
-                )? {
-                    return Ok(Search::Found(self.engine.at.alpha, peak));
+                let point = self.solver.structure.point(stop);
+                let recovery = self.zone.recovery(&self.solver);
+                if let Arrival::Yield(peak) = self.solver.drive_elastic(&point, recovery)? {
+                    return Ok(Search::Found(self.solver.at.alpha, peak));
                 }
                 if let Some(choice) = self.missed_outside()? {
                     return Ok(Search::Outside(choice));
@@ -176,19 +134,15 @@ impl Run<'_, '_> {
 
     /// A load factor of the size of the yield load: one contact solve at factor 1.
     pub(super) fn first_load_estimate(&mut self) -> Result<f64> {
-        let saved = (
-            self.engine.at.clone(),
-            self.engine.now.clone(),
-            self.engine.tableau.open().to_vec(),
-        );
-        let point = self.engine.point(1.0);
-        self.recovery();
-        let estimate = match (self.engine.solve_contact_at(&point), self.recovery.as_mut()) {
-            (Ok(()), Some(recovery)) => self.engine.peak(recovery).map(|p| p.ratio),
+        let before = self.solver.state();
+        let point = self.solver.structure.point(1.0);
+        let solved = self.solver.solve_contact_at(&point);
+        let recovery = self.zone.recovery(&self.solver);
+        let estimate = match (solved, recovery) {
+            (Ok(()), Some(recovery)) => self.solver.peak(recovery).map(|p| p.ratio),
             _ => None,
         };
-        self.engine.tableau.reset(&saved.2);
-        (self.engine.at, self.engine.now, self.engine.fresh) = (saved.0, saved.1, true);
+        self.solver.restore_elastic(&before);
         // Stress grows at least like the cube root of the load (point contact): aim beyond,
         // doubling goes on from there.
         Ok(estimate
@@ -196,38 +150,35 @@ impl Run<'_, '_> {
             .map_or(1.0, |r| 1.2 / r.min(r * r)))
     }
 
-    pub(super) fn record_yield(&mut self, peak: Peak) -> Result<()> {
-        self.standing.plastic = true;
-        if self.results.first_yield.is_some() {
-            return Ok(());
-        }
-        let figures = self.engine.contact_figures();
-        self.results.first_yield = Some(YieldPoint {
-            alpha: self.engine.at.alpha,
-            load: self.engine.total_load_size(),
+    /// The material yields here.
+    pub(super) fn record_yield(&mut self, peak: Peak) {
+        let figures = self.solver.contact_figures();
+        self.position.first_yield.is_behind = true;
+        self.position.first_yield.point.get_or_insert(YieldPoint {
+            alpha: self.solver.at.alpha,
+            load: self.solver.total_load_size(),
             max_pressure: figures.max_pressure,
             half_width: figures.half_width,
             half_width_reading: figures.half_width_reading,
             location: peak.location,
             body: peak.body,
         });
-        Ok(())
     }
 
     /// Up to first yield nothing outside the zone may be beyond yield: else the zone missed the
     /// place, and a better one is returned.
     fn missed_outside(&mut self) -> Result<Option<Choice>> {
-        if self.choice.holds_all(self.model()) {
+        if self.zone.choice.holds_all(self.model()) {
             return Ok(None);
         }
-        let u = self.engine.all_displacements()?;
-        let ratios = zone_choice::stress_ratios(self.model(), &u, &self.engine.at.factors);
+        let u = self.solver.all_displacements()?;
+        let ratios = zone_choice::stress_ratios(self.model(), &u, &self.solver.at.factors);
         let outside = (0..ratios.len())
-            .filter(|e| self.choice.elements.binary_search(e).is_err())
+            .filter(|e| self.zone.choice.elements.binary_search(e).is_err())
             .map(|e| ratios[e])
             .fold(0.0, f64::max);
         let missed = (outside > 1.0).then(|| zone_choice::predict(self.model(), &ratios));
-        self.ratios_before_yield = ratios;
+        self.zone.ratios_before_yield = ratios;
         Ok(missed)
     }
 }

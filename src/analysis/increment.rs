@@ -7,11 +7,12 @@
 
 use super::acceleration::Anderson;
 use super::collapse::Attempt;
-use super::engine::{Engine, LoadPoint};
 use super::equilibrium::Equilibrium;
+use super::load_point::LoadPoint;
 use super::step_length::{LengthSearch, StepLimit, step_limit};
+use super::stepping::Stepper;
 use super::zone::Evaluation;
-use crate::scene::{PlasticIteration, Settings};
+use crate::scene::PlasticIteration;
 use crate::substructure::Trailing;
 
 /// How an increment may end.
@@ -89,29 +90,30 @@ const AT_ONCE: f64 = 1e-12;
 /// stays below 1e-12, a hundredth of the tightest tolerance.
 pub(super) const STRETCH: f64 = 1e4;
 
-impl Engine<'_> {
-    /// Goes from the current state towards `end`, at most to share `most` of the way.
+impl Stepper<'_, '_> {
+    /// Goes from the current state towards `end`, at most to share `most` of the way. A state that
+    /// is known `ahead` predicts it.
     pub fn increment(
         &mut self,
         end: &LoadPoint,
         most: f64,
         ends_at: EndsAt,
-        settings: &Settings,
-        stop: &dyn Fn() -> bool,
+        ahead: Option<(LoadPoint, Equilibrium)>,
     ) -> Result<Increment, NoIncrement> {
-        let start = self.at.clone();
-        let before = self.now.clone();
-        let rates = match self.ahead.take() {
+        let settings = self.rules.settings;
+        let start = self.solver.at.clone();
+        let before = self.solver.now.clone();
+        let rates = match ahead {
             Some(ahead) => self.secant(end, ahead),
             None => self.rates(end, settings.plastic_iteration == PlasticIteration::Newton),
         };
         let follows = matches!(ends_at, EndsAt::NextChange { .. });
-        let values = |engine: &Self, state: &Equilibrium| engine.values(&state.gap, &state.force);
+        let values = |stepper: &Self, state: &Equilibrium| stepper.values(&state.gap, &state.force);
         let base = values(self, &before);
         // A pair whose opening would set a body free cannot open: its force may come down to the
         // round-off of zero.
-        let mut exempt = self.border.clone();
-        exempt.extend((0..base.len()).filter(|&k| self.tableau.would_free(k)));
+        let mut exempt = self.solver.border.clone();
+        exempt.extend((0..base.len()).filter(|&k| self.solver.tableau.would_free(k)));
 
         let mut t = most;
         if follows {
@@ -138,10 +140,10 @@ impl Engine<'_> {
         state.add(t, &rates);
 
         let mut anderson = Anderson::default();
-        let mut balance = self.sub.zeros();
+        let mut balance = self.solver.structure.sub.zeros();
         // A line search ends with the evaluation that the next iteration begins with.
         let mut known = None;
-        let mut trial = (state.clone(), self.sub.zeros());
+        let mut trial = (state.clone(), self.solver.structure.sub.zeros());
         let mut iterations = 0;
         let mut best = (f64::INFINITY, 0);
         let mut damping = 0.0;
@@ -157,12 +159,15 @@ impl Engine<'_> {
             let evaluation = match known.take() {
                 Some(evaluation) => evaluation,
                 None => {
-                    self.zone.set_factors(&start.towards(end, t).factors);
+                    self.solver.zone.set_factors(&start.towards(end, t).factors);
                     self.out_of_balance_at(&state, &mut balance)
                 }
             };
             iterations += 1;
-            let scale = state.force.iter().fold(self.force_scale, |m, r| m.max(*r));
+            let scale = state
+                .force
+                .iter()
+                .fold(self.solver.scales.force, |m, r| m.max(*r));
             let residual = if scale > 0.0 {
                 balance.largest() / scale
             } else {
@@ -199,8 +204,9 @@ impl Engine<'_> {
             }
             if balanced && arrived && stretched > STRETCH {
                 stretched = 1.0;
-                let initial = self.eliminate(state.initial.load);
-                state = self.respond(&start.towards(end, t), initial);
+                let (structure, cost) = (&self.solver.structure, &mut self.solver.cost);
+                let initial = structure.eliminate(state.initial.load, cost);
+                state = self.solver.respond(&start.towards(end, t), initial);
                 continue;
             }
             if balanced && arrived {
@@ -215,9 +221,9 @@ impl Engine<'_> {
                 } else {
                     Vec::new()
                 };
-                self.round_off_floor = self.round_off_floor.max(floor);
+                self.solver.scales.round_off = self.solver.scales.round_off.max(floor);
                 let at_end = start.towards(end, t);
-                state = self.respond(&at_end, state.initial);
+                state = self.solver.respond(&at_end, state.initial);
                 return Ok(Increment {
                     t,
                     state,
@@ -230,7 +236,7 @@ impl Engine<'_> {
             if !stalled {
                 best = (residual, iterations);
             }
-            if stop() {
+            if (self.rules.stop)() {
                 return Err(NoIncrement::Stopped);
             }
             let stuck = newton && iterations >= best.1 + PATIENCE;
@@ -245,7 +251,7 @@ impl Engine<'_> {
             if !balanced {
                 let (direction, length) = match settings.plastic_iteration {
                     PlasticIteration::Newton => {
-                        let newton = self.solve_tangent(&balance, FORCING, 1.0 - damping);
+                        let newton = self.solver.solve_tangent(&balance, FORCING, 1.0 - damping);
                         match self.line_search(&state, &newton, &balance, &mut trial) {
                             Some((length, evaluation)) => {
                                 damping = next_damping(damping, length);
@@ -257,15 +263,15 @@ impl Engine<'_> {
                             // always lowers the energy.
                             None => {
                                 damping = next_damping(damping, 0.0);
-                                (self.direction(balance.clone()), 1.0)
+                                (self.solver.direction(balance.clone()), 1.0)
                             }
                         }
                     }
                     PlasticIteration::Anderson => {
                         let change = anderson.change(&state.initial.load, &balance);
-                        (self.direction(change), 1.0)
+                        (self.solver.direction(change), 1.0)
                     }
-                    PlasticIteration::Plain => (self.direction(balance.clone()), 1.0),
+                    PlasticIteration::Plain => (self.solver.direction(balance.clone()), 1.0),
                 };
                 state.add(length, &direction);
             }
@@ -310,20 +316,20 @@ impl Engine<'_> {
     /// Rates of everything with the share of the piece: elastic, plus plastic where points flow.
     /// The plastic part goes on as in the last increment; after none it is that of the tangent.
     fn rates(&mut self, end: &LoadPoint, tangent: bool) -> Equilibrium {
-        let flows = tangent && !self.zone.is_idle();
-        let pace = self.pace.as_ref().filter(|_| flows);
+        let flows = tangent && !self.solver.zone.is_idle();
+        let pace = self.solver.predictor.pace.as_ref().filter(|_| flows);
         let needs_tangent = flows && pace.is_none();
-        let mut initial = self.now.initial.clone();
+        let mut initial = self.solver.now.initial.clone();
         if let Some(pace) = pace {
-            initial.add(self.at.distance(end), pace);
+            initial.add(self.solver.at.distance(end), pace);
         }
         // `now` may have been in equilibrium with other statuses, or off by gamma: its own statuses decide.
-        let mut rates = self.respond(end, initial);
-        rates.add(-1.0, &self.now);
+        let mut rates = self.solver.respond(end, initial);
+        rates.add(-1.0, &self.solver.now);
         if needs_tangent {
-            let mut driven = self.sub.zeros();
-            self.zone.softening_times(&rates.u, &mut driven);
-            let plastic = self.solve_tangent(&driven, PREDICTION, 1.0);
+            let mut driven = self.solver.structure.sub.zeros();
+            self.solver.zone.softening_times(&rates.u, &mut driven);
+            let plastic = self.solver.solve_tangent(&driven, PREDICTION, 1.0);
             rates.add(1.0, &plastic);
         }
         rates
@@ -332,14 +338,15 @@ impl Engine<'_> {
     /// Rates that lead to a state which is known already, statuses being the same.
     fn secant(&self, end: &LoadPoint, (at, state): (LoadPoint, Equilibrium)) -> Equilibrium {
         let mut rates = state;
-        rates.rescale(&self.now, 1.0 / self.at.share_of(&at, end));
-        rates.add(-1.0, &self.now);
+        rates.rescale(&self.solver.now, 1.0 / self.solver.at.share_of(&at, end));
+        rates.add(-1.0, &self.solver.now);
         rates
     }
 
     /// What must stay positive: gaps of open pairs, forces of closed ones.
     fn values(&self, gap: &[f64], force: &[f64]) -> Vec<f64> {
-        self.tableau
+        self.solver
+            .tableau
             .open()
             .iter()
             .enumerate()
@@ -352,13 +359,14 @@ impl Engine<'_> {
     fn crosses_border(&self, state: &Equilibrium, tolerance: f64, force_scale: f64) -> Vec<usize> {
         let largest_gap = state.gap.iter().fold(0.0f64, |m, g| m.max(*g));
         let crosses = |k: usize| {
-            if self.tableau.open()[k] {
+            if self.solver.tableau.open()[k] {
                 state.gap[k] < -tolerance * largest_gap
             } else {
                 state.force[k] < -tolerance * force_scale
             }
         };
-        self.border
+        self.solver
+            .border
             .iter()
             .copied()
             .filter(|&k| crosses(k))
@@ -369,11 +377,12 @@ impl Engine<'_> {
         let values = self.values(&rates.gap, &rates.force);
         let largest_gap = rates.gap.iter().fold(0.0f64, |m, g| m.max(g.abs()));
         let largest_force = rates.force.iter().fold(0.0f64, |m, r| m.max(r.abs()));
-        self.border
+        self.solver
+            .border
             .iter()
             .copied()
             .filter(|&k| {
-                let largest = if self.tableau.open()[k] {
+                let largest = if self.solver.tableau.open()[k] {
                     largest_gap
                 } else {
                     largest_force
@@ -425,9 +434,9 @@ impl Engine<'_> {
         state: &Equilibrium,
         balance: &mut Trailing,
     ) -> Evaluation {
-        let evaluation = self.zone.evaluate(&state.u, balance);
+        let evaluation = self.solver.zone.evaluate(&state.u, balance);
         balance.add(-1.0, &state.initial.load);
-        self.counts.plastic_iterations += 1;
+        self.solver.cost.counts.plastic_iterations += 1;
         evaluation
     }
 }

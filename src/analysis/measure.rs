@@ -1,11 +1,10 @@
 //! What a user reads off a state: pressure, contact half width, contact arc, approach.
 
 use super::contact_patch::Patch;
-use super::engine::Engine;
-use crate::model::{AxisPoint, ContactSurface, LoadCase, Magnitude, Model};
+use super::solver::Solver;
+use crate::model::{AxisPoint, ContactSurface, Magnitude, Model};
 use crate::results::{EdgeReading, PairState, Status};
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 
 /// Forces below this share of the largest are of pairs about to open or just closed: at a change of
 /// contact the force is zero up to round-off or gamma, and the extent of the contact must not
@@ -195,10 +194,14 @@ fn sum(forces: &[f64]) -> f64 {
     forces.iter().fold(0.0, |sum, force| sum + force)
 }
 
-impl Engine<'_> {
+impl Solver<'_> {
     /// Contact figures of the current state.
     pub fn contact_figures(&self) -> ContactFigures {
-        contact_figures(self.model, &self.contact_forces(), self.force_scale)
+        contact_figures(
+            self.structure.model,
+            &self.contact_forces(),
+            self.scales.force,
+        )
     }
 
     /// The contact forces. Residual stresses balance to the tolerance of the plastic iteration
@@ -206,7 +209,7 @@ impl Engine<'_> {
     /// have parted and nothing is left but the imbalance.
     pub fn contact_forces(&self) -> Cow<'_, [f64]> {
         let force = &self.now.force;
-        let tolerance = self.model.scene.analysis.tolerance * self.force_scale;
+        let tolerance = self.structure.model.scene.analysis.tolerance * self.scales.force;
         let imbalance = tolerance.max(self.round_off_of_contact());
         if self.now.initial.load.largest() > 0.0 && sum(force) <= imbalance {
             return Cow::Owned(vec![0.0; force.len()]);
@@ -218,7 +221,7 @@ impl Engine<'_> {
     pub fn leading_load(&self) -> Option<usize> {
         let varies =
             |l: &crate::model::LoadCase| !matches!(l.history, crate::scene::History::Constant);
-        let loads = &self.model.loads;
+        let loads = &self.structure.model.loads;
         loads
             .iter()
             .position(varies)
@@ -230,59 +233,12 @@ impl Engine<'_> {
     /// NaN: the reaction is known with the state only.
     pub fn total_load_size(&self) -> f64 {
         match self.leading_load() {
-            Some(i) if self.model.loads[i].measures != Magnitude::Displacement => {
-                self.at.factors[i].abs() * self.model.loads[i].magnitude
+            Some(i) if self.structure.model.loads[i].measures != Magnitude::Displacement => {
+                self.at.factors[i].abs() * self.structure.model.loads[i].magnitude
             }
             _ if self.now.force.is_empty() => f64::NAN,
-            _ => sum(&self.contact_forces()) * self.model.symmetry,
+            _ => sum(&self.contact_forces()) * self.structure.model.symmetry,
         }
-    }
-
-    /// Distance of the two nodes of a point on the axis, for displacements of the whole model.
-    pub fn distance_on_axis(&self, axis: &AxisPoint, u: &[f64]) -> f64 {
-        let of = |node| self.model.freedoms.displacement(node, u, &self.at.factors);
-        let (first, second) = (of(axis.first), of(axis.node));
-        let opened = [first[0] - second[0], first[1] - second[1]];
-        axis.gap - self.at.interference * axis.interference
-            + opened[0] * axis.normal[0]
-            + opened[1] * axis.normal[1]
-    }
-
-    /// How far the loads that vary have brought the bodies together
-    /// ([`crate::results::State::approach`]), for displacements of the whole model.
-    pub fn approach(&self, u: &[f64]) -> f64 {
-        let loads = &self.model.loads;
-        let driven = |l: &&LoadCase| l.driven(self.unit) > 0.0;
-        let mut driving: Vec<&LoadCase> = loads.iter().filter(driven).collect();
-        if driving.is_empty() {
-            driving = loads.iter().collect();
-        }
-        let prescribed = driving
-            .iter()
-            .any(|l| l.measures == Magnitude::Displacement);
-        if prescribed {
-            driving.retain(|l| l.measures == Magnitude::Displacement);
-        }
-        // Sizes and, times these, displacements of the loads on each body.
-        let mut of_body: BTreeMap<u32, [f64; 2]> = BTreeMap::new();
-        for load in driving {
-            let size = Some(load.driven(self.unit))
-                .filter(|s| *s > 0.0)
-                .unwrap_or(1.0);
-            let along = load.nodes.iter().zip(&load.shares).map(|(&node, share)| {
-                let d = self.model.freedoms.displacement(node, u, &self.at.factors);
-                share * (d[0] * load.direction[0] + d[1] * load.direction[1])
-            });
-            let sums = of_body.entry(load.body).or_default();
-            sums[0] += size;
-            sums[1] += size * along.sum::<f64>();
-        }
-        if prescribed {
-            return of_body.values().map(|[size, work]| work / size).sum();
-        }
-        let largest = of_body.values().fold(0.0f64, |m, [size, _]| m.max(*size));
-        let work: f64 = of_body.values().map(|[_, work]| work).sum();
-        if largest > 0.0 { work / largest } else { 0.0 }
     }
 }
 

@@ -2,25 +2,23 @@
 //!
 //! | file | what | paper |
 //! |---|---|---|
-//! | `engine`, `equilibrium`, `response` | structure under load, response to loads and initial loads | 3.7, 4.1 to 4.6 |
-//! | `first_yield`, `yield_load`, `recovery`, `patch`, `mirror` | load at first yield, stress between the points | 3.11 to 3.14 |
-//! | `elastic` | contact along an elastic path, from event to event | 3.9, 3.10 |
+//! | `structure`, `solver`, `equilibrium`, `response` | structure, its state under load, response to loads | 3.7, 4.1 to 4.6 |
+//! | `yield_load`, `recovery`, `patch`, `mirror` | load at first yield, stress between the points | 3.11 to 3.14 |
 //! | `increment`, `step_length` | one elastoplastic increment that ends at the next change of contact | 4.7 to 4.23 |
 //! | `zone`, `gather`, `zone_choice`, `zone_fit` | elements that may yield, initial loads, their choice and growth | 4.1 |
 //! | `tangent`, `acceleration` | acceleration of the plastic iteration | |
 //! | `collapse` | limit load, or an iteration that did not converge | |
-//! | `program`, `targets`, `drive`, `stepping`, `hit` | from target to target, loading and unloading | 5.1, 5.2 |
+//! | `program`, `position`, `first_yield`, `targets` | the program, step by step; where it is | 5.1, 5.2 |
+//! | `drive`, `elastic`, `plastic`, `stretch`, `stepping`, `landing` | along a straight piece of the load path | 4.7 to 4.23 |
+//! | `state`, `restart`, `packed` | a committed state; checkpoints, and going on from them | |
 //! | `outgrown` | contact that reaches the end of its candidates | |
-//! | `keeper`, `resume`, `place`, `standing`, `record`, `saved`, `packed` | checkpoints, and going on from them | |
-//! | `aim`, `between` | how much of the way to a target lies behind; the path between increments | |
-//! | `measure`, `contact_edge`, `dent`, `state`, `quality` | pressure, half width, dent, quality of a state | 5 |
+//! | `path` | the path between increments | |
+//! | `measure`, `contact_edge`, `reading`, `dent`, `figures`, `quality` | pressure, half width, dent, quality of a state | 5 |
 //! | `stress_field`, `stresses` | stresses of all elements, the forces they exert | |
 //! | `indicator` | discretisation error of the stresses, element by element | |
 //! | `check`, `reference` | effects and cost before a run; published values beside the computed ones | 5.1, 5.2 |
 
 mod acceleration;
-mod aim;
-mod between;
 mod check;
 mod collapse;
 mod contact_edge;
@@ -28,36 +26,39 @@ mod contact_patch;
 mod dent;
 mod drive;
 mod elastic;
-mod engine;
 mod equilibrium;
+mod figures;
+mod finish;
 mod first_yield;
 mod fitted;
 mod gather;
-mod hit;
 mod increment;
 mod indicator;
-mod keeper;
+mod landing;
+mod load_point;
 mod measure;
 mod mirror;
 mod outgrown;
 mod packed;
 mod patch;
-mod place;
+mod path;
+mod plastic;
+mod position;
 mod program;
 mod quality;
-mod record;
+mod reading;
 mod recovery;
 mod reference;
 mod response;
-mod resume;
-mod saved;
-mod standing;
-
+mod restart;
+mod solver;
 mod state;
 mod step_length;
 mod stepping;
 mod stress_field;
 mod stresses;
+mod stretch;
+mod structure;
 mod summit;
 mod tangent;
 mod targets;
@@ -144,14 +145,7 @@ impl Analysis {
     /// # Errors
     /// Failures before the first state: factorisation, yield load, a body that is not held.
     pub fn run(&mut self, observer: &mut dyn Observer) -> Result<Results> {
-        program::run(
-            &self.model,
-            &self.system,
-            self.backend,
-            &self.timings,
-            observer,
-            false,
-        )
+        program::complete(program::Run::new(self, observer)?)
     }
 
     /// As [`Analysis::run`], and writes checkpoints on the way: should the process be killed,
@@ -168,15 +162,8 @@ impl Analysis {
         observer: &mut dyn Observer,
     ) -> Result<Results> {
         let store = self.store(checkpoints)?;
-        let every = checkpoints.interval();
-        let run = program::Run::new(
-            &self.model,
-            &self.system,
-            self.backend,
-            &self.timings,
-            observer,
-        )?;
-        program::complete(run.keeping(store, every), false)
+        let run = program::Run::new(self, observer)?;
+        program::complete(run.with_checkpoints(store, checkpoints.interval()))
     }
 
     /// Goes on from the last checkpoint and writes further ones. The results are those of a run
@@ -194,16 +181,9 @@ impl Analysis {
         observer: &mut dyn Observer,
     ) -> Result<Results> {
         let store = self.store(checkpoints)?;
-        let run = program::Run::resume(
-            &self.model,
-            &self.system,
-            self.backend,
-            &self.timings,
-            observer,
-            store,
-            checkpoints.interval(),
-        )?;
-        program::complete(run, false)
+        let every = checkpoints.interval();
+        let run = program::Run::resume(self, observer, store, every)?;
+        program::complete(run)
     }
 
     fn store(&self, checkpoints: &Checkpoints) -> Result<Store> {
@@ -230,13 +210,8 @@ impl Analysis {
     /// # Errors
     /// As [`Analysis::run`].
     pub fn yield_load(&mut self, observer: &mut dyn Observer) -> Result<Results> {
-        program::run(
-            &self.model,
-            &self.system,
-            self.backend,
-            &self.timings,
-            observer,
-            true,
-        )
+        let mut run = program::Run::new(self, observer)?;
+        run.yield_only = true;
+        program::complete(run)
     }
 }

@@ -1,9 +1,8 @@
 //! A contact that reaches the end of its candidates where the bodies go on: no result beyond it is
 //! to be believed.
 
-use super::drive::IncrementReport;
-use super::engine::Engine;
-use super::place::Watcher;
+use super::drive::{Arrival, IncrementReport, Step};
+use super::solver::Solver;
 use crate::error::{Error, ErrorKind, Result};
 use crate::scene::Kind;
 
@@ -11,47 +10,51 @@ use crate::scene::Kind;
 /// or just closed.
 const VANISHING: f64 = 1e-7;
 
-impl Engine<'_> {
-    /// Passes an accepted increment on; whether the run goes on after it.
+impl Solver<'_> {
+    /// The step that an accepted increment is; the one before it ended at load factor `from`.
     ///
     /// # Errors
     /// [`ErrorKind::Outgrown`] where contact has reached an end of the candidates beyond which the
-    /// bodies go on; those of the watcher.
+    /// bodies go on.
     pub(super) fn accepted(
-        &mut self,
-        watcher: &mut dyn Watcher,
-        report: &IncrementReport,
-    ) -> Result<bool> {
-        if let Some(pair) = self.outgrown_at() {
-            return Err(self.outgrown(pair));
+        &self,
+        from: f64,
+        report: IncrementReport,
+        arrival: Option<Arrival>,
+    ) -> Result<Step> {
+        match self.outgrown_at() {
+            Some(pair) => Err(self.outgrown(pair, from)),
+            None => Ok(Step {
+                increment: Some(report),
+                arrival,
+            }),
         }
-        self.reached = self.at.alpha;
-        watcher.increment(self, report)
     }
 
     /// The pair at an open end of a contact that carries force.
     fn outgrown_at(&self) -> Option<usize> {
         let force = &self.now.force;
         let carries = |k: usize| {
-            let contact = &self.model.contacts[self.model.pairs[k].contact];
+            let contact = &self.structure.model.contacts[self.structure.model.pairs[k].contact];
             let largest = force[contact.range.clone()]
                 .iter()
                 .fold(0.0f64, |m, r| m.max(*r));
-            force[k] > VANISHING * largest.max(VANISHING * self.force_scale)
+            force[k] > VANISHING * largest.max(VANISHING * self.scales.force)
         };
-        let ends = self.model.contacts.iter().flat_map(|c| &c.goes_on);
+        let contacts = self.structure.model.contacts.iter();
+        let ends = contacts.flat_map(|c| &c.goes_on);
         ends.copied().find(|&k| carries(k))
     }
 
-    fn outgrown(&self, pair: usize) -> Error {
-        let model = self.model;
+    fn outgrown(&self, pair: usize, reached: f64) -> Error {
+        let model = self.structure.model;
         let [x, y] = model.mesh.point(model.pairs[pair].second);
         let names = &model.contacts[model.pairs[pair].contact].names;
         let targets = model.scene.program.targets.iter();
         let largest = targets
             .filter_map(|t| t.load_factor)
             .fold(0.0f64, |m, f| m.max(f.abs()));
-        let ratio = largest / self.reached.abs();
+        let ratio = largest / reached.abs();
         // Mean pressure only rises with the load, so that the area of contact rises no faster.
         let wider = match model.kind {
             Kind::Axisymmetric => ratio.sqrt(),
@@ -74,7 +77,7 @@ impl Engine<'_> {
             format!(
                 "the contact of `{}` on `{}` reaches the end of its candidates at ({x:.6}, {y:.6}) from load factor {:.6} on: both \
                  bodies go on there, but what lies beyond was not allowed to touch; {remedy}.{how_far}",
-                names[0], names[1], self.reached,
+                names[0], names[1], reached,
             ),
         )
     }

@@ -1,8 +1,6 @@
 //! Compact forms of what checkpoints hold much of: sets of numbers as runs, vectors that are mostly
 //! zero, histories of points most of which have none. Unpacked they are the same bits.
 
-use crate::material::PlasticState;
-use crate::substructure::Trailing;
 use serde::{Deserialize, Serialize};
 
 /// Ascending numbers as runs: how many are left out, how many follow.
@@ -78,53 +76,96 @@ impl<T: Copy> Sparse<T> {
     }
 }
 
-/// A vector on zone and contact freedoms that is zero where nothing has flowed.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(super) struct SparseTrailing(Sparse<f64>);
+/// Ascending numbers, as `#[serde(with)]`.
+pub(super) mod ascending {
+    use super::Ascending;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+    use std::sync::Arc;
 
-impl SparseTrailing {
-    pub(super) fn new(vector: &Trailing) -> Self {
-        // Minus zero is kept: its bits are not those of zero.
-        SparseTrailing(Sparse::new(
-            vector.zone.iter().chain(&vector.contact),
-            |v| v.to_bits() != 0,
-        ))
+    pub(in crate::analysis) fn serialize<S: Serializer>(
+        numbers: &Arc<[usize]>,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        Ascending::new(numbers.iter().copied()).serialize(serializer)
     }
 
-    /// On return `out`, all zeros before, holds the vector; false where it is of another size.
-    pub(super) fn unpack(&self, out: &mut Trailing) -> bool {
-        let n_zone = out.zone.len();
-        let mut all: Vec<f64> = out.iter().copied().collect();
-        let fits = self.0.unpack(&mut all);
-        out.zone.copy_from_slice(&all[..n_zone]);
-        out.contact.copy_from_slice(&all[n_zone..]);
-        fits
+    pub(in crate::analysis) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Arc<[usize]>, D::Error> {
+        Ok(Ascending::deserialize(deserializer)?.iter().collect())
     }
 }
 
-/// The history of the points that have one.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub(super) struct SparseHistory(Sparse<PlasticState>);
+/// A vector on zone and contact freedoms that is zero where nothing has yielded, as
+/// `#[serde(with)]`.
+pub(super) mod trailing {
+    use super::Sparse;
+    use crate::substructure::Trailing;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
-impl SparseHistory {
-    pub(super) fn new(history: &[PlasticState]) -> Self {
-        SparseHistory(Sparse::new(history.iter(), |state| {
-            *state != PlasticState::default()
-        }))
+    pub(in crate::analysis) fn serialize<S: Serializer>(
+        vector: &Trailing,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        // Minus zero is kept: its bits are not those of zero.
+        let not_zero = |value: &f64| value.to_bits() != 0;
+        let values = Sparse::new(vector.zone.iter().chain(&vector.contact), not_zero);
+        (vector.zone.len(), vector.contact.len(), values).serialize(serializer)
     }
 
-    /// On return `out` holds the history of all points; false where it is of another number of
-    /// points.
-    pub(super) fn unpack(&self, out: &mut [PlasticState]) -> bool {
-        out.fill(PlasticState::default());
-        self.0.unpack(out)
+    pub(in crate::analysis) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Trailing, D::Error> {
+        let (n_zone, n_contact, values) = <(usize, usize, Sparse<f64>)>::deserialize(deserializer)?;
+        let mut zone = vec![0.0; n_zone + n_contact];
+        if !values.unpack(&mut zone) {
+            return Err(D::Error::custom("a vector of another size"));
+        }
+        let contact = zone.split_off(n_zone);
+        Ok(Trailing { zone, contact })
+    }
+}
+
+/// The history of points most of which have none, as `#[serde(with)]`.
+pub(super) mod history {
+    use super::Sparse;
+    use crate::material::PlasticState;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
+
+    pub(in crate::analysis) fn serialize<S: Serializer>(
+        history: &[PlasticState],
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        let has_one = |state: &PlasticState| *state != PlasticState::default();
+        (history.len(), Sparse::new(history.iter(), has_one)).serialize(serializer)
+    }
+
+    pub(in crate::analysis) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Vec<PlasticState>, D::Error> {
+        let (n, states) = <(usize, Sparse<PlasticState>)>::deserialize(deserializer)?;
+        let mut history = vec![PlasticState::default(); n];
+        if !states.unpack(&mut history) {
+            return Err(D::Error::custom("a history of another number of points"));
+        }
+        Ok(history)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::material::PlasticState;
+    use crate::substructure::Trailing;
     use proptest::prelude::*;
+
+    #[derive(Serialize, Deserialize)]
+    struct Held {
+        #[serde(with = "trailing")]
+        vector: Trailing,
+        #[serde(with = "history")]
+        history: Vec<PlasticState>,
+    }
 
     proptest! {
         #[test]
@@ -143,21 +184,25 @@ mod tests {
                 zone: (0..half).map(value).collect(),
                 contact: (half..marks.len()).map(value).collect(),
             };
-            let mut back = Trailing::zeros(half, marks.len() - half);
-            prop_assert!(SparseTrailing::new(&vector).unpack(&mut back));
+            let mut history = vec![PlasticState::default(); marks.len()];
+            for &i in &numbers {
+                history[i].equivalent = 1.0 + i as f64;
+            }
+            let held = Held { vector, history };
+            let bytes = postcard::to_stdvec(&held).unwrap();
+            let back: Held = postcard::from_bytes(&bytes).unwrap();
             let bits = |v: &Trailing| v.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-            prop_assert_eq!(bits(&back), bits(&vector));
+            prop_assert_eq!(bits(&back.vector), bits(&held.vector));
+            prop_assert_eq!(back.vector.zone.len(), half);
+            prop_assert_eq!(back.history, held.history);
+            // Of another length than it says.
             if end > 0 {
-                let mut short = vec![PlasticState::default(); end - 1];
-                let mut history = vec![PlasticState::default(); marks.len()];
-                for &i in &numbers {
-                    history[i].equivalent = 1.0 + i as f64;
-                }
-                let packed = SparseHistory::new(&history);
-                prop_assert!(!packed.unpack(&mut short));
-                let mut whole = vec![PlasticState { equivalent: 9.0, ..PlasticState::default() }; marks.len()];
-                prop_assert!(packed.unpack(&mut whole));
-                prop_assert_eq!(whole, history);
+                let packed = Sparse::new(marks.iter(), |mark| *mark);
+                let short = postcard::to_stdvec(&(end - 1, 0usize, packed.places)).unwrap();
+                let mut short = short;
+                short.extend(postcard::to_stdvec(&vec![1.0; numbers.len()]).unwrap());
+                let mut reader = postcard::Deserializer::from_bytes(&short);
+                prop_assert!(trailing::deserialize(&mut reader).is_err());
             }
         }
     }

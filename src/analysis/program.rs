@@ -1,49 +1,36 @@
-//! The load program: first yield, then target after target.
+//! The load program: preload, first yield, then target after target.
+//!
+//! It is a sequence of steps over a [`Position`] and the state of the structure; a step ends at the
+//! next accepted increment or at a target. A checkpoint is what stands between two steps.
 
-use super::aim::Aim;
-use super::between::Between;
-use super::drive::{Arrival, Monitor, Stepper, stopped};
-use super::engine::{Engine, LoadPoint};
-use super::keeper::{Behind, Keeper, Kept, Recorder, Start};
-use super::place::Place;
-use super::recovery::Recovery;
-use super::standing::{Seconds, Standing};
-use super::zone_choice::{self, Choice};
-use super::zone_fit::Spread;
-use super::{check, quality, reference};
-use crate::assembly::System;
+use super::Analysis;
+use super::drive::{Arrival, Drive, IncrementReport, Monitor, Rules, Step, stopped};
+use super::elastic::ElasticDrive;
+use super::load_point::LoadPoint;
+use super::path::PathSampler;
+use super::plastic::PlasticDrive;
+use super::position::{Position, Stage};
+use super::restart::CheckpointWriter;
+use super::solver::Solver;
+use super::targets::Start;
+use super::zone_choice;
+use super::zone_fit::ZoneFit;
 use crate::error::{Error, Result};
-use crate::linalg::Backend;
 use crate::model::Model;
-use crate::progress::Observer;
-use crate::results::{Quality, Results, Sizes, State};
-use crate::scene::{Target, Unit};
-use std::cell::{Cell, RefCell};
+use crate::progress::{Flow, Observer};
+use crate::results::{HistoryRow, Quality, Results, State};
+use crate::scene::Unit;
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 /// Doublings of the load in search of first yield or of a target.
 pub(super) const DOUBLINGS: usize = 60;
-/// Lower bound of the condition from which it is estimated without being asked for: six digits of a
-/// displacement may be left.
-const DOUBTFUL: f64 = 1e10;
-/// Choices of the zone that are tried in search of the place of first yield.
+/// Choices of the zone that are tried for a target, or in search of the place of first yield.
 pub(super) const ZONE_ATTEMPTS: usize = 8;
 
-pub(super) fn run(
-    model: &Model,
-    system: &System,
-    backend: Backend,
-    timings: &[(String, f64)],
-    observer: &mut dyn Observer,
-    yield_only: bool,
-) -> Result<Results> {
-    let run = Run::new(model, system, backend, timings, observer)?;
-    complete(run, yield_only)
-}
-
 /// Runs to the end, or as far as it goes.
-pub(super) fn complete(mut run: Run, yield_only: bool) -> Result<Results> {
-    let outcome = run.execute(yield_only);
+pub(super) fn complete(mut run: Run) -> Result<Results> {
+    let outcome = run.execute();
     let mut results = run.finish();
     match outcome {
         Ok(()) => {}
@@ -56,204 +43,363 @@ pub(super) fn complete(mut run: Run, yield_only: bool) -> Result<Results> {
     Ok(results)
 }
 
+/// A structure on its way through the load program.
 pub(super) struct Run<'m, 'o> {
-    pub(super) engine: Engine<'m>,
-    /// Recovered stress over the zone at hand, once it was asked for.
-    pub(super) recovery: Option<Recovery>,
-    pub(super) choice: Choice,
-    /// Quality at first yield, where that is all that is asked for.
-    pub(super) at_yield: Option<Quality>,
-    /// Elastic von Mises stress over yield stress of each element where first yield was last looked
-    /// for; empty where the zone holds all that may yield.
-    pub(super) ratios_before_yield: Vec<f64>,
-    /// What the zone follows the load by.
-    pub(super) spread: Option<Spread>,
+    pub(super) solver: Solver<'m>,
+    pub(super) zone: ZoneFit,
+    pub(super) position: Position,
+    /// Where the way to the target at hand starts.
+    pub(super) start: Option<Start>,
+    /// What vanishes at the target at hand, where it is no load factor.
+    pub(super) monitor: Option<Box<Monitor<'m>>>,
+    /// Names of the targets.
+    pub(super) labels: Vec<String>,
     pub(super) observer: &'o mut dyn Observer,
     pub(super) results: Results,
-    pub(super) standing: Standing,
-    /// What the way to the next target is measured by.
-    pub(super) aim: Aim,
-    /// Share of the load program that lies behind, as far as it was reported: it never falls.
-    pub(super) fraction: f64,
-    /// The last row of the history, to see the path from there.
-    pub(super) between: Between,
-    /// Where the way to the target at hand began: to be gone again with a wider zone.
-    pub(super) start: Option<Start>,
-    /// Where the run is on its way.
-    pub(super) place: Place,
-    /// Where it was when it was killed, as far as that is still ahead.
-    pub(super) resumed: Option<Place>,
-    /// Writes checkpoints.
-    pub(super) keeper: Option<Keeper>,
+    /// The path between the rows of the history.
+    pub(super) path: PathSampler,
+    pub(super) checkpoints: Option<CheckpointWriter>,
+    /// Whether first yield is all that is asked for, and the quality of the state there.
+    pub(super) yield_only: bool,
+    pub(super) at_yield: Option<Quality>,
+}
+
+/// What a step of the program came to.
+pub(super) enum Event {
+    /// An increment was accepted: the next row of the history.
+    Increment(HistoryRow),
+    /// A target was reached.
+    Target(Box<State>),
 }
 
 impl<'m, 'o> Run<'m, 'o> {
-    pub(super) fn new(
-        model: &'m Model,
-        system: &'m System,
-        backend: Backend,
-        timings: &[(String, f64)],
-        observer: &'o mut dyn Observer,
-    ) -> Result<Self> {
+    /// A run at its start.
+    ///
+    /// # Errors
+    /// Those of [`Solver::new`].
+    pub(super) fn new(analysis: &'m Analysis, observer: &'o mut dyn Observer) -> Result<Self> {
+        let model = &analysis.model;
         observer.model(model.freedoms.n, model.pairs.len());
         observer.phase("factorisation");
         let start = Instant::now();
         let within = zone_choice::first_guess(model).elements;
         let choice = zone_choice::place_of_first_yield(model);
-        let engine = Engine::new(
+        let (system, elements) = (&analysis.system, choice.elements.clone());
+        let solver = Solver::new(
             model,
             system,
-            backend,
+            analysis.backend,
             &within,
-            choice.elements.clone(),
+            elements,
             &choice.guard,
         )?;
-        let mut results = Results {
-            timings: timings.to_vec(),
+        let results = Results {
+            timings: analysis.timings.clone(),
+            warnings: model.warnings.clone(),
             ..Results::default()
         };
-        results.warnings.extend(model.warnings.iter().cloned());
         for warning in &model.warnings {
             observer.warning(warning);
         }
-        Ok(Run {
-            engine,
-            recovery: None,
-            choice,
-            at_yield: None,
-            ratios_before_yield: Vec::new(),
-            spread: None,
+        let mut run = Run::of(solver, ZoneFit::new(choice), results, observer);
+        run.position.seconds.condensation = start.elapsed().as_secs_f64();
+        run.begin_preload();
+        Ok(run)
+    }
+
+    /// A run that has done nothing yet.
+    pub(super) fn of(
+        solver: Solver<'m>,
+        zone: ZoneFit,
+        results: Results,
+        observer: &'o mut dyn Observer,
+    ) -> Self {
+        Run {
+            labels: solver.structure.model.scene.program.labels(),
+            solver,
+            zone,
+            position: Position::default(),
+            start: None,
+            monitor: None,
             observer,
             results,
-            standing: Standing {
-                seconds: Seconds {
-                    condensation: start.elapsed().as_secs_f64(),
-                    ..Seconds::default()
-                },
-                ..Standing::default()
-            },
-            aim: Aim::Nothing,
-            fraction: 0.0,
-            between: Between::default(),
-            start: None,
-            place: Place::default(),
-            resumed: None,
-            keeper: None,
-        })
+            path: PathSampler::default(),
+            checkpoints: None,
+            yield_only: false,
+            at_yield: None,
+        }
     }
 
     pub(super) fn model(&self) -> &'m Model {
-        self.engine.model
+        self.solver.structure.model
     }
 
-    pub(super) fn execute(&mut self, yield_only: bool) -> Result<()> {
-        if self.resumed.as_ref().is_none_or(|place| place.preload) {
-            self.place.preload = true;
-            self.preload()?;
-            self.place = Place::default();
-            self.resumed = None;
-            if !self.prepare(yield_only)? {
-                return Ok(());
+    /// Goes through the program, event by event, with a checkpoint where one is due.
+    ///
+    /// # Errors
+    /// Those of [`Run::next`]; [`stopped`] where the observer asks for that.
+    pub(super) fn execute(&mut self) -> Result<()> {
+        match self.position.stage {
+            Stage::Preload { .. } if !self.position.stops.is_empty() => {
+                self.observer.phase("preload");
             }
+            Stage::Targets => self.observer.phase("load program"),
+            _ => {}
         }
-        self.observer.phase("load program");
-        let targets = &self.model().scene.program.targets;
-        let labels = self.model().scene.program.labels();
-        for index in self.standing.done..targets.len() {
-            let state = self.reach_with_right_zone(&targets[index], &labels[index])?;
-            self.standing.done = index + 1;
-            self.results.states.push(state);
-            self.keep_target();
+        while let Some(event) = self.next()? {
+            let increments = usize::from(matches!(event, Event::Increment(_)));
+            let goes_on = self.record(event);
+            self.write_checkpoint(increments, !goes_on);
+            if !goes_on {
+                return Err(stopped());
+            }
         }
         Ok(())
     }
 
-    /// First yield and the zone for the program; false where no more is wanted.
-    fn prepare(&mut self, yield_only: bool) -> Result<bool> {
+    /// The next event; `None` at the end of the program.
+    ///
+    /// # Errors
+    /// A load that is not held, an iteration that did not converge, a target that is out of reach.
+    pub(super) fn next(&mut self) -> Result<Option<Event>> {
+        loop {
+            if let Some(&stop) = self.position.stops.first() {
+                if let Some(row) = self.advance(stop)? {
+                    return Ok(Some(Event::Increment(row)));
+                }
+            } else if self.position.search.is_some() {
+                self.widen_search()?;
+            } else if self.start.is_some() {
+                if let Some(state) = self.finish_target()? {
+                    return Ok(Some(Event::Target(Box::new(state))));
+                }
+            } else {
+                match self.position.stage {
+                    Stage::Preload { again } => self.prepare(again)?,
+                    Stage::Targets if self.position.target < self.labels.len() => {
+                        self.begin_target()?;
+                    }
+                    Stage::Targets | Stage::YieldOnly => return Ok(None),
+                }
+            }
+        }
+    }
+
+    /// Passes an event on; whether the run goes on after it.
+    fn record(&mut self, event: Event) -> bool {
+        let row = match event {
+            Event::Increment(row) => row,
+            Event::Target(state) => {
+                self.results.states.push(*state);
+                return true;
+            }
+        };
+        let flow = self.observer.increment(&row, self.position.fraction);
+        // Rows may have been taken back since.
+        let (path, rows) = (&mut self.results.path, self.results.history.len());
+        while path.last().is_some_and(|point| point.increment > rows) {
+            path.pop();
+        }
+        path.extend(self.path.advance(&self.solver, &row));
+        self.results.history.push(row);
+        flow == Flow::Continue && !self.observer.stop_requested()
+    }
+
+    /// Takes the next step on the straight piece to a load factor; the row of the increment, if
+    /// there was one.
+    fn advance(&mut self, stop: f64) -> Result<Option<HistoryRow>> {
+        let end = self.solver.structure.point(stop);
+        let plastic = self.increments_are_plastic();
+        if plastic && self.position.drive.is_none() && self.follow_load()? {
+            self.end_search();
+            return Ok(None);
+        }
+        let begun = Instant::now();
+        let step = match self.position.drive.take() {
+            Some(drive) => self.step(drive, &end),
+            None => self.begin_drive(&end),
+        };
+        let seconds = &mut self.position.seconds;
+        let effect = if plastic {
+            &mut seconds.plasticity
+        } else {
+            &mut seconds.contact
+        };
+        *effect += begun.elapsed().as_secs_f64();
+        let Step { increment, arrival } = step?;
+        let row = increment.map(|report| self.row(&report));
+        if row.is_some() {
+            let targets = self.labels.len().max(1) as f64;
+            let behind = (self.position.target as f64 + self.share_behind(arrival)) / targets;
+            self.position.fraction = self.position.fraction.max(behind);
+        }
+        if let Some(arrival) = arrival {
+            self.arrive(stop, arrival)?;
+        }
+        Ok(row)
+    }
+
+    /// Whether the material has yielded, and may.
+    fn increments_are_plastic(&self) -> bool {
+        self.position.first_yield.is_behind && !self.zone.choice.elements.is_empty()
+    }
+
+    /// Begins the drive to the end of a straight piece. Wherever it leaves what the search for the
+    /// yield load went through it is watched for first yield.
+    fn begin_drive(&mut self, end: &LoadPoint) -> Result<Step> {
+        let begun = if self.increments_are_plastic() {
+            let (taken, monitor) = (self.position.taken, self.monitor.as_deref());
+            PlasticDrive::begin(&mut self.solver, end, taken, monitor)?.map_continue(Drive::Plastic)
+        } else {
+            let first_yield = &self.position.first_yield;
+            let known = self.position.stage == Stage::Targets
+                && first_yield.excludes(self.solver.at.alpha, end.alpha);
+            let watches_yield = !first_yield.is_behind && !known;
+            let recovery = if watches_yield {
+                self.zone.recovery(&self.solver)
+            } else {
+                None
+            };
+            ElasticDrive::begin(&mut self.solver, end, recovery, self.monitor.as_deref())?
+                .map_continue(|drive| Drive::Elastic(Box::new(drive)))
+        };
+        match begun {
+            ControlFlow::Break(step) => Ok(step),
+            ControlFlow::Continue(drive) => {
+                self.position.drive = Some(drive);
+                Ok(Step::default())
+            }
+        }
+    }
+
+    /// The next step of a drive.
+    fn step(&mut self, mut drive: Drive, end: &LoadPoint) -> Result<Step> {
+        let scene = &self.solver.structure.model.scene;
+        let observer = &*self.observer;
+        let rules = Rules {
+            settings: &scene.analysis,
+            program: &scene.program,
+            zone_until: match self.zone.spread {
+                Some(_) => self.position.zone_until,
+                None => f64::INFINITY,
+            },
+            stop: &|| observer.stop_requested(),
+        };
+        let recovery = match drive.watches_yield() {
+            true => self.zone.recovery(&self.solver),
+            false => None,
+        };
+        let monitor = self.monitor.as_deref();
+        let step = drive.step(&mut self.solver, end, recovery, monitor, rules)?;
+        self.position.drive = Some(drive);
+        Ok(step)
+    }
+
+    /// What follows from the end of a drive to the load factor `stop`.
+    fn arrive(&mut self, stop: f64, arrival: Arrival) -> Result<()> {
+        let drive = self.position.drive.take();
+        let taken = std::mem::take(&mut self.position.taken);
+        match arrival {
+            Arrival::End => {
+                self.position.stops.remove(0);
+                let first_yield = &mut self.position.first_yield;
+                first_yield.is_behind |= first_yield.alpha == Some(stop);
+            }
+            Arrival::Monitor => self.end_search(),
+            Arrival::Yield(peak) => {
+                self.record_yield(peak);
+                if self.position.stage == Stage::Targets {
+                    let alpha = self.solver.at.alpha;
+                    self.position.first_yield.alpha.get_or_insert(alpha);
+                }
+            }
+            Arrival::ZoneTooSmall | Arrival::ZoneOutgrown => {
+                self.position.taken = drive.map_or(taken, |drive| drive.taken());
+                if arrival == Arrival::ZoneTooSmall {
+                    let larger = zone_choice::grown(self.model(), &self.zone.choice);
+                    if self.change_zone(larger)? {
+                        self.end_search();
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The row of an accepted increment.
+    fn row(&self, report: &IncrementReport) -> HistoryRow {
+        let solver = &self.solver;
+        let figures = solver.contact_figures();
+        let (plastic_points, strain) = solver.zone.extent();
+        HistoryRow {
+            increment: self.results.history.len() + 1,
+            alpha: solver.at.alpha,
+            load: solver.total_load_size(),
+            max_pressure: figures.max_pressure,
+            half_width: figures.half_width,
+            contact_force: figures.force * solver.structure.model.symmetry,
+            closed_pairs: solver.closed_pairs(),
+            plastic_points,
+            max_equivalent_plastic_strain: strain,
+            iterations: report.iterations,
+            trailing_solves: report.trailing_solves,
+            residual: report.residual,
+            event: report.event.clone(),
+        }
+    }
+
+    /// Applies constant loads and interference, before the load factor leaves zero.
+    fn begin_preload(&mut self) {
+        let end = self.solver.structure.point(0.0);
+        let has_interference = self.model().pairs.iter().any(|p| p.interference != 0.0);
+        if self.solver.at.factors == end.factors && !has_interference {
+            self.solver.at = end;
+        } else {
+            self.position.stops = vec![0.0];
+        }
+    }
+
+    /// After the preload: first yield and the zone for the program. A preload under which the
+    /// material was not seen to yield, and does, is applied again.
+    fn prepare(&mut self, again: bool) -> Result<()> {
         let program = &self.model().scene.program;
-        let required = yield_only
+        let required = self.yield_only
             || program.unit == Unit::Yield
             || program
                 .targets
                 .iter()
                 .any(|t| t.first_yield || t.half_width.is_some());
-        if !self.choice.elements.is_empty() && (required || self.largest_factor().is_some()) {
+        if again && !self.position.first_yield.is_behind {
+            return Err(Error::internal(
+                "the material yields under the preload, and does not when that is applied anew",
+            ));
+        }
+        if !self.zone.choice.elements.is_empty() && (required || self.largest_factor().is_some()) {
             self.observer.phase("yield load");
             let start = Instant::now();
-            self.find_yield(required, yield_only)?;
-            self.standing.seconds.yield_load = start.elapsed().as_secs_f64();
+            let under_preload = self.find_yield(required)?;
+            self.position.seconds.yield_load += start.elapsed().as_secs_f64();
+            if under_preload {
+                self.solver.unload();
+                self.results.history.clear();
+                self.position.stage = Stage::Preload { again: true };
+                self.observer.phase("preload");
+                self.begin_preload();
+                return Ok(());
+            }
         }
-        if yield_only {
-            return match self.results.first_yield {
-                Some(_) => Ok(false),
+        if self.yield_only {
+            self.position.stage = Stage::YieldOnly;
+            return match self.position.first_yield.point {
+                Some(_) => Ok(()),
                 None => Err(Error::analysis(
                     "no yield load: no body that may yield (material with a yield stress, plastic not false) yields",
                 )),
             };
         }
         self.fit_zone()?;
-        Ok(true)
-    }
-
-    /// Reaches a target and takes its state. The guard layer only sees what grows out of the zone:
-    /// where the state shows stress beyond yield elsewhere, the zone is widened to there and the
-    /// way to the target is gone again.
-    pub(super) fn reach_with_right_zone(&mut self, target: &Target, label: &str) -> Result<State> {
-        let begun = self.resumed.as_ref().map_or(0, |place| place.attempt);
-        for attempt in begun..ZONE_ATTEMPTS {
-            if self.start.is_none() {
-                self.set_start();
-            }
-            self.place.attempt = attempt;
-            self.reach(target, label)?;
-            self.place = Place::default();
-            self.resumed = None;
-            let start = Instant::now();
-            let state = self.engine.state(label, target.fields)?;
-            self.standing.seconds.stresses += self.engine.stress_seconds;
-            self.standing.seconds.states +=
-                start.elapsed().as_secs_f64() - self.engine.stress_seconds;
-            let missed = std::mem::take(&mut self.engine.beyond_yield_outside);
-            let start = self.start.take();
-            if missed.is_empty() {
-                return Ok(state);
-            }
-            let start = start.ok_or_else(|| Error::internal("the way to a target has no begin"))?;
-            start.saved.put_back(&mut self.engine);
-            (self.standing.plastic, self.standing.yield_alpha) = (start.plastic, start.yield_alpha);
-            self.results.first_yield = start.first_yield;
-            self.results.history.truncate(start.increments);
-            // What was searched for first yield did not hold all that yields: the way is watched
-            // from its begin.
-            self.standing.elastic_range = [0.0; 2];
-            let wider = zone_choice::including(self.model(), &self.choice, &missed);
-            self.set_zone(wider)?;
-        }
-        Err(Error::analysis(format!(
-            "target `{label}`: the material keeps yielding outside the zone that was chosen"
-        )))
-    }
-
-    /// Applies constant loads and interference, before the load factor leaves zero.
-    pub(super) fn preload(&mut self) -> Result<()> {
-        let start = self.engine.at.clone();
-        let end = self.engine.point(0.0);
-        let has_interference = self.model().pairs.iter().any(|p| p.interference != 0.0);
-        if start.factors == end.factors && !has_interference {
-            self.engine.at = end;
-            return Ok(());
-        }
-        self.observer.phase("preload");
-        let resumed = self.resumed.as_ref().and_then(|place| place.drive.as_ref());
-        let watch_yield = resumed.is_none_or(|drive| drive.watch_yield);
-        match self.drive(&end, None, watch_yield)? {
-            Arrival::Yield(peak) => {
-                self.record_yield(peak)?;
-                self.drive(&end, None, false)?;
-            }
-            Arrival::Stopped => return Err(stopped()),
-            _ => {}
-        }
+        self.observer.phase("load program");
+        self.position.stage = Stage::Targets;
         Ok(())
     }
 
@@ -267,206 +413,5 @@ impl<'m, 'o> Run<'m, 'o> {
             .filter_map(|t| t.load_factor)
             .map(f64::abs)
             .reduce(f64::max)
-    }
-
-    /// Drives to a load point, elastic before first yield, elastoplastic after, growing the zone
-    /// where it must.
-    pub(super) fn drive(
-        &mut self,
-        end: &LoadPoint,
-        monitor: Option<&Monitor>,
-        watch_yield: bool,
-    ) -> Result<Arrival> {
-        let model = self.model();
-        let program = &model.scene.program;
-        let resumed = self.resumed.as_mut().and_then(|place| place.drive.take());
-        let taken = Cell::new(resumed.as_ref().map_or(0, |drive| drive.taken));
-        let mut leg = resumed.map(|drive| drive.leg);
-        // The increments' observer is told how far the monitored quantity is, which costs a solve
-        // for some.
-        let last = Cell::new(f64::NAN);
-        let remembering = monitor.map(|monitor| {
-            let last = &last;
-            move |engine: &mut Engine| {
-                last.set(monitor(engine)?);
-                Ok(last.get())
-            }
-        });
-        let monitor = remembering.as_ref().map(|m| m as &Monitor);
-        let mut watched = match leg {
-            Some(_) => None,
-            None => monitor.map(|m| m(&mut self.engine)).transpose()?,
-        };
-        if let (Aim::Monitored { at_first }, Some(value)) = (&mut self.aim, watched) {
-            at_first.get_or_insert(value.abs());
-        }
-        let (aim, done, n_targets) = (
-            self.aim,
-            self.standing.done as f64,
-            program.targets.len().max(1) as f64,
-        );
-        loop {
-            let plastic = self.standing.plastic && !self.choice.elements.is_empty();
-            if plastic && leg.is_none() {
-                self.follow_load()?;
-            } else if !plastic && watch_yield {
-                self.recovery();
-            }
-            if let (Some(monitor), Some(was)) = (monitor, watched) {
-                // Another zone puts the state in equilibrium anew, within the tolerance: that may
-                // be all that was missing.
-                let is = monitor(&mut self.engine)?;
-                if is != was && (is > 0.0) != (was > 0.0) {
-                    return Ok(Arrival::Monitor);
-                }
-            }
-            let start = Instant::now();
-            let observer = RefCell::new(&mut *self.observer);
-            let stop = || observer.borrow().stop_requested();
-            let stepper = Stepper {
-                settings: &model.scene.analysis,
-                stepping: program.stepping,
-                steps: program.steps,
-                taken: &taken,
-                gamma: program.gamma,
-                zone_until: self.spread.as_ref().map_or(f64::INFINITY, |s| s.until),
-                stop: &stop,
-            };
-            let mut recorder = Recorder {
-                results: &mut self.results,
-                observer: &observer,
-                progress: Behind {
-                    fraction: &mut self.fraction,
-                    aim,
-                    monitored: &last,
-                    done,
-                    n_targets,
-                },
-                between: &mut self.between,
-                keeper: self.keeper.as_mut(),
-                kept: Kept {
-                    standing: self.standing,
-                    guard: &self.choice.guard,
-                    spread: self.spread.as_ref(),
-                    start: self.start.as_ref(),
-                },
-                place: &self.place,
-                watch_yield,
-                taken: &taken,
-                since: start,
-            };
-            let arrival = if plastic {
-                self.engine
-                    .drive_plastic(end, stepper, monitor, leg.take(), &mut recorder)
-            } else {
-                let recovery = if watch_yield {
-                    self.recovery.as_mut()
-                } else {
-                    None
-                };
-                self.engine
-                    .drive_elastic(end, recovery, monitor, leg.take(), &mut recorder)
-            };
-            let spent = start.elapsed().as_secs_f64();
-            self.standing.seconds.add_drive(plastic, spent);
-            let arrival = arrival?;
-            watched = monitor.map(|m| m(&mut self.engine)).transpose()?;
-            match arrival {
-                Arrival::ZoneTooSmall => {
-                    let larger = zone_choice::grown(model, &self.choice);
-                    self.set_zone(larger)?;
-                }
-                Arrival::ZoneOutgrown => {}
-                other => return Ok(other),
-            }
-        }
-    }
-
-    pub(super) fn finish(mut self) -> Results {
-        let model = self.engine.model;
-        let mut results = std::mem::take(&mut self.results);
-        results.sizes = Sizes {
-            freedoms: model.freedoms.n,
-            nodes: model.mesh.n_nodes(),
-            elements: model.mesh.n_elements(),
-            contact_pairs: model.pairs.len(),
-            zone_freedoms: self.engine.sub.partition.zone.len(),
-            zone_elements: self.choice.elements.len(),
-            degree: model.mesh.degree(),
-        };
-        results.counts = self.engine.counts;
-        let Standing {
-            seconds,
-            yield_alpha,
-            ..
-        } = self.standing;
-        results.factor = self.engine.sub.cost();
-        results.condition = self.engine.condition;
-        let tolerances = quality::tolerances(model);
-        let states = results.states.iter().map(|s| (s.name.as_str(), s.quality));
-        let judged: Vec<(&str, Quality)> =
-            states.chain(self.at_yield.map(|q| ("yield", q))).collect();
-        // An elastic state is not iterated: its forces are off by what round-off leaves.
-        let excused = judged.iter().filter_map(|(_, q)| q.excused(&tolerances));
-        let floor = excused.fold(self.engine.round_off_floor, f64::max);
-        if floor > 0.0 {
-            let text = format!(
-                "forces balance to their round-off, {:.1e} of the largest force, and not to analysis.tolerance = {:.1e}: displacements are \
-                 large beside the strains of this mesh",
-                floor, model.scene.analysis.tolerance
-            );
-            self.observer.warning(&text);
-            results.warnings.push(text);
-        }
-        for (name, quality) in &judged {
-            for (figure, value, most) in quality.misses(&tolerances) {
-                let text = format!(
-                    "state `{name}` is inaccurate: {figure} {value:.1e}, allowed {most:.1e} (condition at least {:.0e})",
-                    results.condition
-                );
-                self.observer.warning(&text);
-                results.warnings.push(text.clone());
-                results.inaccurate.push(text);
-            }
-        }
-        if model.scene.analysis.condition
-            || !results.inaccurate.is_empty()
-            || results.condition > DOUBTFUL
-        {
-            // A figure beside the results: a solve that fails leaves it out.
-            let estimate = self
-                .engine
-                .sub
-                .condition_estimate(model, self.engine.system);
-            results.condition_estimate = estimate.ok();
-        }
-        let qualities = judged.iter().map(|(_, q)| q);
-        results.quality = qualities.fold(Quality::default(), |w, q| w.worse(q));
-        for (name, seconds) in [
-            ("factorisation and condensation", seconds.condensation),
-            ("yield load", seconds.yield_load),
-            ("elastic increments", seconds.contact),
-            ("elastoplastic increments", seconds.plasticity),
-            ("states", seconds.states),
-            ("stresses", seconds.stresses),
-        ] {
-            results.timings.push((name.to_string(), seconds));
-        }
-        results.effects = check::effects(model, yield_alpha.is_some());
-        for effect in &mut results.effects {
-            match effect.name.as_str() {
-                "contact" => {
-                    effect.seconds = seconds.contact + seconds.yield_load;
-                    effect.memory_bytes = self.engine.sub.contact_bytes();
-                }
-                "plasticity" if effect.on => {
-                    effect.seconds = seconds.plasticity;
-                    effect.memory_bytes = self.engine.zone.bytes();
-                }
-                _ => {}
-            }
-        }
-        results.reference = reference::rows(model, &results);
-        results
     }
 }

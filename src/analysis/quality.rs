@@ -11,8 +11,7 @@
 #[cfg(test)]
 mod tests;
 
-use super::engine::Engine;
-use super::stress_field::StressField;
+use super::reading::Reading;
 use super::stresses::Stresses;
 use crate::linalg::largest;
 use crate::model::Model;
@@ -72,29 +71,32 @@ impl Displacements {
     }
 }
 
-impl Engine<'_> {
+impl Reading<'_, '_> {
     /// Displacements of the current state. Costs half a full solve and a product with K.
     ///
     /// # Errors
     /// Failure of the backend's solve.
     pub(super) fn displacements(&mut self) -> crate::Result<Displacements> {
-        self.refresh();
-        let model = self.model;
-        let reduced = self.reduced_external(&self.at);
-        let load = self.total_load();
-        let mut condensed = self.external(&self.at);
-        condensed.add(1.0, &self.now.initial.load);
-        let slip = self.sub.split_slip(&self.delta(&self.at), &self.now.gap);
-        let (found, amplitudes) = self.sub.recover_deformation(
-            self.system,
+        self.solver.refresh();
+        let model = self.solver.structure.model;
+        let reduced = self.solver.structure.reduced_external(&self.solver.at);
+        let load = self.solver.total_load();
+        let mut condensed = self.solver.structure.external(&self.solver.at);
+        condensed.add(1.0, &self.solver.now.initial.load);
+        let slip = self.solver.structure.sub.split_slip(
+            &self.solver.structure.delta(&self.solver.at),
+            &self.solver.now.gap,
+        );
+        let (found, amplitudes) = self.solver.structure.sub.recover_deformation(
+            self.solver.structure.system,
             &load,
             &reduced,
             condensed,
             slip,
-            [self.deformation_scale, self.force_scale],
+            [self.solver.scales.deformation, self.solver.scales.force],
         )?;
-        self.counts.full_solves += 1;
-        self.counts.trailing_solves += 1;
+        self.solver.cost.counts.full_solves += 1;
+        self.solver.cost.counts.trailing_solves += 1;
         let mut out = Displacements {
             total: found.u,
             deformation: None,
@@ -126,8 +128,7 @@ impl Engine<'_> {
 
     /// Quality of the current state with its displacements.
     fn quality_of(&mut self, u: &Displacements) -> Quality {
-        let nodal = self.model.nodal(u.deformation(), &self.at.factors);
-        let field = StressField::new(self.model, &self.zone, &self.elements, nodal);
+        let field = self.stress_field(u.deformation());
         let stresses = Stresses::new(&field);
         self.quality(u, stresses.internal, &stresses.reactions)
     }
@@ -142,21 +143,22 @@ impl Engine<'_> {
     ) -> Quality {
         let external = self.external_forces();
         let applied = external.iter().fold(0.0f64, |m, (_, f)| m.max(f.abs()));
-        self.update_scales();
+        self.solver.update_scales();
         // Reactions measure the load where displacements are prescribed.
-        self.force_scale = self.force_scale.max(applied).max(largest(reactions));
-        self.displacement_scale = self.displacement_scale.max(largest(&u.total));
-        self.deformation_scale = self.deformation_scale.max(largest(u.deformation()));
+        let scales = &mut self.solver.scales;
+        scales.force = scales.force.max(applied).max(largest(reactions));
+        scales.displacement = scales.displacement.max(largest(&u.total));
+        scales.deformation = scales.deformation.max(largest(u.deformation()));
         let mut out_of_balance = internal;
         for (freedom, force) in external {
             out_of_balance[freedom] -= force;
         }
-        let contact = &self.sub.partition.contact;
+        let contact = &self.solver.structure.sub.partition.contact;
         let left_over: Vec<f64> = contact.iter().map(|&f| out_of_balance[f]).collect();
-        let n = self.now.force.len();
+        let n = self.solver.now.force.len();
         for (i, &f) in contact.iter().enumerate() {
             let sign = if i < n { 1.0 } else { -1.0 };
-            out_of_balance[f] -= sign * self.now.force[i % n];
+            out_of_balance[f] -= sign * self.solver.now.force[i % n];
         }
 
         let mut quality = Quality {
@@ -166,16 +168,16 @@ impl Engine<'_> {
             equilibrium: self.share_of_forces(largest(&out_of_balance)),
             ..Quality::default()
         };
-        let delta = self.delta(&self.at);
+        let delta = self.solver.structure.delta(&self.solver.at);
         let gap_scale = delta
             .iter()
-            .fold(self.displacement_scale, |m, d| m.max(d.abs()));
+            .fold(self.solver.scales.displacement, |m, d| m.max(d.abs()));
         for k in 0..n {
             let gap = delta[k] - (u.total[contact[n + k]] - u.total[contact[k]]);
             let forces = [left_over[k], -left_over[n + k]];
             quality.penetration = quality
                 .penetration
-                .max(ratio(-gap, self.displacement_scale));
+                .max(ratio(-gap, self.solver.scales.displacement));
             for force in forces {
                 let (tension, size) = (-force, force.abs());
                 quality.adhesion = quality.adhesion.max(self.share_of_forces(tension));
@@ -190,8 +192,8 @@ impl Engine<'_> {
     /// balanced to the round-off of displacements that may be gone.
     fn terms_of_run(&self, u: &Displacements) -> f64 {
         let here = largest(u.deformation());
-        if here > 0.0 && self.now.initial.load.largest() > 0.0 {
-            u.terms * (self.deformation_scale / here).max(1.0)
+        if here > 0.0 && self.solver.now.initial.load.largest() > 0.0 {
+            u.terms * (self.solver.scales.deformation / here).max(1.0)
         } else {
             u.terms
         }
@@ -199,12 +201,13 @@ impl Engine<'_> {
 
     /// A force over the largest of the run.
     fn share_of_forces(&self, force: f64) -> f64 {
-        ratio(force, self.force_scale)
+        ratio(force, self.solver.scales.force)
     }
 
     /// The applied force of each freedom that one acts on.
     fn external_forces(&self) -> Vec<(usize, f64)> {
-        let loads = self.model.loads.iter().zip(&self.at.factors);
+        let loads = self.solver.structure.model.loads.iter();
+        let loads = loads.zip(&self.solver.at.factors);
         let mut forces: Vec<(usize, f64)> = loads
             .flat_map(|(load, &factor)| load.forces.iter().map(move |&(f, v)| (f, factor * v)))
             .collect();
@@ -221,7 +224,8 @@ impl Engine<'_> {
 
     /// `|f - K u| / (|K| |u| + |f|)` in infinity norms, `u` and `f` the run's largest deformation and force.
     fn backward_error(&self, u: &Displacements) -> f64 {
-        let scale = self.system.norm * self.deformation_scale + u.load.max(self.force_scale);
+        let scale = self.solver.structure.system.norm * self.solver.scales.deformation
+            + u.load.max(self.solver.scales.force);
         ratio(u.residual, scale)
     }
 }

@@ -16,6 +16,7 @@ use super::fitted::FittedStrains;
 use super::gather::{GatheredElements, Nodal, Places};
 use super::mirror::{self, Reflection, mirrors};
 use super::patch::{Patch, Sample, reach};
+use super::solver::Solver;
 use super::summit::{SPACINGS, Summit};
 use crate::assembly::sampling_points_of;
 use crate::element::{AtPoints, MAX_NODES, shape_functions};
@@ -175,6 +176,12 @@ impl Recovery {
         };
         out.fitted = FittedStrains::new(model, elements, places, |i| out.neighbours_of(model, i));
         out
+    }
+
+    /// Elastic stresses at the sampling points in the current state.
+    pub fn sample_here(&mut self, solver: &mut Solver) -> Samples {
+        solver.refresh();
+        self.sample(&solver.now.u, &solver.at.factors)
     }
 
     /// Elastic stresses at the sampling points for displacements `u` and load factors.
@@ -432,9 +439,8 @@ mod tests {
         let scene = Scene::load("data/scenes/thick_cylinder.toml").unwrap();
         let analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::Dense).unwrap();
         let (model, mut observer) = (analysis.model(), Silent);
-        let system = analysis.system();
-        let mut run = Run::new(model, system, Backend::Dense, &[], &mut observer).unwrap();
-        let recovery = run.recovery().unwrap();
+        let mut run = Run::new(&analysis, &mut observer).unwrap();
+        let recovery = run.zone.recovery(&run.solver).unwrap();
         let n = recovery.positions.len();
         let yield_stress = recovery.materials[0].0.yield_stress();
         let pulled = |shares: &dyn Fn(usize) -> f64| -> Samples {
@@ -465,9 +471,8 @@ mod tests {
             scene.program.gamma = gamma;
             let analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::Dense).unwrap();
             let (model, mut observer) = (analysis.model(), Silent);
-            let system = analysis.system();
-            let mut run = Run::new(model, system, Backend::Dense, &[], &mut observer).unwrap();
-            let recovery = run.recovery().unwrap();
+            let mut run = Run::new(&analysis, &mut observer).unwrap();
+            let recovery = run.zone.recovery(&run.solver).unwrap();
             let yield_stress = recovery.materials[0].0.yield_stress();
             let hill = |[x, y]: [f64; 2]| {
                 let (x, y) = ((x - 93.0) / 60.0, (y - 87.0) / 70.0);

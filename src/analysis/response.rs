@@ -4,50 +4,38 @@
 //! The first half of a solve, elimination, is the same for all statuses and linear in the load; the
 //! second gives displacements.
 
-use super::engine::{Engine, LoadPoint};
 use super::equilibrium::{EliminatedLoad, Equilibrium};
+use super::load_point::LoadPoint;
+use super::solver::Solver;
 use crate::linalg::ZonePart;
-use crate::substructure::Trailing;
 
 /// Share of the largest gap and force that is the round-off of their sums.
 const ZERO: f64 = 1e-14;
 
-impl Engine<'_> {
-    /// The first half of the solve with a load.
-    pub fn eliminate(&mut self, load: Trailing) -> EliminatedLoad {
-        let mut out = EliminatedLoad {
-            eliminated: load.clone(),
-            load,
-            forces: vec![0.0; self.gap.len()],
-        };
-        if out.load.largest() > 0.0 {
-            self.sub.eliminate(&mut out.eliminated, &mut out.forces);
-            self.count_half();
-        }
-        out
-    }
-
+impl Solver<'_> {
     /// Equilibrium for a load point and initial loads with the current statuses (paper 4.2): the
     /// second half of a trailing solve.
     pub fn respond(&mut self, point: &LoadPoint, initial: EliminatedLoad) -> Equilibrium {
-        let n = self.gap.len();
+        let n = self.structure.gaps.initial.len();
         let mut u = initial.eliminated.clone();
         let mut q = initial.forces.clone();
-        for (load, &factor) in self.loads.iter().zip(&point.factors) {
+        for (load, &factor) in self.structure.loads.condensed.iter().zip(&point.factors) {
             u.add(factor, &load.eliminated);
             for (q, t) in q.iter_mut().zip(&load.forces) {
                 *q += factor * t;
             }
         }
         for k in 0..n {
-            q[k] += point.interference * self.gap_forces[1][k] - self.gap_forces[0][k];
+            q[k] += point.interference * self.structure.gaps.forces[1][k]
+                - self.structure.gaps.forces[0][k];
         }
         let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
         self.tableau.solve(&q, &mut gap, &mut force);
         // Displacements serve for strains: rigid motions, however large, are left out.
-        let (slip, _) = self.sub.split_slip(&self.delta(point), &gap);
-        self.sub.recover(&mut u, &slip);
-        self.count_half();
+        let delta = self.structure.delta(point);
+        let (slip, _) = self.structure.sub.split_slip(&delta, &gap);
+        self.structure.sub.recover(&mut u, &slip);
+        self.cost.count_half();
         Equilibrium {
             initial,
             u,
@@ -62,9 +50,10 @@ impl Engine<'_> {
     pub fn respond_homogeneous(&mut self, change: &mut Equilibrium, part: &ZonePart) {
         let initial = &mut change.initial;
         initial.eliminated.copy_from(&initial.load);
-        self.sub
+        self.structure
+            .sub
             .eliminate(&mut initial.eliminated, &mut initial.forces);
-        self.count_half();
+        self.cost.count_half();
         self.tableau
             .solve(&initial.forces, &mut change.gap, &mut change.force);
         self.recover_change(change, part);
@@ -75,14 +64,8 @@ impl Engine<'_> {
     pub fn recover_change(&mut self, change: &mut Equilibrium, part: &ZonePart) {
         change.u.copy_from(&change.initial.eliminated);
         let slip: Vec<f64> = change.gap.iter().map(|g| -g).collect();
-        self.sub.recover_part(part, &mut change.u, &slip);
-        self.count_half();
-    }
-
-    /// Two halves count as a trailing solve.
-    pub fn count_half(&mut self) {
-        self.half = !self.half;
-        self.counts.trailing_solves += usize::from(self.half);
+        self.structure.sub.recover_part(part, &mut change.u, &slip);
+        self.cost.count_half();
     }
 
     /// Makes the displacements belong to the current gaps and forces.
@@ -93,8 +76,9 @@ impl Engine<'_> {
             self.now = self.respond(&point, initial);
             self.fresh = true;
             // Zero within round-off is zero; what is more than that stays to be seen.
-            let gap = self.gap.iter().fold(0.0f64, |m, g| m.max(g.abs()));
-            let force = (self.now.force.iter()).fold(self.force_scale, |m, r| m.max(*r));
+            let gaps = self.structure.gaps.initial.iter();
+            let gap = gaps.fold(0.0f64, |m, g| m.max(g.abs()));
+            let force = (self.now.force.iter()).fold(self.scales.force, |m, r| m.max(*r));
             for (values, scale) in [(&mut self.now.gap, gap), (&mut self.now.force, force)] {
                 for value in values.iter_mut() {
                     if (-ZERO * scale..0.0).contains(value) {

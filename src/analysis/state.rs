@@ -1,250 +1,105 @@
-//! The state at a target: fields on the whole mesh and figures.
+//! A committed state: what an increment starts from, what an attempt that fails goes back to, and
+//! what a checkpoint holds.
 
-use super::engine::Engine;
-use super::indicator::indicator;
-use super::measure::pair_states;
-use super::stress_field::StressField;
-use super::stresses::Stresses;
-use crate::error::Result;
-use crate::model::{Magnitude, Model, Slot};
-use crate::results::{Fields, State};
-use crate::scene::History;
-use rayon::prelude::*;
-use std::time::Instant;
+use super::equilibrium::Equilibrium;
+use super::load_point::LoadPoint;
+use super::packed;
+use super::solver::Solver;
+use crate::material::PlasticState;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
-impl Engine<'_> {
-    /// The current state with its quality; fields where asked for. Costs half a full solve.
-    ///
-    /// # Errors
-    /// Failure of the backend's solve.
-    pub fn state(&mut self, name: &str, with_fields: bool) -> Result<State> {
-        let displacements = self.displacements()?;
-        let u = &displacements.total;
-        let begun = Instant::now();
-        let nodal = self
-            .model
-            .nodal(displacements.deformation(), &self.at.factors);
-        let field = StressField::new(self.model, &self.zone, &self.elements, nodal);
-        let stresses = Stresses::new(&field);
-        let errors = with_fields.then(|| indicator(&field));
-        let energy_error = errors.as_ref().map(|errors| errors.total);
-        let fields = errors.map(|errors| {
-            let nodal = self.model.nodal(u, &self.at.factors);
-            fields(&field, nodal, errors.by_element)
-        });
-        self.stress_seconds = begun.elapsed().as_secs_f64();
-        let figures = self.contact_figures();
-        let dent = self.dent();
-        let arc = figures
-            .patch
-            .and_then(|patch| contact_arc(self.model, figures.contact, patch));
-        let load = self
-            .reaction(&stresses.reactions)
-            .unwrap_or_else(|| self.total_load_size());
-        let Stresses {
-            internal,
-            reactions,
-            beyond_yield_outside,
-            plastic_points,
-            plastic_volume,
-            plastic_strain,
-        } = stresses;
-        self.beyond_yield_outside = beyond_yield_outside;
-        let quality = self.quality(&displacements, internal, &reactions);
-        Ok(State {
-            name: name.to_string(),
-            alpha: self.at.alpha,
-            load,
-            contact_force: figures.force * self.model.symmetry,
-            max_pressure: figures.max_pressure,
-            pole_pressure: figures.pole_pressure,
-            half_width: figures.half_width,
-            half_width_reading: figures.half_width_reading,
-            contact_arc: arc,
-            residual_depth: dent.depth,
-            residual_depth_by_body: dent.by_body,
-            rim_height: dent.rim,
-            plastic_points: plastic_points.iter().sum(),
-            plastic_points_by_body: plastic_points,
-            max_equivalent_plastic_strain: plastic_strain,
-            plastic_zone_size: plastic_volume * self.model.symmetry,
-            energy_error,
-            approach: self.approach(u),
-            pairs: pair_states(
-                self.model,
-                &self.now.gap,
-                &self.contact_forces(),
-                self.tableau.open(),
-                |axis| self.distance_on_axis(axis, u),
-            ),
-            fields,
-            quality,
-        })
-    }
-
-    /// Where the loads that vary are prescribed displacements only and nothing touches: the force
-    /// that holds the first of them, along its displacement, of the whole.
-    fn reaction(&self, reactions: &[f64]) -> Option<f64> {
-        let model = self.model;
-        let mut varying = model
-            .loads
-            .iter()
-            .enumerate()
-            .filter(|(_, l)| !matches!(l.history, History::Constant));
-        if varying
-            .clone()
-            .any(|(_, l)| l.measures != Magnitude::Displacement)
-            || !model.pairs.is_empty()
-        {
-            return None;
-        }
-        let (leading, _) = varying.next()?;
-        let mut sum = 0.0;
-        for (prescribed, force) in model.freedoms.prescribed.iter().zip(reactions) {
-            if prescribed.load == leading {
-                sum += force * prescribed.value.signum();
-            }
-        }
-        Some(sum * self.at.factors[leading].signum() * model.symmetry)
-    }
+/// A committed state of a structure.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct State {
+    /// Load point.
+    pub(super) at: LoadPoint,
+    /// Displacements, gaps, contact forces and initial loads.
+    pub(super) equilibrium: Equilibrium,
+    /// Whether the displacements belong to the gaps and forces.
+    pub(super) fresh: bool,
+    /// Which pairs are open.
+    pub(super) open: Vec<bool>,
+    /// Pairs at the border of their condition.
+    pub(super) border: Vec<usize>,
+    /// Number of the zone among those that were chosen in the run.
+    pub(super) zone: usize,
+    /// Its elements, ascending.
+    #[serde(with = "packed::ascending")]
+    pub(super) elements: Arc<[usize]>,
+    /// Their plastic history, point by point.
+    #[serde(with = "packed::history")]
+    pub(super) history: Vec<PlasticState>,
 }
 
-/// Fields on the whole mesh, for the displacements of its nodes and the error of its elements.
-fn fields(field: &StressField, nodal: Vec<[f64; 2]>, error: Vec<f64>) -> Fields {
-    let n = field.model.mesh.n_elements();
-    let mut out = Fields {
-        displacement: nodal.into_iter().flatten().collect(),
-        stress: vec![0.0; 4 * n],
-        von_mises: vec![0.0; n],
-        plastic_strain: vec![0.0; n],
-        yielded: vec![0; n],
-        error,
-    };
-    let elements = (
-        out.stress.par_chunks_exact_mut(4),
-        &mut out.von_mises,
-        &mut out.plastic_strain,
-        &mut out.yielded,
-    );
-    let elements = elements.into_par_iter().enumerate().with_min_len(256);
-    elements.for_each(|(e, (stress, von_mises, plastic_strain, yielded))| {
-        let element = field.at(e);
-        stress.copy_from_slice(&element.mapping.mean(&element.stress));
-        *von_mises = element.von_mises();
-        *plastic_strain = element.plastic_strain();
-        *yielded = u8::from(*plastic_strain > 0.0);
-    });
-    out
-}
-
-/// Begin and end of a patch in degrees about the centre of a circular surface: from the symmetry
-/// plane at the surface's nearer end, or from its middle where there is none.
-fn contact_arc(model: &Model, contact: usize, [from, to]: [f64; 2]) -> Option<[f64; 2]> {
-    let surface = &model.contacts[contact];
-    let (center, _) = surface.circle?;
-    let pairs = &model.pairs[surface.range.clone()];
-    let angle_of = |k: usize| {
-        let x = model.mesh.point(pairs[k].second);
-        (x[1] - center[1]).atan2(x[0] - center[0]).to_degrees()
-    };
-    let angle_at = |arc: f64| {
-        let next = pairs
-            .partition_point(|p| p.arc <= arc)
-            .clamp(1, pairs.len().max(2) - 1);
-        let (a, b) = (angle_of(next - 1), angle_of(next.min(pairs.len() - 1)));
-        let length = pairs[next.min(pairs.len() - 1)].arc - pairs[next - 1].arc;
-        let turn = (b - a + 540.0).rem_euclid(360.0) - 180.0;
-        if length > 0.0 {
-            a + turn * (arc - pairs[next - 1].arc) / length
-        } else {
-            a
-        }
-    };
-    let extent = ((angle_at(to) - angle_at(from) + 540.0).rem_euclid(360.0) - 180.0).abs();
-    let last = pairs.len() - 1;
-    if from <= pairs[0].arc || to >= pairs[last].arc {
-        return Some([0.0, extent]);
-    }
-    // A patch that has left the symmetry plane is still measured from there, the nearer one if both
-    // ends lie on one.
-    let on_symmetry = |k: usize| {
-        let nodes = [pairs[k].first, pairs[k].second];
-        nodes
-            .iter()
-            .all(|&node| model.freedoms.slots[node][1] == Slot::Fixed)
-    };
-    let near_begin = from - pairs[0].arc <= pairs[last].arc - to;
-    let pole = if near_begin { 0 } else { last };
-    if !on_symmetry(pole) {
-        return Some([-0.5 * extent, 0.5 * extent]);
-    }
-    let off = |arc: f64| ((angle_at(arc) - angle_of(pole) + 540.0).rem_euclid(360.0) - 180.0).abs();
-    Some(if near_begin {
-        [off(from), off(to)]
-    } else {
-        [off(to), off(from)]
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::Scene;
-
-    fn disc(overrides: &[&str]) -> Model {
-        let path = concat!(
-            env!("CARGO_MANIFEST_DIR"),
-            "/data/scenes/disc_in_plate.toml"
-        );
-        let overrides: Vec<String> = overrides.iter().map(|o| o.to_string()).collect();
-        Model::new(&Scene::load_with(path, &overrides).unwrap()).unwrap()
-    }
-
-    /// Angle between the radii to two pairs, in degrees.
-    fn between(model: &Model, a: usize, b: usize) -> f64 {
-        let (center, radius) = model.contacts[0].circle.unwrap();
-        let radii = [a, b].map(|k| {
-            let x = model.mesh.point(model.pairs[k].second);
-            [x[0] - center[0], x[1] - center[1]]
-        });
-        let [p, q] = radii;
-        let sine = (p[0] * q[1] - p[1] * q[0]).abs() / (radius * radius);
-        sine.asin().to_degrees()
-    }
-
-    /// A contact that has left the symmetry planes is measured from the nearer one.
-    #[test]
-    fn an_arc_off_the_symmetry_plane_is_measured_from_there() {
-        let model = disc(&["mesh.disc_in_plate.resolution=24"]);
-        let last = model.pairs.len() - 1;
-        let arc = |k: usize| model.pairs[k].arc;
-        let close = |found: Option<[f64; 2]>, expected: [f64; 2]| {
-            for (a, b) in found.unwrap().iter().zip(expected) {
-                assert!((a - b).abs() < 1e-9, "{found:?} {expected:?}");
-            }
+impl State {
+    /// Whether it is one of a structure with so many pairs and loads, and its parts fit each other.
+    pub(super) fn fits(&self, n_pairs: usize, n_loads: usize) -> bool {
+        let now = &self.equilibrium;
+        let trailing = [&now.initial.load, &now.initial.eliminated, &now.u];
+        let pairs = [&now.gap, &now.force, &now.initial.forces];
+        let same = |v: &&crate::substructure::Trailing| {
+            v.zone.len() == now.u.zone.len() && v.contact.len() == 2 * n_pairs
         };
-        let near_first = contact_arc(&model, 0, [arc(2), arc(7)]);
-        close(near_first, [between(&model, 0, 2), between(&model, 0, 7)]);
-        let near_last = contact_arc(&model, 0, [arc(last - 7), arc(last - 3)]);
-        let expected = [
-            between(&model, last, last - 3),
-            between(&model, last, last - 7),
-        ];
-        close(near_last, expected);
-        // One that reaches the plane starts there.
-        let at_first = contact_arc(&model, 0, [arc(0), arc(5)]);
-        close(at_first, [0.0, between(&model, 0, 5)]);
+        self.at.factors.len() == n_loads
+            && self.open.len() == n_pairs
+            && self.border.iter().all(|&k| k < n_pairs)
+            && trailing.iter().all(same)
+            && pairs.iter().all(|values| values.len() == n_pairs)
+    }
+}
+
+impl Solver<'_> {
+    /// The current state.
+    pub(super) fn state(&self) -> State {
+        State {
+            at: self.at.clone(),
+            equilibrium: self.now.clone(),
+            fresh: self.fresh,
+            open: self.tableau.open().to_vec(),
+            border: self.border.clone(),
+            zone: self.structure.zone_number,
+            elements: Arc::clone(&self.structure.elements),
+            history: self.zone.history().to_vec(),
+        }
     }
 
-    /// Without a symmetry plane at its surface's nearer end an arc is told from its own middle.
-    #[test]
-    fn an_arc_without_a_symmetry_plane_is_told_from_its_middle() {
-        let mut model = disc(&["mesh.disc_in_plate.resolution=24"]);
-        for node in [model.pairs[0].first, model.pairs[0].second] {
-            model.freedoms.slots[node][1] = Slot::Free(0);
+    /// Goes back to a state of the run, of the zone at hand or of an earlier one.
+    pub(super) fn restore(&mut self, state: &State) {
+        self.at = state.at.clone();
+        if state.zone == self.structure.zone_number {
+            self.zone.restore(&state.history);
+            self.now.copy_from(&state.equilibrium);
+            self.fresh = state.fresh;
+        } else {
+            self.zone.restore_of(&state.elements, &state.history);
+            self.now.gap.copy_from_slice(&state.equilibrium.gap);
+            self.now.force.copy_from_slice(&state.equilibrium.force);
+            let initial = self.zone.initial_load(self.structure.sub.zeros());
+            self.now.initial = self.structure.eliminate(initial, &mut self.cost);
+            self.fresh = false;
         }
-        let found = contact_arc(&model, 0, [2, 7].map(|k| model.pairs[k].arc)).unwrap();
-        let half = 0.5 * between(&model, 2, 7);
-        assert!((found[0] + half).abs() < 1e-9 && (found[1] - half).abs() < 1e-9);
+        self.restore_statuses(&state.open, &state.border);
+    }
+
+    /// Goes back to an elastic state from others that were only looked at: the contact matrix is
+    /// swept anew.
+    pub(super) fn restore_elastic(&mut self, state: &State) {
+        self.tableau.reset(&state.open);
+        self.restore(state);
+    }
+
+    /// Gives the pairs the statuses of an earlier state.
+    pub(super) fn restore_statuses(&mut self, open: &[bool], border: &[usize]) {
+        self.border = border.to_vec();
+        // Closing first: a pair whose opening would free a motion can open once others are closed.
+        for closing in [true, false] {
+            for (k, &wanted) in open.iter().enumerate() {
+                let open = self.tableau.open()[k];
+                if open != wanted && open == closing {
+                    self.tableau.flip(k);
+                }
+            }
+        }
     }
 }

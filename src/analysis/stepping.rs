@@ -1,9 +1,11 @@
 //! Finding an increment: statuses that come out wrong are mended, increments that do not converge
 //! cut.
 
-use super::drive::{Stepper, stopped};
-use super::engine::{Engine, LoadPoint};
+use super::drive::{Rules, stopped};
+use super::equilibrium::Equilibrium;
 use super::increment::{EndsAt, Increment, NoIncrement};
+use super::load_point::LoadPoint;
+use super::solver::Solver;
 use crate::error::{Error, Result};
 use crate::scene::Stepping;
 use std::collections::HashSet;
@@ -16,36 +18,45 @@ const MOST_CORRECTIONS: usize = 60;
 /// Cuts of an increment in which a pair goes back over the border it began at.
 const MOST_CROSSINGS: usize = 2;
 
-impl Engine<'_> {
+/// Finds elastoplastic increments by the rules of a program.
+pub(super) struct Stepper<'s, 'm> {
+    pub(super) solver: &'s mut Solver<'m>,
+    pub(super) rules: Rules<'s>,
+}
+
+impl<'s, 'm> Stepper<'s, 'm> {
+    pub(super) fn new(solver: &'s mut Solver<'m>, rules: Rules<'s>) -> Self {
+        Stepper { solver, rules }
+    }
+
     /// An increment with statuses that are right at its begin (events) or at its end (steps).
     /// Increments that do not converge are cut, down to the share `smallest`; returns whether any
-    /// was.
+    /// was. A state that is known `ahead` predicts the first that is tried.
     pub(super) fn find_increment(
         &mut self,
         end: &LoadPoint,
         left: f64,
         smallest: f64,
-        stepper: Stepper,
+        mut ahead: Option<(LoadPoint, Equilibrium)>,
     ) -> Result<(Increment, bool)> {
         let mut most = left;
         let mut corrections = 0;
         let mut crossings = 0;
         let mut seen: Vec<Vec<bool>> = Vec::new();
         // A fixed increment at whose end no statuses are right is followed from change to change.
-        let mut stepping = stepper.stepping;
+        let mut stepping = self.rules.program.stepping;
         loop {
             let outcome = match stepping {
                 Stepping::Events if corrections < MOST_CORRECTIONS => self.increment(
                     end,
                     most,
                     EndsAt::NextChange {
-                        gamma: stepper.gamma,
+                        gamma: self.rules.program.gamma,
                     },
-                    stepper.settings,
-                    stepper.stop,
+                    ahead.take(),
                 ),
-                Stepping::Events => self.solve_step(end, 1e-3 * most, stepper)?,
-                Stepping::Steps => self.solve_step(end, most, stepper)?,
+                Stepping::Events => self.solve_step(end, 1e-3 * most, ahead.take())?,
+                Stepping::Steps => self.solve_step(end, most, ahead.take())?,
             };
             match outcome {
                 Ok(increment) => {
@@ -60,16 +71,16 @@ impl Engine<'_> {
                 }
                 Err(NoIncrement::WrongStatus(pairs) | NoIncrement::Crossed(pairs)) => {
                     corrections += 1;
-                    seen.push(self.tableau.open().to_vec());
+                    seen.push(self.solver.tableau.open().to_vec());
                     // All at once; one alone (the least index) once a set of statuses has come
                     // back.
                     let repeated = seen[..seen.len() - 1].contains(&seen[seen.len() - 1]);
                     for &k in pairs.iter().take(if repeated { 1 } else { pairs.len() }) {
-                        if self.tableau.flip(k) {
-                            self.counts.contact_changes += 1;
+                        if self.solver.tableau.flip(k) {
+                            self.solver.cost.counts.contact_changes += 1;
                         }
-                        if !self.border.contains(&k) {
-                            self.border.push(k);
+                        if !self.solver.border.contains(&k) {
+                            self.solver.border.push(k);
                         }
                     }
                 }
@@ -83,13 +94,13 @@ impl Engine<'_> {
                     // too.
                     let worth_cutting = CUT * most >= smallest;
                     if !worth_cutting {
-                        let goal = self.at.towards(end, most);
-                        return Err(self.not_found(&goal, &attempt, stepper));
+                        let goal = self.solver.at.towards(end, most);
+                        return Err(self.not_found(&goal, &attempt));
                     }
                     most *= CUT;
                     // The points flow as in the state that failed: its tangent, often singular,
                     // must not predict the next.
-                    self.assume_elastic();
+                    self.solver.assume_elastic();
                 }
             }
         }
@@ -98,10 +109,10 @@ impl Engine<'_> {
     /// A pair that cannot open must not be in tension: the load would carry its body away.
     fn refuse_free_motion(&self, increment: &Increment) -> Result<()> {
         let force = &increment.state.force;
-        match (0..force.len())
-            .find(|&k| force[k] < -1e-6 * self.force_scale && self.tableau.would_free(k))
-        {
-            Some(k) => Err(self.unbounded(k, self.at.alpha)),
+        match (0..force.len()).find(|&k| {
+            force[k] < -1e-6 * self.solver.scales.force && self.solver.tableau.would_free(k)
+        }) {
+            Some(k) => Err(self.solver.structure.unbounded(k, self.solver.at.alpha)),
             None => Ok(()),
         }
     }
@@ -113,31 +124,29 @@ impl Engine<'_> {
         &mut self,
         end: &LoadPoint,
         most: f64,
-        stepper: Stepper,
+        mut ahead: Option<(LoadPoint, Equilibrium)>,
     ) -> Result<std::result::Result<Increment, NoIncrement>> {
         // The end of the increment is the end of a piece of its own: a pair that closes has no gap
         // there, whatever gap it had.
-        let goal = self.at.towards(end, most);
+        let goal = self.solver.at.towards(end, most);
         let mut fewest = usize::MAX;
         let mut patience = 6;
         let mut seen: HashSet<Vec<bool>> = HashSet::new();
-        for _ in 0..10 * (self.now.gap.len() + 10) {
-            let increment = match self.increment(
-                &goal,
-                1.0,
-                EndsAt::EndOfPiece,
-                stepper.settings,
-                stepper.stop,
-            ) {
+        for _ in 0..10 * (self.solver.now.gap.len() + 10) {
+            let found = self.increment(&goal, 1.0, EndsAt::EndOfPiece, ahead.take());
+            let increment = match found {
                 Ok(increment) => increment,
                 Err(error) => return Ok(Err(error)),
             };
             let (gap, force) = (&increment.state.gap, &increment.state.force);
-            let r_tol = 1e-9 * force.iter().fold(self.force_scale, |m, r| m.max(*r));
+            let r_tol = 1e-9
+                * force
+                    .iter()
+                    .fold(self.solver.scales.force, |m, r| m.max(*r));
             let g_tol = 1e-9 * gap.iter().fold(0.0f64, |m, g| m.max(*g));
             let wrong: Vec<usize> = (0..gap.len())
                 .filter(|&k| {
-                    if self.tableau.open()[k] {
+                    if self.solver.tableau.open()[k] {
                         gap[k] < -g_tol
                     } else {
                         force[k] < -r_tol
@@ -145,7 +154,7 @@ impl Engine<'_> {
                 })
                 .collect();
             if wrong.is_empty() {
-                self.border.clear();
+                self.solver.border.clear();
                 return Ok(Ok(Increment {
                     t: most,
                     changes: Vec::new(),
@@ -158,12 +167,12 @@ impl Engine<'_> {
                 patience -= i32::from(patience > 0);
             }
             let take = if patience > 0 { wrong.len() } else { 1 };
-            if take == 1 && !seen.insert(self.tableau.open().to_vec()) {
+            if take == 1 && !seen.insert(self.solver.tableau.open().to_vec()) {
                 break;
             }
             for &k in wrong.iter().take(take) {
-                if self.tableau.flip(k) {
-                    self.counts.contact_changes += 1;
+                if self.solver.tableau.flip(k) {
+                    self.solver.cost.counts.contact_changes += 1;
                 }
             }
         }
@@ -173,8 +182,8 @@ impl Engine<'_> {
     fn not_settled(&self, end: &LoadPoint, most: f64) -> Error {
         Error::analysis(format!(
             "contact did not settle in the increment from load factor {:.6} to {:.6}: the statuses repeat",
-            self.at.alpha,
-            self.at.towards(end, most).alpha
+            self.solver.at.alpha,
+            self.solver.at.towards(end, most).alpha
         ))
     }
 }

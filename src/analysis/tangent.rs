@@ -15,8 +15,8 @@
 //! programming problems arising in optimization* (2001), section 6 (the growth of the part of the
 //! residual that the constraints carry, and its removal), doi:10.1137/S1064827598345667.
 
-use super::engine::Engine;
 use super::equilibrium::Equilibrium;
+use super::solver::Solver;
 use crate::linalg::ZonePart;
 use crate::substructure::Trailing;
 
@@ -24,7 +24,7 @@ use crate::substructure::Trailing;
 /// has no useful direction.
 const MOST: usize = 400;
 
-impl Engine<'_> {
+impl Solver<'_> {
     /// The direction of initial loads `initial`, closed pairs staying closed.
     pub fn direction(&mut self, initial: Trailing) -> Equilibrium {
         let mut out = Equilibrium::none(&initial, self.now.gap.len());
@@ -43,7 +43,7 @@ impl Engine<'_> {
     /// beside the iteration's trailing solves the direction costs half a solve. In the iteration
     /// the second halves go through the part of the zone that counts.
     pub fn solve_tangent(&mut self, residual: &Trailing, tolerance: f64, keep: f64) -> Equilibrium {
-        let mut softened = self.sub.zeros();
+        let mut softened = self.structure.sub.zeros();
         let part = self.part_that_counts(residual);
         // The residual that is left is the load of z.
         let mut z = Equilibrium::none(residual, self.now.gap.len());
@@ -107,6 +107,6 @@ impl Engine<'_> {
     fn part_that_counts(&self, residual: &Trailing) -> ZonePart {
         let mut marks: Vec<bool> = residual.zone.iter().map(|r| *r != 0.0).collect();
         self.zone.mark_active(&mut marks);
-        self.sub.part_of_zone(&marks)
+        self.structure.sub.part_of_zone(&marks)
     }
 }

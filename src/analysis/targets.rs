@@ -1,25 +1,125 @@
 //! Targets: from the current load factor to the next state that the program asks for.
 
-use super::aim::Aim;
 use super::check::gaps_are_alike;
-use super::drive::{Arrival, Monitor, stopped};
-use super::engine::Engine;
-use super::place::Search;
-use super::program::{DOUBLINGS, Run};
+use super::drive::{Arrival, Monitor};
+use super::position::{FirstYield, Search, share_of_way};
+use super::program::{DOUBLINGS, Run, ZONE_ATTEMPTS};
+use super::solver::Solver;
+use super::state::State;
+use super::zone_choice;
 use crate::error::{Error, Result};
+use crate::results;
 use crate::scene::{Direction, DisplacementTarget, Kind, Stepping, Target};
+use serde::{Deserialize, Serialize};
+use std::time::Instant;
 
-impl Run<'_, '_> {
+/// Where the way to a target starts: it is gone again where the zone was too small for it.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Start {
+    pub(super) state: State,
+    pub(super) first_yield: FirstYield,
+    /// Increments that were accepted before.
+    pub(super) rows: usize,
+}
+
+impl<'m> Run<'m, '_> {
+    /// Sets out for the next target.
+    pub(super) fn begin_target(&mut self) -> Result<()> {
+        self.set_start();
+        let (target, label) = self.target();
+        if target.first_yield {
+            let alpha = self.position.first_yield.alpha.ok_or_else(|| {
+                Error::analysis(format!("target `{label}`: no yield load was found before the program's largest load factor"))
+            })?;
+            self.position.stops = self.stops(alpha);
+        } else if let Some(alpha) = target.load_factor {
+            self.position.stops = self.stops(alpha);
+        } else if target.half_width.is_some() {
+            let monitor = self.monitor_of(1.0)?;
+            let off = monitor(&mut self.solver)?;
+            self.search(monitor, off, off < 0.0, 1.0);
+        } else if let Some(goal) = &target.displacement {
+            let off = self.monitor_of(1.0)?(&mut self.solver)?;
+            let largest = goal.value.abs().max(off.abs());
+            let scale = if largest > 0.0 { largest } else { 1.0 };
+            let monitor = self.monitor_of(scale)?;
+            let here = off / scale;
+            let ahead = self.a_little_ahead(&monitor)?;
+            self.search(monitor, here, (ahead - here) * here <= 0.0, scale);
+        } else {
+            return Err(Error::input(format!("target `{label}` has no condition")));
+        }
+        Ok(())
+    }
+
+    /// Takes note of where the way to a target starts.
+    pub(super) fn set_start(&mut self) {
+        self.start = Some(Start {
+            state: self.solver.state(),
+            first_yield: self.position.first_yield,
+            rows: self.results.history.len(),
+        });
+        if let Some(checkpoints) = &mut self.checkpoints {
+            checkpoints.forget_start();
+        }
+    }
+
+    /// The target at hand and its name.
+    fn target(&self) -> (&'m Target, String) {
+        let index = self.position.target;
+        let target = &self.model().scene.program.targets[index];
+        (target, self.labels[index].clone())
+    }
+
+    /// Takes the state at a target that was reached. The guard layer only sees what grows out of
+    /// the zone: where the state shows stress beyond yield elsewhere the zone is widened to there,
+    /// and the way to the target is gone again.
+    pub(super) fn finish_target(&mut self) -> Result<Option<results::State>> {
+        let begun = Instant::now();
+        let (target, label) = self.target();
+        let figures = self.solver.reading().figures(&label, target.fields)?;
+        let seconds = &mut self.position.seconds;
+        seconds.stresses += figures.stress_seconds;
+        seconds.states += begun.elapsed().as_secs_f64() - figures.stress_seconds;
+        self.monitor = None;
+        let missed = figures.beyond_yield_outside;
+        let start = self.start.take();
+        if missed.is_empty() {
+            self.position.target += 1;
+            self.position.attempt = 0;
+            return Ok(Some(figures.state));
+        }
+        let start = start.ok_or_else(|| Error::internal("the way to a target has no start"))?;
+        self.position.attempt += 1;
+        self.solver.restore(&start.state);
+        self.results.history.truncate(start.rows);
+        // What was searched for first yield did not hold all that yields: the way is watched from
+        // its start.
+        self.position.first_yield = FirstYield {
+            elastic_range: [0.0; 2],
+            ..start.first_yield
+        };
+        if self.position.attempt == ZONE_ATTEMPTS {
+            return Err(Error::analysis(format!(
+                "target `{label}`: the material keeps yielding outside the zone that was chosen"
+            )));
+        }
+        let wider = zone_choice::including(self.model(), &self.zone.choice, &missed);
+        self.set_zone(wider)?;
+        Ok(None)
+    }
+
     /// Ends of the straight pieces from the current load factor to `alpha`: the kinks of the loads'
     /// histories in between.
     pub(super) fn stops(&self, alpha: f64) -> Vec<f64> {
-        let from = self.engine.at.alpha;
+        let from = self.solver.at.alpha;
+        let first_yield = &self.position.first_yield;
         let mut stops: Vec<f64> = self
             .model()
             .loads
             .iter()
             .flat_map(|l| l.kinks())
-            .chain(self.standing.yield_alpha.filter(|_| !self.standing.plastic))
+            .chain(first_yield.alpha.filter(|_| !first_yield.is_behind))
             .filter(|k| (*k - from) * (alpha - *k) > 0.0)
             .collect();
         stops.sort_by(|a, b| a.total_cmp(b));
@@ -31,54 +131,26 @@ impl Run<'_, '_> {
         stops
     }
 
-    /// Drives to a load factor along straight pieces between the kinks of the loads' histories.
-    /// Wherever the path leaves what the search for the yield load went through, it is watched for
-    /// first yield.
-    pub(super) fn drive_to_factor(
-        &mut self,
-        alpha: f64,
-        monitor: Option<&Monitor>,
-    ) -> Result<Arrival> {
-        // A run that goes on has the stops of its begin.
-        let left = self
-            .resumed
-            .as_mut()
-            .map(|place| std::mem::take(&mut place.stops));
-        let stops = left.filter(|stops| !stops.is_empty());
-        let stops = stops.unwrap_or_else(|| self.stops(alpha));
-        for (i, &stop) in stops.iter().enumerate() {
-            self.place.stops = stops[i..].to_vec();
-            let end = self.engine.point(stop);
-            loop {
-                let [low, high] = self.standing.elastic_range;
-                let from = self.engine.at.alpha;
-                let known = from.min(stop) >= low && from.max(stop) <= high;
-                let resumed = self.resumed.as_ref().and_then(|place| place.drive.as_ref());
-                let watch_yield =
-                    resumed.map_or(!self.standing.plastic && !known, |d| d.watch_yield);
-                match self.drive(&end, monitor, watch_yield)? {
-                    Arrival::End => break,
-                    Arrival::Yield(peak) => {
-                        self.record_yield(peak)?;
-                        self.standing
-                            .yield_alpha
-                            .get_or_insert(self.engine.at.alpha);
-                    }
-                    Arrival::Stopped => return Err(stopped()),
-                    other => return Ok(other),
-                }
-            }
-            if self.standing.yield_alpha == Some(stop) {
-                self.standing.plastic = true;
-            }
+    /// Share of the way to the target at hand that lies behind.
+    pub(super) fn share_behind(&self, arrival: Option<Arrival>) -> f64 {
+        let Some(start) = &self.start else {
+            return 0.0;
+        };
+        if arrival == Some(Arrival::Monitor) {
+            return 1.0;
         }
-        Ok(Arrival::End)
-    }
-
-    fn aim_at_factor(&mut self, to: f64) {
-        let from = self.engine.at.alpha;
-        let power = self.changes_by_load();
-        self.aim = Aim::Factor { from, to, power };
+        let (drive, stops) = (&self.position.drive, &self.position.stops);
+        match (&self.position.search, stops.last()) {
+            (Some(search), _) => {
+                let monitored = drive.as_ref().and_then(|drive| drive.monitored());
+                search.share_behind(monitored.unwrap_or(f64::NAN))
+            }
+            (None, Some(&to)) => {
+                let power = self.changes_by_load();
+                share_of_way(self.solver.at.alpha, start.state.at.alpha, to, power)
+            }
+            (None, None) => 1.0,
+        }
     }
 
     /// Power of the load in which changes of contact lie evenly: that of the width of Hertz'
@@ -95,132 +167,112 @@ impl Run<'_, '_> {
         }
     }
 
-    pub(super) fn reach(&mut self, target: &Target, label: &str) -> Result<()> {
-        if target.first_yield {
-            let alpha = self.standing.yield_alpha.ok_or_else(|| {
-                Error::analysis(format!("target `{label}`: no yield load was found before the program's largest load factor"))
-            })?;
-            self.aim_at_factor(alpha);
-            self.drive_to_factor(alpha, None)?;
-            return Ok(());
-        }
-        if let Some(alpha) = target.load_factor {
-            self.aim_at_factor(alpha);
-            self.drive_to_factor(alpha, None)?;
-            return Ok(());
-        }
+    /// What vanishes at the target at hand, of order 1 where it is measured against `scale`: so the
+    /// accuracy of the search does not depend on units.
+    ///
+    /// # Errors
+    /// A target that cannot be measured.
+    pub(super) fn monitor_of(&self, scale: f64) -> Result<Box<Monitor<'m>>> {
+        let (target, label) = self.target();
         if let Some(multiple) = target.half_width {
-            let at_yield = self
-                .results
-                .first_yield
-                .map(|y| y.half_width)
-                .filter(|b| *b > 0.0)
+            let at_yield = self.position.first_yield.point;
+            let at_yield = at_yield.map(|y| y.half_width).filter(|b| *b > 0.0);
+            let goal = at_yield
+                .map(|at_yield| multiple * at_yield)
                 .ok_or_else(|| {
                     Error::analysis(format!(
                         "target `{label}`: the contact half width at yield is not known"
                     ))
                 })?;
-            let goal = multiple * at_yield;
-            // Relative, so that the accuracy of the search does not depend on units.
-            let monitor =
-                move |engine: &mut Engine| Ok(engine.contact_figures().half_width / goal - 1.0);
-            let upward = self.engine.contact_figures().half_width < goal;
-            return self.search(&monitor, upward, 1.0, label);
+            return Ok(Box::new(move |solver: &mut Solver| {
+                Ok(solver.contact_figures().half_width / goal - 1.0)
+            }));
         }
-        match &target.displacement {
-            Some(goal) => self.reach_displacement(goal, label),
-            None => Err(Error::input(format!("target `{label}` has no condition"))),
-        }
-    }
-
-    /// Moves on until the mean displacement of a set has a value.
-    fn reach_displacement(&mut self, goal: &DisplacementTarget, label: &str) -> Result<()> {
-        let nodes = self.model().mesh.set_nodes(&goal.on).ok_or_else(|| {
-            Error::input(format!(
-                "target `{label}`: the mesh has no set `{}`",
-                goal.on
-            ))
-        })?;
-        let direction = usize::from(goal.direction == Direction::Y);
-        let value = goal.value;
-        let distance = move |engine: &mut Engine| -> Result<f64> {
-            let u = engine.all_displacements()?;
-            let (freedoms, factors) = (&engine.model.freedoms, &engine.at.factors);
+        let Some(goal) = &target.displacement else {
+            return Err(Error::internal("a target that is not searched for"));
+        };
+        let DisplacementTarget { on, value, .. } = goal;
+        let (value, direction) = (*value, usize::from(goal.direction == Direction::Y));
+        let nodes =
+            self.model().mesh.set_nodes(on).ok_or_else(|| {
+                Error::input(format!("target `{label}`: the mesh has no set `{on}`"))
+            })?;
+        Ok(Box::new(move |solver: &mut Solver| {
+            let u = solver.all_displacements()?;
+            let (freedoms, factors) = (&solver.structure.model.freedoms, &solver.at.factors);
             let along = |&n: &usize| freedoms.displacement(n, &u, factors)[direction];
-            Ok(nodes.iter().map(along).sum::<f64>() / nodes.len() as f64 - value)
-        };
-        let resumed = self.resumed.as_ref().and_then(|place| place.search);
-        let scale = match resumed {
-            Some(search) => search.scale,
-            None => value.abs().max(distance(&mut self.engine)?.abs()),
-        };
-        let monitor = move |engine: &mut Engine| {
-            let off = distance(engine)?;
-            Ok(if scale > 0.0 { off / scale } else { off })
-        };
-        if let Some(search) = resumed {
-            return self.search(&monitor, search.upward, scale, label);
-        }
-        let here = monitor(&mut self.engine)?;
-        let ahead = {
-            let alpha = self.engine.at.alpha;
-            let probe = self.engine.point(alpha + 1e-3 * alpha.abs().max(1.0));
-            let saved = (self.engine.at.clone(), self.engine.now.clone());
-            let initial = self.engine.now.initial.clone();
-            self.engine.now = self.engine.respond(&probe, initial);
-            self.engine.at = probe;
-            let value = monitor(&mut self.engine);
-            (self.engine.at, self.engine.now) = saved;
-            value?
-        };
-        let upward = (ahead - here) * here <= 0.0;
-        self.search(&monitor, upward, scale, label)
+            let mean = nodes.iter().map(along).sum::<f64>() / nodes.len() as f64;
+            Ok((mean - value) / scale)
+        }))
     }
 
-    /// Moves the load factor up (doubling) or down to zero until the monitored quantity, measured
-    /// against `scale`, vanishes.
-    pub(super) fn search(
-        &mut self,
-        monitor: &Monitor,
-        upward: bool,
-        scale: f64,
-        label: &str,
-    ) -> Result<()> {
-        self.aim = Aim::Monitored { at_first: None };
-        let resumed = self.resumed.as_mut().and_then(|place| place.search.take());
-        // One that goes on is on the way to the end that it had.
-        let mut under_way = resumed.is_some();
-        let mut search = resumed.unwrap_or(Search {
-            end: self.engine.at.alpha,
+    /// A monitored quantity at a load factor that is a little larger, nothing yielding on the way.
+    fn a_little_ahead(&mut self, monitor: &Monitor) -> Result<f64> {
+        let before = self.solver.state();
+        let alpha = before.at.alpha;
+        let nearby = alpha + 1e-3 * alpha.abs().max(1.0);
+        let point = self.solver.structure.point(nearby);
+        let initial = before.equilibrium.initial.clone();
+        self.solver.now = self.solver.respond(&point, initial);
+        self.solver.at = point;
+        let value = monitor(&mut self.solver);
+        self.solver.restore(&before);
+        value
+    }
+
+    /// From here on the load factor moves up (doubling) or down to zero until the monitored
+    /// quantity, `off` here, vanishes.
+    pub(super) fn search(&mut self, monitor: Box<Monitor<'m>>, off: f64, upward: bool, scale: f64) {
+        self.monitor = Some(monitor);
+        self.position.search = Some(Search {
+            end: self.solver.at.alpha,
             rounds: 0,
             upward,
             scale,
+            at_first: off.abs(),
         });
-        while search.rounds < DOUBLINGS {
-            if !under_way {
-                search.end = match (search.upward, search.end > 0.0) {
-                    (true, _) => {
-                        2.0 * search
-                            .end
-                            .max(0.5 * self.standing.yield_alpha.unwrap_or(1.0))
-                    }
-                    (false, true) => 0.0,
-                    (false, false) => break,
-                };
-            }
-            under_way = false;
-            self.place.search = Some(search);
-            search.rounds += 1;
-            match self.drive_to_factor(search.end, Some(monitor))? {
-                Arrival::Monitor => return Ok(()),
-                Arrival::End => {}
-                _ => return Err(stopped()),
-            }
+    }
+
+    /// Sets out for the next load factor of a search.
+    pub(super) fn widen_search(&mut self) -> Result<()> {
+        let Some(mut search) = self.position.search else {
+            return Ok(());
+        };
+        let begun = 0.5 * self.position.first_yield.alpha.unwrap_or(1.0);
+        let next = match (search.upward, search.end > 0.0) {
+            _ if search.rounds == DOUBLINGS => None,
+            (true, _) => Some(2.0 * search.end.max(begun)),
+            (false, true) => Some(0.0),
+            (false, false) => None,
+        };
+        let Some(next) = next else {
+            return Err(self.never_reached());
+        };
+        search.end = next;
+        search.rounds += 1;
+        self.position.search = Some(search);
+        self.position.stops = self.stops(next);
+        Ok(())
+    }
+
+    /// The monitored quantity has vanished.
+    pub(super) fn end_search(&mut self) {
+        self.position.search = None;
+        self.position.stops.clear();
+    }
+
+    fn never_reached(&mut self) -> Error {
+        let off = match &self.monitor {
+            Some(monitor) => monitor(&mut self.solver),
+            None => Ok(f64::NAN),
+        };
+        match off {
+            Ok(off) => Error::analysis(format!(
+                "target `{}` was never reached: the load factor went to {:.6} and the target quantity is still off by {off:.6e}",
+                self.target().1,
+                self.solver.at.alpha
+            )),
+            Err(error) => error,
         }
-        let off = monitor(&mut self.engine)?;
-        Err(Error::analysis(format!(
-            "target `{label}` was never reached: the load factor went to {:.6} and the target quantity is still off by {off:.6e}",
-            self.engine.at.alpha
-        )))
     }
 }

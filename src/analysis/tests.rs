@@ -2,8 +2,9 @@
 //! asks for first yield, loads that fall or turn, yielding far from the contact.
 
 use super::Analysis;
-use super::engine::Engine;
 use super::program::Run;
+use super::solver::Solver;
+use super::targets::Start;
 use crate::error::{Error, ErrorKind};
 use crate::linalg::Backend;
 use crate::model::Model;
@@ -12,6 +13,7 @@ use crate::results::Results;
 use crate::scene::Scene;
 use std::cell::Cell;
 use std::error::Error as _;
+use std::rc::Rc;
 
 fn run(text: &str) -> Results {
     let scene = Scene::parse(text, "test").expect("scene");
@@ -246,20 +248,24 @@ fn a_search_ends_with_the_error_of_what_it_looks_at() {
     let analysis = Analysis::new(model, Backend::Dense).unwrap();
     let search = |fails_at: usize| {
         let mut observer = Silent;
-        let (model, system) = (analysis.model(), analysis.system());
-        let mut run = Run::new(model, system, Backend::Dense, &[], &mut observer).unwrap();
-        run.execute(false).unwrap();
-        let calls = Cell::new(0);
-        let monitor = |engine: &mut Engine| {
-            calls.set(calls.get() + 1);
-            if calls.get() == fails_at {
+        let mut run = Run::new(&analysis, &mut observer).unwrap();
+        run.execute().unwrap();
+        let calls = Rc::new(Cell::new(0));
+        let counted = Rc::clone(&calls);
+        let monitor = move |solver: &mut Solver| {
+            counted.set(counted.get() + 1);
+            if counted.get() == fails_at {
                 let cause = std::io::Error::other("no memory");
                 return Err(Error::internal("a solve failed").because(cause));
             }
-            Ok(engine.at.alpha - 0.9)
+            Ok(solver.at.alpha - 0.9)
         };
-        let found = run.search(&monitor, true, 1.0, "pulled");
-        found.map(|()| (run.engine.at.alpha, run.standing.plastic, calls.get()))
+        run.search(Box::new(monitor), 0.6, true, 1.0);
+        while run.position.search.is_some() {
+            run.next()?;
+        }
+        let yielded = run.position.first_yield.is_behind;
+        Ok::<_, Error>((run.solver.at.alpha, yielded, calls.get()))
     };
     let (alpha, plastic, calls) = search(usize::MAX).unwrap();
     assert!((alpha - 0.9).abs() < 1e-9 && plastic, "{alpha}");
@@ -311,4 +317,32 @@ fn progress_is_done_with_the_last_increment_only() {
         .unwrap();
     let half = seen.0[(top + results.history.len()) / 2];
     assert!((0.72..0.95).contains(&half), "{half}");
+}
+
+/// Where the way to a target starts goes through a checkpoint with all that a retry with a wider
+/// zone puts back.
+#[test]
+fn the_start_of_a_way_keeps_the_first_yield_that_was_known() {
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/data/scenes/hard/unload_reload.toml"
+    );
+    let model = Model::new(&Scene::load(path).unwrap()).unwrap();
+    let analysis = Analysis::new(model, Backend::Dense).unwrap();
+    let mut observer = Silent;
+    let mut run = Run::new(&analysis, &mut observer).unwrap();
+    run.execute().unwrap();
+    let known = run.position.first_yield;
+    assert!(known.point.is_some() && known.alpha.is_some() && known.is_behind);
+    run.set_start();
+    let bytes = postcard::to_stdvec(run.start.as_ref().unwrap()).unwrap();
+    let start: Start = postcard::from_bytes(&bytes).unwrap();
+    assert_eq!(start.first_yield.point, known.point);
+    assert_eq!(start.first_yield.alpha, known.alpha);
+    assert!(start.first_yield.is_behind);
+    assert_eq!(start.rows, run.results.history.len());
+    assert!(run.solver.knows(&start.state));
+    assert_eq!(start.state.at, run.solver.at);
+    assert_eq!(start.state.history, run.solver.zone.history());
+    assert_eq!(start.state.open, run.solver.tableau.open());
 }

@@ -5,8 +5,9 @@
 //! yield load, found there to round-off. Secant: the paper's (3.14), each iterate a contact problem
 //! solved from scratch, with a bracket.
 
-use super::engine::{Engine, LoadPoint};
+use super::load_point::LoadPoint;
 use super::recovery::{Peak, Recovery, Samples};
+use super::solver::Solver;
 use crate::contact;
 use crate::error::{Error, Result};
 use std::convert::Infallible;
@@ -24,7 +25,7 @@ const PATIENCE: usize = 3;
 /// Finds `s` in `[0, 1]` with a recovered stress ratio of 1 between two sampled stress fields,
 /// linear in between. The ratio is at most 1 at `s = 0`, at least 1 at `s = 1`.
 pub fn yield_share(
-    engine: &Engine,
+    solver: &Solver,
     recovery: &mut Recovery,
     from: &Samples,
     to: &Samples,
@@ -36,7 +37,7 @@ pub fn yield_share(
                 m[c] = a[c] + s * (b[c] - a[c]);
             }
         }
-        recovery.peak(engine.model, &mixed)
+        recovery.peak(solver.structure.model, &mixed)
     };
     let mut found = None;
     let mut beyond = |s: f64| {
@@ -111,22 +112,22 @@ pub fn bracketed_root<E>(
     Ok(0.5 * (a + b))
 }
 
-impl Engine<'_> {
+impl Solver<'_> {
     /// Solves contact for the load point from scratch, elastic, and makes it the current state
     /// (paper 3.7 to 3.10).
     ///
     /// # Errors
     /// A load that drives a body away from every contact.
     pub fn solve_contact_at(&mut self, point: &LoadPoint) -> Result<()> {
-        let mut q = self.closed_forces(point);
+        let mut q = self.structure.closed_forces(point);
         for (q, t) in q.iter_mut().zip(&self.now.initial.forces) {
             *q += t;
         }
         let n = q.len();
         let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
         let outcome = contact::solve(&mut self.tableau, &q, &mut gap, &mut force);
-        let certificate = outcome.map_err(|u| self.unbounded(u.pair, point.alpha))?;
-        self.counts.contact_changes += certificate.changes;
+        let certificate = outcome.map_err(|u| self.structure.unbounded(u.pair, point.alpha))?;
+        self.cost.counts.contact_changes += certificate.changes;
         self.at = point.clone();
         self.now.gap = gap;
         self.now.force = force;
@@ -138,9 +139,8 @@ impl Engine<'_> {
 
     /// The recovered stress peak of the current (elastic) state.
     pub fn peak(&mut self, recovery: &mut Recovery) -> Option<Peak> {
-        self.refresh();
-        let samples = recovery.sample(&self.now.u, &self.at.factors);
-        recovery.peak(self.model, &samples)
+        let samples = recovery.sample_here(self);
+        recovery.peak(self.structure.model, &samples)
     }
 
     /// The yield load by the paper's secant (3.14), bracketed. The state at yield becomes the
@@ -149,10 +149,10 @@ impl Engine<'_> {
     /// # Errors
     /// Where the stress does not grow with the load.
     pub fn secant_yield_load(&mut self, recovery: &mut Recovery) -> Result<(f64, Peak)> {
-        let mut evaluate = |engine: &mut Self, alpha: f64| -> Result<(f64, Option<Peak>)> {
-            let point = engine.point(alpha);
-            engine.solve_contact_at(&point)?;
-            let peak = engine.peak(recovery);
+        let mut evaluate = |solver: &mut Self, alpha: f64| -> Result<(f64, Option<Peak>)> {
+            let point = solver.structure.point(alpha);
+            solver.solve_contact_at(&point)?;
+            let peak = solver.peak(recovery);
             Ok((peak.map_or(-1.0, |p| p.ratio - 1.0), peak))
         };
         let mut previous = 1.0;

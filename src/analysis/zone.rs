@@ -8,9 +8,9 @@
 //! total strain at the end of the increment only, so within an increment they are a function of
 //! `u`.
 
-mod record;
+mod yielding;
 
-pub(super) use record::ZoneRecord;
+pub(super) use yielding::Yielding;
 
 use super::gather::{GatheredElements, Nodal, Places};
 use crate::assembly::gauss_points_of;
@@ -221,6 +221,11 @@ impl Zone {
             }
             self.renew_base();
         }
+    }
+
+    /// Number of places for points that so many elements take.
+    pub fn n_points(&self, elements: &[usize]) -> usize {
+        elements.len() * self.stride
     }
 
     /// The history, point by point.

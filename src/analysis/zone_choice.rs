@@ -4,8 +4,9 @@
 //! elastic stress at the program's extreme loads then predicts how far yielding spreads; a guard
 //! layer round the prediction watches, and when it flows the zone grows.
 
-use super::engine::{Engine, combination};
+use super::solver::Solver;
 use super::stress_field::{largest_von_mises, stress};
+use super::structure::combination;
 use crate::element::{MAX_NODES, sampled_strains};
 use crate::error::Result;
 use crate::model::{Model, Slot};
@@ -239,22 +240,26 @@ pub fn stress_ratios(model: &Model, u: &[f64], factors: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-impl Engine<'_> {
+impl Solver<'_> {
     /// Displacements of the whole model for the current state: half a full solve.
     ///
     /// # Errors
     /// Failure of the backend's solve.
     pub fn all_displacements(&mut self) -> Result<Vec<f64>> {
         self.refresh();
-        let reduced = self.reduced_external(&self.at);
-        self.counts.full_solves += 1;
-        self.sub.recover_all(&reduced, &self.now.u)
+        let reduced = self.structure.reduced_external(&self.at);
+        self.cost.counts.full_solves += 1;
+        self.structure.sub.recover_all(&reduced, &self.now.u)
     }
 
     /// Applied loads, contact forces and initial loads on all freedoms.
     pub fn total_load(&self) -> Vec<f64> {
-        let mut load = combination(self.model.freedoms.n, &self.system.loads, &self.at.factors);
-        let partition = &self.sub.partition;
+        let mut load = combination(
+            self.structure.model.freedoms.n,
+            &self.structure.system.loads,
+            &self.at.factors,
+        );
+        let partition = &self.structure.sub.partition;
         for (&f, j) in partition.zone.iter().zip(&self.now.initial.load.zone) {
             load[f] += j;
         }

@@ -1,62 +1,120 @@
 //! The zone of a run: fitted to the program's extreme loads, following the load, grown where it
 //! must.
 
+use super::drive::crosses;
+use super::packed::Ascending;
 use super::program::Run;
 use super::recovery::Recovery;
-use super::zone_choice::{self, Choice};
+use super::solver::Solver;
+use super::zone_choice::{self, Choice, PREDICTED};
 use crate::error::Result;
 use crate::scene::History;
+use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
 /// Factor on the load from one stage of the zone to the next: what it saves in trailing solves
 /// against what a stage costs, a copy of the zone's part of the factor.
 const STAGE: f64 = 1.1;
 
+/// The zone at hand, and what it is chosen by.
+pub(super) struct ZoneFit {
+    pub(super) choice: Choice,
+    /// Recovered stress over the zone, once it was asked for.
+    recovery: Option<Recovery>,
+    /// Elastic von Mises stress over yield stress of each element where first yield was last looked
+    /// for; empty where the zone holds all that may yield.
+    pub(super) ratios_before_yield: Vec<f64>,
+    /// What the zone follows the load by.
+    pub(super) spread: Option<Spread>,
+}
+
+impl ZoneFit {
+    pub(super) fn new(choice: Choice) -> Self {
+        ZoneFit {
+            choice,
+            recovery: None,
+            ratios_before_yield: Vec::new(),
+            spread: None,
+        }
+    }
+
+    /// Recovered stress over the zone, if there is one.
+    pub(super) fn recovery(&mut self, solver: &Solver) -> Option<&mut Recovery> {
+        if self.choice.elements.is_empty() {
+            return None;
+        }
+        let (elements, places) = (&self.choice.elements, &solver.structure.places);
+        let recovery = &mut self.recovery;
+        Some(
+            recovery.get_or_insert_with(|| Recovery::new(solver.structure.model, elements, places)),
+        )
+    }
+}
+
 /// How far yielding will spread, by the elastic stress at the program's extreme loads.
+#[derive(Serialize, Deserialize)]
 pub(super) struct Spread {
-    /// Elastic von Mises stress over yield stress of each element at the largest load, and no less
-    /// than what it is at first yield lets expect there.
-    pub(super) ratios: Vec<f64>,
+    /// Elements that may be predicted to yield.
+    elements: Ascending,
+    /// Their elastic von Mises stress over yield stress at the largest load, and no less than what
+    /// it is at first yield lets expect there.
+    ratios: Vec<f64>,
     /// The largest load factor.
-    pub(super) highest: f64,
-    /// Load factor up to which the zone at hand was chosen.
-    pub(super) until: f64,
+    highest: f64,
+}
+
+impl Spread {
+    fn new(ratios: &[f64], highest: f64) -> Self {
+        let hot = |e: &usize| ratios[*e] >= PREDICTED;
+        let elements: Vec<usize> = (0..ratios.len()).filter(hot).collect();
+        Spread {
+            ratios: elements.iter().map(|&e| ratios[e]).collect(),
+            elements: Ascending::new(elements),
+            highest,
+        }
+    }
+
+    /// The ratios of all elements: zero where they do not matter.
+    fn ratios(&self, n_elements: usize) -> Vec<f64> {
+        let mut all = vec![0.0; n_elements];
+        for (element, ratio) in self.elements.iter().zip(&self.ratios) {
+            if let Some(place) = all.get_mut(element) {
+                *place = *ratio;
+            }
+        }
+        all
+    }
 }
 
 impl Run<'_, '_> {
     /// Chooses the zone for the program's extreme loads from the elastic stress there. What was
     /// factored as zone usually holds it; else this is the second factorisation, and the last.
     pub(super) fn fit_zone(&mut self) -> Result<()> {
-        if self.choice.holds_all(self.model()) {
+        if self.zone.choice.holds_all(self.model()) {
             return Ok(());
         }
-        let Some(at_yield) = self.standing.yield_alpha else {
+        let Some(at_yield) = self.position.first_yield.alpha else {
             // Nothing yields: the elastic path needs no zone at all.
             return Ok(());
         };
-        let saved = (
-            self.engine.at.clone(),
-            self.engine.now.clone(),
-            self.engine.tableau.open().to_vec(),
-        );
+        let before = self.solver.state();
         let mut ratios = vec![0.0f64; self.model().mesh.n_elements()];
         let extremes = self.extreme_factors(at_yield);
         for &alpha in &extremes {
-            let point = self.engine.point(alpha);
-            if self.engine.solve_contact_at(&point).is_err() {
+            let point = self.solver.structure.point(alpha);
+            if self.solver.solve_contact_at(&point).is_err() {
                 continue;
             }
-            let u = self.engine.all_displacements()?;
+            let u = self.solver.all_displacements()?;
             for (r, new) in ratios.iter_mut().zip(zone_choice::stress_ratios(
                 self.model(),
                 &u,
-                &self.engine.at.factors,
+                &self.solver.at.factors,
             )) {
                 *r = r.max(new);
             }
         }
-        self.engine.tableau.reset(&saved.2);
-        (self.engine.at, self.engine.now, self.engine.fresh) = (saved.0, saved.1, true);
+        self.solver.restore_elastic(&before);
         self.set_zone(zone_choice::predict(self.model(), &ratios))?;
         let model = self.model();
         let proportional = |l: &crate::model::LoadCase| matches!(l.history, History::Proportional);
@@ -67,37 +125,54 @@ impl Run<'_, '_> {
             // stress than the law gives it: near a surface von Mises stress falls as pressure evens
             // out.
             let growth = 1.0 / zone_choice::decline(model, at_yield.abs() / highest);
-            for (ratio, before) in ratios.iter_mut().zip(&self.ratios_before_yield) {
+            for (ratio, before) in ratios.iter_mut().zip(&self.zone.ratios_before_yield) {
                 *ratio = ratio.max(before * growth);
             }
-            self.spread = Some(Spread {
-                ratios,
-                highest,
-                until: 0.0,
-            });
+            self.zone.spread = Some(Spread::new(&ratios, highest));
         }
         Ok(())
     }
 
     /// Lets the zone follow the load: while it is far below the program's largest, so is the zone.
-    pub(super) fn follow_load(&mut self) -> Result<()> {
-        let reached = self.engine.at.alpha.abs();
-        let Some(spread) = self.spread.as_mut().filter(|s| reached >= s.until) else {
-            return Ok(());
+    /// Whether the monitored quantity vanished by that.
+    pub(super) fn follow_load(&mut self) -> Result<bool> {
+        let (reached, until) = (self.solver.at.alpha.abs(), self.position.zone_until);
+        let Some(spread) = self.zone.spread.as_ref().filter(|_| reached >= until) else {
+            return Ok(false);
         };
         let nothing = Choice::default();
-        let old = if spread.until == 0.0 {
+        let old = if until == 0.0 {
             &nothing
         } else {
-            &self.choice
+            &self.zone.choice
         };
-        spread.until = STAGE * reached;
-        if spread.until >= spread.highest {
-            spread.until = f64::INFINITY;
+        let until = STAGE * reached;
+        let share = (until / spread.highest).min(1.0);
+        self.position.zone_until = if until >= spread.highest {
+            f64::INFINITY
+        } else {
+            until
+        };
+        let model = self.solver.structure.model;
+        let ratios = spread.ratios(model.mesh.n_elements());
+        let next = zone_choice::stage(model, &ratios, share, old);
+        self.change_zone(next)
+    }
+
+    /// Goes on with another zone amid a drive. That puts the state in equilibrium anew, within the
+    /// tolerance, which may be all that was missing: whether the monitored quantity vanished.
+    pub(super) fn change_zone(&mut self, choice: Choice) -> Result<bool> {
+        let measure = |run: &mut Self| match &run.monitor {
+            Some(monitor) => monitor(&mut run.solver).map(Some),
+            None => Ok(None),
+        };
+        if choice == self.zone.choice {
+            return Ok(false);
         }
-        let share = (spread.until / spread.highest).min(1.0);
-        let next = zone_choice::stage(self.engine.model, &spread.ratios, share, old);
-        self.set_zone(next)
+        let was = measure(self)?;
+        self.set_zone(choice)?;
+        let is = measure(self)?;
+        Ok(was.zip(is).is_some_and(|(was, is)| crosses(was, is)))
     }
 
     /// Load factors between which the program moves, and those on the way at which a load turns; a
@@ -119,27 +194,15 @@ impl Run<'_, '_> {
 
     /// Goes on with another zone; state and history are kept.
     pub(super) fn set_zone(&mut self, choice: Choice) -> Result<()> {
-        if choice == self.choice {
+        if choice == self.zone.choice {
             return Ok(());
         }
         let start = Instant::now();
-        self.recovery = None;
-        self.engine
+        self.zone.recovery = None;
+        self.solver
             .set_zone(choice.elements.clone(), &choice.guard)?;
-        self.choice = choice;
-        self.standing.seconds.condensation += start.elapsed().as_secs_f64();
+        self.zone.choice = choice;
+        self.position.seconds.condensation += start.elapsed().as_secs_f64();
         Ok(())
-    }
-
-    /// Recovered stress over the zone at hand, if there is one.
-    pub(super) fn recovery(&mut self) -> Option<&mut Recovery> {
-        if self.choice.elements.is_empty() {
-            return None;
-        }
-        let (model, choice, places) = (self.engine.model, &self.choice, &self.engine.places);
-        Some(
-            self.recovery
-                .get_or_insert_with(|| Recovery::new(model, &choice.elements, places)),
-        )
     }
 }

@@ -1,9 +1,9 @@
-//! Faults put in on purpose: each must show in the run's own figures. The structure that the engine works with is corrupted, the
+//! Faults put in on purpose: each must show in the run's own figures. The structure that the solver works with is corrupted, the
 //! figures see the true one.
 
 use super::{Displacements, tolerances};
-use crate::analysis::drive::{Arrival, IncrementReport};
-use crate::analysis::engine::Engine;
+use crate::analysis::drive::Arrival;
+use crate::analysis::solver::Solver;
 use crate::assembly::{System, assemble};
 use crate::contact::Tableau;
 use crate::linalg::Backend;
@@ -51,28 +51,32 @@ fn model() -> (Model, System) {
     (model, system)
 }
 
-/// The quality of the state at the end of the load, found by an engine on `used`, `tamper`ed with before and `after` the way there,
+/// The quality of the state at the end of the load, found by a solver on `used`, `tamper`ed with before and `after` the way there,
 /// and judged by `system`.
 fn quality(
     model: &Model,
     system: &System,
     used: &System,
-    tamper: impl Fn(&mut Engine),
-    after: impl Fn(&mut Engine),
+    tamper: impl Fn(&mut Solver),
+    after: impl Fn(&mut Solver),
 ) -> Quality {
-    let mut engine =
-        Engine::new(model, used, Backend::default(), &[], Vec::new(), &[]).expect("engine");
-    engine.system = system;
-    tamper(&mut engine);
-    let end = engine.point(1.0);
-    let mut report = |_: &mut Engine, _: &IncrementReport| Ok(true);
-    let arrival = engine.drive_elastic(&end, None, None, None, &mut report);
+    let mut solver =
+        Solver::new(model, used, Backend::default(), &[], Vec::new(), &[]).expect("solver");
+    solver.structure.system = system;
+    tamper(&mut solver);
+    let end = solver.structure.point(1.0);
+    let arrival = solver.drive_elastic(&end, None);
     assert_eq!(arrival.expect("drive"), Arrival::End);
-    after(&mut engine);
-    engine.state("end", false).expect("state").quality
+    after(&mut solver);
+    solver
+        .reading()
+        .figures("end", false)
+        .expect("state")
+        .state
+        .quality
 }
 
-fn nothing(_: &mut Engine) {}
+fn nothing(_: &mut Solver) {}
 
 #[track_caller]
 fn caught(model: &Model, quality: Quality, by: &[&str]) {
@@ -114,16 +118,16 @@ fn a_corrupted_factor_is_caught() {
 #[test]
 fn a_wrong_schur_complement_is_caught() {
     let (model, system) = model();
-    let tamper = |engine: &mut Engine| {
-        let mut matrix = engine.tableau.matrix().dense();
+    let tamper = |solver: &mut Solver| {
+        let mut matrix = solver.tableau.matrix().dense();
         let n = matrix.nrows();
         assert!(model.pairs[0].gap > model.pairs[n - 1].gap);
         for (i, j) in [(0, n - 1), (n - 1, 0)] {
             matrix[(i, j)] *= 1.0 + 1e-4;
         }
-        let open = engine.tableau.open().to_vec();
-        engine.tableau = Tableau::new(matrix);
-        engine.tableau.reset(&open);
+        let open = solver.tableau.open().to_vec();
+        solver.tableau = Tableau::new(matrix);
+        solver.tableau.reset(&open);
     };
     let q = quality(&model, &system, &system, tamper, nothing);
     caught(&model, q, &["equilibrium"]);
@@ -135,16 +139,16 @@ fn a_wrong_schur_complement_is_caught() {
 fn a_flipped_status_is_caught() {
     let (model, system) = model();
     for closed in [true, false] {
-        let flip = |engine: &mut Engine| {
-            let open = engine.tableau.open().to_vec();
+        let flip = |solver: &mut Solver| {
+            let open = solver.tableau.open().to_vec();
             let edge = (0..open.len() - 1)
                 .find(|&k| open[k] != open[k + 1])
                 .expect("an edge of the contact");
             let k = if open[edge] != closed { edge } else { edge + 1 };
-            assert!(engine.tableau.flip(k));
-            engine.fresh = false;
-            engine.refresh();
-            for value in engine.now.gap.iter_mut().chain(&mut engine.now.force) {
+            assert!(solver.tableau.flip(k));
+            solver.fresh = false;
+            solver.refresh();
+            for value in solver.now.gap.iter_mut().chain(&mut solver.now.force) {
                 *value = value.max(0.0);
             }
         };
@@ -163,36 +167,44 @@ fn the_condition_of_an_earlier_factorisation_is_not_forgotten() {
     let backend = Backend::default();
     let elements = [0, model.mesh.n_elements() - 1];
     let bound = |within: usize| {
-        let engine = Engine::new(&model, &system, backend, &[within], vec![within], &[false]);
-        engine.expect("engine").sub.condition()
+        let solver = Solver::new(&model, &system, backend, &[within], vec![within], &[false]);
+        solver.expect("solver").structure.sub.condition()
     };
     // Which freedoms come last in the factor is all that differs: so do the pivots.
     let mut ordered = elements.map(|element| (bound(element), element));
     ordered.sort_by(|a, b| b.0.total_cmp(&a.0));
     let [(worst, first), (least, last)] = ordered;
     assert!(worst > least, "{worst} {least}");
-    let mut engine =
-        Engine::new(&model, &system, backend, &[first], vec![first], &[false]).expect("engine");
-    assert_eq!(engine.condition, worst);
-    engine.set_zone(vec![last], &[false]).expect("zone");
-    assert_eq!(engine.counts.factorizations, 2);
-    assert_eq!((engine.sub.condition(), engine.condition), (least, worst));
-    let record = engine.record(&[false], engine.fingerprint());
-    let (resumed, same) = Engine::recall(&model, &system, backend, &record).expect("resumed");
+    let mut solver =
+        Solver::new(&model, &system, backend, &[first], vec![first], &[false]).expect("solver");
+    assert_eq!(solver.structure.condition, worst);
+    solver.set_zone(vec![last], &[false]).expect("zone");
+    assert_eq!(solver.cost.counts.factorizations, 2);
+    assert_eq!(
+        (solver.structure.sub.condition(), solver.structure.condition),
+        (least, worst)
+    );
+    let record = solver.record(&[false], solver.fingerprint());
+    let (resumed, same) = Solver::recall(&model, &system, backend, &record).expect("resumed");
     assert!(same);
-    assert_eq!((resumed.sub.condition(), resumed.condition), (least, worst));
+    assert_eq!(
+        (
+            resumed.structure.sub.condition(),
+            resumed.structure.condition
+        ),
+        (least, worst)
+    );
 }
 
-/// An engine at the end of the load, with displacements that belong to its gaps and forces.
-fn loaded<'m>(model: &'m Model, system: &'m System) -> Engine<'m> {
-    let mut engine =
-        Engine::new(model, system, Backend::default(), &[], Vec::new(), &[]).expect("engine");
-    let end = engine.point(1.0);
-    let mut report = |_: &mut Engine, _: &IncrementReport| Ok(true);
-    let arrival = engine.drive_elastic(&end, None, None, None, &mut report);
+/// A solver at the end of the load, with displacements that belong to its gaps and forces.
+fn loaded<'m>(model: &'m Model, system: &'m System) -> Solver<'m> {
+    let mut solver =
+        Solver::new(model, system, Backend::default(), &[], Vec::new(), &[]).expect("solver");
+    let end = solver.structure.point(1.0);
+    let arrival = solver.drive_elastic(&end, None);
     assert_eq!(arrival.expect("drive"), Arrival::End);
-    engine.refresh();
-    engine
+    solver.refresh();
+    solver
 }
 
 /// Noise put in by hand shows with its size, but for what the sound state has.
@@ -220,16 +232,20 @@ fn entry(system: &System, i: usize, j: usize) -> f64 {
 #[test]
 fn noise_in_a_displacement_shows_in_the_balance_of_forces() {
     let (model, system) = model();
-    let mut engine = loaded(&model, &system);
-    let sound = engine.quality_here().expect("quality").equilibrium;
-    let of_contact = engine.sub.partition.contact[0];
+    let mut solver = loaded(&model, &system);
+    let sound = solver
+        .reading()
+        .quality_here()
+        .expect("quality")
+        .equilibrium;
+    let of_contact = solver.structure.sub.partition.contact[0];
     for freedom in [of_contact, model.freedoms.n / 3, model.freedoms.n - 1] {
         let column = (0..model.freedoms.n).map(|i| entry(&system, i, freedom).abs());
         let stiffest = column.fold(0.0, f64::max);
         for share in [1e-6, 1e-3, 1.0] {
-            let mut u = engine.displacements().expect("displacements");
-            move_by(&mut u, freedom, share * engine.force_scale / stiffest);
-            let q = engine.quality_of(&u);
+            let mut u = solver.reading().displacements().expect("displacements");
+            move_by(&mut u, freedom, share * solver.scales.force / stiffest);
+            let q = solver.reading().quality_of(&u);
             shows(q.equilibrium, share, sound);
         }
     }
@@ -239,21 +255,25 @@ fn noise_in_a_displacement_shows_in_the_balance_of_forces() {
 #[test]
 fn noise_in_a_contact_force_shows_in_balance_and_backward_errors() {
     let (model, system) = model();
-    let mut engine = loaded(&model, &system);
-    let sound = engine.quality_here().expect("quality");
+    let mut solver = loaded(&model, &system);
+    let sound = solver.reading().quality_here().expect("quality");
     let n = model.pairs.len();
     for pair in [0, n - 1] {
         for share in [1e-6, 1e-3] {
-            let noise = share * engine.force_scale;
-            engine.now.force[pair] += noise;
-            let u = engine.displacements().expect("displacements");
-            let load = engine.total_load();
-            let q = engine.quality_of(&u);
-            engine.now.force[pair] -= noise;
-            shows(q.equilibrium, noise / engine.force_scale, sound.equilibrium);
-            let scale = system.norm * engine.deformation_scale + engine.force_scale;
+            let noise = share * solver.scales.force;
+            solver.now.force[pair] += noise;
+            let u = solver.reading().displacements().expect("displacements");
+            let load = solver.total_load();
+            let q = solver.reading().quality_of(&u);
+            solver.now.force[pair] -= noise;
+            shows(
+                q.equilibrium,
+                noise / solver.scales.force,
+                sound.equilibrium,
+            );
+            let scale = system.norm * solver.scales.deformation + solver.scales.force;
             shows(q.backward_error, noise / scale, sound.backward_error);
-            let contact = &engine.sub.partition.contact;
+            let contact = &solver.structure.sub.partition.contact;
             let of_row = [contact[pair], contact[n + pair]].map(|i| {
                 let terms =
                     (0..model.freedoms.n).map(|j| entry(&system, i, j) * u.deformation()[j]);
@@ -270,25 +290,25 @@ fn noise_in_a_contact_force_shows_in_balance_and_backward_errors() {
 #[test]
 fn tension_shows_as_adhesion() {
     let (model, system) = model();
-    let mut engine = loaded(&model, &system);
-    let sound = engine.quality_here().expect("quality").adhesion;
+    let mut solver = loaded(&model, &system);
+    let sound = solver.reading().quality_here().expect("quality").adhesion;
     let n = model.pairs.len();
-    assert!(engine.tableau.open()[..2].iter().all(|open| *open));
-    let contact = engine.sub.partition.contact.clone();
+    assert!(solver.tableau.open()[..2].iter().all(|open| *open));
+    let contact = solver.structure.sub.partition.contact.clone();
     for (place, towards) in [(0, -1.0), (n, 1.0)] {
         let freedom = contact[place];
         for share in [1e-6, 1e-2] {
-            let pull = share * engine.force_scale / entry(&system, freedom, freedom);
-            let mut u = engine.displacements().expect("displacements");
+            let pull = share * solver.scales.force / entry(&system, freedom, freedom);
+            let mut u = solver.reading().displacements().expect("displacements");
             move_by(&mut u, freedom, towards * pull);
             let tension = (0..2 * n).map(|i| {
                 let side = if i < n { 1.0 } else { -1.0 };
                 let changed = side * towards * pull * entry(&system, contact[i], freedom);
-                -(engine.now.force[i % n] + changed)
+                -(solver.now.force[i % n] + changed)
             });
-            let expected = tension.fold(0.0, f64::max) / engine.force_scale;
+            let expected = tension.fold(0.0, f64::max) / solver.scales.force;
             assert!(expected >= share * (1.0 - 1e-12));
-            shows(engine.quality_of(&u).adhesion, expected, sound);
+            shows(solver.reading().quality_of(&u).adhesion, expected, sound);
         }
     }
 }
@@ -297,27 +317,27 @@ fn tension_shows_as_adhesion() {
 #[test]
 fn a_wrong_gap_shows_in_complementarity_and_as_penetration() {
     let (model, system) = model();
-    let mut engine = loaded(&model, &system);
-    let sound = engine.quality_here().expect("quality");
+    let mut solver = loaded(&model, &system);
+    let sound = solver.reading().quality_here().expect("quality");
     let n = model.pairs.len();
     let pole = n - 1;
-    let contact = engine.sub.partition.contact.clone();
-    let share_of_force = engine.now.force[pole] / engine.force_scale;
-    let widest = (engine.delta(&engine.at).iter()).fold(0.0f64, |m, d| m.max(d.abs()));
+    let contact = solver.structure.sub.partition.contact.clone();
+    let share_of_force = solver.now.force[pole] / solver.scales.force;
+    let widest = (solver.structure.delta(&solver.at).iter()).fold(0.0f64, |m, d| m.max(d.abs()));
     for shift in [1e-6, 1e-3, -1e-6, -1e-3] {
-        let apart = shift * engine.displacement_scale;
+        let apart = shift * solver.scales.displacement;
         // The first node moves up by it, or the second one down.
         for (place, by) in [(pole, apart), (n + pole, -apart)] {
-            let mut u = engine.displacements().expect("displacements");
+            let mut u = solver.reading().displacements().expect("displacements");
             u.total[contact[place]] += by;
-            let q = engine.quality_of(&u);
-            let scale = engine.displacement_scale.max(widest);
+            let q = solver.reading().quality_of(&u);
+            let scale = solver.scales.displacement.max(widest);
             let product = apart.abs() / scale * share_of_force;
             shows(q.complementarity, product, sound.complementarity);
             if apart < 0.0 {
                 shows(
                     q.penetration,
-                    -apart / engine.displacement_scale,
+                    -apart / solver.scales.displacement,
                     sound.penetration,
                 );
             }
@@ -330,26 +350,26 @@ fn a_wrong_gap_shows_in_complementarity_and_as_penetration() {
 fn a_wrong_status_shows_with_its_tension_or_penetration() {
     let (model, system) = model();
     for closed in [true, false] {
-        let mut engine = loaded(&model, &system);
-        let sound = engine.quality_here().expect("quality");
-        let open = engine.tableau.open().to_vec();
+        let mut solver = loaded(&model, &system);
+        let sound = solver.reading().quality_here().expect("quality");
+        let open = solver.tableau.open().to_vec();
         // The outermost pair is open, the pole is closed.
         let wrong = if closed { 0 } else { open.len() - 1 };
         assert_eq!(open[wrong], closed);
-        assert!(engine.tableau.flip(wrong));
-        engine.fresh = false;
-        engine.refresh();
+        assert!(solver.tableau.flip(wrong));
+        solver.fresh = false;
+        solver.refresh();
         let worst = |values: &[f64]| values.iter().fold(0.0f64, |m, v| m.max(-v));
-        let (tension, overlap) = (worst(&engine.now.force), worst(&engine.now.gap));
-        let u = engine.displacements().expect("displacements");
-        for value in engine.now.gap.iter_mut().chain(&mut engine.now.force) {
+        let (tension, overlap) = (worst(&solver.now.force), worst(&solver.now.gap));
+        let u = solver.reading().displacements().expect("displacements");
+        for value in solver.now.gap.iter_mut().chain(&mut solver.now.force) {
             *value = value.max(0.0);
         }
-        let q = engine.quality_of(&u);
+        let q = solver.reading().quality_of(&u);
         if closed {
-            shows(q.adhesion, tension / engine.force_scale, sound.adhesion);
+            shows(q.adhesion, tension / solver.scales.force, sound.adhesion);
         } else {
-            let expected = overlap / engine.displacement_scale;
+            let expected = overlap / solver.scales.displacement;
             shows(q.penetration, expected, sound.penetration);
         }
     }
@@ -362,19 +382,19 @@ fn the_bound_of_forces_follows_the_round_off_of_the_mesh() {
     let text = SCENE.replace("poissons_ratio = 0.3", "poissons_ratio = 0.49999999");
     let model = Model::new(&Scene::parse(&text, "test").expect("scene")).expect("model");
     let system = assemble(&model).expect("system");
-    let mut engine = loaded(&model, &system);
-    let sound = engine.quality_here().expect("quality");
+    let mut solver = loaded(&model, &system);
+    let sound = solver.reading().quality_here().expect("quality");
     let tolerances = tolerances(&model);
     assert!(sound.equilibrium > tolerances.equilibrium, "{sound:?}");
     assert_eq!(sound.misses(&tolerances), []);
     // Displacements are known to half a rounding error; a thousand times as much is a fault.
     for (size, accepted) in [(0.5, true), (500.0, false)] {
-        let mut u = engine.displacements().expect("displacements");
+        let mut u = solver.reading().displacements().expect("displacements");
         for (i, value) in u.deformation.iter_mut().flatten().enumerate() {
             let random = ((i * 7919) % 1013) as f64 / 506.0 - 1.0;
             *value += size * f64::EPSILON * random * *value;
         }
-        let q = engine.quality_of(&u);
+        let q = solver.reading().quality_of(&u);
         let bound = q.round_off.expect("stated");
         assert_eq!(q.equilibrium <= bound, accepted, "{q:?}");
         assert_eq!(q.misses(&tolerances).is_empty(), accepted, "{q:?}");

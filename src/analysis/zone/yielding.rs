@@ -1,15 +1,15 @@
-//! What a checkpoint keeps of the zone: the history, and what the next increment is predicted from.
+//! What a checkpoint keeps of the zone beside the history: what the next increment is predicted
+//! from.
 
 use super::Zone;
-use crate::analysis::packed::{Ascending, SparseHistory};
-use crate::material::{Matrix4, PlasticState};
+use crate::analysis::packed::Ascending;
+use crate::material::Matrix4;
 use serde::{Deserialize, Serialize};
 
-/// The zone between two increments, without its elements.
+/// Which points of a zone yielded at the last evaluated state.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub(in crate::analysis) struct ZoneRecord {
-    history: SparseHistory,
-    /// Elements (places in the zone) with a point that flowed last.
+pub(in crate::analysis) struct Yielding {
+    /// Elements (places in the zone) with a point that yielded.
     active: Ascending,
     /// Their points (places in the zone's arrays) that did.
     flowing: Ascending,
@@ -18,30 +18,26 @@ pub(in crate::analysis) struct ZoneRecord {
 }
 
 impl Zone {
-    /// The record of this zone.
-    pub(in crate::analysis) fn record(&self) -> ZoneRecord {
+    /// Which points yielded at the last evaluated state.
+    pub(in crate::analysis) fn yielding(&self) -> Yielding {
         let active = self.active.iter().map(|&i| i as usize);
         let points = active.clone().flat_map(|i| self.points_of(i));
         let flowing: Vec<usize> = points.filter(|&point| self.flows[point]).collect();
-        ZoneRecord {
-            history: SparseHistory::new(&self.committed),
+        Yielding {
             active: Ascending::new(active),
             softening: flowing.iter().map(|&point| self.softening[point]).collect(),
             flowing: Ascending::new(flowing),
         }
     }
 
-    /// Takes over what a zone of the same elements recorded; false where it is of others.
-    pub(in crate::analysis) fn recall(&mut self, record: &ZoneRecord) -> bool {
-        let mut history = vec![PlasticState::default(); self.committed.len()];
-        let fits = record.history.unpack(&mut history)
-            && record.active.within(self.elements.list.len())
+    /// Takes over what another zone of the same elements says; false where it is of others.
+    pub(in crate::analysis) fn set_yielding(&mut self, record: &Yielding) -> bool {
+        let fits = record.active.within(self.elements.list.len())
             && record.flowing.within(self.flows.len())
             && record.flowing.len() == record.softening.len();
         if !fits {
             return false;
         }
-        self.restore(&history);
         self.flows.fill(false);
         self.softening.fill([[0.0; 4]; 4]);
         self.active = record.active.iter().map(|i| i as u32).collect();

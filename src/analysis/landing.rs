@@ -1,53 +1,52 @@
 //! The last increment again, so that it ends where a monitored quantity is zero.
 
-use super::drive::{IncrementReport, MONITOR_ACCURACY, Monitor, SMALLEST_CUT, Stepper};
-use super::engine::{Engine, LoadPoint};
+use super::drive::{IncrementReport, MONITOR_ACCURACY, Monitor, SMALLEST_CUT};
 use super::equilibrium::Equilibrium;
-use super::saved::Saved;
+use super::load_point::LoadPoint;
+use super::state::State;
+use super::stepping::Stepper;
 use super::yield_load::bracketed_root;
 use crate::error::Result;
 use std::cell::Cell;
 
-impl Engine<'_> {
-    /// Repeats the increment from `saved` so that it ends where the monitored quantity, `was` there
-    /// and `is` now, is zero.
-    pub(super) fn hit(
+impl Stepper<'_, '_> {
+    /// Repeats the increment from the state `from` so that it ends where the monitored quantity,
+    /// `was` there and `is` now, is zero.
+    pub(super) fn land(
         &mut self,
         end: &LoadPoint,
-        saved: &Saved,
-        stepper: Stepper,
+        from: &State,
         monitor: &Monitor,
         [was, is]: [f64; 2],
         reported: &mut IncrementReport,
     ) -> Result<()> {
-        let reached = saved.at.share_of(&self.at, end);
+        let reached = from.at.share_of(&self.solver.at, end);
         let sign = if was < 0.0 { 1.0 } else { -1.0 };
         let last = Cell::new(-1.0);
         // Trials lie close together: each is predicted from those before.
-        let mut known = vec![(0.0, saved.now.clone())];
-        if self.kept_statuses(saved) {
-            known.push((reached, self.now.clone()));
+        let mut known = vec![(0.0, from.equilibrium.clone())];
+        if self.kept_statuses(from) {
+            known.push((reached, self.solver.now.clone()));
         }
         let mut value_at = |t: f64| -> Result<f64> {
-            saved.put_back(self);
-            let goal = saved.at.towards(end, t);
-            if known.len() > 1 {
-                self.ahead = Some((goal.clone(), between(&mut known, t)));
-            }
+            self.solver.restore(from);
+            self.solver.predictor.pace = None;
+            let goal = from.at.towards(end, t);
+            let mut ahead = (known.len() > 1).then(|| (goal.clone(), between(&mut known, t)));
             // An increment may be cut short: the way to the goal then takes several.
             loop {
-                let (increment, _) = self.find_increment(&goal, 1.0, SMALLEST_CUT, stepper)?;
+                let (increment, _) = self.find_increment(&goal, 1.0, SMALLEST_CUT, ahead.take())?;
                 let arrived = increment.t >= 1.0;
                 reported.residual = increment.residual;
                 reported.iterations += increment.iterations;
-                let at_once = self.at == saved.at;
-                self.accept(&goal, increment, reported);
+                let at_once = self.solver.at == from.at;
+                self.solver.accept(&goal, increment, reported);
                 if arrived {
-                    if at_once && self.kept_statuses(saved) {
-                        known.push((t, self.now.clone()));
+                    if at_once && self.kept_statuses(from) {
+                        known.push((t, self.solver.now.clone()));
                     }
                     last.set(t);
-                    return monitor(self).map(|value| sign * value);
+                    return monitor(self.solver).map(|value| sign * value);
                 }
             }
         };
@@ -59,14 +58,14 @@ impl Engine<'_> {
         Ok(())
     }
 
-    /// Whether the increment just taken had the statuses that it began with from `saved`; those
+    /// Whether the increment just taken had the statuses that it began with from `from`; those
     /// beyond its end may be others.
-    fn kept_statuses(&self, saved: &Saved) -> bool {
-        let mut open = self.tableau.open().to_vec();
-        for &k in &self.border {
+    fn kept_statuses(&self, from: &State) -> bool {
+        let mut open = self.solver.tableau.open().to_vec();
+        for &k in &self.solver.border {
             open[k] = !open[k];
         }
-        open == saved.open
+        open == from.open
     }
 }
 

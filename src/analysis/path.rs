@@ -5,14 +5,14 @@
 //! largest force passes from one pair to another, or the edge of the contact moves within an
 //! element. What they are between two rows costs no solve.
 
-use super::engine::Engine;
 use super::measure::contact_figures;
+use super::solver::Solver;
 use crate::results::{HistoryRow, PathPoint};
 use serde::{Deserialize, Serialize};
 
 /// The last row of the history, and the contact forces there.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
-pub(super) struct Between {
+pub(super) struct PathSampler {
     row: HistoryRow,
     forces: Vec<f64>,
 }
@@ -25,17 +25,17 @@ const HALVINGS: usize = 3;
 /// A point: how much of the way lies behind, maximum pressure, half width.
 type Figures = [f64; 3];
 
-impl Between {
-    /// Takes note of the next row, at which the engine is; the points on the way to it that a
+impl PathSampler {
+    /// Takes note of the next row, at which the solver is; the points on the way to it that a
     /// curve needs.
-    pub(super) fn advance(&mut self, engine: &Engine, row: &HistoryRow) -> Vec<PathPoint> {
-        if engine.model.pairs.is_empty() {
+    pub(super) fn advance(&mut self, solver: &Solver, row: &HistoryRow) -> Vec<PathPoint> {
+        if solver.structure.model.pairs.is_empty() {
             return Vec::new();
         }
-        let forces = engine.contact_forces().into_owned();
+        let forces = solver.contact_forces().into_owned();
         let from = std::mem::replace(
             self,
-            Between {
+            PathSampler {
                 row: row.clone(),
                 forces,
             },
@@ -51,7 +51,7 @@ impl Between {
         let figures = |share: f64| -> Figures {
             let ends = from.forces.iter().zip(&self.forces);
             let forces: Vec<f64> = ends.map(|(a, b)| between(*a, *b, share)).collect();
-            let found = contact_figures(engine.model, &forces, engine.force_scale);
+            let found = contact_figures(solver.structure.model, &forces, solver.scales.force);
             [share, found.max_pressure, found.half_width]
         };
         let ends = [

@@ -1,0 +1,261 @@
+//! What is reported of the state at a target: figures, and fields on the whole mesh.
+
+use super::indicator::indicator;
+use super::measure::pair_states;
+use super::reading::Reading;
+use super::stress_field::StressField;
+use super::stresses::Stresses;
+use crate::error::Result;
+use crate::model::{Magnitude, Model, Slot};
+use crate::results::{Fields, State};
+use crate::scene::History;
+use rayon::prelude::*;
+use std::time::Instant;
+
+/// A state as it is reported.
+pub struct Figures {
+    /// What the results show of it.
+    pub state: State,
+    /// Elements outside the zone with stress beyond yield: the zone was too small for this state.
+    pub beyond_yield_outside: Vec<usize>,
+    /// Seconds spent on the stresses of all elements: forces, fields, error indicator.
+    pub stress_seconds: f64,
+}
+
+impl Reading<'_, '_> {
+    /// The current state with its quality; fields where asked for. Costs half a full solve.
+    ///
+    /// # Errors
+    /// Failure of the backend's solve.
+    pub fn figures(&mut self, name: &str, with_fields: bool) -> Result<Figures> {
+        let displacements = self.displacements()?;
+        let u = &displacements.total;
+        let begun = Instant::now();
+        let field = self.stress_field(displacements.deformation());
+        let stresses = Stresses::new(&field);
+        let errors = with_fields.then(|| indicator(&field));
+        let energy_error = errors.as_ref().map(|errors| errors.total);
+        let fields = errors.map(|errors| {
+            let nodal = field.model.nodal(u, &self.solver.at.factors);
+            fields(&field, nodal, errors.by_element)
+        });
+        let stress_seconds = begun.elapsed().as_secs_f64();
+        let figures = self.solver.contact_figures();
+        let dent = self.dent();
+        let arc = figures
+            .patch
+            .and_then(|patch| contact_arc(self.solver.structure.model, figures.contact, patch));
+        let load = self
+            .reaction(&stresses.reactions)
+            .unwrap_or_else(|| self.solver.total_load_size());
+        let Stresses {
+            internal,
+            reactions,
+            beyond_yield_outside,
+            plastic_points,
+            plastic_volume,
+            plastic_strain,
+        } = stresses;
+        let quality = self.quality(&displacements, internal, &reactions);
+        let state = State {
+            name: name.to_string(),
+            alpha: self.solver.at.alpha,
+            load,
+            contact_force: figures.force * self.solver.structure.model.symmetry,
+            max_pressure: figures.max_pressure,
+            pole_pressure: figures.pole_pressure,
+            half_width: figures.half_width,
+            half_width_reading: figures.half_width_reading,
+            contact_arc: arc,
+            residual_depth: dent.depth,
+            residual_depth_by_body: dent.by_body,
+            rim_height: dent.rim,
+            plastic_points: plastic_points.iter().sum(),
+            plastic_points_by_body: plastic_points,
+            max_equivalent_plastic_strain: plastic_strain,
+            plastic_zone_size: plastic_volume * self.solver.structure.model.symmetry,
+            energy_error,
+            approach: self.approach(u),
+            pairs: pair_states(
+                self.solver.structure.model,
+                &self.solver.now.gap,
+                &self.solver.contact_forces(),
+                self.solver.tableau.open(),
+                |axis| self.distance_on_axis(axis, u),
+            ),
+            fields,
+            quality,
+        };
+        Ok(Figures {
+            state,
+            beyond_yield_outside,
+            stress_seconds,
+        })
+    }
+
+    /// Where the loads that vary are prescribed displacements only and nothing touches: the force
+    /// that holds the first of them, along its displacement, of the whole.
+    fn reaction(&self, reactions: &[f64]) -> Option<f64> {
+        let model = self.solver.structure.model;
+        let mut varying = model
+            .loads
+            .iter()
+            .enumerate()
+            .filter(|(_, l)| !matches!(l.history, History::Constant));
+        if varying
+            .clone()
+            .any(|(_, l)| l.measures != Magnitude::Displacement)
+            || !model.pairs.is_empty()
+        {
+            return None;
+        }
+        let (leading, _) = varying.next()?;
+        let mut sum = 0.0;
+        for (prescribed, force) in model.freedoms.prescribed.iter().zip(reactions) {
+            if prescribed.load == leading {
+                sum += force * prescribed.value.signum();
+            }
+        }
+        Some(sum * self.solver.at.factors[leading].signum() * model.symmetry)
+    }
+}
+
+/// Fields on the whole mesh, for the displacements of its nodes and the error of its elements.
+fn fields(field: &StressField, nodal: Vec<[f64; 2]>, error: Vec<f64>) -> Fields {
+    let n = field.model.mesh.n_elements();
+    let mut out = Fields {
+        displacement: nodal.into_iter().flatten().collect(),
+        stress: vec![0.0; 4 * n],
+        von_mises: vec![0.0; n],
+        plastic_strain: vec![0.0; n],
+        yielded: vec![0; n],
+        error,
+    };
+    let elements = (
+        out.stress.par_chunks_exact_mut(4),
+        &mut out.von_mises,
+        &mut out.plastic_strain,
+        &mut out.yielded,
+    );
+    let elements = elements.into_par_iter().enumerate().with_min_len(256);
+    elements.for_each(|(e, (stress, von_mises, plastic_strain, yielded))| {
+        let element = field.at(e);
+        stress.copy_from_slice(&element.mapping.mean(&element.stress));
+        *von_mises = element.von_mises();
+        *plastic_strain = element.plastic_strain();
+        *yielded = u8::from(*plastic_strain > 0.0);
+    });
+    out
+}
+
+/// Begin and end of a patch in degrees about the centre of a circular surface: from the symmetry
+/// plane at the surface's nearer end, or from its middle where there is none.
+fn contact_arc(model: &Model, contact: usize, [from, to]: [f64; 2]) -> Option<[f64; 2]> {
+    let surface = &model.contacts[contact];
+    let (center, _) = surface.circle?;
+    let pairs = &model.pairs[surface.range.clone()];
+    let angle_of = |k: usize| {
+        let x = model.mesh.point(pairs[k].second);
+        (x[1] - center[1]).atan2(x[0] - center[0]).to_degrees()
+    };
+    let angle_at = |arc: f64| {
+        let next = pairs
+            .partition_point(|p| p.arc <= arc)
+            .clamp(1, pairs.len().max(2) - 1);
+        let (a, b) = (angle_of(next - 1), angle_of(next.min(pairs.len() - 1)));
+        let length = pairs[next.min(pairs.len() - 1)].arc - pairs[next - 1].arc;
+        let turn = (b - a + 540.0).rem_euclid(360.0) - 180.0;
+        if length > 0.0 {
+            a + turn * (arc - pairs[next - 1].arc) / length
+        } else {
+            a
+        }
+    };
+    let extent = ((angle_at(to) - angle_at(from) + 540.0).rem_euclid(360.0) - 180.0).abs();
+    let last = pairs.len() - 1;
+    if from <= pairs[0].arc || to >= pairs[last].arc {
+        return Some([0.0, extent]);
+    }
+    // A patch that has left the symmetry plane is still measured from there, the nearer one if both
+    // ends lie on one.
+    let on_symmetry = |k: usize| {
+        let nodes = [pairs[k].first, pairs[k].second];
+        nodes
+            .iter()
+            .all(|&node| model.freedoms.slots[node][1] == Slot::Fixed)
+    };
+    let near_begin = from - pairs[0].arc <= pairs[last].arc - to;
+    let pole = if near_begin { 0 } else { last };
+    if !on_symmetry(pole) {
+        return Some([-0.5 * extent, 0.5 * extent]);
+    }
+    let off = |arc: f64| ((angle_at(arc) - angle_of(pole) + 540.0).rem_euclid(360.0) - 180.0).abs();
+    Some(if near_begin {
+        [off(from), off(to)]
+    } else {
+        [off(to), off(from)]
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    fn disc(overrides: &[&str]) -> Model {
+        let path = concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/data/scenes/disc_in_plate.toml"
+        );
+        let overrides: Vec<String> = overrides.iter().map(|o| o.to_string()).collect();
+        Model::new(&Scene::load_with(path, &overrides).unwrap()).unwrap()
+    }
+
+    /// Angle between the radii to two pairs, in degrees.
+    fn between(model: &Model, a: usize, b: usize) -> f64 {
+        let (center, radius) = model.contacts[0].circle.unwrap();
+        let radii = [a, b].map(|k| {
+            let x = model.mesh.point(model.pairs[k].second);
+            [x[0] - center[0], x[1] - center[1]]
+        });
+        let [p, q] = radii;
+        let sine = (p[0] * q[1] - p[1] * q[0]).abs() / (radius * radius);
+        sine.asin().to_degrees()
+    }
+
+    /// A contact that has left the symmetry planes is measured from the nearer one.
+    #[test]
+    fn an_arc_off_the_symmetry_plane_is_measured_from_there() {
+        let model = disc(&["mesh.disc_in_plate.resolution=24"]);
+        let last = model.pairs.len() - 1;
+        let arc = |k: usize| model.pairs[k].arc;
+        let close = |found: Option<[f64; 2]>, expected: [f64; 2]| {
+            for (a, b) in found.unwrap().iter().zip(expected) {
+                assert!((a - b).abs() < 1e-9, "{found:?} {expected:?}");
+            }
+        };
+        let near_first = contact_arc(&model, 0, [arc(2), arc(7)]);
+        close(near_first, [between(&model, 0, 2), between(&model, 0, 7)]);
+        let near_last = contact_arc(&model, 0, [arc(last - 7), arc(last - 3)]);
+        let expected = [
+            between(&model, last, last - 3),
+            between(&model, last, last - 7),
+        ];
+        close(near_last, expected);
+        // One that reaches the plane starts there.
+        let at_first = contact_arc(&model, 0, [arc(0), arc(5)]);
+        close(at_first, [0.0, between(&model, 0, 5)]);
+    }
+
+    /// Without a symmetry plane at its surface's nearer end an arc is told from its own middle.
+    #[test]
+    fn an_arc_without_a_symmetry_plane_is_told_from_its_middle() {
+        let mut model = disc(&["mesh.disc_in_plate.resolution=24"]);
+        for node in [model.pairs[0].first, model.pairs[0].second] {
+            model.freedoms.slots[node][1] = Slot::Free(0);
+        }
+        let found = contact_arc(&model, 0, [2, 7].map(|k| model.pairs[k].arc)).unwrap();
+        let half = 0.5 * between(&model, 2, 7);
+        assert!((found[0] + half).abs() < 1e-9 && (found[1] - half).abs() < 1e-9);
+    }
+}

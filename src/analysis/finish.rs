@@ -1,0 +1,95 @@
+//! What a run leaves at its end, wherever that is.
+
+use super::program::Run;
+use super::{check, quality, reference};
+use crate::results::{Quality, Results, Sizes};
+
+/// Lower bound of the condition from which it is estimated without being asked for: six digits of a
+/// displacement may be left.
+const DOUBTFUL: f64 = 1e10;
+
+impl Run<'_, '_> {
+    /// The results as far as they go.
+    pub(super) fn finish(mut self) -> Results {
+        let model = self.solver.structure.model;
+        let mut results = std::mem::take(&mut self.results);
+        results.sizes = Sizes {
+            freedoms: model.freedoms.n,
+            nodes: model.mesh.n_nodes(),
+            elements: model.mesh.n_elements(),
+            contact_pairs: model.pairs.len(),
+            zone_freedoms: self.solver.structure.sub.partition.zone.len(),
+            zone_elements: self.zone.choice.elements.len(),
+            degree: model.mesh.degree(),
+        };
+        results.counts = self.solver.cost.counts;
+        let (seconds, first_yield) = (self.position.seconds, self.position.first_yield);
+        results.first_yield = first_yield.point;
+        results.factor = self.solver.structure.sub.cost();
+        results.condition = self.solver.structure.condition;
+        let tolerances = quality::tolerances(model);
+        let states = results.states.iter().map(|s| (s.name.as_str(), s.quality));
+        let judged: Vec<(&str, Quality)> =
+            states.chain(self.at_yield.map(|q| ("yield", q))).collect();
+        // An elastic state is not iterated: its forces are off by what round-off leaves.
+        let excused = judged.iter().filter_map(|(_, q)| q.excused(&tolerances));
+        let floor = excused.fold(self.solver.scales.round_off, f64::max);
+        if floor > 0.0 {
+            let text = format!(
+                "forces balance to their round-off, {:.1e} of the largest force, and not to analysis.tolerance = {:.1e}: displacements are \
+                 large beside the strains of this mesh",
+                floor, model.scene.analysis.tolerance
+            );
+            self.observer.warning(&text);
+            results.warnings.push(text);
+        }
+        for (name, quality) in &judged {
+            for (figure, value, most) in quality.misses(&tolerances) {
+                let text = format!(
+                    "state `{name}` is inaccurate: {figure} {value:.1e}, allowed {most:.1e} (condition at least {:.0e})",
+                    results.condition
+                );
+                self.observer.warning(&text);
+                results.warnings.push(text.clone());
+                results.inaccurate.push(text);
+            }
+        }
+        if model.scene.analysis.condition
+            || !results.inaccurate.is_empty()
+            || results.condition > DOUBTFUL
+        {
+            // A figure beside the results: a solve that fails leaves it out.
+            let structure = &self.solver.structure;
+            let estimate = structure.sub.condition_estimate(model, structure.system);
+            results.condition_estimate = estimate.ok();
+        }
+        let qualities = judged.iter().map(|(_, q)| q);
+        results.quality = qualities.fold(Quality::default(), |w, q| w.worse(q));
+        for (name, seconds) in [
+            ("factorisation and condensation", seconds.condensation),
+            ("yield load", seconds.yield_load),
+            ("elastic increments", seconds.contact),
+            ("elastoplastic increments", seconds.plasticity),
+            ("states", seconds.states),
+            ("stresses", seconds.stresses),
+        ] {
+            results.timings.push((name.to_string(), seconds));
+        }
+        results.effects = check::effects(model, first_yield.alpha.is_some());
+        for effect in &mut results.effects {
+            match effect.name.as_str() {
+                "contact" => {
+                    effect.seconds = seconds.contact + seconds.yield_load;
+                    effect.memory_bytes = self.solver.structure.sub.contact_bytes();
+                }
+                "plasticity" if effect.on => {
+                    effect.seconds = seconds.plasticity;
+                    effect.memory_bytes = self.solver.zone.bytes();
+                }
+                _ => {}
+            }
+        }
+        results.reference = reference::rows(model, &results);
+        results
+    }
+}

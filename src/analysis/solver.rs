@@ -1,0 +1,221 @@
+//! The solver: the structure in its current state, and what increments are found with.
+
+mod record;
+
+pub(super) use record::SolverRecord;
+
+use super::equilibrium::{EliminatedLoad, Equilibrium};
+use super::load_point::LoadPoint;
+use super::quality::LOOSEST;
+use super::structure::{Cost, Structure};
+use super::zone::Zone;
+use crate::assembly::System;
+use crate::contact::Tableau;
+use crate::error::Result;
+use crate::linalg::Backend;
+use crate::model::{Magnitude, Model};
+use serde::{Deserialize, Serialize};
+
+/// The structure in its current state.
+pub struct Solver<'m> {
+    /// The structure.
+    pub structure: Structure<'m>,
+    /// Contact matrix with the statuses of the pairs.
+    pub tableau: Tableau,
+    /// Elements that may yield, with their history.
+    pub zone: Zone,
+    /// Current load point.
+    pub at: LoadPoint,
+    /// Current equilibrium; its displacements are valid where `fresh`, without the rigid motions
+    /// that gaps allow.
+    pub now: Equilibrium,
+    /// Whether the displacements belong to the current gaps and forces.
+    pub fresh: bool,
+    /// Pairs that arrived at the border of their condition with the last event.
+    pub border: Vec<usize>,
+    /// What the next increment is predicted from.
+    pub predictor: Predictor,
+    /// What is large and what is small.
+    pub scales: Scales,
+    /// Cost so far.
+    pub cost: Cost,
+}
+
+/// What an increment is predicted from beside the state and the points that yielded last: it
+/// decides how fast it is found.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Predictor {
+    /// Change of the load point over the piece of the last increment: tells loading from unloading.
+    pub last_step: Vec<f64>,
+    /// Change of the initial loads over the last increment, for a load factor that changes by 1:
+    /// the next one's are much the same.
+    pub pace: Option<EliminatedLoad>,
+}
+
+/// The largest figures of the run so far: what residuals and round-off are measured against.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+pub struct Scales {
+    /// Nodal force, applied or of contact.
+    pub force: f64,
+    /// Displacement, of a state or of the nodes of a pair against each other.
+    pub displacement: f64,
+    /// The same without rigid motions of floating bodies: what stresses and their round-off are a
+    /// share of.
+    pub deformation: f64,
+    /// Round-off that equilibrium was accepted at where it is above the tolerance asked for; zero
+    /// where it never was.
+    pub round_off: f64,
+}
+
+impl<'m> Solver<'m> {
+    /// Factors the structure so that zones may be chosen among the elements `within`, and chooses
+    /// one of the given elements (`guard` marks those that only watch).
+    ///
+    /// # Errors
+    /// Those of [`Structure::new`].
+    pub fn new(
+        model: &'m Model,
+        system: &'m System,
+        backend: Backend,
+        within: &[usize],
+        elements: Vec<usize>,
+        guard: &[bool],
+    ) -> Result<Self> {
+        let mut cost = Cost::default();
+        let structure = Structure::new(model, system, backend, within, elements, &mut cost)?;
+        let mut solver = Solver {
+            tableau: structure.sub.tableau(),
+            zone: Zone::new(model, &structure.elements, guard, &structure.places),
+            at: LoadPoint::unloaded(model.loads.len()),
+            now: Equilibrium::none(&structure.sub.zeros(), structure.n_pairs()),
+            fresh: true,
+            border: Vec::new(),
+            predictor: Predictor {
+                last_step: vec![0.0; model.loads.len() + 1],
+                pace: None,
+            },
+            scales: Scales::default(),
+            cost,
+            structure,
+        };
+        solver.unload();
+        Ok(solver)
+    }
+
+    /// Back to where nothing acts, with the zone at hand and no history.
+    pub(super) fn unload(&mut self) {
+        let structure = &self.structure;
+        self.at = LoadPoint::unloaded(structure.model.loads.len());
+        self.now = Equilibrium {
+            gap: structure.gaps.initial.clone(),
+            ..Equilibrium::none(&structure.sub.zeros(), structure.n_pairs())
+        };
+        let open: Vec<bool> = self.now.gap.iter().map(|g| *g > 0.0).collect();
+        self.tableau.reset(&open);
+        self.border.clear();
+        self.predictor.last_step.fill(0.0);
+        self.predictor.pace = None;
+        self.fresh = true;
+    }
+
+    /// Changes the zone to the given elements. State, statuses and history are kept.
+    ///
+    /// # Errors
+    /// Those of [`Structure::set_zone`].
+    pub fn set_zone(&mut self, elements: Vec<usize>, guard: &[bool]) -> Result<()> {
+        let before = self.structure.elements.clone();
+        if self.structure.set_zone(elements, &mut self.cost)? {
+            let open = self.tableau.open().to_vec();
+            self.tableau = self.structure.sub.tableau();
+            self.tableau.reset(&open);
+        }
+        let structure = &self.structure;
+        let mut zone = Zone::new(
+            structure.model,
+            &structure.elements,
+            guard,
+            &structure.places,
+        );
+        zone.restore_of(&before, self.zone.history());
+        zone.set_factors(&self.at.factors);
+        self.zone = zone;
+        let initial = self.zone.initial_load(structure.sub.zeros());
+        let initial = structure.eliminate(initial, &mut self.cost);
+        self.now = self.respond(&self.at.clone(), initial);
+        self.fresh = true;
+        self.predictor.pace = None;
+        Ok(())
+    }
+
+    /// What round-off may leave in the sum of the contact forces: the tied structure comes from a
+    /// factor that keeps
+    /// `eps` times the condition of what it is made from. Far from Poisson's ratio 1/2 that is
+    /// less than the tolerance of any iteration.
+    pub fn round_off_of_contact(&self) -> f64 {
+        let initial = self.now.initial.forces.iter().map(|r| r.abs());
+        let terms: f64 = (0..self.now.gap.len())
+            .map(|k| {
+                let terms = self.structure.closed_force_terms(&self.at, k);
+                terms.map(f64::abs).sum::<f64>()
+            })
+            .chain(initial)
+            .sum();
+        (8.0 * f64::EPSILON * self.structure.condition * terms).min(LOOSEST * self.scales.force)
+    }
+
+    /// Whether the load that is left up to `end` is no more than what round-off leaves in the
+    /// contact forces.
+    pub(super) fn is_round_off(&self, end: &LoadPoint) -> bool {
+        let factors = self.at.factors.iter().zip(&end.factors);
+        let loads = self.structure.model.loads.iter();
+        let left: f64 = loads
+            .zip(&self.structure.loads.condensed)
+            .zip(factors)
+            .map(|((load, condensed), (from, to))| {
+                let size = match load.measures {
+                    Magnitude::Displacement => condensed.load.iter().map(|f| f.abs()).sum(),
+                    _ => load.size(),
+                };
+                (to - from).abs() * size
+            })
+            .sum();
+        !self.now.gap.is_empty()
+            && self.at.interference == end.interference
+            && left <= self.round_off_of_contact()
+    }
+
+    /// The next increment is predicted as if no point yielded.
+    pub fn assume_elastic(&mut self) {
+        self.zone.assume_elastic();
+        self.predictor.pace = None;
+    }
+
+    /// Takes note of the forces and displacements at hand.
+    pub fn update_scales(&mut self) {
+        let (structure, scales) = (&self.structure, &self.scales);
+        let delta = structure.delta(&self.at);
+        let slip = delta.iter().zip(&self.now.gap).map(|(d, g)| (d - g).abs());
+        let displacement = slip.fold(scales.displacement, f64::max);
+        let (deforming, _) = structure.sub.split_slip(&delta, &self.now.gap);
+        let moved = if self.fresh {
+            self.now.u.largest()
+        } else {
+            0.0
+        };
+        let deforming = deforming.iter().map(|s| s.abs());
+        let deformation = deforming.fold(scales.deformation.max(moved), f64::max);
+        let applied = structure.external(&self.at).largest();
+        let force = scales.force.max(applied);
+        self.scales = Scales {
+            displacement,
+            deformation,
+            force: self.now.force.iter().fold(force, |m, r| m.max(*r)),
+            ..self.scales
+        };
+    }
+
+    /// Number of closed pairs.
+    pub fn closed_pairs(&self) -> usize {
+        self.tableau.open().iter().filter(|o| !**o).count()
+    }
+}
