@@ -18,10 +18,10 @@ use super::mirror::{self, Reflection, mirrors};
 use super::patch::{Patch, Sample, reach};
 use super::summit::{SPACINGS, Summit};
 use crate::assembly::sampling_points_of;
-use crate::element::{AtPoints, MAX_NODES, shape_functions};
+use crate::element::AtPoints;
 use crate::material::{Material, Matrix4, stress, von_mises};
-use crate::mesh::Shape;
 use crate::model::Model;
+use crate::shape::{MAX_NODES, Shape};
 use crate::substructure::Trailing;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -130,7 +130,7 @@ impl Square {
             let terms = weights.iter().zip(&self.corners);
             terms.map(|(w, corner)| w * corner[d]).sum()
         };
-        let (n, _) = shape_functions(self.shape, [mean(0), mean(1)]);
+        let n = self.shape.functions([mean(0), mean(1), 0.0]).values;
         let mut point = [0.0; 2];
         for (n, node) in n.iter().zip(&self.nodes) {
             point[0] += n * node[0];

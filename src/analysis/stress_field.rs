@@ -4,9 +4,10 @@
 //! of the factor's memory.
 
 use super::zone::Zone;
-use crate::element::{Components, MAX_NODES, MAX_POINTS, Mapping};
+use crate::element::{Components, MAX_POINTS, Mapping};
 use crate::material::{Matrix4, PlasticState};
 use crate::model::Model;
+use crate::shape::MAX_NODES;
 
 /// Elements of the mesh that share an entry in the list of where the zone's begin.
 const GROUP: usize = 64;

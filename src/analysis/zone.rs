@@ -14,7 +14,7 @@ pub(super) use record::ZoneRecord;
 
 use super::gather::{GatheredElements, Nodal, Places};
 use crate::assembly::gauss_points_of;
-use crate::element::{AtPoints, MAX_FREEDOMS, n_gauss_points};
+use crate::element::{AtPoints, MAX_FREEDOMS};
 use crate::material::{Material, Matrix4, PlasticState, multiply};
 use crate::model::Model;
 use crate::substructure::Trailing;
@@ -67,7 +67,7 @@ impl Zone {
         let n = elements.list.len();
         // That of the mesh, not of these elements: histories pass from zone to zone.
         let shapes = model.mesh.shapes.iter();
-        let stride = shapes.map(|s| n_gauss_points(*s)).max().unwrap_or(1);
+        let stride = shapes.map(|s| s.n_gauss_points()).max().unwrap_or(1);
         let (n_zone, n_contact) = places.sizes();
         Zone {
             forces: vec![[0.0; MAX_FREEDOMS]; n],

@@ -6,10 +6,11 @@
 
 use super::engine::{Engine, combination};
 use super::stress_field::{largest_von_mises, stress};
-use crate::element::{MAX_NODES, sampled_strains};
+use crate::element::sampled_strains;
 use crate::error::Result;
 use crate::model::{Model, Slot};
 use crate::scene::Kind;
+use crate::shape::MAX_NODES;
 use rayon::prelude::*;
 
 /// Elements of all bodies that may yield are the zone if their number is below this.

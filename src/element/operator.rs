@@ -20,8 +20,9 @@
 //! # Source
 //! T. J. R. Hughes, *The Finite Element Method* (1987), sections 2.7 and 4.5 (B-bar).
 
-use super::{MAX_FREEDOMS, MAX_NODES, MAX_POINTS};
+use super::{MAX_FREEDOMS, MAX_POINTS};
 use crate::material::Matrix4;
+use crate::shape::MAX_NODES;
 
 /// Stresses or strains at the points of an element.
 pub type AtPoints = [[f64; 4]; MAX_POINTS];

@@ -2,7 +2,7 @@
 
 use crate::running;
 use brinell::analytical::{Plane, ThickCylinder};
-use brinell::element::{MAX_FREEDOMS, gauss_points, shape_functions};
+use brinell::element::{MAX_FREEDOMS, gauss_points};
 use brinell::material::multiply;
 use brinell::mesh::Shape;
 use brinell::model::Model;
@@ -97,7 +97,9 @@ fn points(model: &Model, e: usize, displacement: &[f64]) -> Vec<([f64; 2], f64, 
                 let [b, c] = at.map(|v| 2.0 * v - 1.0 / 3.0);
                 (at, 1.0 - unit[1], vec![1.0 - b - c, b, c])
             };
-            let (values, gradients) = shape_functions(shape, at);
+            let [a, b] = at;
+            let functions = shape.functions([a, b, 0.0]);
+            let (values, gradients) = (functions.values, functions.gradients);
             let sum = |f: &dyn Fn(usize) -> f64| (0..shape.n_nodes()).map(f).sum::<f64>();
             let position = [sum(&|k| values[k] * x[k][0]), sum(&|k| values[k] * x[k][1])];
             let jacobian: [[f64; 2]; 2] = std::array::from_fn(|a| {
