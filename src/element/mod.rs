@@ -61,7 +61,7 @@ pub use facet::{FacetPoint, facet_points};
 pub use mapping::{Components, Lanes, Mapping, sampled_strains};
 pub use operator::{AtPoints, Form, packed};
 
-use crate::material::Matrix4;
+use crate::material::Lame;
 use crate::scene::Kind;
 use crate::shape::{MAX_NODES, Rule, Shape};
 use operator::MAX_VALUES;
@@ -127,8 +127,8 @@ impl Points {
         self.form.forces(&self.values, stress)
     }
 
-    /// `K_e` for an isotropic elastic matrix, packed lower triangle ([`packed`]).
-    pub fn stiffness_into(&self, elastic: &Matrix4, out: &mut [f64]) {
+    /// `K_e` for an elastic law, packed lower triangle ([`packed`]).
+    pub fn stiffness_into(&self, elastic: &Lame, out: &mut [f64]) {
         self.form.stiffness_into(&self.values, elastic, out);
     }
 }

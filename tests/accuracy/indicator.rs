@@ -3,7 +3,6 @@
 use crate::running;
 use brinell::analytical::{Plane, ThickCylinder};
 use brinell::element::{MAX_FREEDOMS, gauss_points};
-use brinell::material::multiply;
 use brinell::mesh::Shape;
 use brinell::model::Model;
 use brinell::scene::{Kind, Scene};
@@ -59,7 +58,7 @@ const CELLS: usize = 8;
 /// Points at which the stress of an element is compared with the exact one: position, weight, computed stress. Linear elements at
 /// their Gauss points; quadratic ones all over, where the stress is the polynomial through the Gauss points.
 fn points(model: &Model, e: usize, displacement: &[f64]) -> Vec<([f64; 2], f64, [f64; 4])> {
-    let elastic = model.materials[0].elastic_matrix();
+    let elastic = model.materials[0].lame();
     let (shape, x) = (model.mesh.shapes[e], model.element_coordinates(e));
     let nodes = model.mesh.nodes(e);
     let mut local = [0.0; MAX_FREEDOMS];
@@ -72,7 +71,7 @@ fn points(model: &Model, e: usize, displacement: &[f64]) -> Vec<([f64; 2], f64, 
         .iter()
         .zip(at.weights())
         .zip(at.strains(&local))
-        .map(|((position, weight), strain)| (*position, weight, multiply(&elastic, &strain)))
+        .map(|((position, weight), strain)| (*position, weight, elastic.times(&strain)))
         .collect();
     if shape.n_nodes() == shape.n_corners() {
         return gauss;

@@ -2,7 +2,7 @@
 
 use super::Zone;
 use crate::analysis::packed::{Ascending, SparseHistory};
-use crate::material::{Matrix4, PlasticState};
+use crate::material::{PlasticState, Softening};
 use serde::{Deserialize, Serialize};
 
 /// The zone between two increments, without its elements.
@@ -14,7 +14,7 @@ pub(in crate::analysis) struct ZoneRecord {
     /// Their points (places in the zone's arrays) that did.
     flowing: Ascending,
     /// What flow takes off the elastic matrix there.
-    softening: Vec<Matrix4>,
+    softening: Vec<Softening>,
 }
 
 impl Zone {
@@ -43,7 +43,7 @@ impl Zone {
         }
         self.restore(&history);
         self.flows.fill(false);
-        self.softening.fill([[0.0; 4]; 4]);
+        self.softening.fill(Softening::NONE);
         self.active = record.active.iter().map(|i| i as u32).collect();
         for (point, softening) in record.flowing.iter().zip(&record.softening) {
             self.flows[point] = true;
