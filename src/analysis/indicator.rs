@@ -18,7 +18,6 @@
 //! doi:10.1002/nme.1620330702.
 
 use super::stress_field::{ElementStress, StressField};
-use crate::element::{n_gauss_points, shape_functions};
 use crate::material::Material;
 use crate::model::Model;
 use crate::scene::Kind;
@@ -126,7 +125,7 @@ impl Samples {
         for (e, shape) in mesh.shapes.iter().enumerate() {
             let own = match degree(model, e) {
                 1 => 1,
-                _ => n_gauss_points(*shape),
+                _ => shape.n_gauss_points(),
             };
             first.push(first[e] + own as u32);
         }
@@ -174,12 +173,7 @@ fn sample(model: &Model, e: usize, element: &ElementStress, out: &mut [Sample]) 
 
 /// Degree of the displacements of an element.
 fn degree(model: &Model, e: usize) -> usize {
-    let shape = model.mesh.shapes[e];
-    if shape.n_nodes() == shape.n_corners() {
-        1
-    } else {
-        2
-    }
+    model.mesh.shapes[e].reference().degree
 }
 
 /// Reference coordinates and weights: 3 x 3 Gauss points.
@@ -237,13 +231,14 @@ fn quadrature(model: &Model, e: usize, element: &ElementStress, mut visit: impl 
     let triangle = shape.n_corners() == 3;
     let rule: &[([f64; 2], f64)] = if triangle { &TRIANGLE } else { &QUADRILATERAL };
     for &(reference, weight) in rule {
-        let (values, gradients) = shape_functions(shape, reference);
+        let [a, b] = reference;
+        let at = shape.functions([a, b, 0.0]);
         let (mut x, mut jacobian) = ([0.0; 2], [[0.0; 2]; 2]);
         for (i, c) in coordinates.iter().enumerate().take(shape.n_nodes()) {
             for d in 0..2 {
-                x[d] += values[i] * c[d];
-                jacobian[0][d] += gradients[i][0] * c[d];
-                jacobian[1][d] += gradients[i][1] * c[d];
+                x[d] += at.values[i] * c[d];
+                jacobian[0][d] += at.gradients[i][0] * c[d];
+                jacobian[1][d] += at.gradients[i][1] * c[d];
             }
         }
         let determinant = jacobian[0][0] * jacobian[1][1] - jacobian[0][1] * jacobian[1][0];
@@ -251,7 +246,6 @@ fn quadrature(model: &Model, e: usize, element: &ElementStress, mut visit: impl 
             Kind::Axisymmetric => 2.0 * std::f64::consts::PI * x[0],
             _ => 1.0,
         };
-        let [a, b] = reference;
         let shares = if triangle {
             let (b, c) = (2.0 * a - 1.0 / 3.0, 2.0 * b - 1.0 / 3.0);
             [1.0 - b - c, b, c, 0.0]

@@ -77,7 +77,7 @@ pub fn loaded_nodes(model: &Model) -> Vec<bool> {
 pub fn mirrors(model: &Model, loaded: &[bool], elements: &[usize]) -> Vec<Mirror> {
     let mut out: Vec<Mirror> = Vec::new();
     for &element in elements {
-        for local in 0..model.mesh.shapes[element].n_corners() {
+        for local in 0..model.mesh.shapes[element].n_facets() {
             let Some((mirror, length)) = mirror_on(model, loaded, Facet { element, local }) else {
                 continue;
             };

@@ -19,10 +19,10 @@ use super::patch::{Patch, Sample, reach};
 use super::solver::Solver;
 use super::summit::{SPACINGS, Summit};
 use crate::assembly::sampling_points_of;
-use crate::element::{AtPoints, MAX_NODES, shape_functions};
-use crate::material::{Material, Matrix4, stress, von_mises};
-use crate::mesh::Shape;
+use crate::element::AtPoints;
+use crate::material::{Lame, Material, von_mises};
 use crate::model::Model;
+use crate::shape::{MAX_NODES, Shape};
 use crate::substructure::Trailing;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -76,7 +76,7 @@ pub struct Recovery {
     first: Vec<usize>,
     /// Coordinates of the sampling points.
     positions: Vec<[f64; 2]>,
-    materials: Vec<(Material, Matrix4)>,
+    materials: Vec<(Material, Lame)>,
     nodal: Nodal,
     /// Strains of the linear triangles.
     fitted: FittedStrains,
@@ -131,7 +131,7 @@ impl Square {
             let terms = weights.iter().zip(&self.corners);
             terms.map(|(w, corner)| w * corner[d]).sum()
         };
-        let (n, _) = shape_functions(self.shape, [mean(0), mean(1)]);
+        let n = self.shape.functions([mean(0), mean(1), 0.0]).values;
         let mut point = [0.0; 2];
         for (n, node) in n.iter().zip(&self.nodes) {
             point[0] += n * node[0];
@@ -166,7 +166,7 @@ impl Recovery {
             materials: model
                 .materials
                 .iter()
-                .map(|m| (m.clone(), m.elastic_matrix()))
+                .map(|m| (m.clone(), m.lame()))
                 .collect(),
             nodal: Nodal::new(model, places),
             neighbours,
@@ -205,9 +205,9 @@ impl Recovery {
             .collect();
         let mut out = Vec::with_capacity(self.positions.len());
         for (packed, strains) in elements.list.iter().zip(&strains) {
-            let elastic = &materials[packed.body as usize].1;
+            let law = &materials[packed.body as usize].1;
             let points = &strains[..packed.n_points as usize];
-            out.extend(points.iter().map(|e| stress(elastic, e, &[0.0; 4])));
+            out.extend(points.iter().map(|e| law.times(e)));
         }
         out
     }

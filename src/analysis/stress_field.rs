@@ -4,9 +4,10 @@
 //! of the factor's memory.
 
 use super::zone::Zone;
-use crate::element::{Components, MAX_NODES, MAX_POINTS, Mapping};
-use crate::material::{Matrix4, PlasticState};
+use crate::element::{Components, MAX_POINTS, Mapping};
+use crate::material::{Lame, PlasticState};
 use crate::model::Model;
+use crate::shape::MAX_NODES;
 
 /// Elements of the mesh that share an entry in the list of where the zone's begin.
 const GROUP: usize = 64;
@@ -21,7 +22,7 @@ pub(super) struct StressField<'a> {
     first_of_group: Vec<u32>,
     /// Of the nodes, in global axes.
     displacements: Vec<[f64; 2]>,
-    elastic: Vec<Matrix4>,
+    elastic: Vec<Lame>,
 }
 
 /// An element and the stresses at its Gauss points.
@@ -55,7 +56,7 @@ impl<'a> StressField<'a> {
             in_zone,
             first_of_group,
             displacements,
-            elastic: model.materials.iter().map(|m| m.elastic_matrix()).collect(),
+            elastic: model.materials.iter().map(|m| m.lame()).collect(),
         }
     }
 
@@ -122,16 +123,16 @@ impl ElementStress<'_> {
     }
 }
 
-/// `sigma = D eps` at all points, for an isotropic elastic matrix: normal strains and shear know nothing of each other.
+/// The elastic stress at all points.
 #[inline]
-pub(super) fn stress(elastic: &Matrix4, [x, y, z, shear]: &Components) -> Components {
+pub(super) fn stress(law: &Lame, strain: &Components) -> Components {
     let mut out = Components::default();
-    for (out, d) in out.iter_mut().zip(elastic).take(3) {
-        for g in 0..MAX_POINTS {
-            out[g] = d[0] * x[g] + d[1] * y[g] + d[2] * z[g];
+    for g in 0..MAX_POINTS {
+        let stress = law.times(&strain.each_ref().map(|lanes| lanes[g]));
+        for (out, stress) in out.iter_mut().zip(stress) {
+            out[g] = stress;
         }
     }
-    out[3] = shear.map(|shear| elastic[3][3] * shear);
     out
 }
 

@@ -2,8 +2,8 @@
 //! has yielded.
 
 use super::stress_field::StressField;
-use crate::element::MAX_NODES;
 use crate::model::Slot;
+use crate::shape::MAX_NODES;
 use rayon::prelude::*;
 
 /// Elements that are evaluated before their forces are summed: few enough to stay in the

@@ -14,8 +14,8 @@ pub(super) use yielding::Yielding;
 
 use super::gather::{GatheredElements, Nodal, Places};
 use crate::assembly::gauss_points_of;
-use crate::element::{AtPoints, MAX_FREEDOMS, n_gauss_points};
-use crate::material::{Material, Matrix4, PlasticState, multiply};
+use crate::element::{AtPoints, MAX_FREEDOMS};
+use crate::material::{Lame, Material, PlasticState, Softening};
 use crate::model::Model;
 use crate::substructure::Trailing;
 use rayon::prelude::*;
@@ -39,12 +39,12 @@ pub struct Zone {
     /// Elements in which flow means that the zone is too small.
     guard: Vec<bool>,
     stride: usize,
-    materials: Vec<(Material, Matrix4)>,
+    materials: Vec<(Material, Lame)>,
     committed: Vec<PlasticState>,
     /// Equal to `committed` except where `flows`.
     trial: Vec<PlasticState>,
     /// `D - D_ep` at the last evaluated state; zero except where `flows`.
-    softening: Vec<Matrix4>,
+    softening: Vec<Softening>,
     /// Points that flowed at the last evaluated state.
     flows: Vec<bool>,
     /// Flowing points of each element at the last evaluated state.
@@ -67,7 +67,7 @@ impl Zone {
         let n = elements.list.len();
         // That of the mesh, not of these elements: histories pass from zone to zone.
         let shapes = model.mesh.shapes.iter();
-        let stride = shapes.map(|s| n_gauss_points(*s)).max().unwrap_or(1);
+        let stride = shapes.map(|s| s.n_gauss_points()).max().unwrap_or(1);
         let (n_zone, n_contact) = places.sizes();
         Zone {
             forces: vec![[0.0; MAX_FREEDOMS]; n],
@@ -77,11 +77,11 @@ impl Zone {
             materials: model
                 .materials
                 .iter()
-                .map(|m| (m.clone(), m.elastic_matrix()))
+                .map(|m| (m.clone(), m.lame()))
                 .collect(),
             committed: vec![PlasticState::default(); n * stride],
             trial: vec![PlasticState::default(); n * stride],
-            softening: vec![[[0.0; 4]; 4]; n * stride],
+            softening: vec![Softening::NONE; n * stride],
             flows: vec![false; n * stride],
             flowing: vec![0; n],
             active: Vec::new(),
@@ -96,7 +96,7 @@ impl Zone {
         (self.elements.bytes()
             + self.forces.capacity() * size_of::<[f64; MAX_FREEDOMS]>()
             + self.committed.capacity() * 2 * size_of::<PlasticState>()
-            + self.softening.capacity() * size_of::<Matrix4>()) as u64
+            + self.softening.capacity() * size_of::<Softening>()) as u64
     }
 
     /// Load factors that scale the prescribed displacements from now on.
@@ -123,29 +123,29 @@ impl Zone {
             .for_each(
                 |(i, (flowing, force, trial, softening, flows, committed))| {
                     let packed = &elements.list[i];
-                    let (material, elastic) = &materials[packed.body as usize];
+                    let (material, law) = &materials[packed.body as usize];
                     let strains = elements.strains(i, nodal);
                     let mut added = AtPoints::default();
                     *flowing = 0;
                     for g in 0..packed.n_points as usize {
                         let (strain, old) = (&strains[g], &committed[g]);
                         // Most points are elastic: nothing is stored for them.
-                        if material.stays_elastic(elastic, strain, old) {
+                        if material.stays_elastic(law, strain, old) {
                             if flows[g] {
                                 flows[g] = false;
                                 trial[g] = *old;
-                                softening[g] = [[0.0; 4]; 4];
+                                softening[g] = Softening::NONE;
                             }
                             continue;
                         }
-                        let update = material.integrate(elastic, strain, old);
+                        let update = material.integrate(law, strain, old);
                         trial[g] = update.state;
                         softening[g] = update.softening;
                         flows[g] = true;
                         *flowing += 1;
                         let change =
                             std::array::from_fn(|k| update.state.strain[k] - old.strain[k]);
-                        added[g] = multiply(elastic, &change);
+                        added[g] = law.times(&change);
                     }
                     if *flowing > 0 {
                         *force = elements.forces(i, &added);
@@ -180,11 +180,11 @@ impl Zone {
                 let i = i as usize;
                 let strains = elements.strains(i, nodal);
                 let mut stress = AtPoints::default();
-                for (g, matrix) in softening[i * stride..][..elements.list[i].n_points as usize]
+                for (g, lost) in softening[i * stride..][..elements.list[i].n_points as usize]
                     .iter()
                     .enumerate()
                 {
-                    stress[g] = multiply(matrix, &strains[g]);
+                    stress[g] = lost.times(&strains[g]);
                 }
                 *force = elements.forces(i, &stress);
             });
@@ -252,7 +252,7 @@ impl Zone {
         }
         self.trial.copy_from_slice(&self.committed);
         self.flows.fill(false);
-        self.softening.fill([[0.0; 4]; 4]);
+        self.softening.fill(Softening::NONE);
         self.active.clear();
         self.renew_base();
     }
@@ -272,10 +272,10 @@ impl Zone {
             if states.iter().all(|state| state.equivalent == 0.0) {
                 continue;
             }
-            let elastic = &materials[packed.body as usize].1;
+            let law = &materials[packed.body as usize].1;
             let mut stress = AtPoints::default();
             for (stress, state) in stress.iter_mut().zip(states) {
-                *stress = multiply(elastic, &state.strain);
+                *stress = law.times(&state.strain);
             }
             elements.scatter(i, &elements.forces(i, &stress), sums);
         }

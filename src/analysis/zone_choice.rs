@@ -7,10 +7,11 @@
 use super::solver::Solver;
 use super::stress_field::{largest_von_mises, stress};
 use super::structure::combination;
-use crate::element::{MAX_NODES, sampled_strains};
+use crate::element::sampled_strains;
 use crate::error::Result;
 use crate::model::{Model, Slot};
 use crate::scene::Kind;
+use crate::shape::MAX_NODES;
 use rayon::prelude::*;
 
 /// Elements of all bodies that may yield are the zone if their number is below this.
@@ -218,7 +219,7 @@ fn widen(model: &Model, mut marked: Vec<bool>, layers: usize) -> Vec<bool> {
 /// Elastic von Mises stress over yield stress at the sampling points of every element that may
 /// yield (0 elsewhere), for displacements of the whole model.
 pub fn stress_ratios(model: &Model, u: &[f64], factors: &[f64]) -> Vec<f64> {
-    let elastic: Vec<_> = model.materials.iter().map(|m| m.elastic_matrix()).collect();
+    let elastic: Vec<_> = model.materials.iter().map(|m| m.lame()).collect();
     let displacements = model.nodal(u, factors);
     (0..model.mesh.n_elements())
         .into_par_iter()

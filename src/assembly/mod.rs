@@ -100,7 +100,7 @@ impl ElementMatrices {
             let n = 2 * shape.n_nodes();
             offsets.push(offsets[offsets.len() - 1] + n * (n + 1) / 2);
         }
-        let elastic: Vec<_> = model.materials.iter().map(|m| m.elastic_matrix()).collect();
+        let elastic: Vec<_> = model.materials.iter().map(|m| m.lame()).collect();
         let mut values = vec![0.0; offsets[n_elements]];
         let mut blocks: Vec<&mut [f64]> = Vec::with_capacity(n_elements);
         let mut rest = values.as_mut_slice();

@@ -124,8 +124,7 @@ pub unsafe extern "C" fn brinell_model_elements(
     // SAFETY: the caller vouches for every pointer.
     unsafe {
         change(model, |m| {
-            let shapes = [Shape::Tri3, Shape::Tri6, Shape::Quad4, Shape::Quad8];
-            let shape = one_of(&shapes, shape, "shape")?;
+            let shape = one_of(&Shape::ALL, shape, "shape")?;
             let n = n.saturating_mul(shape.n_nodes());
             let nodes = slice(nodes, n, "nodes of elements")?;
             m.builder.elements(shape, text(body, "the body")?, nodes)?;

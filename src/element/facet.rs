@@ -1,12 +1,13 @@
 //! Integration over the facets of elements: tractions and nodal areas.
 
 use crate::scene::Kind;
+use crate::shape::{FACET_RULE, FacetReference, MAX_FACET_NODES};
 
 /// An integration point on a facet.
 #[derive(Debug, Clone, Copy)]
 pub struct FacetPoint {
     /// Shape function values of the facet's nodes (ends first, then the mid-side node).
-    pub values: [f64; 3],
+    pub values: [f64; MAX_FACET_NODES],
     /// Weight times length of the tangent, times circumference where axisymmetric.
     pub weight: f64,
     /// Coordinates.
@@ -15,18 +16,14 @@ pub struct FacetPoint {
     pub normal: [f64; 2],
 }
 
-/// Three-point Gauss rule on a facet with 2 or 3 nodes: exact to degree 5.
-pub fn facet_points(kind: Kind, coordinates: &[[f64; 2]]) -> [FacetPoint; 3] {
-    const G: f64 = 0.774_596_669_241_483_4;
-    [(-G, 5.0 / 9.0), (0.0, 8.0 / 9.0), (G, 5.0 / 9.0)].map(|(s, weight)| {
-        let (values, slopes) = if coordinates.len() == 2 {
-            ([0.5 * (1.0 - s), 0.5 * (1.0 + s), 0.0], [-0.5, 0.5, 0.0])
-        } else {
-            (
-                [0.5 * s * (s - 1.0), 0.5 * s * (s + 1.0), 1.0 - s * s],
-                [s - 0.5, s + 0.5, -2.0 * s],
-            )
-        };
+/// The points of a facet ([`FACET_RULE`]) with these nodes.
+pub fn facet_points(
+    kind: Kind,
+    facet: &FacetReference,
+    coordinates: &[[f64; 2]],
+) -> [FacetPoint; 3] {
+    FACET_RULE.map(|(s, weight)| {
+        let (values, slopes) = (facet.functions)(s);
         let mut x = [0.0; 2];
         let mut tangent = [0.0; 2];
         for (i, c) in coordinates.iter().enumerate() {

@@ -14,9 +14,9 @@
 //! is an array over them. A gradient at the centre of a `quad4` is the plain mean of those along
 //! the reference coordinates at its points, through the inverse of the mean Jacobian.
 
-use super::{MAX_NODES, MAX_POINTS, has_mean, rule, sampling_points, shape_functions};
+use super::{MAX_POINTS, has_mean};
 use crate::scene::Kind;
-use crate::shape::Shape;
+use crate::shape::{MAX_NODES, Rule, Shape};
 use std::sync::LazyLock;
 
 /// A number at each point; beyond the number of points that of the first.
@@ -34,7 +34,7 @@ struct Reference {
 }
 
 impl Reference {
-    fn new(shape: Shape, points: &[([f64; 2], f64)]) -> Self {
+    fn new(shape: Shape, points: &Rule) -> Self {
         let mut out = Reference {
             weights: [0.0; MAX_POINTS],
             values: [[0.0; MAX_POINTS]; MAX_NODES],
@@ -42,12 +42,12 @@ impl Reference {
         };
         for g in 0..MAX_POINTS {
             let (at, weight) = points.get(g).copied().unwrap_or((points[0].0, 0.0));
-            let (values, gradients) = shape_functions(shape, at);
+            let at = shape.functions(at);
             out.weights[g] = weight;
             for k in 0..MAX_NODES {
-                out.values[k][g] = values[k];
+                out.values[k][g] = at.values[k];
                 for d in 0..2 {
-                    out.gradients[k][d][g] = gradients[k][d];
+                    out.gradients[k][d][g] = at.gradients[k][d];
                 }
             }
         }
@@ -55,11 +55,10 @@ impl Reference {
     }
 }
 
-const SHAPES: [Shape; 4] = [Shape::Tri3, Shape::Tri6, Shape::Quad4, Shape::Quad8];
 static GAUSS: LazyLock<[Reference; 4]> =
-    LazyLock::new(|| SHAPES.map(|s| Reference::new(s, rule(s))));
+    LazyLock::new(|| Shape::ALL.map(|s| Reference::new(s, s.reference().gauss)));
 static SAMPLING: LazyLock<[Reference; 4]> =
-    LazyLock::new(|| SHAPES.map(|s| Reference::new(s, sampling_points(s))));
+    LazyLock::new(|| Shape::ALL.map(|s| Reference::new(s, s.reference().sampling)));
 
 /// The map from the reference element at the points of an element.
 pub struct Mapping {
@@ -89,7 +88,7 @@ impl Mapping {
     #[inline]
     pub fn gauss(kind: Kind, shape: Shape, nodes: &[[f64; 2]; MAX_NODES]) -> Self {
         let reference = &GAUSS[shape as usize];
-        Self::new(kind, shape, reference, rule(shape).len(), nodes)
+        Self::new(kind, shape, reference, shape.n_gauss_points(), nodes)
     }
 
     #[inline]
@@ -290,7 +289,7 @@ impl Mapping {
     }
 }
 
-/// Strains at the points where stress is most accurate ([`sampling_points`]), their dilatation
+/// Strains at the points where stress is most accurate ([`crate::shape::Reference`]), their dilatation
 /// treated as in [`Mapping::strains`]; the number of these points.
 pub fn sampled_strains(
     kind: Kind,
@@ -298,7 +297,7 @@ pub fn sampled_strains(
     nodes: &[[f64; 2]; MAX_NODES],
     u: &[[f64; 2]; MAX_NODES],
 ) -> (Components, usize) {
-    let n_points = sampling_points(shape).len();
+    let n_points = shape.reference().sampling.len();
     let at = Mapping::new(kind, shape, &SAMPLING[shape as usize], n_points, nodes);
     let mut out = at.local_strains(u);
     if at.has_mean {

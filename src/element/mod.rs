@@ -56,20 +56,16 @@
 mod facet;
 mod mapping;
 mod operator;
-mod shape_functions;
 
 pub use facet::{FacetPoint, facet_points};
 pub use mapping::{Components, Lanes, Mapping, sampled_strains};
 pub use operator::{AtPoints, Form, packed};
-pub use shape_functions::shape_functions;
 
-use crate::material::Matrix4;
-use crate::mesh::Shape;
+use crate::material::Lame;
 use crate::scene::Kind;
+use crate::shape::{MAX_NODES, Rule, Shape};
 use operator::MAX_VALUES;
 
-/// Most nodes of an element.
-pub const MAX_NODES: usize = 8;
 /// Most Gauss points of an element.
 pub const MAX_POINTS: usize = 4;
 /// Most freedoms of an element.
@@ -131,55 +127,22 @@ impl Points {
         self.form.forces(&self.values, stress)
     }
 
-    /// `K_e` for an isotropic elastic matrix, packed lower triangle ([`packed`]).
-    pub fn stiffness_into(&self, elastic: &Matrix4, out: &mut [f64]) {
+    /// `K_e` for an elastic law, packed lower triangle ([`packed`]).
+    pub fn stiffness_into(&self, elastic: &Lame, out: &mut [f64]) {
         self.form.stiffness_into(&self.values, elastic, out);
     }
 }
 
 /// Whether the dilatation of an element is replaced by its mean (B-bar).
 fn has_mean(kind: Kind, shape: Shape) -> bool {
-    shape == Shape::Quad4 && kind != Kind::PlaneStress
-}
-
-/// Gauss rule: reference coordinates and weight.
-fn rule(shape: Shape) -> &'static [([f64; 2], f64)] {
-    const G: f64 = 0.577_350_269_189_625_8;
-    const QUAD: [([f64; 2], f64); 4] = [
-        ([-G, -G], 1.0),
-        ([G, -G], 1.0),
-        ([G, G], 1.0),
-        ([-G, G], 1.0),
-    ];
-    const TRI1: [([f64; 2], f64); 1] = [([1.0 / 3.0, 1.0 / 3.0], 0.5)];
-    const A: f64 = 1.0 / 6.0;
-    const TRI3: [([f64; 2], f64); 3] = [([A, A], A), ([4.0 * A, A], A), ([A, 4.0 * A], A)];
-    match shape {
-        Shape::Quad4 | Shape::Quad8 => &QUAD,
-        Shape::Tri3 => &TRI1,
-        Shape::Tri6 => &TRI3,
-    }
-}
-
-/// Reference coordinates of the points at which stress is most accurate (superconvergent): the
-/// centre of linear elements, the 2 x 2 or 3 Gauss points of quadratic ones.
-pub fn sampling_points(shape: Shape) -> &'static [([f64; 2], f64)] {
-    match shape {
-        Shape::Quad4 => &[([0.0, 0.0], 4.0)],
-        other => rule(other),
-    }
-}
-
-/// Number of Gauss points of a shape.
-pub fn n_gauss_points(shape: Shape) -> usize {
-    rule(shape).len()
+    shape.reference().has_mean_dilatation && kind != Kind::PlaneStress
 }
 
 /// The Gauss points of an element.
 #[inline]
 pub fn gauss_points(kind: Kind, shape: Shape, coordinates: &[[f64; 2]]) -> Points {
-    let mut out = Points::none(kind, shape, rule(shape).len());
-    out.evaluate(shape, coordinates, rule(shape));
+    let mut out = Points::none(kind, shape, shape.n_gauss_points());
+    out.evaluate(shape, coordinates, shape.reference().gauss);
     if out.form.has_mean {
         let mean = mean_dilatation(&out);
         out.set_mean(&mean);
@@ -189,7 +152,7 @@ pub fn gauss_points(kind: Kind, shape: Shape, coordinates: &[[f64; 2]]) -> Point
 
 /// The points at which stress is most accurate, with the same treatment of the dilatation.
 pub fn sampling(kind: Kind, shape: Shape, coordinates: &[[f64; 2]]) -> Points {
-    let points = sampling_points(shape);
+    let points = shape.reference().sampling;
     let mut out = Points::none(kind, shape, points.len());
     out.evaluate(shape, coordinates, points);
     if out.form.has_mean {
@@ -214,10 +177,10 @@ impl Points {
     }
 
     /// Weights, gradients and positions at the points of a rule.
-    fn evaluate(&mut self, shape: Shape, coordinates: &[[f64; 2]], rule: &[([f64; 2], f64)]) {
+    fn evaluate(&mut self, shape: Shape, coordinates: &[[f64; 2]], rule: &Rule) {
         let (form, n) = (self.form, shape.n_nodes());
         let center =
-            (form.has_shear_from_center()).then(|| Place::new(shape, coordinates, [0.0; 2]));
+            (form.has_shear_from_center()).then(|| Place::new(shape, coordinates, [0.0; 3]));
         let points = self.values.chunks_exact_mut(form.stride());
         for ((point, position), (reference, weight)) in points.zip(&mut self.positions).zip(rule) {
             let at = Place::new(shape, coordinates, *reference);
@@ -255,9 +218,10 @@ struct Place {
 
 impl Place {
     #[inline]
-    fn new(shape: Shape, coordinates: &[[f64; 2]], reference: [f64; 2]) -> Self {
+    fn new(shape: Shape, coordinates: &[[f64; 2]], reference: [f64; 3]) -> Self {
         let n = shape.n_nodes();
-        let (values, mut gradients) = shape_functions(shape, reference);
+        let at = shape.functions(reference);
+        let (values, mut gradients) = (at.values, at.gradients.map(|[a, b, _]| [a, b]));
         let mut position = [0.0; 2];
         let mut jacobian = [[0.0; 2]; 2];
         for (i, c) in coordinates.iter().enumerate().take(n) {

@@ -20,8 +20,9 @@
 //! # Source
 //! T. J. R. Hughes, *The Finite Element Method* (1987), sections 2.7 and 4.5 (B-bar).
 
-use super::{MAX_FREEDOMS, MAX_NODES, MAX_POINTS};
-use crate::material::Matrix4;
+use super::{MAX_FREEDOMS, MAX_POINTS};
+use crate::material::Lame;
+use crate::shape::MAX_NODES;
 
 /// Stresses or strains at the points of an element.
 pub type AtPoints = [[f64; 4]; MAX_POINTS];
@@ -101,8 +102,8 @@ impl Form {
         }
     }
 
-    /// `K_e` for an isotropic elastic matrix, packed lower triangle in global axes, into `out`.
-    pub fn stiffness_into(self, values: &[f64], elastic: &Matrix4, out: &mut [f64]) {
+    /// `K_e` for an elastic law, packed lower triangle in global axes, into `out`.
+    pub fn stiffness_into(self, values: &[f64], elastic: &Lame, out: &mut [f64]) {
         match self.n_nodes {
             3 => self.stiffness_of::<3>(values, elastic, out),
             4 => self.stiffness_of::<4>(values, elastic, out),
@@ -216,22 +217,19 @@ impl Form {
         out
     }
 
-    fn stiffness_of<const N: usize>(self, values: &[f64], elastic: &Matrix4, out: &mut [f64]) {
+    fn stiffness_of<const N: usize>(self, values: &[f64], elastic: &Lame, out: &mut [f64]) {
         out[..N * (2 * N + 1)].fill(0.0);
         let (mean, center) = (self.mean::<N>(values), self.center::<N>(values));
-        let normal = elastic[..3].iter().flat_map(|row| &row[..3]);
-        let bulk = if self.has_mean {
-            normal.sum::<f64>() / 9.0
-        } else {
-            0.0
-        };
+        let bulk = if self.has_mean { elastic.bulk() } else { 0.0 };
         let mut volume = 0.0;
         for point in self.points::<N>(values) {
             let weight = point[0];
             volume += weight;
-            let d: [[f64; 3]; 3] =
-                std::array::from_fn(|i| std::array::from_fn(|j| weight * (elastic[i][j] - bulk)));
-            let shear = weight * elastic[3][3];
+            let (lambda, mu) = (weight * (elastic.lambda - bulk), weight * elastic.mu);
+            let d: [[f64; 3]; 3] = std::array::from_fn(|i| {
+                std::array::from_fn(|j| if i == j { lambda + 2.0 * mu } else { lambda })
+            });
+            let shear = mu;
             let (x, y) = (&point[1..=N], &point[1 + N..=2 * N]);
             let mut r = [0.0; N];
             if self.is_axisymmetric {

@@ -1,20 +1,20 @@
 //! Linear elasticity and von Mises plasticity at a point.
 //!
-//! Stress and strain are vectors `[xx, yy, zz, xy]` (axisymmetric: `[rr, zz, tt, rz]`), shear strain is the
-//! engineering strain `gamma_xy`. The elastic law is `sigma = D (eps - eps_p)`; plastic flow is associated
-//! with isotropic hardening, integrated by the implicit (closest point) rule.
+//! Stress and strain are vectors `[xx, yy, zz, xy | yz, zx]` (axisymmetric: `[rr, zz, tt, rz]`) of
+//! S = 4 components in the plane, 6 in space; shear strains are engineering strains `gamma`. The
+//! elastic law is `sigma = D (eps - eps_p)`, isotropic ([`Lame`]); plastic flow is associated with
+//! isotropic hardening, integrated by the implicit (closest point) rule.
 
 mod hardening;
+mod lame;
 mod plane_stress;
 mod radial_return;
 
 pub use hardening::Hardening;
+pub use lame::{Lame, Softening};
 
 use crate::scene::{self, Kind};
 use serde::{Deserialize, Serialize};
-
-/// A symmetric 4 x 4 matrix acting on strain vectors, row by row.
-pub type Matrix4 = [[f64; 4]; 4];
 
 /// A material: linear elastic, and plastic where it has a hardening curve.
 #[derive(Debug, Clone)]
@@ -32,21 +32,34 @@ pub struct Material {
 }
 
 /// Plastic history at a Gauss point.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct PlasticState {
-    /// Plastic strain `[xx, yy, zz, xy]`, trace 0.
-    pub strain: [f64; 4],
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(bound(
+    serialize = "[f64; S]: Serialize",
+    deserialize = "[f64; S]: Deserialize<'de>"
+))]
+pub struct PlasticState<const S: usize = 4> {
+    /// Plastic strain, trace 0.
+    pub strain: [f64; S],
     /// Equivalent plastic strain, the time integral of `sqrt(2/3 deps_p : deps_p)`.
     pub equivalent: f64,
 }
 
+impl<const S: usize> Default for PlasticState<S> {
+    fn default() -> Self {
+        PlasticState {
+            strain: [0.0; S],
+            equivalent: 0.0,
+        }
+    }
+}
+
 /// Result of integrating the flow rule over an increment.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Update {
+pub struct Update<const S: usize> {
     /// Plastic history at the end of the increment.
-    pub state: PlasticState,
-    /// `D - D_ep`: what plastic flow takes off the elastic matrix (consistent tangent). Zero where elastic.
-    pub softening: Matrix4,
+    pub state: PlasticState<S>,
+    /// `D - D_ep`: what plastic flow takes off the elastic stiffness. Zero where elastic.
+    pub softening: Softening<S>,
     /// Whether plastic flow took place.
     pub flows: bool,
 }
@@ -80,81 +93,80 @@ impl Material {
             .map_or(f64::INFINITY, |h| h.yield_stress(0.0))
     }
 
-    /// The elastic matrix D. In plane stress row and column `zz` are zero.
-    pub fn elastic_matrix(&self) -> Matrix4 {
-        let g = self.shear_modulus();
-        let nu = self.poissons_ratio;
+    /// The elastic law. In plane stress `lambda* = 2 lambda mu/(lambda + 2 mu)` stands for
+    /// `lambda`, and `zz` takes no part.
+    pub fn lame(&self) -> Lame {
+        let (e, nu, mu) = (
+            self.youngs_modulus,
+            self.poissons_ratio,
+            self.shear_modulus(),
+        );
         match self.kind {
-            Kind::PlaneStress => {
-                let c = self.youngs_modulus / (1.0 - nu * nu);
-                [
-                    [c, c * nu, 0.0, 0.0],
-                    [c * nu, c, 0.0, 0.0],
-                    [0.0; 4],
-                    [0.0, 0.0, 0.0, g],
-                ]
-            }
-            Kind::PlaneStrain | Kind::Axisymmetric => {
-                let lambda = self.youngs_modulus * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
-                let d = lambda + 2.0 * g;
-                [
-                    [d, lambda, lambda, 0.0],
-                    [lambda, d, lambda, 0.0],
-                    [lambda, lambda, d, 0.0],
-                    [0.0, 0.0, 0.0, g],
-                ]
-            }
+            Kind::PlaneStress => Lame {
+                // 2 lambda mu/(lambda + 2 mu) without the pole at nu = 1/2.
+                lambda: e * nu / (1.0 - nu * nu),
+                mu,
+                across: 0.0,
+            },
+            Kind::PlaneStrain | Kind::Axisymmetric => Lame {
+                lambda: e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
+                mu,
+                across: 1.0,
+            },
         }
     }
 
-    /// Whether a total strain lies within the yield surface of a history: [`Material::integrate`] then changes nothing.
-    pub fn stays_elastic(&self, elastic: &Matrix4, strain: &[f64; 4], old: &PlasticState) -> bool {
+    /// Whether a total strain lies within the yield surface of a history: [`Material::integrate`]
+    /// then changes nothing.
+    #[inline]
+    pub fn stays_elastic<const S: usize>(
+        &self,
+        law: &Lame,
+        strain: &[f64; S],
+        old: &PlasticState<S>,
+    ) -> bool {
         self.hardening.as_ref().is_none_or(|hardening| {
-            let trial = stress(elastic, strain, &old.strain);
+            let trial = law.stress(strain, &old.strain);
             von_mises(&trial) <= hardening.yield_stress(old.equivalent)
         })
     }
 
-    /// Integrates the flow rule: total strain at the end of the increment, history at its begin.
-    /// `elastic` is [`Material::elastic_matrix`], passed in because the caller has it at hand.
+    /// Integrates the flow rule: total strain at the end of the increment, history at its start.
+    /// `law` is [`Material::lame`], passed in because the caller has it at hand.
     ///
     /// # Source
     /// J. C. Simo, T. J. R. Hughes, *Computational Inelasticity* (1998), boxes 3.1 to 3.3.
-    pub fn integrate(&self, elastic: &Matrix4, strain: &[f64; 4], old: &PlasticState) -> Update {
+    pub fn integrate<const S: usize>(
+        &self,
+        law: &Lame,
+        strain: &[f64; S],
+        old: &PlasticState<S>,
+    ) -> Update<S> {
         let idle = Update {
             state: *old,
-            softening: [[0.0; 4]; 4],
+            softening: Softening::NONE,
             flows: false,
         };
         let Some(hardening) = &self.hardening else {
             return idle;
         };
-        let trial = stress(elastic, strain, &old.strain);
+        let trial = law.stress(strain, &old.strain);
         if von_mises(&trial) <= hardening.yield_stress(old.equivalent) {
             return idle;
         }
         match self.kind {
-            Kind::PlaneStress => plane_stress::integrate(self, hardening, elastic, &trial, old),
+            Kind::PlaneStress => plane_stress::integrate(self, hardening, &trial, old),
             _ => radial_return::integrate(self, hardening, &trial, old),
         }
     }
 }
 
-/// `sigma = D (eps - eps_p)`.
-pub fn stress(elastic: &Matrix4, strain: &[f64; 4], plastic_strain: &[f64; 4]) -> [f64; 4] {
-    let e: [f64; 4] = std::array::from_fn(|i| strain[i] - plastic_strain[i]);
-    multiply(elastic, &e)
-}
-
-/// Matrix times vector.
-pub fn multiply(matrix: &Matrix4, vector: &[f64; 4]) -> [f64; 4] {
-    std::array::from_fn(|i| (0..4).map(|j| matrix[i][j] * vector[j]).sum())
-}
-
 /// Von Mises stress `sqrt(3/2 s:s)`.
-pub fn von_mises(stress: &[f64; 4]) -> f64 {
-    let [x, y, z, xy] = *stress;
-    (0.5 * ((x - y).powi(2) + (y - z).powi(2) + (z - x).powi(2)) + 3.0 * xy * xy).sqrt()
+#[inline]
+pub fn von_mises<const S: usize>(stress: &[f64; S]) -> f64 {
+    let (x, y, z) = (stress[0], stress[1], stress[2]);
+    let shear: f64 = stress[3..].iter().map(|t| t * t).sum();
+    (0.5 * ((x - y).powi(2) + (y - z).powi(2) + (z - x).powi(2)) + 3.0 * shear).sqrt()
 }
 
 #[cfg(test)]

@@ -12,15 +12,14 @@
 //! # Source
 //! Simo and Hughes (1998), section 3.4, box 3.3; J. C. Simo, R. L. Taylor (1986), doi:10.1002/nme.1620220310.
 
-use super::{Hardening, Material, Matrix4, PlasticState, Update};
+use super::{Hardening, Lame, Material, PlasticState, Softening, Update};
 
-pub(super) fn integrate(
+pub(super) fn integrate<const S: usize>(
     material: &Material,
     hardening: &Hardening,
-    elastic: &Matrix4,
-    trial: &[f64; 4],
-    old: &PlasticState,
-) -> Update {
+    trial: &[f64; S],
+    old: &PlasticState<S>,
+) -> Update<S> {
     let g = material.shear_modulus();
     let e = material.youngs_modulus;
     let nu = material.poissons_ratio;
@@ -53,36 +52,35 @@ pub(super) fn integrate(
     state.strain[2] -= c * (p_sigma[0] + p_sigma[1]);
     state.strain[3] += c * p_sigma[2];
 
-    // Xi = (D^-1 + c P)^-1 in the shared eigenvectors: (1,1,0)/sqrt2, (1,-1,0)/sqrt2, (0,0,1).
-    let xi_sum = e / (1.0 - nu) / a;
-    let xi_difference = 2.0 * g / b;
-    let xi_shear = g / b;
-    let xi = |v: [f64; 3]| {
-        let (s, t) = (
-            0.5 * (v[0] + v[1]) * xi_sum,
-            0.5 * (v[0] - v[1]) * xi_difference,
-        );
-        [s + t, s - t, v[2] * xi_shear]
-    };
-    let w = xi(p_sigma);
+    // D_ep = Xi - w w'/(..), w = Xi P sigma; Xi = (D^-1 + c P)^-1 in the eigenvectors that it
+    // shares with D: (1,1,0)/sqrt2, (1,-1,0)/sqrt2, (0,0,1).
+    let of_sum = e / (1.0 - nu);
+    let half_w = [
+        0.5 * (p_sigma[0] + p_sigma[1]) * of_sum / a,
+        0.5 * (p_sigma[0] - p_sigma[1]) * 2.0 * g / b,
+    ];
+    let mut normal = [0.0; S];
+    normal[0] = half_w[0] + half_w[1];
+    normal[1] = half_w[0] - half_w[1];
+    normal[3] = p_sigma[2] * g / b;
     let slope = hardening.slope(state.equivalent);
-    let p_xi_p = p_sigma[0] * w[0] + p_sigma[1] * w[1] + p_sigma[2] * w[2];
+    let p_xi_p = p_sigma[0] * normal[0] + p_sigma[1] * normal[1] + p_sigma[2] * normal[3];
     let sigma_p_sigma = 2.0 / 3.0 * q * q;
     let resistance = 2.0 / 3.0 * slope * sigma_p_sigma / (1.0 - 2.0 / 3.0 * slope * c);
-    let mut softening = [[0.0; 4]; 4];
-    const AXES: [usize; 3] = [0, 1, 3];
-    for (j, &column) in AXES.iter().enumerate() {
-        let mut unit = [0.0; 3];
-        unit[j] = 1.0;
-        let xi_column = xi(unit);
-        for (i, &row) in AXES.iter().enumerate() {
-            softening[row][column] =
-                elastic[row][column] - (xi_column[i] - w[i] * w[j] / (p_xi_p + resistance));
-        }
-    }
+    // D - Xi: what is lost of the sum and of the difference of the normal stresses.
+    let lost_sum = of_sum * (1.0 - 1.0 / a);
+    let lost_difference = 2.0 * g * (1.0 - 1.0 / b);
     Update {
         state,
-        softening,
+        softening: Softening {
+            isotropic: Lame {
+                lambda: 0.5 * (lost_sum - lost_difference),
+                mu: 0.5 * lost_difference,
+                across: 0.0,
+            },
+            along: 1.0 / (p_xi_p + resistance),
+            normal,
+        },
         flows: true,
     }
 }

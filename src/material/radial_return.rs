@@ -11,46 +11,38 @@
 //! # Source
 //! Simo and Hughes (1998), boxes 3.1 and 3.2.
 
-use super::{Hardening, Material, PlasticState, Update};
+use super::{Hardening, Lame, Material, PlasticState, Softening, Update};
 
-pub(super) fn integrate(
+pub(super) fn integrate<const S: usize>(
     material: &Material,
     hardening: &Hardening,
-    trial: &[f64; 4],
-    old: &PlasticState,
-) -> Update {
+    trial: &[f64; S],
+    old: &PlasticState<S>,
+) -> Update<S> {
     let g = material.shear_modulus();
     let mean = (trial[0] + trial[1] + trial[2]) / 3.0;
-    let s = [trial[0] - mean, trial[1] - mean, trial[2] - mean, trial[3]];
-    let norm = (s[0] * s[0] + s[1] * s[1] + s[2] * s[2] + 2.0 * s[3] * s[3]).sqrt();
+    let mut s = *trial;
+    s[..3].iter_mut().for_each(|s| *s -= mean);
+    let normal: f64 = s[..3].iter().map(|s| s * s).sum();
+    let shear: f64 = s[3..].iter().map(|s| s * s).sum();
+    let norm = (normal + 2.0 * shear).sqrt();
     let q = 1.5f64.sqrt() * norm;
     let (d, slope) = hardening.solve(q, 3.0 * g, old.equivalent);
     let flow = 1.5 * d / q;
     let mut state = *old;
     state.equivalent += d;
-    for i in 0..3 {
-        state.strain[i] += flow * s[i];
+    for (i, (strain, s)) in state.strain.iter_mut().zip(&s).enumerate() {
+        // Shear strains are engineering strains.
+        *strain += if i < 3 { flow * s } else { 2.0 * flow * s };
     }
-    state.strain[3] += 2.0 * flow * s[3];
-
     let shrink = 3.0 * g * d / q;
-    let along = 1.0 / (1.0 + slope / (3.0 * g)) - shrink;
-    let n = [s[0] / norm, s[1] / norm, s[2] / norm, s[3] / norm];
-    let mut softening = [[0.0; 4]; 4];
-    for i in 0..4 {
-        for j in 0..4 {
-            let deviator = match (i, j) {
-                (3, 3) => 0.5,
-                (3, _) | (_, 3) => 0.0,
-                _ if i == j => 2.0 / 3.0,
-                _ => -1.0 / 3.0,
-            };
-            softening[i][j] = 2.0 * g * (shrink * deviator + along * n[i] * n[j]);
-        }
-    }
     Update {
         state,
-        softening,
+        softening: Softening {
+            isotropic: Lame::of_deviator(2.0 * g * shrink),
+            along: 2.0 * g * (1.0 / (1.0 + slope / (3.0 * g)) - shrink),
+            normal: s.map(|s| s / norm),
+        },
         flows: true,
     }
 }

@@ -23,7 +23,7 @@ struct Edge {
 pub(super) fn check(mesh: &Mesh) -> Result<()> {
     let mut edges: Vec<Edge> = (0..mesh.n_elements())
         .flat_map(|element| {
-            (0..mesh.shapes[element].n_corners()).map(move |local| Facet { element, local })
+            (0..mesh.shapes[element].n_facets()).map(move |local| Facet { element, local })
         })
         .map(|facet| {
             let [a, b] = ends(mesh, facet);

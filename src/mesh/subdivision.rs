@@ -18,7 +18,7 @@
 //! indices and labels.
 
 use super::surface::{PAIRING, facing, longest_facet, normals};
-use super::{Curve, Facet, Mesh, Shape, Surface};
+use super::{Curve, Facet, Mesh, Surface};
 use crate::scene::Contact;
 use crate::{Error, Result};
 use std::collections::{BTreeMap, HashMap};
@@ -107,7 +107,7 @@ impl Sides {
             by_ends: HashMap::new(),
         };
         for element in 0..mesh.n_elements() {
-            for local in 0..mesh.shapes[element].n_corners() {
+            for local in 0..mesh.shapes[element].n_facets() {
                 let mut nodes = mesh.facet_nodes(Facet { element, local }).map(|n| n as u32);
                 let (Some(a), Some(b)) = (nodes.next(), nodes.next()) else {
                     continue;
@@ -304,9 +304,9 @@ fn subdivided_once(mesh: &Mesh, contacts: &[Contact]) -> Result<Mesh> {
         cut(mesh, element, &sides, &mut out);
     }
     for (name, surface) in &mesh.surfaces {
-        let halves = surface.facets.iter().flat_map(|&facet| halves(mesh, facet));
+        let parts = surface.facets.iter().flat_map(|&facet| parts(mesh, facet));
         let surface = Surface {
-            facets: halves.collect(),
+            facets: parts.collect(),
             curve: surface.curve,
         };
         out.surfaces.insert(name.clone(), surface);
@@ -328,7 +328,7 @@ fn check_node_sets(mesh: &Mesh) -> Result<()> {
             marked[node] = true;
         }
         for element in 0..mesh.n_elements() {
-            for local in 0..mesh.shapes[element].n_corners() {
+            for local in 0..mesh.shapes[element].n_facets() {
                 let ends: Vec<usize> = mesh.facet_nodes(Facet { element, local }).take(2).collect();
                 if ends.iter().all(|&n| marked[n]) {
                     return Err(Error::input(format!(
@@ -348,106 +348,47 @@ fn check_node_sets(mesh: &Mesh) -> Result<()> {
     Ok(())
 }
 
-/// Appends the four children of an element. Child `i` keeps corner `i` as its first node.
+/// Appends the children of an element.
 fn cut(mesh: &Mesh, element: usize, sides: &Sides, out: &mut Mesh) {
     let shape = mesh.shapes[element];
-    let nodes = mesh.nodes(element);
-    let n = shape.n_corners();
+    let refinement = &shape.reference().refinement;
     let body = mesh.element_body[element] as usize;
-    // Per side: the node half way, and of quadratic elements those between it and the ends.
-    let (mut middle, mut quarters) = ([0u32; 4], [[0u32; 2]; 4]);
-    for local in 0..n {
+    let mut nodes = mesh.nodes(element).to_vec();
+    for local in 0..shape.n_facets() {
         let (index, turned) = sides.of(mesh, Facet { element, local });
         let side = &sides.list[index];
-        match side.middle {
-            None => middle[local] = side.first,
-            Some(m) => {
-                middle[local] = m;
-                let [a, b] = [side.first, side.first + 1];
-                quarters[local] = if turned { [b, a] } else { [a, b] };
-            }
+        let new = 0..side.n_new() as u32;
+        if turned {
+            nodes.extend(new.rev().map(|k| side.first + k));
+        } else {
+            nodes.extend(new.map(|k| side.first + k));
         }
     }
-    let before = |i: usize| (i + n - 1) % n;
-    let after = |i: usize, by: usize| (i + by) % n;
-    let sum = |terms: &[(f64, u32)], out: &Mesh| -> [f64; 2] {
-        [0, 1].map(|d| {
-            terms
-                .iter()
-                .map(|(w, n)| w * out.point(*n as usize)[d])
-                .sum()
-        })
-    };
-    let push = |terms: &[(f64, u32)], out: &mut Mesh| -> u32 {
-        let x = sum(terms, out);
+    for terms in refinement.inside {
+        let mut x = [0.0; 2];
+        for &(weight, local) in *terms {
+            let [a, b] = out.point(nodes[local] as usize);
+            x[0] += weight * a;
+            x[1] += weight * b;
+        }
+        nodes.push(out.n_nodes() as u32);
         out.coordinates.extend(x);
-        out.n_nodes() as u32 - 1
-    };
-    // Nodes inside: the centre of a quadrilateral, the middles of the new sides of quadratic
-    // elements.
-    let center = match n {
-        4 => {
-            let corners = (0..4).map(|i| (-0.25, nodes[i]));
-            let terms: Vec<(f64, u32)> = corners.chain(middle.map(|m| (0.5, m))).collect();
-            push(&terms, out)
-        }
-        _ => 0,
-    };
-    let mut inner = [0u32; 4];
-    if shape.is_quadratic() {
-        for i in 0..n {
-            // The element's own shape functions there.
-            let mut terms: Vec<(f64, u32)> = Vec::with_capacity(8);
-            if n == 4 {
-                terms.extend((0..4).map(|k| (-0.1875, nodes[k])));
-                terms.extend([
-                    (0.75, middle[i]),
-                    (0.375, middle[after(i, 1)]),
-                    (0.25, middle[after(i, 2)]),
-                    (0.375, middle[before(i)]),
-                ]);
-            } else {
-                terms.extend([
-                    (-0.125, nodes[after(i, 1)]),
-                    (-0.125, nodes[after(i, 2)]),
-                    (0.5, middle[i]),
-                    (0.5, middle[before(i)]),
-                    (0.25, middle[after(i, 1)]),
-                ]);
-            }
-            inner[i] = push(&terms, out);
-        }
     }
-    for i in 0..n {
-        let (m, b) = (middle[i], middle[before(i)]);
-        let (from, to) = (quarters[i][0], quarters[before(i)][1]);
-        match shape {
-            Shape::Tri3 => out.push_element(shape, body, &[nodes[i], m, b]),
-            Shape::Tri6 => out.push_element(shape, body, &[nodes[i], m, b, from, inner[i], to]),
-            Shape::Quad4 => out.push_element(shape, body, &[nodes[i], m, center, b]),
-            Shape::Quad8 => out.push_element(
-                shape,
-                body,
-                &[nodes[i], m, center, b, from, inner[i], inner[before(i)], to],
-            ),
-        }
-    }
-    let [a, b, c, _] = middle;
-    match shape {
-        Shape::Tri3 => out.push_element(shape, body, &[a, b, c]),
-        Shape::Tri6 => out.push_element(shape, body, &[a, b, c, inner[1], inner[2], inner[0]]),
-        Shape::Quad4 | Shape::Quad8 => {}
+    for child in refinement.children {
+        let nodes: Vec<u32> = child.iter().map(|&local| nodes[local]).collect();
+        out.push_element(shape, body, &nodes);
     }
 }
 
-/// The two halves of a facet, as facets of the children that keep its ends.
-fn halves(mesh: &Mesh, facet: Facet) -> [Facet; 2] {
-    let n = mesh.shapes[facet.element].n_corners();
-    let child = |i: usize, local: usize| Facet {
-        element: 4 * facet.element + i,
+/// The parts of a facet, as facets of the children.
+fn parts(mesh: &Mesh, facet: Facet) -> impl Iterator<Item = Facet> {
+    let refinement = &mesh.shapes[facet.element].reference().refinement;
+    let first = refinement.children.len() * facet.element;
+    let parts = refinement.of_facet[facet.local].iter();
+    parts.map(move |&[child, local]| Facet {
+        element: first + child,
         local,
-    };
-    [child(facet.local, 0), child((facet.local + 1) % n, n - 1)]
+    })
 }
 
 #[cfg(test)]

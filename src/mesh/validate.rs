@@ -1,6 +1,7 @@
 //! Checks that a mesh can be computed with.
 
 use super::{Facet, Mesh, Shape, conformity, jacobian};
+use crate::shape::MAX_NODES;
 use crate::{Error, Result};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -84,7 +85,7 @@ fn check_arrays(mesh: &Mesh) -> Result<()> {
     }
     for (name, surface) in &mesh.surfaces {
         let outside =
-            |f: &&Facet| f.element >= n_elements || f.local >= mesh.shapes[f.element].n_corners();
+            |f: &&Facet| f.element >= n_elements || f.local >= mesh.shapes[f.element].n_facets();
         if let Some(facet) = surface.facets.iter().find(outside) {
             return inconsistent(format!("{facet:?} in surface `{name}`"));
         }
@@ -174,8 +175,7 @@ fn check_sets(mesh: &Mesh) -> Result<()> {
 
 /// Distinct nodes and a positive Jacobian, element by element.
 fn check_elements(mesh: &Mesh) -> Result<()> {
-    const SHAPES: [Shape; 4] = [Shape::Tri3, Shape::Tri6, Shape::Quad4, Shape::Quad8];
-    let checks = SHAPES.map(jacobian::check_points);
+    let checks = Shape::ALL.map(jacobian::check_points);
     let fault = |element: usize| -> Option<String> {
         let nodes = mesh.nodes(element);
         for (k, node) in nodes.iter().enumerate() {
@@ -187,7 +187,7 @@ fn check_elements(mesh: &Mesh) -> Result<()> {
             }
         }
         let shape = mesh.shapes[element];
-        let mut points = [[0.0; 2]; 8];
+        let mut points = [[0.0; 2]; MAX_NODES];
         for (point, &node) in points.iter_mut().zip(nodes) {
             *point = mesh.point(node as usize);
         }
@@ -204,11 +204,10 @@ fn check_elements(mesh: &Mesh) -> Result<()> {
                 (q[0] - p[0]).hypot(q[1] - p[1])
             })
             .fold(0.0, f64::max);
-        // The reference square has sides of 2: one quarter of the determinant of a unit square.
-        let scale = if n == 4 { 0.25 } else { 1.0 } * longest * longest;
+        let scale = shape.reference().unit_jacobian * longest * longest;
         let worst = checks[shape as usize]
             .iter()
-            .map(|g| g.determinant(&points[..nodes.len()]) / scale)
+            .map(|at| jacobian::determinant(at, &points[..nodes.len()]) / scale)
             .fold(f64::INFINITY, |worst, j| {
                 if j < worst || j.is_nan() { j } else { worst }
             });

@@ -115,7 +115,7 @@ impl<'m> Boundary<'m> {
             {
                 continue;
             }
-            for local in 0..mesh.shapes[element].n_corners() {
+            for local in 0..mesh.shapes[element].n_facets() {
                 let facet = Facet { element, local };
                 let mut ends: Vec<usize> = mesh.facet_nodes(facet).take(2).collect();
                 ends.sort_unstable();

@@ -289,7 +289,8 @@ fn integrate(
     for &facet in &surface.facets {
         let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
         let x: Vec<[f64; 2]> = nodes.iter().map(|&n| mesh.point(n)).collect();
-        for point in facet_points(kind, &x) {
+        let reference = mesh.shapes[facet.element].reference().facet;
+        for point in facet_points(kind, reference, &x) {
             let t = traction(point.position, point.normal);
             for (i, &node) in nodes.iter().enumerate() {
                 let f: &mut [f64; 2] = forces.entry(node).or_insert([0.0; 2]);

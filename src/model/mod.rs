@@ -154,8 +154,8 @@ impl Model {
     }
 
     /// Coordinates of an element's nodes, at the front of an array.
-    pub fn element_coordinates(&self, element: usize) -> [[f64; 2]; crate::element::MAX_NODES] {
-        let mut out = [[0.0; 2]; crate::element::MAX_NODES];
+    pub fn element_coordinates(&self, element: usize) -> [[f64; 2]; crate::shape::MAX_NODES] {
+        let mut out = [[0.0; 2]; crate::shape::MAX_NODES];
         for (x, &node) in out.iter_mut().zip(self.mesh.nodes(element)) {
             *x = self.mesh.point(node as usize);
         }

@@ -308,7 +308,8 @@ fn nodal_areas(
             continue;
         }
         let x: Vec<[f64; 2]> = nodes.iter().map(|&n| mesh.point(n)).collect();
-        for point in facet_points(scene.kind, &x) {
+        let reference = mesh.shapes[facet.element].reference().facet;
+        for point in facet_points(scene.kind, reference, &x) {
             for (&node, value) in nodes.iter().zip(&point.values) {
                 *areas.entry(node).or_default() += point.weight * value;
             }

@@ -115,7 +115,7 @@ impl Values<'_> {
             Values::Int32(values) => encode(out, values, |v| v.to_le_bytes()),
             Values::Int64(values) => encode(out, values, |v| u64::from(v).to_le_bytes()),
             Values::Offsets(values) => encode(out, values, |v| (v as u64).to_le_bytes()),
-            Values::CellTypes(values) => encode(out, values, |shape| [cell_type(shape)]),
+            Values::CellTypes(values) => encode(out, values, |shape| [shape.reference().vtk]),
         }
     }
 }
@@ -126,16 +126,6 @@ fn planar(v: [f64; 2]) -> [u8; 24] {
     bytes[..8].copy_from_slice(&v[0].to_le_bytes());
     bytes[8..16].copy_from_slice(&v[1].to_le_bytes());
     bytes
-}
-
-/// VTK's number of an element shape; the node order is VTK's own.
-fn cell_type(shape: Shape) -> u8 {
-    match shape {
-        Shape::Tri3 => 5,
-        Shape::Tri6 => 22,
-        Shape::Quad4 => 9,
-        Shape::Quad8 => 23,
-    }
 }
 
 /// Writes the bytes of `items`, a chunk at a time.

@@ -2,8 +2,7 @@
 
 use crate::running;
 use brinell::analytical::{Plane, ThickCylinder};
-use brinell::element::{MAX_FREEDOMS, gauss_points, shape_functions};
-use brinell::material::multiply;
+use brinell::element::{MAX_FREEDOMS, gauss_points};
 use brinell::mesh::Shape;
 use brinell::model::Model;
 use brinell::scene::{Kind, Scene};
@@ -59,7 +58,7 @@ const CELLS: usize = 8;
 /// Points at which the stress of an element is compared with the exact one: position, weight, computed stress. Linear elements at
 /// their Gauss points; quadratic ones all over, where the stress is the polynomial through the Gauss points.
 fn points(model: &Model, e: usize, displacement: &[f64]) -> Vec<([f64; 2], f64, [f64; 4])> {
-    let elastic = model.materials[0].elastic_matrix();
+    let elastic = model.materials[0].lame();
     let (shape, x) = (model.mesh.shapes[e], model.element_coordinates(e));
     let nodes = model.mesh.nodes(e);
     let mut local = [0.0; MAX_FREEDOMS];
@@ -72,7 +71,7 @@ fn points(model: &Model, e: usize, displacement: &[f64]) -> Vec<([f64; 2], f64, 
         .iter()
         .zip(at.weights())
         .zip(at.strains(&local))
-        .map(|((position, weight), strain)| (*position, weight, multiply(&elastic, &strain)))
+        .map(|((position, weight), strain)| (*position, weight, elastic.times(&strain)))
         .collect();
     if shape.n_nodes() == shape.n_corners() {
         return gauss;
@@ -97,7 +96,9 @@ fn points(model: &Model, e: usize, displacement: &[f64]) -> Vec<([f64; 2], f64, 
                 let [b, c] = at.map(|v| 2.0 * v - 1.0 / 3.0);
                 (at, 1.0 - unit[1], vec![1.0 - b - c, b, c])
             };
-            let (values, gradients) = shape_functions(shape, at);
+            let [a, b] = at;
+            let functions = shape.functions([a, b, 0.0]);
+            let (values, gradients) = (functions.values, functions.gradients);
             let sum = |f: &dyn Fn(usize) -> f64| (0..shape.n_nodes()).map(f).sum::<f64>();
             let position = [sum(&|k| values[k] * x[k][0]), sum(&|k| values[k] * x[k][1])];
             let jacobian: [[f64; 2]; 2] = std::array::from_fn(|a| {

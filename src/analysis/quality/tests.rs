@@ -291,7 +291,9 @@ fn noise_in_a_contact_force_shows_in_balance_and_backward_errors() {
 fn tension_shows_as_adhesion() {
     let (model, system) = model();
     let mut solver = loaded(&model, &system);
+    // Round-off that presses the surfaces together shows as no adhesion at all.
     let sound = solver.reading().quality_here().expect("quality").adhesion;
+    let sound = sound.max(16.0 * f64::EPSILON);
     let n = model.pairs.len();
     assert!(solver.tableau.open()[..2].iter().all(|open| *open));
     let contact = solver.structure.sub.partition.contact.clone();

@@ -3,7 +3,7 @@
 
 use super::Zone;
 use crate::analysis::packed::Ascending;
-use crate::material::Matrix4;
+use crate::material::Softening;
 use serde::{Deserialize, Serialize};
 
 /// Which points of a zone yielded at the last evaluated state.
@@ -14,7 +14,7 @@ pub(in crate::analysis) struct Yielding {
     /// Their points (places in the zone's arrays) that did.
     flowing: Ascending,
     /// What flow takes off the elastic matrix there.
-    softening: Vec<Matrix4>,
+    softening: Vec<Softening>,
 }
 
 impl Zone {
@@ -39,7 +39,7 @@ impl Zone {
             return false;
         }
         self.flows.fill(false);
-        self.softening.fill([[0.0; 4]; 4]);
+        self.softening.fill(Softening::NONE);
         self.active = record.active.iter().map(|i| i as u32).collect();
         for (point, softening) in record.flowing.iter().zip(&record.softening) {
             self.flows[point] = true;

@@ -3,6 +3,7 @@
 use super::cursor::Cursor;
 use super::kind::Kind;
 use crate::mesh::Shape;
+use crate::shape::MAX_NODES;
 use crate::{Error, ErrorKind, Result};
 use std::collections::{BTreeMap, HashMap};
 
@@ -166,7 +167,7 @@ impl Content {
         groups: &[u64],
         at: usize,
     ) -> Result<()> {
-        let mut nodes = [0u32; 8];
+        let mut nodes = [0u32; MAX_NODES];
         let n = kind.n_nodes();
         for node in &mut nodes[..n] {
             let place = cursor.at();
@@ -185,9 +186,9 @@ impl Content {
                 group,
                 at,
             })),
-            Kind::Line { n_nodes } => self.lines.extend(groups.iter().map(|&group| RawLine {
+            Kind::Line(facet) => self.lines.extend(groups.iter().map(|&group| RawLine {
                 ends: [nodes[0], nodes[1]],
-                middle: (n_nodes == 3).then_some(nodes[2]),
+                middle: (facet.n_nodes == 3).then_some(nodes[2]),
                 group,
                 at,
             })),

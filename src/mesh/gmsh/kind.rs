@@ -1,17 +1,18 @@
 //! Element types of the format.
 
 use crate::mesh::Shape;
+use crate::shape::FacetReference;
+
+/// The type of a point.
+const POINT: u64 = 15;
 
 /// What an element of the file is to brinell.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 pub(super) enum Kind {
     /// A point: a node of a node set.
     Point,
     /// A line: an edge of a surface. With three nodes the last is the mid-side node.
-    Line {
-        /// Number of nodes.
-        n_nodes: usize,
-    },
+    Line(&'static FacetReference),
     /// An element of a body.
     Element(Shape),
 }
@@ -19,14 +20,14 @@ pub(super) enum Kind {
 impl Kind {
     /// The kind of a type number; the name of the type where brinell has no such element.
     pub(super) fn from_type(number: u64) -> Result<Kind, String> {
+        if let Some(shape) = Shape::of_gmsh(number) {
+            return Ok(Kind::Element(shape));
+        }
+        if let Some(facet) = FacetReference::ALL.into_iter().find(|f| f.gmsh == number) {
+            return Ok(Kind::Line(facet));
+        }
         let name = match number {
-            1 => return Ok(Kind::Line { n_nodes: 2 }),
-            8 => return Ok(Kind::Line { n_nodes: 3 }),
-            15 => return Ok(Kind::Point),
-            2 => return Ok(Kind::Element(Shape::Tri3)),
-            9 => return Ok(Kind::Element(Shape::Tri6)),
-            3 => return Ok(Kind::Element(Shape::Quad4)),
-            16 => return Ok(Kind::Element(Shape::Quad8)),
+            POINT => return Ok(Kind::Point),
             10 => {
                 return Err(
                     "9-node quadrilateral (type 10): set Mesh.SecondOrderIncomplete = 1 in Gmsh \
@@ -63,7 +64,7 @@ impl Kind {
     pub(super) fn n_nodes(self) -> usize {
         match self {
             Kind::Point => 1,
-            Kind::Line { n_nodes } => n_nodes,
+            Kind::Line(facet) => facet.n_nodes,
             Kind::Element(shape) => shape.n_nodes(),
         }
     }
@@ -72,21 +73,17 @@ impl Kind {
     pub(super) fn dimension(self) -> u64 {
         match self {
             Kind::Point => 0,
-            Kind::Line { .. } => 1,
-            Kind::Element(_) => 2,
+            Kind::Line(_) => 1,
+            Kind::Element(shape) => shape.reference().dimension as u64,
         }
     }
 
     /// The type number.
     pub(super) fn type_number(self) -> u64 {
         match self {
-            Kind::Line { n_nodes: 2 } => 1,
-            Kind::Line { .. } => 8,
-            Kind::Point => 15,
-            Kind::Element(Shape::Tri3) => 2,
-            Kind::Element(Shape::Tri6) => 9,
-            Kind::Element(Shape::Quad4) => 3,
-            Kind::Element(Shape::Quad8) => 16,
+            Kind::Point => POINT,
+            Kind::Line(facet) => facet.gmsh,
+            Kind::Element(shape) => shape.reference().gmsh,
         }
     }
 }

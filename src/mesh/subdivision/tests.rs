@@ -1,10 +1,8 @@
 use super::*;
 use crate::mesh::circles::lay_on_circle;
 use crate::mesh::generate;
-use crate::mesh::validate;
+use crate::mesh::{Shape, validate};
 use crate::scene::{CylinderOnHalfPlane, Part, Ring, SurfaceCircle};
-
-const SHAPES: [Shape; 4] = [Shape::Tri3, Shape::Tri6, Shape::Quad4, Shape::Quad8];
 
 /// A quarter ring, without the shape of its surfaces, as a file would hold it.
 fn ring(element: Shape) -> Mesh {
@@ -38,7 +36,7 @@ fn circle(on: &str, center: [f64; 2], radius: f64) -> SurfaceCircle {
 fn area(mesh: &Mesh) -> f64 {
     let mut sum = 0.0;
     for element in 0..mesh.n_elements() {
-        for local in 0..mesh.shapes[element].n_corners() {
+        for local in 0..mesh.shapes[element].n_facets() {
             let x: Vec<[f64; 2]> = mesh
                 .facet_nodes(Facet { element, local })
                 .map(|n| mesh.point(n))
@@ -57,7 +55,7 @@ fn area(mesh: &Mesh) -> f64 {
 
 #[test]
 fn the_body_the_surfaces_and_the_sets_stay() {
-    for shape in SHAPES {
+    for shape in Shape::ALL {
         let mesh = ring(shape);
         let finer = subdivided(mesh.clone(), 2, &[]).unwrap();
         validate(&finer).unwrap();
@@ -88,7 +86,7 @@ fn the_body_the_surfaces_and_the_sets_stay() {
 
 #[test]
 fn new_nodes_lie_on_the_circle_that_is_known_and_on_the_side_else() {
-    for shape in SHAPES {
+    for shape in Shape::ALL {
         let off = |mesh: &Mesh, name: &str, radius: f64| -> f64 {
             let nodes = mesh.set_nodes(name).unwrap();
             let distances = nodes.iter().map(|&n| {
@@ -120,7 +118,7 @@ fn new_nodes_lie_on_the_circle_that_is_known_and_on_the_side_else() {
 
 #[test]
 fn nodes_that_face_each_other_have_new_ones_that_do() {
-    for shape in SHAPES {
+    for shape in Shape::ALL {
         let parameters = CylinderOnHalfPlane {
             radius: 10.0,
             resolution: 3,

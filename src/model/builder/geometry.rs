@@ -141,11 +141,11 @@ impl ModelBuilder {
                 ))
             })?;
             let shape = self.mesh.shapes[known];
-            let local = local.below(shape.n_corners()).ok_or_else(|| {
+            let local = local.below(shape.n_facets()).ok_or_else(|| {
                 Error::input(format!(
                     "surface `{name}`: facet {k} is facet {local} of element {element}, a {}: it has {}",
                     shape.name(),
-                    shape.n_corners()
+                    shape.n_facets()
                 ))
             })?;
             out.push(Facet {
@@ -170,7 +170,7 @@ impl ModelBuilder {
         // A facet between two elements is found twice.
         let mut found: BTreeMap<[usize; 2], Option<Facet>> = BTreeMap::new();
         for element in 0..self.n_elements() {
-            for local in 0..self.mesh.shapes[element].n_corners() {
+            for local in 0..self.mesh.shapes[element].n_facets() {
                 let facet = Facet { element, local };
                 if !self.mesh.facet_nodes(facet).all(|n| among[n]) {
                     continue;

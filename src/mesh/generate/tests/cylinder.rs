@@ -22,7 +22,7 @@ pub(super) fn example(element: Shape) -> CylinderOnHalfPlane {
 
 #[test]
 fn both_bodies_are_valid_and_match_in_x() {
-    for shape in SHAPES {
+    for shape in Shape::ALL {
         let mesh =
             cylinder_on_half_plane(&example(shape), ContactSize::at_yield(HALF_WIDTH)).unwrap();
         check_common(&mesh);
@@ -59,7 +59,7 @@ fn both_bodies_are_valid_and_match_in_x() {
 
 #[test]
 fn candidates_end_at_the_fine_width_and_are_even() {
-    for shape in SHAPES {
+    for shape in Shape::ALL {
         let p = example(shape);
         let mesh = cylinder_on_half_plane(&p, ContactSize::at_yield(HALF_WIDTH)).unwrap();
         let contact = &mesh.surfaces["cylinder.contact"];
@@ -105,7 +105,7 @@ fn candidates_end_at_the_fine_width_and_are_even() {
 /// changes.
 #[test]
 fn candidates_reach_as_far_as_the_contact_with_enough_elements_over_any_part_of_them() {
-    for shape in SHAPES {
+    for shape in Shape::ALL {
         let p = example(shape);
         let corners = |reach: f64| {
             let size = ContactSize {
@@ -209,7 +209,7 @@ impl Profile {
 fn areas_are_those_of_the_quadrature_of_the_surface() {
     let size = 50.0 * HALF_WIDTH;
     let profile = Profile::of_example();
-    for shape in SHAPES {
+    for shape in Shape::ALL {
         let mesh =
             cylinder_on_half_plane(&example(shape), ContactSize::at_yield(HALF_WIDTH)).unwrap();
         let plane = area(&mesh, "half_plane");
@@ -245,7 +245,7 @@ fn areas_are_those_of_the_quadrature_of_the_surface() {
 #[test]
 fn the_widest_candidates_are_valid() {
     let sizes = [92.0, 155.0, 2000.0];
-    for (shape, far_size) in SHAPES.into_iter().flat_map(|s| sizes.map(|w| (s, w))) {
+    for (shape, far_size) in Shape::ALL.into_iter().flat_map(|s| sizes.map(|w| (s, w))) {
         let mut p = example(shape);
         // Up to 0.9 of the radius, where the circle's slope is 2.
         p.fine_width = 90.0;

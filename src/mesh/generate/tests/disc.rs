@@ -28,7 +28,7 @@ pub(super) fn sector_area(radius: f64, angle: f64, n: usize, shape: Shape) -> f6
 
 #[test]
 fn all_shapes_and_resolutions_are_valid_with_the_polygon_area() {
-    for shape in SHAPES {
+    for shape in Shape::ALL {
         for resolution in [2, 4, 6, 10, 32] {
             let p = example(resolution, shape);
             let mesh = disc_in_plate(&p).unwrap();
@@ -47,7 +47,7 @@ fn all_shapes_and_resolutions_are_valid_with_the_polygon_area() {
 
 #[test]
 fn the_area_converges_with_the_order_of_the_sides() {
-    for shape in SHAPES {
+    for shape in Shape::ALL {
         let error = |n: usize| {
             let mesh = disc_in_plate(&example(n, shape)).unwrap();
             (area(&mesh, "disc") / (0.25 * PI * RADIUS * RADIUS) - 1.0).abs()
@@ -61,7 +61,7 @@ fn the_area_converges_with_the_order_of_the_sides() {
 
 #[test]
 fn contact_nodes_coincide_and_lie_at_equal_angles() {
-    for shape in SHAPES {
+    for shape in Shape::ALL {
         let n = 12;
         let mesh = disc_in_plate(&example(n, shape)).unwrap();
         let on = |name: &str| surface::ordered_nodes(&mesh, &mesh.surfaces[name]).unwrap();
@@ -94,7 +94,7 @@ fn contact_nodes_coincide_and_lie_at_equal_angles() {
 
 #[test]
 fn symmetry_lines_are_exact_and_the_disc_is_its_own_mirror_image() {
-    for shape in SHAPES {
+    for shape in Shape::ALL {
         let mesh = disc_in_plate(&example(6, shape)).unwrap();
         for body in ["disc", "plate"] {
             for node in mesh.set_nodes(&format!("{body}.symmetry_x")).unwrap() {

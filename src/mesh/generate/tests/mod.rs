@@ -7,8 +7,6 @@ mod parts;
 use super::ContactSize;
 use crate::mesh::{Curve, Mesh, Shape, surface, validate};
 
-pub(super) const SHAPES: [Shape; 4] = [Shape::Tri3, Shape::Tri6, Shape::Quad4, Shape::Quad8];
-
 /// Area of a body: corners by the shoelace formula, and 2/3 of chord times sag for each parabolic
 /// side.
 pub(super) fn area(mesh: &Mesh, body: &str) -> f64 {

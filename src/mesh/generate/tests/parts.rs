@@ -58,7 +58,7 @@ fn disc(body: &str, element: Shape, angle: [f64; 2], elements: usize) -> Part {
 
 #[test]
 fn a_block_has_its_sides_corners_and_pieces() {
-    for shape in SHAPES {
+    for shape in Shape::ALL {
         let mesh = parts(&[block("a", shape)]).unwrap();
         check_common(&mesh);
         assert!((area(&mesh, "a") - 3.0).abs() < 1e-14);
@@ -98,7 +98,7 @@ fn a_block_has_its_sides_corners_and_pieces() {
 
 #[test]
 fn ring_sectors_are_valid_even_with_thin_layers_of_coarse_arcs() {
-    for shape in SHAPES {
+    for shape in Shape::ALL {
         for (angle, elements, closed) in [
             ([0.0, 90.0], [3, 5], false),
             ([0.0, 90.0], [4, 3], false),
@@ -122,7 +122,7 @@ fn ring_sectors_are_valid_even_with_thin_layers_of_coarse_arcs() {
 
 #[test]
 fn discs_of_every_span_are_valid() {
-    for shape in SHAPES {
+    for shape in Shape::ALL {
         for (quarters, end) in [(1usize, 90.0), (2, 180.0), (4, 360.0)] {
             for start in [0.0, 90.0, -45.0, 17.0] {
                 for n in [2, 4, 10] {
@@ -148,7 +148,7 @@ fn discs_of_every_span_are_valid() {
 /// A shaft in a ring: contact nodes of both lie at the same places.
 #[test]
 fn a_disc_matches_the_ring_around_it() {
-    for shape in SHAPES {
+    for shape in Shape::ALL {
         let mut outer = ring("ring", shape, [0.0, 360.0], [2, 16]);
         outer.ring.as_mut().unwrap().center = [-2.0, 0.25];
         let mesh = parts(&[disc("shaft", shape, [0.0, 360.0], 4), outer]).unwrap();

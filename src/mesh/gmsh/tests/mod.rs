@@ -203,7 +203,7 @@ fn a_negative_physical_tag_is_the_same_group() {
 
 #[test]
 fn clockwise_elements_of_every_shape_are_turned_round() {
-    for shape in [Shape::Tri3, Shape::Tri6, Shape::Quad4, Shape::Quad8] {
+    for shape in Shape::ALL {
         let n = shape.n_corners();
         let corners = [[0., 0.], [2., 0.], [2.5, 2.], [0., 1.]];
         let mut points: Vec<[f64; 2]> = corners[..n].to_vec();

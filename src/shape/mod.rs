@@ -1,0 +1,156 @@
+//! Element shapes: one table row per reference element.
+//!
+//! Whatever depends on a shape (readers, writers, facets, subdivision, quadrature, checks) reads
+//! its row ([`Shape::reference`]); a further element is a further row.
+
+mod facets;
+mod functions;
+mod rows;
+
+pub use facets::{FACET_RULE, FacetReference};
+pub use functions::Functions;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Most nodes of an element.
+pub const MAX_NODES: usize = 8;
+/// Most nodes of a facet.
+pub const MAX_FACET_NODES: usize = 3;
+
+/// The shape of an element. Nodes run counter-clockwise, corners first, then mid-side nodes
+/// starting with the one between corners 0 and 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Shape {
+    /// Linear triangle.
+    Tri3,
+    /// Quadratic triangle.
+    Tri6,
+    /// Bilinear quadrilateral.
+    Quad4,
+    /// Serendipity quadrilateral.
+    Quad8,
+}
+
+/// Reference coordinates; those beyond the dimension are zero.
+pub type Place = [f64; 3];
+/// Points of a quadrature with their weights.
+pub type Rule = [(Place, f64)];
+
+/// What is the same for all elements of a shape.
+#[derive(Debug)]
+pub struct Reference {
+    /// The name used in scenes and messages.
+    pub name: &'static str,
+    /// Number of reference coordinates.
+    pub dimension: usize,
+    /// Corners come first among the nodes.
+    pub n_corners: usize,
+    /// Polynomial degree, 1 or 2.
+    pub degree: usize,
+    /// Places of the nodes.
+    pub nodes: &'static [Place],
+    /// Values and derivatives of the shape functions.
+    pub functions: fn(Place) -> Functions,
+    /// The rule that integrates stiffness and forces.
+    pub gauss: &'static Rule,
+    /// Where stress is most accurate (superconvergent): the centre of a bilinear element, the
+    /// Gauss points of the others.
+    pub sampling: &'static Rule,
+    /// Whether the mean over the element may replace the dilatation at the points (B-bar).
+    pub has_mean_dilatation: bool,
+    /// Where the map must have a positive Jacobian: enough places to decide it for a linear
+    /// element; of a quadratic one the corners and the points of its usual rules.
+    pub checked: &'static [Place],
+    /// Jacobian of the element whose sides at a corner are perpendicular and of length 1.
+    pub unit_jacobian: f64,
+    /// What a facet is.
+    pub facet: &'static FacetReference,
+    /// Local node numbers of each facet, in the order of the facet's own nodes. In the plane the
+    /// body is on the left from the first end to the second.
+    pub facets: &'static [&'static [usize]],
+    /// The element cut in smaller ones of its shape.
+    pub refinement: Refinement,
+    /// VTK's cell type; the node order is VTK's own.
+    pub vtk: u8,
+    /// Gmsh's element type; the node order is Gmsh's own.
+    pub gmsh: u64,
+}
+
+/// How an element is cut in smaller ones of its shape.
+///
+/// The nodes of the finer mesh in an element are numbered in three groups: its own, then those
+/// that are new on each facet (in the direction of the facet), then those inside.
+#[derive(Debug)]
+pub struct Refinement {
+    /// New nodes on a facet.
+    pub on_facet: usize,
+    /// New nodes inside: weights of the nodes of the first two groups.
+    pub inside: &'static [&'static [(f64, usize)]],
+    /// Nodes of each child.
+    pub children: &'static [&'static [usize]],
+    /// The children's facets of which each facet consists: child and local facet, in the direction
+    /// of the facet.
+    pub of_facet: &'static [&'static [[usize; 2]]],
+}
+
+impl Shape {
+    /// All shapes, in the order of their numbers.
+    pub const ALL: [Shape; 4] = [Shape::Tri3, Shape::Tri6, Shape::Quad4, Shape::Quad8];
+
+    /// The row of the table.
+    pub fn reference(self) -> &'static Reference {
+        rows::ROWS[self as usize]
+    }
+
+    /// The shape with a number of Gmsh.
+    pub fn of_gmsh(number: u64) -> Option<Shape> {
+        Self::ALL
+            .into_iter()
+            .find(|shape| shape.reference().gmsh == number)
+    }
+
+    /// Number of nodes.
+    pub fn n_nodes(self) -> usize {
+        self.reference().nodes.len()
+    }
+
+    /// Number of corners.
+    pub fn n_corners(self) -> usize {
+        self.reference().n_corners
+    }
+
+    /// Number of facets.
+    pub fn n_facets(self) -> usize {
+        self.reference().facets.len()
+    }
+
+    /// Number of Gauss points.
+    pub fn n_gauss_points(self) -> usize {
+        self.reference().gauss.len()
+    }
+
+    /// True where facets have mid-side nodes.
+    pub fn is_quadratic(self) -> bool {
+        self.reference().degree == 2
+    }
+
+    /// Local node numbers of a facet: its two ends (body on the left), then the mid-side node.
+    pub fn facet(self, local: usize) -> &'static [usize] {
+        self.reference().facets[local]
+    }
+
+    /// Values and derivatives of the shape functions at a place.
+    pub fn functions(self, at: Place) -> Functions {
+        (self.reference().functions)(at)
+    }
+
+    /// The name used in scenes and messages.
+    pub fn name(self) -> &'static str {
+        self.reference().name
+    }
+}
+
+#[cfg(test)]
+mod tests;
