@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .ONESHELL:
 .DEFAULT_GOAL := help
-.PHONY: help setup cargo build run test lint bench bench-peers install python python-tests clean
+.PHONY: help setup cargo build run check test test-all bench bench-peers install python python-tests clean
 
 # What the CHOLMOD backend is built on: SuiteSparse, a fast BLAS, and libclang for bindgen.
 PACKAGES := libsuitesparse-dev libopenblas-dev libclang-dev
@@ -55,17 +55,27 @@ run: setup ## Run a scene (SCENE=..., ARGS=...)
 	@cargo run --release -- run $(SCENE) $(ARGS)
 
 # Tests are compiled with opt-level 2 and debug assertions (Cargo.toml): on two cores the optimised build of
-# the few heavy crates costs less than it saves. Without CHOLMOD the dense backend must do the same job:
-# a fast subset shows that this build works too.
-test: lint python-tests ## Format, lints, documentation and all tests
-	@cargo test --features capi
-	cargo test --no-default-features --lib --bins --test cli
-
-lint: setup ## Format, clippy and documentation, warnings are errors
+# the few heavy crates costs less than it saves.
+check: setup ## Format, lints, unit and property tests (about two minutes once dependencies are built)
 	@cargo fmt --check
 	cargo fmt --check --manifest-path ffi/python/Cargo.toml
 	cargo clippy --features capi --all-targets -- -D warnings
+	cargo test --features capi --lib --test properties
+
+# Tests that take minutes or need packages from elsewhere: the installed C library under valgrind,
+# the Python package and readers of VTU files, damaged files by the thousand.
+LONG := install:: python:: damaged_inputs_are_taken_or_refused
+
+test: check ## All that shows the results to be right (about ten minutes)
+	@cargo test --features capi -- $(addprefix --skip ,$(LONG))
+
+# Without CHOLMOD the dense backend must do the same job: a fast subset shows that this build works
+# too. A library alone must build without the program.
+test-all: test python-tests ## All tests, builds with other features, documentation
+	@cargo test --features capi -- $(LONG)
 	cargo clippy --no-default-features --all-targets -- -D warnings
+	cargo clippy --no-default-features --features cli --all-targets -- -D warnings
+	cargo test --no-default-features --features cli --lib --bins --test cli
 	RUSTDOCFLAGS="-D warnings" cargo doc --features capi --no-deps --quiet
 
 bench: setup ## Measure

@@ -52,6 +52,9 @@
 //!   linked with it.
 //! - `capi`: the C interface (`ffi/include/brinell.h`; `make install` builds the libraries with
 //!   it).
+//! - `cli` (default): the program. A library needs none of it: `default-features = false,
+//!   features = ["cholmod"]` leaves out clap, indicatif, maud, plotters and png.
+//! - `report` (with `cli` and `capi`): `report.html` of a result folder, and the plots of a study.
 //! - Without features (`default-features = false`) the crate is pure Rust, MIT or Apache-2.0; the
 //!   dense backend takes up to 6000 freedoms.
 //!
@@ -69,9 +72,10 @@ pub mod memory;
 
 mod files;
 
+#[doc(hidden)]
 pub mod panics;
 
-pub mod index;
+mod index;
 
 pub mod analytical;
 
@@ -109,11 +113,15 @@ pub mod accuracy;
 
 pub mod output;
 
+#[doc(hidden)]
 pub mod selftest;
 
 #[cfg(feature = "capi")]
 pub mod capi;
 
+#[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
 
 pub use error::{Error, ErrorKind, Result};
+pub use index::Index;

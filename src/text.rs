@@ -6,6 +6,7 @@ use std::fmt::Write;
 /// `text` with each character that a terminal, an SVG or a page would obey or hide instead of
 /// showing it written out, as `\u{1b}`: control characters but line breaks and tabs, changes of the
 /// direction of writing, what has no width, and what XML forbids. Numbers are [`short`].
+#[cfg(feature = "report")]
 pub(crate) fn shown(text: &str) -> Cow<'_, str> {
     match written_out(text, is_obeyed, escape) {
         Cow::Borrowed(text) => short(text),
@@ -19,6 +20,7 @@ pub(crate) fn shown_in_line(text: &str) -> Cow<'_, str> {
 }
 
 /// As [`shown`] for JSON, whose own form this is: what reads it gets the character back.
+#[cfg(feature = "cli")]
 pub(crate) fn shown_json(text: &str) -> Cow<'_, str> {
     written_out(text, is_obeyed, |c, out| {
         for unit in c.encode_utf16(&mut [0; 2]) {
@@ -134,7 +136,7 @@ fn is_obeyed(c: char) -> bool {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "cli"))]
 mod tests {
     use super::*;
 

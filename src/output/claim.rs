@@ -1,7 +1,12 @@
 //! A result directory held for one run, from its start to the written results.
 
 use super::atomic::{Staging, is_result, replace};
-use super::{RunHeader, finish_study, finish_with_report, finish_without_report};
+#[cfg(feature = "report")]
+use super::reported::finish_with_report;
+#[cfg(feature = "report")]
+use super::study::finish_study;
+use super::{RunHeader, finish_without_report};
+#[cfg(feature = "report")]
 use crate::accuracy::Study;
 use crate::error::{Error, Result};
 use crate::model::Model;
@@ -51,6 +56,7 @@ impl Claim {
     ///
     /// # Errors
     /// As there.
+    #[cfg(feature = "report")]
     pub fn write_with_report(
         self,
         header: &RunHeader,
@@ -77,6 +83,7 @@ impl Claim {
     ///
     /// # Errors
     /// As there.
+    #[cfg(feature = "report")]
     pub fn write_study(self, header: &RunHeader, study: &Study) -> Result<()> {
         finish_study(self.staging, header, study)
     }

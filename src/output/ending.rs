@@ -1,8 +1,8 @@
 //! How a run ended: the one answer that the command line, C and Python give.
 
-use super::stated_errors;
+use super::number::significant;
 use crate::error::{Error, ErrorKind, Result};
-use crate::results::Results;
+use crate::results::{Demand, Results};
 
 /// Whether a run kept what was asked of it: the program done to its end, the quality of every state
 /// within its tolerance, and an accuracy that was demanded reached.
@@ -17,12 +17,39 @@ pub fn ending(results: &Results) -> Result<()> {
         return Err(Error::new(kind, text));
     }
     let demand = results.accuracy.as_ref().and_then(|a| a.demand.as_ref());
-    let missed = demand.filter(|d| !d.reached).map(stated_errors::demand);
+    let missed = demand.filter(|d| !d.reached).map(in_words);
     let short: Vec<String> = results.inaccurate.iter().cloned().chain(missed).collect();
     match short.is_empty() {
         true => Ok(()),
         false => Err(Error::new(ErrorKind::Inaccurate, short.join("\n"))),
     }
+}
+
+/// A demanded accuracy in a sentence.
+pub(crate) fn in_words(demand: &Demand) -> String {
+    let stated = if demand.stated.is_finite() {
+        let percent = significant(100.0 * demand.stated, 2);
+        format!("the stated error is {percent} %")
+    } else {
+        "no error was stated".to_string()
+    };
+    let worst = demand
+        .worst
+        .as_ref()
+        .map_or(String::new(), |worst| format!(" ({worst})"));
+    let unknown = match demand.unknown.as_slice() {
+        [] => String::new(),
+        unknown => format!("; no error is known of {}", unknown.join(", ")),
+    };
+    let became = match (demand.reached, &demand.reason) {
+        (true, _) => "reached".to_string(),
+        (false, None) => "NOT reached".to_string(),
+        (false, Some(why)) => format!("NOT reached: {why}"),
+    };
+    format!(
+        "Demanded accuracy {}: {became}; {stated}{worst}{unknown}",
+        demand.demanded
+    )
 }
 
 #[cfg(test)]

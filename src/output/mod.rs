@@ -31,31 +31,40 @@
 mod atomic;
 mod claim;
 mod contact;
-mod ending;
+pub(crate) mod ending;
 mod fields;
 mod history;
 pub(crate) mod number;
 mod read;
 mod record;
+#[cfg(feature = "report")]
 mod report;
+#[cfg(feature = "report")]
+mod reported;
 pub(crate) mod rows;
+#[cfg(feature = "report")]
 pub(crate) mod stated_errors;
+#[cfg(feature = "report")]
 mod study;
 mod summary;
 mod table;
 mod vtu;
 mod vtu_read;
+#[cfg(feature = "report")]
 mod work_precision;
 
 pub use claim::{Claim, mark_stale, stale};
 pub use ending::ending;
 pub use read::{Recorded, read};
-use study::finish_study;
+#[cfg(feature = "report")]
+pub use reported::{write_report, write_with_report};
+#[cfg(feature = "report")]
 pub use study::{study_json, write_study};
 pub use summary::summary;
+#[cfg(feature = "report")]
 pub use work_precision::plot;
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::linalg::Backend;
 use crate::mesh::Mesh;
 use crate::model::Model;
@@ -63,7 +72,7 @@ use crate::results::Results;
 use atomic::Staging;
 use std::ffi::OsStr;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The JSON schema (draft 2020-12) that every `summary.json` of this version obeys.
 pub const SUMMARY_SCHEMA: &str = include_str!("../../data/schema/summary.schema.json");
@@ -77,6 +86,10 @@ const HISTORY_FILE: &str = "history.csv";
 const PATH_FILE: &str = "path.csv";
 const CONTACT_FILE: &str = "contact.csv";
 const COLLECTION_FILE: &str = "fields.pvd";
+const REPORT_FILE: &str = "report.html";
+/// Figures of the report.
+const FIGURE_PREFIX: &str = "report_";
+const FIGURE_SUFFIX: &str = ".svg";
 
 /// What the output says about a run beside its results.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -170,64 +183,9 @@ fn finish_without_report(
     })
 }
 
-/// As [`write_without_report`], with `report.html` and the figures of the report as SVG files.
-///
-/// # Errors
-/// As [`write()`]; `Internal` where a figure cannot be drawn.
-pub fn write_with_report(
-    dir: &Path,
-    header: &RunHeader,
-    model: &Model,
-    results: &Results,
-) -> Result<()> {
-    finish_with_report(Staging::new(dir)?, header, model, results)
-}
-
-fn finish_with_report(
-    staging: Staging,
-    header: &RunHeader,
-    model: &Model,
-    results: &Results,
-) -> Result<()> {
-    finish(staging, header, &model.mesh, results, |staging| {
-        record::write(staging, model)?;
-        for (name, text) in report::files(header, model, results)? {
-            staging.file(&name, |out| out.write_all(text.as_bytes()))?;
-        }
-        Ok(())
-    })
-}
-
-/// Makes the report of a result directory anew: `report.html` and its figures, each put in its
-/// place whole. Figures of an earlier report that this one does not have are removed; nothing else
-/// is touched. Returns the path of the page.
-///
-/// # Errors
-/// Those of [`read()`]; `Internal` where a figure cannot be drawn, `Io` naming the file that cannot
-/// be written.
-pub fn write_report(dir: &Path) -> Result<PathBuf> {
-    let recorded = read(dir)?;
-    let files = report::files(&recorded.header, &recorded.model, &recorded.results)?;
-    let listing = std::fs::read_dir(dir).map_err(|cause| Error::io("list", dir, cause))?;
-    for entry in listing.flatten() {
-        let name = entry.file_name();
-        let stale = name.to_str().is_some_and(|name| {
-            is_figure(name) && files.iter().all(|(written, _)| written != name)
-        });
-        if stale {
-            let path = entry.path();
-            std::fs::remove_file(&path).map_err(|cause| Error::io("remove", &path, cause))?;
-        }
-    }
-    for (name, text) in &files {
-        atomic::replace(&dir.join(name), text.as_bytes())?;
-    }
-    Ok(dir.join(report::REPORT_FILE))
-}
-
 /// Whether a file of this name is a figure of a report.
 fn is_figure(name: &str) -> bool {
-    name.starts_with(report::FIGURE_PREFIX) && name.ends_with(report::FIGURE_SUFFIX)
+    name.starts_with(FIGURE_PREFIX) && name.ends_with(FIGURE_SUFFIX)
 }
 
 fn write_tables_and_fields(
@@ -268,7 +226,7 @@ fn is_result_file(name: &OsStr) -> bool {
             PATH_FILE,
             CONTACT_FILE,
             COLLECTION_FILE,
-            report::REPORT_FILE,
+            REPORT_FILE,
             record::SCENE_FILE,
             record::MESH_FILE,
             record::MODEL_FILE,

@@ -24,6 +24,7 @@ pub(crate) fn significant(value: f64, digits: usize) -> String {
 }
 
 /// Six significant digits: what the tables show; of what there is not, that.
+#[cfg(feature = "report")]
 pub(crate) fn number(value: f64) -> String {
     if value.is_nan() {
         return "none".to_string();
@@ -32,6 +33,7 @@ pub(crate) fn number(value: f64) -> String {
 }
 
 /// Six significant digits of a ratio; where there is none, as of 0 to 0, that.
+#[cfg(feature = "report")]
 pub(crate) fn ratio(value: f64) -> String {
     if value.is_finite() {
         number(value)
@@ -41,6 +43,7 @@ pub(crate) fn ratio(value: f64) -> String {
 }
 
 /// Bytes in the unit that fits.
+#[cfg(feature = "report")]
 pub(crate) fn bytes(count: f64) -> String {
     let mut value = count;
     for unit in ["B", "kB", "MB", "GB"] {
@@ -52,6 +55,7 @@ pub(crate) fn bytes(count: f64) -> String {
     format!("{} TB", significant_integer(value))
 }
 
+#[cfg(feature = "report")]
 fn significant_integer(value: f64) -> String {
     if value >= 9.95 || value == value.trunc() {
         format!("{value:.0}")
@@ -61,6 +65,7 @@ fn significant_integer(value: f64) -> String {
 }
 
 /// Seconds, to the millisecond where that matters.
+#[cfg(feature = "report")]
 pub(crate) fn seconds(value: f64) -> String {
     if value >= 100.0 {
         format!("{value:.0} s")
@@ -71,7 +76,7 @@ pub(crate) fn seconds(value: f64) -> String {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "report"))]
 mod tests {
     use super::*;
 

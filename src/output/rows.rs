@@ -110,6 +110,7 @@ impl Rows {
     ///
     /// # Errors
     /// As for each of its cells.
+    #[cfg(feature = "cli")]
     pub(crate) fn column(&self, name: &str) -> Result<Vec<f64>> {
         (0..self.len()).map(|row| self.number(row, name)).collect()
     }

@@ -2,7 +2,7 @@
 //! per quantity.
 
 use super::number::significant;
-use crate::results::{Accuracy, Demand, EstimateMethod, QuantityError};
+use crate::results::{Accuracy, EstimateMethod, QuantityError};
 use std::collections::BTreeMap;
 
 /// Columns: key and heading.
@@ -98,34 +98,6 @@ fn method(accuracy: &Accuracy) -> String {
         _ => "The mesh's part is the energy norm of the stress error, a rough figure: no other mesh could be run."
             .to_string(),
     }
-}
-
-/// A demanded accuracy in a sentence.
-pub(crate) fn demand(demand: &Demand) -> String {
-    let stated = match demand.stated.is_finite() {
-        true => format!(
-            "the stated error is {} %",
-            significant(100.0 * demand.stated, 2)
-        ),
-        false => "no error was stated".to_string(),
-    };
-    let worst = demand
-        .worst
-        .as_ref()
-        .map_or(String::new(), |worst| format!(" ({worst})"));
-    let unknown = match demand.unknown.as_slice() {
-        [] => String::new(),
-        unknown => format!("; no error is known of {}", unknown.join(", ")),
-    };
-    let became = match (demand.reached, &demand.reason) {
-        (true, _) => "reached".to_string(),
-        (false, None) => "NOT reached".to_string(),
-        (false, Some(why)) => format!("NOT reached: {why}"),
-    };
-    format!(
-        "Demanded accuracy {}: {became}; {stated}{worst}{unknown}",
-        demand.demanded
-    )
 }
 
 /// A share in per cent, two digits.

@@ -48,7 +48,7 @@ pub fn rust_example(scene: &Path) -> Command {
         .current_dir(root())
         .args(["run", "-q", "--example", "indentation"]);
     if !cfg!(feature = "cholmod") {
-        cargo.arg("--no-default-features");
+        cargo.args(["--no-default-features", "--features", "cli"]);
     }
     if cfg!(feature = "capi") {
         cargo.args(["--features", "capi"]);

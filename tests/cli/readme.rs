@@ -119,7 +119,7 @@ fn a_build_without_features_is_pure_rust() {
             || name.starts_with("suitesparse")
             || name.ends_with("-sys")
     };
-    let without = tree(&["--no-default-features"]);
+    let without = tree(&["--no-default-features", "--features", "cli"]);
     assert!(without.len() > 20, "{without:?}");
     // Of the kernel's and the terminal's own interface there are declarations only.
     let declared = |name: &String| ["linux-raw-sys", "windows-sys"].contains(&name.as_str());
@@ -133,4 +133,19 @@ fn a_build_without_features_is_pure_rust() {
         tree(&[]).iter().any(|n| foreign(&n)),
         "the default has CHOLMOD"
     );
+    // Who links the library has nothing of the program.
+    let library = tree(&["--no-default-features", "--features", "cholmod"]);
+    for of_program in [
+        "clap",
+        "ctrlc",
+        "indicatif",
+        "maud",
+        "plotters",
+        "png",
+        "signal-hook",
+    ] {
+        let is_there = |names: &[String]| names.iter().any(|name| name == of_program);
+        assert!(!is_there(&library), "{of_program}");
+    }
+    assert!(library.len() < without.len());
 }

@@ -17,7 +17,9 @@ pub fn families(folder: &Path) -> Vec<Family> {
         hole_in_plate("quad8"),
     ]);
     out.extend(["quad4", "tri6"].map(|shape| pin_from_file(shape, folder)));
-    let history: Vec<(&str, &[usize], fn(usize) -> Scene, usize)> = vec![
+    /// Name, meshes, the scene on each, and on the one that tells the true values.
+    type OnMeshes = (&'static str, &'static [usize], fn(usize) -> Scene, usize);
+    let history: Vec<OnMeshes> = vec![
         (
             "tube into a sleeve, quad4",
             &[4, 6, 8, 12, 16],

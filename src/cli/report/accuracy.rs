@@ -2,7 +2,8 @@
 
 use super::super::table::{Column::*, Table};
 use super::Report;
-use crate::output::stated_errors::{self, StatedErrors};
+use crate::output::ending::in_words;
+use crate::output::stated_errors::StatedErrors;
 use crate::results::Accuracy;
 
 impl Report {
@@ -13,7 +14,7 @@ impl Report {
             self.stated_errors(&stated);
         }
         if let Some(demand) = &accuracy.demand {
-            self.list(&stated_errors::demand(demand), &demand.choices);
+            self.list(&in_words(demand), &demand.choices);
         }
         self.list("Error estimate", &accuracy.notes);
     }

@@ -28,8 +28,8 @@ mod trust;
 mod units;
 mod window;
 
-use super::RunHeader;
 use super::number::significant;
+use super::{FIGURE_PREFIX, FIGURE_SUFFIX, REPORT_FILE, RunHeader};
 use crate::error::Result;
 use crate::model::Model;
 use crate::results::{Results, State};
@@ -41,12 +41,6 @@ use rayon::prelude::*;
 use std::borrow::Cow;
 use units::Units;
 
-/// The page.
-pub(super) const REPORT_FILE: &str = "report.html";
-/// How the name of a figure's file begins.
-pub(super) const FIGURE_PREFIX: &str = "report_";
-/// How the name of a figure's file ends.
-pub(super) const FIGURE_SUFFIX: &str = ".svg";
 /// Least share of the area whose elements are large enough to be seen that is worth a drawing of
 /// the mesh.
 const LEAST_MESH: f64 = 0.2;

@@ -1,8 +1,9 @@
 //! How far the numbers can be trusted: the stated errors and the quality of the solves.
 
 use super::tables::{numbers, plain, table, text};
+use crate::output::ending::in_words;
 use crate::output::number::significant;
-use crate::output::stated_errors::{self, StatedErrors};
+use crate::output::stated_errors::StatedErrors;
 use crate::results::Results;
 use maud::{Markup, PreEscaped, html};
 
@@ -21,7 +22,7 @@ pub(super) fn errors(results: &Results) -> Markup {
             (stated_errors(stated))
         }
         @if let Some(demand) = &accuracy.demand {
-            p { (stated_errors::demand(demand)) "." }
+            p { (in_words(demand)) "." }
             ul { @for choice in &demand.choices { li { (choice) } } }
         }
         @for note in &accuracy.notes { p.quiet { (note) } }
