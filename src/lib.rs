@@ -75,6 +75,8 @@ pub mod index;
 
 pub mod analytical;
 
+pub mod space;
+
 pub mod shape;
 
 pub mod scene;

@@ -16,7 +16,7 @@
 //! T. J. R. Hughes, *The Finite Element Method* (1987), sections 2.7 and 4.5 (B-bar).
 
 use crate::shape::{MAX_NODES, Reference, Rule};
-use std::f64::consts::PI;
+use crate::space::Space;
 
 /// A number at each point; beyond the number of points that of the first.
 pub type Lanes<const P: usize = 4> = [f64; P];
@@ -132,7 +132,7 @@ impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
     #[inline]
     pub(super) fn new(
         table: &'static Table<D, P>,
-        is_axisymmetric: bool,
+        space: Space,
         has_mean: bool,
         nodes: &[[f64; D]; MAX_NODES],
     ) -> Self {
@@ -146,10 +146,10 @@ impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
             per_radius: None,
             shear: None,
         };
-        if is_axisymmetric {
+        if space.is_axisymmetric() {
             let radius = table.interpolated(|k| nodes[k][0]);
             for (weight, r) in out.weights.iter_mut().zip(&radius) {
-                *weight *= 2.0 * PI * r;
+                *weight *= space.measure(*r);
             }
             if has_mean {
                 let (inverse, _) = inverted(&jacobian.map(|row| row.map(|j| [plain_mean(&j)])));

@@ -62,8 +62,8 @@ pub use facet::{FacetPoint, facet_points};
 pub use gradients::{Components, Gradients, Lanes};
 pub use stiffness::packed;
 
-use crate::scene::Kind;
 use crate::shape::{MAX_NODES, Shape};
+use crate::space::Space;
 use gradients::{Table, set_trace};
 use std::sync::LazyLock;
 
@@ -82,29 +82,28 @@ static SAMPLING: PlaneTables = LazyLock::new(|| {
 });
 
 /// Whether the dilatation of an element is replaced by its mean (B-bar).
-fn has_mean(kind: Kind, shape: Shape) -> bool {
-    shape.reference().has_mean_dilatation && kind != Kind::PlaneStress
+fn has_mean(space: Space, shape: Shape) -> bool {
+    shape.reference().has_mean_dilatation && space != Space::PlaneStress
 }
 
 impl PlaneGradients {
     /// The gradients at the Gauss points, for the coordinates of the element's nodes.
     #[inline]
-    pub fn gauss(kind: Kind, shape: Shape, nodes: &[[f64; 2]; MAX_NODES]) -> Self {
-        Self::at(&GAUSS, kind, shape, nodes)
+    pub fn gauss(space: Space, shape: Shape, nodes: &[[f64; 2]; MAX_NODES]) -> Self {
+        Self::at(&GAUSS, space, shape, nodes)
     }
 
     #[inline]
     fn at(
         tables: &'static PlaneTables,
-        kind: Kind,
+        space: Space,
         shape: Shape,
         nodes: &[[f64; 2]; MAX_NODES],
     ) -> Self {
-        let is_axisymmetric = kind == Kind::Axisymmetric;
         Gradients::new(
             &tables[shape as usize],
-            is_axisymmetric,
-            has_mean(kind, shape),
+            space,
+            has_mean(space, shape),
             nodes,
         )
     }
@@ -121,11 +120,11 @@ pub struct PlaneSampling {
 
 impl PlaneSampling {
     /// For the coordinates of the element's nodes.
-    pub fn new(kind: Kind, shape: Shape, nodes: &[[f64; 2]; MAX_NODES]) -> Self {
-        let gauss = || PlaneGradients::gauss(kind, shape, nodes);
+    pub fn new(space: Space, shape: Shape, nodes: &[[f64; 2]; MAX_NODES]) -> Self {
+        let gauss = || PlaneGradients::gauss(space, shape, nodes);
         PlaneSampling {
-            at: PlaneGradients::at(&SAMPLING, kind, shape, nodes),
-            mean: has_mean(kind, shape).then(|| gauss().mean_dilatation()),
+            at: PlaneGradients::at(&SAMPLING, space, shape, nodes),
+            mean: has_mean(space, shape).then(|| gauss().mean_dilatation()),
         }
     }
 

@@ -29,16 +29,16 @@ fn padded(points: &[[f64; 2]]) -> [[f64; 2]; MAX_NODES] {
 /// The strains at each point by the Gauss points' gradients, or by those of the sampling points.
 fn strains_at(
     sampled: bool,
-    kind: Kind,
+    space: Space,
     shape: Shape,
     x: &[[f64; 2]; MAX_NODES],
     u: &[[f64; 2]; MAX_NODES],
 ) -> Vec<[f64; 4]> {
     let (strains, n) = if sampled {
-        let sampling = PlaneSampling::new(kind, shape, x);
+        let sampling = PlaneSampling::new(space, shape, x);
         (sampling.strains(u), sampling.n_points())
     } else {
-        let gradients = PlaneGradients::gauss(kind, shape, x);
+        let gradients = PlaneGradients::gauss(space, shape, x);
         (gradients.strains(u), gradients.n_points())
     };
     (0..n)
@@ -46,13 +46,13 @@ fn strains_at(
         .collect()
 }
 
-fn steel(kind: Kind) -> Lame {
+fn steel(space: Space) -> Lame {
     Material {
         name: "s".into(),
         youngs_modulus: 10.0,
         poissons_ratio: 0.3,
         hardening: None,
-        kind,
+        space,
     }
     .lame()
 }
@@ -60,11 +60,11 @@ fn steel(kind: Kind) -> Lame {
 #[test]
 fn linear_fields_give_exact_strains() {
     for shape in Shape::ALL {
-        for kind in [Kind::PlaneStrain, Kind::PlaneStress] {
+        for space in [Space::PlaneStrain, Space::PlaneStress] {
             let x = coordinates(shape);
             let u = x.map(|p| [0.3 * p[0] - 0.2 * p[1], 0.5 * p[0] + 0.1 * p[1]]);
             for sampled in [false, true] {
-                for e in strains_at(sampled, kind, shape, &x, &u) {
+                for e in strains_at(sampled, space, shape, &x, &u) {
                     // The mean dilatation of a constant field is that field; e_zz then is round-off
                     // only.
                     for (value, exact) in e.iter().zip([0.3, 0.1, 0.0, 0.3]) {
@@ -76,16 +76,14 @@ fn linear_fields_give_exact_strains() {
     }
 }
 
-const KINDS: [Kind; 3] = [Kind::PlaneStrain, Kind::PlaneStress, Kind::Axisymmetric];
-
 /// Weight and matrix B of a point: rows xx, yy, zz, xy.
 type Textbook = Vec<(f64, [[f64; MAX_FREEDOMS]; 4])>;
 
 /// The textbook's matrix B at each point of a rule with the point's weight, B-bar where it applies.
-fn textbook(kind: Kind, shape: Shape, x: &[[f64; 2]], rule: &Rule) -> Textbook {
-    let mut out = without_mean(kind, shape, x, rule);
-    if shape == Shape::Quad4 && kind != Kind::PlaneStress {
-        let gauss = without_mean(kind, shape, x, shape.reference().gauss);
+fn textbook(space: Space, shape: Shape, x: &[[f64; 2]], rule: &Rule) -> Textbook {
+    let mut out = without_mean(space, shape, x, rule);
+    if shape == Shape::Quad4 && space != Space::PlaneStress {
+        let gauss = without_mean(space, shape, x, shape.reference().gauss);
         let volume: f64 = gauss.iter().map(|(w, _)| w).sum();
         for k in 0..2 * shape.n_nodes() {
             let trace = |b: &[[f64; MAX_FREEDOMS]; 4]| b[0][k] + b[1][k] + b[2][k];
@@ -99,7 +97,7 @@ fn textbook(kind: Kind, shape: Shape, x: &[[f64; 2]], rule: &Rule) -> Textbook {
     out
 }
 
-fn without_mean(kind: Kind, shape: Shape, x: &[[f64; 2]], rule: &Rule) -> Textbook {
+fn without_mean(space: Space, shape: Shape, x: &[[f64; 2]], rule: &Rule) -> Textbook {
     let n = shape.n_nodes();
     let mut out: Vec<_> = rule
         .iter()
@@ -118,11 +116,11 @@ fn without_mean(kind: Kind, shape: Shape, x: &[[f64; 2]], rule: &Rule) -> Textbo
                 let dy = (j[0][0] * gradients[i][1] - j[1][0] * gradients[i][0]) / det;
                 (b[0][2 * i], b[1][2 * i + 1]) = (dx, dy);
                 (b[3][2 * i], b[3][2 * i + 1]) = (dy, dx);
-                if kind == Kind::Axisymmetric {
+                if space == Space::Axisymmetric {
                     b[2][2 * i] = values[i] / r;
                 }
             }
-            let around = if kind == Kind::Axisymmetric {
+            let around = if space == Space::Axisymmetric {
                 2.0 * std::f64::consts::PI * r
             } else {
                 1.0
@@ -130,7 +128,7 @@ fn without_mean(kind: Kind, shape: Shape, x: &[[f64; 2]], rule: &Rule) -> Textbo
             (weight * det * around, b)
         })
         .collect();
-    if shape == Shape::Quad4 && kind == Kind::Axisymmetric {
+    if shape == Shape::Quad4 && space == Space::Axisymmetric {
         // Slopes du/dy and radius of the centre, where the gradients along the reference
         // coordinates are +-1/4.
         let sign = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
@@ -153,10 +151,10 @@ fn without_mean(kind: Kind, shape: Shape, x: &[[f64; 2]], rule: &Rule) -> Textbo
 }
 
 /// The elastic matrix of [`steel`], with E = 10 and nu = 0.3.
-fn textbook_elasticity(kind: Kind) -> [[f64; 4]; 4] {
+fn textbook_elasticity(space: Space) -> [[f64; 4]; 4] {
     let (e, nu) = (10.0, 0.3);
     let shear = e / (2.0 * (1.0 + nu));
-    if kind == Kind::PlaneStress {
+    if space == Space::PlaneStress {
         let c = e / (1.0 - nu * nu);
         return [
             [c, c * nu, 0.0, 0.0],
@@ -178,11 +176,11 @@ fn textbook_elasticity(kind: Kind) -> [[f64; 4]; 4] {
 #[test]
 fn strains_forces_and_stiffness_are_those_of_the_textbooks_b() {
     for shape in Shape::ALL {
-        for kind in KINDS {
+        for space in Space::ALL {
             let x = coordinates(shape);
-            let d = textbook_elasticity(kind);
-            let gradients = PlaneGradients::gauss(kind, shape, &x);
-            let reference = textbook(kind, shape, &x, shape.reference().gauss);
+            let d = textbook_elasticity(space);
+            let gradients = PlaneGradients::gauss(space, shape, &x);
+            let reference = textbook(space, shape, &x, shape.reference().gauss);
             let n = 2 * shape.n_nodes();
             let u: [[f64; 2]; MAX_NODES] =
                 std::array::from_fn(|k| [0, 1].map(|d| (1.7 * (2 * k + d) as f64).sin()));
@@ -197,7 +195,10 @@ fn strains_forces_and_stiffness_are_those_of_the_textbooks_b() {
                 for c in 0..4 {
                     let terms = b[c].iter().zip(u.as_flattened());
                     let strain: f64 = terms.map(|(b, u)| b * u).sum();
-                    assert!((strains[c][g] - strain).abs() < 1e-14, "{shape:?} {kind:?}");
+                    assert!(
+                        (strains[c][g] - strain).abs() < 1e-14,
+                        "{shape:?} {space:?}"
+                    );
                     for r in 0..n {
                         force[r] += weight * b[c][r] * stress[c][g];
                         for k in 0..4 {
@@ -211,13 +212,13 @@ fn strains_forces_and_stiffness_are_those_of_the_textbooks_b() {
             let forces = gradients.forces(&stress);
             let forces = forces.as_flattened();
             let mut packed_stiffness = vec![0.0; n * (n + 1) / 2];
-            gradients.stiffness_into(&steel(kind), &mut packed_stiffness);
+            gradients.stiffness_into(&steel(space), &mut packed_stiffness);
             // A few hundred terms of order 10: round-off 1e-13.
             for r in 0..n {
-                assert!((forces[r] - force[r]).abs() < 1e-13, "{shape:?} {kind:?}");
+                assert!((forces[r] - force[r]).abs() < 1e-13, "{shape:?} {space:?}");
                 for s in 0..n {
                     let difference = packed_stiffness[packed(r, s)] - stiffness[r][s];
-                    assert!(difference.abs() < 1e-12, "{shape:?} {kind:?} {difference}");
+                    assert!(difference.abs() < 1e-12, "{shape:?} {space:?} {difference}");
                 }
             }
         }
@@ -231,7 +232,7 @@ fn strains_forces_and_stiffness_are_those_of_the_textbooks_b() {
 #[test]
 fn what_is_regular_at_the_axis_is_in_equilibrium_node_by_node() {
     let (r, z) = ([0.0, 0.7, 1.1, 2.0], [-0.3, 0.2, 1.0]);
-    let d = steel(Kind::Axisymmetric);
+    let d = steel(Space::Axisymmetric);
     let (lambda, shear) = (d.lambda, d.mu);
     for (a, b) in [(0.4, 0.3), (-0.4, 0.2), (0.0, 1.0)] {
         // d(s_zz)/dz + d(r s_rz)/dr/r = 0.
@@ -245,7 +246,7 @@ fn what_is_regular_at_the_axis_is_in_equilibrium_node_by_node() {
                 let x = corners.map(|[i, j]| [r[i], z[j]]);
                 let u = padded(&x.map(|[r, z]| [a * r * z, b * r * r + c * z * z]));
                 let gradients =
-                    PlaneGradients::gauss(Kind::Axisymmetric, Shape::Quad4, &padded(&x));
+                    PlaneGradients::gauss(Space::Axisymmetric, Shape::Quad4, &padded(&x));
                 let strains = gradients.strains(&u);
                 let mut stress = Components::default();
                 for g in 0..4 {
@@ -284,7 +285,7 @@ fn constant_strains_are_exact_and_a_turning_section_has_no_shear() {
         let stretched = x.map(|[r, z]| [0.3 * r, -0.2 * z]);
         let turned = x.map(|[r, z]| [-0.4 * z, 0.4 * r]);
         for sampled in [false, true] {
-            let strains = |u| strains_at(sampled, Kind::Axisymmetric, Shape::Quad4, &x, u);
+            let strains = |u| strains_at(sampled, Space::Axisymmetric, Shape::Quad4, &x, u);
             for e in strains(&stretched) {
                 for (value, exact) in e.iter().zip([0.3, -0.2, 0.3, 0.0]) {
                     assert!((value - exact).abs() < 1e-14, "{x:?} {e:?}");
@@ -300,21 +301,21 @@ fn constant_strains_are_exact_and_a_turning_section_has_no_shear() {
 #[test]
 fn stiffness_is_free_of_rigid_motion() {
     for shape in Shape::ALL {
-        for kind in KINDS {
+        for space in Space::ALL {
             let x = coordinates(shape);
-            let gradients = PlaneGradients::gauss(kind, shape, &x);
+            let gradients = PlaneGradients::gauss(space, shape, &x);
             let n = 2 * shape.n_nodes();
             let mut k = vec![0.0; n * (n + 1) / 2];
-            gradients.stiffness_into(&steel(kind), &mut k);
+            gradients.stiffness_into(&steel(space), &mut k);
             let mut motions: Vec<Vec<f64>> = vec![x.iter().flat_map(|_| [0.0, 1.0]).collect()];
-            if kind != Kind::Axisymmetric {
+            if space != Space::Axisymmetric {
                 motions.push(x.iter().flat_map(|_| [1.0, 0.0]).collect());
                 motions.push(x.iter().flat_map(|p| [-p[1], p[0]]).collect());
             }
             for u in motions {
                 for i in 0..n {
                     let f: f64 = (0..n).map(|j| k[packed(i, j)] * u[j]).sum();
-                    assert!(f.abs() < 1e-11, "{shape:?} {kind:?} {f}");
+                    assert!(f.abs() < 1e-11, "{shape:?} {space:?} {f}");
                 }
             }
         }
@@ -335,9 +336,9 @@ fn no_other_motion_of_a_ring_is_free() {
         rings.extend([[1.0, 1.0], [20.0, 1.0], [1.0, 20.0]].map(|size| block(from, size)));
     }
     for x in rings {
-        let gradients = PlaneGradients::gauss(Kind::Axisymmetric, Shape::Quad4, &x);
+        let gradients = PlaneGradients::gauss(Space::Axisymmetric, Shape::Quad4, &x);
         let mut k = vec![0.0; 36];
-        gradients.stiffness_into(&steel(Kind::Axisymmetric), &mut k);
+        gradients.stiffness_into(&steel(Space::Axisymmetric), &mut k);
         let matrix = nalgebra::SMatrix::<f64, 8, 8>::from_fn(|i, j| k[packed(i, j)]);
         let mut sizes = matrix.symmetric_eigenvalues().data.0[0];
         sizes.sort_by(f64::total_cmp);
@@ -359,7 +360,7 @@ fn weights_sum_to_the_area() {
         let area: f64 = (0..n)
             .map(|i| 0.5 * (x[i][0] * x[(i + 1) % n][1] - x[(i + 1) % n][0] * x[i][1]))
             .sum();
-        let gradients = PlaneGradients::gauss(Kind::PlaneStrain, shape, &x);
+        let gradients = PlaneGradients::gauss(Space::PlaneStrain, shape, &x);
         let sum: f64 = gradients.weights().iter().sum();
         assert!((sum - area).abs() < 1e-14);
     }
@@ -369,7 +370,7 @@ fn weights_sum_to_the_area() {
 fn facets_integrate_length_and_point_outward() {
     const LINE3: &crate::shape::FacetReference = crate::shape::FacetReference::ALL[1];
     let points = facet_points(
-        Kind::PlaneStrain,
+        Space::PlaneStrain,
         LINE3,
         &[[0.0, 0.0], [2.0, 0.0], [1.0, 0.0]],
     );
@@ -379,7 +380,7 @@ fn facets_integrate_length_and_point_outward() {
     assert!((mid - 2.0 * 4.0 / 6.0).abs() < 1e-15);
     // On the axis of revolution the corner of a quadratic facet carries no load.
     let axis = facet_points(
-        Kind::Axisymmetric,
+        Space::Axisymmetric,
         LINE3,
         &[[0.0, 0.0], [2.0, 0.0], [1.0, 0.0]],
     );
@@ -390,20 +391,20 @@ fn facets_integrate_length_and_point_outward() {
 #[test]
 fn sampled_strains_are_those_of_the_textbooks_b_there() {
     for shape in Shape::ALL {
-        for kind in KINDS {
+        for space in Space::ALL {
             let x = coordinates(shape);
             let u = x.map(|p| [0.3 * p[0] * p[1], 0.2 * p[0] * p[0] - 0.1 * p[1] * p[0]]);
             let rule = shape.reference().sampling;
-            let sampled = strains_at(true, kind, shape, &x, &u);
+            let sampled = strains_at(true, space, shape, &x, &u);
             assert_eq!(sampled.len(), rule.len());
-            for (strain, (_, b)) in sampled.iter().zip(textbook(kind, shape, &x, rule)) {
+            for (strain, (_, b)) in sampled.iter().zip(textbook(space, shape, &x, rule)) {
                 for (e, row) in strain.iter().zip(b) {
                     let terms = row.iter().zip(u.as_flattened());
                     let expected: f64 = terms.map(|(b, u)| b * u).sum();
-                    assert!((e - expected).abs() < 1e-14, "{shape:?} {kind:?}");
+                    assert!((e - expected).abs() < 1e-14, "{shape:?} {space:?}");
                 }
             }
-            let positions = PlaneSampling::new(kind, shape, &x).positions(&x);
+            let positions = PlaneSampling::new(space, shape, &x).positions(&x);
             for (g, (place, _)) in rule.iter().enumerate() {
                 let values = shape.functions(*place).values;
                 for d in 0..2 {

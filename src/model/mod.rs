@@ -28,8 +28,9 @@ use crate::element::PlaneGradients;
 use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::mesh::{self, Mesh, Shape};
-use crate::scene::{Kind, Plastic, Scene};
+use crate::scene::{Plastic, Scene};
 use crate::shape::MAX_NODES;
+use crate::space::Space;
 use given::Given;
 use names::Entry;
 use rayon::prelude::*;
@@ -41,7 +42,7 @@ pub struct Model {
     /// The scene it was made from.
     pub scene: Scene,
     /// Plane strain, plane stress or axisymmetric.
-    pub kind: Kind,
+    pub kind: Space,
     /// The mesh.
     pub mesh: Mesh,
     /// Material of each body.
@@ -126,7 +127,7 @@ impl Model {
         let mut warnings = scene.warnings.clone();
         let (materials, may_yield) = resolve_bodies(scene, &mesh)?;
         warn_of_locking(&mesh, &may_yield, &mut warnings);
-        if kind == Kind::Axisymmetric {
+        if kind.is_axisymmetric() {
             check_radii(&mesh)?;
         }
         let (mut pairs, mut contacts) = pairs::resolve(scene, &mesh, given)?;

@@ -60,7 +60,7 @@ static TABLE: LazyLock<Table<3, 8>> = LazyLock::new(|| {
 });
 
 fn steel() -> Lame {
-    super::steel(Kind::PlaneStrain)
+    super::steel(Space::PlaneStrain)
 }
 
 fn distorted() -> [[f64; 3]; 8] {
@@ -96,7 +96,7 @@ fn a_linear_field_is_exact_and_a_rigid_motion_free() {
     let h = [[0.3, -0.2, 0.1], [0.5, 0.1, 0.7], [-0.4, 0.6, 0.2]];
     let exact = [0.3, 0.1, 0.2, 0.3, 1.3, -0.3];
     for has_mean in [false, true] {
-        let solid = Solid::new(&TABLE, false, has_mean, &x);
+        let solid = Solid::new(&TABLE, Space::PlaneStrain, has_mean, &x);
         let u = x.map(|x| h.map(|row| row.iter().zip(x).map(|(h, x)| h * x).sum::<f64>()));
         for (lanes, exact) in solid.strains(&u).iter().zip(exact) {
             assert!(
@@ -116,7 +116,7 @@ fn a_linear_field_is_exact_and_a_rigid_motion_free() {
 #[test]
 fn the_stiffness_is_force_of_stress_of_strain() {
     for has_mean in [false, true] {
-        let solid = Solid::new(&TABLE, false, has_mean, &distorted());
+        let solid = Solid::new(&TABLE, Space::PlaneStrain, has_mean, &distorted());
         let u = moved(0.4);
         let strain = solid.strains(&u);
         let mut stress = [[0.0; 8]; 6];
@@ -156,8 +156,8 @@ fn an_extruded_plane_element_is_the_plane_element() {
         let [x, y] = flat[k % 4];
         [x, y, if k < 4 { 0.0 } else { 1.0 }]
     });
-    let plane = PlaneGradients::gauss(Kind::PlaneStrain, Shape::Quad4, &flat);
-    let solid = Solid::new(&TABLE, false, true, &x);
+    let plane = PlaneGradients::gauss(Space::PlaneStrain, Shape::Quad4, &flat);
+    let solid = Solid::new(&TABLE, Space::PlaneStrain, true, &x);
     let mut in_plane = vec![0.0; 36];
     plane.stiffness_into(&steel(), &mut in_plane);
     let in_space = full_stiffness(&solid);
