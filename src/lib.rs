@@ -79,6 +79,8 @@ mod index;
 
 pub mod analytical;
 
+pub mod space;
+
 pub mod shape;
 
 pub mod scene;

@@ -140,7 +140,7 @@ fn fields(field: &StressField, nodal: Vec<[f64; 2]>, error: Vec<f64>) -> Fields 
     let elements = elements.into_par_iter().enumerate().with_min_len(256);
     elements.for_each(|(e, (stress, von_mises, plastic_strain, yielded))| {
         let element = field.at(e);
-        stress.copy_from_slice(&element.mapping.mean(&element.stress));
+        stress.copy_from_slice(&element.gradients.mean(&element.stress));
         *von_mises = element.von_mises();
         *plastic_strain = element.plastic_strain();
         *yielded = u8::from(*plastic_strain > 0.0);

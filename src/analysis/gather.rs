@@ -1,11 +1,7 @@
-//! The elements of the zone, packed for speed: strain operators without their zeros, and where
-//! freedoms find displacements.
-//!
-//! An operator ([`Form`]) is a sixth of the numbers of the full B, which is what counts where
-//! thousands of evaluations run through memory.
+//! Where the freedoms of a list of elements find displacements, and leave forces.
 
-use crate::element::{AtPoints, Form, MAX_FREEDOMS, Points};
 use crate::model::{Model, Slot};
+use crate::shape::MAX_NODES;
 use crate::substructure::Trailing;
 
 /// Position of every freedom of the model in a [`Nodal`] vector.
@@ -138,17 +134,14 @@ impl NodalPlaces {
     }
 }
 
-/// An element: where its numbers begin.
+/// An element: where its places begin.
 #[derive(Debug, Clone, Copy)]
 pub struct Packed {
     /// Index in the mesh.
     pub element: u32,
     /// Body.
     pub body: u32,
-    /// Number of points.
-    pub n_points: u8,
-    form: Form,
-    first_value: usize,
+    n_nodes: u8,
     first_place: usize,
     turns: (u32, u32),
 }
@@ -165,33 +158,26 @@ struct Turn {
 pub struct GatheredElements {
     /// The elements, in the order given.
     pub list: Vec<Packed>,
-    /// The operator of each element.
-    values: Vec<f64>,
     places: Vec<u32>,
     turns: Vec<Turn>,
 }
 
 impl GatheredElements {
-    /// Packs elements of a model, `points` giving where they are evaluated.
-    pub fn new(
-        model: &Model,
-        elements: &[usize],
-        places: &Places,
-        points: impl Fn(usize) -> Points,
-    ) -> Self {
+    /// Packs elements of a model.
+    pub fn new(model: &Model, elements: &[usize], places: &Places) -> Self {
         let mut out = GatheredElements::default();
         for &element in elements {
-            out.push(model, element, places, &points(element));
+            out.push(model, element, places);
         }
-        out.values.shrink_to_fit();
         out.places.shrink_to_fit();
         out
     }
 
-    fn push(&mut self, model: &Model, element: usize, places: &Places, points: &Points) {
+    fn push(&mut self, model: &Model, element: usize, places: &Places) {
         let first_turn = self.turns.len() as u32;
         let first_place = self.places.len();
-        for (i, &node) in model.mesh.nodes(element).iter().enumerate() {
+        let nodes = model.mesh.nodes(element);
+        for (i, &node) in nodes.iter().enumerate() {
             let NodalPlaces { places, axis } = NodalPlaces::new(model, places, node as usize);
             self.places.extend(places);
             if axis != [1.0, 0.0] {
@@ -204,52 +190,45 @@ impl GatheredElements {
         self.list.push(Packed {
             element: element as u32,
             body: model.mesh.element_body[element],
-            n_points: points.len() as u8,
-            form: points.form(),
-            first_value: self.values.len(),
+            n_nodes: nodes.len() as u8,
             first_place,
             turns: (first_turn, self.turns.len() as u32),
         });
-        self.values.extend_from_slice(points.values());
     }
 
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        self.list.capacity() * size_of::<Packed>()
-            + 8 * self.values.capacity()
-            + 4 * self.places.capacity()
+        self.list.capacity() * size_of::<Packed>() + 4 * self.places.capacity()
     }
 
-    /// Strains at the points of element `i`, for the nodal values of a [`Nodal`].
-    pub fn strains(&self, i: usize, nodal: &[f64]) -> AtPoints {
+    /// Displacements of the nodes of element `i` in global axes, for the values of a [`Nodal`].
+    #[inline]
+    pub fn displacements(&self, i: usize, nodal: &[f64]) -> [[f64; 2]; MAX_NODES] {
         let packed = &self.list[i];
-        let mut u = [0.0; MAX_FREEDOMS];
-        for (u, &place) in u.iter_mut().zip(self.places_of(packed)) {
+        let mut out = [[0.0; 2]; MAX_NODES];
+        for (u, &place) in out
+            .as_flattened_mut()
+            .iter_mut()
+            .zip(self.places_of(packed))
+        {
             *u = nodal[place as usize];
         }
         for turn in self.turns_of(packed) {
-            let (k, [a, b]) = (2 * turn.node as usize, turn.axis);
-            (u[k], u[k + 1]) = (a * u[k] - b * u[k + 1], b * u[k] + a * u[k + 1]);
+            let ([u, v], [a, b]) = (&mut out[usize::from(turn.node)], turn.axis);
+            (*u, *v) = (a * *u - b * *v, b * *u + a * *v);
         }
-        packed.form.strains(&self.values[packed.first_value..], &u)
+        out
     }
 
-    /// `sum_g w_g B' stress` of element `i`.
-    pub fn forces(&self, i: usize, stress: &AtPoints) -> [f64; MAX_FREEDOMS] {
+    /// Adds forces on the nodes of element `i`, in global axes, to nodal sums.
+    pub fn scatter(&self, i: usize, force: &[[f64; 2]; MAX_NODES], sums: &mut [f64]) {
         let packed = &self.list[i];
-        let mut f = packed
-            .form
-            .forces(&self.values[packed.first_value..], stress);
+        let mut force = *force;
         for turn in self.turns_of(packed) {
-            let (k, [a, b]) = (2 * turn.node as usize, turn.axis);
-            (f[k], f[k + 1]) = (a * f[k] + b * f[k + 1], a * f[k + 1] - b * f[k]);
+            let ([f, g], [a, b]) = (&mut force[usize::from(turn.node)], turn.axis);
+            (*f, *g) = (a * *f + b * *g, a * *g - b * *f);
         }
-        f
-    }
-
-    /// Adds the forces of element `i` to nodal sums.
-    pub fn scatter(&self, i: usize, force: &[f64; MAX_FREEDOMS], sums: &mut [f64]) {
-        for (&place, f) in self.places_of(&self.list[i]).iter().zip(force) {
+        for (&place, f) in self.places_of(packed).iter().zip(force.as_flattened()) {
             sums[place as usize] += f;
         }
     }
@@ -264,7 +243,7 @@ impl GatheredElements {
     }
 
     fn places_of(&self, packed: &Packed) -> &[u32] {
-        &self.places[packed.first_place..][..2 * usize::from(packed.form.n_nodes)]
+        &self.places[packed.first_place..][..2 * usize::from(packed.n_nodes)]
     }
 
     fn turns_of(&self, packed: &Packed) -> &[Turn] {
@@ -275,7 +254,7 @@ impl GatheredElements {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::assembly::gauss_points_of;
+    use crate::element::Components;
     use crate::scene::Scene;
 
     /// Gathered displacements and scattered forces against the model's own axes and slots, on
@@ -295,13 +274,13 @@ mod tests {
             let n = model.freedoms.n;
             let elements: Vec<usize> = (0..model.mesh.n_elements()).step_by(7).collect();
             let places = Places::new(n, &(0..n).collect::<Vec<_>>(), &[]);
-            let gathered =
-                GatheredElements::new(&model, &elements, &places, |e| gauss_points_of(&model, e));
+            let gathered = GatheredElements::new(&model, &elements, &places);
             let mut nodal = Nodal::new(&model, &places);
+            let u_free: Vec<f64> = (0..n)
+                .map(|i| ((i * 7919) % 1013) as f64 / 1013.0 - 0.5)
+                .collect();
             let u = Trailing {
-                zone: (0..n)
-                    .map(|i| ((i * 7919) % 1013) as f64 / 1013.0 - 0.5)
-                    .collect(),
+                zone: u_free.clone(),
                 contact: Vec::new(),
             };
             let factors = vec![0.0; model.loads.len()];
@@ -309,25 +288,33 @@ mod tests {
             let mut turned = 0;
             for (i, &e) in elements.iter().enumerate() {
                 turned += gathered.turns_of(&gathered.list[i]).len();
-                let points = gauss_points_of(&model, e);
-                let strains = gathered.strains(i, &values);
-                let expected = points.strains(&model.element_displacement(e, &u.zone, &factors));
-                let size = points.values().iter().fold(0.0f64, |m, b| m.max(b.abs()));
-                for (a, b) in strains.iter().flatten().zip(expected.iter().flatten()) {
-                    assert!((a - b).abs() <= 64.0 * f64::EPSILON * size, "{name} {e}");
+                let moved = gathered.displacements(i, &values);
+                for (u, &node) in moved.iter().zip(model.mesh.nodes(e)) {
+                    let expected = model
+                        .freedoms
+                        .displacement(node as usize, &u_free, &factors);
+                    for (a, b) in u.iter().zip(expected) {
+                        assert!((a - b).abs() <= 4.0 * f64::EPSILON, "{name} {e}");
+                    }
                 }
-                let stress: AtPoints =
-                    std::array::from_fn(|g| [1.0, -2.0 + g as f64, 0.5, 0.3].map(f64::from));
+                let gradients = model.gradients(e);
+                let strains = gradients.strains(&moved);
+                let stress: Components =
+                    std::array::from_fn(|c| std::array::from_fn(|g| c as f64 - 2.0 + g as f64));
                 let mut sums = vec![0.0; values.len()];
-                gathered.scatter(i, &gathered.forces(i, &stress), &mut sums);
+                gathered.scatter(i, &gradients.forces(&stress), &mut sums);
                 let work: f64 = sums.iter().zip(&values).map(|(f, u)| f * u).sum();
-                let mut internal = 0.0;
-                for (weight, (s, e)) in points.weights().zip(stress.iter().zip(&strains)) {
-                    internal += weight * s.iter().zip(e).map(|(s, e)| s * e).sum::<f64>();
+                let (mut internal, mut terms) = (0.0, 0.0);
+                for (g, weight) in gradients.weights().iter().enumerate() {
+                    for (s, e) in stress.iter().zip(&strains) {
+                        internal += weight * s[g] * e[g];
+                        terms += (weight * s[g] * e[g]).abs();
+                    }
                 }
-                let terms: f64 = points.weights().map(|w| w * size).sum::<f64>() * 16.0;
+                // A strain is a difference of displacements over the size of the element.
+                let force: f64 = sums.iter().map(|f| f.abs()).sum();
                 assert!(
-                    (work - internal).abs() <= 64.0 * f64::EPSILON * terms,
+                    (work - internal).abs() <= 64.0 * f64::EPSILON * (terms + force),
                     "{name} {e}: {work} {internal}"
                 );
             }

@@ -154,12 +154,12 @@ impl Samples {
 /// The centre of a linear element carries its mean, the Gauss points of a quadratic one are
 /// superconvergent themselves.
 fn sample(model: &Model, e: usize, element: &ElementStress, out: &mut [Sample]) {
-    let (mapping, stress) = (&element.mapping, &element.stress);
-    let position = mapping.positions(&model.element_coordinates(e));
+    let (gradients, stress) = (&element.gradients, &element.stress);
+    let position = gradients.positions(&model.element_coordinates(e));
     if let [mean] = out {
         *mean = Sample {
-            position: mapping.mean(&position),
-            stress: mapping.mean(stress),
+            position: gradients.mean(&position),
+            stress: gradients.mean(stress),
         };
         return;
     }
@@ -220,8 +220,8 @@ fn quadrature(model: &Model, e: usize, element: &ElementStress, mut visit: impl 
     let coordinates = model.element_coordinates(e);
     let stress = &element.stress;
     if degree(model, e) == 1 {
-        let position = element.mapping.positions(&coordinates);
-        for (g, &weight) in element.mapping.weights().iter().enumerate() {
+        let position = element.gradients.positions(&coordinates);
+        for (g, &weight) in element.gradients.weights().iter().enumerate() {
             let at = position.each_ref().map(|lanes| lanes[g]);
             visit((at, weight, stress.each_ref().map(|lanes| lanes[g])));
         }

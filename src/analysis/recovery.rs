@@ -18,8 +18,7 @@ use super::mirror::{self, Reflection, mirrors};
 use super::patch::{Patch, Sample, reach};
 use super::solver::Solver;
 use super::summit::{SPACINGS, Summit};
-use crate::assembly::sampling_points_of;
-use crate::element::AtPoints;
+use crate::element::{MAX_POINTS, PlaneSampling};
 use crate::material::{Lame, Material, von_mises};
 use crate::model::Model;
 use crate::shape::{MAX_NODES, Shape};
@@ -73,6 +72,7 @@ pub struct Peak {
 /// Samples and recovers stresses in the elements that may yield.
 pub struct Recovery {
     elements: GatheredElements,
+    sampling: Vec<PlaneSampling>,
     first: Vec<usize>,
     /// Coordinates of the sampling points.
     positions: Vec<[f64; 2]>,
@@ -144,22 +144,26 @@ impl Square {
 impl Recovery {
     /// Recovery over the given elements (ascending).
     pub fn new(model: &Model, elements: &[usize], places: &Places) -> Self {
-        let mut positions = Vec::new();
+        let (mut positions, mut sampling) = (Vec::new(), Vec::with_capacity(elements.len()));
         for &e in elements {
-            positions.extend_from_slice(sampling_points_of(model, e).positions());
+            let nodes = model.element_coordinates(e);
+            let own = PlaneSampling::new(model.kind, model.mesh.shapes[e], &nodes);
+            let [x, y] = own.positions(&nodes);
+            positions.extend((0..own.n_points()).map(|g| [x[g], y[g]]));
+            sampling.push(own);
         }
-        let packed =
-            GatheredElements::new(model, elements, places, |e| sampling_points_of(model, e));
+        let packed = GatheredElements::new(model, elements, places);
         let mut first = vec![0];
         let mut neighbours: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         for (i, element) in packed.list.iter().enumerate() {
-            first.push(first[i] + element.n_points as usize);
+            first.push(first[i] + sampling[i].n_points());
             for &node in model.mesh.nodes(element.element as usize) {
                 neighbours.entry(node).or_default().push(i as u32);
             }
         }
         let mut out = Recovery {
             elements: packed,
+            sampling,
             first,
             positions,
             fitted: FittedStrains::default(),
@@ -190,24 +194,20 @@ impl Recovery {
         let nodal = self.nodal.displacements(u);
         let moved = self.fitted.displacements(nodal);
         let fitted = &self.fitted;
-        let (elements, materials) = (&self.elements, &self.materials);
+        let (elements, sampling) = (&self.elements, &self.sampling);
         let strains: Vec<_> = (0..elements.list.len())
             .into_par_iter()
             .with_min_len(GRAIN)
             .map(|i| match fitted.strain(i, &moved) {
-                Some(strain) => {
-                    let mut strains = AtPoints::default();
-                    strains[0] = strain;
-                    strains
-                }
-                None => elements.strains(i, nodal),
+                Some(strain) => strain.map(|e| [e; MAX_POINTS]),
+                None => sampling[i].strains(&elements.displacements(i, nodal)),
             })
             .collect();
         let mut out = Vec::with_capacity(self.positions.len());
-        for (packed, strains) in elements.list.iter().zip(&strains) {
-            let law = &materials[packed.body as usize].1;
-            let points = &strains[..packed.n_points as usize];
-            out.extend(points.iter().map(|e| law.times(e)));
+        for (i, strains) in strains.iter().enumerate() {
+            let law = &self.materials[elements.list[i].body as usize].1;
+            let points = 0..sampling[i].n_points();
+            out.extend(points.map(|g| law.times(&strains.each_ref().map(|lanes| lanes[g]))));
         }
         out
     }
@@ -368,7 +368,7 @@ impl Recovery {
         let mut mirrors = mirrors(model, &self.loaded, &elements);
         // A plane with the body on both sides is none of its boundary.
         mirrors.retain(|m| own.iter().all(|&i| m.beyond(self.positions[i]) < 0.0));
-        let reach = reach(self.elements.list[i].n_points as usize);
+        let reach = reach(self.sampling[i].n_points());
         let mut samples: Vec<Sample> = Vec::new();
         let mut add = |index: usize, at: [f64; 2], reflection: Option<Reflection>| {
             let position: [f64; 2] = std::array::from_fn(|d| (at[d] - center[d]) / scale[d]);

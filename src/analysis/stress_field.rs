@@ -4,7 +4,7 @@
 //! of the factor's memory.
 
 use super::zone::Zone;
-use crate::element::{Components, MAX_POINTS, Mapping};
+use crate::element::{Components, MAX_POINTS, PlaneGradients};
 use crate::material::{Lame, PlasticState};
 use crate::model::Model;
 use crate::shape::MAX_NODES;
@@ -27,7 +27,7 @@ pub(super) struct StressField<'a> {
 
 /// An element and the stresses at its Gauss points.
 pub(super) struct ElementStress<'a> {
-    pub(super) mapping: Mapping,
+    pub(super) gradients: PlaneGradients,
     pub(super) stress: Components,
     /// Of its points; empty outside the zone.
     pub(super) history: &'a [PlasticState],
@@ -76,23 +76,16 @@ impl<'a> StressField<'a> {
             .filter(|(_, history)| history.iter().any(|past| past.equivalent > 0.0))
     }
 
-    /// The map of an element.
-    #[inline]
-    pub(super) fn mapping(&self, e: usize) -> Mapping {
-        let nodes = self.model.element_coordinates(e);
-        Mapping::gauss(self.model.kind, self.model.mesh.shapes[e], &nodes)
-    }
-
     /// The stresses of an element.
     #[inline]
     pub(super) fn at(&self, e: usize) -> ElementStress<'a> {
         let mesh = &self.model.mesh;
-        let mapping = self.mapping(e);
+        let gradients = self.model.gradients(e);
         let mut u = [[0.0; 2]; MAX_NODES];
         for (u, &node) in u.iter_mut().zip(mesh.nodes(e)) {
             *u = self.displacements[node as usize];
         }
-        let mut strain = mapping.strains(&u);
+        let mut strain = gradients.strains(&u);
         let history = self
             .place_in_zone(e)
             .map_or(&[][..], |i| self.zone.states(i));
@@ -103,7 +96,7 @@ impl<'a> StressField<'a> {
         }
         ElementStress {
             stress: stress(&self.elastic[mesh.element_body[e] as usize], &strain),
-            mapping,
+            gradients,
             history,
         }
     }
@@ -113,7 +106,7 @@ impl ElementStress<'_> {
     /// Largest von Mises stress at a point.
     #[inline]
     pub(super) fn von_mises(&self) -> f64 {
-        largest_von_mises(&self.stress, self.mapping.n_points())
+        largest_von_mises(&self.stress, self.gradients.n_points())
     }
 
     /// Largest equivalent plastic strain at a point.

@@ -62,9 +62,9 @@ impl Stresses {
             }
         }
         for (e, history) in field.flowed() {
-            let mapping = field.mapping(e);
+            let gradients = field.model.gradients(e);
             let body = model.mesh.element_body[e] as usize;
-            for (past, weight) in history.iter().zip(mapping.weights()) {
+            for (past, weight) in history.iter().zip(gradients.weights()) {
                 if past.equivalent > 0.0 {
                     out.plastic_points[body] += 1;
                     out.plastic_volume += weight;
@@ -95,7 +95,7 @@ fn nodal_forces(field: &StressField) -> (Vec<[f64; 2]>, Vec<usize>) {
                 let element = field.at(e);
                 let limit = limits[mesh.element_body[e] as usize];
                 Evaluated {
-                    forces: element.mapping.forces(&element.stress),
+                    forces: element.gradients.forces(&element.stress),
                     beyond_yield_outside: element.von_mises() > limit
                         && field.place_in_zone(e).is_none(),
                 }

@@ -13,10 +13,10 @@ mod yielding;
 pub(super) use yielding::Yielding;
 
 use super::gather::{GatheredElements, Nodal, Places};
-use crate::assembly::gauss_points_of;
-use crate::element::{AtPoints, MAX_FREEDOMS};
+use crate::element::{Components, PlaneGradients};
 use crate::material::{Lame, Material, PlasticState, Softening};
 use crate::model::Model;
+use crate::shape::MAX_NODES;
 use crate::substructure::Trailing;
 use rayon::prelude::*;
 
@@ -36,6 +36,7 @@ pub struct Evaluation {
 /// places (`stride`), so that they are cut by element without a list.
 pub struct Zone {
     elements: GatheredElements,
+    gradients: Vec<PlaneGradients>,
     /// Elements in which flow means that the zone is too small.
     guard: Vec<bool>,
     stride: usize,
@@ -51,7 +52,7 @@ pub struct Zone {
     flowing: Vec<u8>,
     /// Elements with a flowing point, ascending.
     active: Vec<u32>,
-    forces: Vec<[f64; MAX_FREEDOMS]>,
+    forces: Vec<[[f64; 2]; MAX_NODES]>,
     /// Initial loads of the committed plastic strains: what flows adds to them.
     base: Trailing,
     nodal: Nodal,
@@ -62,16 +63,17 @@ impl Zone {
     /// Sets up the zone of the given elements (ascending); `guard` says which of them only watch.
     /// The free freedoms of the elements must be zone or contact freedoms.
     pub fn new(model: &Model, elements: &[usize], guard: &[bool], places: &Places) -> Self {
-        let elements =
-            GatheredElements::new(model, elements, places, |e| gauss_points_of(model, e));
+        let gradients = elements.iter().map(|&e| model.gradients(e)).collect();
+        let elements = GatheredElements::new(model, elements, places);
         let n = elements.list.len();
         // That of the mesh, not of these elements: histories pass from zone to zone.
         let shapes = model.mesh.shapes.iter();
         let stride = shapes.map(|s| s.n_gauss_points()).max().unwrap_or(1);
         let (n_zone, n_contact) = places.sizes();
         Zone {
-            forces: vec![[0.0; MAX_FREEDOMS]; n],
+            forces: vec![[[0.0; 2]; MAX_NODES]; n],
             elements,
+            gradients,
             guard: guard.to_vec(),
             stride,
             materials: model
@@ -94,7 +96,8 @@ impl Zone {
     /// Bytes held.
     pub fn bytes(&self) -> u64 {
         (self.elements.bytes()
-            + self.forces.capacity() * size_of::<[f64; MAX_FREEDOMS]>()
+            + self.gradients.capacity() * size_of::<PlaneGradients>()
+            + self.forces.capacity() * size_of::<[[f64; 2]; MAX_NODES]>()
             + self.committed.capacity() * 2 * size_of::<PlasticState>()
             + self.softening.capacity() * size_of::<Softening>()) as u64
     }
@@ -110,6 +113,7 @@ impl Zone {
         let nodal = self.nodal.displacements(u);
         let (elements, materials, stride) = (&self.elements, &self.materials, self.stride);
         (
+            &self.gradients,
             &mut self.flowing,
             &mut self.forces,
             self.trial.par_chunks_mut(stride),
@@ -121,14 +125,14 @@ impl Zone {
             .enumerate()
             .with_min_len(GRAIN)
             .for_each(
-                |(i, (flowing, force, trial, softening, flows, committed))| {
+                |(i, (gradients, flowing, force, trial, softening, flows, committed))| {
                     let packed = &elements.list[i];
                     let (material, law) = &materials[packed.body as usize];
-                    let strains = elements.strains(i, nodal);
-                    let mut added = AtPoints::default();
+                    let strains = gradients.strains(&elements.displacements(i, nodal));
+                    let mut added = Components::default();
                     *flowing = 0;
-                    for g in 0..packed.n_points as usize {
-                        let (strain, old) = (&strains[g], &committed[g]);
+                    for g in 0..gradients.n_points() {
+                        let (strain, old) = (&at_point(&strains, g), &committed[g]);
                         // Most points are elastic: nothing is stored for them.
                         if material.stays_elastic(law, strain, old) {
                             if flows[g] {
@@ -145,10 +149,10 @@ impl Zone {
                         *flowing += 1;
                         let change =
                             std::array::from_fn(|k| update.state.strain[k] - old.strain[k]);
-                        added[g] = law.times(&change);
+                        put(&mut added, g, law.times(&change));
                     }
                     if *flowing > 0 {
-                        *force = elements.forces(i, &added);
+                        *force = gradients.forces(&added);
                     }
                 },
             );
@@ -171,22 +175,22 @@ impl Zone {
     /// prescribed.
     pub fn softening_times(&mut self, v: &Trailing, out: &mut Trailing) {
         let nodal = self.nodal.variation(v);
-        let (elements, softening, stride) = (&self.elements, &self.softening, self.stride);
+        let (elements, gradients) = (&self.elements, &self.gradients);
+        let (softening, stride) = (&self.softening, self.stride);
         self.active
             .par_iter()
             .zip(&mut self.forces[..self.active.len()])
             .with_min_len(GRAIN)
             .for_each(|(&i, force)| {
                 let i = i as usize;
-                let strains = elements.strains(i, nodal);
-                let mut stress = AtPoints::default();
-                for (g, lost) in softening[i * stride..][..elements.list[i].n_points as usize]
-                    .iter()
-                    .enumerate()
-                {
-                    stress[g] = lost.times(&strains[g]);
+                let gradients = &gradients[i];
+                let strains = gradients.strains(&elements.displacements(i, nodal));
+                let mut stress = Components::default();
+                let points = &softening[i * stride..][..gradients.n_points()];
+                for (g, lost) in points.iter().enumerate() {
+                    put(&mut stress, g, lost.times(&at_point(&strains, g)));
                 }
-                *force = elements.forces(i, &stress);
+                *force = gradients.forces(&stress);
             });
         let sums = self.sums.start_sum(None);
         for (&i, force) in self.active.iter().zip(&self.forces) {
@@ -267,17 +271,17 @@ impl Zone {
         let (elements, materials, committed) = (&self.elements, &self.materials, &self.committed);
         let stride = self.stride;
         let sums = self.sums.start_sum(None);
-        for (i, packed) in elements.list.iter().enumerate() {
-            let states = &committed[i * stride..][..packed.n_points as usize];
+        for (i, (packed, gradients)) in elements.list.iter().zip(&self.gradients).enumerate() {
+            let states = &committed[i * stride..][..gradients.n_points()];
             if states.iter().all(|state| state.equivalent == 0.0) {
                 continue;
             }
             let law = &materials[packed.body as usize].1;
-            let mut stress = AtPoints::default();
-            for (stress, state) in stress.iter_mut().zip(states) {
-                *stress = law.times(&state.strain);
+            let mut stress = Components::default();
+            for (g, state) in states.iter().enumerate() {
+                put(&mut stress, g, law.times(&state.strain));
             }
-            elements.scatter(i, &elements.forces(i, &stress), sums);
+            elements.scatter(i, &gradients.forces(&stress), sums);
         }
         self.sums.sum_into(&mut self.base);
     }
@@ -289,7 +293,7 @@ impl Zone {
 
     fn points_of(&self, i: usize) -> std::ops::Range<usize> {
         let first = i * self.stride;
-        first..first + self.elements.list[i].n_points as usize
+        first..first + self.gradients[i].n_points()
     }
 
     /// Gauss points with plastic strain and the largest equivalent plastic strain.
@@ -300,6 +304,19 @@ impl Zone {
                 f64::max(largest, state.equivalent),
             )
         })
+    }
+}
+
+/// The components at a point.
+#[inline]
+fn at_point(components: &Components, g: usize) -> [f64; 4] {
+    components.each_ref().map(|lanes| lanes[g])
+}
+
+#[inline]
+fn put(components: &mut Components, g: usize, values: [f64; 4]) {
+    for (lanes, value) in components.iter_mut().zip(values) {
+        lanes[g] = value;
     }
 }
 

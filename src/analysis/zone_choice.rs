@@ -7,7 +7,7 @@
 use super::solver::Solver;
 use super::stress_field::{largest_von_mises, stress};
 use super::structure::combination;
-use crate::element::sampled_strains;
+use crate::element::PlaneSampling;
 use crate::error::Result;
 use crate::model::{Model, Slot};
 use crate::scene::Kind;
@@ -233,9 +233,12 @@ pub fn stress_ratios(model: &Model, u: &[f64], factors: &[f64]) -> Vec<f64> {
                 *u = displacements[node as usize];
             }
             let nodes = model.element_coordinates(e);
-            let (strains, n) = sampled_strains(model.kind, model.mesh.shapes[e], &nodes, &u);
+            let sampling = PlaneSampling::new(model.kind, model.mesh.shapes[e], &nodes);
             let body = model.mesh.element_body[e] as usize;
-            let largest = largest_von_mises(&stress(&elastic[body], &strains), n);
+            let largest = largest_von_mises(
+                &stress(&elastic[body], &sampling.strains(&u)),
+                sampling.n_points(),
+            );
             largest / model.materials[body].yield_stress()
         })
         .collect()

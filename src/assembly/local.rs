@@ -1,20 +1,7 @@
-//! The points of a model's elements, and element matrices in the local axes of their nodes.
+//! Element matrices in the local axes of their nodes.
 
-use crate::element::{Points, gauss_points, packed, sampling};
+use crate::element::packed;
 use crate::model::Model;
-
-/// The Gauss points of an element.
-#[inline]
-pub fn gauss_points_of(model: &Model, element: usize) -> Points {
-    let x = model.element_coordinates(element);
-    gauss_points(model.kind, model.mesh.shapes[element], &x)
-}
-
-/// The points of an element where stress is most accurate.
-pub fn sampling_points_of(model: &Model, element: usize) -> Points {
-    let x = model.element_coordinates(element);
-    sampling(model.kind, model.mesh.shapes[element], &x)
-}
 
 /// Turns an element's stiffness (packed lower triangle in global axes) into the local axes of its
 /// nodes: `K <- R' K R`, the columns of `R` the axes.

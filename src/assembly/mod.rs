@@ -7,7 +7,6 @@
 mod local;
 mod pattern;
 
-pub use local::{gauss_points_of, sampling_points_of};
 pub use pattern::Incidence;
 
 use crate::element::packed;
@@ -115,7 +114,7 @@ impl ElementMatrices {
             .with_min_len(256)
             .for_each(|(e, block)| {
                 let elastic = &elastic[model.mesh.element_body[e] as usize];
-                gauss_points_of(model, e).stiffness_into(elastic, block);
+                model.gradients(e).stiffness_into(elastic, block);
                 local::turn_stiffness(model, e, block);
             });
         ElementMatrices { offsets, values }

@@ -7,7 +7,8 @@ use super::run::{Task, brinell_callback, execute};
 use crate::error::{Error, Result};
 use crate::mesh::{Curve, Shape};
 use crate::model::ModelBuilder;
-use crate::scene::{Kind, Program};
+use crate::scene::Program;
+use crate::space::Space;
 use std::ffi::{c_char, c_void};
 
 /// A model that is being put together from arrays.
@@ -65,8 +66,7 @@ pub unsafe extern "C" fn brinell_model_new(
     out: *mut *mut brinell_model,
 ) -> i32 {
     guarded(|| {
-        let kinds = [Kind::PlaneStrain, Kind::PlaneStress, Kind::Axisymmetric];
-        let kind = one_of(&kinds, kind, "kind of model")?;
+        let kind = one_of(&Space::ALL, kind, "kind of model")?;
         kind.check_symmetry(symmetry)?;
         let mut builder = ModelBuilder::new(kind);
         builder.symmetry(symmetry);

@@ -224,12 +224,14 @@ fn a_model_from_arrays_gives_the_bits_of_the_scene() {
     let sets = [
         c"materials.steel.yield_stress=8",
         c"materials.steel.plastic_modulus=1000",
+        // No square elements: all points of the uniform stress field are places of first yield.
+        c"mesh.parts.0.block.elements=[8, 5]",
     ];
     let sets = sets.map(|s| s.as_ptr());
     // SAFETY: texts, arrays and places live through the calls, handles are freed once.
     unsafe {
         let (mut scene, mut expected) = (null_mut(), null_mut());
-        let loaded = brinell_scene_load(path.as_ptr(), sets.as_ptr(), 2, &mut scene);
+        let loaded = brinell_scene_load(path.as_ptr(), sets.as_ptr(), 3, &mut scene);
         assert_eq!(loaded, BRINELL_OK, "{}", message());
         let status = brinell_run(scene, null(), None, null_mut(), &mut expected);
         assert_eq!(status, BRINELL_OK, "{}", message());

@@ -13,7 +13,7 @@ use crate::model::Model;
 use crate::output::{self, Claim, RunHeader};
 use crate::progress::Observer;
 use crate::results::Results;
-use crate::scene::{Kind, Scene};
+use crate::scene::Scene;
 use crate::text::shown_json;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -198,15 +198,10 @@ pub(super) fn header(
     common: &CommonArguments,
     wall_seconds: f64,
 ) -> RunHeader {
-    let kind = match scene.kind {
-        Kind::PlaneStrain => "plane_strain",
-        Kind::PlaneStress => "plane_stress",
-        Kind::Axisymmetric => "axisymmetric",
-    };
     RunHeader {
         scene_title: scene.title.clone(),
         scene_file: Some(common.scene.display().to_string()),
-        kind: kind.to_string(),
+        kind: scene.kind.name().to_string(),
         solver: Backend::from(common.solver).name().to_string(),
         wall_seconds,
         bodies: model.mesh.bodies.clone(),

@@ -1,7 +1,7 @@
 //! Integration over the facets of elements: tractions and nodal areas.
 
-use crate::scene::Kind;
 use crate::shape::{FACET_RULE, FacetReference, MAX_FACET_NODES};
+use crate::space::Space;
 
 /// An integration point on a facet.
 #[derive(Debug, Clone, Copy)]
@@ -18,7 +18,7 @@ pub struct FacetPoint {
 
 /// The points of a facet ([`FACET_RULE`]) with these nodes.
 pub fn facet_points(
-    kind: Kind,
+    space: Space,
     facet: &FacetReference,
     coordinates: &[[f64; 2]],
 ) -> [FacetPoint; 3] {
@@ -33,14 +33,9 @@ pub fn facet_points(
             }
         }
         let length = tangent[0].hypot(tangent[1]);
-        let around = if kind == Kind::Axisymmetric {
-            2.0 * std::f64::consts::PI * x[0]
-        } else {
-            1.0
-        };
         FacetPoint {
             values,
-            weight: weight * length * around,
+            weight: weight * length * space.measure(x[0]),
             position: x,
             normal: [tangent[1] / length, -tangent[0] / length],
         }

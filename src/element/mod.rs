@@ -1,8 +1,9 @@
 //! Element kernels: they see one element's coordinates, never the mesh or the global matrix.
 //!
 //! Strain is `[xx, yy, zz, xy]` (axisymmetric `[rr, zz, tt, rz]`) with engineering shear,
-//! `eps = B u_e`, `K_e = sum_g w_g B' D B`, `f_e = sum_g w_g B' sigma`. Element vectors run node by
-//! node, `[u_x0, u_y0, u_x1, ...]`.
+//! `eps = B u_e`, `K_e = sum_g w_g B' D B`, `f_e = sum_g w_g B' sigma`. Rows of `K_e` run node by
+//! node, `[u_x0, u_y0, u_x1, ...]`. The dimension is a constant in here ([`Gradients`]), outside it
+//! is data.
 //!
 //! `quad4` uses the mean dilatation (B-bar), `quad8` reduced integration: neither locks in
 //! isochoric plastic flow. `tri3` does.
@@ -54,226 +55,97 @@
 //! 71 (2007) 175-200, doi:10.1002/nme.1939.
 
 mod facet;
-mod mapping;
-mod operator;
+mod gradients;
+mod stiffness;
 
 pub use facet::{FacetPoint, facet_points};
-pub use mapping::{Components, Lanes, Mapping, sampled_strains};
-pub use operator::{AtPoints, Form, packed};
+pub use gradients::{Components, Gradients, Lanes};
+pub use stiffness::packed;
 
-use crate::material::Lame;
-use crate::scene::Kind;
-use crate::shape::{MAX_NODES, Rule, Shape};
-use operator::MAX_VALUES;
+use crate::shape::{MAX_NODES, Shape};
+use crate::space::Space;
+use gradients::{Table, set_trace};
+use std::sync::LazyLock;
 
-/// Most Gauss points of an element.
+/// Most points of an element in the plane.
 pub const MAX_POINTS: usize = 4;
-/// Most freedoms of an element.
-pub const MAX_FREEDOMS: usize = 2 * MAX_NODES;
 
-/// Points of an element with the strain operator at them, in global axes.
-#[derive(Debug, Clone, Copy)]
-pub struct Points {
-    form: Form,
-    values: [f64; MAX_VALUES],
-    positions: [[f64; 2]; MAX_POINTS],
-}
+/// The gradients of an element in the plane.
+pub type PlaneGradients = Gradients<2, 4, MAX_POINTS>;
+type PlaneTables = LazyLock<[Table<2, MAX_POINTS>; Shape::ALL.len()]>;
 
-impl Points {
-    /// Number of points.
-    pub fn len(&self) -> usize {
-        usize::from(self.form.n_points)
-    }
-
-    /// Never: every element has a point.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// Number of freedoms of the element.
-    pub fn n_freedoms(&self) -> usize {
-        2 * usize::from(self.form.n_nodes)
-    }
-
-    /// What stands in [`Points::values`].
-    pub fn form(&self) -> Form {
-        self.form
-    }
-
-    /// The numbers of the operator.
-    pub fn values(&self) -> &[f64] {
-        &self.values[..self.form.n_values()]
-    }
-
-    /// Coordinates of the points.
-    pub fn positions(&self) -> &[[f64; 2]] {
-        &self.positions[..self.len()]
-    }
-
-    /// Weights of the points: quadrature weight times Jacobian times thickness (1) or circumference
-    /// (2 pi r).
-    pub fn weights(&self) -> impl Iterator<Item = f64> {
-        let stride = self.form.stride();
-        (0..self.len()).map(move |g| self.values[g * stride])
-    }
-
-    /// `eps = B u_e` at all points.
-    pub fn strains(&self, u: &[f64; MAX_FREEDOMS]) -> AtPoints {
-        self.form.strains(&self.values, u)
-    }
-
-    /// `f_e = sum_g w_g B' sigma`.
-    pub fn forces(&self, stress: &AtPoints) -> [f64; MAX_FREEDOMS] {
-        self.form.forces(&self.values, stress)
-    }
-
-    /// `K_e` for an elastic law, packed lower triangle ([`packed`]).
-    pub fn stiffness_into(&self, elastic: &Lame, out: &mut [f64]) {
-        self.form.stiffness_into(&self.values, elastic, out);
-    }
-}
+static GAUSS: PlaneTables = LazyLock::new(|| {
+    Shape::ALL.map(|shape| Table::new(shape.reference(), shape.reference().gauss))
+});
+static SAMPLING: PlaneTables = LazyLock::new(|| {
+    Shape::ALL.map(|shape| Table::new(shape.reference(), shape.reference().sampling))
+});
 
 /// Whether the dilatation of an element is replaced by its mean (B-bar).
-fn has_mean(kind: Kind, shape: Shape) -> bool {
-    shape.reference().has_mean_dilatation && kind != Kind::PlaneStress
+fn has_mean(space: Space, shape: Shape) -> bool {
+    shape.reference().has_mean_dilatation && space != Space::PlaneStress
 }
 
-/// The Gauss points of an element.
-#[inline]
-pub fn gauss_points(kind: Kind, shape: Shape, coordinates: &[[f64; 2]]) -> Points {
-    let mut out = Points::none(kind, shape, shape.n_gauss_points());
-    out.evaluate(shape, coordinates, shape.reference().gauss);
-    if out.form.has_mean {
-        let mean = mean_dilatation(&out);
-        out.set_mean(&mean);
-    }
-    out
-}
-
-/// The points at which stress is most accurate, with the same treatment of the dilatation.
-pub fn sampling(kind: Kind, shape: Shape, coordinates: &[[f64; 2]]) -> Points {
-    let points = shape.reference().sampling;
-    let mut out = Points::none(kind, shape, points.len());
-    out.evaluate(shape, coordinates, points);
-    if out.form.has_mean {
-        let mean = mean_dilatation(&gauss_points(kind, shape, coordinates));
-        out.set_mean(&mean);
-    }
-    out
-}
-
-impl Points {
-    fn none(kind: Kind, shape: Shape, n_points: usize) -> Self {
-        Points {
-            form: Form {
-                n_nodes: shape.n_nodes() as u8,
-                n_points: n_points as u8,
-                is_axisymmetric: kind == Kind::Axisymmetric,
-                has_mean: has_mean(kind, shape),
-            },
-            values: [0.0; MAX_VALUES],
-            positions: [[0.0; 2]; MAX_POINTS],
-        }
-    }
-
-    /// Weights, gradients and positions at the points of a rule.
-    fn evaluate(&mut self, shape: Shape, coordinates: &[[f64; 2]], rule: &Rule) {
-        let (form, n) = (self.form, shape.n_nodes());
-        let center =
-            (form.has_shear_from_center()).then(|| Place::new(shape, coordinates, [0.0; 3]));
-        let points = self.values.chunks_exact_mut(form.stride());
-        for ((point, position), (reference, weight)) in points.zip(&mut self.positions).zip(rule) {
-            let at = Place::new(shape, coordinates, *reference);
-            for (i, [a, b]) in at.gradients.into_iter().enumerate().take(n) {
-                (point[1 + i], point[1 + n + i]) = (a, b);
-            }
-            point[0] = weight * at.determinant;
-            if form.is_axisymmetric {
-                point[0] *= 2.0 * std::f64::consts::PI * at.position[0];
-                for (r, value) in point[1 + 2 * n..=3 * n].iter_mut().zip(at.values) {
-                    *r = value / at.position[0];
-                }
-            }
-            if let Some(center) = &center {
-                point[1 + 3 * n] = (at.position[0] / center.position[0]).sqrt();
-            }
-            *position = at.position;
-        }
-        if let Some(center) = center {
-            let (start, slopes) = (form.center_at(), center.gradients.map(|[_, y]| y));
-            self.values[start..start + n].copy_from_slice(&slopes[..n]);
-        }
-    }
-}
-
-/// The shape functions at a place of an element.
-struct Place {
-    values: [f64; MAX_NODES],
-    /// Along the global axes.
-    gradients: [[f64; 2]; MAX_NODES],
-    position: [f64; 2],
-    /// Of the Jacobian.
-    determinant: f64,
-}
-
-impl Place {
+impl PlaneGradients {
+    /// The gradients at the Gauss points, for the coordinates of the element's nodes.
     #[inline]
-    fn new(shape: Shape, coordinates: &[[f64; 2]], reference: [f64; 3]) -> Self {
-        let n = shape.n_nodes();
-        let at = shape.functions(reference);
-        let (values, mut gradients) = (at.values, at.gradients.map(|[a, b, _]| [a, b]));
-        let mut position = [0.0; 2];
-        let mut jacobian = [[0.0; 2]; 2];
-        for (i, c) in coordinates.iter().enumerate().take(n) {
-            for d in 0..2 {
-                position[d] += values[i] * c[d];
-                jacobian[0][d] += gradients[i][0] * c[d];
-                jacobian[1][d] += gradients[i][1] * c[d];
-            }
-        }
-        let determinant = jacobian[0][0] * jacobian[1][1] - jacobian[0][1] * jacobian[1][0];
-        for gradient in gradients.iter_mut().take(n) {
-            let [a, b] = *gradient;
-            *gradient = [
-                (jacobian[1][1] * a - jacobian[0][1] * b) / determinant,
-                (jacobian[0][0] * b - jacobian[1][0] * a) / determinant,
-            ];
-        }
-        Place {
-            values,
-            gradients,
-            position,
-            determinant,
-        }
+    pub fn gauss(space: Space, shape: Shape, nodes: &[[f64; 2]; MAX_NODES]) -> Self {
+        Self::at(&GAUSS, space, shape, nodes)
+    }
+
+    #[inline]
+    fn at(
+        tables: &'static PlaneTables,
+        space: Space,
+        shape: Shape,
+        nodes: &[[f64; 2]; MAX_NODES],
+    ) -> Self {
+        Gradients::new(
+            &tables[shape as usize],
+            space,
+            has_mean(space, shape),
+            nodes,
+        )
     }
 }
 
-/// B-bar: the mean over the element of `tr B`, `m_x` of all nodes, then `m_y`.
-///
-/// # Source
-/// T. J. R. Hughes, *The Finite Element Method* (1987), section 4.5.
-fn mean_dilatation(points: &Points) -> [f64; MAX_FREEDOMS] {
-    let (form, n) = (points.form, usize::from(points.form.n_nodes));
-    let mut mean = [0.0; MAX_FREEDOMS];
-    let mut volume = 0.0;
-    for point in points.values.chunks_exact(form.stride()).take(points.len()) {
-        volume += point[0];
-        for (m, gradient) in mean.iter_mut().zip(&point[1..=2 * n]) {
-            *m += point[0] * gradient;
-        }
-        if form.is_axisymmetric {
-            for (m, r) in mean.iter_mut().zip(&point[1 + 2 * n..=3 * n]) {
-                *m += point[0] * r;
-            }
-        }
-    }
-    mean.map(|m| m / volume)
+/// An element at the points where its stress is most accurate
+/// ([`Reference::sampling`](crate::shape::Reference::sampling)).
+#[derive(Debug, Clone)]
+pub struct PlaneSampling {
+    at: PlaneGradients,
+    /// The mean dilatation over the Gauss points.
+    mean: Option<[[f64; 2]; MAX_NODES]>,
 }
 
-impl Points {
-    fn set_mean(&mut self, mean: &[f64; MAX_FREEDOMS]) {
-        let (start, n) = (self.form.mean_at(), self.n_freedoms());
-        self.values[start..start + n].copy_from_slice(&mean[..n]);
+impl PlaneSampling {
+    /// For the coordinates of the element's nodes.
+    pub fn new(space: Space, shape: Shape, nodes: &[[f64; 2]; MAX_NODES]) -> Self {
+        let gauss = || PlaneGradients::gauss(space, shape, nodes);
+        PlaneSampling {
+            at: PlaneGradients::at(&SAMPLING, space, shape, nodes),
+            mean: has_mean(space, shape).then(|| gauss().mean_dilatation()),
+        }
+    }
+
+    /// Number of points.
+    pub fn n_points(&self) -> usize {
+        self.at.n_points()
+    }
+
+    /// Coordinates of the points, axis by axis, for those of the nodes.
+    pub fn positions(&self, nodes: &[[f64; 2]; MAX_NODES]) -> [Lanes; 2] {
+        self.at.positions(nodes)
+    }
+
+    /// Strains at the points, their dilatation treated as in [`Gradients::strains`].
+    pub fn strains(&self, u: &[[f64; 2]; MAX_NODES]) -> Components {
+        let mut out = self.at.local_strains(u);
+        if let Some(mean) = &self.mean {
+            let terms = mean.as_flattened().iter().zip(u.as_flattened());
+            set_trace(&mut out, terms.map(|(m, u)| m * u).sum());
+        }
+        out
     }
 }
 

@@ -13,7 +13,8 @@ mod radial_return;
 pub use hardening::Hardening;
 pub use lame::{Lame, Softening};
 
-use crate::scene::{self, Kind};
+use crate::scene;
+use crate::space::Space;
 use serde::{Deserialize, Serialize};
 
 /// A material: linear elastic, and plastic where it has a hardening curve.
@@ -28,7 +29,7 @@ pub struct Material {
     /// Yield stress against equivalent plastic strain; `None` for an elastic material.
     pub hardening: Option<Hardening>,
     /// The idealisation, which decides the elastic matrix and the return mapping.
-    pub kind: Kind,
+    pub space: Space,
 }
 
 /// Plastic history at a Gauss point.
@@ -66,13 +67,13 @@ pub struct Update<const S: usize> {
 
 impl Material {
     /// The material of a scene.
-    pub fn new(name: &str, data: &scene::Material, kind: Kind) -> Self {
+    pub fn new(name: &str, data: &scene::Material, space: Space) -> Self {
         Material {
             name: name.to_string(),
             youngs_modulus: data.youngs_modulus,
             poissons_ratio: data.poissons_ratio,
             hardening: Hardening::from_scene(data),
-            kind,
+            space,
         }
     }
 
@@ -101,14 +102,14 @@ impl Material {
             self.poissons_ratio,
             self.shear_modulus(),
         );
-        match self.kind {
-            Kind::PlaneStress => Lame {
+        match self.space {
+            Space::PlaneStress => Lame {
                 // 2 lambda mu/(lambda + 2 mu) without the pole at nu = 1/2.
                 lambda: e * nu / (1.0 - nu * nu),
                 mu,
                 across: 0.0,
             },
-            Kind::PlaneStrain | Kind::Axisymmetric => Lame {
+            Space::PlaneStrain | Space::Axisymmetric => Lame {
                 lambda: e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
                 mu,
                 across: 1.0,
@@ -154,8 +155,8 @@ impl Material {
         if von_mises(&trial) <= hardening.yield_stress(old.equivalent) {
             return idle;
         }
-        match self.kind {
-            Kind::PlaneStress => plane_stress::integrate(self, hardening, &trial, old),
+        match self.space {
+            Space::PlaneStress => plane_stress::integrate(self, hardening, &trial, old),
             _ => radial_return::integrate(self, hardening, &trial, old),
         }
     }

@@ -2,13 +2,13 @@ use super::*;
 
 mod solid;
 
-fn material(kind: Kind, nu: f64, hardening: Hardening) -> Material {
+fn material(space: Space, nu: f64, hardening: Hardening) -> Material {
     Material {
         name: "m".into(),
         youngs_modulus: 200.0,
         poissons_ratio: nu,
         hardening: Some(hardening),
-        kind,
+        space,
     }
 }
 
@@ -63,12 +63,12 @@ fn a_tangent_modulus_is_the_slope_of_the_whole_strain() {
 
 #[test]
 fn stress_after_flow_lies_on_the_yield_surface() {
-    for kind in [Kind::PlaneStrain, Kind::PlaneStress, Kind::Axisymmetric] {
+    for space in [Space::PlaneStrain, Space::PlaneStress, Space::Axisymmetric] {
         for curve in curves() {
-            let m = material(kind, 0.3, curve.clone());
+            let m = material(space, 0.3, curve.clone());
             let d = m.lame();
-            let strain = match kind {
-                Kind::Axisymmetric => [0.012, -0.004, 0.003, 0.009],
+            let strain = match space {
+                Space::Axisymmetric => [0.012, -0.004, 0.003, 0.009],
                 _ => [0.012, -0.004, 0.0, 0.009],
             };
             let old = PlasticState {
@@ -81,7 +81,7 @@ fn stress_after_flow_lies_on_the_yield_surface() {
             let y = curve.yield_stress(new.state.equivalent);
             assert!(
                 (q - y).abs() < 1e-13 * (1.0 + 200.0 * 0.02),
-                "{kind:?} {curve:?}: {q} {y}"
+                "{space:?} {curve:?}: {q} {y}"
             );
             let trace: f64 = new.state.strain[..3].iter().sum();
             assert!(trace.abs() < 1e-16);
@@ -99,14 +99,14 @@ fn stress_after_flow_lies_on_the_yield_surface() {
 /// The consistent tangent is the derivative: central differences, error O(step^2).
 #[test]
 fn softening_is_the_derivative_of_the_stress() {
-    for kind in [Kind::PlaneStrain, Kind::PlaneStress, Kind::Axisymmetric] {
+    for space in [Space::PlaneStrain, Space::PlaneStress, Space::Axisymmetric] {
         for curve in curves() {
-            let m = material(kind, 0.3, curve);
+            let m = material(space, 0.3, curve);
             let d = m.lame();
             let strain = [
                 0.009,
                 -0.006,
-                if kind == Kind::Axisymmetric {
+                if space == Space::Axisymmetric {
                     0.002
                 } else {
                     0.0
@@ -122,7 +122,7 @@ fn softening_is_the_derivative_of_the_stress() {
             let elastic = matrix::<4>(|e| d.times(e));
             let h = 1e-7;
             for j in 0..4 {
-                if kind == Kind::PlaneStress && j == 2 {
+                if space == Space::PlaneStress && j == 2 {
                     continue;
                 }
                 let at = |t: f64| {
@@ -132,7 +132,7 @@ fn softening_is_the_derivative_of_the_stress() {
                 };
                 let (plus, minus) = (at(h), at(-h));
                 for i in 0..4 {
-                    if kind == Kind::PlaneStress && i == 2 {
+                    if space == Space::PlaneStress && i == 2 {
                         continue;
                     }
                     let derivative = (plus[i] - minus[i]) / (2.0 * h);
@@ -140,7 +140,7 @@ fn softening_is_the_derivative_of_the_stress() {
                     // Truncation ~ |D| h^2/strain^2, round-off ~ eps stress/h.
                     assert!(
                         (derivative - consistent).abs() < 200.0 * 1e-6,
-                        "{kind:?} {i}{j}: {derivative} {consistent}"
+                        "{space:?} {i}{j}: {derivative} {consistent}"
                     );
                     assert!((tangent[i][j] - tangent[j][i]).abs() < 1e-11);
                 }
@@ -165,7 +165,7 @@ fn the_tangent_of_plane_stress_is_consistent_in_states_of_all_kinds() {
     for round in 0..3000 {
         let curve = curves()[round % 3].clone();
         let knees: &[f64] = if round % 3 == 2 { &[0.004, 0.01] } else { &[] };
-        let m = material(Kind::PlaneStress, [0.0, 0.3, 0.49][round % 7 % 3], curve);
+        let m = material(Space::PlaneStress, [0.0, 0.3, 0.49][round % 7 % 3], curve);
         let d = m.lame();
         let size = 0.003 * 80f64.powf(0.5 + 0.5 * random());
         let strain = [size * random(), size * random(), 0.0, size * random()];
@@ -217,7 +217,7 @@ fn the_tangent_of_plane_stress_is_consistent_in_states_of_all_kinds() {
 #[test]
 fn cyclic_uniaxial_stress_follows_the_hardening_curve() {
     let (e, h, y) = (200.0, 20.0, 1.0);
-    let m = material(Kind::PlaneStress, 0.3, Hardening::linear(y, h));
+    let m = material(Space::PlaneStress, 0.3, Hardening::linear(y, h));
     let d = m.lame();
     let et = e * h / (e + h);
     let mut state = PlasticState::default();
@@ -252,7 +252,7 @@ fn cyclic_uniaxial_stress_follows_the_hardening_curve() {
 fn elastic_material_never_flows() {
     let m = Material {
         hardening: None,
-        ..material(Kind::PlaneStrain, 0.3, Hardening::linear(1.0, 0.0))
+        ..material(Space::PlaneStrain, 0.3, Hardening::linear(1.0, 0.0))
     };
     let d = m.lame();
     assert!(

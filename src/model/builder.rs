@@ -8,9 +8,10 @@ use crate::error::{Error, Result};
 use crate::index::Index;
 use crate::mesh::Mesh;
 use crate::scene::{
-    Body, Contact, History, KeyPlaces, Kind, Load, Material, MeshSource, Program, Scene, Settings,
+    Body, Contact, History, KeyPlaces, Load, Material, MeshSource, Program, Scene, Settings,
     Support, Target,
 };
+use crate::space::Space;
 use std::collections::BTreeMap;
 
 /// Builds a [`Model`] from arrays, without a scene file or a mesh file. Nodes and elements are numbered from 0 in the order
@@ -59,7 +60,7 @@ pub struct ModelBuilder {
 
 impl ModelBuilder {
     /// An empty model: the whole of it is meshed, one target at load factor 1.
-    pub fn new(kind: Kind) -> Self {
+    pub fn new(kind: Space) -> Self {
         ModelBuilder {
             scene: Scene {
                 title: String::new(),

@@ -4,7 +4,7 @@ use super::Pair;
 use super::names::Entry;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
-use crate::scene::{Direction, Kind, Scene};
+use crate::scene::{Direction, Scene};
 
 /// What stands in one of a node's two directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -343,7 +343,7 @@ impl Supports {
                 }
             }
         }
-        if scene.kind == Kind::Axisymmetric {
+        if scene.kind.is_axisymmetric() {
             // On the axis of revolution the radial displacement vanishes whether or not the scene says so.
             let radius = (0..mesh.n_nodes())
                 .map(|i| mesh.point(i)[0])

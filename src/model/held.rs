@@ -8,7 +8,7 @@ use super::motions::{self, Motions};
 use super::{Freedoms, LoadCase, Pair, far_boundary};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
-use crate::scene::Kind;
+use crate::space::Space;
 use std::collections::BTreeSet;
 
 /// Bodies that supports alone do not hold.
@@ -63,14 +63,14 @@ pub struct Pin {
 const NO_WORK: f64 = 1e-9;
 
 pub(super) fn resolve(
-    kind: Kind,
+    space: Space,
     mesh: &Mesh,
     freedoms: &mut Freedoms,
     pairs: &[Pair],
     loads: &[LoadCase],
     warnings: &mut Vec<String>,
 ) -> Result<FloatingBodies> {
-    let motions = Motions::new(kind, mesh);
+    let motions = Motions::new(space, mesh);
     let mut floating = FloatingBodies::default();
     let supports_only = motions.free(freedoms, &[]);
     let mut is_floating = vec![false; motions.names.len()];

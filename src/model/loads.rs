@@ -8,7 +8,8 @@ use crate::analytical::KirschField;
 use crate::element::facet_points;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
-use crate::scene::{self, Direction, History, Kind, Scene};
+use crate::scene::{self, Direction, History, Scene};
+use crate::space::Space;
 
 /// What a load's reported magnitude measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -246,7 +247,7 @@ impl LoadCase {
 }
 
 /// Share of each node in the mean over a surface or node set.
-fn shares(kind: Kind, mesh: &Mesh, name: &str, nodes: &[usize]) -> Vec<f64> {
+fn shares(space: Space, mesh: &Mesh, name: &str, nodes: &[usize]) -> Vec<f64> {
     let equal = || vec![1.0 / nodes.len() as f64; nodes.len()];
     let Some(surface) = mesh
         .surfaces
@@ -256,7 +257,7 @@ fn shares(kind: Kind, mesh: &Mesh, name: &str, nodes: &[usize]) -> Vec<f64> {
         return equal();
     };
     // In the order of the nodes: both ascend.
-    let areas = integrate(kind, mesh, surface, |_, _| [1.0, 0.0]);
+    let areas = integrate(space, mesh, surface, |_, _| [1.0, 0.0]);
     let whole: f64 = areas.iter().map(|(_, a)| a[0]).sum();
     if areas.len() == nodes.len() && whole > 0.0 {
         areas.iter().map(|(_, a)| a[0] / whole).collect()
@@ -265,8 +266,8 @@ fn shares(kind: Kind, mesh: &Mesh, name: &str, nodes: &[usize]) -> Vec<f64> {
     }
 }
 
-fn area(kind: Kind, mesh: &Mesh, surface: &crate::mesh::Surface) -> f64 {
-    integrate(kind, mesh, surface, |_, _| [1.0, 0.0])
+fn area(space: Space, mesh: &Mesh, surface: &crate::mesh::Surface) -> f64 {
+    integrate(space, mesh, surface, |_, _| [1.0, 0.0])
         .iter()
         .map(|(_, f)| f[0])
         .sum()
@@ -280,7 +281,7 @@ fn total(nodal: &[(usize, [f64; 2])]) -> [f64; 2] {
 
 /// Consistent nodal forces of a traction `t(x, n)` on a surface.
 fn integrate(
-    kind: Kind,
+    space: Space,
     mesh: &Mesh,
     surface: &crate::mesh::Surface,
     traction: impl Fn([f64; 2], [f64; 2]) -> [f64; 2],
@@ -290,7 +291,7 @@ fn integrate(
         let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
         let x: Vec<[f64; 2]> = nodes.iter().map(|&n| mesh.point(n)).collect();
         let reference = mesh.shapes[facet.element].reference().facet;
-        for point in facet_points(kind, reference, &x) {
+        for point in facet_points(space, reference, &x) {
             let t = traction(point.position, point.normal);
             for (i, &node) in nodes.iter().enumerate() {
                 let f: &mut [f64; 2] = forces.entry(node).or_insert([0.0; 2]);

@@ -23,10 +23,13 @@ pub use held::{FloatingBodies, Pin, RigidMotion};
 pub use loads::{LoadCase, Magnitude};
 pub use pairs::{AxisPoint, ContactSurface, Pair};
 
+use crate::element::PlaneGradients;
 use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::mesh::{self, Mesh, Shape};
-use crate::scene::{Kind, Plastic, Scene};
+use crate::scene::{Plastic, Scene};
+use crate::shape::MAX_NODES;
+use crate::space::Space;
 use given::Given;
 use names::Entry;
 use rayon::prelude::*;
@@ -38,7 +41,7 @@ pub struct Model {
     /// The scene it was made from.
     pub scene: Scene,
     /// Plane strain, plane stress or axisymmetric.
-    pub kind: Kind,
+    pub kind: Space,
     /// The mesh.
     pub mesh: Mesh,
     /// Material of each body.
@@ -123,7 +126,7 @@ impl Model {
         let mut warnings = scene.warnings.clone();
         let (materials, may_yield) = resolve_bodies(scene, &mesh)?;
         warn_of_locking(&mesh, &may_yield, &mut warnings);
-        if kind == Kind::Axisymmetric {
+        if kind.is_axisymmetric() {
             check_radii(&mesh)?;
         }
         let (mut pairs, mut contacts) = pairs::resolve(scene, &mesh, given)?;
@@ -154,26 +157,19 @@ impl Model {
     }
 
     /// Coordinates of an element's nodes, at the front of an array.
-    pub fn element_coordinates(&self, element: usize) -> [[f64; 2]; crate::shape::MAX_NODES] {
-        let mut out = [[0.0; 2]; crate::shape::MAX_NODES];
+    pub fn element_coordinates(&self, element: usize) -> [[f64; 2]; MAX_NODES] {
+        let mut out = [[0.0; 2]; MAX_NODES];
         for (x, &node) in out.iter_mut().zip(self.mesh.nodes(element)) {
             *x = self.mesh.point(node as usize);
         }
         out
     }
 
-    /// Displacements of an element's nodes in global axes, `[u_x0, u_y0, u_x1, ...]`, from free freedoms and load factors.
-    pub fn element_displacement(
-        &self,
-        element: usize,
-        u: &[f64],
-        factors: &[f64],
-    ) -> [f64; crate::element::MAX_FREEDOMS] {
-        let mut out = [0.0; crate::element::MAX_FREEDOMS];
-        for (pair, &node) in out.chunks_exact_mut(2).zip(self.mesh.nodes(element)) {
-            pair.copy_from_slice(&self.freedoms.displacement(node as usize, u, factors));
-        }
-        out
+    /// The gradients at the Gauss points of an element.
+    #[inline]
+    pub fn gradients(&self, element: usize) -> PlaneGradients {
+        let nodes = self.element_coordinates(element);
+        PlaneGradients::gauss(self.kind, self.mesh.shapes[element], &nodes)
     }
 
     /// Displacements of all nodes in global axes, from free freedoms and load factors.

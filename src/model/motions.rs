@@ -3,7 +3,7 @@
 use super::gram::{Gram, root};
 use super::{Freedoms, LoadCase, Pair, Slot};
 use crate::mesh::Mesh;
-use crate::scene::Kind;
+use crate::space::{self, Space, Vector, in_space};
 use nalgebra::DVector;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,11 +15,11 @@ const HELD: f64 = 1e-11;
 
 /// Groups of bodies that share nodes move together: rigid motions are counted per group.
 pub(super) struct Motions<'a> {
-    kind: Kind,
+    space: Space,
     mesh: &'a Mesh,
     /// Group of each node.
     pub(super) group_of_node: Vec<usize>,
-    center: Vec<[f64; 2]>,
+    center: Vec<Vector>,
     size: Vec<f64>,
     /// Names of the bodies of each group.
     pub(super) names: Vec<Vec<String>>,
@@ -57,7 +57,7 @@ pub(super) struct Forces {
 }
 
 impl<'a> Motions<'a> {
-    pub(super) fn new(kind: Kind, mesh: &'a Mesh) -> Self {
+    pub(super) fn new(space: Space, mesh: &'a Mesh) -> Self {
         let n_bodies = mesh.bodies.len();
         let mut parent: Vec<usize> = (0..n_bodies).collect();
         let mut body_of_node = vec![usize::MAX; mesh.n_nodes()];
@@ -87,30 +87,27 @@ impl<'a> Motions<'a> {
             .iter()
             .map(|&b| if b == usize::MAX { 0 } else { index[roots[b]] })
             .collect();
-        let mut low = vec![[f64::INFINITY; 2]; names.len()];
-        let mut high = vec![[f64::NEG_INFINITY; 2]; names.len()];
+        let mut low = vec![[f64::INFINITY; 3]; names.len()];
+        let mut high = vec![[f64::NEG_INFINITY; 3]; names.len()];
         for (node, &group) in group_of_node.iter().enumerate() {
-            for d in 0..2 {
-                low[group][d] = low[group][d].min(mesh.point(node)[d]);
-                high[group][d] = high[group][d].max(mesh.point(node)[d]);
+            for (d, x) in in_space(mesh.point(node)).into_iter().enumerate() {
+                low[group][d] = low[group][d].min(x);
+                high[group][d] = high[group][d].max(x);
             }
         }
-        let center = low
-            .iter()
-            .zip(&high)
-            .map(|(l, h)| [0.5 * (l[0] + h[0]), 0.5 * (l[1] + h[1])])
+        let boxes = || low.iter().zip(&high);
+        let center = boxes()
+            .map(|(l, h)| std::array::from_fn(|d| 0.5 * (l[d] + h[d])))
             .collect();
-        let size = low
-            .iter()
-            .zip(&high)
-            .map(|(l, h)| (h[0] - l[0]).hypot(h[1] - l[1]))
+        let size = boxes()
+            .map(|(l, h)| space::length(std::array::from_fn(|d| h[d] - l[d])))
             .collect();
         let mut nodes = vec![Vec::new(); names.len()];
         for (node, &group) in group_of_node.iter().enumerate() {
             nodes[group].push(node);
         }
         Motions {
-            kind,
+            space,
             mesh,
             group_of_node,
             center,
@@ -121,25 +118,19 @@ impl<'a> Motions<'a> {
     }
 
     fn per_group(&self) -> usize {
-        if self.kind == Kind::Axisymmetric {
-            1
-        } else {
-            3
-        }
+        self.space.rigid_motions().len()
     }
 
-    /// Displacement along `axis` at a point of `group`, for each rigid motion of the group: along x, along y,
-    /// rotation about the group's centre scaled to its size.
+    /// Displacement along `axis` at a point of `group`, for each rigid motion of the group;
+    /// rotations are about the group's centre, scaled to its size.
     fn row(&self, group: usize, x: [f64; 2], axis: [f64; 2]) -> Vec<f64> {
-        if self.kind == Kind::Axisymmetric {
-            return vec![axis[1]];
-        }
+        let (x, axis) = (in_space(x), in_space(axis));
         let (c, s) = (self.center[group], 2.0 / self.size[group]);
-        vec![
-            axis[0],
-            axis[1],
-            s * ((x[0] - c[0]) * axis[1] - (x[1] - c[1]) * axis[0]),
-        ]
+        let arm: Vector = std::array::from_fn(|d| s * (x[d] - c[d]));
+        let motions = self.space.rigid_motions().iter();
+        motions
+            .map(|motion| space::dot(motion.displacement(arm), axis))
+            .collect()
     }
 
     /// Motions that supports and (bilateral) pairs leave free: unit vectors, one entry per rigid
@@ -345,7 +336,7 @@ impl<'a> Motions<'a> {
             .map(|n| format!("`{n}`"))
             .collect();
         let first = groups.first().copied().unwrap_or(0);
-        let motion = if self.kind == Kind::Axisymmetric {
+        let motion = if self.space.is_axisymmetric() {
             "move along the axis".to_string()
         } else {
             let part = |m: usize| mode.at(per * first + m);

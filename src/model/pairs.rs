@@ -10,7 +10,7 @@ use crate::element::facet_points;
 use crate::error::{Error, Result};
 use crate::mesh::surface::{PAIRING, facing, longest_facet, normals, ordered_nodes};
 use crate::mesh::{Curve, Mesh, Surface};
-use crate::scene::{Contact, Kind, Scene};
+use crate::scene::{Contact, Scene};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A pair of nodes that may touch.
@@ -272,7 +272,7 @@ fn take_axis_pair(
     start: usize,
 ) -> Option<AxisPoint> {
     let last = pairs.len().checked_sub(1).filter(|last| *last > start)?;
-    if scene.kind != Kind::Axisymmetric {
+    if !scene.kind.is_axisymmetric() {
         return None;
     }
     let radius = |k: usize| mesh.point(pairs[k].second)[0];

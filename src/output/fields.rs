@@ -17,6 +17,7 @@ use super::{COLLECTION_FILE, RunHeader};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::results::{Fields, State};
+use crate::space::Space;
 use rayon::prelude::*;
 
 /// How the name of a state's file begins.
@@ -78,10 +79,10 @@ pub(super) fn file_name(index: usize, n_states: usize, state: &str) -> String {
 /// Mesh and fields as arrays of a grid.
 fn grid<'a>(header: &RunHeader, mesh: &'a Mesh, fields: &'a Fields) -> Grid<'a> {
     // In axisymmetric models the second axis is z: calling it y would make `zz` the hoop stress.
-    let stress_names = match header.kind.as_str() {
-        "axisymmetric" => &["rr", "zz", "tt", "rz"],
-        _ => &["xx", "yy", "zz", "xy"],
-    };
+    let space = Space::ALL
+        .into_iter()
+        .find(|space| space.name() == header.kind);
+    let stress_names = space.unwrap_or(Space::PlaneStrain).components();
     Grid {
         mesh,
         point_data: vec![DataArray::new(

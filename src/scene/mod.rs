@@ -42,6 +42,10 @@ pub use reference::{NoParameters, RadiusOnly, Reference};
 pub use schema::schema;
 pub use units::Units;
 
+/// What a scene calls the [`Space`] of its model.
+pub use crate::space::Space as Kind;
+
+use crate::space::Space;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -55,7 +59,7 @@ pub struct Scene {
     #[serde(default)]
     pub title: String,
     /// Plane strain, plane stress or axisymmetric.
-    pub kind: Kind,
+    pub kind: Space,
     /// Names of the scene's units, for reports: nothing is converted.
     pub units: Option<Units>,
     /// How many copies of the model make the whole: 1 (the default) where all of it is meshed, 2 for a half model, 4 for a
@@ -100,27 +104,4 @@ pub struct Scene {
     /// What the user should know of how it was read.
     #[serde(skip)]
     pub warnings: Vec<String>,
-}
-
-/// The two-dimensional idealisation.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Kind {
-    /// No strain out of the plane; forces per unit thickness.
-    PlaneStrain,
-    /// No stress out of the plane; forces per unit thickness.
-    PlaneStress,
-    /// Coordinates are (r, z), x = 0 is the axis; forces are totals over the full circle.
-    Axisymmetric,
-}
-
-impl Kind {
-    /// The name in scenes and results: `plane_strain`, `plane_stress`, `axisymmetric`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Kind::PlaneStrain => "plane_strain",
-            Kind::PlaneStress => "plane_stress",
-            Kind::Axisymmetric => "axisymmetric",
-        }
-    }
 }

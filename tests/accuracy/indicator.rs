@@ -2,10 +2,10 @@
 
 use crate::running;
 use brinell::analytical::{Plane, ThickCylinder};
-use brinell::element::{MAX_FREEDOMS, gauss_points};
 use brinell::mesh::Shape;
 use brinell::model::Model;
 use brinell::scene::{Kind, Scene};
+use brinell::shape::MAX_NODES;
 
 const PRESSURE: f64 = 10.0;
 
@@ -61,17 +61,17 @@ fn points(model: &Model, e: usize, displacement: &[f64]) -> Vec<([f64; 2], f64, 
     let elastic = model.materials[0].lame();
     let (shape, x) = (model.mesh.shapes[e], model.element_coordinates(e));
     let nodes = model.mesh.nodes(e);
-    let mut local = [0.0; MAX_FREEDOMS];
-    for (pair, &n) in local.chunks_exact_mut(2).zip(nodes) {
+    let mut local = [[0.0; 2]; MAX_NODES];
+    for (pair, &n) in local.iter_mut().zip(nodes) {
         pair.copy_from_slice(&displacement[2 * n as usize..][..2]);
     }
-    let at = gauss_points(model.kind, shape, &x);
-    let gauss: Vec<_> = at
-        .positions()
-        .iter()
-        .zip(at.weights())
-        .zip(at.strains(&local))
-        .map(|((position, weight), strain)| (*position, weight, elastic.times(&strain)))
+    let at = model.gradients(e);
+    let ([px, py], strains) = (at.positions(&x), at.strains(&local));
+    let gauss: Vec<_> = (at.weights().iter().enumerate())
+        .map(|(g, weight)| {
+            let strain = strains.each_ref().map(|lanes| lanes[g]);
+            ([px[g], py[g]], *weight, elastic.times(&strain))
+        })
         .collect();
     if shape.n_nodes() == shape.n_corners() {
         return gauss;

@@ -59,7 +59,7 @@ fn rotation(angles: [f64; 3]) -> [[f64; 3]; 3] {
 fn a_path_of_plane_strain_is_the_same_in_six_components() {
     let mut number = numbers();
     for curve in curves() {
-        let m = material(Kind::PlaneStrain, 0.3, curve);
+        let m = material(Space::PlaneStrain, 0.3, curve);
         let law = m.lame();
         let (mut plane, mut space) = (PlasticState::default(), PlasticState::default());
         let mut strain = [0.0; 4];
@@ -96,7 +96,7 @@ fn a_path_of_plane_strain_is_the_same_in_six_components() {
 fn a_turned_path_gives_the_turned_stress() {
     let mut number = numbers();
     for curve in curves() {
-        let m = material(Kind::PlaneStrain, 0.3, curve);
+        let m = material(Space::PlaneStrain, 0.3, curve);
         let law = m.lame();
         for _ in 0..20 {
             let q = rotation(std::array::from_fn(|_| 3.0 * number()));
@@ -129,7 +129,7 @@ fn the_tangent_is_the_derivative_in_six_components() {
         let curve = curves()[round % 3].clone();
         let knees: &[f64] = if round % 3 == 2 { &[0.004, 0.01] } else { &[] };
         let m = material(
-            Kind::PlaneStrain,
+            Space::PlaneStrain,
             [0.0, 0.3, 0.49][round % 7 % 3],
             curve.clone(),
         );
@@ -179,7 +179,7 @@ fn the_tangent_is_the_derivative_in_six_components() {
 fn lame_is_hooke() {
     let (e, nu) = (200.0, 0.3);
     let strain = [0.01, -0.02, 0.005, 0.004, -0.006, 0.003];
-    let m = material(Kind::PlaneStrain, nu, Hardening::linear(1.0, 0.0));
+    let m = material(Space::PlaneStrain, nu, Hardening::linear(1.0, 0.0));
     let s = m.lame().times(&strain);
     for i in 0..3 {
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
@@ -188,7 +188,7 @@ fn lame_is_hooke() {
         let shear = 2.0 * (1.0 + nu) / e * s[i + 3];
         assert!((shear - strain[i + 3]).abs() < 1e-16);
     }
-    let plane = material(Kind::PlaneStress, nu, Hardening::linear(1.0, 0.0)).lame();
+    let plane = material(Space::PlaneStress, nu, Hardening::linear(1.0, 0.0)).lame();
     let [x, y, z, xy] = plane.times(&[0.01, -0.02, 7.0, 0.004]);
     assert_eq!((z, xy), (0.0, m.shear_modulus() * 0.004));
     assert!(((x - nu * y) / e - 0.01).abs() < 1e-16 && ((y - nu * x) / e + 0.02).abs() < 1e-16);

@@ -4,7 +4,7 @@ use super::{ContactSize, WIDEST};
 use crate::analytical::{self, HertzLine, HertzPoint};
 use crate::error::{Error, Result};
 use crate::scene::{
-    CylinderOnHalfPlane, Direction, Displacement, History, Kind, Load, Plastic, Scene, Unit,
+    CylinderOnHalfPlane, Direction, Displacement, History, Load, Plastic, Scene, Unit,
 };
 use std::f64::consts::PI;
 
@@ -65,9 +65,10 @@ impl Hertz {
             b.youngs_modulus,
             b.poissons_ratio,
         );
-        Ok(match scene.kind {
-            Kind::Axisymmetric => Hertz::Point(HertzPoint::new(p.radius, modulus)?),
-            _ => Hertz::Line(HertzLine::new(p.radius, modulus)?),
+        Ok(if scene.kind.is_axisymmetric() {
+            Hertz::Point(HertzPoint::new(p.radius, modulus)?)
+        } else {
+            Hertz::Line(HertzLine::new(p.radius, modulus)?)
         })
     }
 
@@ -206,9 +207,10 @@ fn prescribed(displacement: Option<&Displacement>) -> f64 {
 /// Total force along y of a load on the whole cylinder or ball, where its kind and place tell: the mesh is that of half a
 /// cylinder, forces that are given as totals are those of `symmetry` such models.
 fn normal_force(scene: &Scene, load: &Load, size: f64) -> f64 {
-    let (models, area) = match scene.kind {
-        Kind::Axisymmetric => (1.0, PI * size * size),
-        _ => (2.0, size),
+    let (models, area) = if scene.kind.is_axisymmetric() {
+        (1.0, PI * size * size)
+    } else {
+        (2.0, size)
     };
     let on_cut = ["cylinder.top", "half_plane.bottom"].contains(&load.on.as_str());
     let on_area = |stress: f64| if on_cut { stress * area } else { 0.0 };

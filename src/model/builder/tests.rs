@@ -7,7 +7,7 @@ use crate::scene::Direction;
 
 /// Two unit squares, one 0.01 above the other.
 fn squares() -> ModelBuilder {
-    let mut builder = ModelBuilder::new(Kind::PlaneStrain);
+    let mut builder = ModelBuilder::new(Space::PlaneStrain);
     let steel = || Body {
         material: "steel".into(),
         ..Body::default()
@@ -179,7 +179,7 @@ fn bad_nodes_and_elements_are_refused_by_index() {
     loose.nodes(&[9.0, 9.0]).unwrap();
     refused(loose.build(), Input, &["1 nodes belong to no element: 8"]);
     refused(
-        ModelBuilder::new(Kind::PlaneStress).build(),
+        ModelBuilder::new(Space::PlaneStress).build(),
         Input,
         &["bodies"],
     );
@@ -190,7 +190,7 @@ fn bad_nodes_and_elements_are_refused_by_index() {
         .iter_mut()
         .step_by(2)
         .for_each(|r| *r -= 0.5);
-    negative.scene.kind = Kind::Axisymmetric;
+    negative.scene.kind = Space::Axisymmetric;
     refused(negative.build(), Input, &["node 0", "-0.5"]);
 }
 
@@ -233,7 +233,7 @@ fn bad_sets_and_surfaces_are_refused_by_index() {
 
 #[test]
 fn a_facet_between_two_elements_is_no_surface() {
-    let mut builder = ModelBuilder::new(Kind::PlaneStrain);
+    let mut builder = ModelBuilder::new(Space::PlaneStrain);
     builder
         .nodes(&[0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0])
         .and_then(|b| b.elements(Shape::Tri3, "a", &[0, 1, 2, 0, 2, 3]))

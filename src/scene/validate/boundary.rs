@@ -1,7 +1,8 @@
 //! Contact, supports and loads.
 
 use super::Checks;
-use crate::scene::{Contact, History, Kind, Load, Scene};
+use crate::scene::{Contact, History, Load, Scene};
+use crate::space::Space;
 use crate::text::exact;
 use std::collections::BTreeSet;
 
@@ -73,7 +74,7 @@ impl Checks {
         }
     }
 
-    fn load(&mut self, key: &str, load: &Load, kind: Kind) {
+    fn load(&mut self, key: &str, load: &Load, kind: Space) {
         self.set_name(&format!("{key}.on"), &load.on);
         self.exactly_one(
             key,
@@ -97,7 +98,7 @@ impl Checks {
         if let Some(kirsch) = load.kirsch {
             self.at_least(format!("{key}.kirsch.radius"), kirsch.radius, 0.0);
             self.require(
-                kind != Kind::Axisymmetric,
+                !kind.is_axisymmetric(),
                 format!("{key}.kirsch"),
                 "is the field of a plane model; this one is axisymmetric",
             );

@@ -1,9 +1,8 @@
 //! The mesh source: one of them, with parameters that make sense.
 
 use super::Checks;
-use crate::scene::{
-    Block, CylinderOnHalfPlane, Disc, DiscInPlate, Kind, MeshSource, Part, Ring, Scene,
-};
+use crate::scene::{Block, CylinderOnHalfPlane, Disc, DiscInPlate, MeshSource, Part, Ring, Scene};
+use crate::space::Space;
 use crate::text::exact;
 use std::collections::BTreeSet;
 
@@ -114,7 +113,7 @@ impl Checks {
         }
     }
 
-    fn disc_in_plate(&mut self, parameters: &DiscInPlate, kind: Kind) {
+    fn disc_in_plate(&mut self, parameters: &DiscInPlate, kind: Space) {
         let key = |name: &str| format!("mesh.disc_in_plate.{name}");
         self.positive(key("radius"), parameters.radius);
         self.require(
@@ -147,13 +146,13 @@ impl Checks {
             ),
         );
         self.require(
-            kind != Kind::Axisymmetric,
+            !kind.is_axisymmetric(),
             "kind",
             "disc_in_plate is a plane model; use plane_stress or plane_strain",
         );
     }
 
-    fn part(&mut self, key: &str, part: &Part, kind: Kind) {
+    fn part(&mut self, key: &str, part: &Part, kind: Space) {
         self.exactly_one(
             key,
             "shape",
@@ -179,7 +178,7 @@ impl Checks {
         }
     }
 
-    fn block(&mut self, key: &str, block: &Block, kind: Kind) {
+    fn block(&mut self, key: &str, block: &Block, kind: Space) {
         for (name, [from, to], index) in [("x", block.x, 0), ("y", block.y, 1)] {
             self.require(
                 from < to,
@@ -194,7 +193,7 @@ impl Checks {
             self.positive(format!("{key}.bias.{index}"), block.bias[index]);
         }
         self.require(
-            kind != Kind::Axisymmetric || block.x[0] >= 0.0,
+            !kind.is_axisymmetric() || block.x[0] >= 0.0,
             format!("{key}.x"),
             format!(
                 "{} is left of the axis: in an axisymmetric model x is the radius",

@@ -5,8 +5,9 @@ mod geometry;
 mod material;
 mod program;
 
-use super::{History, Kind, Scene};
+use super::{History, Scene};
 use crate::error::{Error, Result};
+use crate::space::Space;
 use crate::text::exact;
 use std::fmt;
 
@@ -88,21 +89,22 @@ impl fmt::Display for Problem {
 }
 
 /// What is wrong with a number of copies that make the whole.
-fn symmetry_problem(kind: Kind, copies: usize) -> Option<String> {
-    let allowed: &[usize] = match kind {
-        Kind::Axisymmetric => &[1, 2],
-        _ => &[1, 2, 4],
-    };
-    let words = match kind {
-        Kind::Axisymmetric => {
-            "1 (all of it is meshed) or 2 (half of it, above or below a plane of symmetry)"
-        }
-        _ => "1 (all of it is meshed), 2 (a half) or 4 (a quarter)",
+fn symmetry_problem(kind: Space, copies: usize) -> Option<String> {
+    let (allowed, words): (&[usize], _) = if kind.is_axisymmetric() {
+        (
+            &[1, 2],
+            "1 (all of it is meshed) or 2 (half of it, above or below a plane of symmetry)",
+        )
+    } else {
+        (
+            &[1, 2, 4],
+            "1 (all of it is meshed), 2 (a half) or 4 (a quarter)",
+        )
     };
     (!allowed.contains(&copies)).then(|| format!("{copies} must be {words}"))
 }
 
-impl Kind {
+impl Space {
     /// Whether so many copies of a model of this kind can make the whole.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! The load program, the settings and the reference values.
 
 use super::Checks;
-use crate::scene::{History, Kind, Scene, Target, Unit};
+use crate::scene::{History, Scene, Target, Unit};
 use crate::text::exact;
 use std::collections::BTreeSet;
 
@@ -168,7 +168,7 @@ impl Checks {
                 let Some(circle) = circle else { continue };
                 self.positive(format!("{key}.{name}.radius"), circle.radius);
                 self.require(
-                    (scene.kind == Kind::Axisymmetric) == axisymmetric,
+                    scene.kind.is_axisymmetric() == axisymmetric,
                     format!("{key}.{name}"),
                     if axisymmetric {
                         "point contact needs kind = \"axisymmetric\""
@@ -179,7 +179,7 @@ impl Checks {
                 self.needs_yield(&format!("{key}.{name}"), "values at first yield", scene);
             }
             self.require(
-                reference.disc_in_plate.is_none() || scene.kind != Kind::Axisymmetric,
+                reference.disc_in_plate.is_none() || !scene.kind.is_axisymmetric(),
                 format!("{key}.disc_in_plate"),
                 "is the solution of a plane model, this one is axisymmetric",
             );

@@ -1,0 +1,435 @@
+//! The one kernel of all elements: gradients of fields at the points of an element.
+//!
+//! The shape functions in the reference element are the same for all elements of a shape. With the
+//! Jacobian `J = sum_k x_k dN_k/dxi` of a point
+//!
+//! ```text
+//! du/dx = J^-T sum_k u_k dN_k/dxi          f_k = sum_g (J^-1 w sigma) dN_k/dxi
+//! ```
+//!
+//! so that of an element only `J^-1` and the weights are kept, a third of the numbers of `dN_k/dx`.
+//! With a mean dilatation (B-bar) the trace of the strain is replaced by its mean over the element,
+//! and in the forces the mean stress by its mean: the same as the mean of `tr B` over the nodes.
+//! Points are computed in parallel: every quantity is an array over them.
+//!
+//! # Source
+//! T. J. R. Hughes, *The Finite Element Method* (1987), sections 2.7 and 4.5 (B-bar).
+
+use crate::shape::{MAX_NODES, Reference, Rule};
+use crate::space::Space;
+
+/// A number at each point; beyond the number of points that of the first.
+pub type Lanes<const P: usize = 4> = [f64; P];
+/// Stress or strain at the points, component by component.
+pub type Components<const S: usize = 4, const P: usize = 4> = [Lanes<P>; S];
+
+/// The shape functions of a shape at the points of a rule.
+#[derive(Debug)]
+pub(super) struct Table<const D: usize, const P: usize> {
+    n_nodes: usize,
+    n_points: usize,
+    /// Zero beyond the number of points.
+    weights: Lanes<P>,
+    pub(super) values: [Lanes<P>; MAX_NODES],
+    /// Along the reference coordinates.
+    gradients: [[Lanes<P>; D]; MAX_NODES],
+}
+
+impl<const D: usize, const P: usize> Table<D, P> {
+    pub(super) fn new(row: &Reference, rule: &Rule) -> Self {
+        let mut out = Table {
+            n_nodes: row.nodes.len(),
+            n_points: rule.len(),
+            weights: [0.0; P],
+            values: [[0.0; P]; MAX_NODES],
+            gradients: [[[0.0; P]; D]; MAX_NODES],
+        };
+        for g in 0..P {
+            let (place, weight) = rule.get(g).copied().unwrap_or((rule[0].0, 0.0));
+            let at = (row.functions)(place);
+            out.weights[g] = weight;
+            for k in 0..MAX_NODES {
+                out.values[k][g] = at.values[k];
+                for a in 0..D {
+                    out.gradients[k][a][g] = at.gradients[k][a];
+                }
+            }
+        }
+        out
+    }
+
+    /// Derivatives along the reference coordinates of each component of a field with the values
+    /// `of` at the nodes.
+    #[inline]
+    fn along<const N: usize>(&self, of: &[[f64; D]; MAX_NODES]) -> [[Lanes<P>; D]; D] {
+        let mut out = [[[0.0; P]; D]; D];
+        for (gradient, value) in self.gradients.iter().zip(of).take(N) {
+            for (out, value) in out.iter_mut().zip(value) {
+                for (out, gradient) in out.iter_mut().zip(gradient) {
+                    for g in 0..P {
+                        out[g] += gradient[g] * value;
+                    }
+                }
+            }
+        }
+        out
+    }
+
+    /// A field with the nodal values `of` at the points.
+    #[inline]
+    fn interpolated(&self, of: impl Fn(usize) -> f64) -> Lanes<P> {
+        let mut out = [0.0; P];
+        for (k, values) in self.values.iter().enumerate().take(self.n_nodes) {
+            let value = of(k);
+            for g in 0..P {
+                out[g] += values[g] * value;
+            }
+        }
+        out
+    }
+}
+
+/// Calls a method with the number of nodes as a constant.
+macro_rules! of_nodes {
+    ($n:expr, $to:expr, $method:ident, $($argument:expr),*) => {
+        match $n {
+            3 => $to.$method::<3>($($argument),*),
+            4 => $to.$method::<4>($($argument),*),
+            6 => $to.$method::<6>($($argument),*),
+            _ => $to.$method::<8>($($argument),*),
+        }
+    };
+}
+pub(super) use of_nodes;
+
+/// Gradients at up to P points of an element in D dimensions, with S components of strain: in the
+/// plane D = 2 and S = 4 ([`super::PlaneGradients`]), in space 3 and 6.
+#[derive(Debug, Clone)]
+pub struct Gradients<const D: usize, const S: usize, const P: usize> {
+    pub(super) table: &'static Table<D, P>,
+    pub(super) has_mean: bool,
+    /// `dxi_a/dx_d` as `[d][a]`.
+    inverse: [[Lanes<P>; D]; D],
+    /// Quadrature weight times Jacobian times thickness (1) or circumference (2 pi r).
+    pub(super) weights: Lanes<P>,
+    /// `1/r`, axisymmetric.
+    pub(super) per_radius: Option<Lanes<P>>,
+    pub(super) shear: Option<ShearFromCenter<D, P>>,
+}
+
+/// The shear of an axisymmetric `quad4` ([`super`]). A gradient at the centre is the plain mean of
+/// those along the reference coordinates at the points, through the inverse of the mean Jacobian.
+#[derive(Debug, Clone)]
+pub(super) struct ShearFromCenter<const D: usize, const P: usize> {
+    /// `sqrt(r/r_c)`.
+    pub(super) factors: Lanes<P>,
+    /// `dxi_a/dy` at the centre.
+    inverse: [f64; D],
+}
+
+impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
+    /// The gradients at the points of `table` for the coordinates of the element's nodes.
+    #[inline]
+    pub(super) fn new(
+        table: &'static Table<D, P>,
+        space: Space,
+        has_mean: bool,
+        nodes: &[[f64; D]; MAX_NODES],
+    ) -> Self {
+        let jacobian = of_nodes!(table.n_nodes, table, along, nodes);
+        let (inverse, determinant) = inverted(&jacobian);
+        let mut out = Gradients {
+            table,
+            has_mean,
+            inverse,
+            weights: std::array::from_fn(|g| table.weights[g] * determinant[g]),
+            per_radius: None,
+            shear: None,
+        };
+        if space.is_axisymmetric() {
+            let radius = table.interpolated(|k| nodes[k][0]);
+            for (weight, r) in out.weights.iter_mut().zip(&radius) {
+                *weight *= space.measure(*r);
+            }
+            if has_mean {
+                let (inverse, _) = inverted(&jacobian.map(|row| row.map(|j| [plain_mean(&j)])));
+                let of_center = plain_mean(&radius);
+                out.shear = Some(ShearFromCenter {
+                    factors: radius.map(|r| (r / of_center).sqrt()),
+                    inverse: inverse[1].map(|[dxi]| dxi),
+                });
+            }
+            out.per_radius = Some(radius.map(|r| 1.0 / r));
+        }
+        out
+    }
+
+    /// Number of points.
+    pub fn n_points(&self) -> usize {
+        self.table.n_points
+    }
+
+    /// Number of nodes.
+    pub fn n_nodes(&self) -> usize {
+        self.table.n_nodes
+    }
+
+    /// Weights of the points: quadrature weight times Jacobian times thickness (1) or circumference
+    /// (2 pi r).
+    pub fn weights(&self) -> &[f64] {
+        &self.weights[..self.n_points()]
+    }
+
+    /// Coordinates of the points, axis by axis, for those of the nodes.
+    pub fn positions(&self, nodes: &[[f64; D]; MAX_NODES]) -> [Lanes<P>; D] {
+        std::array::from_fn(|d| self.table.interpolated(|k| nodes[k][d]))
+    }
+
+    /// Mean over the element.
+    #[inline]
+    pub fn mean<const C: usize>(&self, values: &[Lanes<P>; C]) -> [f64; C] {
+        let volume: f64 = self.weights.iter().sum();
+        values.map(|lanes| dot(&lanes, &self.weights) / volume)
+    }
+
+    /// Strains at the points for displacements of the nodes.
+    #[inline]
+    pub fn strains(&self, u: &[[f64; D]; MAX_NODES]) -> Components<S, P> {
+        let mut out = self.local_strains(u);
+        if self.has_mean {
+            let [mean] = self.mean(&[trace(&out)]);
+            set_trace(&mut out, mean);
+        }
+        out
+    }
+
+    /// `f = sum_g w_g B' sigma` on the nodes.
+    #[inline]
+    pub fn forces(&self, stress: &Components<S, P>) -> [[f64; D]; MAX_NODES] {
+        let mut stress = *stress;
+        if self.has_mean {
+            let [mean] = self.mean(&[trace(&stress)]);
+            set_trace(&mut stress, mean);
+        }
+        of_nodes!(self.n_nodes(), self, forces_of, &stress)
+    }
+
+    /// Strains of the displacements alone, their dilatation as it is.
+    #[inline]
+    pub(super) fn local_strains(&self, u: &[[f64; D]; MAX_NODES]) -> Components<S, P> {
+        let along = of_nodes!(self.n_nodes(), self.table, along, u);
+        // du_i/dx_d
+        let slope = |i: usize, d: usize| {
+            let mut out = [0.0; P];
+            for (inverse, along) in self.inverse[d].iter().zip(&along[i]) {
+                for g in 0..P {
+                    out[g] += inverse[g] * along[g];
+                }
+            }
+            out
+        };
+        let mut out = [[0.0; P]; S];
+        for (d, out) in out.iter_mut().enumerate().take(D) {
+            *out = slope(d, d);
+        }
+        for (out, [i, j]) in out[3..].iter_mut().zip(SHEARS) {
+            let (a, b) = (slope(i, j), slope(j, i));
+            for g in 0..P {
+                out[g] = a[g] + b[g];
+            }
+        }
+        if let Some(shear) = &self.shear {
+            let terms = shear.inverse.iter().zip(&along[0]);
+            let at_center: f64 = terms.map(|(dxi, along)| dxi * plain_mean(along)).sum();
+            let at_point = slope(1, 0);
+            for g in 0..P {
+                out[3][g] = shear.factors[g] * (at_center + at_point[g]);
+            }
+        }
+        if let Some(per_radius) = &self.per_radius {
+            let radial = self.table.interpolated(|k| u[k][0]);
+            for g in 0..P {
+                out[2][g] = per_radius[g] * radial[g];
+            }
+        }
+        out
+    }
+
+    #[inline]
+    fn forces_of<const N: usize>(&self, stress: &Components<S, P>) -> [[f64; D]; MAX_NODES] {
+        let mut weighted = *stress;
+        for lanes in &mut weighted {
+            for g in 0..P {
+                lanes[g] *= self.weights[g];
+            }
+        }
+        if let Some(shear) = &self.shear {
+            for g in 0..P {
+                weighted[3][g] *= shear.factors[g];
+            }
+        }
+        // What the reference gradients are multiplied by, for the forces along each axis.
+        let mut fluxes = [[[0.0; P]; D]; D];
+        for (i, fluxes) in fluxes.iter_mut().enumerate() {
+            for (d, inverse) in self.inverse.iter().enumerate() {
+                if let (Some(shear), 0, 1) = (&self.shear, i, d) {
+                    // The gradient at the centre is the mean of those at the points.
+                    let share = plain_mean(&weighted[3]);
+                    for (flux, dxi) in fluxes.iter_mut().zip(shear.inverse) {
+                        flux.iter_mut().for_each(|flux| *flux += dxi * share);
+                    }
+                    continue;
+                }
+                let stress = &weighted[component(i, d)];
+                for (flux, inverse) in fluxes.iter_mut().zip(inverse) {
+                    for g in 0..P {
+                        flux[g] += inverse[g] * stress[g];
+                    }
+                }
+            }
+        }
+        let mut out = [[0.0; D]; MAX_NODES];
+        for (force, gradients) in out.iter_mut().zip(&self.table.gradients).take(N) {
+            for (force, fluxes) in force.iter_mut().zip(&fluxes) {
+                let mut terms = [0.0; P];
+                for (gradient, flux) in gradients.iter().zip(fluxes) {
+                    for g in 0..P {
+                        terms[g] += gradient[g] * flux[g];
+                    }
+                }
+                *force = sum(&terms);
+            }
+        }
+        if let Some(per_radius) = &self.per_radius {
+            let hoop = std::array::from_fn(|g| per_radius[g] * weighted[2][g]);
+            for (force, values) in out.iter_mut().zip(&self.table.values).take(N) {
+                force[0] += dot(values, &hoop);
+            }
+        }
+        out
+    }
+
+    /// `dN_k/dx_d` at the points as `[k][d]`.
+    #[inline]
+    pub(super) fn of_functions<const N: usize>(&self) -> [[Lanes<P>; D]; N] {
+        let mut out = [[[0.0; P]; D]; N];
+        for (out, gradients) in out.iter_mut().zip(&self.table.gradients) {
+            for (out, inverse) in out.iter_mut().zip(&self.inverse) {
+                for (inverse, gradient) in inverse.iter().zip(gradients) {
+                    for g in 0..P {
+                        out[g] += inverse[g] * gradient[g];
+                    }
+                }
+            }
+        }
+        out
+    }
+
+    /// `dN_k/dy` at the centre, where the shear is taken from there.
+    pub(super) fn at_center<const N: usize>(&self, shear: &ShearFromCenter<D, P>) -> [f64; N] {
+        std::array::from_fn(|k| {
+            let terms = shear.inverse.iter().zip(&self.table.gradients[k]);
+            terms
+                .map(|(dxi, gradient)| dxi * plain_mean(gradient))
+                .sum()
+        })
+    }
+}
+
+/// Axes of the shear components.
+const SHEARS: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
+
+/// Place of the component along axes `i` and `j` in `[xx yy zz xy | yz zx]`.
+const fn component(i: usize, j: usize) -> usize {
+    match (i == j, i + j) {
+        (true, _) => i,
+        (_, 1) => 3,
+        (_, 3) => 4,
+        _ => 5,
+    }
+}
+
+/// The inverse of a Jacobian `dx_d/dxi_a` (`[d][a]`) as `dxi_a/dx_d` (`[d][a]`), and its
+/// determinant, at all points.
+#[inline]
+fn inverted<const D: usize, const P: usize>(
+    jacobian: &[[Lanes<P>; D]; D],
+) -> ([[Lanes<P>; D]; D], Lanes<P>) {
+    let mut inverse = [[[0.0; P]; D]; D];
+    for d in 0..D {
+        for a in 0..D {
+            inverse[d][a] = cofactor(jacobian, d, a);
+        }
+    }
+    let mut determinant = [0.0; P];
+    for (j, c) in jacobian[0].iter().zip(&inverse[0]) {
+        for g in 0..P {
+            determinant[g] += j[g] * c[g];
+        }
+    }
+    let reciprocal = determinant.map(|determinant| 1.0 / determinant);
+    for lanes in inverse.as_flattened_mut() {
+        for g in 0..P {
+            lanes[g] *= reciprocal[g];
+        }
+    }
+    (inverse, determinant)
+}
+
+#[inline]
+fn cofactor<const D: usize, const P: usize>(
+    j: &[[Lanes<P>; D]; D],
+    d: usize,
+    a: usize,
+) -> Lanes<P> {
+    if D == 2 {
+        let sign = if d == a { 1.0 } else { -1.0 };
+        return j[1 - d][1 - a].map(|j| sign * j);
+    }
+    let [d1, d2, a1, a2] = [(d + 1) % D, (d + 2) % D, (a + 1) % D, (a + 2) % D];
+    std::array::from_fn(|g| j[d1][a1][g] * j[d2][a2][g] - j[d1][a2][g] * j[d2][a1][g])
+}
+
+#[inline]
+fn trace<const S: usize, const P: usize>(components: &Components<S, P>) -> Lanes<P> {
+    let (x, y, z) = (&components[0], &components[1], &components[2]);
+    std::array::from_fn(|g| x[g] + y[g] + z[g])
+}
+
+/// Changes the normal components alike until their sum is `mean` at every point.
+#[inline]
+pub(super) fn set_trace<const S: usize, const P: usize>(
+    components: &mut Components<S, P>,
+    mean: f64,
+) {
+    let change = trace(components).map(|trace| (mean - trace) * (1.0 / 3.0));
+    for normal in &mut components[..3] {
+        for g in 0..P {
+            normal[g] += change[g];
+        }
+    }
+}
+
+#[inline]
+pub(super) fn dot<const P: usize>(a: &Lanes<P>, b: &Lanes<P>) -> f64 {
+    sum::<P>(&std::array::from_fn(|g| a[g] * b[g]))
+}
+
+/// The sum of a power of two of numbers, by pairs.
+#[inline]
+pub(super) fn sum<const P: usize>(lanes: &Lanes<P>) -> f64 {
+    let (mut lanes, mut n) = (*lanes, P);
+    while n > 1 {
+        n /= 2;
+        for g in 0..n {
+            lanes[g] = lanes[2 * g] + lanes[2 * g + 1];
+        }
+    }
+    lanes[0]
+}
+
+/// Mean over the points, unweighted.
+#[inline]
+fn plain_mean<const P: usize>(lanes: &Lanes<P>) -> f64 {
+    sum(lanes) / P as f64
+}
