@@ -12,7 +12,6 @@
 //! recovery).
 
 use super::gather::{NodalPlaces, Places};
-use crate::mesh::Shape;
 use crate::model::Model;
 use crate::scene::Kind;
 use nalgebra::{SMatrix, SVector};
@@ -59,7 +58,7 @@ impl FittedStrains {
         around: impl Fn(usize) -> Vec<u32> + Sync,
     ) -> Self {
         let mesh = &model.mesh;
-        let is_linear = |i: usize| mesh.shapes[elements[i]] == Shape::Tri3;
+        let is_linear = |i: usize| mesh.shapes[elements[i]].has_constant_strain();
         if !(0..elements.len()).any(is_linear) {
             return FittedStrains::default();
         }
@@ -181,6 +180,7 @@ mod tests {
     use super::*;
     use crate::model::Slot;
     use crate::scene::Scene;
+    use crate::shape::Shape;
     use crate::substructure::Trailing;
 
     /// Strains of a quadratic field that vanishes where the supports are, in every triangle of

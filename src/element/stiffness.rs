@@ -90,14 +90,10 @@ impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
         if self.has_mean {
             let volume: f64 = self.weights.iter().sum();
             let mean = self.means(&traces);
-            for i in 0..N {
-                for j in 0..=i {
-                    for a in 0..D {
-                        for b in 0..if i == j { a + 1 } else { D } {
-                            out[packed(D * i + a, D * j + b)] +=
-                                volume * bulk * mean[i][a] * mean[j][b];
-                        }
-                    }
+            let mean = mean.as_flattened();
+            for row in 0..D * N {
+                for column in 0..=row {
+                    out[packed(row, column)] += volume * bulk * mean[row] * mean[column];
                 }
             }
         }

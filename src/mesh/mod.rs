@@ -13,6 +13,7 @@ pub mod surface;
 mod validate;
 
 pub use crate::shape::Shape;
+use crate::space::{Vector, in_space};
 pub use circles::lay_on_circle;
 pub use subdivision::subdivided;
 pub use validate::validate;
@@ -108,6 +109,11 @@ impl Mesh {
     /// Coordinates of a node.
     pub fn point(&self, node: usize) -> [f64; 2] {
         [self.coordinates[2 * node], self.coordinates[2 * node + 1]]
+    }
+
+    /// Coordinates of a node in space; z = 0 in the plane.
+    pub fn place(&self, node: usize) -> Vector {
+        in_space(self.point(node))
     }
 
     /// Node indices of an element.

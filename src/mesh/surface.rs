@@ -1,6 +1,7 @@
 //! Surfaces as curves: their nodes in order, their normals.
 
 use super::{Curve, Facet, Mesh, Surface};
+use crate::space::{Vector, cross, dot, in_space, length};
 use crate::{Error, Result};
 use std::collections::BTreeMap;
 
@@ -80,10 +81,9 @@ pub fn ordered_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
 /// Outward unit normals of a surface at some of its nodes.
 ///
 /// Exact where the surface's [`Curve`] is known. Otherwise the mean of the normals of the facets
-/// that meet at the node, weighted with their lengths; the normal of a facet with a mid-side node
-/// is that of its parabola at the node. The body lies on the left of a facet, so the normal of a
-/// facet from `p` to `q` is `(q - p)` turned clockwise by 90 degrees. A node that is not on the
-/// surface gets `[0, 0]`.
+/// that meet at the node, weighted with their areas; the normal of a curved facet is that at the
+/// node. The body lies on the left of a facet, so the normal of a facet from `p` to `q` is
+/// `(q - p)` turned clockwise by 90 degrees. A node that is not on the surface gets `[0, 0]`.
 pub fn normals(mesh: &Mesh, surface: &Surface, nodes: &[usize]) -> Vec<[f64; 2]> {
     match surface.curve {
         Some(Curve::Line { normal }) => vec![unit(normal); nodes.len()],
@@ -100,46 +100,37 @@ pub fn normals(mesh: &Mesh, surface: &Surface, nodes: &[usize]) -> Vec<[f64; 2]>
                 .collect()
         }
         None => {
-            let mut sums: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+            let mut sums: BTreeMap<usize, Vector> = BTreeMap::new();
             for &facet in &surface.facets {
-                add_tangents(mesh, facet, &mut sums);
+                add_areas(mesh, facet, &mut sums);
             }
             nodes
                 .iter()
-                .map(|node| match sums.get(node) {
-                    Some(&[tx, ty]) => unit([ty, 0.0 - tx]),
-                    None => [0.0, 0.0],
-                })
+                .map(|node| sums.get(node).map_or([0.0; 2], |&[x, y, _]| unit([x, y])))
                 .collect()
         }
     }
 }
 
-/// Adds the tangents of a facet at its nodes, with the length of the facet.
-fn add_tangents(mesh: &Mesh, facet: Facet, sums: &mut BTreeMap<usize, [f64; 2]>) {
-    let mut add = |node: usize, tangent: [f64; 2]| {
+/// Adds the area vectors of a facet at its nodes: the product of its tangents there, the second
+/// of which is out of the plane.
+fn add_areas(mesh: &Mesh, facet: Facet, sums: &mut BTreeMap<usize, Vector>) {
+    const OUT_OF_PLANE: Vector = [0.0, 0.0, 1.0];
+    let reference = mesh.shapes[facet.element].reference().facet;
+    let nodes = || mesh.facet_nodes(facet);
+    let Some(first) = nodes().next() else { return };
+    let origin = mesh.place(first);
+    for (node, &s) in nodes().zip(reference.nodes) {
+        let (_, slopes) = (reference.functions)(s);
+        let mut tangent = [0.0; 3];
+        for (other, slope) in nodes().zip(slopes) {
+            let place = mesh.place(other);
+            (0..3).for_each(|d| tangent[d] += slope * (place[d] - origin[d]));
+        }
+        let area = cross(tangent, OUT_OF_PLANE);
         let sum = sums.entry(node).or_default();
-        sum[0] += tangent[0];
-        sum[1] += tangent[1];
-    };
-    let mut nodes = mesh.facet_nodes(facet);
-    let (Some(a), Some(b)) = (nodes.next(), nodes.next()) else {
-        return;
-    };
-    let (p, q) = (mesh.point(a), mesh.point(b));
-    let chord = [q[0] - p[0], q[1] - p[1]];
-    let Some(m) = nodes.next() else {
-        add(a, chord);
-        add(b, chord);
-        return;
-    };
-    // The parabola through p, m, q has the tangents chord + 4 sag at p, chord at m, chord - 4 sag
-    // at q.
-    let at = mesh.point(m);
-    let sag = [0, 1].map(|k| at[k] - 0.5 * (p[k] + q[k]));
-    add(a, [0, 1].map(|k| chord[k] + 4.0 * sag[k]));
-    add(m, chord);
-    add(b, [0, 1].map(|k| chord[k] - 4.0 * sag[k]));
+        (0..3).for_each(|d| sum[d] += area[d]);
+    }
 }
 
 /// The index of the node of `candidates` on the line through `x` along the unit vector `normal`,
@@ -151,12 +142,13 @@ pub fn facing(
     candidates: &[usize],
     tolerance: f64,
 ) -> Option<usize> {
+    let (x, normal) = (in_space(x), in_space(normal));
     let mut best: Option<(f64, usize)> = None;
     for (i, &node) in candidates.iter().enumerate() {
-        let y = mesh.point(node);
-        let d = [y[0] - x[0], y[1] - x[1]];
-        let across = (d[0] * normal[1] - d[1] * normal[0]).abs();
-        let along = (d[0] * normal[0] + d[1] * normal[1]).abs();
+        let place = mesh.place(node);
+        let way: Vector = std::array::from_fn(|d| place[d] - x[d]);
+        let across = length(cross(way, normal));
+        let along = dot(way, normal).abs();
         if across <= tolerance && best.is_none_or(|(b, _)| along < b) {
             best = Some((along, i));
         }

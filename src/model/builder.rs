@@ -82,7 +82,7 @@ impl ModelBuilder {
                 warnings: Vec::new(),
             },
             mesh: Mesh {
-                dimension: 2,
+                dimension: kind.dimension(),
                 ..Mesh::default()
             },
             given: Given::default(),

@@ -26,7 +26,7 @@ pub use pairs::{AxisPoint, ContactSurface, Pair};
 use crate::element::PlaneGradients;
 use crate::error::{Error, Result};
 use crate::material::Material;
-use crate::mesh::{self, Mesh, Shape};
+use crate::mesh::{self, Mesh};
 use crate::scene::{Plastic, Scene};
 use crate::shape::MAX_NODES;
 use crate::space::Space;
@@ -261,7 +261,9 @@ fn resolve_bodies(scene: &Scene, mesh: &Mesh) -> Result<(Vec<Material>, Vec<bool
 
 fn warn_of_locking(mesh: &Mesh, may_yield: &[bool], warnings: &mut Vec<String>) {
     let locks = (0..mesh.n_elements())
-        .filter(|&e| mesh.shapes[e] == Shape::Tri3 && may_yield[mesh.element_body[e] as usize])
+        .filter(|&e| {
+            mesh.shapes[e].has_constant_strain() && may_yield[mesh.element_body[e] as usize]
+        })
         .count();
     if locks > 0 {
         warnings.push(format!(

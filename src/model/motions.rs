@@ -90,7 +90,7 @@ impl<'a> Motions<'a> {
         let mut low = vec![[f64::INFINITY; 3]; names.len()];
         let mut high = vec![[f64::NEG_INFINITY; 3]; names.len()];
         for (node, &group) in group_of_node.iter().enumerate() {
-            for (d, x) in in_space(mesh.point(node)).into_iter().enumerate() {
+            for (d, x) in mesh.place(node).into_iter().enumerate() {
                 low[group][d] = low[group][d].min(x);
                 high[group][d] = high[group][d].max(x);
             }
@@ -121,15 +121,15 @@ impl<'a> Motions<'a> {
         self.space.rigid_motions().len()
     }
 
-    /// Displacement along `axis` at a point of `group`, for each rigid motion of the group;
+    /// Displacement of a node along `axis`, for each rigid motion of its group;
     /// rotations are about the group's centre, scaled to its size.
-    fn row(&self, group: usize, x: [f64; 2], axis: [f64; 2]) -> Vec<f64> {
-        let (x, axis) = (in_space(x), in_space(axis));
+    fn row(&self, node: usize, axis: [f64; 2]) -> Vec<f64> {
+        let (group, x) = (self.group_of_node[node], self.mesh.place(node));
         let (c, s) = (self.center[group], 2.0 / self.size[group]);
         let arm: Vector = std::array::from_fn(|d| s * (x[d] - c[d]));
         let motions = self.space.rigid_motions().iter();
         motions
-            .map(|motion| space::dot(motion.displacement(arm), axis))
+            .map(|motion| space::dot(motion.displacement(arm), in_space(axis)))
             .collect()
     }
 
@@ -166,7 +166,7 @@ impl<'a> Motions<'a> {
             let group = self.group_of_node[node];
             for (slot, axis) in slots.iter().zip(freedoms.local(node)) {
                 let row = || -> Vec<(usize, f64)> {
-                    let values = self.row(group, self.mesh.point(node), axis);
+                    let values = self.row(node, axis);
                     let numbered = values.into_iter().enumerate();
                     numbered.map(|(m, v)| (per * group + m, v)).collect()
                 };
@@ -192,7 +192,7 @@ impl<'a> Motions<'a> {
             let mut row = Vec::new();
             for (node, sign) in [(pair.first, 1.0), (pair.second, -1.0)] {
                 let group = self.group_of_node[node];
-                let values = self.row(group, self.mesh.point(node), pair.normal);
+                let values = self.row(node, pair.normal);
                 row.extend(
                     values
                         .into_iter()
@@ -232,7 +232,7 @@ impl<'a> Motions<'a> {
     /// left out.
     fn along(&self, mode: &Mode, node: usize, axis: [f64; 2], round_off: f64) -> f64 {
         let group = self.group_of_node[node];
-        let row = self.row(group, self.mesh.point(node), axis);
+        let row = self.row(node, axis);
         let shares = row
             .iter()
             .enumerate()

@@ -5,8 +5,8 @@ use super::MAX_FACET_NODES;
 /// What is the same for all facets of a shape: `s` from -1 to 1 along the line.
 #[derive(Debug)]
 pub struct FacetReference {
-    /// Number of nodes: the ends, then the mid-side node.
-    pub n_nodes: usize,
+    /// Where its nodes are: the ends, then the mid-side node.
+    pub nodes: &'static [f64],
     /// Values and derivatives of the shape functions at `s`.
     pub functions: fn(f64) -> ([f64; MAX_FACET_NODES], [f64; MAX_FACET_NODES]),
     /// Gmsh's element type.
@@ -21,14 +21,14 @@ pub const FACET_RULE: [(f64, f64); 3] = {
 
 /// Two ends.
 pub(super) static LINE2: FacetReference = FacetReference {
-    n_nodes: 2,
+    nodes: &[-1.0, 1.0],
     functions: |s| ([0.5 * (1.0 - s), 0.5 * (1.0 + s), 0.0], [-0.5, 0.5, 0.0]),
     gmsh: 1,
 };
 
 /// Two ends and the node between them.
 pub(super) static LINE3: FacetReference = FacetReference {
-    n_nodes: 3,
+    nodes: &[-1.0, 1.0, 0.0],
     functions: |s| {
         (
             [0.5 * s * (s - 1.0), 0.5 * s * (s + 1.0), 1.0 - s * s],

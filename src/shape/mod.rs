@@ -131,6 +131,13 @@ impl Shape {
         self.reference().gauss.len()
     }
 
+    /// True where the strain is the same all over an element: such elements lock in isochoric
+    /// plastic flow, and have no points of superconvergent stress.
+    pub fn has_constant_strain(self) -> bool {
+        let row = self.reference();
+        row.nodes.len() == row.dimension + 1
+    }
+
     /// True where facets have mid-side nodes.
     pub fn is_quadratic(self) -> bool {
         self.reference().degree == 2

@@ -91,7 +91,7 @@ fn facets_have_the_functions_of_their_element() {
         } = shape.reference();
         assert_eq!(facets.len(), shape.n_facets());
         for local in *facets {
-            assert_eq!(local.len(), facet.n_nodes);
+            assert_eq!(local.len(), facet.nodes.len());
             for s in [-0.3, 0.8] {
                 let (values, slopes) = (facet.functions)(s);
                 let mut at = [0.0; 3];

@@ -148,7 +148,8 @@ fn twice_the_precision_is_lost_on_a_stiffness_of_rounded_sums() {
             "sliver",
             Rectangle {
                 size: [4000.0, 0.002],
-                elements: [4, 2],
+                // Not to be divided without round-off: equal elements have one sum in any order.
+                elements: [5, 3],
                 ..block
             },
         ),

@@ -188,7 +188,7 @@ impl Content {
             })),
             Kind::Line(facet) => self.lines.extend(groups.iter().map(|&group| RawLine {
                 ends: [nodes[0], nodes[1]],
-                middle: (facet.n_nodes == 3).then_some(nodes[2]),
+                middle: (facet.nodes.len() == 3).then_some(nodes[2]),
                 group,
                 at,
             })),

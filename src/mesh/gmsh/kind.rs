@@ -64,7 +64,7 @@ impl Kind {
     pub(super) fn n_nodes(self) -> usize {
         match self {
             Kind::Point => 1,
-            Kind::Line(facet) => facet.n_nodes,
+            Kind::Line(facet) => facet.nodes.len(),
             Kind::Element(shape) => shape.n_nodes(),
         }
     }

@@ -150,11 +150,7 @@ fn conditions(model: &Model, units: &Units) -> Markup {
 }
 
 fn axis(model: &Model, direction: Direction) -> &'static str {
-    match (model.kind, direction) {
-        (crate::scene::Kind::Axisymmetric, Direction::X) => "r",
-        (crate::scene::Kind::Axisymmetric, Direction::Y) => "z",
-        (_, direction) => direction.name(),
-    }
+    model.kind.axes()[usize::from(direction == Direction::Y)]
 }
 
 fn with_unit(value: f64, unit: &str) -> String {

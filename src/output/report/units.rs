@@ -1,7 +1,8 @@
 //! Units and labels: the scene's names where it gives them, else nothing.
 
 use crate::model::{LoadCase, Magnitude, Model};
-use crate::scene::{self, Kind};
+use crate::scene;
+use crate::space::Space;
 
 /// Names of units as they stand beside numbers.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -22,7 +23,7 @@ impl Units {
             let leading = model.loads.iter().find(varies).or(model.loads.first());
             match leading.map(|load| load.measures) {
                 Some(Magnitude::Stress) => names.stress.clone(),
-                _ if model.kind == Kind::Axisymmetric => names.force.clone(),
+                _ if model.kind.is_axisymmetric() => names.force.clone(),
                 _ => format!("{}/{}", names.force, names.length),
             }
         });
@@ -45,12 +46,9 @@ impl Units {
     }
 
     /// Labels of the axes of the plane.
-    pub(super) fn axes(&self, kind: Kind) -> [String; 2] {
-        let names = match kind {
-            Kind::Axisymmetric => ["r", "z"],
-            _ => ["x", "y"],
-        };
-        names.map(|name| labelled(name, self.length()))
+    pub(super) fn axes(&self, space: Space) -> [String; 2] {
+        let names = space.axes();
+        [0, 1].map(|axis| labelled(names[axis], self.length()))
     }
 }
 
