@@ -55,18 +55,20 @@ run: setup ## Run a scene (SCENE=..., ARGS=...)
 	@cargo run --release -- run $(SCENE) $(ARGS)
 
 # Tests are compiled with opt-level 2 and debug assertions (Cargo.toml): on two cores the optimised build of
-# the few heavy crates costs less than it saves. Without CHOLMOD the dense backend must do the same job:
-# a fast subset shows that this build works too.
+# the few heavy crates costs less than it saves. One build has all backends; what it does without CHOLMOD,
+# in Rust alone, and with the dense backend only, fast subsets show.
 test: lint python-tests ## Format, lints, documentation and all tests
-	@cargo test --features capi
+	@cargo test --features capi,faer
+	cargo test --no-default-features --features faer --test cli --test stability --test cost
 	cargo test --no-default-features --lib --bins --test cli
 
 lint: setup ## Format, clippy and documentation, warnings are errors
 	@cargo fmt --check
 	cargo fmt --check --manifest-path ffi/python/Cargo.toml
-	cargo clippy --features capi --all-targets -- -D warnings
+	cargo clippy --features capi,faer --all-targets -- -D warnings
+	cargo clippy --no-default-features --features faer --all-targets -- -D warnings
 	cargo clippy --no-default-features --all-targets -- -D warnings
-	RUSTDOCFLAGS="-D warnings" cargo doc --features capi --no-deps --quiet
+	RUSTDOCFLAGS="-D warnings" cargo doc --features capi,faer --no-deps --quiet
 
 bench: setup ## Measure
 	@cargo bench --bench trailing --bench history --bench contact --bench acceleration --bench reading
