@@ -55,28 +55,29 @@ run: setup ## Run a scene (SCENE=..., ARGS=...)
 	@cargo run --release -- run $(SCENE) $(ARGS)
 
 # Tests are compiled with opt-level 2 and debug assertions (Cargo.toml): on two cores the optimised build of
-# the few heavy crates costs less than it saves.
+# the few heavy crates costs less than it saves. One build has all backends.
 check: setup ## Format, lints, unit and property tests (about two minutes once dependencies are built)
 	@cargo fmt --check
 	cargo fmt --check --manifest-path ffi/python/Cargo.toml
-	cargo clippy --features capi --all-targets -- -D warnings
-	cargo test --features capi --lib --test properties
+	cargo clippy --features capi,faer --all-targets -- -D warnings
+	cargo test --features capi,faer --lib --test properties
 
 # Tests that take minutes or need packages from elsewhere: the installed C library under valgrind,
 # the Python package and readers of VTU files, damaged files by the thousand.
 LONG := install:: python:: damaged_inputs_are_taken_or_refused
 
 test: check ## All that shows the results to be right (about ten minutes)
-	@cargo test --features capi -- $(addprefix --skip ,$(LONG))
+	@cargo test --features capi,faer -- $(addprefix --skip ,$(LONG))
 
-# Without CHOLMOD the dense backend must do the same job: a fast subset shows that this build works
-# too. A library alone must build without the program.
+# What brinell does without CHOLMOD, in Rust alone, and with the dense backend only, fast subsets
+# show. A library alone must build without the program.
 test-all: test python-tests ## All tests, builds with other features, documentation
-	@cargo test --features capi -- $(LONG)
+	@cargo test --features capi,faer -- $(LONG)
 	cargo clippy --no-default-features --all-targets -- -D warnings
-	cargo clippy --no-default-features --features cli --all-targets -- -D warnings
+	cargo clippy --no-default-features --features faer,cli --all-targets -- -D warnings
+	cargo test --no-default-features --features faer,cli --test cli --test stability --test cost
 	cargo test --no-default-features --features cli --lib --bins --test cli
-	RUSTDOCFLAGS="-D warnings" cargo doc --features capi --no-deps --quiet
+	RUSTDOCFLAGS="-D warnings" cargo doc --features capi,faer --no-deps --quiet
 
 bench: setup ## Measure
 	@cargo bench --bench trailing --bench history --bench contact --bench acceleration --bench reading

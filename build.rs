@@ -25,8 +25,8 @@ mod native {
 
     /// What to install, in the words of the reader's package manager.
     const REMEDY: &str = "install SuiteSparse, OpenBLAS and libclang (Debian, Ubuntu: `apt-get install \
-        libsuitesparse-dev libopenblas-dev libclang-dev`), or build without CHOLMOD: `cargo build \
-        --no-default-features`";
+        libsuitesparse-dev libopenblas-dev libclang-dev`), or build without CHOLMOD, in Rust \
+        alone: `cargo build --release --no-default-features --features faer,cli`";
 
     pub fn configure() -> Result<(), String> {
         println!("cargo:rerun-if-env-changed=OPENBLAS_LIBRARY_DIR");

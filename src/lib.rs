@@ -50,13 +50,15 @@
 //! - `cholmod` (default): condense with CHOLMOD of SuiteSparse, which must be installed with its
 //!   headers (and libclang, to read them). Its supernodal module is GPL-2.0-or-later: so is what is
 //!   linked with it.
+//! - `faer`: condense with faer, in Rust alone: at full size without any library of the system
+//!   (`default-features = false, features = ["faer"]`), MIT or Apache-2.0.
 //! - `capi`: the C interface (`ffi/include/brinell.h`; `make install` builds the libraries with
 //!   it).
 //! - `cli` (default): the program. A library needs none of it: `default-features = false,
 //!   features = ["cholmod"]` leaves out clap, indicatif, maud, plotters and png.
 //! - `report` (with `cli` and `capi`): `report.html` of a result folder, and the plots of a study.
-//! - Without features (`default-features = false`) the crate is pure Rust, MIT or Apache-2.0; the
-//!   dense backend takes up to 6000 freedoms.
+//! - Without features (`default-features = false`) there is the dense backend, which takes up to
+//!   6000 freedoms.
 //!
 //! # Stability
 //!

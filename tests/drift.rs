@@ -138,6 +138,8 @@ fn unsafe_is_at_home_in_one_place() {
             .split(|c: char| !(c.is_alphanumeric() || c == '_'))
             .any(|word| word == "unsafe");
         let home = name.starts_with("src/linalg/cholmod/") || name.starts_with("src/capi")
+            // Kernels for wide registers, and advice to the system on memory.
+            || ["panel", "pages"].iter().any(|f| name == format!("src/linalg/sparse/{f}.rs"))
             // The allocator of the program.
             || name == "src/main.rs";
         assert!(home || !uses, "{name} has `unsafe`");

@@ -56,6 +56,9 @@
 // Dense, by the textbook: a reference for small models.
 #define BRINELL_BACKEND_DENSE 2
 
+// Sparse Cholesky in Rust alone (faer).
+#define BRINELL_BACKEND_FAER 3
+
 // No strain out of the plane; forces per unit thickness.
 #define BRINELL_PLANE_STRAIN 0
 

@@ -108,11 +108,10 @@ pub fn settings(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) 
         out.extend(of_path(scene, backend, knobs));
     }
     let other = match backend {
-        Backend::Cholmod => Some(Backend::Dense),
-        Backend::Dense if cfg!(feature = "cholmod") => Some(Backend::Cholmod),
-        Backend::Dense => None,
+        Backend::Dense => Backend::default(),
+        _ => Backend::Dense,
     };
-    if let Some(other) = other.filter(|_| knobs.contains(&Knob::Backend)) {
+    if other != backend && knobs.contains(&Knob::Backend) {
         let name = other.name().to_string();
         out.push(turned(Knob::Backend, name, scene.clone(), other));
     }
@@ -284,11 +283,9 @@ mod tests {
         assert_eq!(ratios, [0.5, 16.0 / 23.0, 1.0, 16.0 / 11.0]);
         let mut seen: Vec<Knob> = all.iter().map(|s| s.knob).collect();
         seen.dedup();
-        assert!(
-            Knob::ALL
-                .iter()
-                .all(|k| *k == Knob::Backend && !cfg!(feature = "cholmod") || seen.contains(k))
-        );
+        assert!(Knob::ALL.iter().all(|k| *k == Knob::Backend
+            && Backend::default() == Backend::Dense
+            || seen.contains(k)));
         let gamma = all.iter().find(|s| s.knob == Knob::Gamma).unwrap();
         assert_eq!(gamma.scene.analysis.tolerance, scene.analysis.tolerance);
         assert_eq!((gamma.scene.program.gamma, gamma.ratio), (1e-2, 1.0));

@@ -205,7 +205,7 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
         contact,
         predicted_seconds: factorisation,
         predicted_run_seconds: run,
-        blas: linalg::blas_name(),
+        blas: backend.arithmetic(),
         notes,
     })
 }

@@ -281,7 +281,10 @@ fn a_search_ends_with_the_error_of_what_it_looks_at() {
 /// Progress covers the whole program, and each leg about as it takes time: the pairs of a ball that
 /// is let go open one after the other down to the smallest loads.
 #[test]
-#[cfg_attr(not(feature = "cholmod"), ignore = "needs the build with CHOLMOD")]
+#[cfg_attr(
+    not(any(feature = "cholmod", feature = "faer")),
+    ignore = "needs a sparse backend"
+)]
 fn progress_is_done_with_the_last_increment_only() {
     struct Fractions(Vec<f64>);
     impl crate::progress::Observer for Fractions {

@@ -10,6 +10,8 @@ pub const BRINELL_BACKEND_DEFAULT: i32 = 0;
 pub const BRINELL_BACKEND_CHOLMOD: i32 = 1;
 /// Dense, by the textbook: a reference for small models.
 pub const BRINELL_BACKEND_DENSE: i32 = 2;
+/// Sparse Cholesky in Rust alone (faer).
+pub const BRINELL_BACKEND_FAER: i32 = 3;
 
 /// How to compute. NULL stands for the defaults, which are all zeros.
 #[repr(C)]
@@ -40,6 +42,7 @@ pub(super) unsafe fn backend(options: *const brinell_options) -> Result<Backend>
         BRINELL_BACKEND_DEFAULT => Ok(Backend::default()),
         BRINELL_BACKEND_CHOLMOD => Ok(Backend::Cholmod),
         BRINELL_BACKEND_DENSE => Ok(Backend::Dense),
+        BRINELL_BACKEND_FAER => Ok(Backend::Faer),
         other => Err(Error::input(format!(
             "brinell_options: there is no backend {other}"
         ))),

@@ -231,6 +231,8 @@ pub(super) enum Shown {
 pub(super) enum Solver {
     /// Sparse Cholesky of SuiteSparse
     Cholmod,
+    /// Sparse Cholesky in Rust
+    Faer,
     /// Dense, by the textbook: a reference for small models
     Dense,
 }
@@ -239,6 +241,7 @@ impl Default for Solver {
     fn default() -> Self {
         match Backend::default() {
             Backend::Cholmod => Solver::Cholmod,
+            Backend::Faer => Solver::Faer,
             Backend::Dense => Solver::Dense,
         }
     }
@@ -248,6 +251,7 @@ impl From<Solver> for Backend {
     fn from(solver: Solver) -> Self {
         match solver {
             Solver::Cholmod => Backend::Cholmod,
+            Solver::Faer => Backend::Faer,
             Solver::Dense => Backend::Dense,
         }
     }

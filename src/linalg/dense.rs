@@ -217,8 +217,9 @@ fn refuse_large(n: usize) -> Result<()> {
         return Ok(());
     }
     Err(Error::input(format!(
-        "{n} freedoms are too many for the dense solver, which takes at most {LARGEST}: use `--solver cholmod` \
-         (a build with the feature `cholmod`) or a coarser mesh"
+        "{n} freedoms are too many for the dense solver, which takes at most {LARGEST}: use \
+         `--solver cholmod` or `--solver faer` (a build with the feature of that name) or a coarser \
+         mesh"
     )))
 }
 

@@ -14,8 +14,9 @@
 //!
 //! | backend | how | for |
 //! |---|---|---|
-//! | [`cholmod`] | one sparse Cholesky factor whose trailing block *is* the factor of `S` | everything |
-//! | [`dense`] | the formulas above, term by term | reference, small models, builds without CHOLMOD |
+//! | `cholmod` | one sparse Cholesky factor whose trailing block *is* the factor of `S` | everything |
+//! | `faer` | the same, in Rust alone | everything, without libraries of the system |
+//! | [`dense`] | the formulas above, term by term | reference, small models |
 
 pub(crate) mod blocked;
 mod check;
@@ -24,8 +25,12 @@ pub mod cholmod;
 mod condition;
 mod contact_stiffness;
 pub mod dense;
+#[cfg(feature = "faer")]
+pub mod faer;
 mod refinement;
 mod residual;
+#[cfg(any(feature = "cholmod", feature = "faer"))]
+mod sparse;
 #[cfg(test)]
 mod tests;
 mod whole;
@@ -144,7 +149,7 @@ pub struct ZonePart {
     blocks: Vec<bool>,
 }
 
-#[cfg(feature = "cholmod")]
+#[cfg(any(feature = "cholmod", feature = "faer"))]
 impl ZonePart {
     fn has(&self, block: usize) -> bool {
         self.blocks.is_empty() || self.blocks[block]
@@ -180,27 +185,78 @@ pub fn smallest_pivot_ratio(n: usize) -> f64 {
 pub enum Backend {
     /// CHOLMOD with a constrained order.
     Cholmod,
+    /// faer, sparse and in Rust.
+    Faer,
     /// Dense, by the textbook, in Rust.
     Dense,
 }
 
 impl Backend {
-    /// The name used on the command line and in results.
+    /// All of them; the first that is built in is the default.
+    pub const ALL: [Backend; 3] = [Backend::Cholmod, Backend::Faer, Backend::Dense];
+
+    /// The name used on the command line, in results, and of the cargo feature that builds it in.
     pub fn name(self) -> &'static str {
         match self {
             Backend::Cholmod => "cholmod",
+            Backend::Faer => "faer",
             Backend::Dense => "dense",
         }
+    }
+
+    /// The backend of this name.
+    ///
+    /// # Errors
+    /// `Input` with the names that there are.
+    pub fn from_name(name: &str) -> Result<Self> {
+        let found = Backend::ALL.into_iter().find(|b| b.name() == name);
+        found.ok_or_else(|| {
+            let names = Backend::ALL.map(|b| format!("`{}`", b.name())).join(", ");
+            Error::input(format!("there is no solver `{name}`: there are {names}"))
+        })
+    }
+
+    /// Whether this build has it.
+    pub fn is_built_in(self) -> bool {
+        match self {
+            Backend::Cholmod => cfg!(feature = "cholmod"),
+            Backend::Faer => cfg!(feature = "faer"),
+            Backend::Dense => true,
+        }
+    }
+
+    /// The backends of this build, the default first.
+    pub fn built_in() -> Vec<Backend> {
+        let all = Backend::ALL.into_iter();
+        all.filter(|backend| backend.is_built_in()).collect()
+    }
+
+    /// Who does the dense arithmetic of a factorisation, in words.
+    pub fn arithmetic(self) -> String {
+        match self {
+            #[cfg(feature = "cholmod")]
+            Backend::Cholmod => cholmod::blas_name(),
+            Backend::Faer => "none (faer, in Rust)".to_string(),
+            _ => "none (dense backend in Rust)".to_string(),
+        }
+    }
+
+    /// What is said where it is asked for and this build does not have it.
+    #[cfg_attr(all(feature = "cholmod", feature = "faer"), allow(dead_code))]
+    fn not_built_in(self) -> Error {
+        let name = self.name();
+        Error::input(format!(
+            "this build has no solver `{name}`: use --solver {} or build with the cargo feature \
+             `{name}`",
+            Backend::default().name()
+        ))
     }
 }
 
 impl Default for Backend {
     fn default() -> Self {
-        if cfg!(feature = "cholmod") {
-            Backend::Cholmod
-        } else {
-            Backend::Dense
-        }
+        let first = Backend::ALL.into_iter().find(|b| b.is_built_in());
+        first.unwrap_or(Backend::Dense)
     }
 }
 
@@ -224,13 +280,11 @@ pub fn condense(
             matrix, partition, shift,
         )?)),
         #[cfg(feature = "cholmod")]
-        Backend::Cholmod => Ok(Box::new(cholmod::CholmodCondensed::new(
-            matrix, partition, shift,
-        )?)),
-        #[cfg(not(feature = "cholmod"))]
-        Backend::Cholmod => Err(crate::Error::input(
-            "this build has no CHOLMOD; use --solver dense or build with the feature `cholmod`",
-        )),
+        Backend::Cholmod => cholmod::condense(matrix, partition, shift),
+        #[cfg(feature = "faer")]
+        Backend::Faer => faer::condense(matrix, partition, shift),
+        #[cfg(not(all(feature = "cholmod", feature = "faer")))]
+        _ => Err(backend.not_built_in()),
     }
 }
 
@@ -248,11 +302,10 @@ pub fn predict(
         Backend::Dense => dense::predict(partition),
         #[cfg(feature = "cholmod")]
         Backend::Cholmod => cholmod::predict(matrix, partition),
-        #[cfg(not(feature = "cholmod"))]
-        Backend::Cholmod => {
-            let _ = matrix;
-            Err(crate::Error::input("this build has no CHOLMOD"))
-        }
+        #[cfg(feature = "faer")]
+        Backend::Faer => faer::predict(matrix, partition),
+        #[cfg(not(all(feature = "cholmod", feature = "faer")))]
+        _ => Err(backend.not_built_in()),
     }
 }
 
@@ -281,10 +334,7 @@ impl From<NotDefinite> for Error {
     }
 }
 
-/// The BLAS that the factorisation uses, in words.
+/// The BLAS that the default backend uses, in words.
 pub fn blas_name() -> String {
-    #[cfg(feature = "cholmod")]
-    return cholmod::blas_name();
-    #[cfg(not(feature = "cholmod"))]
-    "none (dense backend in Rust)".to_string()
+    Backend::default().arithmetic()
 }

@@ -100,7 +100,7 @@ pub struct RunHeader {
     pub scene_file: Option<String>,
     /// `plane_strain`, `plane_stress` or `axisymmetric`, as in the scene.
     pub kind: String,
-    /// The backend that factored the stiffness: `cholmod` or `dense`.
+    /// The backend that factored the stiffness: `cholmod`, `faer` or `dense`.
     pub solver: String,
     /// Wall time of the whole run in seconds.
     pub wall_seconds: f64,

@@ -9,31 +9,43 @@ use brinell::scene::Scene;
 /// tolerance of the analysis except the plastic one, which both runs stop at in the same iteration.
 pub const AGREEMENT: f64 = 1e-10;
 
-/// Runs the scene with both backends: both agree or both refuse for the same reason.
+/// The sparse backends of this build.
+pub fn sparse() -> Vec<Backend> {
+    let mut all = Backend::built_in();
+    all.retain(|backend| *backend != Backend::Dense);
+    all
+}
+
+/// Runs the scene with every backend: all agree with the dense one or all refuse for the same reason. Returns the results of the
+/// default backend.
 #[track_caller]
-pub fn both(scene: &Scene) -> Option<Results> {
-    let sparse = try_run(scene, Backend::Cholmod);
-    let dense = try_run(scene, Backend::Dense);
-    match (sparse, dense) {
-        (Ok(a), Ok(b)) => {
-            let force = of_movement(scene);
-            if force > 0.0 && scene.contact.len() > 1 {
-                agree_at_targets(&a, &b, force);
-            } else {
-                agree(&a, &b, force);
+pub fn all(scene: &Scene) -> Option<Results> {
+    let reference = try_run(scene, Backend::Dense);
+    let results = sparse().into_iter().map(|backend| {
+        let name = backend.name();
+        match (try_run(scene, backend), &reference) {
+            (Ok(a), Ok(b)) => {
+                let force = of_movement(scene);
+                if force > 0.0 && scene.contact.len() > 1 {
+                    agree_at_targets(&a, b, force);
+                } else {
+                    agree(&a, b, force);
+                }
+                Some(a)
             }
-            Some(a)
+            (Err(a), Err(b)) => {
+                assert_eq!(a.kind(), b.kind(), "{name}: {a}\ndense: {b}");
+                None
+            }
+            (a, b) => panic!(
+                "one refuses: {name} {:?}, dense {:?}",
+                a.err().map(|e| e.to_string()),
+                b.as_ref().err().map(|e| e.to_string())
+            ),
         }
-        (Err(a), Err(b)) => {
-            assert_eq!(a.kind(), b.kind(), "cholmod: {a}\ndense: {b}");
-            None
-        }
-        (a, b) => panic!(
-            "one refuses: cholmod {:?}, dense {:?}",
-            a.err().map(|e| e.to_string()),
-            b.err().map(|e| e.to_string())
-        ),
-    }
+    });
+    let results: Vec<_> = results.collect();
+    results.into_iter().next().flatten()
 }
 
 /// An event lies where a force or gap crosses zero: its place, and all figures there, are off by their round-off over the slope, which may be small. (Once

@@ -1,5 +1,6 @@
 //! A part of the zone recovered by itself: what the search directions of a tangent are made of.
 
+use crate::agreement::sparse;
 use crate::running::load;
 use brinell::linalg::Backend;
 use brinell::model::Model;
@@ -7,6 +8,12 @@ use brinell::substructure::Substructure;
 
 #[test]
 fn a_part_of_the_zone_moves_as_in_the_whole() {
+    for backend in sparse() {
+        assert_a_part_moves_as_in_the_whole(backend);
+    }
+}
+
+fn assert_a_part_moves_as_in_the_whole(backend: Backend) {
     let scene = load(
         "cylinder_on_half_plane",
         &["mesh.cylinder_on_half_plane.resolution=8"],
@@ -23,7 +30,7 @@ fn a_part_of_the_zone_moves_as_in_the_whole() {
     let zone: Vec<usize> = (0..model.freedoms.n)
         .filter(|freedom| !contact.contains(freedom))
         .collect();
-    let structure = Substructure::new(&model, &system, zone.clone(), Backend::Cholmod).unwrap();
+    let structure = Substructure::new(&model, &system, zone.clone(), backend).unwrap();
     let mut eliminated = structure.zeros();
     for (i, value) in eliminated.iter_mut().enumerate() {
         *value = ((i * 7919) % 1013) as f64 / 1013.0 - 0.5;

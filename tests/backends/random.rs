@@ -1,6 +1,6 @@
 //! Random stacks of blocks: gaps, loads, movements, materials, hardening. `BRINELL_RANDOM_SCENES=2000` runs as many.
 
-use crate::agreement::both;
+use crate::agreement::all;
 use crate::running::parse;
 use proptest::prelude::*;
 use std::cell::Cell;
@@ -197,7 +197,7 @@ fn a_body_on_which_nothing_acts_is_left_alone() {
         steps: None,
         movement: Some(0.0001),
     };
-    let results = both(&parse(&stack.scene())).unwrap();
+    let results = all(&parse(&stack.scene())).unwrap();
     assert!(results.states[0].contact_force.abs() < 1e-9);
 }
 
@@ -226,7 +226,7 @@ fn a_body_that_lies_loose_stays_where_the_other_turns_back() {
         steps: None,
         movement: Some(0.0035978333763670256),
     };
-    let results = both(&parse(&stack.scene())).unwrap();
+    let results = all(&parse(&stack.scene())).unwrap();
     for s in &results.states {
         assert!(s.contact_force.abs() < 1e-9, "{s:?}");
     }
@@ -236,13 +236,13 @@ fn a_body_that_lies_loose_stays_where_the_other_turns_back() {
 /// and the statuses never settled. `hard/loose_body` is this scene.
 #[test]
 fn a_body_let_go_between_two_others_settles() {
-    assert!(both(&crate::running::load("hard/loose_body", &[])).is_some());
+    assert!(all(&crate::running::load("hard/loose_body", &[])).is_some());
 }
 
 /// An interference lifts a body that nothing but contact holds: it costs nothing, and its forces are zero, not the round-off of a rigid motion.
 #[test]
 fn an_interference_lifts_a_floating_body() {
-    let results = both(&crate::running::load("hard/lifted_by_interference", &[])).unwrap();
+    let results = all(&crate::running::load("hard/lifted_by_interference", &[])).unwrap();
     let [fitted, pressed] = &results.states[..] else {
         panic!("two states")
     };
@@ -287,7 +287,7 @@ fn first_yield_at_a_jump_of_the_recovered_maximum_is_in_one_body() {
         steps: None,
         movement: None,
     };
-    let results = both(&parse(&stack.scene())).unwrap();
+    let results = all(&parse(&stack.scene())).unwrap();
     assert!(results.first_yield.is_some());
 }
 
@@ -303,7 +303,7 @@ fn random_stacks_agree_or_are_refused_alike() {
         ..ProptestConfig::default()
     };
     proptest!(config, |(stack in stack())| {
-        if let Some(results) = both(&parse(&stack.scene())) {
+        if let Some(results) = all(&parse(&stack.scene())) {
             ran.set(ran.get() + 1);
             flowed.set(flowed.get() + u32::from(results.history.iter().any(|r| r.plastic_points > 0)));
         }

@@ -1,6 +1,6 @@
 //! A scene of each kind.
 
-use crate::agreement::{AGREEMENT, both};
+use crate::agreement::{AGREEMENT, all, sparse};
 use crate::running::{close, largest, load};
 use brinell::ErrorKind;
 use brinell::linalg::Backend;
@@ -17,7 +17,7 @@ const SHARP: [&str; 2] = ["program.gamma=1e-12", "analysis.tolerance=1e-11"];
 fn runs(name: &str, overrides: &[&str]) {
     let overrides = [&SHARP, overrides].concat();
     assert!(
-        both(&load(name, &overrides)).is_some(),
+        all(&load(name, &overrides)).is_some(),
         "{name} does not run"
     );
 }
@@ -42,12 +42,15 @@ fn condensed_contact_matrices_agree() {
         // Every third freedom: the groups interleave as badly as they can.
         let zones = [vec![], free.step_by(3).collect::<Vec<_>>()];
         for zone in zones {
-            let [a, b] = [Backend::Cholmod, Backend::Dense].map(|backend| {
+            let matrix = |backend| {
                 let sub = Substructure::new(&model, &system, zone.clone(), backend).unwrap();
                 sub.tableau().matrix().dense()
-            });
-            let off = (&a - &b).amax();
-            close(name, off, 0.0, a.amax(), AGREEMENT);
+            };
+            let a = matrix(Backend::Dense);
+            for backend in sparse() {
+                let off = (&a - matrix(backend)).amax();
+                close(name, off, 0.0, a.amax(), AGREEMENT);
+            }
             assert!(a.nrows() > 2 && a.amax() > 0.0);
         }
     }
@@ -147,7 +150,7 @@ fn shim_between_blocks() {
 #[test]
 fn collapse() {
     let scene: Scene = load("hard/limit_load", &[]);
-    for backend in [Backend::Cholmod, Backend::Dense] {
+    for backend in Backend::built_in() {
         let error = crate::running::try_run(&scene, backend).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Collapse, "{error}");
     }
@@ -162,9 +165,9 @@ fn iterations_agree() {
         let set = format!("analysis.plastic_iteration={iteration}");
         load(CYLINDER, &[SHORT, steel, &set, SHARP[0], SHARP[1]])
     };
-    let newton = both(&with("newton")).unwrap();
+    let newton = all(&with("newton")).unwrap();
     for iteration in ["plain", "anderson"] {
-        let other = both(&with(iteration)).unwrap();
+        let other = all(&with(iteration)).unwrap();
         for (a, b) in newton.states.iter().zip(&other.states) {
             let force = largest(a.pairs.iter().map(|p| p.force)).max(1.0);
             for (p, q) in a.pairs.iter().zip(&b.pairs) {

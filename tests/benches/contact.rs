@@ -8,8 +8,8 @@
 mod process;
 
 use brinell::analysis::Analysis;
-use brinell::linalg::cholmod::{CholmodCondensed, blas_name, cholmod_version, solve_unconstrained};
-use brinell::linalg::{Backend, Condensed, Partition};
+use brinell::linalg::cholmod::{self, blas_name, cholmod_version, solve_unconstrained};
+use brinell::linalg::{Backend, Partition};
 use brinell::model::Model;
 use brinell::progress::Silent;
 use brinell::scene::Scene;
@@ -106,7 +106,7 @@ fn measure(pairs: usize, rows: usize) -> Result<Value, Failure> {
     let bare_seconds = bare.analyse_seconds + bare.factor_seconds;
 
     let start = Instant::now();
-    let condensed = CholmodCondensed::new(&held, &partition, &[])?;
+    let condensed = cholmod::condense(&held, &partition, &[])?;
     let all = start.elapsed().as_secs_f64();
     let start = Instant::now();
     let _ = condensed.contact_stiffness();

@@ -6,8 +6,11 @@
 //!
 //! `cargo bench --bench history` takes the sizes of [`SIZES`]; `-- 10k` or `-- 100k` or `-- 1M` one of them. The table
 //! goes to the terminal, the figures to `bench-results/history.json`. `-- perfect` the same without hardening. `-- scaling` runs meshes from ten thousand to
-//! three million freedoms instead, on one thread and on two (`history/scaling.rs`).
+//! three million freedoms instead, on one thread and on two (`history/scaling.rs`). `--features faer` and `-- backends` put the sparse backends beside one
+//! another (`history/backends.rs`).
 
+#[path = "history/backends.rs"]
+mod backends;
 mod process;
 #[path = "history/scaling.rs"]
 mod scaling;
@@ -73,7 +76,17 @@ fn main() -> Result<(), Failure> {
         .filter(|a| a != "--bench")
         .collect();
     match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        ["run", changes, directory] => print(&run(changes, Path::new(directory))?),
+        ["run", changes, directory] => {
+            print(&run(Backend::Cholmod, changes, Path::new(directory))?)
+        }
+        ["run-by", name, changes, directory] => {
+            let backend = Backend::from_name(name)?;
+            print(&run(backend, changes, Path::new(directory))?)
+        }
+        ["factor-by", name, changes] => {
+            print(&backends::factor(Backend::from_name(name)?, changes)?)
+        }
+        ["backends", ref names @ ..] => backends::measure(names),
         ["matrix", changes, directory] => write_matrix(changes, Path::new(directory)),
         ["cholmod", directory] => print(&bare(Path::new(directory))?),
         ["check", changes] => print(&scaling::prediction(changes)?),
@@ -100,7 +113,7 @@ fn scene(changes: &str) -> Result<Scene, Failure> {
 }
 
 /// brinell from scene to files.
-fn run(changes: &str, directory: &Path) -> Result<Value, Failure> {
+fn run(backend: Backend, changes: &str, directory: &Path) -> Result<Value, Failure> {
     rayon::ThreadPoolBuilder::new()
         .use_current_thread()
         .build_global()?;
@@ -108,13 +121,13 @@ fn run(changes: &str, directory: &Path) -> Result<Value, Failure> {
     let scene = scene(changes)?;
     let model = Model::new(&scene)?;
     let modelled = start.elapsed().as_secs_f64();
-    let mut analysis = Analysis::new(model, Backend::Cholmod)?;
+    let mut analysis = Analysis::new(model, backend)?;
     let results = analysis.run(&mut Silent)?;
     let analysed = start.elapsed().as_secs_f64();
     let header = RunHeader {
         scene_title: scene.title.clone(),
         kind: "plane_strain".to_string(),
-        solver: "cholmod".to_string(),
+        solver: backend.name().to_string(),
         bodies: analysis.model().mesh.bodies.clone(),
         ..RunHeader::default()
     };

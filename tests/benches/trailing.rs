@@ -5,9 +5,10 @@
 //! a solid one; `-- orders` compares the methods of ordering instead.
 
 use brinell::linalg::cholmod::{
-    CholmodCondensed, Method, blas_name, cholmod_version, factor_unconstrained, predict_with_method,
+    Method, blas_name, cholmod_version, condense, condense_with_method, factor_unconstrained,
+    predict_with_method,
 };
-use brinell::linalg::{Condensed, Partition, SymmetricCsc};
+use brinell::linalg::{Partition, SymmetricCsc};
 use std::time::Instant;
 
 // Shared with the unit tests, which use more of it.
@@ -103,7 +104,7 @@ fn trailing(body: &Body) -> Result<(), brinell::Error> {
         let (ordering, _) = timed(1, || {
             predict_with_method(&body.matrix, partition, Method::Automatic)
         });
-        let (all, condensed) = timed(1, || CholmodCondensed::new(&body.matrix, partition, &[]));
+        let (all, condensed) = timed(1, || condense(&body.matrix, partition, &[]));
         let condensed = condensed?;
         let cost = condensed.cost();
         let (stiffness, _) = timed(2, || condensed.contact_stiffness());
@@ -147,7 +148,7 @@ fn orders(body: &Body) -> Result<(), brinell::Error> {
                 timed(1, || predict_with_method(&body.matrix, partition, method));
             let cost = cost?;
             let (all, condensed) = timed(1, || {
-                CholmodCondensed::with_method(&body.matrix, partition, &[], method)
+                condense_with_method(&body.matrix, partition, &[], method)
             });
             condensed?;
             println!(

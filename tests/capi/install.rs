@@ -34,10 +34,11 @@ fn words(output: &Output) -> Vec<String> {
 
 /// Features of the library as installed: those of this build and the interface.
 fn features() -> &'static str {
-    if cfg!(feature = "cholmod") {
-        "--features capi"
-    } else {
-        "--no-default-features --features capi"
+    match (cfg!(feature = "cholmod"), cfg!(feature = "faer")) {
+        (true, false) => "--features capi",
+        (true, true) => "--features capi,faer",
+        (false, false) => "--no-default-features --features capi",
+        (false, true) => "--no-default-features --features capi,faer",
     }
 }
 
@@ -52,6 +53,9 @@ pub fn rust_example(scene: &Path) -> Command {
     }
     if cfg!(feature = "capi") {
         cargo.args(["--features", "capi"]);
+    }
+    if cfg!(feature = "faer") {
+        cargo.args(["--features", "faer"]);
     }
     cargo.arg("--").arg(scene);
     cargo

@@ -68,6 +68,9 @@ fn the_python_package_passes_its_tests_and_prints_the_same_digits() {
     if !cfg!(feature = "cholmod") {
         arguments.push_str(" --no-default-features");
     }
+    if cfg!(feature = "faer") {
+        arguments.push_str(" --features faer");
+    }
     done(
         Command::new(&python)
             .args(["-m", "pip", "install", "-q", "--disable-pip-version-check"])

@@ -119,7 +119,10 @@ fn to_accuracy(demanded: f64, name: &str, settings: &[&str], fine: &[&str]) {
 }
 
 #[test]
-#[cfg_attr(not(feature = "cholmod"), ignore = "needs the build with CHOLMOD")]
+#[cfg_attr(
+    not(any(feature = "cholmod", feature = "faer")),
+    ignore = "needs a sparse backend"
+)]
 fn the_papers_cylinder_to_ten_percent() {
     let fine = [
         "mesh.cylinder_on_half_plane.resolution=32",
@@ -130,7 +133,10 @@ fn the_papers_cylinder_to_ten_percent() {
 
 /// The states in the midst of unloading are left out: their largest pressure is a peak at the edge of the dent that grows with the mesh.
 #[test]
-#[cfg_attr(not(feature = "cholmod"), ignore = "needs the build with CHOLMOD")]
+#[cfg_attr(
+    not(any(feature = "cholmod", feature = "faer")),
+    ignore = "needs a sparse backend"
+)]
 fn the_papers_disc_to_ten_percent() {
     to_accuracy(
         10.0,
@@ -147,7 +153,10 @@ fn the_papers_disc_to_ten_percent() {
 
 /// Near collapse displacements run away, and errors of coarse meshes change their sign.
 #[test]
-#[cfg_attr(not(feature = "cholmod"), ignore = "needs the build with CHOLMOD")]
+#[cfg_attr(
+    not(any(feature = "cholmod", feature = "faer")),
+    ignore = "needs a sparse backend"
+)]
 fn the_tube_to_one_percent_and_less() {
     for demanded in [1.0, 0.3] {
         let fine = ["mesh.parts.0.ring.elements=[96,96]"];
@@ -158,7 +167,10 @@ fn the_tube_to_one_percent_and_less() {
 /// A piece of a block must end on a node of every mesh on the way. The value is that of the last mesh, the one that the meshes lead to
 /// stands beside it under a name of its own.
 #[test]
-#[cfg_attr(not(feature = "cholmod"), ignore = "needs the build with CHOLMOD")]
+#[cfg_attr(
+    not(any(feature = "cholmod", feature = "faer")),
+    ignore = "needs a sparse backend"
+)]
 fn the_punch_to_ten_and_three_percent() {
     let file = scene("flat_punch");
     for demanded in [10.0, 3.0] {

@@ -12,6 +12,7 @@ mod readme;
 mod refusals;
 mod scene_help;
 mod shown;
+mod solvers;
 mod watching;
 
 use std::path::PathBuf;
@@ -121,6 +122,7 @@ fn help_tells_commands_options_examples_and_exit_codes() {
             "--set",
             "--solver",
             "cholmod",
+            "faer",
             "dense",
             "--threads",
             "--json",
@@ -153,7 +155,7 @@ fn a_wrong_command_line_is_exit_code_2() {
     fails(
         &["run", "a.toml", "--solver", "magic"],
         2,
-        &["magic", "cholmod", "dense"],
+        &["magic", "cholmod", "faer", "dense"],
     );
     fails(&["run", "a.toml", "--threads", "0"], 2, &["--threads"]);
     fails(

@@ -132,7 +132,7 @@ fn check_tells_effects_sizes_cost_and_blas_of_every_scene() {
         let before = std::fs::read_dir(scenes).unwrap().count();
         // The dense solver takes small models only.
         let output = brinell(&["check", path.to_str().unwrap()]);
-        if cfg!(feature = "cholmod") {
+        if cfg!(any(feature = "cholmod", feature = "faer")) {
             assert_eq!(output.status.code(), Some(0), "{path:?} {output:?}");
             let text = stdout(&output);
             for fragment in [
@@ -385,7 +385,10 @@ fn a_leftover_checkpoint_goes_with_the_next_run_that_ends() {
 
 /// The time that `check` predicts grows with the mesh: more than the elements, less than the cube of those along a line.
 #[test]
-#[cfg_attr(not(feature = "cholmod"), ignore = "needs the build with CHOLMOD")]
+#[cfg_attr(
+    not(any(feature = "cholmod", feature = "faer")),
+    ignore = "needs a sparse backend"
+)]
 fn the_predicted_time_of_a_run_grows_with_its_mesh() {
     let predicted = |resolution: usize| {
         let scene = scene("cylinder_on_half_plane");

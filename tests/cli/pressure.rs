@@ -27,7 +27,10 @@ fn limited(limits: &str, arguments: &[&str]) -> (Option<i32>, String) {
 /// Whatever runs out first (mesh, ordering, work buffers of the BLAS, factor, results): the program says how much was asked for.
 #[cfg(target_os = "linux")]
 #[test]
-#[cfg_attr(not(feature = "cholmod"), ignore = "too large for the dense backend")]
+#[cfg_attr(
+    not(any(feature = "cholmod", feature = "faer")),
+    ignore = "too large for the dense backend"
+)]
 fn too_little_memory_is_exit_code_5_with_the_size_asked_for() {
     let scene = scene("cylinder_on_half_plane");
     for megabytes in [120, 135, 150, 175, 200, 250, 300, 350] {
@@ -56,14 +59,19 @@ fn too_little_memory_is_exit_code_5_with_the_size_asked_for() {
     }
 }
 
-/// A matrix whose factor does not fit is refused by both backends before it is factored.
+/// A matrix whose factor does not fit is refused by every backend before it is factored.
 #[cfg(target_os = "linux")]
 #[test]
 fn memory_is_compared_with_what_is_available_before_the_factorisation() {
     let scene = scene("thick_cylinder");
     let mut sizes = vec![("dense", "[28, 32]", "dense factorisation of 5504 freedoms")];
-    if cfg!(feature = "cholmod") {
-        sizes.push(("cholmod", "[200, 200]", "factorisation of 240800 freedoms"));
+    for (solver, is_there) in [
+        ("cholmod", cfg!(feature = "cholmod")),
+        ("faer", cfg!(feature = "faer")),
+    ] {
+        if is_there {
+            sizes.push((solver, "[200, 200]", "factorisation of 240800 freedoms"));
+        }
     }
     for (solver, elements, what) in sizes {
         let set = format!("mesh.parts.0.ring.elements={elements}");

@@ -430,6 +430,7 @@ fn a_model_that_is_too_large_for_the_dense_backend() {
             "too many for the dense solver",
             "at most 6000",
             "--solver cholmod",
+            "--solver faer",
         ],
     );
 }

@@ -129,7 +129,10 @@ fn made_and_run(folder: &Path, arguments: &[&str]) -> Value {
 
 /// The meshes are beyond what the dense backend takes.
 #[test]
-#[cfg_attr(not(feature = "cholmod"), ignore = "needs the build with CHOLMOD")]
+#[cfg_attr(
+    not(any(feature = "cholmod", feature = "faer")),
+    ignore = "needs a sparse backend"
+)]
 fn new_scenes_run_and_give_what_their_comments_say() {
     let folder = tempfile::tempdir().unwrap();
     let near = |value: &Value, expected: f64, share: f64| {

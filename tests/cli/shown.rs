@@ -87,7 +87,10 @@ fn numbers_are_short_in_messages_and_in_the_scene_as_run() {
 
 /// The depth of first yield is zero by theory and in the run: there is no ratio of the two.
 #[test]
-#[cfg_attr(not(feature = "cholmod"), ignore = "needs the build with CHOLMOD")]
+#[cfg_attr(
+    not(any(feature = "cholmod", feature = "faer")),
+    ignore = "needs a sparse backend"
+)]
 fn a_ratio_of_nothing_to_nothing_is_said_to_be_none() {
     let folder = Folder::with_changes("cylinder_on_half_plane", &[]);
     let changes = [

@@ -1,10 +1,12 @@
-//! Factorisations, solves, iterations, and the size of the factor, against those kept in `tests/cost/counts.json`.
+//! Factorisations, solves, iterations, and the size of the factor, against those kept in `tests/cost/counts_*.json`, a file for each sparse
+//! backend.
 //!
 //! A run that takes more than a tenth more of anything than it did fails: something has become dearer. So does one that takes a third less, so that
 //! the file stays worth comparing with. Orders and the last bit of a status depend on the libraries, hence the tenth.
-//! `BRINELL_WRITE_COUNTS=1 cargo test --test cost` writes the file anew; the difference belongs into the commit's message.
+//! `BRINELL_WRITE_COUNTS=1 cargo test --test cost` writes the files anew; the difference belongs into the commit's message.
 
-use super::running::run_file;
+use super::running::{load, try_run};
+use brinell::linalg::Backend;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -27,7 +29,6 @@ const RUNS: [(&str, &str, &[&str]); 8] = [
     ("thick cylinder", "thick_cylinder", &[]),
     ("three bodies", "three_bodies", &[]),
 ];
-const FILE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/cost/counts.json");
 const DEARER: f64 = 1.1;
 const CHEAPER: f64 = 1.0 / 1.5;
 /// Counts as small as this may differ by one.
@@ -47,8 +48,8 @@ struct Cost {
     trailing_solves: f64,
 }
 
-fn cost(scene: &str, changes: &[&str]) -> Cost {
-    let results = run_file(scene, changes);
+fn cost(backend: Backend, scene: &str, changes: &[&str]) -> Cost {
+    let results = try_run(&load(scene, changes), backend).unwrap();
     let counts = &results.counts;
     Cost {
         freedoms: results.sizes.freedoms as f64,
@@ -66,18 +67,29 @@ fn cost(scene: &str, changes: &[&str]) -> Cost {
 
 #[test]
 fn runs_are_no_dearer_than_they_were() {
+    for backend in Backend::built_in() {
+        // Most scenes are too large for the dense one.
+        if backend != Backend::Dense {
+            assert_no_dearer(backend);
+        }
+    }
+}
+
+fn assert_no_dearer(backend: Backend) {
+    let (root, name) = (env!("CARGO_MANIFEST_DIR"), backend.name());
+    let file = format!("{root}/tests/cost/counts_{name}.json");
     let costs: BTreeMap<&str, Cost> = RUNS
         .into_iter()
-        .map(|(name, scene, changes)| (name, cost(scene, changes)))
+        .map(|(name, scene, changes)| (name, cost(backend, scene, changes)))
         .collect();
     if std::env::var_os("BRINELL_WRITE_COUNTS").is_some() {
         let text = serde_json::to_string_pretty(&costs).unwrap();
-        std::fs::write(FILE, text + "\n").unwrap();
+        std::fs::write(&file, text + "\n").unwrap();
         return;
     }
     let values = |cost: &Cost| serde_json::to_value(cost).unwrap();
     let kept: BTreeMap<String, Cost> =
-        serde_json::from_str(&std::fs::read_to_string(FILE).unwrap()).unwrap();
+        serde_json::from_str(&std::fs::read_to_string(&file).unwrap()).unwrap();
     assert_eq!(kept.len(), costs.len());
     let mut wrong = Vec::new();
     for (name, cost) in &costs {
@@ -92,6 +104,6 @@ fn runs_are_no_dearer_than_they_were() {
     }
     assert!(
         wrong.is_empty(),
-        "BRINELL_WRITE_COUNTS=1 writes {FILE} anew if this is meant: {wrong:#?}"
+        "BRINELL_WRITE_COUNTS=1 writes {file} anew if this is meant: {wrong:#?}"
     );
 }

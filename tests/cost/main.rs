@@ -1,9 +1,9 @@
 //! Speed that a test can hold: what a run does, counted, whatever machine it runs on.
 
 mod allocations;
-#[cfg(feature = "cholmod")]
+#[cfg(any(feature = "cholmod", feature = "faer"))]
 mod counts;
-#[cfg(feature = "cholmod")]
+#[cfg(any(feature = "cholmod", feature = "faer"))]
 mod many;
 #[path = "../running/mod.rs"]
 mod running;

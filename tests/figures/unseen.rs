@@ -8,6 +8,9 @@ use brinell::analytical::{HertzLine, HertzPoint, PinInHole, contact_modulus};
 use brinell::scene::Scene;
 use std::path::Path;
 
+/// A scene of a family by the number of its elements.
+type Build = fn(usize) -> Scene;
+
 /// All of them; meshes from files go into `folder`.
 pub fn families(folder: &Path) -> Vec<Family> {
     let mut out = vec![unlike_cylinders(), hard_ball(), plane_stress_tube("quad4")];
@@ -17,9 +20,7 @@ pub fn families(folder: &Path) -> Vec<Family> {
         hole_in_plate("quad8"),
     ]);
     out.extend(["quad4", "tri6"].map(|shape| pin_from_file(shape, folder)));
-    /// Name, meshes, the scene on each, and on the one that tells the true values.
-    type OnMeshes = (&'static str, &'static [usize], fn(usize) -> Scene, usize);
-    let history: Vec<OnMeshes> = vec![
+    let history: Vec<(&str, &[usize], Build, usize)> = vec![
         (
             "tube into a sleeve, quad4",
             &[4, 6, 8, 12, 16],

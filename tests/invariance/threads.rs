@@ -1,16 +1,17 @@
 //! One thread or two: the same bits.
 
 use crate::running::{limit, scene_file};
+use brinell::linalg::Backend;
 use serde_json::Value;
 use std::path::Path;
 use std::process::Command;
 
-fn run(name: &str, threads: &str, out: &Path, overrides: &[&str]) {
+fn run(name: &str, [solver, threads]: [&str; 2], out: &Path, overrides: &[&str]) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
     command
         .arg("run")
         .arg(scene_file(name))
-        .args(["-q", "--threads", threads, "--out"])
+        .args(["-q", "--solver", solver, "--threads", threads, "--out"])
         .arg(out);
     for set in overrides {
         command.args(["--set", set]);
@@ -50,6 +51,15 @@ fn summary(out: &Path) -> Value {
 
 #[test]
 fn the_number_of_threads_changes_no_bit() {
+    for backend in Backend::built_in() {
+        // The models are too large for the dense one.
+        if backend != Backend::Dense {
+            assert_threads_change_no_bit(backend.name());
+        }
+    }
+}
+
+fn assert_threads_change_no_bit(solver: &str) {
     for (name, overrides) in [
         (
             "hard/unload_reload",
@@ -63,7 +73,7 @@ fn the_number_of_threads_changes_no_bit() {
         let folder = tempfile::tempdir().unwrap();
         let [one, two] = ["1", "2"].map(|threads| {
             let out = folder.path().join(threads);
-            run(name, threads, &out, &overrides);
+            run(name, [solver, threads], &out, &overrides);
             out
         });
         assert_eq!(summary(&one), summary(&two), "{name}");

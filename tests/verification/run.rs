@@ -7,16 +7,8 @@ use brinell::progress::Silent;
 use brinell::results::{Results, State};
 use brinell::scene::Scene;
 
-fn backend() -> Backend {
-    if cfg!(feature = "cholmod") {
-        Backend::default()
-    } else {
-        Backend::Dense
-    }
-}
-
 fn analysis(scene: &Scene) -> Analysis {
-    Analysis::new(Model::new(scene).unwrap(), backend()).unwrap()
+    Analysis::new(Model::new(scene).unwrap(), Backend::default()).unwrap()
 }
 
 /// A scene of `data/scenes` with overrides.

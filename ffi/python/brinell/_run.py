@@ -13,7 +13,7 @@ def run(scene, overrides=None, *, solver=None, callback=None, estimate=False, th
     overrides: values put over the scene, {"mesh.cylinder_on_half_plane.resolution": 8}; as keywords with two underscores for a dot:
         mesh__cylinder_on_half_plane__resolution=8. A dictionary is merged with the table in the scene, key by key; None removes a key;
         a list replaces the list, and a key that all entries of the old one have and none of the new is told by a warning.
-    solver: "cholmod" or "dense".
+    solver: "cholmod", "faer" or "dense"; by default the first of them that the package was built with.
     callback: called with a dictionary after each accepted increment; something true stops the run, and what was computed is returned
         with `incomplete` set. What it raises (Ctrl-C too) is raised here.
     threads: how many threads to use, a pool of its own for this run; by default those that all runs share. The callback is then called in one of

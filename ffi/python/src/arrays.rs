@@ -139,13 +139,8 @@ fn plain<'py>(value: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
 
 /// The backend of this name; `None` for the default.
 pub fn backend(py: Python<'_>, solver: Option<&str>) -> PyResult<Backend> {
-    match solver {
-        None => Ok(Backend::default()),
-        Some("cholmod") => Ok(Backend::Cholmod),
-        Some("dense") => Ok(Backend::Dense),
-        Some(other) => Err(wrong(
-            py,
-            format!("there is no solver {other:?}; give \"cholmod\" or \"dense\""),
-        )),
-    }
+    let Some(name) = solver else {
+        return Ok(Backend::default());
+    };
+    Backend::from_name(name).map_err(|error| wrong(py, error.message().to_string()))
 }

@@ -2,12 +2,11 @@
 
 use super::blas;
 use super::common::Common;
-use super::pages::prefer_large;
-use super::sparse::SymmetricView;
+use super::matrix::SymmetricView;
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::NotDefinite;
+use crate::linalg::sparse::{Columns, LowerFactor, Supernodes, Triangular, prefer_large};
 use std::ffi::c_void;
-use std::ops::Range;
 use std::ptr::{NonNull, null_mut};
 use suitesparse_sys as sys;
 
@@ -18,12 +17,6 @@ pub(super) enum System {
     Whole,
     /// `L x = b`, b and x in the order of the factor.
     Lower,
-}
-
-/// A column of `L`: its rows, the diagonal first, ascending, and their values.
-pub(super) struct Column<'a> {
-    pub(super) rows: &'a [i64],
-    pub(super) values: &'a [f64],
 }
 
 /// `P K P' = L L'` with the workspace of its solves.
@@ -123,7 +116,7 @@ impl Factor {
         unsafe {
             sys::cholmod_l_factorize(matrix.as_ptr(), self.raw.as_ptr(), self.common.as_mut());
         }
-        let needed = self.bytes(matrix.rows().len());
+        let needed = self.bytes_within(matrix.entries());
         self.common.check_asking("factorisation", n, needed)?;
         // CHOLMOD reports success on an indefinite matrix and stops at the column `minor`.
         let minor = self.raw().minor;
@@ -150,16 +143,6 @@ impl Factor {
         self.raw().n
     }
 
-    /// Nonzeros of `L`, from the analysis.
-    pub(super) fn nonzeros(&self) -> f64 {
-        self.nonzeros
-    }
-
-    /// Floating point operations of the factorisation, from the analysis.
-    pub(super) fn flops(&self) -> f64 {
-        self.flops
-    }
-
     /// True where `L` is kept as dense blocks of columns.
     pub(super) fn is_supernodal(&self) -> bool {
         self.raw().is_super != 0
@@ -167,7 +150,7 @@ impl Factor {
 
     /// Bytes of the numerical factor with what its computation needs beside it: the largest update
     /// block, and the permuted copy of a matrix with `entries` stored entries.
-    pub(super) fn bytes(&self, entries: usize) -> f64 {
+    fn bytes_within(&self, entries: usize) -> f64 {
         let raw = self.raw();
         let factor = if self.is_supernodal() {
             8.0 * (raw.xsize as f64 + raw.ssize as f64 + raw.maxcsize as f64)
@@ -176,45 +159,6 @@ impl Factor {
         };
         // Order, inverse order, counts, pointers, and CHOLMOD's own work of about 6 n.
         factor + 16.0 * entries as f64 + 80.0 * raw.n as f64
-    }
-
-    /// Freedom of each column.
-    pub(super) fn permutation(&self) -> &[i64] {
-        let raw = self.raw();
-        // SAFETY: `Perm` has length n from the analysis on.
-        unsafe { slice(raw.Perm, raw.n) }
-    }
-
-    /// Nonzeros of each column, from the analysis.
-    pub(super) fn column_counts(&self) -> &[i64] {
-        let raw = self.raw();
-        // SAFETY: `ColCount` has length n from the analysis on.
-        unsafe { slice(raw.ColCount, raw.n) }
-    }
-
-    /// The columns of the numerical factor, to be read one by one.
-    pub(super) fn columns(&self) -> Columns<'_> {
-        let raw = self.raw();
-        // SAFETY: after the numerical factorisation (the callers' order of calls, and empty slices
-        // otherwise) the arrays have the lengths that CHOLMOD documents for the kind at hand.
-        unsafe {
-            if self.is_supernodal() {
-                Columns::Supernodal(Supernodes {
-                    starts: slice(raw.super_, raw.nsuper + 1),
-                    row_starts: slice(raw.pi, raw.nsuper + 1),
-                    value_starts: slice(raw.px, raw.nsuper + 1),
-                    rows: slice(raw.s, raw.ssize),
-                    values: slice(raw.x, raw.xsize),
-                })
-            } else {
-                Columns::Simplicial {
-                    starts: slice(raw.p, raw.n),
-                    counts: slice(raw.nz, raw.n),
-                    rows: slice(raw.i, raw.nzmax),
-                    values: slice(raw.x, raw.nzmax),
-                }
-            }
-        }
     }
 
     /// Solves for one right-hand side. The solution stays in the factor's workspace, which is
@@ -269,6 +213,61 @@ impl Factor {
     }
 }
 
+impl LowerFactor for Factor {
+    fn nonzeros(&self) -> f64 {
+        self.nonzeros
+    }
+
+    fn flops(&self) -> f64 {
+        self.flops
+    }
+
+    fn permutation(&self) -> &[i64] {
+        let raw = self.raw();
+        // SAFETY: `Perm` has length n from the analysis on.
+        unsafe { slice(raw.Perm, raw.n) }
+    }
+
+    fn column_counts(&self) -> &[i64] {
+        let raw = self.raw();
+        // SAFETY: `ColCount` has length n from the analysis on.
+        unsafe { slice(raw.ColCount, raw.n) }
+    }
+
+    fn columns(&self) -> Columns<'_> {
+        let raw = self.raw();
+        // SAFETY: after the numerical factorisation (the callers' order of calls, and empty slices
+        // otherwise) the arrays have the lengths that CHOLMOD documents for the kind at hand.
+        unsafe {
+            if self.is_supernodal() {
+                Columns::Supernodal(Supernodes {
+                    starts: slice(raw.super_, raw.nsuper + 1),
+                    row_starts: slice(raw.pi, raw.nsuper + 1),
+                    value_starts: slice(raw.px, raw.nsuper + 1),
+                    rows: slice(raw.s, raw.ssize),
+                    values: slice(raw.x, raw.xsize),
+                })
+            } else {
+                Columns::Simplicial {
+                    starts: slice(raw.p, raw.n),
+                    counts: slice(raw.nz, raw.n),
+                    rows: slice(raw.i, raw.nzmax),
+                    values: slice(raw.x, raw.nzmax),
+                }
+            }
+        }
+    }
+
+    fn bytes(&self, entries: usize) -> f64 {
+        // The shifted copy of the values.
+        self.bytes_within(entries) + 8.0 * entries as f64
+    }
+
+    fn solve_lower<'a>(&'a mut self, _: &Triangular, load: &'a mut [f64]) -> Result<&'a [f64]> {
+        self.solve(System::Lower, load)
+    }
+}
+
 impl Drop for Factor {
     fn drop(&mut self) {
         let common: *mut sys::cholmod_common = self.common.as_mut();
@@ -280,100 +279,6 @@ impl Drop for Factor {
                 sys::cholmod_l_free_dense(dense, common);
             }
             sys::cholmod_l_free_factor(&mut raw, common);
-        }
-    }
-}
-
-/// The columns of `L` in either of CHOLMOD's two storages.
-pub(super) enum Columns<'a> {
-    /// Dense trapezoids.
-    Supernodal(Supernodes<'a>),
-    /// Compressed columns.
-    Simplicial {
-        starts: &'a [i64],
-        counts: &'a [i64],
-        rows: &'a [i64],
-        values: &'a [f64],
-    },
-}
-
-/// Neighbouring columns that share their rows, as dense trapezoids in a rectangle: each column has
-/// as many values as the supernode has rows, those above the diagonal without meaning.
-pub(super) struct Supernodes<'a> {
-    starts: &'a [i64],
-    row_starts: &'a [i64],
-    value_starts: &'a [i64],
-    rows: &'a [i64],
-    values: &'a [f64],
-}
-
-impl<'a> Supernodes<'a> {
-    /// Number of supernodes.
-    pub(super) fn len(&self) -> usize {
-        self.starts.len().saturating_sub(1)
-    }
-
-    /// Columns of a supernode.
-    pub(super) fn columns(&self, s: usize) -> Range<usize> {
-        self.starts[s] as usize..self.starts[s + 1] as usize
-    }
-
-    /// Rows of its first column.
-    pub(super) fn rows(&self, s: usize) -> &'a [i64] {
-        &self.rows[self.row_starts[s] as usize..self.row_starts[s + 1] as usize]
-    }
-
-    /// Values, column by column.
-    pub(super) fn values(&self, s: usize) -> &'a [f64] {
-        let start = self.value_starts[s] as usize;
-        &self.values[start..start + self.rows(s).len() * self.columns(s).len()]
-    }
-}
-
-impl<'a> Columns<'a> {
-    /// The diagonal of `L`.
-    pub(super) fn pivots(&self) -> Vec<f64> {
-        match self {
-            Columns::Supernodal(supernodes) => (0..supernodes.len())
-                .flat_map(|s| {
-                    let (values, height) = (supernodes.values(s), supernodes.rows(s).len());
-                    (0..supernodes.columns(s).len()).map(move |k| values[k * height + k])
-                })
-                .collect(),
-            Columns::Simplicial { starts, values, .. } => {
-                starts.iter().map(|&start| values[start as usize]).collect()
-            }
-        }
-    }
-
-    /// Column `j`, wherever it lies in its supernode.
-    pub(super) fn get(&self, j: usize) -> Column<'a> {
-        match self {
-            Columns::Supernodal(supernodes) => {
-                let s = supernodes
-                    .starts
-                    .partition_point(|&start| start as usize <= j)
-                    - 1;
-                let within = j - supernodes.columns(s).start;
-                let rows = supernodes.rows(s);
-                Column {
-                    rows: &rows[within..],
-                    values: &supernodes.values(s)[within * rows.len() + within..]
-                        [..rows.len() - within],
-                }
-            }
-            Columns::Simplicial {
-                starts,
-                counts,
-                rows,
-                values,
-            } => {
-                let range = starts[j] as usize..(starts[j] + counts[j]) as usize;
-                Column {
-                    rows: &rows[range.clone()],
-                    values: &values[range],
-                }
-            }
         }
     }
 }

@@ -1,8 +1,8 @@
 //! What every backend must do, and the tools to test it with.
 
-// The tests of CHOLMOD use more of it.
+// The tests of the sparse backends use more of it.
 mod accuracy;
-#[cfg_attr(not(feature = "cholmod"), allow(dead_code))]
+#[cfg_attr(not(any(feature = "cholmod", feature = "faer")), allow(dead_code))]
 pub(super) mod matrices;
 mod refusals;
 
@@ -13,11 +13,7 @@ use proptest::prelude::*;
 
 /// The backends of this build.
 fn backends() -> Vec<Backend> {
-    let mut all = vec![Backend::Dense];
-    if cfg!(feature = "cholmod") {
-        all.push(Backend::Cholmod);
-    }
-    all
+    Backend::built_in()
 }
 
 /// Reproducible numbers in (-1, 1).

@@ -80,13 +80,13 @@ impl Trailing {
 
     /// Number of subtrees.
     #[cfg(test)]
-    pub(in super::super) fn n_subtrees(&self) -> usize {
+    pub(crate) fn n_subtrees(&self) -> usize {
         self.subtrees.len()
     }
 
     /// The panels of the marked zone freedoms and all that these depend on: their ancestors in the
     /// elimination tree.
-    pub(in super::super) fn part_of_zone(&self, marked: &[bool]) -> ZonePart {
+    pub(crate) fn part_of_zone(&self, marked: &[bool]) -> ZonePart {
         let mut blocks = vec![false; self.n_zone_panels];
         for k in 0..self.n_zone_panels {
             let p = &self.panels[k];
@@ -160,12 +160,7 @@ impl Trailing {
 
     /// `f_t = L_tt y_t`, given for all trailing columns of the factor, returned for the kept ones
     /// in the partition's order.
-    pub(in super::super) fn condensed_load(
-        &self,
-        y: &[f64],
-        zone: &mut [f64],
-        contact: &mut [f64],
-    ) {
+    pub(crate) fn condensed_load(&self, y: &[f64], zone: &mut [f64], contact: &mut [f64]) {
         let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
         let Work { vector, rows, .. } = &mut *work;
         for (value, &column) in vector.iter_mut().zip(&self.kept) {
@@ -189,7 +184,7 @@ impl Trailing {
     }
 
     /// `y_z = L_zz^-1 f_z` left in `zone` in the order of the factor, and `contact -= L_cz y_z`.
-    pub(in super::super) fn eliminate_zone(&self, zone: &mut [f64], contact: &mut [f64]) {
+    pub(crate) fn eliminate_zone(&self, zone: &mut [f64], contact: &mut [f64]) {
         let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
         let Work {
             vector,
@@ -236,12 +231,7 @@ impl Trailing {
 
     /// `u_z = L_zz^-T (y_z - L_cz' u_c)` in a part of the zone and zero elsewhere, with `zone` as
     /// [`Trailing::eliminate_zone`] left it.
-    pub(in super::super) fn recover_zone(
-        &self,
-        part: &ZonePart,
-        zone: &mut [f64],
-        u_contact: &[f64],
-    ) {
+    pub(crate) fn recover_zone(&self, part: &ZonePart, zone: &mut [f64], u_contact: &[f64]) {
         let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
         let Work {
             vector,

@@ -1,40 +1,34 @@
 //! `cholmod_sparse`: symmetric matrices lent to CHOLMOD without a copy.
 
-use crate::linalg::SymmetricCsc;
-use std::borrow::Cow;
+use crate::linalg::sparse::Pattern;
 use std::ffi::c_void;
+use std::marker::PhantomData;
 use suitesparse_sys as sys;
 
 /// Upper triangle of a symmetric matrix that lives elsewhere, as CHOLMOD reads it.
 pub(super) struct SymmetricView<'a> {
     raw: sys::cholmod_sparse,
-    // CHOLMOD reads these through `raw`; they are held for their lifetime.
-    columns: Cow<'a, [i64]>,
-    rows: &'a [i64],
+    // CHOLMOD reads the arrays of the pattern and the values through `raw`.
+    _lent: PhantomData<&'a [f64]>,
 }
 
 impl<'a> SymmetricView<'a> {
-    /// The pattern of `matrix` alone.
-    pub(super) fn pattern(matrix: &'a SymmetricCsc) -> Self {
-        Self::new(matrix.proper_indptr(), matrix.indices(), None)
+    /// The pattern alone.
+    pub(super) fn new(pattern: &'a Pattern) -> Self {
+        Self::view(pattern, None)
     }
 
-    /// The pattern of `matrix` with `values` in place of its own, one for each stored entry.
-    pub(super) fn with_values(matrix: &'a SymmetricCsc, values: &'a [f64]) -> Self {
-        Self::new(matrix.proper_indptr(), matrix.indices(), Some(values))
+    /// The pattern with one value for each stored entry.
+    pub(super) fn with_values(pattern: &'a Pattern, values: &'a [f64]) -> Self {
+        Self::view(pattern, Some(values))
     }
 
-    /// A pattern by its column pointers (`n + 1`) and its row indices, ascending in each column.
-    pub(super) fn from_parts(columns: &'a [i64], rows: &'a [i64]) -> Self {
-        Self::new(Cow::Borrowed(columns), rows, None)
-    }
-
-    fn new(columns: Cow<'a, [i64]>, rows: &'a [i64], values: Option<&'a [f64]>) -> Self {
+    fn view(pattern: &'a Pattern, values: Option<&'a [f64]>) -> Self {
+        let (columns, rows) = (pattern.columns(), pattern.rows());
         debug_assert!(values.is_none_or(|v| v.len() == rows.len()));
-        let n = columns.len().saturating_sub(1);
         let raw = sys::cholmod_sparse {
-            nrow: n,
-            ncol: n,
+            nrow: pattern.n(),
+            ncol: pattern.n(),
             nzmax: rows.len(),
             p: columns.as_ptr() as *mut c_void,
             i: rows.as_ptr() as *mut c_void,
@@ -51,7 +45,10 @@ impl<'a> SymmetricView<'a> {
             sorted: 1,
             packed: 1,
         };
-        SymmetricView { raw, columns, rows }
+        SymmetricView {
+            raw,
+            _lent: PhantomData,
+        }
     }
 
     /// Number of freedoms.
@@ -59,14 +56,9 @@ impl<'a> SymmetricView<'a> {
         self.raw.nrow
     }
 
-    /// Column pointers, `n + 1`.
-    pub(super) fn columns(&self) -> &[i64] {
-        &self.columns
-    }
-
-    /// Row indices, column after column.
-    pub(super) fn rows(&self) -> &[i64] {
-        self.rows
+    /// Number of stored entries.
+    pub(super) fn entries(&self) -> usize {
+        self.raw.nzmax
     }
 
     /// The object to hand to CHOLMOD, which only reads it: the functions called here take a

@@ -7,11 +7,10 @@
 //! equations*, ACM TOMS 9 (3), 1983, doi:10.1145/356044.356047; C. Ashcraft, *Compressed graphs and
 //! the minimum degree algorithm*, SIAM J. Sci. Comput. 16 (6), 1995, doi:10.1137/0916081.
 
-use super::ordering::Groups;
-use super::sparse::SymmetricView;
+use super::{Groups, Pattern};
 
 /// The pattern of a matrix with one row and column for each supervariable.
-pub(super) struct Supervariables {
+pub(crate) struct Supervariables {
     /// First freedom of each, and the number of freedoms.
     first: Vec<usize>,
     columns: Vec<i64>,
@@ -22,7 +21,7 @@ pub(super) struct Supervariables {
 impl Supervariables {
     /// The longest runs of consecutive freedoms of a group that have the same neighbours and each
     /// other.
-    pub(super) fn find(matrix: &SymmetricView, groups: &Groups) -> Self {
+    pub(crate) fn find(matrix: &Pattern, groups: &Groups) -> Self {
         let n = matrix.n();
         let goes_on = continued(matrix, groups);
         let mut first = Vec::with_capacity(n / 2 + 1);
@@ -38,7 +37,7 @@ impl Supervariables {
         let mut rows = Vec::new();
         columns.push(0);
         for &freedom in &first {
-            let numbers = column(matrix, freedom).iter();
+            let numbers = matrix.column(freedom).iter();
             rows.extend(numbers.map(|&row| number[row as usize]).filter(|&s| s >= 0));
             columns.push(rows.len() as i64);
         }
@@ -53,23 +52,31 @@ impl Supervariables {
     }
 
     /// Number of freedoms for each supervariable, on average.
-    pub(super) fn size(&self) -> f64 {
+    #[cfg(any(test, feature = "cholmod"))]
+    pub(crate) fn size(&self) -> f64 {
         let n = self.first.last().copied().unwrap_or(0);
         n as f64 / (self.first.len() - 1).max(1) as f64
     }
 
+    /// Number of freedoms of each.
+    #[cfg(feature = "faer")]
+    pub(crate) fn sizes(&self) -> Vec<i64> {
+        let sizes = self.first.windows(2);
+        sizes.map(|pair| (pair[1] - pair[0]) as i64).collect()
+    }
+
     /// The pattern of the supervariables.
-    pub(super) fn pattern(&self) -> SymmetricView<'_> {
-        SymmetricView::from_parts(&self.columns, &self.rows)
+    pub(crate) fn pattern(&self) -> Pattern<'_> {
+        Pattern::from_parts(&self.columns, &self.rows)
     }
 
     /// Their groups.
-    pub(super) fn groups(&self) -> &Groups {
+    pub(crate) fn groups(&self) -> &Groups {
         &self.groups
     }
 
     /// The order of the freedoms in an order of the supervariables.
-    pub(super) fn expand(&self, permutation: &[i64]) -> Vec<i64> {
+    pub(crate) fn expand(&self, permutation: &[i64]) -> Vec<i64> {
         let freedoms = permutation.iter().flat_map(|&s| {
             let s = s as usize;
             self.first[s] as i64..self.first[s + 1] as i64
@@ -78,27 +85,21 @@ impl Supervariables {
     }
 }
 
-/// The stored rows of a column, ascending to the diagonal.
-fn column<'a>(matrix: &'a SymmetricView, freedom: usize) -> &'a [i64] {
-    let bounds = matrix.columns();
-    &matrix.rows()[bounds[freedom] as usize..bounds[freedom + 1] as usize]
-}
-
 /// Whether each freedom has group and neighbours (each other among them) of the one before.
-fn continued(matrix: &SymmetricView, groups: &Groups) -> Vec<bool> {
+fn continued(matrix: &Pattern, groups: &Groups) -> Vec<bool> {
     let n = matrix.n();
     // Above the diagonal: the column holds what the one before holds, and itself.
     let mut same: Vec<bool> = (0..n)
         .map(|j| {
             j > 0
                 && groups.of(j) == groups.of(j - 1)
-                && column(matrix, j).split_last().map(|(_, above)| above)
-                    == Some(column(matrix, j - 1))
+                && matrix.column(j).split_last().map(|(_, above)| above)
+                    == Some(matrix.column(j - 1))
         })
         .collect();
     // Right of it: each column holds both or none.
     for k in 0..n {
-        let rows = column(matrix, k);
+        let rows = matrix.column(k);
         let above = &rows[..rows.len().saturating_sub(1)];
         for (place, &row) in above.iter().enumerate() {
             let row = row as usize;
@@ -157,7 +158,7 @@ mod tests {
             }
         }
         let (columns, rows) = upper(6, &edges);
-        let matrix = SymmetricView::from_parts(&columns, &rows);
+        let matrix = Pattern::from_parts(&columns, &rows);
         let all = Supervariables::find(&matrix, &Groups::new(&partition(6, &[])));
         assert_eq!(all.first, [0, 2, 4, 6]);
         assert_eq!(all.size(), 2.0);
@@ -183,7 +184,7 @@ mod tests {
         ];
         for (edges, first) in cases {
             let (columns, rows) = upper(4, edges);
-            let matrix = SymmetricView::from_parts(&columns, &rows);
+            let matrix = Pattern::from_parts(&columns, &rows);
             let found = Supervariables::find(&matrix, &Groups::new(&partition(4, &[])));
             assert_eq!(found.first, first, "{edges:?}");
         }

@@ -1,8 +1,10 @@
-//! `L^T x = y` for the columns whose `x` is not known yet, subtree by subtree.
+//! Solves with the whole of `L`, subtree by subtree: `L y = f`, and `L^T x = y` for the columns
+//! whose `x` is not known yet.
 //!
 //! The memory delivers `L` once: that is the time it takes.
 
-use super::factor::{Columns, Factor};
+use super::Columns;
+use super::columns::Supernodes;
 use super::tree::Forest;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -11,7 +13,7 @@ use std::ops::Range;
 const LANES: usize = 8;
 
 /// What of the factor's supernodes may be solved at the same time.
-pub(super) struct Backward {
+pub(crate) struct Triangular {
     /// Ranges of supernodes, ascending.
     subtrees: Vec<Range<usize>>,
     /// The columns of each subtree.
@@ -20,18 +22,18 @@ pub(super) struct Backward {
     tallest: usize,
 }
 
-impl Backward {
+impl Triangular {
     /// The subtrees of a numerical factor.
-    pub(super) fn new(factor: &Factor) -> Self {
-        let Columns::Supernodal(supernodes) = factor.columns() else {
-            return Backward {
+    pub(crate) fn new(columns: &Columns) -> Self {
+        let Columns::Supernodal(supernodes) = columns else {
+            return Triangular {
                 subtrees: Vec::new(),
                 columns: Vec::new(),
                 tallest: 0,
             };
         };
         let n = supernodes.len();
-        let mut of_column = vec![0u32; factor.n()];
+        let mut of_column = vec![0u32; supernodes.n_columns()];
         for s in 0..n {
             of_column[supernodes.columns(s)].fill(s as u32);
         }
@@ -56,7 +58,7 @@ impl Backward {
                 supernodes.columns(range.start).start..supernodes.columns(range.end - 1).end
             })
             .collect();
-        Backward {
+        Triangular {
             subtrees,
             columns,
             tallest: (0..n).map(|s| supernodes.rows(s).len()).max().unwrap_or(0),
@@ -65,14 +67,77 @@ impl Backward {
 
     /// Number of subtrees.
     #[cfg(test)]
-    pub(super) fn n_subtrees(&self) -> usize {
+    pub(crate) fn n_subtrees(&self) -> usize {
         self.subtrees.len()
+    }
+
+    /// The part of a vector that each subtree's columns have.
+    fn pieces<'a>(&self, x: &'a mut [f64]) -> Vec<&'a mut [f64]> {
+        let mut pieces = Vec::with_capacity(self.subtrees.len());
+        let (mut rest, mut taken) = (x, 0);
+        for columns in &self.columns {
+            let (_, tail) = rest.split_at_mut(columns.start - taken);
+            let (piece, tail) = tail.split_at_mut(columns.len());
+            pieces.push(piece);
+            (rest, taken) = (tail, columns.end);
+        }
+        pieces
+    }
+
+    /// `y = L^-1 f` in place. What a subtree adds to the rows above it is summed in the order of the
+    /// subtrees, so the bits are the same for any number of threads.
+    #[cfg(feature = "faer")]
+    pub(crate) fn forward(&self, supernodes: &Supernodes, x: &mut [f64]) {
+        let n = x.len();
+        let pieces = self.pieces(x);
+        let outer: Vec<Vec<f64>> = self
+            .subtrees
+            .par_iter()
+            .zip(&self.columns)
+            .zip(pieces)
+            .map_init(
+                || vec![0.0; self.tallest],
+                |sums, ((range, columns), piece)| {
+                    // Only the rows of the subtree's root are touched.
+                    let mut outer = vec![0.0; n - columns.end];
+                    for s in range.clone() {
+                        eliminate(supernodes, s, columns.start, piece, &mut outer, sums);
+                    }
+                    let root = range.end - 1;
+                    let rows = &supernodes.rows(root)[supernodes.columns(root).len()..];
+                    let outer = rows.iter().map(|&row| outer[row as usize - columns.end]);
+                    outer.collect()
+                },
+            )
+            .collect();
+        for (range, outer) in self.subtrees.iter().zip(outer) {
+            let root = range.end - 1;
+            let rows = &supernodes.rows(root)[supernodes.columns(root).len()..];
+            for (&row, value) in rows.iter().zip(outer) {
+                x[row as usize] += value;
+            }
+        }
+        let mut sums = vec![0.0; self.tallest];
+        let mut next = 0;
+        let ends = self.subtrees.iter().map(|range| (range.start, range.end));
+        for (start, end) in ends.chain([(supernodes.len(), 0)]) {
+            for s in next..start {
+                eliminate(supernodes, s, 0, x, &mut [], &mut sums);
+            }
+            next = end;
+        }
     }
 
     /// Solves in place: on entry `x` holds `y`, but the solution where `known`; a known column's
     /// rows are all known. `above` is workspace of the same length.
-    pub(super) fn solve(&self, factor: &Factor, known: &[bool], x: &mut [f64], above: &mut [f64]) {
-        let supernodes = match factor.columns() {
+    pub(crate) fn backward(
+        &self,
+        columns: &Columns,
+        known: &[bool],
+        x: &mut [f64],
+        above: &mut [f64],
+    ) {
+        let supernodes = match columns {
             Columns::Supernodal(supernodes) => supernodes,
             simplicial => {
                 for j in (0..x.len()).rev().filter(|&j| !known[j]) {
@@ -119,14 +184,7 @@ impl Backward {
             solve(s, 0, x, &[], &mut v);
         }
         above.copy_from_slice(x);
-        let mut pieces = Vec::with_capacity(self.subtrees.len());
-        let (mut rest, mut taken) = (x, 0);
-        for columns in &self.columns {
-            let (_, tail) = rest.split_at_mut(columns.start - taken);
-            let (piece, tail) = tail.split_at_mut(columns.len());
-            pieces.push(piece);
-            (rest, taken) = (tail, columns.end);
-        }
+        let pieces = self.pieces(x);
         let above = &*above;
         self.subtrees
             .par_iter()
@@ -140,6 +198,49 @@ impl Backward {
                     }
                 },
             );
+    }
+}
+
+/// Forward substitution with the columns of a supernode. `x` holds the columns from `first` on, and
+/// `outer` those that follow it.
+#[cfg(feature = "faer")]
+fn eliminate(
+    supernodes: &Supernodes,
+    s: usize,
+    first: usize,
+    x: &mut [f64],
+    outer: &mut [f64],
+    sums: &mut [f64],
+) {
+    let (columns, rows) = (supernodes.columns(s), supernodes.rows(s));
+    let own = &mut x[columns.start - first..columns.end - first];
+    // A load on few freedoms reaches only the columns above them.
+    if own.iter().all(|value| *value == 0.0) {
+        return;
+    }
+    let (width, height) = (columns.len(), rows.len());
+    let sums = &mut sums[..height - width];
+    sums.fill(0.0);
+    for (k, column) in supernodes.values(s).chunks_exact(height).enumerate() {
+        let (done, rest) = own.split_at_mut(k + 1);
+        let value = done[k] / column[k];
+        done[k] = value;
+        let (within, below) = column[k + 1..].split_at(width - k - 1);
+        for (x, l) in rest.iter_mut().zip(within) {
+            *x -= l * value;
+        }
+        for (sum, l) in sums.iter_mut().zip(below) {
+            *sum -= l * value;
+        }
+    }
+    let end = first + x.len();
+    for (&row, &sum) in rows[width..].iter().zip(&*sums) {
+        let row = row as usize;
+        if row < end {
+            x[row - first] += sum;
+        } else {
+            outer[row - end] += sum;
+        }
     }
 }
 

@@ -17,9 +17,7 @@
 
 mod substitution;
 
-use super::factor::{Columns, Factor};
-use super::ordering::Groups;
-use super::panel;
+use super::{Columns, Groups, LowerFactor, panel};
 use crate::error::{Error, Result};
 use crate::linalg::{ContactBlock, ContactStiffness, Partition, blocked};
 use nalgebra::DMatrix;
@@ -66,7 +64,7 @@ struct Work {
 
 /// `L_tt` and its solves.
 #[derive(Debug)]
-pub(super) struct Trailing {
+pub(crate) struct Trailing {
     n_zone: usize,
     /// Trailing columns of the factor (0 is the first of the factored zone) that are kept,
     /// ascending.
@@ -91,8 +89,8 @@ impl Trailing {
     /// Copies the trailing columns out of `factor`, whose groups are contiguous: those of the
     /// contact freedoms, and of the zone those that the freedoms `wanted` need. Returns the zone
     /// freedoms kept (ascending) with it.
-    pub(super) fn extract(
-        factor: &Factor,
+    pub(crate) fn extract(
+        factor: &dyn LowerFactor,
         groups: &Groups,
         partition: &Partition,
         wanted: &[usize],
@@ -243,7 +241,7 @@ impl Trailing {
 
     /// Puts the displacements of zone and contact freedoms on the trailing columns of the factor
     /// that are kept; `known` says which these are.
-    pub(super) fn place(&self, zone: &[f64], contact: &[f64], known: &mut [bool], x: &mut [f64]) {
+    pub(crate) fn place(&self, zone: &[f64], contact: &[f64], known: &mut [bool], x: &mut [f64]) {
         let values = (self.zone.iter().map(|&k| zone[k as usize]))
             .chain(self.contact.iter().map(|&k| contact[k as usize]));
         for (&column, value) in self.kept.iter().zip(values) {
@@ -253,7 +251,7 @@ impl Trailing {
     }
 
     /// `L_cc L_cc' - diag(shift)`, symmetric to the last bit.
-    pub(super) fn contact_stiffness(&self, shift: &[f64]) -> ContactStiffness {
+    pub(crate) fn contact_stiffness(&self, shift: &[f64]) -> ContactStiffness {
         let bodies = self.uncoupled_contact().into_iter();
         let mut number = vec![usize::MAX; self.contact.len()];
         let blocks = bodies.map(|panels| self.contact_block(&panels, shift, &mut number));

@@ -13,7 +13,7 @@ const ALIGNMENT: usize = 1 << 21;
 /// Asks for large pages behind `bytes` of memory that was allocated and not touched yet. Advice
 /// only: a system that has none goes on without.
 #[cfg(target_os = "linux")]
-pub(super) fn prefer_large(start: *mut c_void, bytes: usize) {
+pub(crate) fn prefer_large(start: *mut c_void, bytes: usize) {
     let skipped = start.align_offset(ALIGNMENT);
     let whole = bytes.saturating_sub(skipped) / ALIGNMENT * ALIGNMENT;
     if whole > 0 {
@@ -25,4 +25,4 @@ pub(super) fn prefer_large(start: *mut c_void, bytes: usize) {
 
 /// Asks for nothing where such advice is unknown.
 #[cfg(not(target_os = "linux"))]
-pub(super) fn prefer_large(_: *mut c_void, _: usize) {}
+pub(crate) fn prefer_large(_: *mut c_void, _: usize) {}

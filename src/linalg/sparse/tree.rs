@@ -9,18 +9,18 @@ const LARGEST_SHARE: f64 = 1.0 / 16.0;
 const SMALLEST: u64 = 20_000;
 
 /// A postordered forest: every subtree is a contiguous range that ends with its root.
-pub(super) struct Forest<'a> {
+pub(crate) struct Forest<'a> {
     /// Parent of each node, `usize::MAX` for a root.
-    pub(super) parent: &'a [usize],
+    pub(crate) parent: &'a [usize],
     /// Work of each node.
-    pub(super) work: &'a [u64],
+    pub(crate) work: &'a [u64],
 }
 
 impl Forest<'_> {
     /// Disjoint subtrees, ascending, that hold most of the work between them; what is in none of
     /// them depends on them or they on it. The choice depends on the tree alone, not on the threads
     /// of the machine. Empty where the tree is too small, or not postordered.
-    pub(super) fn subtrees(&self) -> Vec<Range<usize>> {
+    pub(crate) fn subtrees(&self) -> Vec<Range<usize>> {
         let n = self.parent.len();
         let mut first: Vec<usize> = (0..n).collect();
         let mut work = self.work.to_vec();

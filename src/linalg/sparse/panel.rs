@@ -31,12 +31,12 @@ fn strips(width: usize) -> impl DoubleEndedIterator<Item = Range<usize>> {
 }
 
 /// Values of a triangle of `width` columns.
-pub(super) fn triangle_len(width: usize) -> usize {
+pub(crate) fn triangle_len(width: usize) -> usize {
     width * (width + 1) / 2
 }
 
 /// Appends the lower triangle of `width` columns to `out`; `column(k)` starts at its diagonal.
-pub(super) fn store_triangle<'a>(
+pub(crate) fn store_triangle<'a>(
     width: usize,
     column: impl Fn(usize) -> &'a [f64],
     out: &mut Vec<f64>,
@@ -55,7 +55,7 @@ pub(super) fn store_triangle<'a>(
 }
 
 /// Appends the rectangle of `width` columns of `rows` rows to `out`.
-pub(super) fn store_rectangle<'a>(
+pub(crate) fn store_rectangle<'a>(
     rows: usize,
     width: usize,
     column: impl Fn(usize) -> &'a [f64],
@@ -243,7 +243,7 @@ fn solve_upper_by_strips(triangle: &[f64], x: &mut [f64]) {
 }
 
 /// `x = L x`.
-pub(super) fn multiply_lower(triangle: &[f64], x: &mut [f64]) {
+pub(crate) fn multiply_lower(triangle: &[f64], x: &mut [f64]) {
     let mut rest = triangle;
     for strip in strips(x.len()).rev() {
         let (own, below) = x[strip.start..].split_at_mut(strip.len());
@@ -292,7 +292,7 @@ fn subtract_transposed_by_strips(rectangle: &[f64], y: &[f64], x: &mut [f64]) {
 macro_rules! for_this_processor {
     ($(#[$doc:meta])* $name:ident, $wide:ident, $kernel:ident, ($($arg:ident: $type:ty),*)) => {
         $(#[$doc])*
-        pub(super) fn $name($($arg: $type),*) {
+        pub(crate) fn $name($($arg: $type),*) {
             #[cfg(target_arch = "x86_64")]
             if std::arch::is_x86_feature_detected!("avx2") {
                 // SAFETY: the processor has the feature that the function was compiled for.

@@ -1,0 +1,114 @@
+//! The columns of a factor `L`, read where they are.
+
+use std::ops::Range;
+
+/// A column of `L`: its rows, the diagonal first, ascending, and their values.
+pub(crate) struct Column<'a> {
+    pub(crate) rows: &'a [i64],
+    pub(crate) values: &'a [f64],
+}
+
+/// The columns of `L` in either of two storages.
+pub(crate) enum Columns<'a> {
+    /// Dense trapezoids.
+    Supernodal(Supernodes<'a>),
+    /// Compressed columns.
+    #[cfg_attr(not(feature = "cholmod"), allow(dead_code))]
+    Simplicial {
+        starts: &'a [i64],
+        counts: &'a [i64],
+        rows: &'a [i64],
+        values: &'a [f64],
+    },
+}
+
+/// Neighbouring columns that share their rows, as dense trapezoids in a rectangle: each column has
+/// as many values as the supernode has rows, those above the diagonal without meaning.
+pub(crate) struct Supernodes<'a> {
+    /// First column of each, and the number of columns.
+    pub(crate) starts: &'a [i64],
+    /// Where the rows of each begin, and their number.
+    pub(crate) row_starts: &'a [i64],
+    /// Where the values of each begin, and their number.
+    pub(crate) value_starts: &'a [i64],
+    /// Rows of all: those of a supernode ascend and begin with its own columns.
+    pub(crate) rows: &'a [i64],
+    /// Values of all.
+    pub(crate) values: &'a [f64],
+}
+
+impl<'a> Supernodes<'a> {
+    /// Number of supernodes.
+    pub(crate) fn len(&self) -> usize {
+        self.starts.len().saturating_sub(1)
+    }
+
+    /// Number of columns of `L`.
+    pub(crate) fn n_columns(&self) -> usize {
+        self.starts.last().map_or(0, |&n| n as usize)
+    }
+
+    /// Columns of a supernode.
+    pub(crate) fn columns(&self, s: usize) -> Range<usize> {
+        self.starts[s] as usize..self.starts[s + 1] as usize
+    }
+
+    /// Rows of its first column.
+    pub(crate) fn rows(&self, s: usize) -> &'a [i64] {
+        &self.rows[self.row_starts[s] as usize..self.row_starts[s + 1] as usize]
+    }
+
+    /// Values, column by column.
+    pub(crate) fn values(&self, s: usize) -> &'a [f64] {
+        let start = self.value_starts[s] as usize;
+        &self.values[start..start + self.rows(s).len() * self.columns(s).len()]
+    }
+}
+
+impl<'a> Columns<'a> {
+    /// The diagonal of `L`.
+    pub(crate) fn pivots(&self) -> Vec<f64> {
+        match self {
+            Columns::Supernodal(supernodes) => (0..supernodes.len())
+                .flat_map(|s| {
+                    let (values, height) = (supernodes.values(s), supernodes.rows(s).len());
+                    (0..supernodes.columns(s).len()).map(move |k| values[k * height + k])
+                })
+                .collect(),
+            Columns::Simplicial { starts, values, .. } => {
+                starts.iter().map(|&start| values[start as usize]).collect()
+            }
+        }
+    }
+
+    /// Column `j`, wherever it lies in its supernode.
+    pub(crate) fn get(&self, j: usize) -> Column<'a> {
+        match self {
+            Columns::Supernodal(supernodes) => {
+                let s = supernodes
+                    .starts
+                    .partition_point(|&start| start as usize <= j)
+                    - 1;
+                let within = j - supernodes.columns(s).start;
+                let rows = supernodes.rows(s);
+                Column {
+                    rows: &rows[within..],
+                    values: &supernodes.values(s)[within * rows.len() + within..]
+                        [..rows.len() - within],
+                }
+            }
+            Columns::Simplicial {
+                starts,
+                counts,
+                rows,
+                values,
+            } => {
+                let range = starts[j] as usize..(starts[j] + counts[j]) as usize;
+                Column {
+                    rows: &rows[range.clone()],
+                    values: &values[range],
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,329 @@
+//! What the sparse backends share: the mathematics of a factor `P (K + D) P' = L L'` in the order
+//! `[ interior | zone | contact ]`, whichever library computed it.
+//!
+//! ```text
+//!     L = [ L_ii           ]      L_tt = [ L_zz      ]    is the factor of the condensed matrix:
+//!         [ L_zi L_zz      ]             [ L_cz L_cc ]
+//!         [ L_ci L_cz L_cc ]    L_tt L_tt' = K_tt + D - K_ti K_ii^-1 K_it = S + D
+//! ```
+//!
+//! `D = diag(shift)` acts on contact freedoms only, so it enters `L_cc` alone:
+//! `L_cc L_cc' = C + D`.
+//!
+//! # Source
+//! T. A. Davis, *Direct Methods for Sparse Linear Systems*, SIAM 2006, chapter 4,
+//! doi:10.1137/1.9780898718881.
+
+mod columns;
+mod groups;
+mod pages;
+mod panel;
+mod pattern;
+mod supervariables;
+#[cfg(test)]
+pub(crate) mod tests;
+mod trailing;
+mod tree;
+mod triangular;
+
+pub(crate) use columns::{Columns, Supernodes};
+pub(crate) use groups::Groups;
+pub(crate) use pages::prefer_large;
+pub(crate) use pattern::Pattern;
+pub(crate) use supervariables::Supervariables;
+pub(crate) use triangular::Triangular;
+
+use super::{
+    Condensed, ContactStiffness, NotDefinite, Partition, Pivot, Prediction, SymmetricCsc, ZonePart,
+    check, smallest_pivot_ratio,
+};
+use crate::error::{Error, Result};
+use crate::memory;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use trailing::Trailing;
+
+/// A factor `L` of a backend, analysed, and with values once it is computed.
+pub(crate) trait LowerFactor: Send {
+    /// Freedom of each column.
+    fn permutation(&self) -> &[i64];
+
+    /// Nonzeros of each column, from the analysis.
+    fn column_counts(&self) -> &[i64];
+
+    /// Nonzeros of `L`, from the analysis.
+    fn nonzeros(&self) -> f64;
+
+    /// Floating point operations of the factorisation, from the analysis.
+    fn flops(&self) -> f64;
+
+    /// Bytes of the numerical factor with what its computation needs in addition, copies of a
+    /// matrix with `entries` stored entries included.
+    fn bytes(&self, entries: usize) -> f64;
+
+    /// The columns of the numerical factor, to be read one by one.
+    fn columns(&self) -> Columns<'_>;
+
+    /// `L^-1 load` in the order of the factor; `load` is workspace afterwards.
+    ///
+    /// # Errors
+    /// `Analysis` where the memory does not suffice.
+    fn solve_lower<'a>(
+        &'a mut self,
+        triangular: &Triangular,
+        load: &'a mut [f64],
+    ) -> Result<&'a [f64]>;
+}
+
+/// A matrix factored and condensed.
+pub(crate) struct SparseCondensed<F> {
+    /// What was factored.
+    partition: Partition,
+    /// The zone freedoms in use.
+    zone: Vec<usize>,
+    shift: Vec<f64>,
+    pub(crate) trailing: Trailing,
+    solver: Mutex<Solver<F>>,
+    cost: Prediction,
+    weakest: Pivot,
+}
+
+/// The factor and the vectors of its solves.
+pub(crate) struct Solver<F> {
+    pub(crate) factor: F,
+    pub(crate) triangular: Triangular,
+    /// In the order of the factor.
+    load: Vec<f64>,
+    solution: Vec<f64>,
+    known: Vec<bool>,
+}
+
+impl<F: LowerFactor> SparseCondensed<F> {
+    /// Condenses by the numerical factor of a matrix with this `diagonal`, shift included.
+    ///
+    /// # Errors
+    /// [`NotDefinite`] where a pivot is no larger than round-off; `Analysis` where the memory does
+    /// not suffice.
+    pub(crate) fn new(
+        factor: F,
+        diagonal: &[f64],
+        partition: &Partition,
+        shift: &[f64],
+        cost: Prediction,
+    ) -> Result<Self> {
+        let weakest = weakest_pivot(&factor, diagonal);
+        if weakest.ratio <= smallest_pivot_ratio(partition.n) || weakest.ratio.is_nan() {
+            let freedom = weakest.freedom;
+            return Err(NotDefinite { freedom }.into());
+        }
+        let groups = Groups::new(partition);
+        let (trailing, zone) = Trailing::extract(&factor, &groups, partition, &partition.zone)?;
+        Ok(SparseCondensed {
+            trailing,
+            zone,
+            partition: partition.clone(),
+            shift: shift.to_vec(),
+            solver: Mutex::new(Solver {
+                triangular: Triangular::new(&factor.columns()),
+                factor,
+                load: vec![0.0; partition.n],
+                solution: vec![0.0; partition.n],
+                known: vec![false; partition.n],
+            }),
+            cost,
+            weakest,
+        })
+    }
+
+    /// Number of interior freedoms as factored.
+    fn interior(&self) -> usize {
+        self.partition.n - self.partition.zone.len() - self.partition.contact.len()
+    }
+
+    pub(crate) fn solver(&self) -> MutexGuard<'_, Solver<F>> {
+        self.solver.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl<F: LowerFactor> Condensed for SparseCondensed<F> {
+    fn contact_stiffness(&self) -> ContactStiffness {
+        self.trailing.contact_stiffness(&self.shift)
+    }
+
+    fn choose_zone(&mut self, wanted: &[usize]) -> Result<Option<Vec<usize>>> {
+        if !check::contains(&self.partition.zone, wanted) {
+            return Ok(None);
+        }
+        let solver = self.solver();
+        let groups = Groups::new(&self.partition);
+        let chosen = Trailing::extract(&solver.factor, &groups, &self.partition, wanted)?;
+        drop(solver);
+        (self.trailing, self.zone) = chosen;
+        Ok(Some(self.zone.clone()))
+    }
+
+    // y = L^-1 P load has y_i = L_ii^-1 load_i and y_t = L_tt^-1 (load_t - L_ti y_i). Since L_ti
+    // L_ii' = K_ti and L_ii L_ii' = K_ii,
+    //     L_tt y_t = load_t - L_ti L_ii^-1 load_i = load_t - K_ti K_ii^-1 load_i = f_t:
+    // the shift is in L_tt alone, which is divided by and multiplied back.
+    fn reduce_load(&self, load: &[f64]) -> Result<Vec<f64>> {
+        check::length("load", load.len(), self.partition.n)?;
+        let mut solver = self.solver();
+        let solver = &mut *solver;
+        for (value, &freedom) in solver.load.iter_mut().zip(solver.factor.permutation()) {
+            *value = load[freedom as usize];
+        }
+        let reduced = solver
+            .factor
+            .solve_lower(&solver.triangular, &mut solver.load)?;
+        Ok(reduced.to_vec())
+    }
+
+    fn condense_load(&self, reduced: &[f64], zone: &mut [f64], contact: &mut [f64]) -> Result<()> {
+        check::length("reduced load", reduced.len(), self.partition.n)?;
+        check::length("zone load", zone.len(), self.zone.len())?;
+        check::length("contact load", contact.len(), self.partition.contact.len())?;
+        let trailing = &reduced[self.interior()..];
+        self.trailing.condensed_load(trailing, zone, contact);
+        Ok(())
+    }
+
+    fn eliminate_zone(&self, zone: &mut [f64], contact: &mut [f64]) {
+        self.trailing.eliminate_zone(zone, contact);
+    }
+
+    fn recover_zone(&self, zone: &mut [f64], u_contact: &[f64]) {
+        self.recover_part(&ZonePart::default(), zone, u_contact);
+    }
+
+    fn part_of_zone(&self, marked: &[bool]) -> ZonePart {
+        self.trailing.part_of_zone(marked)
+    }
+
+    fn recover_part(&self, part: &ZonePart, zone: &mut [f64], u_contact: &[f64]) {
+        self.trailing.recover_zone(part, zone, u_contact);
+    }
+
+    // L_ii^T u_i = y_i - L_ti^T u_t, since y_i = L_ii^-1 load_i and L_ii L_ti^T = K_it.
+    fn recover_all(&self, reduced: &[f64], zone: &[f64], contact: &[f64]) -> Result<Vec<f64>> {
+        check::length("reduced load", reduced.len(), self.partition.n)?;
+        check::length("zone displacement", zone.len(), self.zone.len())?;
+        let n_contact = self.partition.contact.len();
+        check::length("contact displacement", contact.len(), n_contact)?;
+        let mut solver = self.solver();
+        let Solver {
+            factor,
+            triangular,
+            load,
+            solution,
+            known,
+        } = &mut *solver;
+        solution.copy_from_slice(reduced);
+        known.fill(false);
+        let interior = self.interior();
+        self.trailing.place(
+            zone,
+            contact,
+            &mut known[interior..],
+            &mut solution[interior..],
+        );
+        triangular.backward(&factor.columns(), known, solution, load);
+        let mut u = vec![0.0; self.partition.n];
+        for (&freedom, value) in factor.permutation().iter().zip(&*solution) {
+            u[freedom as usize] = *value;
+        }
+        Ok(u)
+    }
+
+    fn cost(&self) -> Prediction {
+        self.cost
+    }
+
+    fn weakest_pivot(&self) -> Pivot {
+        self.weakest
+    }
+}
+
+/// The diagonal of `matrix + diag(shift)`.
+pub(crate) fn shifted_diagonal(
+    matrix: &SymmetricCsc,
+    partition: &Partition,
+    shift: &[f64],
+) -> Vec<f64> {
+    let ends = &matrix.proper_indptr()[1..];
+    let values = ends.iter().map(|&end| matrix.data()[end as usize - 1]);
+    let mut diagonal: Vec<f64> = values.collect();
+    for (&freedom, d) in partition.contact.iter().zip(shift) {
+        diagonal[freedom] += d;
+    }
+    diagonal
+}
+
+/// Refuses a factorisation that does not fit, before it is tried.
+///
+/// # Errors
+/// `Analysis` with both numbers.
+pub(crate) fn require_memory(cost: &Prediction, matrix: &SymmetricCsc) -> Result<()> {
+    // The matrix itself is there already.
+    let needed = cost.memory_bytes - 16.0 * matrix.nnz() as f64;
+    let what = format!("factorisation of {} freedoms", matrix.rows());
+    memory::require(&what, needed)
+}
+
+/// Checks that an order keeps the groups apart, as everything here relies on.
+///
+/// # Errors
+/// `Internal` where it does not.
+pub(crate) fn require_groups(groups: &Groups, permutation: &[i64], name: &str) -> Result<()> {
+    if groups.are_contiguous(permutation) {
+        return Ok(());
+    }
+    Err(Error::internal(format!(
+        "the order found by {name} mixes interior, zone and contact freedoms"
+    )))
+}
+
+/// The figures of an analysed factor.
+pub(crate) fn prediction(
+    factor: &dyn LowerFactor,
+    name: &'static str,
+    matrix: &SymmetricCsc,
+    groups: &Groups,
+) -> Prediction {
+    let [_, first_trailing, first_contact, n] = groups.starts();
+    let trailing: i64 = factor.column_counts()[first_trailing..].iter().sum();
+    let entries = matrix.nnz();
+    // Contact columns of a body are coupled with one another, all of them, and with no others: half
+    // of each block.
+    let of_contact: i64 = factor.column_counts()[first_contact..].iter().sum();
+    let blocks = 2.0 * of_contact as f64 - (n - first_contact) as f64;
+    Prediction {
+        ordering: name,
+        factor_nonzeros: factor.nonzeros(),
+        flops: factor.flops(),
+        trailing_nonzeros: trailing as f64,
+        // The matrix as given (16 bytes an entry), the factor with its own needs; after it the
+        // trailing copy, condensed stiffness and vectors, smaller than what is gone by then or
+        // added here.
+        memory_bytes: 16.0 * entries as f64
+            + factor.bytes(entries)
+            + 8.0 * trailing as f64
+            + 8.0 * 3.0 * blocks
+            + 8.0 * 8.0 * n as f64,
+    }
+}
+
+/// The smallest `l_jj^2 / a_jj`, the first of equals in the order of elimination.
+fn weakest_pivot(factor: &dyn LowerFactor, diagonal: &[f64]) -> Pivot {
+    let mut weakest = Pivot {
+        freedom: 0,
+        ratio: f64::INFINITY,
+    };
+    for (&freedom, pivot) in factor.permutation().iter().zip(factor.columns().pivots()) {
+        let freedom = freedom as usize;
+        let ratio = pivot * pivot / diagonal[freedom];
+        if ratio < weakest.ratio || ratio.is_nan() {
+            weakest = Pivot { freedom, ratio };
+        }
+    }
+    weakest
+}
