@@ -59,7 +59,7 @@ run: setup ## Run a scene (SCENE=..., ARGS=...)
 # in Rust alone, and with the dense backend only, fast subsets show.
 test: lint python-tests ## Format, lints, documentation and all tests
 	@cargo test --features capi,faer
-	cargo test --no-default-features --features faer --test cli --test stability --test cost
+	cargo test --no-default-features --features faer --test cli --test cost
 	cargo test --no-default-features --lib --bins --test cli
 
 lint: setup ## Format, clippy and documentation, warnings are errors
