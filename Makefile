@@ -75,7 +75,7 @@ test-all: test python-tests ## All tests, builds with other features, documentat
 	@cargo test --features capi,faer -- $(LONG)
 	cargo clippy --no-default-features --all-targets -- -D warnings
 	cargo clippy --no-default-features --features faer,cli --all-targets -- -D warnings
-	cargo test --no-default-features --features faer,cli --test cli --test stability --test cost
+	cargo test --no-default-features --features faer,cli --test cli --test cost
 	cargo test --no-default-features --features cli --lib --bins --test cli
 	RUSTDOCFLAGS="-D warnings" cargo doc --features capi,faer --no-deps --quiet
 

@@ -33,14 +33,20 @@ fn limited(limits: &str, arguments: &[&str]) -> (Option<i32>, String) {
 )]
 fn too_little_memory_is_exit_code_5_with_the_size_asked_for() {
     let scene = scene("cylinder_on_half_plane");
-    for megabytes in [120, 135, 150, 175, 200, 250, 300, 350] {
+    // A BLAS takes a work buffer as it is loaded; without one less suffices.
+    let first: &[u64] = if cfg!(feature = "cholmod") {
+        &[120]
+    } else {
+        &[40, 60, 80, 100, 120]
+    };
+    for &megabytes in first.iter().chain(&[135, 150, 175, 200, 250, 300, 350]) {
         let folder = tempfile::tempdir().unwrap();
         let out = folder.path().join("out");
         let limits = format!("-v {}", megabytes * 1024);
         let arguments = ["run", &scene, "-q", "--out", out.to_str().unwrap()];
         let (code, stderr) = limited(&limits, &arguments);
         if code == Some(0) {
-            assert!(megabytes > 120, "{megabytes} MB suffice?");
+            assert!(megabytes > first[0], "{megabytes} MB suffice?");
             continue;
         }
         assert_eq!(code, Some(5), "{megabytes} MB: {stderr}");

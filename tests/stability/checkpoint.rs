@@ -263,7 +263,11 @@ fn what_is_not_the_same_run_is_refused_by_name() {
         .unwrap()
         .resume(&copy(&dir, &other), &mut Silent);
     if Backend::default() != Backend::Dense {
-        refused(dense, ErrorKind::Input, &["solver", "cholmod", "dense"]);
+        refused(
+            dense,
+            ErrorKind::Input,
+            &["solver", Backend::default().name(), "dense"],
+        );
     }
     let nothing = folder.path().join("nothing");
     refused(

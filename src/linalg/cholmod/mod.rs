@@ -1,6 +1,6 @@
 //! CHOLMOD backend: the sparse factor by SuiteSparse, supernodal, in the arithmetic of a BLAS.
 //!
-//! What is done with the factor stands in [`super::sparse`]. Only `common`, `matrix`, `ordering`,
+//! What is done with the factor stands in `linalg::sparse`. Only `common`, `matrix`, `ordering`,
 //! `factor`, `blas` and `openmp` call C.
 //!
 //! The same BLAS with the same number of threads gives the same bits in every run; another number

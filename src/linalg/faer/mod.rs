@@ -1,7 +1,7 @@
 //! faer backend: the sparse factor in Rust alone, without a library of the system and under
 //! permissive licences.
 //!
-//! What is done with the factor stands in [`super::sparse`]. It is computed on one thread, so all
+//! What is done with the factor stands in `linalg::sparse`. It is computed on one thread, so all
 //! results have the same bits for any number of threads; the solves share their work as with
 //! CHOLMOD.
 //!

@@ -22,7 +22,9 @@ use crate::linalg::sparse::{Groups, Pattern, Supervariables};
 use feral_metis::{CscPattern, OrderingError};
 
 /// The second candidate is tried where the first needs more than this many operations per stored
-/// entry of the matrix: below, finding the other order takes longer than it could save.
+/// entry of the matrix: below, finding the other order takes longer than it could save. Dissection
+/// takes some 10 microseconds a vertex, as long as 7,000 operations per entry, and saves about a
+/// third of them in plane meshes, two thirds in solid ones.
 const TRY_DISSECTION_ABOVE: f64 = 20_000.0;
 
 /// How the order is found.
