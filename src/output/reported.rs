@@ -8,10 +8,10 @@ use crate::results::Results;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// As [`write_without_report`], with `report.html` and the figures of the report as SVG files.
+/// As [`super::write_without_report`], with `report.html` and the figures of the report as SVG files.
 ///
 /// # Errors
-/// As [`write()`]; `Internal` where a figure cannot be drawn.
+/// As [`super::write()`]; `Internal` where a figure cannot be drawn.
 pub fn write_with_report(
     dir: &Path,
     header: &RunHeader,
