@@ -7,6 +7,68 @@ use std::f64::consts::PI;
 /// A vector in space; of a plane model the third component is zero.
 pub type Vector = [f64; 3];
 
+/// The components of a vector as they are given: two in the plane, three in space.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(try_from = "Vec<f64>", into = "Vec<f64>")]
+#[schemars(with = "Vec<f64>", extend("minItems" = 2, "maxItems" = 3))]
+pub struct Components {
+    vector: Vector,
+    count: usize,
+}
+
+impl Components {
+    /// The vector; z = 0 where two components are given.
+    pub fn vector(&self) -> Vector {
+        self.vector
+    }
+
+    /// How many are given.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Each component, as many as are given.
+    pub fn iter(&self) -> impl Iterator<Item = f64> {
+        self.vector.into_iter().take(self.count)
+    }
+}
+
+impl From<[f64; 2]> for Components {
+    fn from(plane: [f64; 2]) -> Self {
+        Components {
+            vector: in_space(plane),
+            count: 2,
+        }
+    }
+}
+
+impl From<Vector> for Components {
+    fn from(vector: Vector) -> Self {
+        Components { vector, count: 3 }
+    }
+}
+
+impl TryFrom<Vec<f64>> for Components {
+    type Error = String;
+
+    fn try_from(given: Vec<f64>) -> Result<Self, String> {
+        match given[..] {
+            [x, y] => Ok([x, y].into()),
+            [x, y, z] => Ok([x, y, z].into()),
+            _ => Err(format!(
+                "{} numbers: a vector has 2 components, in a solid model 3",
+                given.len()
+            )),
+        }
+    }
+}
+
+impl From<Components> for Vec<f64> {
+    fn from(components: Components) -> Self {
+        components.iter().collect()
+    }
+}
+
 /// The dimension and idealisation of a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -18,6 +80,8 @@ pub enum Space {
     PlaneStress,
     /// Coordinates are (r, z), x = 0 is the axis; forces are totals over the full circle.
     Axisymmetric,
+    /// Three coordinates.
+    Solid,
 }
 
 /// A motion of a body that does not deform it.
@@ -31,14 +95,20 @@ pub enum RigidMotion {
 
 impl Space {
     /// All of them.
-    pub const ALL: [Space; 3] = [Space::PlaneStrain, Space::PlaneStress, Space::Axisymmetric];
+    pub const ALL: [Space; 4] = [
+        Space::PlaneStrain,
+        Space::PlaneStress,
+        Space::Axisymmetric,
+        Space::Solid,
+    ];
 
-    /// The name in scenes and results: `plane_strain`, `plane_stress`, `axisymmetric`.
+    /// The name in scenes and results: `plane_strain`, `plane_stress`, `axisymmetric`, `solid`.
     pub fn name(self) -> &'static str {
         match self {
             Space::PlaneStrain => "plane_strain",
             Space::PlaneStress => "plane_stress",
             Space::Axisymmetric => "axisymmetric",
+            Space::Solid => "solid",
         }
     }
 
@@ -52,21 +122,26 @@ impl Space {
         self == Space::Axisymmetric
     }
 
+    /// Whether bodies are three-dimensional.
+    pub fn is_solid(self) -> bool {
+        self == Space::Solid
+    }
+
     /// Names of the coordinates.
     pub fn axes(self) -> &'static [&'static str] {
-        if self.is_axisymmetric() {
-            &["r", "z"]
-        } else {
-            &["x", "y"]
+        match self {
+            Space::PlaneStrain | Space::PlaneStress => &["x", "y"],
+            Space::Axisymmetric => &["r", "z"],
+            Space::Solid => &["x", "y", "z"],
         }
     }
 
     /// Names of the components of stress, in their order.
     pub fn components(self) -> &'static [&'static str] {
-        if self.is_axisymmetric() {
-            &["rr", "zz", "tt", "rz"]
-        } else {
-            &["xx", "yy", "zz", "xy"]
+        match self {
+            Space::PlaneStrain | Space::PlaneStress => &["xx", "yy", "zz", "xy"],
+            Space::Axisymmetric => &["rr", "zz", "tt", "rz"],
+            Space::Solid => &["xx", "yy", "zz", "xy", "yz", "zx"],
         }
     }
 
@@ -84,10 +159,10 @@ impl Space {
     /// The rigid motions that the idealisation leaves a body.
     pub fn rigid_motions(self) -> &'static [RigidMotion] {
         use RigidMotion::{About, Along};
-        if self.is_axisymmetric() {
-            &[Along(1)]
-        } else {
-            &[Along(0), Along(1), About(2)]
+        match self {
+            Space::PlaneStrain | Space::PlaneStress => &[Along(0), Along(1), About(2)],
+            Space::Axisymmetric => &[Along(1)],
+            Space::Solid => &[Along(0), Along(1), Along(2), About(0), About(1), About(2)],
         }
     }
 }
@@ -104,7 +179,7 @@ impl RigidMotion {
 }
 
 /// The unit vector along an axis.
-fn unit(axis: usize) -> Vector {
+pub fn unit(axis: usize) -> Vector {
     let mut out = [0.0; 3];
     out[axis] = 1.0;
     out
@@ -125,6 +200,32 @@ pub fn length(a: Vector) -> f64 {
     a[0].hypot(a[1]).hypot(a[2])
 }
 
+/// A vector of length 1; zero where there is no direction.
+pub fn direction(a: Vector) -> Vector {
+    let length = length(a);
+    if length > 0.0 {
+        a.map(|a| a / length)
+    } else {
+        [0.0; 3]
+    }
+}
+
+/// `a - b`
+pub fn difference(a: Vector, b: Vector) -> Vector {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// `a + t b`
+pub fn along(a: Vector, t: f64, b: Vector) -> Vector {
+    [a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]]
+}
+
+/// The first components of a vector: `(x, y)` or `(x, y, z)`.
+pub fn in_words(vector: Vector, dimension: usize) -> String {
+    let words: Vec<String> = vector.iter().take(dimension).map(f64::to_string).collect();
+    format!("({})", words.join(", "))
+}
+
 /// `a x b`
 pub fn cross(a: Vector, b: Vector) -> Vector {
     [
@@ -141,8 +242,9 @@ mod tests {
     #[test]
     fn each_space_has_a_name_per_coordinate_and_component() {
         for space in Space::ALL {
-            assert_eq!(space.dimension(), 2);
-            assert_eq!(space.components().len(), 4);
+            let dimension = if space.is_solid() { 3 } else { 2 };
+            assert_eq!(space.dimension(), dimension);
+            assert_eq!(space.components().len(), 2 * dimension);
             let text = serde_json::to_string(&space).unwrap();
             assert_eq!(text, format!("{:?}", space.name()));
         }
@@ -153,8 +255,9 @@ mod tests {
     /// A rigid motion changes no distance to first order, and stays where the model lives.
     #[test]
     fn rigid_motions_do_not_stretch() {
-        let points = [[0.3, -0.7], [2.0, 1.1], [-0.4, 0.9]].map(in_space);
         for space in Space::ALL {
+            let points = [[0.3, -0.7, 0.2], [2.0, 1.1, 1.0], [-0.4, 0.9, -0.6]]
+                .map(|[x, y, z]| [x, y, if space.is_solid() { z } else { 0.0 }]);
             for motion in space.rigid_motions() {
                 for (a, b) in [(0, 1), (1, 2), (2, 0)] {
                     let [p, q] = [points[a], points[b]];

@@ -3,12 +3,13 @@
 use super::indicator::indicator;
 use super::measure::pair_states;
 use super::reading::Reading;
-use super::stress_field::StressField;
+use super::stress_field::{OfStresses, StressField};
 use super::stresses::Stresses;
 use crate::error::Result;
 use crate::model::{Magnitude, Model, Slot};
 use crate::results::{Fields, State};
 use crate::scene::History;
+use crate::space::Vector;
 use rayon::prelude::*;
 use std::time::Instant;
 
@@ -31,14 +32,12 @@ impl Reading<'_, '_> {
         let displacements = self.displacements()?;
         let u = &displacements.total;
         let begun = Instant::now();
-        let field = self.stress_field(displacements.deformation());
-        let stresses = Stresses::new(&field);
-        let errors = with_fields.then(|| indicator(&field));
-        let energy_error = errors.as_ref().map(|errors| errors.total);
-        let fields = errors.map(|errors| {
-            let nodal = field.model.nodal(u, &self.solver.at.factors);
-            fields(&field, nodal, errors.by_element)
+        let nodal = with_fields.then(|| {
+            let factors = &self.solver.at.factors;
+            self.solver.structure.model.nodal(u, factors)
         });
+        let reported = self.of_stresses(displacements.deformation(), Reported { nodal });
+        let (stresses, energy_error, fields) = reported;
         let stress_seconds = begun.elapsed().as_secs_f64();
         let figures = self.solver.contact_figures();
         let dent = self.dent();
@@ -120,19 +119,46 @@ impl Reading<'_, '_> {
     }
 }
 
+/// Asks a field for all that is reported of it: sums, and with the displacements of the nodes the
+/// estimated error and the fields on the whole mesh.
+struct Reported {
+    nodal: Option<Vec<Vector>>,
+}
+
+impl OfStresses for Reported {
+    type Answer = (Stresses, Option<f64>, Option<Fields>);
+
+    fn of<const D: usize, const S: usize, const P: usize, const N: usize>(
+        self,
+        field: &StressField<D, S, P, N>,
+    ) -> Self::Answer {
+        let stresses = Stresses::new(field);
+        let Some(nodal) = self.nodal else {
+            return (stresses, None, None);
+        };
+        let errors = indicator(field);
+        let fields = fields(field, nodal, errors.by_element);
+        (stresses, Some(errors.total), Some(fields))
+    }
+}
+
 /// Fields on the whole mesh, for the displacements of its nodes and the error of its elements.
-fn fields(field: &StressField, nodal: Vec<[f64; 2]>, error: Vec<f64>) -> Fields {
+fn fields<const D: usize, const S: usize, const P: usize, const N: usize>(
+    field: &StressField<D, S, P, N>,
+    nodal: Vec<Vector>,
+    error: Vec<f64>,
+) -> Fields {
     let n = field.model.mesh.n_elements();
     let mut out = Fields {
-        displacement: nodal.into_iter().flatten().collect(),
-        stress: vec![0.0; 4 * n],
+        displacement: nodal.iter().flat_map(|u| &u[..D]).copied().collect(),
+        stress: vec![0.0; S * n],
         von_mises: vec![0.0; n],
         plastic_strain: vec![0.0; n],
         yielded: vec![0; n],
         error,
     };
     let elements = (
-        out.stress.par_chunks_exact_mut(4),
+        out.stress.par_chunks_exact_mut(S),
         &mut out.von_mises,
         &mut out.plastic_strain,
         &mut out.yielded,
@@ -155,7 +181,7 @@ fn contact_arc(model: &Model, contact: usize, [from, to]: [f64; 2]) -> Option<[f
     let (center, _) = surface.circle?;
     let pairs = &model.pairs[surface.range.clone()];
     let angle_of = |k: usize| {
-        let x = model.mesh.point(pairs[k].second);
+        let x = model.mesh.in_plane(pairs[k].second);
         (x[1] - center[1]).atan2(x[0] - center[0]).to_degrees()
     };
     let angle_at = |arc: f64| {
@@ -215,7 +241,7 @@ mod tests {
     fn between(model: &Model, a: usize, b: usize) -> f64 {
         let (center, radius) = model.contacts[0].circle.unwrap();
         let radii = [a, b].map(|k| {
-            let x = model.mesh.point(model.pairs[k].second);
+            let x = model.mesh.in_plane(model.pairs[k].second);
             [x[0] - center[0], x[1] - center[1]]
         });
         let [p, q] = radii;

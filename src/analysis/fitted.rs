@@ -107,7 +107,11 @@ impl FittedStrains {
 
     /// The displacements of the nodes in global axes, for the values of a `Nodal`.
     pub fn displacements(&self, nodal: &[f64]) -> Vec<[f64; 2]> {
-        self.nodes.iter().map(|node| node.of(nodal)).collect()
+        let in_plane = |node: &NodalPlaces| {
+            let [x, y, _] = node.of(nodal);
+            [x, y]
+        };
+        self.nodes.iter().map(in_plane).collect()
     }
 
     /// The strain `[xx, yy, zz, xy]` of an element at its centroid; `None` where it is not fitted.
@@ -134,7 +138,7 @@ impl FittedStrains {
 /// What the displacements of nodes count in the quadratic fit at the centroid of a triangle; `None`
 /// where they do not determine it.
 fn terms(model: &Model, element: usize, nodes: Vec<u32>) -> Option<Vec<Term>> {
-    let own = model.element_coordinates(element);
+    let own = model.element_coordinates::<2, 8>(element);
     let mean = |d: usize| own[..3].iter().map(|x| x[d]).sum::<f64>() / 3.0;
     let extent = |d: usize| {
         let along = own[..3].iter().map(|x| x[d]);
@@ -142,7 +146,7 @@ fn terms(model: &Model, element: usize, nodes: Vec<u32>) -> Option<Vec<Term>> {
     };
     let (centroid, size) = ([mean(0), mean(1)], [extent(0), extent(1)]);
     let monomials = |node: u32| {
-        let at = model.mesh.point(node as usize);
+        let at = model.mesh.in_plane(node as usize);
         let [x, y] = [0, 1].map(|d| (at[d] - centroid[d]) / size[d]);
         SVector::<f64, N>::from([1.0, x, y, x * x, x * y, y * y])
     };
@@ -204,7 +208,7 @@ mod tests {
             };
             let mut zone = vec![0.0; n];
             for node in 0..mesh.n_nodes() {
-                let (u, axes) = (field(mesh.point(node)), model.freedoms.local(node));
+                let (u, axes) = (field(mesh.in_plane(node)), model.freedoms.local(node));
                 for (slot, axis) in model.freedoms.slots[node].iter().zip(axes) {
                     let along = u[0] * axis[0] + u[1] * axis[1];
                     match *slot {
@@ -231,7 +235,7 @@ mod tests {
             let mut nodal = Nodal::new(&model, &places);
             let moved = fitted.displacements(nodal.displacements(&u));
             for &e in &elements {
-                let nodes = mesh.nodes(e).iter().map(|n| mesh.point(*n as usize));
+                let nodes = mesh.nodes(e).iter().map(|n| mesh.in_plane(*n as usize));
                 let mean = |d: usize| nodes.clone().map(|x| x[d]).sum::<f64>() / 3.0;
                 let (x, y) = (mean(0), mean(1));
                 let hoop = match scene.kind {

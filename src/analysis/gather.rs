@@ -1,7 +1,7 @@
 //! Where the freedoms of a list of elements find displacements, and leave forces.
 
-use crate::model::{Model, Slot};
-use crate::shape::MAX_NODES;
+use crate::model::{Frame, Model, Slot};
+use crate::space::Vector;
 use crate::substructure::Trailing;
 
 /// Position of every freedom of the model in a [`Nodal`] vector.
@@ -103,12 +103,11 @@ impl Nodal {
     }
 }
 
-/// Where the displacements of a node stand in a [`Nodal`] vector, and along which axes they are:
-/// `u_x = a_0 u_0 - a_1 u_1`, `u_y = a_1 u_0 + a_0 u_1`.
+/// Where the displacements of a node stand in a [`Nodal`] vector, and along which axes they are.
 #[derive(Debug, Clone, Copy)]
 pub struct NodalPlaces {
-    places: [u32; 2],
-    axis: [f64; 2],
+    places: [u32; 3],
+    frame: Option<Frame>,
 }
 
 impl NodalPlaces {
@@ -121,17 +120,39 @@ impl NodalPlaces {
             Slot::Fixed => fixed,
             Slot::Prescribed(p) => none + p,
         };
+        let freedoms = &model.freedoms;
         NodalPlaces {
-            places: model.freedoms.slots[node].map(of),
-            axis: model.freedoms.local(node)[0],
+            places: freedoms.slots[node].map(of),
+            frame: freedoms.is_turned(node).then(|| freedoms.local(node)),
         }
     }
 
     /// The displacement of the node in global axes.
-    pub fn of(&self, nodal: &[f64]) -> [f64; 2] {
-        let ([u, v], [a, b]) = (self.places.map(|place| nodal[place as usize]), self.axis);
-        [a * u - b * v, b * u + a * v]
+    pub fn of(&self, nodal: &[f64]) -> Vector {
+        let values = self.places.map(|place| nodal[place as usize]);
+        match &self.frame {
+            Some(frame) => in_global_axes(values, frame),
+            None => values,
+        }
     }
+}
+
+/// `sum u_i a_i`, its first D components.
+#[inline]
+fn in_global_axes<const D: usize>(local: [f64; D], frame: &Frame) -> [f64; D] {
+    std::array::from_fn(|d| {
+        let rest = (1..D).map(|i| local[i] * frame[i][d]);
+        rest.fold(local[0] * frame[0][d], |sum, term| sum + term)
+    })
+}
+
+/// `a_i . f`.
+#[inline]
+fn in_local_axes<const D: usize>(global: [f64; D], frame: &Frame) -> [f64; D] {
+    std::array::from_fn(|i| {
+        let rest = (1..D).map(|d| global[d] * frame[i][d]);
+        rest.fold(global[0] * frame[i][0], |sum, term| sum + term)
+    })
 }
 
 /// An element: where its places begin.
@@ -141,7 +162,7 @@ pub struct Packed {
     pub element: u32,
     /// Body.
     pub body: u32,
-    n_nodes: u8,
+    n_places: u8,
     first_place: usize,
     turns: (u32, u32),
 }
@@ -150,7 +171,7 @@ pub struct Packed {
 #[derive(Debug, Clone, Copy)]
 struct Turn {
     node: u8,
-    axis: [f64; 2],
+    frame: Frame,
 }
 
 /// Elements one after the other.
@@ -177,20 +198,19 @@ impl GatheredElements {
         let first_turn = self.turns.len() as u32;
         let first_place = self.places.len();
         let nodes = model.mesh.nodes(element);
+        let per_node = model.freedoms.per_node;
         for (i, &node) in nodes.iter().enumerate() {
-            let NodalPlaces { places, axis } = NodalPlaces::new(model, places, node as usize);
-            self.places.extend(places);
-            if axis != [1.0, 0.0] {
-                self.turns.push(Turn {
-                    node: i as u8,
-                    axis,
-                });
-            }
+            let NodalPlaces { places, frame } = NodalPlaces::new(model, places, node as usize);
+            self.places.extend(&places[..per_node]);
+            self.turns.extend(frame.map(|frame| Turn {
+                node: i as u8,
+                frame,
+            }));
         }
         self.list.push(Packed {
             element: element as u32,
             body: model.mesh.element_body[element],
-            n_nodes: nodes.len() as u8,
+            n_places: (per_node * nodes.len()) as u8,
             first_place,
             turns: (first_turn, self.turns.len() as u32),
         });
@@ -203,9 +223,13 @@ impl GatheredElements {
 
     /// Displacements of the nodes of element `i` in global axes, for the values of a [`Nodal`].
     #[inline]
-    pub fn displacements(&self, i: usize, nodal: &[f64]) -> [[f64; 2]; MAX_NODES] {
+    pub fn displacements<const D: usize, const N: usize>(
+        &self,
+        i: usize,
+        nodal: &[f64],
+    ) -> [[f64; D]; N] {
         let packed = &self.list[i];
-        let mut out = [[0.0; 2]; MAX_NODES];
+        let mut out = [[0.0; D]; N];
         for (u, &place) in out
             .as_flattened_mut()
             .iter_mut()
@@ -214,19 +238,24 @@ impl GatheredElements {
             *u = nodal[place as usize];
         }
         for turn in self.turns_of(packed) {
-            let ([u, v], [a, b]) = (&mut out[usize::from(turn.node)], turn.axis);
-            (*u, *v) = (a * *u - b * *v, b * *u + a * *v);
+            let u = &mut out[usize::from(turn.node)];
+            *u = in_global_axes(*u, &turn.frame);
         }
         out
     }
 
     /// Adds forces on the nodes of element `i`, in global axes, to nodal sums.
-    pub fn scatter(&self, i: usize, force: &[[f64; 2]; MAX_NODES], sums: &mut [f64]) {
+    pub fn scatter<const D: usize, const N: usize>(
+        &self,
+        i: usize,
+        force: &[[f64; D]; N],
+        sums: &mut [f64],
+    ) {
         let packed = &self.list[i];
         let mut force = *force;
         for turn in self.turns_of(packed) {
-            let ([f, g], [a, b]) = (&mut force[usize::from(turn.node)], turn.axis);
-            (*f, *g) = (a * *f + b * *g, a * *g - b * *f);
+            let f = &mut force[usize::from(turn.node)];
+            *f = in_local_axes(*f, &turn.frame);
         }
         for (&place, f) in self.places_of(packed).iter().zip(force.as_flattened()) {
             sums[place as usize] += f;
@@ -243,7 +272,7 @@ impl GatheredElements {
     }
 
     fn places_of(&self, packed: &Packed) -> &[u32] {
-        &self.places[packed.first_place..][..2 * usize::from(packed.n_nodes)]
+        &self.places[packed.first_place..][..usize::from(packed.n_places)]
     }
 
     fn turns_of(&self, packed: &Packed) -> &[Turn] {
@@ -254,7 +283,7 @@ impl GatheredElements {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::element::Components;
+    use crate::element::{Components, Kernel};
     use crate::scene::Scene;
 
     /// Gathered displacements and scattered forces against the model's own axes and slots, on
@@ -288,7 +317,7 @@ mod tests {
             let mut turned = 0;
             for (i, &e) in elements.iter().enumerate() {
                 turned += gathered.turns_of(&gathered.list[i]).len();
-                let moved = gathered.displacements(i, &values);
+                let moved = gathered.displacements::<2, 8>(i, &values);
                 for (u, &node) in moved.iter().zip(model.mesh.nodes(e)) {
                     let expected = model
                         .freedoms
@@ -297,7 +326,7 @@ mod tests {
                         assert!((a - b).abs() <= 4.0 * f64::EPSILON, "{name} {e}");
                     }
                 }
-                let gradients = model.gradients(e);
+                let gradients = model.gradients(&Kernel::plane(model.kind), e);
                 let strains = gradients.strains(&moved);
                 let stress: Components =
                     std::array::from_fn(|c| std::array::from_fn(|g| c as f64 - 2.0 + g as f64));

@@ -39,8 +39,16 @@ pub(super) struct Indicator {
 }
 
 /// The indicator of a stress field.
-pub(super) fn indicator(field: &StressField) -> Indicator {
+pub(super) fn indicator<const D: usize, const S: usize, const P: usize, const N: usize>(
+    field: &StressField<D, S, P, N>,
+) -> Indicator {
     let model = field.model;
+    if D == 3 {
+        return Indicator {
+            by_element: vec![0.0; model.mesh.n_elements()],
+            total: 0.0,
+        };
+    }
     let neighbours = Neighbours::new(model);
     let samples = Samples::new(field);
     let energies: Vec<[f64; 2]> = (0..model.mesh.n_elements())
@@ -106,20 +114,20 @@ impl Neighbours {
 }
 
 /// Stress at a superconvergent point.
-#[derive(Clone, Copy, Default)]
-struct Sample {
-    position: [f64; 2],
-    stress: [f64; 4],
+#[derive(Clone, Copy)]
+struct Sample<const D: usize, const S: usize> {
+    position: [f64; D],
+    stress: [f64; S],
 }
 
 /// The samples of all elements, element by element.
-struct Samples {
+struct Samples<const D: usize, const S: usize> {
     first: Vec<u32>,
-    list: Vec<Sample>,
+    list: Vec<Sample<D, S>>,
 }
 
-impl Samples {
-    fn new(field: &StressField) -> Self {
+impl<const D: usize, const S: usize> Samples<D, S> {
+    fn new<const P: usize, const N: usize>(field: &StressField<D, S, P, N>) -> Self {
         let (model, mesh) = (field.model, &field.model.mesh);
         let mut first = vec![0u32];
         for (e, shape) in mesh.shapes.iter().enumerate() {
@@ -129,7 +137,11 @@ impl Samples {
             };
             first.push(first[e] + own as u32);
         }
-        let mut list = vec![Sample::default(); first[mesh.n_elements()] as usize];
+        let none = Sample {
+            position: [0.0; D],
+            stress: [0.0; S],
+        };
+        let mut list = vec![none; first[mesh.n_elements()] as usize];
         let mut of_elements = Vec::with_capacity(mesh.n_elements());
         let mut rest = list.as_mut_slice();
         for e in 0..mesh.n_elements() {
@@ -145,7 +157,7 @@ impl Samples {
         Samples { first, list }
     }
 
-    fn of(&self, element: u32) -> &[Sample] {
+    fn of(&self, element: u32) -> &[Sample<D, S>] {
         let e = element as usize;
         &self.list[self.first[e] as usize..self.first[e + 1] as usize]
     }
@@ -153,7 +165,12 @@ impl Samples {
 
 /// The centre of a linear element carries its mean, the Gauss points of a quadratic one are
 /// superconvergent themselves.
-fn sample(model: &Model, e: usize, element: &ElementStress, out: &mut [Sample]) {
+fn sample<const D: usize, const S: usize, const P: usize, const N: usize>(
+    model: &Model,
+    e: usize,
+    element: &ElementStress<D, S, P, N>,
+    out: &mut [Sample<D, S>],
+) {
     let (gradients, stress) = (&element.gradients, &element.stress);
     let position = gradients.positions(&model.element_coordinates(e));
     if let [mean] = out {
@@ -211,13 +228,18 @@ const TRIANGLE: [([f64; 2], f64); 6] = {
 };
 
 /// A point of the quadrature: where, its weight, and `sigma_h` there.
-type Point = ([f64; 2], f64, [f64; 4]);
+type Point<const D: usize, const S: usize> = ([f64; D], f64, [f64; S]);
 
 /// Calls `visit` for each point at which the stresses are compared. Quadratic elements have their
 /// stress at the Gauss points, where it is superconvergent and its error all but vanishes: between
 /// them it is the polynomial through them.
-fn quadrature(model: &Model, e: usize, element: &ElementStress, mut visit: impl FnMut(Point)) {
-    let coordinates = model.element_coordinates(e);
+fn quadrature<const D: usize, const S: usize, const P: usize, const N: usize>(
+    model: &Model,
+    e: usize,
+    element: &ElementStress<D, S, P, N>,
+    mut visit: impl FnMut(Point<D, S>),
+) {
+    let coordinates = model.element_coordinates::<D, N>(e);
     let stress = &element.stress;
     if degree(model, e) == 1 {
         let position = element.gradients.positions(&coordinates);
@@ -233,7 +255,7 @@ fn quadrature(model: &Model, e: usize, element: &ElementStress, mut visit: impl 
     for &(reference, weight) in rule {
         let [a, b] = reference;
         let at = shape.functions([a, b, 0.0]);
-        let (mut x, mut jacobian) = ([0.0; 2], [[0.0; 2]; 2]);
+        let (mut x, mut jacobian) = ([0.0; D], [[0.0; 2]; 2]);
         for (i, c) in coordinates.iter().enumerate().take(shape.n_nodes()) {
             for d in 0..2 {
                 x[d] += at.values[i] * c[d];
@@ -267,12 +289,12 @@ fn quadrature(model: &Model, e: usize, element: &ElementStress, mut visit: impl 
 }
 
 /// Energies of `sigma* - sigma_h` and of `sigma_h` over element `e`.
-fn energies(
+fn energies<const D: usize, const S: usize, const P: usize, const N: usize>(
     model: &Model,
     e: usize,
-    element: &ElementStress,
+    element: &ElementStress<D, S, P, N>,
     patch: &[u32],
-    samples: &Samples,
+    samples: &Samples<D, S>,
 ) -> [f64; 2] {
     let material = &model.materials[model.mesh.element_body[e] as usize];
     let frame = Frame::new(model, e);
@@ -280,11 +302,11 @@ fn energies(
     // lower degree.
     let fit = match degree(model, e) {
         1 => None,
-        _ => fit_of::<MOST_TERMS>(&frame, patch, samples),
+        _ => fit_of::<MOST_TERMS, D, S>(&frame, patch, samples),
     };
     let fit = fit
-        .or_else(|| fit_of::<3>(&frame, patch, samples))
-        .or_else(|| fit_of::<1>(&frame, patch, samples));
+        .or_else(|| fit_of::<3, D, S>(&frame, patch, samples))
+        .or_else(|| fit_of::<1, D, S>(&frame, patch, samples));
     let mut out = [0.0; 2];
     quadrature(model, e, element, |(position, weight, computed)| {
         let recovered = match &fit {
@@ -295,7 +317,7 @@ fn energies(
             }
             None => computed,
         };
-        let difference: [f64; 4] = std::array::from_fn(|c| recovered[c] - computed[c]);
+        let difference: [f64; S] = std::array::from_fn(|c| recovered[c] - computed[c]);
         out[0] += weight * compliance_energy(material, &difference);
         out[1] += weight * compliance_energy(material, &computed);
     });
@@ -303,10 +325,12 @@ fn energies(
 }
 
 /// `sigma : C sigma = ((1 + nu) sigma : sigma - nu tr(sigma)^2) / E`.
-fn compliance_energy(material: &Material, [xx, yy, zz, xy]: &[f64; 4]) -> f64 {
+fn compliance_energy<const S: usize>(material: &Material, stress: &[f64; S]) -> f64 {
     let nu = material.poissons_ratio;
-    let trace = xx + yy + zz;
-    let square = xx * xx + yy * yy + zz * zz + 2.0 * xy * xy;
+    let trace = stress[0] + stress[1] + stress[2];
+    let normal: f64 = stress[..3].iter().map(|s| s * s).sum();
+    let shear: f64 = stress[3..].iter().map(|s| s * s).sum();
+    let square = normal + 2.0 * shear;
     ((1.0 + nu) * square - nu * trace * trace) / material.youngs_modulus
 }
 
@@ -332,7 +356,7 @@ impl Frame {
         }
     }
 
-    fn terms(&self, at: [f64; 2]) -> [f64; MOST_TERMS] {
+    fn terms<const D: usize>(&self, at: [f64; D]) -> [f64; MOST_TERMS] {
         let [x, y]: [f64; 2] = std::array::from_fn(|d| (at[d] - self.center[d]) / self.scale[d]);
         [1.0, x, y, x * x, x * y, y * y]
     }
@@ -345,16 +369,20 @@ fn weight(x: f64, y: f64) -> f64 {
 }
 
 /// A polynomial with `n` terms for each component.
-struct Fit {
+struct Fit<const S: usize> {
     n: usize,
-    coefficients: [[f64; 4]; MOST_TERMS],
+    coefficients: [[f64; S]; MOST_TERMS],
 }
 
 /// The weighted least-squares polynomial with `N` terms; `None` where the samples do not determine
 /// it.
-fn fit_of<const N: usize>(frame: &Frame, patch: &[u32], samples: &Samples) -> Option<Fit> {
+fn fit_of<const N: usize, const D: usize, const S: usize>(
+    frame: &Frame,
+    patch: &[u32],
+    samples: &Samples<D, S>,
+) -> Option<Fit<S>> {
     let mut gram = SMatrix::<f64, N, N>::zeros();
-    let mut right = SMatrix::<f64, N, 4>::zeros();
+    let mut right = SMatrix::<f64, N, S>::zeros();
     let mut used = 0;
     for &member in patch {
         for sample in samples.of(member) {
@@ -365,7 +393,7 @@ fn fit_of<const N: usize>(frame: &Frame, patch: &[u32], samples: &Samples) -> Op
                 for b in 0..=a {
                     gram[(a, b)] += weight * terms[a] * terms[b];
                 }
-                for c in 0..4 {
+                for c in 0..S {
                     right[(a, c)] += weight * terms[a] * sample.stress[c];
                 }
             }
@@ -386,7 +414,7 @@ fn fit_of<const N: usize>(frame: &Frame, patch: &[u32], samples: &Samples) -> Op
         row *= scaling[i];
     }
     factor.solve_mut(&mut right);
-    let mut coefficients = [[0.0; 4]; MOST_TERMS];
+    let mut coefficients = [[0.0; S]; MOST_TERMS];
     for i in 0..N {
         coefficients[i] = std::array::from_fn(|c| right[(i, c)] * scaling[i]);
     }

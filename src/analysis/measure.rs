@@ -76,7 +76,7 @@ pub fn pair_states(
         out.extend(contact.range.clone().map(|k| PairState {
             pair: k,
             contact: model.pairs[k].contact,
-            position: model.mesh.point(model.pairs[k].second),
+            position: model.mesh.in_plane(model.pairs[k].second),
             gap: gap[k],
             force: force[k],
             area: model.pairs[k].area,
@@ -96,7 +96,7 @@ pub fn pair_states(
             PairState {
                 pair: number,
                 contact: index,
-                position: model.mesh.point(axis.node),
+                position: model.mesh.in_plane(axis.node),
                 gap: apart(&axis),
                 force: 0.0,
                 area: 0.0,

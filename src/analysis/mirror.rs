@@ -98,14 +98,14 @@ pub fn mirrors(model: &Model, loaded: &[bool], elements: &[usize]) -> Vec<Mirror
 /// The plane of a facet that is held across and free along it, and the facet's length.
 fn mirror_on(model: &Model, loaded: &[bool], facet: Facet) -> Option<(Mirror, f64)> {
     let nodes: Vec<usize> = model.mesh.facet_nodes(facet).collect();
-    let [a, b] = [nodes[0], nodes[1]].map(|n| model.mesh.point(n));
+    let [a, b] = [nodes[0], nodes[1]].map(|n| model.mesh.in_plane(n));
     let along = [b[0] - a[0], b[1] - a[1]];
     let length = along[0].hypot(along[1]);
     // The body lies on the left of the facet.
     let normal = [along[1] / length, -along[0] / length];
     let mut free = false;
     for &node in &nodes {
-        let [x, y] = model.freedoms.axes[node];
+        let [x, y, _] = model.freedoms.local(node)[0];
         let across = |axis: [f64; 2]| (axis[0] * normal[1] - axis[1] * normal[0]).abs() < SAME;
         let held = if across([x, y]) {
             0
@@ -129,7 +129,7 @@ fn mirror_on(model: &Model, loaded: &[bool], facet: Facet) -> Option<(Mirror, f6
     };
     let curved = nodes
         .iter()
-        .any(|&n| mirror.beyond(model.mesh.point(n)).abs() > SAME * length);
+        .any(|&n| mirror.beyond(model.mesh.in_plane(n)).abs() > SAME * length);
     (!curved).then_some((mirror, length))
 }
 

@@ -48,7 +48,7 @@ impl Solver<'_> {
 
     fn outgrown(&self, pair: usize, reached: f64) -> Error {
         let model = self.structure.model;
-        let [x, y] = model.mesh.point(model.pairs[pair].second);
+        let [x, y] = model.mesh.in_plane(model.pairs[pair].second);
         let names = &model.contacts[model.pairs[pair].contact].names;
         let targets = model.scene.program.targets.iter();
         let largest = targets

@@ -133,17 +133,17 @@ pub(super) mod history {
     use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
     pub(in crate::analysis) fn serialize<S: Serializer>(
-        history: &[PlasticState],
+        history: &[PlasticState<6>],
         serializer: S,
     ) -> Result<S::Ok, S::Error> {
-        let has_one = |state: &PlasticState| *state != PlasticState::default();
+        let has_one = |state: &PlasticState<6>| *state != PlasticState::default();
         (history.len(), Sparse::new(history.iter(), has_one)).serialize(serializer)
     }
 
     pub(in crate::analysis) fn deserialize<'de, D: Deserializer<'de>>(
         deserializer: D,
-    ) -> Result<Vec<PlasticState>, D::Error> {
-        let (n, states) = <(usize, Sparse<PlasticState>)>::deserialize(deserializer)?;
+    ) -> Result<Vec<PlasticState<6>>, D::Error> {
+        let (n, states) = <(usize, Sparse<PlasticState<6>>)>::deserialize(deserializer)?;
         let mut history = vec![PlasticState::default(); n];
         if !states.unpack(&mut history) {
             return Err(D::Error::custom("a history of another number of points"));
@@ -164,7 +164,7 @@ mod tests {
         #[serde(with = "trailing")]
         vector: Trailing,
         #[serde(with = "history")]
-        history: Vec<PlasticState>,
+        history: Vec<PlasticState<6>>,
     }
 
     proptest! {

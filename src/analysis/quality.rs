@@ -12,7 +12,7 @@
 mod tests;
 
 use super::reading::Reading;
-use super::stresses::Stresses;
+use super::stresses::{AllStresses, Stresses};
 use crate::linalg::largest;
 use crate::model::Model;
 use crate::results::{Quality, Tolerances};
@@ -128,8 +128,7 @@ impl Reading<'_, '_> {
 
     /// Quality of the current state with its displacements.
     fn quality_of(&mut self, u: &Displacements) -> Quality {
-        let field = self.stress_field(u.deformation());
-        let stresses = Stresses::new(&field);
+        let stresses = self.of_stresses(u.deformation(), AllStresses);
         self.quality(u, stresses.internal, &stresses.reactions)
     }
 

@@ -1,8 +1,11 @@
 //! What is read off the current state beside contact pressures: approach, dent, quality.
 
 use super::solver::Solver;
-use super::stress_field::StressField;
+use super::stress_field::{OfStresses, StressField};
+use super::zone::Zone;
+use crate::element::Kernel;
 use crate::model::{AxisPoint, LoadCase, Magnitude};
+use crate::space::{difference, dot};
 use std::collections::BTreeMap;
 
 /// Reads figures off the current state of a structure.
@@ -18,11 +21,24 @@ impl<'m> Solver<'m> {
 }
 
 impl Reading<'_, '_> {
-    /// Stresses that follow from displacements of the whole model.
-    pub(super) fn stress_field(&self, u: &[f64]) -> StressField<'_> {
+    /// Evaluates what is asked of the stresses that follow from displacements of the whole model.
+    pub(super) fn of_stresses<T>(&self, u: &[f64], ask: impl OfStresses<Answer = T>) -> T {
         let (solver, structure) = (&self.solver, &self.solver.structure);
-        let nodal = structure.model.nodal(u, &solver.at.factors);
-        StressField::new(structure.model, &solver.zone, &structure.elements, nodal)
+        let (model, elements) = (structure.model, &structure.elements);
+        let nodal = model.nodal(u, &solver.at.factors);
+        match &solver.zone {
+            Zone::Plane(zone) => {
+                let kernel = Kernel::plane(model.kind);
+                ask.of(&StressField::new(kernel, model, zone, elements, nodal))
+            }
+            Zone::Solid(zone) => ask.of(&StressField::new(
+                Kernel::solid(),
+                model,
+                zone,
+                elements,
+                nodal,
+            )),
+        }
     }
 
     /// Distance of the two nodes of a point on the axis, for displacements of the whole model.
@@ -30,10 +46,8 @@ impl Reading<'_, '_> {
         let (freedoms, at) = (&self.solver.structure.model.freedoms, &self.solver.at);
         let of = |node| freedoms.displacement(node, u, &at.factors);
         let (first, second) = (of(axis.first), of(axis.node));
-        let opened = [first[0] - second[0], first[1] - second[1]];
-        axis.gap - at.interference * axis.interference
-            + opened[0] * axis.normal[0]
-            + opened[1] * axis.normal[1]
+        let opened = dot(difference(first, second), axis.normal);
+        axis.gap - at.interference * axis.interference + opened
     }
 
     /// How far the loads that vary have brought the bodies together
@@ -60,7 +74,7 @@ impl Reading<'_, '_> {
                 .unwrap_or(1.0);
             let along = load.nodes.iter().zip(&load.shares).map(|(&node, share)| {
                 let d = freedoms.displacement(node, u, factors);
-                share * (d[0] * load.direction[0] + d[1] * load.direction[1])
+                share * dot(d, load.direction)
             });
             let sums = of_body.entry(load.body).or_default();
             sums[0] += size;

@@ -18,10 +18,10 @@ use super::mirror::{self, Reflection, mirrors};
 use super::patch::{Patch, Sample, reach};
 use super::solver::Solver;
 use super::summit::{SPACINGS, Summit};
-use crate::element::{MAX_POINTS, PlaneSampling};
+use crate::element::{Kernel, Sampling};
 use crate::material::{Lame, Material, von_mises};
 use crate::model::Model;
-use crate::shape::{MAX_NODES, Shape};
+use crate::shape::Shape;
 use crate::substructure::Trailing;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -54,6 +54,11 @@ const FEW: usize = 100;
 const GRAIN: usize = 256;
 /// Layers of elements around an element that belong to its patch.
 const LAYERS: usize = 3;
+
+type PlaneSampling = Sampling<2, 4, 4, 8>;
+/// Most nodes and points of a plane element.
+const MAX_NODES: usize = 8;
+const MAX_POINTS: usize = 4;
 
 /// The sampled stress `[xx, yy, zz, xy]` of all points of all elements, element by element.
 pub type Samples = Vec<[f64; 4]>;
@@ -147,7 +152,7 @@ impl Recovery {
         let (mut positions, mut sampling) = (Vec::new(), Vec::with_capacity(elements.len()));
         for &e in elements {
             let nodes = model.element_coordinates(e);
-            let own = PlaneSampling::new(model.kind, model.mesh.shapes[e], &nodes);
+            let own = Kernel::plane(model.kind).sampling(model.mesh.shapes[e], &nodes);
             let [x, y] = own.positions(&nodes);
             positions.extend((0..own.n_points()).map(|g| [x[g], y[g]]));
             sampling.push(own);
@@ -349,7 +354,7 @@ impl Recovery {
         let mut low = [f64::INFINITY; 2];
         let mut high = [f64::NEG_INFINITY; 2];
         for &node in nodes {
-            let x = model.mesh.point(node as usize);
+            let x = model.mesh.in_plane(node as usize);
             for d in 0..2 {
                 low[d] = low[d].min(x[d]);
                 high[d] = high[d].max(x[d]);

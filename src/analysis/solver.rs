@@ -136,7 +136,7 @@ impl<'m> Solver<'m> {
             guard,
             &structure.places,
         );
-        zone.restore_of(&before, self.zone.history());
+        zone.restore_of(&before, &self.zone.history());
         zone.set_factors(&self.at.factors);
         self.zone = zone;
         let initial = self.zone.initial_load(structure.sub.zeros());

@@ -29,7 +29,7 @@ pub(super) struct State {
     pub(super) elements: Arc<[usize]>,
     /// Their plastic history, point by point.
     #[serde(with = "packed::history")]
-    pub(super) history: Vec<PlasticState>,
+    pub(super) history: Vec<PlasticState<6>>,
 }
 
 impl State {
@@ -60,7 +60,7 @@ impl Solver<'_> {
             border: self.border.clone(),
             zone: self.structure.zone_number,
             elements: Arc::clone(&self.structure.elements),
-            history: self.zone.history().to_vec(),
+            history: self.zone.history(),
         }
     }
 

@@ -3,44 +3,61 @@
 //! Nothing is stored: an element is quickly evaluated again, while the stresses of all take a tenth
 //! of the factor's memory.
 
-use super::zone::Zone;
-use crate::element::{Components, MAX_POINTS, PlaneGradients};
+use super::zone::ZoneOf;
+use crate::element::{Components, Gradients, Kernel};
 use crate::material::{Lame, PlasticState};
 use crate::model::Model;
-use crate::shape::MAX_NODES;
+use crate::space::Vector;
 
 /// Elements of the mesh that share an entry in the list of where the zone's begin.
 const GROUP: usize = 64;
 
 /// Stresses as a function of the element.
-pub(super) struct StressField<'a> {
+pub(super) struct StressField<'a, const D: usize, const S: usize, const P: usize, const N: usize> {
+    pub(super) kernel: Kernel<D, S, P, N>,
     pub(super) model: &'a Model,
-    zone: &'a Zone,
+    zone: &'a ZoneOf<D, S, P, N>,
     /// Elements of the zone, ascending.
     in_zone: &'a [usize],
     /// The first of them in each group of elements of the mesh.
     first_of_group: Vec<u32>,
     /// Of the nodes, in global axes.
-    displacements: Vec<[f64; 2]>,
+    displacements: Vec<Vector>,
     elastic: Vec<Lame>,
 }
 
-/// An element and the stresses at its Gauss points.
-pub(super) struct ElementStress<'a> {
-    pub(super) gradients: PlaneGradients,
-    pub(super) stress: Components,
-    /// Of its points; empty outside the zone.
-    pub(super) history: &'a [PlasticState],
+/// What is read off a stress field of either dimension.
+pub(super) trait OfStresses {
+    /// What comes out.
+    type Answer;
+
+    /// Reads it.
+    fn of<const D: usize, const S: usize, const P: usize, const N: usize>(
+        self,
+        field: &StressField<D, S, P, N>,
+    ) -> Self::Answer;
 }
 
-impl<'a> StressField<'a> {
+/// An element and the stresses at its Gauss points.
+pub(super) struct ElementStress<'a, const D: usize, const S: usize, const P: usize, const N: usize>
+{
+    pub(super) gradients: Gradients<D, S, P, N>,
+    pub(super) stress: Components<S, P>,
+    /// Of its points; empty outside the zone.
+    pub(super) history: &'a [PlasticState<S>],
+}
+
+impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
+    StressField<'a, D, S, P, N>
+{
     /// The stresses for nodal displacements in global axes and the committed history of the zone,
     /// whose elements are `in_zone` (ascending).
     pub(super) fn new(
+        kernel: Kernel<D, S, P, N>,
         model: &'a Model,
-        zone: &'a Zone,
+        zone: &'a ZoneOf<D, S, P, N>,
         in_zone: &'a [usize],
-        displacements: Vec<[f64; 2]>,
+        displacements: Vec<Vector>,
     ) -> Self {
         let n_groups = model.mesh.n_elements().div_ceil(GROUP);
         let mut first_of_group = vec![0u32; n_groups + 1];
@@ -51,6 +68,7 @@ impl<'a> StressField<'a> {
             first_of_group[group + 1] += first_of_group[group];
         }
         StressField {
+            kernel,
             model,
             zone,
             in_zone,
@@ -68,7 +86,7 @@ impl<'a> StressField<'a> {
     }
 
     /// The elements of the zone that have flowed, ascending, with their history.
-    pub(super) fn flowed(&self) -> impl Iterator<Item = (usize, &'a [PlasticState])> {
+    pub(super) fn flowed(&self) -> impl Iterator<Item = (usize, &'a [PlasticState<S>])> {
         let zone = self.zone;
         let elements = self.in_zone.iter().enumerate();
         elements
@@ -78,12 +96,12 @@ impl<'a> StressField<'a> {
 
     /// The stresses of an element.
     #[inline]
-    pub(super) fn at(&self, e: usize) -> ElementStress<'a> {
+    pub(super) fn at(&self, e: usize) -> ElementStress<'a, D, S, P, N> {
         let mesh = &self.model.mesh;
-        let gradients = self.model.gradients(e);
-        let mut u = [[0.0; 2]; MAX_NODES];
+        let gradients = self.model.gradients(&self.kernel, e);
+        let mut u = [[0.0; D]; N];
         for (u, &node) in u.iter_mut().zip(mesh.nodes(e)) {
-            *u = self.displacements[node as usize];
+            u.copy_from_slice(&self.displacements[node as usize][..D]);
         }
         let mut strain = gradients.strains(&u);
         let history = self
@@ -102,7 +120,7 @@ impl<'a> StressField<'a> {
     }
 }
 
-impl ElementStress<'_> {
+impl<const D: usize, const S: usize, const P: usize, const N: usize> ElementStress<'_, D, S, P, N> {
     /// Largest von Mises stress at a point.
     #[inline]
     pub(super) fn von_mises(&self) -> f64 {
@@ -118,9 +136,12 @@ impl ElementStress<'_> {
 
 /// The elastic stress at all points.
 #[inline]
-pub(super) fn stress(law: &Lame, strain: &Components) -> Components {
-    let mut out = Components::default();
-    for g in 0..MAX_POINTS {
+pub(super) fn stress<const S: usize, const P: usize>(
+    law: &Lame,
+    strain: &Components<S, P>,
+) -> Components<S, P> {
+    let mut out = [[0.0; P]; S];
+    for g in 0..P {
         let stress = law.times(&strain.each_ref().map(|lanes| lanes[g]));
         for (out, stress) in out.iter_mut().zip(stress) {
             out[g] = stress;
@@ -131,11 +152,16 @@ pub(super) fn stress(law: &Lame, strain: &Components) -> Components {
 
 /// The largest von Mises stress at the first `n` points.
 #[inline]
-pub(super) fn largest_von_mises([x, y, z, xy]: &Components, n: usize) -> f64 {
+pub(super) fn largest_von_mises<const S: usize, const P: usize>(
+    stress: &Components<S, P>,
+    n: usize,
+) -> f64 {
+    let (x, y, z) = (&stress[0], &stress[1], &stress[2]);
     let mut square = 0.0f64;
     for g in 0..n {
         let [a, b, c] = [x[g] - y[g], y[g] - z[g], z[g] - x[g]];
-        square = square.max(0.5 * (a * a + b * b + c * c) + 3.0 * xy[g] * xy[g]);
+        let shear: f64 = stress[3..].iter().map(|t| t[g] * t[g]).sum();
+        square = square.max(0.5 * (a * a + b * b + c * c) + 3.0 * shear);
     }
     square.sqrt()
 }

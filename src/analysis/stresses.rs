@@ -1,9 +1,9 @@
 //! What the stresses of all elements amount to: the forces that they exert on the nodes, and what
 //! has yielded.
 
-use super::stress_field::StressField;
+use super::stress_field::{OfStresses, StressField};
 use crate::model::Slot;
-use crate::shape::MAX_NODES;
+use crate::space::Vector;
 use rayon::prelude::*;
 
 /// Elements that are evaluated before their forces are summed: few enough to stay in the
@@ -31,16 +31,32 @@ pub(super) struct Stresses {
     pub(super) plastic_strain: f64,
 }
 
+/// Asks for the [`Stresses`] of a field.
+pub(super) struct AllStresses;
+
+impl OfStresses for AllStresses {
+    type Answer = Stresses;
+
+    fn of<const D: usize, const S: usize, const P: usize, const N: usize>(
+        self,
+        field: &StressField<D, S, P, N>,
+    ) -> Stresses {
+        Stresses::new(field)
+    }
+}
+
 /// An element as it comes out of a block.
-struct Evaluated {
-    forces: [[f64; 2]; MAX_NODES],
+struct Evaluated<const D: usize, const N: usize> {
+    forces: [[f64; D]; N],
     beyond_yield_outside: bool,
 }
 
 impl Stresses {
     /// Evaluates all elements. Sums run in ascending element order: the bits do not depend on the
     /// number of threads.
-    pub(super) fn new(field: &StressField) -> Self {
+    pub(super) fn new<const D: usize, const S: usize, const P: usize, const N: usize>(
+        field: &StressField<D, S, P, N>,
+    ) -> Self {
         let (forces, beyond_yield_outside) = nodal_forces(field);
         let model = field.model;
         let mut out = Stresses {
@@ -62,7 +78,7 @@ impl Stresses {
             }
         }
         for (e, history) in field.flowed() {
-            let gradients = field.model.gradients(e);
+            let gradients = field.model.gradients(&field.kernel, e);
             let body = model.mesh.element_body[e] as usize;
             for (past, weight) in history.iter().zip(gradients.weights()) {
                 if past.equivalent > 0.0 {
@@ -78,7 +94,9 @@ impl Stresses {
 
 /// Forces on the nodes in global axes, and the elements outside the zone that are beyond yield.
 /// While the forces of one block are summed the next is evaluated.
-fn nodal_forces(field: &StressField) -> (Vec<[f64; 2]>, Vec<usize>) {
+fn nodal_forces<const D: usize, const S: usize, const P: usize, const N: usize>(
+    field: &StressField<D, S, P, N>,
+) -> (Vec<Vector>, Vec<usize>) {
     let mesh = &field.model.mesh;
     let n = mesh.n_elements();
     let limits: Vec<f64> = (field.model.materials.iter().zip(&field.model.may_yield))
@@ -87,7 +105,7 @@ fn nodal_forces(field: &StressField) -> (Vec<[f64; 2]>, Vec<usize>) {
             false => f64::INFINITY,
         })
         .collect();
-    let evaluate = |start: usize, block: &mut Vec<Evaluated>| {
+    let evaluate = |start: usize, block: &mut Vec<Evaluated<D, N>>| {
         (start..(start + BLOCK).min(n))
             .into_par_iter()
             .with_min_len(GRAIN)
@@ -102,7 +120,7 @@ fn nodal_forces(field: &StressField) -> (Vec<[f64; 2]>, Vec<usize>) {
             })
             .collect_into_vec(block);
     };
-    let mut forces = vec![[0.0; 2]; mesh.n_nodes()];
+    let mut forces = vec![[0.0; 3]; mesh.n_nodes()];
     let mut beyond = Vec::new();
     let (mut block, mut next) = (Vec::with_capacity(BLOCK), Vec::with_capacity(BLOCK));
     evaluate(0, &mut block);
@@ -111,7 +129,7 @@ fn nodal_forces(field: &StressField) -> (Vec<[f64; 2]>, Vec<usize>) {
             for (i, element) in block.iter().enumerate() {
                 for (force, &node) in element.forces.iter().zip(mesh.nodes(start + i)) {
                     let sum = &mut forces[node as usize];
-                    *sum = [sum[0] + force[0], sum[1] + force[1]];
+                    (0..D).for_each(|d| sum[d] += force[d]);
                 }
                 if element.beyond_yield_outside {
                     beyond.push(start + i);

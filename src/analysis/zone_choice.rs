@@ -7,11 +7,11 @@
 use super::solver::Solver;
 use super::stress_field::{largest_von_mises, stress};
 use super::structure::combination;
-use crate::element::PlaneSampling;
+use crate::element::{Kernel, with_kernel};
 use crate::error::Result;
 use crate::model::{Model, Slot};
 use crate::scene::Kind;
-use crate::shape::MAX_NODES;
+use crate::space::{Vector, difference, length};
 use rayon::prelude::*;
 
 /// Elements of all bodies that may yield are the zone if their number is below this.
@@ -100,35 +100,31 @@ fn near_contact(model: &Model, reach: f64) -> Choice {
     if count <= SMALL || model.pairs.is_empty() {
         return Choice::from_marks(model, candidates, 0);
     }
-    let boxes: Vec<([f64; 2], [f64; 2], f64)> = model
+    let boxes: Vec<(Vector, Vector, f64)> = model
         .contacts
         .iter()
         .map(|c| {
-            let mut low = [f64::INFINITY; 2];
-            let mut high = [f64::NEG_INFINITY; 2];
+            let mut low = [f64::INFINITY; 3];
+            let mut high = [f64::NEG_INFINITY; 3];
             for pair in &model.pairs[c.range.clone()] {
                 for node in [pair.first, pair.second] {
                     let x = model.mesh.point(node);
-                    for d in 0..2 {
+                    for d in 0..3 {
                         low[d] = low[d].min(x[d]);
                         high[d] = high[d].max(x[d]);
                     }
                 }
             }
-            (
-                low,
-                high,
-                reach * (high[0] - low[0]).hypot(high[1] - low[1]),
-            )
+            (low, high, reach * length(difference(high, low)))
         })
         .collect();
     let core = (0..n)
         .map(|e| {
-            let x = model.element_coordinates(e)[0];
+            let x = model.mesh.point(model.mesh.nodes(e)[0] as usize);
             candidates[e]
                 && boxes.iter().any(|(low, high, reach)| {
                     let off = |d: usize| (low[d] - x[d]).max(x[d] - high[d]).max(0.0);
-                    off(0).hypot(off(1)) <= *reach
+                    length([off(0), off(1), off(2)]) <= *reach
                 })
         })
         .collect();
@@ -150,7 +146,7 @@ pub fn predict(model: &Model, ratios: &[f64]) -> Choice {
 /// root in line contact, the cube root in point contact.
 pub fn decline(model: &Model, share: f64) -> f64 {
     match model.kind {
-        Kind::Axisymmetric => share.cbrt(),
+        Kind::Axisymmetric | Kind::Solid => share.cbrt(),
         Kind::PlaneStrain | Kind::PlaneStress => share.sqrt(),
     }
 }
@@ -219,8 +215,16 @@ fn widen(model: &Model, mut marked: Vec<bool>, layers: usize) -> Vec<bool> {
 /// Elastic von Mises stress over yield stress at the sampling points of every element that may
 /// yield (0 elsewhere), for displacements of the whole model.
 pub fn stress_ratios(model: &Model, u: &[f64], factors: &[f64]) -> Vec<f64> {
-    let elastic: Vec<_> = model.materials.iter().map(|m| m.lame()).collect();
     let displacements = model.nodal(u, factors);
+    with_kernel!(model.kind, kernel => ratios_of(&kernel, model, &displacements))
+}
+
+fn ratios_of<const D: usize, const S: usize, const P: usize, const N: usize>(
+    kernel: &Kernel<D, S, P, N>,
+    model: &Model,
+    displacements: &[Vector],
+) -> Vec<f64> {
+    let elastic: Vec<_> = model.materials.iter().map(|m| m.lame()).collect();
     (0..model.mesh.n_elements())
         .into_par_iter()
         .with_min_len(256)
@@ -228,12 +232,12 @@ pub fn stress_ratios(model: &Model, u: &[f64], factors: &[f64]) -> Vec<f64> {
             if !may_yield(model, e) {
                 return 0.0;
             }
-            let mut u = [[0.0; 2]; MAX_NODES];
+            let mut u = [[0.0; D]; N];
             for (u, &node) in u.iter_mut().zip(model.mesh.nodes(e)) {
-                *u = displacements[node as usize];
+                u.copy_from_slice(&displacements[node as usize][..D]);
             }
             let nodes = model.element_coordinates(e);
-            let sampling = PlaneSampling::new(model.kind, model.mesh.shapes[e], &nodes);
+            let sampling = kernel.sampling(model.mesh.shapes[e], &nodes);
             let body = model.mesh.element_body[e] as usize;
             let largest = largest_von_mises(
                 &stress(&elastic[body], &sampling.strains(&u)),
@@ -326,7 +330,7 @@ mod tests {
         // The right half of the lower block becomes a part of the other body.
         let n = model.mesh.n_elements();
         for e in 0..n {
-            let x = model.element_coordinates(e)[0][0];
+            let [x, ..] = model.mesh.point(model.mesh.nodes(e)[0] as usize);
             if x >= 1.0 {
                 model.mesh.element_body[e] = upper as u32;
             }

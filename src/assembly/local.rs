@@ -2,30 +2,44 @@
 
 use crate::element::packed;
 use crate::model::Model;
+use crate::space::along;
 
 /// Turns an element's stiffness (packed lower triangle in global axes) into the local axes of its
 /// nodes: `K <- R' K R`, the columns of `R` the axes.
 pub(super) fn turn_stiffness(model: &Model, element: usize, stiffness: &mut [f64]) {
+    let per = model.freedoms.per_node;
     let nodes = model.mesh.nodes(element);
     for (i, &node) in nodes.iter().enumerate() {
-        let [a, b] = model.freedoms.local(node as usize);
-        if a == [1.0, 0.0] {
+        if !model.freedoms.is_turned(node as usize) {
             continue;
         }
-        let (x, y) = (2 * i, 2 * i + 1);
-        for k in (0..2 * nodes.len()).filter(|k| *k != x && *k != y) {
-            let (at_x, at_y) = (packed(x, k), packed(y, k));
-            let (along_x, along_y) = (stiffness[at_x], stiffness[at_y]);
-            stiffness[at_x] = a[0] * along_x + a[1] * along_y;
-            stiffness[at_y] = b[0] * along_x + b[1] * along_y;
+        let axes = model.freedoms.local(node as usize);
+        let own = per * i..per * (i + 1);
+        for k in (0..per * nodes.len()).filter(|k| !own.contains(k)) {
+            let mut turned = [0.0; 3];
+            for (turned, axis) in turned.iter_mut().zip(&axes).take(per) {
+                let terms = own.clone().zip(axis);
+                *turned = terms.map(|(row, a)| a * stiffness[packed(row, k)]).sum();
+            }
+            for (row, turned) in own.clone().zip(turned) {
+                stiffness[packed(row, k)] = turned;
+            }
         }
-        let at = [packed(x, x), packed(x, y), packed(y, y)];
-        let [xx, xy, yy] = at.map(|at| stiffness[at]);
-        let product = |p: [f64; 2], q: [f64; 2]| {
-            p[0] * (xx * q[0] + xy * q[1]) + p[1] * (xy * q[0] + yy * q[1])
-        };
-        stiffness[at[0]] = product(a, a);
-        stiffness[at[1]] = product(a, b);
-        stiffness[at[2]] = product(b, b);
+        let mut block = [[0.0; 3]; 3];
+        for a in 0..per {
+            for b in 0..per {
+                block[a][b] = stiffness[packed(own.start + a, own.start + b)];
+            }
+        }
+        for a in 0..per {
+            for b in 0..=a {
+                let mut times = [0.0; 3];
+                for (row, share) in block.iter().zip(axes[a]) {
+                    times = along(times, share, *row);
+                }
+                let terms = times.iter().zip(axes[b]);
+                stiffness[packed(own.start + a, own.start + b)] = terms.map(|(t, b)| t * b).sum();
+            }
+        }
     }
 }

@@ -9,7 +9,7 @@ mod pattern;
 
 pub use pattern::Incidence;
 
-use crate::element::packed;
+use crate::element::{packed, with_kernel};
 use crate::error::Result;
 use crate::linalg::{self, SymmetricCsc};
 use crate::model::{Model, Slot};
@@ -96,7 +96,7 @@ impl ElementMatrices {
         let mut offsets = Vec::with_capacity(n_elements + 1);
         offsets.push(0);
         for shape in &model.mesh.shapes {
-            let n = 2 * shape.n_nodes();
+            let n = model.freedoms.per_node * shape.n_nodes();
             offsets.push(offsets[offsets.len() - 1] + n * (n + 1) / 2);
         }
         let elastic: Vec<_> = model.materials.iter().map(|m| m.lame()).collect();
@@ -108,15 +108,12 @@ impl ElementMatrices {
             blocks.push(block);
             rest = tail;
         }
-        blocks
-            .into_par_iter()
-            .enumerate()
-            .with_min_len(256)
-            .for_each(|(e, block)| {
-                let elastic = &elastic[model.mesh.element_body[e] as usize];
-                model.gradients(e).stiffness_into(elastic, block);
-                local::turn_stiffness(model, e, block);
-            });
+        let blocks = blocks.into_par_iter().enumerate().with_min_len(256);
+        with_kernel!(model.kind, kernel => blocks.for_each(|(e, block)| {
+            let elastic = &elastic[model.mesh.element_body[e] as usize];
+            model.gradients(&kernel, e).stiffness_into(elastic, block);
+            local::turn_stiffness(model, e, block);
+        }));
         ElementMatrices { offsets, values }
     }
 
@@ -131,7 +128,8 @@ impl ElementMatrices {
                 .mesh
                 .nodes(e)
                 .iter()
-                .flat_map(|&node| model.freedoms.slots[node as usize])
+                .flat_map(|&node| model.freedoms.of_node(node as usize))
+                .copied()
                 .collect();
             for (j, slot) in slots.iter().enumerate() {
                 let Slot::Prescribed(p) = *slot else { continue };

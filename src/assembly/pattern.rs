@@ -22,11 +22,12 @@ impl Incidence {
     pub fn new(model: &Model) -> Self {
         let mut offsets = Vec::with_capacity(model.mesh.n_elements() + 1);
         offsets.push(0);
-        let mut freedoms = Vec::with_capacity(2 * model.mesh.connectivity.len());
+        let n = model.freedoms.per_node * model.mesh.connectivity.len();
+        let mut freedoms = Vec::with_capacity(n);
         for e in 0..model.mesh.n_elements() {
             for &node in model.mesh.nodes(e) {
-                for slot in model.freedoms.slots[node as usize] {
-                    freedoms.push(if let Slot::Free(f) = slot {
+                for slot in model.freedoms.of_node(node as usize) {
+                    freedoms.push(if let Slot::Free(f) = *slot {
                         i64::from(f)
                     } else {
                         -1

@@ -5,6 +5,7 @@ use super::model::{brinell_model, change, one_of};
 use crate::error::{Error, Result};
 use crate::model::NodePair;
 use crate::scene::{Body, Contact, Direction, Material, Plastic, Support};
+use crate::space::Vector;
 use std::ffi::c_char;
 
 /// A material. What is zero (NULL) is not given.
@@ -66,6 +67,8 @@ unsafe impl SizePrefixed for brinell_contact {
 pub const BRINELL_X: i32 = 1;
 /// Along y (z).
 pub const BRINELL_Y: i32 = 2;
+/// Along z, of a solid.
+pub const BRINELL_Z: i32 = 4;
 
 /// Takes a structure whose defaults are all zeros.
 ///
@@ -86,14 +89,35 @@ pub(super) unsafe fn rows(data: *const f64, n: usize, what: &str) -> Result<Vec<
     Ok(values.chunks_exact(2).map(|r| [r[0], r[1]]).collect())
 }
 
+impl brinell_model {
+    /// `n` vectors, one after the other, of as many components as the model has coordinates.
+    ///
+    /// # Safety
+    /// `values` is NULL or has so many values.
+    pub(super) unsafe fn vectors(
+        &self,
+        values: *const f64,
+        n: usize,
+        what: &str,
+    ) -> Result<Vec<Vector>> {
+        let each = self.builder.dimension();
+        // SAFETY: as vouched for by the caller.
+        let values = unsafe { slice(values, n.saturating_mul(each), what) }?;
+        let vector = |row: &[f64]| std::array::from_fn(|d| row.get(d).copied().unwrap_or(0.0));
+        Ok(values.chunks_exact(each).map(vector).collect())
+    }
+}
+
 pub(super) fn directions(mask: i32, what: &str) -> Result<Vec<Direction>> {
-    if mask & !(BRINELL_X | BRINELL_Y) != 0 || mask == 0 {
+    if mask & !(BRINELL_X | BRINELL_Y | BRINELL_Z) != 0 || mask == 0 {
         return Err(Error::input(format!(
-            "{what}: {mask} are no directions; give BRINELL_X, BRINELL_Y or both"
+            "{what}: {mask} are no directions; give some of BRINELL_X, BRINELL_Y, BRINELL_Z, or-ed"
         )));
     }
-    let all = [(BRINELL_X, Direction::X), (BRINELL_Y, Direction::Y)];
-    let among = all.into_iter().filter(|(bit, _)| mask & bit != 0);
+    let all = [BRINELL_X, BRINELL_Y, BRINELL_Z]
+        .into_iter()
+        .zip(Direction::ALL);
+    let among = all.filter(|(bit, _)| mask & bit != 0);
     Ok(among.map(|(_, direction)| direction).collect())
 }
 
@@ -172,9 +196,10 @@ pub unsafe extern "C" fn brinell_model_contact(
             let entry = Contact {
                 first: text(first, "the first surface")?.to_string(),
                 second: text(second, "the second surface")?.to_string(),
-                normal: rows(given.normal, usize::from(!given.normal.is_null()), "normal")?
+                normal: m
+                    .vectors(given.normal, usize::from(!given.normal.is_null()), "normal")?
                     .first()
-                    .copied(),
+                    .map(|normal| m.builder.components(*normal)),
                 gap: given.gap.as_ref().copied(),
                 interference: given.interference,
             };
@@ -186,7 +211,7 @@ pub unsafe extern "C" fn brinell_model_contact(
             let first = slice(given.first_nodes, n, "first_nodes")?;
             let second = slice(given.second_nodes, n, "second_nodes")?;
             let unless_null = |is_null: bool| if is_null { 0 } else { n };
-            let normals = rows(given.normals, unless_null(given.normals.is_null()), "")?;
+            let normals = m.vectors(given.normals, unless_null(given.normals.is_null()), "")?;
             let gaps = slice(given.gaps, unless_null(given.gaps.is_null()), "")?;
             let node =
                 |k: usize, nodes: &[i64]| m.builder.node(|| format!("pair {k}: one"), nodes[k]);
@@ -205,7 +230,8 @@ pub unsafe extern "C" fn brinell_model_contact(
     }
 }
 
-/// Holds a node set or surface along BRINELL_X, BRINELL_Y or both, in axes turned counter-clockwise by `angle` degrees.
+/// Holds a node set or surface along BRINELL_X, BRINELL_Y, BRINELL_Z or several (or-ed), in axes
+/// turned counter-clockwise by `angle` degrees, of a solid about the z axis.
 ///
 /// # Safety
 /// `model` is a living handle, `on` a text that ends with a zero byte.
@@ -223,6 +249,7 @@ pub unsafe extern "C" fn brinell_model_support(
                 on: text(on, "the set")?.to_string(),
                 fix: directions(fix, "support")?,
                 angle: (angle != 0.0).then_some(angle),
+                direction: None,
             });
             Ok(())
         })

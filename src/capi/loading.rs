@@ -1,7 +1,7 @@
 //! Models from arrays: loads and the load program.
 
 use super::border::{SizePrefixed, shared, slice, text};
-use super::conditions::{BRINELL_X, BRINELL_Y, directions, rows, zero_or};
+use super::conditions::{BRINELL_X, BRINELL_Y, BRINELL_Z, directions, rows, zero_or};
 use super::model::{brinell_model, change, one_of};
 use crate::error::{Error, Result};
 use crate::scene::{
@@ -40,7 +40,7 @@ pub struct brinell_load {
     pub size: usize,
     /// One of BRINELL_LOAD_...
     pub kind: i32,
-    /// BRINELL_X, BRINELL_Y or both (or-ed), where the kind needs it.
+    /// BRINELL_X, BRINELL_Y, BRINELL_Z or several (or-ed), where the kind needs it.
     pub directions: i32,
     /// Name for messages; NULL if not given.
     pub name: *const c_char,
@@ -134,8 +134,9 @@ fn direction(which: i32, what: &str) -> Result<Direction> {
     match which {
         BRINELL_X => Ok(Direction::X),
         BRINELL_Y => Ok(Direction::Y),
+        BRINELL_Z => Ok(Direction::Z),
         other => Err(Error::input(format!(
-            "{what}: {other} is no direction; give BRINELL_X or BRINELL_Y"
+            "{what}: {other} is no direction; give BRINELL_X, BRINELL_Y or BRINELL_Z"
         ))),
     }
 }
@@ -174,7 +175,7 @@ pub unsafe extern "C" fn brinell_model_load(
             };
             if given.kind == BRINELL_LOAD_NODAL {
                 let nodes = slice(given.nodes, given.n_nodes, "nodes of the load")?;
-                let forces = rows(given.forces, given.n_nodes, "forces of the load")?;
+                let forces = m.vectors(given.forces, given.n_nodes, "forces of the load")?;
                 let name = text(given.name, "the name of a nodal load")?;
                 m.builder.nodal_load(name, nodes, &forces, history)?;
                 return Ok(());
@@ -187,9 +188,9 @@ pub unsafe extern "C" fn brinell_model_load(
             };
             let [x, y, z] = given.values;
             match given.kind {
-                BRINELL_LOAD_FORCE => load.force = Some([x, y]),
+                BRINELL_LOAD_FORCE => load.force = Some(m.builder.components([x, y, z])),
                 BRINELL_LOAD_PRESSURE => load.pressure = Some(x),
-                BRINELL_LOAD_TRACTION => load.traction = Some([x, y]),
+                BRINELL_LOAD_TRACTION => load.traction = Some(m.builder.components([x, y, z])),
                 BRINELL_LOAD_KIRSCH => {
                     load.kirsch = Some(Kirsch {
                         stress_x: x,
@@ -202,6 +203,7 @@ pub unsafe extern "C" fn brinell_model_load(
                     load.displacement = Some(Displacement {
                         x: moved.contains(&Direction::X).then_some(x),
                         y: moved.contains(&Direction::Y).then_some(y),
+                        z: moved.contains(&Direction::Z).then_some(z),
                     });
                 }
                 BRINELL_LOAD_PLANE_FORCE => {

@@ -23,6 +23,8 @@ pub const BRINELL_PLANE_STRAIN: i32 = 0;
 pub const BRINELL_PLANE_STRESS: i32 = 1;
 /// Coordinates are (r, z); forces are totals over the full circle.
 pub const BRINELL_AXISYMMETRIC: i32 = 2;
+/// Three coordinates.
+pub const BRINELL_SOLID: i32 = 3;
 
 /// Three corners.
 pub const BRINELL_SHAPE_TRI3: i32 = 0;
@@ -32,6 +34,14 @@ pub const BRINELL_SHAPE_TRI6: i32 = 1;
 pub const BRINELL_SHAPE_QUAD4: i32 = 2;
 /// Four corners, then the mid-side nodes.
 pub const BRINELL_SHAPE_QUAD8: i32 = 3;
+/// Four corners: 0, 1, 2 counter-clockwise seen from 3.
+pub const BRINELL_SHAPE_TET4: i32 = 4;
+/// Four corners, then the middles of the edges 01, 12, 02, 03, 13, 23.
+pub const BRINELL_SHAPE_TET10: i32 = 5;
+/// Eight corners: the base counter-clockwise seen from the top, then the top.
+pub const BRINELL_SHAPE_HEX8: i32 = 6;
+/// Eight corners, then the middles of the edges of base, top, and between them.
+pub const BRINELL_SHAPE_HEX20: i32 = 7;
 
 /// One of several values by its number.
 pub(super) fn one_of<T: Copy>(values: &[T], which: i32, what: &str) -> Result<T> {
@@ -54,8 +64,8 @@ pub(super) unsafe fn change(
     guarded(|| act(unsafe { exclusive(model, "the model") }?))
 }
 
-/// An empty model: one of BRINELL_PLANE_STRAIN, BRINELL_PLANE_STRESS, BRINELL_AXISYMMETRIC. `symmetry` copies of it make the whole: 1
-/// where all of it is meshed, 2 for a half model, 4 for a quarter of a plane one (loads and results are those of the whole).
+/// An empty model: one of BRINELL_PLANE_STRAIN, BRINELL_PLANE_STRESS, BRINELL_AXISYMMETRIC, BRINELL_SOLID. `symmetry` copies of it make the whole: 1
+/// where all of it is meshed, 2 for a half model, 4 for a quarter of a plane or solid one, 8 for an eighth of a solid one (loads and results are those of the whole).
 ///
 /// # Safety
 /// `out` may be written to.
@@ -89,10 +99,10 @@ pub unsafe extern "C" fn brinell_model_free(model: *mut brinell_model) {
     unsafe { free(model) }
 }
 
-/// Adds nodes: n x 2 coordinates, node by node. Nodes are numbered from 0 in the order in which they were added.
+/// Adds nodes: n x 2 coordinates, of a solid n x 3, node by node. Nodes are numbered from 0 in the order in which they were added.
 ///
 /// # Safety
-/// `model` is a living handle, `coordinates` has 2 n values.
+/// `model` is a living handle, `coordinates` has 2 n, of a solid 3 n values.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn brinell_model_nodes(
     model: *mut brinell_model,
@@ -102,14 +112,14 @@ pub unsafe extern "C" fn brinell_model_nodes(
     // SAFETY: the caller vouches for every pointer.
     unsafe {
         change(model, |m| {
-            let n = n.saturating_mul(2);
+            let n = n.saturating_mul(m.builder.dimension());
             m.builder.nodes(slice(coordinates, n, "coordinates")?)?;
             Ok(())
         })
     }
 }
 
-/// Adds `n` elements of one shape (BRINELL_SHAPE_...) to a body: the nodes of one after the other, counter-clockwise, corners first.
+/// Adds `n` elements of one shape (BRINELL_SHAPE_...) to a body: the nodes of one after the other, in the order of its shape.
 ///
 /// # Safety
 /// `model` is a living handle, `body` a text that ends with a zero byte, `nodes` has n values for each node of the shape.

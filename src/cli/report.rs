@@ -97,6 +97,7 @@ impl Report {
             Kind::PlaneStrain => "plane strain",
             Kind::PlaneStress => "plane stress",
             Kind::Axisymmetric => "axisymmetric",
+            Kind::Solid => "solid",
         };
         let title = match (scene.title.as_str(), &scene.file) {
             ("", Some(file)) => file.display().to_string(),

@@ -1,43 +1,40 @@
 //! Integration over the facets of elements: tractions and nodal areas.
 
-use crate::shape::{FACET_RULE, FacetReference, MAX_FACET_NODES};
-use crate::space::Space;
+use crate::shape::{FacetReference, MAX_FACET_NODES};
+use crate::space::{Space, Vector, length};
 
 /// An integration point on a facet.
 #[derive(Debug, Clone, Copy)]
 pub struct FacetPoint {
-    /// Shape function values of the facet's nodes (ends first, then the mid-side node).
+    /// Shape function values of the facet's nodes (corners first, then the mid-side nodes).
     pub values: [f64; MAX_FACET_NODES],
-    /// Weight times length of the tangent, times circumference where axisymmetric.
+    /// Weight times length or area, times circumference where axisymmetric.
     pub weight: f64,
     /// Coordinates.
-    pub position: [f64; 2],
-    /// Outward unit normal (the body is on the left from the first end to the second).
-    pub normal: [f64; 2],
+    pub position: Vector,
+    /// Outward unit normal.
+    pub normal: Vector,
 }
 
-/// The points of a facet ([`FACET_RULE`]) with these nodes.
+/// The points of a facet ([`FacetReference::rule`]) with these nodes.
 pub fn facet_points(
     space: Space,
     facet: &FacetReference,
-    coordinates: &[[f64; 2]],
-) -> [FacetPoint; 3] {
-    FACET_RULE.map(|(s, weight)| {
-        let (values, slopes) = (facet.functions)(s);
-        let mut x = [0.0; 2];
-        let mut tangent = [0.0; 2];
-        for (i, c) in coordinates.iter().enumerate() {
-            for d in 0..2 {
-                x[d] += values[i] * c[d];
-                tangent[d] += slopes[i] * c[d];
-            }
+    nodes: &[Vector],
+) -> impl Iterator<Item = FacetPoint> {
+    facet.rule.iter().map(move |&(place, weight)| {
+        let at = (facet.functions)(place);
+        let mut position = [0.0; 3];
+        for (value, x) in at.values.iter().zip(nodes) {
+            (0..3).for_each(|d| position[d] += value * x[d]);
         }
-        let length = tangent[0].hypot(tangent[1]);
+        let area = facet.area(&at, nodes);
+        let size = length(area);
         FacetPoint {
-            values,
-            weight: weight * length * space.measure(x[0]),
-            position: x,
-            normal: [tangent[1] / length, -tangent[0] / length],
+            values: std::array::from_fn(|k| at.values[k]),
+            weight: weight * size * space.measure(position[0]),
+            position,
+            normal: area.map(|a| a / size),
         }
     })
 }

@@ -15,7 +15,7 @@
 //! # Source
 //! T. J. R. Hughes, *The Finite Element Method* (1987), sections 2.7 and 4.5 (B-bar).
 
-use crate::shape::{MAX_NODES, Reference, Rule};
+use crate::shape::{Reference, Rule};
 use crate::space::Space;
 
 /// A number at each point; beyond the number of points that of the first.
@@ -25,30 +25,30 @@ pub type Components<const S: usize = 4, const P: usize = 4> = [Lanes<P>; S];
 
 /// The shape functions of a shape at the points of a rule.
 #[derive(Debug)]
-pub(super) struct Table<const D: usize, const P: usize> {
+pub(super) struct Table<const D: usize, const P: usize, const N: usize> {
     n_nodes: usize,
     n_points: usize,
     /// Zero beyond the number of points.
     weights: Lanes<P>,
-    pub(super) values: [Lanes<P>; MAX_NODES],
+    pub(super) values: [Lanes<P>; N],
     /// Along the reference coordinates.
-    gradients: [[Lanes<P>; D]; MAX_NODES],
+    gradients: [[Lanes<P>; D]; N],
 }
 
-impl<const D: usize, const P: usize> Table<D, P> {
+impl<const D: usize, const P: usize, const N: usize> Table<D, P, N> {
     pub(super) fn new(row: &Reference, rule: &Rule) -> Self {
         let mut out = Table {
             n_nodes: row.nodes.len(),
             n_points: rule.len(),
             weights: [0.0; P],
-            values: [[0.0; P]; MAX_NODES],
-            gradients: [[[0.0; P]; D]; MAX_NODES],
+            values: [[0.0; P]; N],
+            gradients: [[[0.0; P]; D]; N],
         };
         for g in 0..P {
             let (place, weight) = rule.get(g).copied().unwrap_or((rule[0].0, 0.0));
             let at = (row.functions)(place);
             out.weights[g] = weight;
-            for k in 0..MAX_NODES {
+            for k in 0..N {
                 out.values[k][g] = at.values[k];
                 for a in 0..D {
                     out.gradients[k][a][g] = at.gradients[k][a];
@@ -61,9 +61,9 @@ impl<const D: usize, const P: usize> Table<D, P> {
     /// Derivatives along the reference coordinates of each component of a field with the values
     /// `of` at the nodes.
     #[inline]
-    fn along<const N: usize>(&self, of: &[[f64; D]; MAX_NODES]) -> [[Lanes<P>; D]; D] {
+    fn along<const K: usize>(&self, of: &[[f64; D]; N]) -> [[Lanes<P>; D]; D] {
         let mut out = [[[0.0; P]; D]; D];
-        for (gradient, value) in self.gradients.iter().zip(of).take(N) {
+        for (gradient, value) in self.gradients.iter().zip(of).take(K) {
             for (out, value) in out.iter_mut().zip(value) {
                 for (out, gradient) in out.iter_mut().zip(gradient) {
                     for g in 0..P {
@@ -96,17 +96,19 @@ macro_rules! of_nodes {
             3 => $to.$method::<3>($($argument),*),
             4 => $to.$method::<4>($($argument),*),
             6 => $to.$method::<6>($($argument),*),
-            _ => $to.$method::<8>($($argument),*),
+            8 => $to.$method::<8>($($argument),*),
+            10 => $to.$method::<10>($($argument),*),
+            _ => $to.$method::<20>($($argument),*),
         }
     };
 }
 pub(super) use of_nodes;
 
-/// Gradients at up to P points of an element in D dimensions, with S components of strain: in the
-/// plane D = 2 and S = 4 ([`super::PlaneGradients`]), in space 3 and 6.
+/// Gradients at up to P points of an element of up to N nodes in D dimensions, with S components of
+/// strain.
 #[derive(Debug, Clone)]
-pub struct Gradients<const D: usize, const S: usize, const P: usize> {
-    pub(super) table: &'static Table<D, P>,
+pub struct Gradients<const D: usize, const S: usize, const P: usize, const N: usize> {
+    pub(super) table: &'static Table<D, P, N>,
     pub(super) has_mean: bool,
     /// `dxi_a/dx_d` as `[d][a]`.
     inverse: [[Lanes<P>; D]; D],
@@ -127,14 +129,14 @@ pub(super) struct ShearFromCenter<const D: usize, const P: usize> {
     inverse: [f64; D],
 }
 
-impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
+impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D, S, P, N> {
     /// The gradients at the points of `table` for the coordinates of the element's nodes.
     #[inline]
     pub(super) fn new(
-        table: &'static Table<D, P>,
+        table: &'static Table<D, P, N>,
         space: Space,
         has_mean: bool,
-        nodes: &[[f64; D]; MAX_NODES],
+        nodes: &[[f64; D]; N],
     ) -> Self {
         let jacobian = of_nodes!(table.n_nodes, table, along, nodes);
         let (inverse, determinant) = inverted(&jacobian);
@@ -181,7 +183,7 @@ impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
     }
 
     /// Coordinates of the points, axis by axis, for those of the nodes.
-    pub fn positions(&self, nodes: &[[f64; D]; MAX_NODES]) -> [Lanes<P>; D] {
+    pub fn positions(&self, nodes: &[[f64; D]; N]) -> [Lanes<P>; D] {
         std::array::from_fn(|d| self.table.interpolated(|k| nodes[k][d]))
     }
 
@@ -194,7 +196,7 @@ impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
 
     /// Strains at the points for displacements of the nodes.
     #[inline]
-    pub fn strains(&self, u: &[[f64; D]; MAX_NODES]) -> Components<S, P> {
+    pub fn strains(&self, u: &[[f64; D]; N]) -> Components<S, P> {
         let mut out = self.local_strains(u);
         if self.has_mean {
             let [mean] = self.mean(&[trace(&out)]);
@@ -205,7 +207,7 @@ impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
 
     /// `f = sum_g w_g B' sigma` on the nodes.
     #[inline]
-    pub fn forces(&self, stress: &Components<S, P>) -> [[f64; D]; MAX_NODES] {
+    pub fn forces(&self, stress: &Components<S, P>) -> [[f64; D]; N] {
         let mut stress = *stress;
         if self.has_mean {
             let [mean] = self.mean(&[trace(&stress)]);
@@ -216,7 +218,7 @@ impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
 
     /// Strains of the displacements alone, their dilatation as it is.
     #[inline]
-    pub(super) fn local_strains(&self, u: &[[f64; D]; MAX_NODES]) -> Components<S, P> {
+    pub(super) fn local_strains(&self, u: &[[f64; D]; N]) -> Components<S, P> {
         let along = of_nodes!(self.n_nodes(), self.table, along, u);
         // du_i/dx_d
         let slope = |i: usize, d: usize| {
@@ -256,7 +258,7 @@ impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
     }
 
     #[inline]
-    fn forces_of<const N: usize>(&self, stress: &Components<S, P>) -> [[f64; D]; MAX_NODES] {
+    fn forces_of<const K: usize>(&self, stress: &Components<S, P>) -> [[f64; D]; N] {
         let mut weighted = *stress;
         for lanes in &mut weighted {
             for g in 0..P {
@@ -288,8 +290,8 @@ impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
                 }
             }
         }
-        let mut out = [[0.0; D]; MAX_NODES];
-        for (force, gradients) in out.iter_mut().zip(&self.table.gradients).take(N) {
+        let mut out = [[0.0; D]; N];
+        for (force, gradients) in out.iter_mut().zip(&self.table.gradients).take(K) {
             for (force, fluxes) in force.iter_mut().zip(&fluxes) {
                 let mut terms = [0.0; P];
                 for (gradient, flux) in gradients.iter().zip(fluxes) {
@@ -302,7 +304,7 @@ impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
         }
         if let Some(per_radius) = &self.per_radius {
             let hoop = std::array::from_fn(|g| per_radius[g] * weighted[2][g]);
-            for (force, values) in out.iter_mut().zip(&self.table.values).take(N) {
+            for (force, values) in out.iter_mut().zip(&self.table.values).take(K) {
                 force[0] += dot(values, &hoop);
             }
         }
@@ -311,8 +313,8 @@ impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
 
     /// `dN_k/dx_d` at the points as `[k][d]`.
     #[inline]
-    pub(super) fn of_functions<const N: usize>(&self) -> [[Lanes<P>; D]; N] {
-        let mut out = [[[0.0; P]; D]; N];
+    pub(super) fn of_functions<const K: usize>(&self) -> [[Lanes<P>; D]; K] {
+        let mut out = [[[0.0; P]; D]; K];
         for (out, gradients) in out.iter_mut().zip(&self.table.gradients) {
             for (out, inverse) in out.iter_mut().zip(&self.inverse) {
                 for (inverse, gradient) in inverse.iter().zip(gradients) {
@@ -326,7 +328,7 @@ impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
     }
 
     /// `dN_k/dy` at the centre, where the shear is taken from there.
-    pub(super) fn at_center<const N: usize>(&self, shear: &ShearFromCenter<D, P>) -> [f64; N] {
+    pub(super) fn at_center<const K: usize>(&self, shear: &ShearFromCenter<D, P>) -> [f64; K] {
         std::array::from_fn(|k| {
             let terms = shear.inverse.iter().zip(&self.table.gradients[k]);
             terms

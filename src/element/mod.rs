@@ -62,84 +62,149 @@ pub use facet::{FacetPoint, facet_points};
 pub use gradients::{Components, Gradients, Lanes};
 pub use stiffness::packed;
 
-use crate::shape::{MAX_NODES, Shape};
+use crate::shape::{Rule, Shape};
 use crate::space::Space;
 use gradients::{Table, set_trace};
 use std::sync::LazyLock;
 
-/// Most points of an element in the plane.
-pub const MAX_POINTS: usize = 4;
+/// The kernel of the plane: 2 coordinates, 4 components, up to 4 points and 8 nodes.
+pub type PlaneKernel = Kernel<2, 4, 4, 8>;
+/// The kernel of space: 3 coordinates, 6 components, up to 8 points and 20 nodes.
+pub type SolidKernel = Kernel<3, 6, 8, 20>;
 
-/// The gradients of an element in the plane.
-pub type PlaneGradients = Gradients<2, 4, MAX_POINTS>;
-type PlaneTables = LazyLock<[Table<2, MAX_POINTS>; Shape::ALL.len()]>;
+/// The shape functions of all shapes of a dimension.
+type Tables<const D: usize, const P: usize, const N: usize> =
+    LazyLock<[Option<Table<D, P, N>>; Shape::ALL.len()]>;
 
-static GAUSS: PlaneTables = LazyLock::new(|| {
-    Shape::ALL.map(|shape| Table::new(shape.reference(), shape.reference().gauss))
-});
-static SAMPLING: PlaneTables = LazyLock::new(|| {
-    Shape::ALL.map(|shape| Table::new(shape.reference(), shape.reference().sampling))
-});
+static PLANE: [Tables<2, 4, 8>; 2] = [
+    LazyLock::new(|| tables(|s| s.reference().gauss)),
+    LazyLock::new(|| tables(|s| s.reference().sampling)),
+];
+static SOLID: [Tables<3, 8, 20>; 2] = [
+    LazyLock::new(|| tables(|s| s.reference().gauss)),
+    LazyLock::new(|| tables(|s| s.reference().sampling)),
+];
 
-/// Whether the dilatation of an element is replaced by its mean (B-bar).
-fn has_mean(space: Space, shape: Shape) -> bool {
-    shape.reference().has_mean_dilatation && space != Space::PlaneStress
+fn tables<const D: usize, const P: usize, const N: usize>(
+    rule: fn(Shape) -> &'static Rule,
+) -> [Option<Table<D, P, N>>; Shape::ALL.len()] {
+    Shape::ALL.map(|shape| {
+        let row = shape.reference();
+        (row.dimension == D).then(|| Table::new(row, rule(shape)))
+    })
 }
 
-impl PlaneGradients {
+/// Makes the gradients of elements of a dimension: D coordinates, S components of strain, up to P
+/// points and N nodes. What is generic in these takes a kernel, which says what they are
+/// ([`with_kernel!`]).
+#[derive(Debug, Clone, Copy)]
+pub struct Kernel<const D: usize, const S: usize, const P: usize, const N: usize> {
+    space: Space,
+    gauss: &'static Tables<D, P, N>,
+    sampling: &'static Tables<D, P, N>,
+}
+
+impl PlaneKernel {
+    /// The kernel of a space of two dimensions.
+    pub fn plane(space: Space) -> Self {
+        let [gauss, sampling] = &PLANE;
+        Kernel {
+            space,
+            gauss,
+            sampling,
+        }
+    }
+}
+
+impl SolidKernel {
+    /// The kernel of three dimensions.
+    pub fn solid() -> Self {
+        let [gauss, sampling] = &SOLID;
+        Kernel {
+            space: Space::Solid,
+            gauss,
+            sampling,
+        }
+    }
+}
+
+/// Evaluates an expression with the kernel of a space: the one place where the dimension becomes
+/// constants.
+macro_rules! with_kernel {
+    ($space:expr, $kernel:ident => $body:expr) => {
+        match $space {
+            $crate::space::Space::Solid => {
+                let $kernel = $crate::element::Kernel::solid();
+                $body
+            }
+            space => {
+                let $kernel = $crate::element::Kernel::plane(space);
+                $body
+            }
+        }
+    };
+}
+pub(crate) use with_kernel;
+
+impl<const D: usize, const S: usize, const P: usize, const N: usize> Kernel<D, S, P, N> {
     /// The gradients at the Gauss points, for the coordinates of the element's nodes.
     #[inline]
-    pub fn gauss(space: Space, shape: Shape, nodes: &[[f64; 2]; MAX_NODES]) -> Self {
-        Self::at(&GAUSS, space, shape, nodes)
+    pub fn gauss(&self, shape: Shape, nodes: &[[f64; D]; N]) -> Gradients<D, S, P, N> {
+        self.at(self.gauss, shape, nodes)
+    }
+
+    /// An element at its sampling points, for the coordinates of its nodes.
+    pub fn sampling(&self, shape: Shape, nodes: &[[f64; D]; N]) -> Sampling<D, S, P, N> {
+        Sampling {
+            at: self.at(self.sampling, shape, nodes),
+            mean: self
+                .has_mean(shape)
+                .then(|| self.gauss(shape, nodes).mean_dilatation()),
+        }
     }
 
     #[inline]
     fn at(
-        tables: &'static PlaneTables,
-        space: Space,
+        &self,
+        tables: &'static Tables<D, P, N>,
         shape: Shape,
-        nodes: &[[f64; 2]; MAX_NODES],
-    ) -> Self {
-        Gradients::new(
-            &tables[shape as usize],
-            space,
-            has_mean(space, shape),
-            nodes,
-        )
+        nodes: &[[f64; D]; N],
+    ) -> Gradients<D, S, P, N> {
+        // A mesh has shapes of its own dimension only.
+        let table = tables[shape as usize]
+            .as_ref()
+            .expect("a shape of this dimension");
+        Gradients::new(table, self.space, self.has_mean(shape), nodes)
+    }
+
+    /// Whether the dilatation of an element is replaced by its mean (B-bar).
+    fn has_mean(&self, shape: Shape) -> bool {
+        shape.reference().has_mean_dilatation && self.space != Space::PlaneStress
     }
 }
 
 /// An element at the points where its stress is most accurate
 /// ([`Reference::sampling`](crate::shape::Reference::sampling)).
 #[derive(Debug, Clone)]
-pub struct PlaneSampling {
-    at: PlaneGradients,
+pub struct Sampling<const D: usize, const S: usize, const P: usize, const N: usize> {
+    at: Gradients<D, S, P, N>,
     /// The mean dilatation over the Gauss points.
-    mean: Option<[[f64; 2]; MAX_NODES]>,
+    mean: Option<[[f64; D]; N]>,
 }
 
-impl PlaneSampling {
-    /// For the coordinates of the element's nodes.
-    pub fn new(space: Space, shape: Shape, nodes: &[[f64; 2]; MAX_NODES]) -> Self {
-        let gauss = || PlaneGradients::gauss(space, shape, nodes);
-        PlaneSampling {
-            at: PlaneGradients::at(&SAMPLING, space, shape, nodes),
-            mean: has_mean(space, shape).then(|| gauss().mean_dilatation()),
-        }
-    }
-
+impl<const D: usize, const S: usize, const P: usize, const N: usize> Sampling<D, S, P, N> {
     /// Number of points.
     pub fn n_points(&self) -> usize {
         self.at.n_points()
     }
 
     /// Coordinates of the points, axis by axis, for those of the nodes.
-    pub fn positions(&self, nodes: &[[f64; 2]; MAX_NODES]) -> [Lanes; 2] {
+    pub fn positions(&self, nodes: &[[f64; D]; N]) -> [Lanes<P>; D] {
         self.at.positions(nodes)
     }
 
     /// Strains at the points, their dilatation treated as in [`Gradients::strains`].
-    pub fn strains(&self, u: &[[f64; 2]; MAX_NODES]) -> Components {
+    pub fn strains(&self, u: &[[f64; D]; N]) -> Components<S, P> {
         let mut out = self.at.local_strains(u);
         if let Some(mean) = &self.mean {
             let terms = mean.as_flattened().iter().zip(u.as_flattened());

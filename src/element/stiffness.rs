@@ -13,9 +13,8 @@
 
 use super::gradients::{Gradients, Lanes, dot, of_nodes, sum};
 use crate::material::Lame;
-use crate::shape::MAX_NODES;
 
-impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
+impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D, S, P, N> {
     /// `K_e` for an elastic law, packed lower triangle ([`packed`]), into `out`.
     pub fn stiffness_into(&self, law: &Lame, out: &mut [f64]) {
         of_nodes!(self.n_nodes(), self, stiffness_of, law, out);
@@ -23,25 +22,25 @@ impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
 
     /// The mean dilatation for a unit displacement of each node along each axis, `int tr B / V`.
     #[inline]
-    pub(super) fn mean_dilatation(&self) -> [[f64; D]; MAX_NODES] {
+    pub(super) fn mean_dilatation(&self) -> [[f64; D]; N] {
         of_nodes!(self.n_nodes(), self, padded_mean,)
     }
 
-    fn padded_mean<const N: usize>(&self) -> [[f64; D]; MAX_NODES] {
-        let mut out = [[0.0; D]; MAX_NODES];
-        let traces = self.traces(&self.of_functions::<N>());
-        out[..N].copy_from_slice(&self.means(&traces));
+    fn padded_mean<const K: usize>(&self) -> [[f64; D]; N] {
+        let mut out = [[0.0; D]; N];
+        let traces = self.traces(&self.of_functions::<K>());
+        out[..K].copy_from_slice(&self.means(&traces));
         out
     }
 
     /// `m_k`.
-    fn means<const N: usize>(&self, traces: &[[Lanes<P>; D]; N]) -> [[f64; D]; N] {
+    fn means<const K: usize>(&self, traces: &[[Lanes<P>; D]; K]) -> [[f64; D]; K] {
         let volume: f64 = self.weights.iter().sum();
         std::array::from_fn(|k| std::array::from_fn(|d| dot(&traces[k][d], &self.weights) / volume))
     }
 
     /// `t_k`.
-    fn traces<const N: usize>(&self, gradients: &[[Lanes<P>; D]; N]) -> [[Lanes<P>; D]; N] {
+    fn traces<const K: usize>(&self, gradients: &[[Lanes<P>; D]; K]) -> [[Lanes<P>; D]; K] {
         let mut out = *gradients;
         if let Some(per_radius) = &self.per_radius {
             for (out, values) in out.iter_mut().zip(&self.table.values) {
@@ -53,13 +52,13 @@ impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
         out
     }
 
-    fn stiffness_of<const N: usize>(&self, law: &Lame, out: &mut [f64]) {
-        let gradients = self.of_functions::<N>();
+    fn stiffness_of<const K: usize>(&self, law: &Lame, out: &mut [f64]) {
+        let gradients = self.of_functions::<K>();
         let traces = self.traces(&gradients);
         let bulk = if self.has_mean { law.bulk() } else { 0.0 };
         let weighted = |by: f64| self.weights.map(|w| w * by);
         let (lambda, mu) = (weighted(law.lambda - bulk), weighted(law.mu));
-        for i in 0..N {
+        for i in 0..K {
             for j in 0..=i {
                 let of_trace: [Lanes<P>; D] = traces[j].map(|t| product(&lambda, &t));
                 let of_shear: [Lanes<P>; D] = gradients[j].map(|t| product(&mu, &t));
@@ -82,7 +81,7 @@ impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
             }
         }
         if let Some(per_radius) = &self.per_radius {
-            self.add_hoop::<N>(per_radius, &mu, out);
+            self.add_hoop::<K>(per_radius, &mu, out);
         }
         if self.shear.is_some() {
             self.exchange_shear(&gradients, &mu, out);
@@ -91,7 +90,7 @@ impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
             let volume: f64 = self.weights.iter().sum();
             let mean = self.means(&traces);
             let mean = mean.as_flattened();
-            for row in 0..D * N {
+            for row in 0..D * K {
                 for column in 0..=row {
                     out[packed(row, column)] += volume * bulk * mean[row] * mean[column];
                 }
@@ -99,8 +98,8 @@ impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
         }
     }
 
-    fn add_hoop<const N: usize>(&self, per_radius: &Lanes<P>, mu: &Lanes<P>, out: &mut [f64]) {
-        for i in 0..N {
+    fn add_hoop<const K: usize>(&self, per_radius: &Lanes<P>, mu: &Lanes<P>, out: &mut [f64]) {
+        for i in 0..K {
             for j in 0..=i {
                 let (a, b) = (&self.table.values[i], &self.table.values[j]);
                 let terms: Lanes<P> = std::array::from_fn(|g| {
@@ -112,20 +111,20 @@ impl<const D: usize, const S: usize, const P: usize> Gradients<D, S, P> {
     }
 
     /// Puts the shear from the centre in place of that at the points.
-    fn exchange_shear<const N: usize>(
+    fn exchange_shear<const K: usize>(
         &self,
-        gradients: &[[Lanes<P>; D]; N],
+        gradients: &[[Lanes<P>; D]; K],
         mu: &Lanes<P>,
         out: &mut [f64],
     ) {
         let Some(shear) = &self.shear else { return };
-        let center: [f64; N] = self.at_center(shear);
+        let center: [f64; K] = self.at_center(shear);
         let of_center = |k: usize| {
             let factors = &shear.factors;
             let along_x = factors.map(|factor| factor * center[k]);
             [along_x, product(factors, &gradients[k][0])]
         };
-        for i in 0..N {
+        for i in 0..K {
             let (new, old) = (of_center(i), [gradients[i][1], gradients[i][0]]);
             for j in 0..=i {
                 let (new_j, old_j) = (of_center(j), [gradients[j][1], gradients[j][0]]);

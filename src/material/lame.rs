@@ -83,6 +83,15 @@ impl<const S: usize> Softening<S> {
         normal: [0.0; S],
     };
 
+    /// The same with another number of components: zeros for those it has not.
+    pub fn resized<const T: usize>(&self) -> Softening<T> {
+        Softening {
+            isotropic: self.isotropic,
+            along: self.along,
+            normal: super::resized(&self.normal),
+        }
+    }
+
     /// What is lost of the stress of a strain increment.
     #[inline]
     pub fn times(&self, strain: &[f64; S]) -> [f64; S] {

@@ -54,6 +54,21 @@ impl<const S: usize> Default for PlasticState<S> {
     }
 }
 
+impl<const S: usize> PlasticState<S> {
+    /// The same with another number of components: zeros for those it has not.
+    pub fn resized<const T: usize>(&self) -> PlasticState<T> {
+        PlasticState {
+            strain: resized(&self.strain),
+            equivalent: self.equivalent,
+        }
+    }
+}
+
+/// The first components of a tensor, zeros for those it has not.
+fn resized<const S: usize, const T: usize>(tensor: &[f64; S]) -> [f64; T] {
+    std::array::from_fn(|i| tensor.get(i).copied().unwrap_or(0.0))
+}
+
 /// Result of integrating the flow rule over an increment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Update<const S: usize> {
@@ -109,7 +124,7 @@ impl Material {
                 mu,
                 across: 0.0,
             },
-            Space::PlaneStrain | Space::Axisymmetric => Lame {
+            Space::PlaneStrain | Space::Axisymmetric | Space::Solid => Lame {
                 lambda: e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)),
                 mu,
                 across: 1.0,

@@ -27,7 +27,7 @@ pub fn lay_on_circle(mesh: &mut Mesh, given: &SurfaceCircle) -> Result<()> {
         let ends: Vec<[f64; 2]> = mesh
             .facet_nodes(facet)
             .take(2)
-            .map(|n| mesh.point(n))
+            .map(|n| mesh.in_plane(n))
             .collect();
         let (a, b) = (ends[0], ends[1]);
         // The body lies on the left of the facet.
@@ -45,7 +45,7 @@ pub fn lay_on_circle(mesh: &mut Mesh, given: &SurfaceCircle) -> Result<()> {
     let nodes = mesh.set_nodes(&given.on).unwrap_or_default();
     let mut moved = Vec::with_capacity(nodes.len());
     for node in nodes {
-        let [x, y] = mesh.point(node);
+        let [x, y] = mesh.in_plane(node);
         let (dx, dy) = (x - cx, y - cy);
         let distance = dx.hypot(dy);
         let off = distance - radius;

@@ -1,42 +1,45 @@
 //! Do elements fit together? Shared edges agree, elements do not overlap, no node hangs on an edge.
 
 use super::{Facet, Mesh};
+use crate::space::{self, Vector, cross, difference, dot, length};
 use crate::{Error, Result};
 use rayon::prelude::*;
 
 /// Facets that a thread takes at a time: fewer take less than waking it.
 const GRAIN: usize = 512;
 
-/// A facet by its two end nodes, the smaller first.
+/// A facet by its corners, ascending and filled up.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Edge {
-    low: u32,
-    high: u32,
+struct Side {
+    corners: [u32; MOST_CORNERS],
     facet: Facet,
 }
 
-/// Checks that each edge belongs to one element, or to two on opposite sides with the same mid-side
-/// node, and that no corner of a body's boundary lies inside another boundary edge of that body.
+/// Most corners of a facet.
+const MOST_CORNERS: usize = 4;
+
+/// Checks that each facet belongs to one element, or to two on opposite sides with the same mid-side
+/// nodes, and that no corner of a body's boundary lies inside another boundary edge of that body.
 ///
 /// # Errors
 /// Input errors name elements, nodes and body.
 pub(super) fn check(mesh: &Mesh) -> Result<()> {
-    let mut edges: Vec<Edge> = (0..mesh.n_elements())
+    let mut sides: Vec<Side> = (0..mesh.n_elements())
         .flat_map(|element| {
             (0..mesh.shapes[element].n_facets()).map(move |local| Facet { element, local })
         })
         .map(|facet| {
-            let [a, b] = ends(mesh, facet);
-            Edge {
-                low: a.min(b),
-                high: a.max(b),
-                facet,
+            let mut corners = [u32::MAX; MOST_CORNERS];
+            for (place, corner) in corners.iter_mut().zip(corners_of(mesh, facet)) {
+                *place = corner;
             }
+            corners.sort_unstable();
+            Side { corners, facet }
         })
         .collect();
-    edges.par_sort_unstable();
+    sides.par_sort_unstable();
     let mut boundary = Vec::new();
-    for group in edges.chunk_by(|e, f| (e.low, e.high) == (f.low, f.high)) {
+    for group in sides.chunk_by(|a, b| a.corners == b.corners) {
         match group {
             [only] => boundary.push(only.facet),
             [first, second] => check_pair(mesh, first.facet, second.facet)?,
@@ -52,15 +55,37 @@ pub(super) fn check(mesh: &Mesh) -> Result<()> {
     check_hanging(mesh, &boundary)
 }
 
-fn ends(mesh: &Mesh, facet: Facet) -> [u32; 2] {
-    let local = mesh.shapes[facet.element].facet(facet.local);
+/// The corners of a facet in its own order.
+fn corners_of(mesh: &Mesh, facet: Facet) -> impl Iterator<Item = u32> + Clone + '_ {
+    let shape = mesh.shapes[facet.element];
     let nodes = mesh.nodes(facet.element);
-    [nodes[local[0]], nodes[local[1]]]
+    let corners = &shape.facet(facet.local)[..shape.reference().facet.n_corners];
+    corners.iter().map(|&local| nodes[local])
 }
 
-fn middle(mesh: &Mesh, facet: Facet) -> Option<u32> {
-    let local = mesh.shapes[facet.element].facet(facet.local);
-    local.get(2).map(|&i| mesh.nodes(facet.element)[i])
+/// The mid-side nodes of a facet, ascending.
+fn middles(mesh: &Mesh, facet: Facet) -> Vec<u32> {
+    let corners = mesh.facet_corners(facet);
+    let nodes = mesh.facet_nodes(facet).skip(corners);
+    let mut middles: Vec<u32> = nodes.map(|node| node as u32).collect();
+    middles.sort_unstable();
+    middles
+}
+
+/// Whether two facets with the same corners run through them in opposite directions, as those of
+/// elements on their two sides do.
+fn are_opposite(mesh: &Mesh, first: Facet, second: Facet) -> bool {
+    let (one, mut other): (Vec<u32>, Vec<u32>) = (
+        corners_of(mesh, first).collect(),
+        corners_of(mesh, second).collect(),
+    );
+    other.reverse();
+    if let [.., _, _, _] = one[..]
+        && let Some(start) = other.iter().position(|node| *node == one[0])
+    {
+        other.rotate_left(start);
+    }
+    one == other
 }
 
 fn name(mesh: &Mesh, element: usize) -> String {
@@ -71,19 +96,14 @@ fn name(mesh: &Mesh, element: usize) -> String {
     )
 }
 
-/// Two elements at one edge must lie on its two sides and agree on its mid-side node.
+/// Two elements at one facet must lie on its two sides and agree on its mid-side nodes.
 fn check_pair(mesh: &Mesh, first: Facet, second: Facet) -> Result<()> {
-    let [a, b] = ends(mesh, first);
-    let same_side = ends(mesh, second) == [a, b];
-    let middles = (middle(mesh, first), middle(mesh, second));
-    if !same_side && middles.0 == middles.1 {
+    let same_side = !are_opposite(mesh, first, second);
+    let (m, n) = (middles(mesh, first), middles(mesh, second));
+    if !same_side && m == n {
         return Ok(());
     }
-    let edge = format!(
-        "the edge between nodes {} and {}",
-        mesh.node_label(a as usize),
-        mesh.node_label(b as usize)
-    );
+    let edge = described(mesh, first);
     let (one, two) = (name(mesh, first.element), name(mesh, second.element));
     if same_side {
         let corners = |element: usize| {
@@ -100,11 +120,12 @@ fn check_pair(mesh: &Mesh, first: Facet, second: Facet) -> Result<()> {
             },
         ));
     }
-    match middles {
+    let differing = m.iter().find(|node| !n.contains(node));
+    match (differing, n.iter().find(|node| !m.contains(node))) {
         (Some(m), Some(n)) => Err(Error::input(format!(
             "{one} and {two} share {edge} but have different mid-side nodes {} and {} there: merge them",
-            mesh.node_label(m as usize),
-            mesh.node_label(n as usize)
+            mesh.node_label(*m as usize),
+            mesh.node_label(*n as usize)
         ))),
         _ => Err(Error::input(format!(
             "{one} ({}) and {two} ({}) share {edge} but only one has a mid-side node there: \
@@ -115,6 +136,17 @@ fn check_pair(mesh: &Mesh, first: Facet, second: Facet) -> Result<()> {
     }
 }
 
+/// A facet by its corners, in words.
+fn described(mesh: &Mesh, facet: Facet) -> String {
+    let labels: Vec<String> = corners_of(mesh, facet)
+        .map(|node| mesh.node_label(node as usize).to_string())
+        .collect();
+    match &labels[..] {
+        [a, b] => format!("the edge between nodes {a} and {b}"),
+        _ => format!("the face of nodes {}", labels.join(", ")),
+    }
+}
+
 /// Corners of the boundary within this share of an edge's length from it count as lying on it.
 const ON_EDGE: f64 = 1e-8;
 
@@ -122,50 +154,65 @@ const ON_EDGE: f64 = 1e-8;
 fn check_hanging(mesh: &Mesh, boundary: &[Facet]) -> Result<()> {
     // Along this skew direction few boundary nodes share a value even where the boundary is
     // parallel to an axis, so that sorting by it finds neighbours.
-    let skew = |[x, y]: [f64; 2]| x + 0.618_033_988_749_895 * y;
-    let body = |facet: &Facet| mesh.element_body[facet.element];
-    let mut corners: Vec<(u32, f64, u32)> = boundary
+    let skew = |[x, y, z]: Vector| x + 0.618_033_988_749_895 * y + 0.381_966_011_250_105 * z;
+    let mut edges: Vec<(u32, [u32; 2], usize)> = boundary
         .iter()
-        .flat_map(|facet| ends(mesh, *facet).map(|node| (body(facet), node)))
+        .flat_map(|&facet| {
+            let corners: Vec<u32> = corners_of(mesh, facet).collect();
+            let n = corners.len();
+            let body = mesh.element_body[facet.element];
+            // A line is one edge.
+            let edge = move |k: usize| (body, [corners[k], corners[(k + 1) % n]], facet.element);
+            (0..if n == 2 { 1 } else { n }).map(edge)
+        })
+        .collect();
+    if mesh.is_solid() {
+        // Two faces meet at an edge: one of them stands for it.
+        edges
+            .iter_mut()
+            .for_each(|(_, ends, _)| ends.sort_unstable());
+        edges.par_sort_unstable();
+        edges.dedup_by_key(|(body, ends, _)| (*body, *ends));
+    }
+    let mut corners: Vec<(u32, f64, u32)> = edges
+        .iter()
+        .flat_map(|&(body, ends, _)| ends.map(|node| (body, node)))
         .map(|(body, node)| (body, skew(mesh.point(node as usize)), node))
         .collect();
     corners
         .par_sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
     corners.dedup();
-    let facets = boundary.par_iter().with_min_len(GRAIN);
-    let hanging = facets.find_map_first(|facet| {
-        let [a, b] = ends(mesh, *facet);
-        let (p, q) = (mesh.point(a as usize), mesh.point(b as usize));
-        let d = [q[0] - p[0], q[1] - p[1]];
-        let length = d[0].hypot(d[1]);
+    let hanging = edges.par_iter().with_min_len(GRAIN);
+    let hanging = hanging.find_map_first(|&(body, ends, element)| {
+        let [p, q] = ends.map(|node| mesh.point(node as usize));
+        let d = difference(q, p);
+        let length = length(d);
         let (s, t) = (skew(p), skew(q));
         let slack = 2.0 * ON_EDGE * length;
         let (low, high) = (s.min(t) - slack, s.max(t) + slack);
-        let start = corners.partition_point(|c| (c.0, c.1) < (body(facet), low));
+        let start = corners.partition_point(|c| (c.0, c.1) < (body, low));
         corners[start..]
             .iter()
-            .take_while(|c| c.0 == body(facet) && c.1 <= high)
+            .take_while(|c| c.0 == body && c.1 <= high)
             .find(|c| {
-                let r = mesh.point(c.2 as usize);
-                let e = [r[0] - p[0], r[1] - p[1]];
-                let along = (e[0] * d[0] + e[1] * d[1]) / length;
-                let across = (e[0] * d[1] - e[1] * d[0]).abs() / length;
+                let e = difference(mesh.point(c.2 as usize), p);
+                let along = dot(e, d) / length;
+                let across = space::length(cross(e, d)) / length;
                 across <= ON_EDGE * length
                     && along > ON_EDGE * length
                     && along < (1.0 - ON_EDGE) * length
             })
-            .map(|c| (*facet, c.2))
+            .map(|c| (ends, element, c.2))
     });
-    let Some((facet, node)) = hanging else {
+    let Some(([a, b], element, node)) = hanging else {
         return Ok(());
     };
-    let [a, b] = ends(mesh, facet);
     Err(Error::input(format!(
         "node {} hangs on the edge between nodes {} and {} of {}: refine that element or join the \
          node with others, so that neighbouring elements share whole edges",
         mesh.node_label(node as usize),
         mesh.node_label(a as usize),
         mesh.node_label(b as usize),
-        name(mesh, facet.element)
+        name(mesh, element)
     )))
 }

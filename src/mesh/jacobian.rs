@@ -2,6 +2,7 @@
 
 use super::Shape;
 use crate::shape::Functions;
+use crate::space::{Vector, cross, dot, unit};
 
 /// The shape functions where an element is checked.
 pub(super) fn check_points(shape: Shape) -> Vec<Functions> {
@@ -10,14 +11,15 @@ pub(super) fn check_points(shape: Shape) -> Vec<Functions> {
 }
 
 /// Determinant of the Jacobian of an element with these node positions.
-pub(super) fn determinant(at: &Functions, points: &[[f64; 2]]) -> f64 {
-    let mut j = [[0.0; 2]; 2];
+pub(super) fn determinant(dimension: usize, at: &Functions, points: &[Vector]) -> f64 {
+    let mut along = [[0.0; 3]; 3];
     for (gradient, point) in at.gradients.iter().zip(points) {
-        for a in 0..2 {
-            for b in 0..2 {
-                j[a][b] += gradient[a] * point[b];
-            }
+        for (along, slope) in along.iter_mut().zip(gradient) {
+            (0..3).for_each(|d| along[d] += slope * point[d]);
         }
     }
-    j[0][0] * j[1][1] - j[0][1] * j[1][0]
+    if dimension == 2 {
+        along[2] = unit(2);
+    }
+    dot(cross(along[0], along[1]), along[2])
 }

@@ -13,7 +13,7 @@ pub mod surface;
 mod validate;
 
 pub use crate::shape::Shape;
-use crate::space::{Vector, in_space};
+use crate::space::{Vector, in_words};
 pub use circles::lay_on_circle;
 pub use subdivision::subdivided;
 pub use validate::validate;
@@ -21,7 +21,7 @@ pub use validate::validate;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// A facet of an element: an edge in two dimensions.
+/// A facet of an element: an edge in the plane, a face in space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Facet {
     /// Element index.
@@ -62,7 +62,7 @@ pub struct Surface {
 /// A finite element mesh.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Mesh {
-    /// Space dimension (2).
+    /// Space dimension, 2 or 3.
     pub dimension: usize,
     /// `n_nodes x dimension` coordinates, node by node. Axisymmetric: (r, z).
     pub coordinates: Vec<f64>,
@@ -106,14 +106,39 @@ impl Mesh {
         if quadratic { 2 } else { 1 }
     }
 
-    /// Coordinates of a node.
-    pub fn point(&self, node: usize) -> [f64; 2] {
-        [self.coordinates[2 * node], self.coordinates[2 * node + 1]]
+    /// Coordinates of a node; z = 0 in the plane.
+    #[inline]
+    pub fn point(&self, node: usize) -> Vector {
+        let at = self.dimension * node;
+        match self.dimension {
+            2 => [self.coordinates[at], self.coordinates[at + 1], 0.0],
+            _ => [
+                self.coordinates[at],
+                self.coordinates[at + 1],
+                self.coordinates[at + 2],
+            ],
+        }
     }
 
-    /// Coordinates of a node in space; z = 0 in the plane.
-    pub fn place(&self, node: usize) -> Vector {
-        in_space(self.point(node))
+    /// The first two coordinates of a node: all there are in the plane.
+    pub fn in_plane(&self, node: usize) -> [f64; 2] {
+        let [x, y, _] = self.point(node);
+        [x, y]
+    }
+
+    /// The coordinates of a node, in words: `(x, y)` or `(x, y, z)`.
+    pub fn place(&self, node: usize) -> String {
+        in_words(self.point(node), self.dimension)
+    }
+
+    /// Whether it is of three dimensions.
+    pub fn is_solid(&self) -> bool {
+        self.dimension == 3
+    }
+
+    /// Number of corners of a facet.
+    pub fn facet_corners(&self, facet: Facet) -> usize {
+        self.shapes[facet.element].reference().facet.n_corners
     }
 
     /// Node indices of an element.
@@ -121,7 +146,7 @@ impl Mesh {
         &self.connectivity[self.offsets[element]..self.offsets[element + 1]]
     }
 
-    /// Node indices of a facet: the two ends first, then the mid-side node where there is one.
+    /// Node indices of a facet: its corners first, then the mid-side nodes where there are some.
     pub fn facet_nodes(&self, facet: Facet) -> impl Iterator<Item = usize> + '_ {
         let nodes = self.nodes(facet.element);
         self.shapes[facet.element]

@@ -20,6 +20,7 @@
 use super::surface::{PAIRING, facing, longest_facet, normals};
 use super::{Curve, Facet, Mesh, Surface};
 use crate::scene::Contact;
+use crate::space::direction;
 use crate::{Error, Result};
 use std::collections::{BTreeMap, HashMap};
 
@@ -33,8 +34,13 @@ const NEWTON: usize = 8;
 ///
 /// # Errors
 /// Input errors: a node set that holds both ends of an element's side (it is not known whether the
-/// node between belongs to it), a mesh that would become too large.
+/// node between belongs to it), a mesh that would become too large, a solid one.
 pub fn subdivided(mesh: Mesh, times: usize, contacts: &[Contact]) -> Result<Mesh> {
+    if mesh.is_solid() {
+        return Err(Error::input(
+            "mesh.subdivisions: solid meshes are not subdivided; mesh the bodies more finely",
+        ));
+    }
     let factor = 4usize.checked_pow(u32::try_from(times).unwrap_or(u32::MAX));
     let elements = factor.and_then(|f| f.checked_mul(mesh.n_elements()));
     if elements.is_none_or(|n| n > MOST_ELEMENTS) {
@@ -77,11 +83,11 @@ impl Side {
 
     /// The point at a parameter, and the derivative.
     fn at(&self, mesh: &Mesh, s: f64) -> ([f64; 2], [f64; 2]) {
-        let [a, b] = self.ends.map(|n| mesh.point(n as usize));
+        let [a, b] = self.ends.map(|n| mesh.in_plane(n as usize));
         let sag = match self.middle {
             None => [0.0; 2],
             Some(m) => {
-                let m = mesh.point(m as usize);
+                let m = mesh.in_plane(m as usize);
                 [0, 1].map(|d| m[d] - 0.5 * (a[d] + b[d]))
             }
         };
@@ -178,7 +184,10 @@ impl Sides {
                 let own = &self.list[below];
                 let x = own.new[k];
                 let normal = match (contact.normal, second.curve) {
-                    (Some(n), _) => n,
+                    (Some(n), _) => {
+                        let [x, y, _] = n.vector();
+                        [x, y]
+                    }
                     (None, Some(Curve::Line { normal })) => normal,
                     (None, Some(Curve::Circle { center, .. })) => {
                         [x[0] - center[0], x[1] - center[1]]
@@ -218,7 +227,7 @@ fn partners(
     let nodes = |name: &str| mesh.set_nodes(name).unwrap_or_default();
     let (above, below) = (nodes(&contact.first), nodes(&contact.second));
     let normals = match contact.normal {
-        Some(n) => vec![n.map(|c| c / n[0].hypot(n[1])); below.len()],
+        Some(n) => vec![direction(n.vector()); below.len()],
         None => normals(mesh, second, &below),
     };
     let tolerance = PAIRING * longest_facet(mesh, first).max(longest_facet(mesh, second));
@@ -351,7 +360,9 @@ fn check_node_sets(mesh: &Mesh) -> Result<()> {
 /// Appends the children of an element.
 fn cut(mesh: &Mesh, element: usize, sides: &Sides, out: &mut Mesh) {
     let shape = mesh.shapes[element];
-    let refinement = &shape.reference().refinement;
+    let Some(refinement) = shape.reference().refinement else {
+        return;
+    };
     let body = mesh.element_body[element] as usize;
     let mut nodes = mesh.nodes(element).to_vec();
     for local in 0..shape.n_facets() {
@@ -367,7 +378,7 @@ fn cut(mesh: &Mesh, element: usize, sides: &Sides, out: &mut Mesh) {
     for terms in refinement.inside {
         let mut x = [0.0; 2];
         for &(weight, local) in *terms {
-            let [a, b] = out.point(nodes[local] as usize);
+            let [a, b] = out.in_plane(nodes[local] as usize);
             x[0] += weight * a;
             x[1] += weight * b;
         }
@@ -382,12 +393,14 @@ fn cut(mesh: &Mesh, element: usize, sides: &Sides, out: &mut Mesh) {
 
 /// The parts of a facet, as facets of the children.
 fn parts(mesh: &Mesh, facet: Facet) -> impl Iterator<Item = Facet> {
-    let refinement = &mesh.shapes[facet.element].reference().refinement;
-    let first = refinement.children.len() * facet.element;
-    let parts = refinement.of_facet[facet.local].iter();
-    parts.map(move |&[child, local]| Facet {
-        element: first + child,
-        local,
+    let refinement = mesh.shapes[facet.element].reference().refinement;
+    refinement.into_iter().flat_map(move |refinement| {
+        let first = refinement.children.len() * facet.element;
+        let parts = refinement.of_facet[facet.local].iter();
+        parts.map(move |&[child, local]| Facet {
+            element: first + child,
+            local,
+        })
     })
 }
 

@@ -1,14 +1,32 @@
-//! Surfaces as curves: their nodes in order, their normals.
+//! Surfaces: their nodes in order, their normals.
 
 use super::{Curve, Facet, Mesh, Surface};
-use crate::space::{Vector, cross, dot, in_space, length};
+use crate::space::{Vector, cross, difference, direction, dot, in_space, length};
 use crate::{Error, Result};
 use std::collections::BTreeMap;
 
 /// Two nodes pair if their distance across the normal is below this share of a facet's length.
 pub const PAIRING: f64 = 1e-5;
 
-/// The nodes of a surface along its arc, mid-side nodes included, with the body on the left (a hole
+/// The nodes of a surface, mid-side nodes included: in space ascending, in the plane in order.
+///
+/// # Errors
+/// An input error if the surface is empty; in the plane those of a surface that is not one curve.
+pub fn nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
+    if !mesh.is_solid() {
+        return ordered_nodes(mesh, surface);
+    }
+    let facets = surface.facets.iter();
+    let mut nodes: Vec<usize> = facets.flat_map(|&f| mesh.facet_nodes(f)).collect();
+    if nodes.is_empty() {
+        return Err(Error::input("the surface is empty"));
+    }
+    nodes.sort_unstable();
+    nodes.dedup();
+    Ok(nodes)
+}
+
+/// The nodes of a surface of a plane mesh along its arc, mid-side nodes included, with the body on the left (a hole
 /// is run through clockwise). A closed surface begins at its smallest node index and does not
 /// repeat it.
 ///
@@ -82,22 +100,19 @@ pub fn ordered_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
 ///
 /// Exact where the surface's [`Curve`] is known. Otherwise the mean of the normals of the facets
 /// that meet at the node, weighted with their areas; the normal of a curved facet is that at the
-/// node. The body lies on the left of a facet, so the normal of a facet from `p` to `q` is
-/// `(q - p)` turned clockwise by 90 degrees. A node that is not on the surface gets `[0, 0]`.
-pub fn normals(mesh: &Mesh, surface: &Surface, nodes: &[usize]) -> Vec<[f64; 2]> {
+/// node. A node that is not on the surface gets zeros.
+pub fn normals(mesh: &Mesh, surface: &Surface, nodes: &[usize]) -> Vec<Vector> {
     match surface.curve {
-        Some(Curve::Line { normal }) => vec![unit(normal); nodes.len()],
+        Some(Curve::Line { normal }) => vec![direction(in_space(normal)); nodes.len()],
         Some(Curve::Circle {
             center, outward, ..
         }) => {
             let sign = if outward { 1.0 } else { -1.0 };
-            nodes
-                .iter()
-                .map(|&node| {
-                    let [x, y] = mesh.point(node);
-                    unit([sign * (x - center[0]), sign * (y - center[1])])
-                })
-                .collect()
+            let from_center = |&node: &usize| {
+                let way = difference(mesh.point(node), in_space(center));
+                direction(way.map(|x| sign * x))
+            };
+            nodes.iter().map(from_center).collect()
         }
         None => {
             let mut sums: BTreeMap<usize, Vector> = BTreeMap::new();
@@ -106,28 +121,18 @@ pub fn normals(mesh: &Mesh, surface: &Surface, nodes: &[usize]) -> Vec<[f64; 2]>
             }
             nodes
                 .iter()
-                .map(|node| sums.get(node).map_or([0.0; 2], |&[x, y, _]| unit([x, y])))
+                .map(|node| sums.get(node).map_or([0.0; 3], |&sum| direction(sum)))
                 .collect()
         }
     }
 }
 
-/// Adds the area vectors of a facet at its nodes: the product of its tangents there, the second
-/// of which is out of the plane.
+/// Adds the area vectors of a facet at its nodes.
 fn add_areas(mesh: &Mesh, facet: Facet, sums: &mut BTreeMap<usize, Vector>) {
-    const OUT_OF_PLANE: Vector = [0.0, 0.0, 1.0];
     let reference = mesh.shapes[facet.element].reference().facet;
-    let nodes = || mesh.facet_nodes(facet);
-    let Some(first) = nodes().next() else { return };
-    let origin = mesh.place(first);
-    for (node, &s) in nodes().zip(reference.nodes) {
-        let (_, slopes) = (reference.functions)(s);
-        let mut tangent = [0.0; 3];
-        for (other, slope) in nodes().zip(slopes) {
-            let place = mesh.place(other);
-            (0..3).for_each(|d| tangent[d] += slope * (place[d] - origin[d]));
-        }
-        let area = cross(tangent, OUT_OF_PLANE);
+    let points: Vec<Vector> = mesh.facet_nodes(facet).map(|n| mesh.point(n)).collect();
+    for (node, &place) in mesh.facet_nodes(facet).zip(reference.nodes) {
+        let area = reference.area(&(reference.functions)(place), &points);
         let sum = sums.entry(node).or_default();
         (0..3).for_each(|d| sum[d] += area[d]);
     }
@@ -137,16 +142,14 @@ fn add_areas(mesh: &Mesh, facet: Facet, sums: &mut BTreeMap<usize, Vector>) {
 /// off it by `tolerance` at most; the nearest if there are several.
 pub fn facing(
     mesh: &Mesh,
-    x: [f64; 2],
-    normal: [f64; 2],
+    x: Vector,
+    normal: Vector,
     candidates: &[usize],
     tolerance: f64,
 ) -> Option<usize> {
-    let (x, normal) = (in_space(x), in_space(normal));
     let mut best: Option<(f64, usize)> = None;
     for (i, &node) in candidates.iter().enumerate() {
-        let place = mesh.place(node);
-        let way: Vector = std::array::from_fn(|d| place[d] - x[d]);
+        let way = difference(mesh.point(node), x);
         let across = length(cross(way, normal));
         let along = dot(way, normal).abs();
         if across <= tolerance && best.is_none_or(|(b, _)| along < b) {
@@ -156,25 +159,17 @@ pub fn facing(
     best.map(|(_, i)| i)
 }
 
-/// Length of the longest facet of a surface.
+/// Length of the longest facet of a surface, in space of the longest edge of one.
 pub fn longest_facet(mesh: &Mesh, surface: &Surface) -> f64 {
-    surface
-        .facets
-        .iter()
-        .map(|&f| {
-            let ends: Vec<[f64; 2]> = mesh.facet_nodes(f).take(2).map(|n| mesh.point(n)).collect();
-            (ends[1][0] - ends[0][0]).hypot(ends[1][1] - ends[0][1])
-        })
-        .fold(0.0, f64::max)
-}
-
-fn unit([x, y]: [f64; 2]) -> [f64; 2] {
-    let length = x.hypot(y);
-    if length > 0.0 {
-        [x / length, y / length]
-    } else {
-        [0.0, 0.0]
-    }
+    let longest_edge = |&facet: &Facet| {
+        let n = mesh.facet_corners(facet);
+        let corners: Vec<Vector> = (mesh.facet_nodes(facet).take(n))
+            .map(|node| mesh.point(node))
+            .collect();
+        let edge = |k: usize| length(difference(corners[(k + 1) % n], corners[k]));
+        (0..n).map(edge).fold(0.0, f64::max)
+    };
+    surface.facets.iter().map(longest_edge).fold(0.0, f64::max)
 }
 
 #[cfg(test)]

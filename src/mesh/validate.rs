@@ -2,6 +2,7 @@
 
 use super::{Facet, Mesh, Shape, conformity, jacobian};
 use crate::shape::MAX_NODES;
+use crate::space::{difference, length};
 use crate::{Error, Result};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -35,20 +36,25 @@ pub fn validate(mesh: &Mesh) -> Result<()> {
 fn check_arrays(mesh: &Mesh) -> Result<()> {
     let inconsistent = |what: String| Err(Error::input(format!("inconsistent mesh: {what}")));
     let n_elements = mesh.n_elements();
-    if mesh.dimension != 2 {
-        return Err(Error::new(
-            crate::ErrorKind::Unsupported,
-            format!(
-                "the mesh has dimension {}; only 2 is supported",
-                mesh.dimension
-            ),
-        ));
+    let dimension = mesh.dimension;
+    if !(2..=3).contains(&dimension) {
+        return inconsistent(format!("its dimension is {dimension}, not 2 or 3"));
     }
     if n_elements == 0 {
         return Err(Error::input("the mesh has no elements"));
     }
-    if !mesh.coordinates.len().is_multiple_of(2) {
-        return inconsistent(format!("{} coordinates in 2D", mesh.coordinates.len()));
+    if !mesh.coordinates.len().is_multiple_of(dimension) {
+        return inconsistent(format!(
+            "{} coordinates in {dimension}D",
+            mesh.coordinates.len()
+        ));
+    }
+    if let Some(e) = (mesh.shapes.iter()).position(|shape| shape.dimension() != dimension) {
+        return inconsistent(format!(
+            "element {} is a {} in {dimension}D",
+            mesh.element_label(e),
+            mesh.shapes[e].name()
+        ));
     }
     if mesh.offsets.len() != n_elements + 1 || mesh.element_body.len() != n_elements {
         return inconsistent(format!(
@@ -120,8 +126,8 @@ fn check_coordinates(mesh: &Mesh) -> Result<()> {
     match mesh.coordinates.iter().position(|c| !c.is_finite()) {
         Some(at) => Err(Error::input(format!(
             "node {}: coordinate {} is {}",
-            mesh.node_label(at / 2),
-            ["x", "y"][at % 2],
+            mesh.node_label(at / mesh.dimension),
+            ["x", "y", "z"][at % mesh.dimension],
             mesh.coordinates[at]
         ))),
         None => Ok(()),
@@ -165,7 +171,7 @@ fn check_sets(mesh: &Mesh) -> Result<()> {
         facets.sort_unstable();
         if let Some(pair) = facets.windows(2).find(|pair| pair[0] == pair[1]) {
             return Err(Error::input(format!(
-                "surface `{name}` has the same edge of element {} twice",
+                "surface `{name}` has the same facet of element {} twice",
                 mesh.element_label(pair[0].element)
             )));
         }
@@ -187,27 +193,25 @@ fn check_elements(mesh: &Mesh) -> Result<()> {
             }
         }
         let shape = mesh.shapes[element];
-        let mut points = [[0.0; 2]; MAX_NODES];
+        let mut points = [[0.0; 3]; MAX_NODES];
         for (point, &node) in points.iter_mut().zip(nodes) {
             *point = mesh.point(node as usize);
         }
         // Relative to the first node: the determinant of a small element far from the origin
         // would drown in the round-off of its coordinates.
-        let [x, y] = points[0];
+        let origin = points[0];
         for point in &mut points[..nodes.len()] {
-            *point = [point[0] - x, point[1] - y];
+            *point = difference(*point, origin);
         }
-        let n = shape.n_corners();
-        let longest = (0..n)
-            .map(|k| {
-                let (p, q) = (points[k], points[(k + 1) % n]);
-                (q[0] - p[0]).hypot(q[1] - p[1])
-            })
+        let row = shape.reference();
+        let edges = row.edges.iter();
+        let longest = edges
+            .map(|&[a, b]| length(difference(points[b], points[a])))
             .fold(0.0, f64::max);
-        let scale = shape.reference().unit_jacobian * longest * longest;
+        let scale = row.unit_jacobian * longest.powi(row.dimension as i32);
         let worst = checks[shape as usize]
             .iter()
-            .map(|at| jacobian::determinant(at, &points[..nodes.len()]) / scale)
+            .map(|at| jacobian::determinant(row.dimension, at, &points[..nodes.len()]) / scale)
             .fold(f64::INFINITY, |worst, j| {
                 if j < worst || j.is_nan() { j } else { worst }
             });
@@ -220,11 +224,11 @@ fn check_elements(mesh: &Mesh) -> Result<()> {
             "is degenerate, inverted or too strongly distorted"
         };
         Some(format!(
-            "{reason}: its smallest Jacobian is {worst:.3e} of (longest side)^2, allowed is {FLATTEST:.1e} \
-             and more; near node {} at ({}, {})",
+            "{reason}: its smallest Jacobian is {worst:.3e} of (longest side)^{}, allowed is {FLATTEST:.1e} \
+             and more; near node {} at {}",
+            row.dimension,
             mesh.node_label(nodes[0] as usize),
-            x,
-            y
+            mesh.place(nodes[0] as usize)
         ))
     };
     let found = (0..mesh.n_elements())

@@ -11,7 +11,7 @@ use crate::scene::{
     Body, Contact, History, KeyPlaces, Load, Material, MeshSource, Program, Scene, Settings,
     Support, Target,
 };
-use crate::space::Space;
+use crate::space::{Components, Space, Vector, in_words, length};
 use std::collections::BTreeMap;
 
 /// Builds a [`Model`] from arrays, without a scene file or a mesh file. Nodes and elements are numbered from 0 in the order
@@ -43,8 +43,8 @@ use std::collections::BTreeMap;
 ///     .body("lower", Body { material: "steel".into(), ..Body::default() })?
 ///     .body("upper", Body { material: "steel".into(), ..Body::default() })?
 ///     .contact(Contact { first: "opposite".into(), second: "face".into(), ..Contact::default() })
-///     .support(Support { on: "floor".into(), fix: vec![Direction::Y], angle: None })
-///     .support(Support { on: "left".into(), fix: vec![Direction::X], angle: None })
+///     .support(Support { on: "floor".into(), fix: vec![Direction::Y], ..Support::default() })
+///     .support(Support { on: "left".into(), fix: vec![Direction::X], ..Support::default() })
 ///     .load(Load { on: "top".into(), pressure: Some(10.0), ..Load::default() });
 /// let results = Analysis::new(builder.build()?, Backend::default())?.run(&mut Silent)?;
 /// assert!((results.states[0].max_pressure - 10.0).abs() < 1e-9);
@@ -155,11 +155,11 @@ impl ModelBuilder {
                 )));
             }
             if let Some(n) = pair.normal
-                && !(n[0].hypot(n[1]).is_finite() && n != [0.0, 0.0])
+                && !(length(n).is_finite() && n != [0.0; 3])
             {
                 return Err(Error::input(format!(
-                    "pair {k}: the normal ({}, {}) is no direction",
-                    n[0], n[1]
+                    "pair {k}: the normal {} is no direction",
+                    in_words(n, self.mesh.dimension)
                 )));
             }
         }
@@ -181,7 +181,7 @@ impl ModelBuilder {
         self
     }
 
-    /// Loads nodes with forces of their own at factor 1, in global axes; they act on the model itself, not on the whole of a
+    /// Loads nodes with forces of their own at factor 1, in global axes (z = 0 in the plane); they act on the model itself, not on the whole of a
     /// symmetric one. `name` also becomes the name of the set of these nodes.
     ///
     /// # Errors
@@ -190,7 +190,7 @@ impl ModelBuilder {
         &mut self,
         name: &str,
         nodes: &[I],
-        forces: &[[f64; 2]],
+        forces: &[Vector],
         history: History,
     ) -> Result<&mut Self> {
         if nodes.len() != forces.len() {
@@ -200,16 +200,16 @@ impl ModelBuilder {
                 forces.len()
             )));
         }
-        let mut sums: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+        let mut sums: BTreeMap<usize, Vector> = BTreeMap::new();
         for (node, force) in self.known_nodes(name, nodes)?.into_iter().zip(forces) {
             if force.iter().any(|f| !f.is_finite()) {
                 return Err(Error::input(format!(
-                    "load `{name}`: the force on node {node} is ({}, {})",
-                    force[0], force[1]
+                    "load `{name}`: the force on node {node} is {}",
+                    in_words(*force, self.mesh.dimension)
                 )));
             }
             let sum = sums.entry(node).or_default();
-            *sum = [sum[0] + force[0], sum[1] + force[1]];
+            (0..3).for_each(|d| sum[d] += force[d]);
         }
         self.node_set(name, nodes)?;
         let index = self.scene.load.len();
@@ -217,7 +217,7 @@ impl ModelBuilder {
         self.scene.load.push(Load {
             name: name.to_string(),
             on: name.to_string(),
-            force: Some([0.0, 0.0]),
+            force: Some(self.components([0.0; 3])),
             history,
             ..Load::default()
         });
@@ -242,6 +242,14 @@ impl ModelBuilder {
         self
     }
 
+    /// A vector by as many components as the model has coordinates.
+    pub(crate) fn components(&self, vector: Vector) -> Components {
+        match self.mesh.dimension {
+            2 => [vector[0], vector[1]].into(),
+            _ => vector.into(),
+        }
+    }
+
     /// The model.
     ///
     /// # Errors
@@ -250,10 +258,10 @@ impl ModelBuilder {
     pub fn build(&self) -> Result<Model> {
         let mut scene = self.scene.clone();
         for (&index, forces) in &self.given.forces {
-            let total = forces
-                .iter()
-                .fold([0.0; 2], |s, (_, f)| [s[0] + f[0], s[1] + f[1]]);
-            scene.load[index].force = Some(total.map(|f| f * scene.symmetry as f64));
+            let sum = |s: Vector, f: &Vector| std::array::from_fn(|d| s[d] + f[d]);
+            let total = forces.iter().fold([0.0; 3], |s, (_, f)| sum(s, f));
+            let whole = total.map(|f| f * scene.symmetry as f64);
+            scene.load[index].force = Some(self.components(whole));
         }
         if scene.program.targets.is_empty() {
             scene.program.targets.push(Target {

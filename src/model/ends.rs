@@ -26,7 +26,10 @@ pub(super) fn find(
     pairs: &[Pair],
     contacts: &mut [ContactSurface],
 ) {
-    let ends = ends(freedoms, pairs, contacts);
+    let ends = match mesh.is_solid() {
+        true => Vec::new(),
+        false => ends(freedoms, pairs, contacts),
+    };
     if ends.is_empty() {
         return;
     }
@@ -171,13 +174,13 @@ impl<'m> Boundary<'m> {
     fn leaving(&self, facet: Facet, node: usize) -> Option<[f64; 2]> {
         let nodes: Vec<usize> = self.mesh.facet_nodes(facet).collect();
         let other = *nodes.iter().take(2).find(|&&n| n != node)?;
-        let (x, y) = (self.mesh.point(node), self.mesh.point(other));
+        let (x, y) = (self.mesh.in_plane(node), self.mesh.in_plane(other));
         let chord = [y[0] - x[0], y[1] - x[1]];
         let Some(&middle) = nodes.get(2) else {
             return Some(chord);
         };
         // Slope of the parabola through the three nodes.
-        let m = self.mesh.point(middle);
+        let m = self.mesh.in_plane(middle);
         Some([0, 1].map(|d| 4.0 * (m[d] - x[d]) - chord[d]))
     }
 }

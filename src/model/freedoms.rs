@@ -1,12 +1,16 @@
-//! Freedoms: two per node, in local axes where a contact normal or a turned support asks for it.
+//! Freedoms: one per node and axis, in local axes where a contact normal or a turned support asks
+//! for it.
 
 use super::Pair;
+use super::frame::{ALIGNED, Frame, frame};
 use super::names::Entry;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::scene::{Direction, Scene};
+use crate::space::{Vector, along, direction, dot, in_words, unit};
+use std::collections::BTreeMap;
 
-/// What stands in one of a node's two directions.
+/// What stands in one of a node's directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Slot {
     /// A free freedom with its number. Nodes held plane share one.
@@ -26,24 +30,25 @@ pub struct Prescribed {
     pub value: f64,
 }
 
-/// Numbering of the freedoms and the local axes they stand for: `u = u_0 a_0 + u_1 a_1` with `a_1` a quarter
-/// turn counter-clockwise from `a_0`.
+/// Numbering of the freedoms and the local axes they stand for: `u = sum u_i a_i`.
 #[derive(Debug, Clone, Default)]
 pub struct Freedoms {
     /// Number of free freedoms.
     pub n: usize,
-    /// The two slots of each node.
-    pub slots: Vec<[Slot; 2]>,
-    /// First local axis of each node.
-    pub axes: Vec<[f64; 2]>,
+    /// Freedoms of a node: the dimension of the mesh.
+    pub per_node: usize,
+    /// The slots of each node; in the plane the third is held.
+    pub slots: Vec<[Slot; 3]>,
+    /// The local axes of each node, as a place in `frames`.
+    frame_of: Vec<u32>,
+    /// Global axes first.
+    frames: Vec<Frame>,
     /// Prescribed displacements.
     pub prescribed: Vec<Prescribed>,
     /// A node and local direction for each free freedom, for messages.
     pub owners: Vec<(u32, u8)>,
 }
 
-/// How far (sine of an angle) a support's direction may be off a contact's axes before it is an error.
-const ALIGNED: f64 = 1e-6;
 /// A support within 30 degrees of a contact's tangent is meant to lie in it: the normal of the discretised surface
 /// is then turned into the symmetry plane.
 const NEARLY_TANGENT: f64 = 0.5;
@@ -57,83 +62,109 @@ impl Freedoms {
     /// a prescribed displacement on a held freedom, a plane surface that is not free to move.
     pub fn new(scene: &Scene, mesh: &Mesh, pairs: &mut [Pair]) -> Result<Self> {
         let n_nodes = mesh.n_nodes();
-        let mut contact_of = vec![None; n_nodes];
-        for (k, pair) in pairs.iter().enumerate() {
-            contact_of[pair.first] = Some(k);
-            contact_of[pair.second] = Some(k);
-        }
         let supports = Supports::resolve(scene, mesh)?;
         turn_normals_into_supports(pairs, &supports);
-        let mut axes = vec![[1.0, 0.0]; n_nodes];
+        let mut normal_of = vec![None; n_nodes];
         for pair in pairs.iter() {
-            axes[pair.first] = pair.normal;
-            axes[pair.second] = pair.normal;
+            normal_of[pair.first] = Some(pair.normal);
+            normal_of[pair.second] = Some(pair.normal);
         }
-        let mut slots = vec![[Slot::Free(0); 2]; n_nodes];
-        for held in &supports.held {
-            let node = held.node;
-            if contact_of[node].is_none() && !is_aligned(axes[node], held.direction) {
-                if slots[node].contains(&Slot::Fixed) {
-                    return Err(held.refused(
-                        scene,
-                        format!(
-                            "node {} is held in directions that are not at right angles; the last is {}",
-                            mesh.node_label(node),
-                            held.by(scene)
-                        ),
-                    ));
-                }
-                axes[node] = held.direction;
-            }
-            let along = dot(axes[node], held.direction).abs();
-            if contact_of[node].is_some() && along > ALIGNED {
-                return Err(held.refused(
-                    scene,
-                    format!(
-                        "node {} belongs to a contact surface and {} acts along its contact normal ({}, {}): \
-                         contact and support cannot hold the same freedom; {}",
-                        mesh.node_label(node),
-                        held.by(scene),
-                        axes[node][0],
-                        axes[node][1],
-                        match held.support {
-                            Some(_) => "take the node out of one of the two sets",
-                            None => "give the contact a `normal` along the axis",
-                        }
-                    ),
-                ));
-            }
-            slots[node][usize::from(along < 0.5)] = Slot::Fixed;
-        }
+        let free = match mesh.dimension {
+            2 => [Slot::Free(0), Slot::Free(0), Slot::Fixed],
+            _ => [Slot::Free(0); 3],
+        };
         let mut freedoms = Freedoms {
             n: 0,
-            slots,
-            axes,
+            per_node: mesh.dimension,
+            slots: vec![free; n_nodes],
+            frame_of: vec![0; n_nodes],
+            frames: vec![frame(mesh.dimension, None, &[]).unwrap_or_default()],
             prescribed: Vec::new(),
             owners: Vec::new(),
         };
-        let ties = freedoms.apply_loads(scene, mesh, &contact_of)?;
+        for (node, normal) in normal_of.iter().enumerate() {
+            if normal.is_some() && !supports.of_node.contains_key(&node) {
+                let frame = frame(mesh.dimension, *normal, &[]).unwrap_or_default();
+                freedoms.set_frame(node, frame);
+            }
+        }
+        for (&node, of_node) in &supports.of_node {
+            freedoms.hold(scene, mesh, node, normal_of[node], of_node)?;
+        }
+        let touches: Vec<bool> = normal_of.iter().map(Option::is_some).collect();
+        let ties = freedoms.apply_loads(scene, mesh, &touches)?;
         freedoms.number(&ties);
         Ok(freedoms)
     }
 
-    /// Prescribed displacements become slots; surfaces held plane become ties (group of each node and direction).
-    fn apply_loads(
+    fn set_frame(&mut self, node: usize, frame: Frame) {
+        if frame != self.frames[0] {
+            self.frame_of[node] = self.frames.len() as u32;
+            self.frames.push(frame);
+        }
+    }
+
+    /// Holds a node along the directions of its supports, in axes of which one is the contact
+    /// normal, where there is one.
+    fn hold(
         &mut self,
         scene: &Scene,
         mesh: &Mesh,
-        contact_of: &[Option<usize>],
-    ) -> Result<Ties> {
+        node: usize,
+        normal: Option<Vector>,
+        of_node: &[Held],
+    ) -> Result<()> {
+        let directions: Vec<Vector> = of_node.iter().map(|held| held.direction).collect();
+        for (held, direction) in of_node.iter().zip(&directions) {
+            let Some(normal) = normal.filter(|n| dot(*n, *direction).abs() > ALIGNED) else {
+                continue;
+            };
+            return Err(held.refused(
+                scene,
+                format!(
+                    "node {} belongs to a contact surface and {} acts along its contact normal {}: \
+                     contact and support cannot hold the same freedom; {}",
+                    mesh.node_label(node),
+                    held.by(scene),
+                    in_words(normal, mesh.dimension),
+                    match held.support {
+                        Some(_) => "take the node out of one of the two sets",
+                        None => "give the contact a `normal` along the axis",
+                    }
+                ),
+            ));
+        }
+        let frame = frame(mesh.dimension, normal, &directions).map_err(|k| {
+            of_node[k].refused(
+                scene,
+                format!(
+                    "node {} is held in directions that are not at right angles; the last is {}",
+                    mesh.node_label(node),
+                    of_node[k].by(scene)
+                ),
+            )
+        })?;
+        self.set_frame(node, frame);
+        for direction in directions {
+            let along = frame.map(|axis| dot(axis, direction).abs());
+            let held = (0..3).max_by(|&a, &b| along[a].total_cmp(&along[b]));
+            self.slots[node][held.unwrap_or(0)] = Slot::Fixed;
+        }
+        Ok(())
+    }
+
+    /// Prescribed displacements become slots; surfaces held plane become ties (group of each node and direction).
+    fn apply_loads(&mut self, scene: &Scene, mesh: &Mesh, touches: &[bool]) -> Result<Ties> {
         let mut ties = Ties::new();
         for (index, load) in scene.load.iter().enumerate() {
             let directions: Vec<(usize, Option<f64>)> = if let Some(d) = load.displacement {
-                [d.x, d.y]
+                d.components()
                     .into_iter()
                     .enumerate()
                     .filter_map(|(i, v)| v.map(|v| (i, Some(v))))
                     .collect()
             } else if let Some(plane) = load.plane_force {
-                vec![(axis(plane.direction), None)]
+                vec![(plane.direction.axis(), None)]
             } else {
                 continue;
             };
@@ -147,9 +178,9 @@ impl Freedoms {
                         mesh.node_label(node)
                     )))
                 };
-                let touches = contact_of[node].is_some();
+                let touches = touches[node];
                 for &(direction, value) in &directions {
-                    let name = ["x", "y"][direction];
+                    let name = Direction::ALL[direction].name();
                     let local = self.local_axis(node, direction).ok_or_else(|| {
                         let has = match touches {
                             true => "a contact normal",
@@ -190,7 +221,7 @@ impl Freedoms {
     fn number(&mut self, ties: &Ties) {
         let mut group_freedom = std::collections::BTreeMap::new();
         for node in 0..self.slots.len() {
-            for local in 0..2 {
+            for local in 0..self.per_node {
                 if !matches!(self.slots[node][local], Slot::Free(_)) {
                     continue;
                 }
@@ -225,31 +256,48 @@ impl Freedoms {
         self.n -= 1;
     }
 
-    /// The two local axes of a node.
-    pub fn local(&self, node: usize) -> [[f64; 2]; 2] {
-        let a = self.axes[node];
-        [a, [-a[1], a[0]]]
+    /// The slots of a node, one for each axis of the model.
+    #[inline]
+    pub fn of_node(&self, node: usize) -> &[Slot] {
+        &self.slots[node][..self.per_node]
+    }
+
+    /// The local axes of a node, of which a contact normal is the first.
+    #[inline]
+    pub fn local(&self, node: usize) -> Frame {
+        self.frames[self.frame_of[node] as usize]
+    }
+
+    /// Whether the axes of a node are others than the global ones.
+    #[inline]
+    pub fn is_turned(&self, node: usize) -> bool {
+        self.frame_of[node] != 0
     }
 
     /// A vector at a node, given in global axes, in the local ones.
-    pub fn to_local(&self, node: usize, [x, y]: [f64; 2]) -> [f64; 2] {
-        self.local(node).map(|axis| axis[0] * x + axis[1] * y)
+    pub fn to_local(&self, node: usize, vector: Vector) -> Vector {
+        if !self.is_turned(node) {
+            return vector;
+        }
+        self.local(node).map(|axis| dot(axis, vector))
     }
 
     /// Which local axis lies along a global direction (either sense), if one does.
     pub fn local_axis(&self, node: usize, direction: usize) -> Option<usize> {
         let axes = self.local(node);
-        (0..2).find(|&i| dot(axes[i], unit(direction)).abs() > 1.0 - ALIGNED)
+        (0..self.per_node).find(|&i| dot(axes[i], unit(direction)).abs() > 1.0 - ALIGNED)
     }
 
     /// Displacement of a node in global axes, from free freedoms and load factors.
-    pub fn displacement(&self, node: usize, u: &[f64], factors: &[f64]) -> [f64; 2] {
+    pub fn displacement(&self, node: usize, u: &[f64], factors: &[f64]) -> Vector {
+        let values = self.slots[node].map(|slot| self.value(slot, u, factors));
+        if !self.is_turned(node) {
+            return values;
+        }
         let axes = self.local(node);
-        let mut out = [0.0; 2];
-        for local in 0..2 {
-            let value = self.value(self.slots[node][local], u, factors);
-            out[0] += value * axes[local][0];
-            out[1] += value * axes[local][1];
+        let mut out = [0.0; 3];
+        for (value, axis) in values.into_iter().zip(axes) {
+            out = along(out, value, axis);
         }
         out
     }
@@ -283,21 +331,22 @@ impl Freedoms {
         let body = (0..mesh.n_elements())
             .find(|&e| mesh.nodes(e).contains(&node))
             .map_or("?", |e| mesh.bodies[mesh.element_body[e] as usize].as_str());
+        let axis: Vec<String> = (axis[..self.per_node].iter())
+            .map(|a| format!("{a:.3}"))
+            .collect();
         format!(
-            "body `{body}`, node {}, direction ({:.3}, {:.3})",
+            "body `{body}`, node {}, direction ({})",
             mesh.node_label(node as usize),
-            axis[0],
-            axis[1]
+            axis.join(", ")
         )
     }
 }
 
 /// Group (load index) of each tied node and local direction.
-type Ties = std::collections::BTreeMap<(usize, usize), usize>;
+type Ties = BTreeMap<(usize, usize), usize>;
 
 struct Held {
-    node: usize,
-    direction: [f64; 2],
+    direction: Vector,
     /// Index of the support; `None` on the axis of revolution, which holds by itself.
     support: Option<usize>,
 }
@@ -319,28 +368,22 @@ impl Held {
     }
 }
 
+/// What holds each node, in the order of the scene.
 struct Supports {
-    held: Vec<Held>,
+    of_node: BTreeMap<usize, Vec<Held>>,
 }
 
 impl Supports {
     fn resolve(scene: &Scene, mesh: &Mesh) -> Result<Self> {
-        let mut held = Vec::new();
-        for (support, entry) in scene.support.iter().enumerate() {
-            let (sin, cos) = entry.angle.unwrap_or(0.0).to_radians().sin_cos();
-            for node in Entry::of_list(scene, "support", support).nodes(mesh, &entry.on)? {
-                for &d in &entry.fix {
-                    let direction = match (entry.angle, d) {
-                        (None, d) => unit(axis(d)),
-                        (Some(_), Direction::X) => [cos, sin],
-                        (Some(_), Direction::Y) => [-sin, cos],
-                    };
-                    held.push(Held {
-                        node,
-                        direction,
-                        support: Some(support),
-                    });
-                }
+        let mut of_node: BTreeMap<usize, Vec<Held>> = BTreeMap::new();
+        for (index, support) in scene.support.iter().enumerate() {
+            let directions = support.directions();
+            for node in Entry::of_list(scene, "support", index).nodes(mesh, &support.on)? {
+                let held = directions.iter().map(|&direction| Held {
+                    direction,
+                    support: Some(index),
+                });
+                of_node.entry(node).or_default().extend(held);
             }
         }
         if scene.kind.is_axisymmetric() {
@@ -348,62 +391,27 @@ impl Supports {
             let radius = (0..mesh.n_nodes())
                 .map(|i| mesh.point(i)[0])
                 .fold(0.0, f64::max);
-            held.extend(
-                (0..mesh.n_nodes())
-                    .filter(|&i| mesh.point(i)[0] <= 1e-12 * radius)
-                    .map(|node| Held {
-                        node,
-                        direction: [1.0, 0.0],
-                        support: None,
-                    }),
-            );
+            for node in (0..mesh.n_nodes()).filter(|&i| mesh.point(i)[0] <= 1e-12 * radius) {
+                of_node.entry(node).or_default().push(Held {
+                    direction: unit(0),
+                    support: None,
+                });
+            }
         }
-        Ok(Supports { held })
+        Ok(Supports { of_node })
     }
 }
 
+/// A normal that is nearly at right angles to a support is meant to be.
 fn turn_normals_into_supports(pairs: &mut [Pair], supports: &Supports) {
-    let mut directions = std::collections::BTreeMap::new();
-    for held in &supports.held {
-        directions
-            .entry(held.node)
-            .or_insert_with(Vec::new)
-            .push(held.direction);
-    }
     for pair in pairs {
         for node in [pair.first, pair.second] {
-            for &d in directions.get(&node).into_iter().flatten() {
-                let off = dot(pair.normal, d);
+            for held in supports.of_node.get(&node).into_iter().flatten() {
+                let off = dot(pair.normal, held.direction);
                 if off != 0.0 && off.abs() < NEARLY_TANGENT {
-                    let n = [pair.normal[0] - off * d[0], pair.normal[1] - off * d[1]];
-                    let length = n[0].hypot(n[1]);
-                    pair.normal = [n[0] / length, n[1] / length];
+                    pair.normal = direction(along(pair.normal, -off, held.direction));
                 }
             }
         }
     }
-}
-
-fn is_aligned(axis: [f64; 2], direction: [f64; 2]) -> bool {
-    let along = dot(axis, direction).abs();
-    !(ALIGNED..=1.0 - ALIGNED).contains(&along)
-}
-
-fn axis(direction: Direction) -> usize {
-    match direction {
-        Direction::X => 0,
-        Direction::Y => 1,
-    }
-}
-
-fn unit(direction: usize) -> [f64; 2] {
-    if direction == 0 {
-        [1.0, 0.0]
-    } else {
-        [0.0, 1.0]
-    }
-}
-
-pub(super) fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
 }

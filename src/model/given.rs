@@ -2,6 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
+use crate::space::{Vector, direction, dot, in_words, length};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -14,7 +15,7 @@ pub struct NodePair {
     pub second: usize,
     /// Direction from the second body to the first (the paper's i_1), of any length; `None` for the outward normal of the
     /// second surface.
-    pub normal: Option<[f64; 2]>,
+    pub normal: Option<Vector>,
     /// Initial gap, >= 0; `None` for the distance of the nodes along the normal.
     pub gap: Option<f64>,
 }
@@ -24,7 +25,7 @@ pub struct NodePair {
 pub(crate) struct Given {
     pub(super) pairs: BTreeMap<usize, Vec<NodePair>>,
     /// Forces on the model itself (not on the whole of a symmetric one) at factor 1.
-    pub(super) forces: BTreeMap<usize, Vec<(usize, [f64; 2])>>,
+    pub(super) forces: BTreeMap<usize, Vec<(usize, Vector)>>,
 }
 
 impl Given {
@@ -48,7 +49,7 @@ impl Given {
 pub(super) struct Partner {
     /// Place among the nodes of the first surface.
     pub(super) first: usize,
-    pub(super) normal: [f64; 2],
+    pub(super) normal: Vector,
     /// `None` for the geometric gap.
     pub(super) gap: Option<f64>,
 }
@@ -66,7 +67,7 @@ pub(super) fn partners(
     names: [&str; 2],
     first_nodes: &[usize],
     second_nodes: &[usize],
-    normals: &[[f64; 2]],
+    normals: &[Vector],
     gap: Option<f64>,
 ) -> Result<Vec<Option<Partner>>> {
     let places = |nodes: &[usize]| -> BTreeMap<usize, usize> {
@@ -89,23 +90,20 @@ pub(super) fn partners(
         let normal = match pair.normal {
             None => outward,
             Some(n) => {
-                if n[0] * outward[0] + n[1] * outward[1] <= 0.0 {
+                if dot(n, outward) <= 0.0 {
                     return Err(Error::input(format!(
-                        "pair {k} (nodes {} and {}): the normal ({}, {}) points into the second body, whose outward normal there is \
-                         ({}, {}); give the direction from the second body to the first",
+                        "pair {k} (nodes {} and {}): the normal {} points into the second body, whose outward normal there is \
+                         {}; give the direction from the second body to the first",
                         mesh.node_label(pair.first),
                         mesh.node_label(pair.second),
-                        n[0],
-                        n[1],
-                        outward[0],
-                        outward[1]
+                        in_words(n, mesh.dimension),
+                        in_words(outward, mesh.dimension)
                     )));
                 }
-                let length = n[0].hypot(n[1]);
-                if (length - 1.0).abs() <= UNIT {
+                if (length(n) - 1.0).abs() <= UNIT {
                     n
                 } else {
-                    [n[0] / length, n[1] / length]
+                    direction(n)
                 }
             }
         };

@@ -1,6 +1,5 @@
 //! Load vectors on the free freedoms.
 
-use super::freedoms::dot;
 use super::given::Given;
 use super::names::Entry;
 use super::{Freedoms, Slot};
@@ -8,8 +7,8 @@ use crate::analytical::KirschField;
 use crate::element::facet_points;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
-use crate::scene::{self, Direction, History, Scene};
-use crate::space::Space;
+use crate::scene::{self, History, Scene};
+use crate::space::{Space, Vector, dot, length, unit};
 
 /// What a load's reported magnitude measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,7 +27,7 @@ pub struct LoadCase {
     /// Name for messages.
     pub name: String,
     /// Nodal forces at factor 1, node by node in global axes (sparse).
-    nodal: Vec<(usize, [f64; 2])>,
+    nodal: Vec<(usize, Vector)>,
     /// Forces on the free freedoms at factor 1 (sparse, ascending).
     pub forces: Vec<(usize, f64)>,
     /// How it depends on the load factor.
@@ -45,7 +44,7 @@ pub struct LoadCase {
     /// Body of these nodes, for the approach.
     pub body: u32,
     /// Unit direction of the load, for the approach.
-    pub direction: [f64; 2],
+    pub direction: Vector,
 }
 
 impl LoadCase {
@@ -60,7 +59,7 @@ impl LoadCase {
 
     /// Sum of the sizes of the nodal forces at factor 1.
     pub fn size(&self) -> f64 {
-        self.nodal.iter().map(|(_, f)| f[0].hypot(f[1])).sum()
+        self.nodal.iter().map(|(_, f)| length(*f)).sum()
     }
 
     /// The largest size that the load factor drives it to, for a load factor of 1 where it is proportional: a force on nodes, or a
@@ -89,7 +88,7 @@ impl LoadCase {
     }
 
     /// Forces as nodal vectors in global axes.
-    pub(super) fn nodal(&self) -> &[(usize, [f64; 2])] {
+    pub(super) fn nodal(&self) -> &[(usize, Vector)] {
         &self.nodal
     }
 }
@@ -161,7 +160,7 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
         shares: shares(scene.kind, mesh, &load.on, &nodes),
         body: body_of(mesh, &nodes),
         nodes,
-        direction: [0.0, 0.0],
+        direction: [0.0; 3],
     };
     let surface = |key: &str| {
         mesh.surfaces.get(&load.on).ok_or_else(|| {
@@ -173,31 +172,31 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
         })
     };
     if let Some(force) = load.force {
+        let force = force.vector();
         case.set_size(force, Magnitude::Force);
-        let share = [force[0] / symmetry, force[1] / symmetry];
+        let share = force.map(|f| f / symmetry);
         match mesh.surfaces.get(&load.on) {
             Some(surface) => {
                 let area = area(scene.kind, mesh, surface);
-                case.nodal = integrate(scene.kind, mesh, surface, |_, _| {
-                    [share[0] / area, share[1] / area]
-                });
+                case.nodal = integrate(scene.kind, mesh, surface, |_, _| share.map(|f| f / area));
             }
             None => {
                 let n = case.nodes.len() as f64;
                 case.nodal = case
                     .nodes
                     .iter()
-                    .map(|&i| (i, [share[0] / n, share[1] / n]))
+                    .map(|&i| (i, share.map(|f| f / n)))
                     .collect();
             }
         }
     } else if let Some(p) = load.pressure {
         case.nodal = integrate(scene.kind, mesh, surface("pressure")?, |_, n| {
-            [-p * n[0], -p * n[1]]
+            n.map(|n| -p * n)
         });
         case.set_size(total(&case.nodal), Magnitude::Stress);
         case.magnitude = p.abs();
     } else if let Some(t) = load.traction {
+        let t = t.vector();
         case.nodal = integrate(scene.kind, mesh, surface("traction")?, |_, _| t);
         case.set_size(t, Magnitude::Stress);
     } else if let Some(k) = load.kirsch {
@@ -208,23 +207,23 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
         };
         case.nodal = integrate(scene.kind, mesh, surface("kirsch")?, |x, n| {
             let [sxx, syy, sxy] = field.stress(x[0], x[1]);
-            [sxx * n[0] + sxy * n[1], sxy * n[0] + syy * n[1]]
+            [sxx * n[0] + sxy * n[1], sxy * n[0] + syy * n[1], 0.0]
         });
-        case.set_size([k.stress_x, k.stress_y], Magnitude::Stress);
+        case.set_size([k.stress_x, k.stress_y, 0.0], Magnitude::Stress);
         if k.stress_y == 0.0 || k.stress_x == 0.0 {
             case.magnitude = (k.stress_x + k.stress_y).abs();
         }
     } else if let Some(d) = load.displacement {
         case.set_size(
-            [d.x.unwrap_or(0.0), d.y.unwrap_or(0.0)],
+            d.components().map(|value| value.unwrap_or(0.0)),
             Magnitude::Displacement,
         );
     } else if let Some(plane) = load.plane_force {
-        let mut force = [0.0; 2];
-        force[usize::from(plane.direction == Direction::Y)] = plane.total;
+        let mut force = [0.0; 3];
+        force[plane.direction.axis()] = plane.total;
         case.set_size(force, Magnitude::Force);
         // The nodes share one freedom: the whole force may act on any of them.
-        case.nodal = vec![(case.nodes[0], [force[0] / symmetry, force[1] / symmetry])];
+        case.nodal = vec![(case.nodes[0], force.map(|f| f / symmetry))];
     } else {
         return Err(entry.refused(Error::input(format!(
             "load {} on `{}`: no kind of load is given",
@@ -236,12 +235,12 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
 }
 
 impl LoadCase {
-    fn set_size(&mut self, vector: [f64; 2], measures: Magnitude) {
-        let size = vector[0].hypot(vector[1]);
+    fn set_size(&mut self, vector: Vector, measures: Magnitude) {
+        let size = length(vector);
         self.magnitude = size;
         self.measures = measures;
         if size > 0.0 {
-            self.direction = [vector[0] / size, vector[1] / size];
+            self.direction = vector.map(|v| v / size);
         }
     }
 }
@@ -257,7 +256,7 @@ fn shares(space: Space, mesh: &Mesh, name: &str, nodes: &[usize]) -> Vec<f64> {
         return equal();
     };
     // In the order of the nodes: both ascend.
-    let areas = integrate(space, mesh, surface, |_, _| [1.0, 0.0]);
+    let areas = integrate(space, mesh, surface, |_, _| unit(0));
     let whole: f64 = areas.iter().map(|(_, a)| a[0]).sum();
     if areas.len() == nodes.len() && whole > 0.0 {
         areas.iter().map(|(_, a)| a[0] / whole).collect()
@@ -267,16 +266,15 @@ fn shares(space: Space, mesh: &Mesh, name: &str, nodes: &[usize]) -> Vec<f64> {
 }
 
 fn area(space: Space, mesh: &Mesh, surface: &crate::mesh::Surface) -> f64 {
-    integrate(space, mesh, surface, |_, _| [1.0, 0.0])
+    integrate(space, mesh, surface, |_, _| unit(0))
         .iter()
         .map(|(_, f)| f[0])
         .sum()
 }
 
-fn total(nodal: &[(usize, [f64; 2])]) -> [f64; 2] {
-    nodal
-        .iter()
-        .fold([0.0; 2], |s, (_, f)| [s[0] + f[0], s[1] + f[1]])
+fn total(nodal: &[(usize, Vector)]) -> Vector {
+    let sum = |s: Vector, f: &Vector| std::array::from_fn(|d| s[d] + f[d]);
+    nodal.iter().fold([0.0; 3], |s, (_, f)| sum(s, f))
 }
 
 /// Consistent nodal forces of a traction `t(x, n)` on a surface.
@@ -284,26 +282,27 @@ fn integrate(
     space: Space,
     mesh: &Mesh,
     surface: &crate::mesh::Surface,
-    traction: impl Fn([f64; 2], [f64; 2]) -> [f64; 2],
-) -> Vec<(usize, [f64; 2])> {
+    traction: impl Fn(Vector, Vector) -> Vector,
+) -> Vec<(usize, Vector)> {
     let mut forces = std::collections::BTreeMap::new();
     for &facet in &surface.facets {
         let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
-        let x: Vec<[f64; 2]> = nodes.iter().map(|&n| mesh.point(n)).collect();
+        let x: Vec<Vector> = nodes.iter().map(|&n| mesh.point(n)).collect();
         let reference = mesh.shapes[facet.element].reference().facet;
         for point in facet_points(space, reference, &x) {
             let t = traction(point.position, point.normal);
             for (i, &node) in nodes.iter().enumerate() {
-                let f: &mut [f64; 2] = forces.entry(node).or_insert([0.0; 2]);
-                f[0] += point.weight * point.values[i] * t[0];
-                f[1] += point.weight * point.values[i] * t[1];
+                let f: &mut Vector = forces.entry(node).or_default();
+                for (f, t) in f.iter_mut().zip(t) {
+                    *f += point.weight * point.values[i] * t;
+                }
             }
         }
     }
     forces.into_iter().collect()
 }
 
-fn on_freedoms(nodal: &[(usize, [f64; 2])], freedoms: &Freedoms) -> Vec<(usize, f64)> {
+fn on_freedoms(nodal: &[(usize, Vector)], freedoms: &Freedoms) -> Vec<(usize, f64)> {
     let mut out = std::collections::BTreeMap::new();
     for &(node, force) in nodal {
         for (slot, axis) in freedoms.slots[node].iter().zip(freedoms.local(node)) {

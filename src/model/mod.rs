@@ -6,6 +6,7 @@
 mod builder;
 mod ends;
 mod far_boundary;
+mod frame;
 mod freedoms;
 mod given;
 mod gram;
@@ -17,19 +18,19 @@ mod pairs;
 mod recipe;
 
 pub use builder::ModelBuilder;
+pub use frame::Frame;
 pub use freedoms::{Freedoms, Prescribed, Slot};
 pub use given::NodePair;
 pub use held::{FloatingBodies, Pin, RigidMotion};
 pub use loads::{LoadCase, Magnitude};
 pub use pairs::{AxisPoint, ContactSurface, Pair};
 
-use crate::element::PlaneGradients;
+use crate::element::{Gradients, Kernel};
 use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::mesh::{self, Mesh};
 use crate::scene::{Plastic, Scene};
-use crate::shape::MAX_NODES;
-use crate::space::Space;
+use crate::space::{Space, Vector};
 use given::Given;
 use names::Entry;
 use rayon::prelude::*;
@@ -40,7 +41,7 @@ pub(crate) use recipe::Recipe;
 pub struct Model {
     /// The scene it was made from.
     pub scene: Scene,
-    /// Plane strain, plane stress or axisymmetric.
+    /// Plane strain, plane stress, axisymmetric or solid.
     pub kind: Space,
     /// The mesh.
     pub mesh: Mesh,
@@ -123,6 +124,7 @@ impl Model {
             _ => error,
         })?;
         let kind = scene.kind;
+        check_dimension(scene, &mesh)?;
         let mut warnings = scene.warnings.clone();
         let (materials, may_yield) = resolve_bodies(scene, &mesh)?;
         warn_of_locking(&mesh, &may_yield, &mut warnings);
@@ -157,23 +159,32 @@ impl Model {
     }
 
     /// Coordinates of an element's nodes, at the front of an array.
-    pub fn element_coordinates(&self, element: usize) -> [[f64; 2]; MAX_NODES] {
-        let mut out = [[0.0; 2]; MAX_NODES];
+    #[inline]
+    pub fn element_coordinates<const D: usize, const N: usize>(
+        &self,
+        element: usize,
+    ) -> [[f64; D]; N] {
+        let mut out = [[0.0; D]; N];
+        let (coordinates, _) = self.mesh.coordinates.as_chunks::<D>();
         for (x, &node) in out.iter_mut().zip(self.mesh.nodes(element)) {
-            *x = self.mesh.point(node as usize);
+            *x = coordinates[node as usize];
         }
         out
     }
 
     /// The gradients at the Gauss points of an element.
     #[inline]
-    pub fn gradients(&self, element: usize) -> PlaneGradients {
+    pub fn gradients<const D: usize, const S: usize, const P: usize, const N: usize>(
+        &self,
+        kernel: &Kernel<D, S, P, N>,
+        element: usize,
+    ) -> Gradients<D, S, P, N> {
         let nodes = self.element_coordinates(element);
-        PlaneGradients::gauss(self.kind, self.mesh.shapes[element], &nodes)
+        kernel.gauss(self.mesh.shapes[element], &nodes)
     }
 
     /// Displacements of all nodes in global axes, from free freedoms and load factors.
-    pub fn nodal(&self, u: &[f64], factors: &[f64]) -> Vec<[f64; 2]> {
+    pub fn nodal(&self, u: &[f64], factors: &[f64]) -> Vec<Vector> {
         let nodes = (0..self.mesh.n_nodes()).into_par_iter();
         nodes
             .with_min_len(1 << 14)
@@ -267,10 +278,31 @@ fn warn_of_locking(mesh: &Mesh, may_yield: &[bool], warnings: &mut Vec<String>) 
         .count();
     if locks > 0 {
         warnings.push(format!(
-            "{locks} tri3 elements belong to bodies that may yield: tri3 locks in isochoric plastic flow, limit loads come \
-             out too high; use quad4, quad8 or tri6"
+            "{locks} {} elements belong to bodies that may yield: they lock in isochoric plastic flow, limit loads come \
+             out too high; use {}",
+            if mesh.is_solid() { "tet4" } else { "tri3" },
+            if mesh.is_solid() { "hex8, hex20 or tet10" } else { "quad4, quad8 or tri6" },
         ));
     }
+}
+
+/// A plane mesh in a solid scene, or the reverse.
+fn check_dimension(scene: &Scene, mesh: &Mesh) -> Result<()> {
+    if mesh.dimension == scene.kind.dimension() {
+        return Ok(());
+    }
+    let (is, take) = match mesh.is_solid() {
+        true => ("three-dimensional", "\"solid\""),
+        false => (
+            "plane",
+            "\"plane_strain\", \"plane_stress\" or \"axisymmetric\"",
+        ),
+    };
+    let error = Error::input(format!(
+        "the mesh is {is}, kind = \"{}\" is not: take {take}, or another mesh",
+        scene.kind.name()
+    ));
+    Err(scene.places.in_front("kind", error))
 }
 
 fn check_radii(mesh: &Mesh) -> Result<()> {

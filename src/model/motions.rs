@@ -3,7 +3,7 @@
 use super::gram::{Gram, root};
 use super::{Freedoms, LoadCase, Pair, Slot};
 use crate::mesh::Mesh;
-use crate::space::{self, Space, Vector, in_space};
+use crate::space::{self, RigidMotion, Space, Vector, unit};
 use nalgebra::DVector;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -51,7 +51,7 @@ impl Mode {
 /// The nodal forces of all loads, by the group that they act on.
 pub(super) struct Forces {
     /// Load, node and force of each group.
-    of_group: Vec<Vec<(usize, usize, [f64; 2])>>,
+    of_group: Vec<Vec<(usize, usize, Vector)>>,
     /// Sum of the sizes of the components of each load.
     pub(super) size: Vec<f64>,
 }
@@ -90,7 +90,7 @@ impl<'a> Motions<'a> {
         let mut low = vec![[f64::INFINITY; 3]; names.len()];
         let mut high = vec![[f64::NEG_INFINITY; 3]; names.len()];
         for (node, &group) in group_of_node.iter().enumerate() {
-            for (d, x) in mesh.place(node).into_iter().enumerate() {
+            for (d, x) in mesh.point(node).into_iter().enumerate() {
                 low[group][d] = low[group][d].min(x);
                 high[group][d] = high[group][d].max(x);
             }
@@ -123,13 +123,13 @@ impl<'a> Motions<'a> {
 
     /// Displacement of a node along `axis`, for each rigid motion of its group;
     /// rotations are about the group's centre, scaled to its size.
-    fn row(&self, node: usize, axis: [f64; 2]) -> Vec<f64> {
-        let (group, x) = (self.group_of_node[node], self.mesh.place(node));
+    fn row(&self, node: usize, axis: Vector) -> Vec<f64> {
+        let (group, x) = (self.group_of_node[node], self.mesh.point(node));
         let (c, s) = (self.center[group], 2.0 / self.size[group]);
         let arm: Vector = std::array::from_fn(|d| s * (x[d] - c[d]));
         let motions = self.space.rigid_motions().iter();
         motions
-            .map(|motion| space::dot(motion.displacement(arm), in_space(axis)))
+            .map(|motion| space::dot(motion.displacement(arm), axis))
             .collect()
     }
 
@@ -164,7 +164,11 @@ impl<'a> Motions<'a> {
         }
         for (node, slots) in freedoms.slots.iter().enumerate() {
             let group = self.group_of_node[node];
-            for (slot, axis) in slots.iter().zip(freedoms.local(node)) {
+            for (slot, axis) in slots
+                .iter()
+                .zip(freedoms.local(node))
+                .take(freedoms.per_node)
+            {
                 let row = || -> Vec<(usize, f64)> {
                     let values = self.row(node, axis);
                     let numbered = values.into_iter().enumerate();
@@ -230,7 +234,7 @@ impl<'a> Motions<'a> {
 
     /// Share of a mode in the displacement along `axis` of a node, with shares up to `round_off`
     /// left out.
-    fn along(&self, mode: &Mode, node: usize, axis: [f64; 2], round_off: f64) -> f64 {
+    fn along(&self, mode: &Mode, node: usize, axis: Vector, round_off: f64) -> f64 {
         let group = self.group_of_node[node];
         let row = self.row(node, axis);
         let shares = row
@@ -282,7 +286,7 @@ impl<'a> Motions<'a> {
         for (load, case) in loads.iter().enumerate() {
             for &(node, force) in case.nodal() {
                 of_group[self.group_of_node[node]].push((load, node, force));
-                size[load] += force[0].abs() + force[1].abs();
+                size[load] += force.iter().map(|f| f.abs()).sum::<f64>();
             }
         }
         Forces { of_group, size }
@@ -296,8 +300,9 @@ impl<'a> Motions<'a> {
             for &(load, node, force) in &forces.of_group[group] {
                 let motion = |axis| self.along(mode, node, axis, 0.0);
                 let own: &mut f64 = work.entry(load).or_default();
-                *own += force[0] * motion([1.0, 0.0]);
-                *own += force[1] * motion([0.0, 1.0]);
+                for (axis, force) in force.iter().enumerate().take(self.space.dimension()) {
+                    *own += force * motion(unit(axis));
+                }
             }
         }
         work
@@ -336,32 +341,64 @@ impl<'a> Motions<'a> {
             .map(|n| format!("`{n}`"))
             .collect();
         let first = groups.first().copied().unwrap_or(0);
-        let motion = if self.space.is_axisymmetric() {
-            "move along the axis".to_string()
-        } else {
-            let part = |m: usize| mode.at(per * first + m);
-            let (x, y, turn) = (part(0), part(1), part(2));
-            if turn.abs() > 1e-6 * mode.largest() {
-                let (c, s) = (self.center[first], 2.0 / self.size[first]);
-                format!(
-                    "rotate about ({:.4}, {:.4})",
-                    tidy(c[0] - y / (s * turn), self.size[first]),
-                    tidy(c[1] + x / (s * turn), self.size[first])
-                )
-            } else if y.abs() <= 1e-6 * x.abs() {
-                "move along x".to_string()
-            } else if x.abs() <= 1e-6 * y.abs() {
-                "move along y".to_string()
-            } else {
-                format!("move along ({x:.3}, {y:.3})")
-            }
-        };
+        let motion = self.in_words(mode, first);
         let together = if groups.len() > 1 { " together" } else { "" };
         format!(
             "bod{} {} can {motion}{together}",
             if groups.len() > 1 { "ies" } else { "y" },
             bodies.join(" and ")
         )
+    }
+}
+
+impl Motions<'_> {
+    /// What a mode does to a group.
+    fn in_words(&self, mode: &Mode, group: usize) -> String {
+        let motions = self.space.rigid_motions();
+        let (mut shift, mut turn) = ([0.0; 3], [0.0; 3]);
+        for (m, motion) in motions.iter().enumerate() {
+            let share = mode.at(motions.len() * group + m);
+            match *motion {
+                RigidMotion::Along(axis) => shift[axis] = share,
+                RigidMotion::About(axis) => turn[axis] = share,
+            }
+        }
+        let axes = self.space.axes();
+        let (size, s) = (self.size[group], 2.0 / self.size[group]);
+        let angle = space::length(turn);
+        if angle > 1e-6 * mode.largest() {
+            // The point nearest to the centre that the turn leaves in its place, or moves along its
+            // axis.
+            let arm = space::cross(turn, shift).map(|x| x / (s * angle * angle));
+            let at: Vec<String> = (0..axes.len())
+                .map(|d| format!("{:.4}", tidy(self.center[group][d] + arm[d], size)))
+                .collect();
+            let at = at.join(", ");
+            if !self.space.is_solid() {
+                return format!("rotate about ({at})");
+            }
+            let axis = turn.map(|t| tidy(t / angle, 1.0));
+            return match (0..3).find(|&d| axis[d].abs() == space::length(axis)) {
+                Some(d) => format!("rotate about {} through ({at})", axes[d]),
+                None => format!(
+                    "rotate about ({:.3}, {:.3}, {:.3}) through ({at})",
+                    axis[0], axis[1], axis[2]
+                ),
+            };
+        }
+        let far = space::length(shift);
+        if self.space.is_axisymmetric() {
+            return "move along the axis".to_string();
+        }
+        match (0..axes.len()).find(|&d| shift[d].abs() >= (1.0 - 1e-12) * far) {
+            Some(d) => format!("move along {}", axes[d]),
+            None => {
+                let along: Vec<String> = (shift.iter().take(axes.len()))
+                    .map(|x| format!("{x:.3}"))
+                    .collect();
+                format!("move along ({})", along.join(", "))
+            }
+        }
     }
 }
 

@@ -3,14 +3,14 @@
 //! The gap of a pair is `g = delta - (u_second - u_first) . n >= 0` with
 //! `delta = (x_first - x_second) . n` and `n` the unit vector from the second body to the first.
 
-use super::freedoms::dot;
 use super::given::{Given, NodePair, Partner, partners};
 use super::names::Entry;
 use crate::element::facet_points;
 use crate::error::{Error, Result};
-use crate::mesh::surface::{PAIRING, facing, longest_facet, normals, ordered_nodes};
+use crate::mesh::surface::{PAIRING, facing, longest_facet, nodes, normals};
 use crate::mesh::{Curve, Mesh, Surface};
 use crate::scene::{Contact, Scene};
+use crate::space::{Vector, difference, direction, dot, length};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A pair of nodes that may touch.
@@ -23,14 +23,14 @@ pub struct Pair {
     /// Node of the second surface.
     pub second: usize,
     /// Unit vector from the second body to the first (the paper's i_1).
-    pub normal: [f64; 2],
+    pub normal: Vector,
     /// Initial gap delta, interference not yet taken off.
     pub gap: f64,
     /// Interference.
     pub interference: f64,
     /// Area that belongs to the pair: integral of the node's shape function over the second surface.
     pub area: f64,
-    /// Distance along the second surface from its begin.
+    /// Distance along the second surface from its begin; 0 in a solid model.
     pub arc: f64,
 }
 
@@ -61,7 +61,7 @@ pub struct AxisPoint {
     /// Node of the first surface.
     pub first: usize,
     /// Unit normal from the second surface to the first.
-    pub normal: [f64; 2],
+    pub normal: Vector,
     /// Initial gap.
     pub gap: f64,
     /// Interference.
@@ -129,13 +129,10 @@ fn resolve_contact(
         contact.second
     );
     let context = |e: Error| e.within(&what);
-    let first_nodes = ordered_nodes(mesh, first).map_err(context)?;
-    let second_nodes = ordered_nodes(mesh, second).map_err(context)?;
+    let first_nodes = nodes(mesh, first).map_err(context)?;
+    let second_nodes = nodes(mesh, second).map_err(context)?;
     let normal = match contact.normal {
-        Some(n) => {
-            let length = n[0].hypot(n[1]);
-            vec![[n[0] / length, n[1] / length]; second_nodes.len()]
-        }
+        Some(n) => vec![direction(n.vector()); second_nodes.len()],
         None => normals(mesh, second, &second_nodes),
     };
     let facet_length = longest_facet(mesh, first).max(longest_facet(mesh, second));
@@ -184,16 +181,15 @@ fn resolve_contact(
     let start = pairs.len();
     for (j, &node) in second_nodes.iter().enumerate() {
         let x = mesh.point(node);
-        if j > 0 {
-            let before = mesh.point(second_nodes[j - 1]);
-            arc += (x[0] - before[0]).hypot(x[1] - before[1]);
+        if j > 0 && !mesh.is_solid() {
+            arc += length(difference(x, mesh.point(second_nodes[j - 1])));
         }
         match partners[j] {
             Some(partner) if !taken[partner.first] => {
                 taken[partner.first] = true;
                 let area = areas.get(&node).copied().unwrap_or(0.0);
                 let y = mesh.point(first_nodes[partner.first]);
-                let geometric = dot([y[0] - x[0], y[1] - x[1]], partner.normal);
+                let geometric = dot(difference(y, x), partner.normal);
                 pairs.push(Pair {
                     contact: index,
                     first: first_nodes[partner.first],
@@ -307,7 +303,7 @@ fn nodal_areas(
         if !nodes.iter().all(|node| faces.contains(node)) {
             continue;
         }
-        let x: Vec<[f64; 2]> = nodes.iter().map(|&n| mesh.point(n)).collect();
+        let x: Vec<Vector> = nodes.iter().map(|&n| mesh.point(n)).collect();
         let reference = mesh.shapes[facet.element].reference().facet;
         for point in facet_points(scene.kind, reference, &x) {
             for (&node, value) in nodes.iter().zip(&point.values) {

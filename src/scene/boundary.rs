@@ -1,5 +1,6 @@
 //! Contact, supports and loads.
 
+use crate::space::{Components, Vector, unit};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserializer, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
@@ -14,7 +15,7 @@ pub struct Contact {
     /// Surface of the second body; its outward normal, reversed, is the paper's i_1.
     pub second: String,
     /// Direction from the second body to the first; by default the second surface's outward normal.
-    pub normal: Option<[f64; 2]>,
+    pub normal: Option<Components>,
     /// Initial gap for all pairs instead of the geometric one.
     pub gap: Option<f64>,
     /// Interference: taken off every initial gap, applied gradually before the load program.
@@ -28,10 +29,14 @@ pub struct Contact {
 pub struct Support {
     /// Node set or surface.
     pub on: String,
-    /// Directions held: `x`, `y`; in the turned axes where `angle` is given.
+    /// Directions held: `x`, `y`, of a solid `z`; in the turned axes where `angle` is given.
+    #[serde(default)]
     pub fix: Vec<Direction>,
-    /// Angle in degrees by which the support's axes are turned counter-clockwise.
+    /// Angle in degrees by which the support's axes are turned counter-clockwise, of a solid about
+    /// the z axis.
     pub angle: Option<f64>,
+    /// Any one direction that is held, instead of `fix`.
+    pub direction: Option<Components>,
 }
 
 /// A coordinate direction; axisymmetric: x is r, y is z.
@@ -42,15 +47,43 @@ pub enum Direction {
     X,
     /// y (z).
     Y,
+    /// z, of a solid.
+    Z,
 }
 
 impl Direction {
-    /// `x` or `y`, as in the scene file.
+    /// All of them.
+    pub const ALL: [Direction; 3] = [Direction::X, Direction::Y, Direction::Z];
+
+    /// Its axis, from 0.
+    pub fn axis(self) -> usize {
+        self as usize
+    }
+
+    /// `x`, `y` or `z`, as in the scene file.
     pub fn name(self) -> &'static str {
         match self {
             Direction::X => "x",
             Direction::Y => "y",
+            Direction::Z => "z",
         }
+    }
+}
+
+impl Support {
+    /// The directions it holds, in global axes.
+    pub fn directions(&self) -> Vec<Vector> {
+        if let Some(direction) = self.direction {
+            return vec![crate::space::direction(direction.vector())];
+        }
+        let (sin, cos) = self.angle.unwrap_or(0.0).to_radians().sin_cos();
+        let turned = |direction: &Direction| match (self.angle, direction) {
+            (None, d) => unit(d.axis()),
+            (Some(_), Direction::X) => [cos, sin, 0.0],
+            (Some(_), Direction::Y) => [-sin, cos, 0.0],
+            (Some(_), Direction::Z) => unit(2),
+        };
+        self.fix.iter().map(turned).collect()
     }
 }
 
@@ -63,12 +96,12 @@ pub struct Load {
     pub name: String,
     /// Surface or node set that is loaded.
     pub on: String,
-    /// Total force (x, y), shared by the nodes like a uniform traction (surface) or equally (node set).
-    pub force: Option<[f64; 2]>,
+    /// Total force (x, y; of a solid x, y, z), shared by the nodes like a uniform traction (surface) or equally (node set).
+    pub force: Option<Components>,
     /// Pressure on a surface, positive into the body.
     pub pressure: Option<f64>,
-    /// Uniform traction (x, y) on a surface.
-    pub traction: Option<[f64; 2]>,
+    /// Uniform traction (x, y; of a solid x, y, z) on a surface.
+    pub traction: Option<Components>,
     /// Traction of the Kirsch field: plate with a hole of `radius` at the origin under remote tensions.
     pub kirsch: Option<Kirsch>,
     /// Prescribed displacement: the given components, at load factor 1 of this load.
@@ -101,6 +134,16 @@ pub struct Displacement {
     pub x: Option<f64>,
     /// Along y (z).
     pub y: Option<f64>,
+    /// Along z, of a solid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub z: Option<f64>,
+}
+
+impl Displacement {
+    /// Its components, axis by axis.
+    pub fn components(&self) -> [Option<f64>; 3] {
+        [self.x, self.y, self.z]
+    }
 }
 
 /// A total force on a surface held plane.

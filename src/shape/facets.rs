@@ -1,44 +1,146 @@
-//! Facets as elements of their own: the lines between two corners.
+//! Facets as elements of their own: lines in the plane, triangles and quadrilaterals in space.
 
-use super::MAX_FACET_NODES;
+use super::functions::{self, Functions};
+use super::rows::{SQUARE, TRIANGLE};
+use super::{Place, Rule};
+use crate::space::{Vector, cross, unit};
 
-/// What is the same for all facets of a shape: `s` from -1 to 1 along the line.
+/// What is the same for all facets of a shape.
 #[derive(Debug)]
 pub struct FacetReference {
-    /// Where its nodes are: the ends, then the mid-side node.
-    pub nodes: &'static [f64],
-    /// Values and derivatives of the shape functions at `s`.
-    pub functions: fn(f64) -> ([f64; MAX_FACET_NODES], [f64; MAX_FACET_NODES]),
+    /// Number of corners, which come first among the nodes: the ends of a line.
+    pub n_corners: usize,
+    /// Places of the nodes: along `[-1, 1]` on a line.
+    pub nodes: &'static [Place],
+    /// Values and derivatives of the shape functions.
+    pub functions: fn(Place) -> Functions,
+    /// The rule, exact to degree 5, of tractions and nodal areas on curved facets.
+    pub rule: &'static Rule,
     /// Gmsh's element type.
     pub gmsh: u64,
 }
 
-/// Three-point Gauss rule, exact to degree 5: tractions and nodal areas on curved facets.
-pub const FACET_RULE: [(f64, f64); 3] = {
-    const G: f64 = 0.774_596_669_241_483_4;
-    [(-G, 5.0 / 9.0), (0.0, 8.0 / 9.0), (G, 5.0 / 9.0)]
+/// Gauss abscissa `sqrt(3/5)`.
+const G: f64 = 0.774_596_669_241_483_4;
+const OUTER: f64 = 5.0 / 9.0;
+const MIDDLE: f64 = 8.0 / 9.0;
+
+const LINE_RULE: &Rule = &[
+    ([-G, 0.0, 0.0], OUTER),
+    ([0.0, 0.0, 0.0], MIDDLE),
+    ([G, 0.0, 0.0], OUTER),
+];
+
+const QUADRILATERAL_RULE: &Rule = &[
+    ([-G, -G, 0.0], OUTER * OUTER),
+    ([0.0, -G, 0.0], MIDDLE * OUTER),
+    ([G, -G, 0.0], OUTER * OUTER),
+    ([-G, 0.0, 0.0], OUTER * MIDDLE),
+    ([0.0, 0.0, 0.0], MIDDLE * MIDDLE),
+    ([G, 0.0, 0.0], OUTER * MIDDLE),
+    ([-G, G, 0.0], OUTER * OUTER),
+    ([0.0, G, 0.0], MIDDLE * OUTER),
+    ([G, G, 0.0], OUTER * OUTER),
+];
+
+/// Seven points (J. Radon 1948; A. H. Stroud, *Approximate Calculation of Multiple Integrals*,
+/// 1971, T2 5-1): the centroid, and two orbits at `(6 -+ sqrt 15)/21`.
+const TRIANGLE_RULE: &Rule = {
+    const NEAR: f64 = 0.470_142_064_105_115_1;
+    const FAR: f64 = 0.101_286_507_323_456_34;
+    const OF_NEAR: f64 = 0.066_197_076_394_253_09;
+    const OF_FAR: f64 = 0.062_969_590_272_413_58;
+    &[
+        ([1.0 / 3.0, 1.0 / 3.0, 0.0], 0.1125),
+        ([NEAR, NEAR, 0.0], OF_NEAR),
+        ([1.0 - 2.0 * NEAR, NEAR, 0.0], OF_NEAR),
+        ([NEAR, 1.0 - 2.0 * NEAR, 0.0], OF_NEAR),
+        ([FAR, FAR, 0.0], OF_FAR),
+        ([1.0 - 2.0 * FAR, FAR, 0.0], OF_FAR),
+        ([FAR, 1.0 - 2.0 * FAR, 0.0], OF_FAR),
+    ]
 };
+
+const LINE: [Place; 3] = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
 
 /// Two ends.
 pub(super) static LINE2: FacetReference = FacetReference {
-    nodes: &[-1.0, 1.0],
-    functions: |s| ([0.5 * (1.0 - s), 0.5 * (1.0 + s), 0.0], [-0.5, 0.5, 0.0]),
+    n_corners: 2,
+    nodes: LINE.split_at(2).0,
+    functions: functions::line2,
+    rule: LINE_RULE,
     gmsh: 1,
 };
 
 /// Two ends and the node between them.
 pub(super) static LINE3: FacetReference = FacetReference {
-    nodes: &[-1.0, 1.0, 0.0],
-    functions: |s| {
-        (
-            [0.5 * s * (s - 1.0), 0.5 * s * (s + 1.0), 1.0 - s * s],
-            [s - 0.5, s + 0.5, -2.0 * s],
-        )
-    },
+    n_corners: 2,
+    nodes: &LINE,
+    functions: functions::line3,
+    rule: LINE_RULE,
     gmsh: 8,
+};
+
+/// The face of a linear tetrahedron.
+pub(super) static FACE3: FacetReference = FacetReference {
+    n_corners: 3,
+    nodes: TRIANGLE.split_at(3).0,
+    functions: functions::tri3,
+    rule: TRIANGLE_RULE,
+    gmsh: 2,
+};
+
+/// The face of a quadratic tetrahedron.
+pub(super) static FACE6: FacetReference = FacetReference {
+    n_corners: 3,
+    nodes: &TRIANGLE,
+    functions: functions::tri6,
+    rule: TRIANGLE_RULE,
+    gmsh: 9,
+};
+
+/// The face of a trilinear hexahedron.
+pub(super) static FACE4: FacetReference = FacetReference {
+    n_corners: 4,
+    nodes: SQUARE.split_at(4).0,
+    functions: functions::quad4,
+    rule: QUADRILATERAL_RULE,
+    gmsh: 3,
+};
+
+/// The face of a serendipity hexahedron.
+pub(super) static FACE8: FacetReference = FacetReference {
+    n_corners: 4,
+    nodes: &SQUARE,
+    functions: functions::quad8,
+    rule: QUADRILATERAL_RULE,
+    gmsh: 16,
 };
 
 impl FacetReference {
     /// All facets.
-    pub const ALL: [&'static FacetReference; 2] = [&LINE2, &LINE3];
+    pub const ALL: [&'static FacetReference; 6] = [&LINE2, &LINE3, &FACE3, &FACE6, &FACE4, &FACE8];
+
+    /// Number of reference coordinates: 1 of a line, 2 of a face.
+    pub fn dimension(&self) -> usize {
+        if self.n_corners == 2 { 1 } else { 2 }
+    }
+
+    /// The outward area of a facet per unit of its reference coordinates: the product of its two
+    /// tangents, the second of which is out of the plane for a line.
+    pub fn area(&self, at: &Functions, nodes: &[Vector]) -> Vector {
+        let Some(origin) = nodes.first() else {
+            return [0.0; 3];
+        };
+        let mut tangents = [[0.0; 3]; 2];
+        for (slopes, x) in at.gradients.iter().zip(nodes) {
+            for (tangent, slope) in tangents.iter_mut().zip(slopes) {
+                (0..3).for_each(|d| tangent[d] += slope * (x[d] - origin[d]));
+            }
+        }
+        if self.dimension() == 1 {
+            tangents[1] = unit(2);
+        }
+        cross(tangents[0], tangents[1])
+    }
 }

@@ -1,5 +1,6 @@
-//! Shape functions and their derivatives along the reference coordinates: quadrilaterals on
-//! `[-1, 1]^2`, triangles on `xi, eta >= 0, xi + eta <= 1`.
+//! Shape functions and their derivatives along the reference coordinates: lines, quadrilaterals and
+//! hexahedra on `[-1, 1]^d`, triangles and tetrahedra where no coordinate and not one less their
+//! sum is negative.
 
 use super::{MAX_NODES, Place};
 
@@ -23,6 +24,24 @@ impl Functions {
 const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
 /// Derivatives of the area coordinates.
 const SLOPES: [[f64; 2]; 3] = [[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]];
+
+pub(super) fn line2([x, ..]: Place) -> Functions {
+    let mut out = Functions::NONE;
+    for (i, a) in [(0, -1.0), (1, 1.0)] {
+        out.values[i] = 0.5 * (1.0 + a * x);
+        out.gradients[i][0] = 0.5 * a;
+    }
+    out
+}
+
+pub(super) fn line3([x, ..]: Place) -> Functions {
+    let mut out = Functions::NONE;
+    out.values[..3].copy_from_slice(&[0.5 * x * (x - 1.0), 0.5 * x * (x + 1.0), 1.0 - x * x]);
+    for (gradient, slope) in out.gradients.iter_mut().zip([x - 0.5, x + 0.5, -2.0 * x]) {
+        gradient[0] = slope;
+    }
+    out
+}
 
 pub(super) fn tri3([x, y, _]: Place) -> Functions {
     let mut out = Functions::NONE;
@@ -75,6 +94,73 @@ pub(super) fn quad8([x, y, _]: Place) -> Functions {
     for (i, a) in [(5, 1.0), (7, -1.0)] {
         out.values[i] = 0.5 * (1.0 + a * x) * (1.0 - y * y);
         out.gradients[i] = [0.5 * a * (1.0 - y * y), -y * (1.0 + a * x), 0.0];
+    }
+    out
+}
+
+/// Derivatives of the volume coordinates.
+const SLOPES_3: [Place; 4] = [
+    [-1.0, -1.0, -1.0],
+    [1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+];
+
+pub(super) fn tet4([x, y, z]: Place) -> Functions {
+    let mut out = Functions::NONE;
+    out.values[..4].copy_from_slice(&[1.0 - x - y - z, x, y, z]);
+    out.gradients[..4].copy_from_slice(&SLOPES_3);
+    out
+}
+
+pub(super) fn tet10([x, y, z]: Place) -> Functions {
+    let mut out = Functions::NONE;
+    let l = [1.0 - x - y - z, x, y, z];
+    for i in 0..4 {
+        out.values[i] = l[i] * (2.0 * l[i] - 1.0);
+        out.gradients[i] = SLOPES_3[i].map(|slope| (4.0 * l[i] - 1.0) * slope);
+    }
+    for (k, [i, j]) in super::rows::EDGES_OF_TETRAHEDRON.into_iter().enumerate() {
+        out.values[k + 4] = 4.0 * l[i] * l[j];
+        for d in 0..3 {
+            out.gradients[k + 4][d] = 4.0 * (SLOPES_3[i][d] * l[j] + l[i] * SLOPES_3[j][d]);
+        }
+    }
+    out
+}
+
+pub(super) fn hex8(at: Place) -> Functions {
+    let mut out = Functions::NONE;
+    for (i, corner) in super::rows::CUBE[..8].iter().enumerate() {
+        let f: [f64; 3] = std::array::from_fn(|d| 0.5 * (1.0 + corner[d] * at[d]));
+        out.values[i] = f[0] * f[1] * f[2];
+        for d in 0..3 {
+            out.gradients[i][d] = 0.5 * corner[d] * f[(d + 1) % 3] * f[(d + 2) % 3];
+        }
+    }
+    out
+}
+
+pub(super) fn hex20(at: Place) -> Functions {
+    let mut out = Functions::NONE;
+    for (i, node) in super::rows::CUBE.iter().enumerate() {
+        // 1 + a x along an axis with a = -1, 1, and 1 - x^2 along that of an edge's middle.
+        let along = |d: usize| match node[d] == 0.0 {
+            true => (1.0 - at[d] * at[d], -2.0 * at[d]),
+            false => (1.0 + node[d] * at[d], node[d]),
+        };
+        let f: [(f64, f64); 3] = std::array::from_fn(along);
+        let product = f[0].0 * f[1].0 * f[2].0;
+        let slope = |d: usize| f[d].1 * f[(d + 1) % 3].0 * f[(d + 2) % 3].0;
+        if i < 8 {
+            let rest = node[0] * at[0] + node[1] * at[1] + node[2] * at[2] - 2.0;
+            out.values[i] = 0.125 * product * rest;
+            out.gradients[i] =
+                std::array::from_fn(|d| 0.125 * (slope(d) * rest + product * node[d]));
+        } else {
+            out.values[i] = 0.25 * product;
+            out.gradients[i] = std::array::from_fn(|d| 0.25 * slope(d));
+        }
     }
     out
 }

@@ -7,19 +7,21 @@ mod facets;
 mod functions;
 mod rows;
 
-pub use facets::{FACET_RULE, FacetReference};
+pub use facets::FacetReference;
 pub use functions::Functions;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Most nodes of an element.
-pub const MAX_NODES: usize = 8;
+pub const MAX_NODES: usize = 20;
 /// Most nodes of a facet.
-pub const MAX_FACET_NODES: usize = 3;
+pub const MAX_FACET_NODES: usize = 8;
 
-/// The shape of an element. Nodes run counter-clockwise, corners first, then mid-side nodes
-/// starting with the one between corners 0 and 1.
+/// The shape of an element. In the plane nodes run counter-clockwise, corners first, then mid-side
+/// nodes starting with the one between corners 0 and 1. In space they are in the order of VTK: a
+/// hexahedron's base counter-clockwise seen from inside, then its top, then the middles of the edges
+/// of base, top, and between them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Shape {
@@ -31,6 +33,14 @@ pub enum Shape {
     Quad4,
     /// Serendipity quadrilateral.
     Quad8,
+    /// Linear tetrahedron.
+    Tet4,
+    /// Quadratic tetrahedron.
+    Tet10,
+    /// Trilinear hexahedron.
+    Hex8,
+    /// Serendipity hexahedron.
+    Hex20,
 }
 
 /// Reference coordinates; those beyond the dimension are zero.
@@ -68,14 +78,19 @@ pub struct Reference {
     /// What a facet is.
     pub facet: &'static FacetReference,
     /// Local node numbers of each facet, in the order of the facet's own nodes. In the plane the
-    /// body is on the left from the first end to the second.
+    /// body is on the left from the first end to the second; in space nodes run counter-clockwise
+    /// seen from outside.
     pub facets: &'static [&'static [usize]],
-    /// The element cut in smaller ones of its shape.
-    pub refinement: Refinement,
+    /// Local node numbers of the corners that edges join.
+    pub edges: &'static [[usize; 2]],
+    /// The element cut in smaller ones of its shape; plane elements only.
+    pub refinement: Option<&'static Refinement>,
     /// VTK's cell type; the node order is VTK's own.
     pub vtk: u8,
-    /// Gmsh's element type; the node order is Gmsh's own.
+    /// Gmsh's element type.
     pub gmsh: u64,
+    /// Place of each node in Gmsh's order.
+    pub gmsh_order: &'static [usize],
 }
 
 /// How an element is cut in smaller ones of its shape.
@@ -97,7 +112,16 @@ pub struct Refinement {
 
 impl Shape {
     /// All shapes, in the order of their numbers.
-    pub const ALL: [Shape; 4] = [Shape::Tri3, Shape::Tri6, Shape::Quad4, Shape::Quad8];
+    pub const ALL: [Shape; 8] = [
+        Shape::Tri3,
+        Shape::Tri6,
+        Shape::Quad4,
+        Shape::Quad8,
+        Shape::Tet4,
+        Shape::Tet10,
+        Shape::Hex8,
+        Shape::Hex20,
+    ];
 
     /// The row of the table.
     pub fn reference(self) -> &'static Reference {
@@ -109,6 +133,11 @@ impl Shape {
         Self::ALL
             .into_iter()
             .find(|shape| shape.reference().gmsh == number)
+    }
+
+    /// Number of reference coordinates.
+    pub fn dimension(self) -> usize {
+        self.reference().dimension
     }
 
     /// Number of nodes.
@@ -143,7 +172,7 @@ impl Shape {
         self.reference().degree == 2
     }
 
-    /// Local node numbers of a facet: its two ends (body on the left), then the mid-side node.
+    /// Local node numbers of a facet: its corners, then its mid-side nodes.
     pub fn facet(self, local: usize) -> &'static [usize] {
         self.reference().facets[local]
     }

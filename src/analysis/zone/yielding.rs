@@ -1,7 +1,7 @@
 //! What a checkpoint keeps of the zone beside the history: what the next increment is predicted
 //! from.
 
-use super::Zone;
+use super::ZoneOf;
 use crate::analysis::packed::Ascending;
 use crate::material::Softening;
 use serde::{Deserialize, Serialize};
@@ -14,10 +14,10 @@ pub(in crate::analysis) struct Yielding {
     /// Their points (places in the zone's arrays) that did.
     flowing: Ascending,
     /// What flow takes off the elastic matrix there.
-    softening: Vec<Softening>,
+    softening: Vec<Softening<6>>,
 }
 
-impl Zone {
+impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S, P, N> {
     /// Which points yielded at the last evaluated state.
     pub(in crate::analysis) fn yielding(&self) -> Yielding {
         let active = self.active.iter().map(|&i| i as usize);
@@ -25,7 +25,9 @@ impl Zone {
         let flowing: Vec<usize> = points.filter(|&point| self.flows[point]).collect();
         Yielding {
             active: Ascending::new(active),
-            softening: flowing.iter().map(|&point| self.softening[point]).collect(),
+            softening: (flowing.iter())
+                .map(|&point| self.softening[point].resized())
+                .collect(),
             flowing: Ascending::new(flowing),
         }
     }
@@ -43,7 +45,7 @@ impl Zone {
         self.active = record.active.iter().map(|i| i as u32).collect();
         for (point, softening) in record.flowing.iter().zip(&record.softening) {
             self.flows[point] = true;
-            self.softening[point] = *softening;
+            self.softening[point] = softening.resized();
         }
         true
     }

@@ -220,9 +220,9 @@ fn normal_force(scene: &Scene, load: &Load, size: f64) -> f64 {
         .filter(|plane| plane.direction == Direction::Y);
     let parts = [
         plane.map(|plane| of_model(plane.total)),
-        load.force.map(|force| of_model(force[1])),
+        load.force.map(|force| of_model(force.vector()[1])),
         load.pressure.map(on_area),
-        load.traction.map(|traction| on_area(traction[1])),
+        load.traction.map(|traction| on_area(traction.vector()[1])),
     ];
     let parts = parts.into_iter().flatten();
     models * parts.fold(0.0, |sum, f| sum + f.abs())

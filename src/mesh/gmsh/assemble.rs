@@ -125,9 +125,9 @@ fn add_elements(content: &Content, kept: &[u32], mesh: &mut Mesh) {
 /// Twice the signed area of the polygon of the corners.
 fn twice_area(mesh: &Mesh, shape: Shape, nodes: &[u32]) -> f64 {
     let n = shape.n_corners();
-    let [x0, y0] = mesh.point(nodes[0] as usize);
+    let [x0, y0] = mesh.in_plane(nodes[0] as usize);
     let from_first = |k: usize| {
-        let [x, y] = mesh.point(nodes[k] as usize);
+        let [x, y] = mesh.in_plane(nodes[k] as usize);
         [x - x0, y - y0]
     };
     (1..n - 1)

@@ -20,10 +20,13 @@ pub(super) enum Kind {
 impl Kind {
     /// The kind of a type number; the name of the type where brinell has no such element.
     pub(super) fn from_type(number: u64) -> Result<Kind, String> {
-        if let Some(shape) = Shape::of_gmsh(number) {
+        if let Some(shape) = Shape::of_gmsh(number).filter(|shape| shape.dimension() == 2) {
             return Ok(Kind::Element(shape));
         }
-        if let Some(facet) = FacetReference::ALL.into_iter().find(|f| f.gmsh == number) {
+        if let Some(facet) = FacetReference::ALL
+            .into_iter()
+            .find(|f| f.gmsh == number && f.dimension() == 1)
+        {
             return Ok(Kind::Line(facet));
         }
         let name = match number {

@@ -18,7 +18,7 @@ pub fn write(mesh: &Mesh, out: &mut dyn Write) -> Result<()> {
     write_names(mesh, &mut out)?;
     writeln!(out, "$Nodes\n{}", mesh.n_nodes())?;
     for node in 0..mesh.n_nodes() {
-        let [x, y] = mesh.point(node);
+        let [x, y] = mesh.in_plane(node);
         writeln!(out, "{} {x:?} {y:?} 0", mesh.node_label(node))?;
     }
     writeln!(out, "$EndNodes")?;

@@ -4,9 +4,15 @@ use super::ModelBuilder;
 use crate::error::{Error, Result};
 use crate::index::Index;
 use crate::mesh::{Curve, Facet, Shape, Surface};
+use crate::shape::MAX_NODES;
 use std::collections::BTreeMap;
 
 impl ModelBuilder {
+    /// Number of coordinates of a node.
+    pub fn dimension(&self) -> usize {
+        self.mesh.dimension
+    }
+
     /// Number of nodes so far.
     pub fn n_nodes(&self) -> usize {
         self.mesh.n_nodes()
@@ -32,38 +38,41 @@ impl ModelBuilder {
         })
     }
 
-    /// Adds nodes: `n x 2` coordinates, node by node; (r, z) in an axisymmetric model.
+    /// Adds nodes: `n x 2` coordinates, of a solid `n x 3`, node by node; (r, z) in an axisymmetric
+    /// model.
     ///
     /// # Errors
-    /// An odd number of values; a value that is not finite, by node.
+    /// A number of values that is no multiple of that; a value that is not finite, by node.
     pub fn nodes(&mut self, coordinates: &[f64]) -> Result<&mut Self> {
-        if !coordinates.len().is_multiple_of(2) {
+        let each = self.mesh.dimension;
+        if !coordinates.len().is_multiple_of(each) {
             return Err(Error::input(format!(
-                "{} coordinates were given: two for each node are needed",
-                coordinates.len()
+                "{} coordinates were given: {} for each node are needed",
+                coordinates.len(),
+                if each == 2 { "two" } else { "three" }
             )));
         }
         let before = self.n_nodes();
         if let Some(at) = coordinates.iter().position(|c| !c.is_finite()) {
             return Err(Error::input(format!(
                 "node {}: coordinate {} is {}",
-                before + at / 2,
-                ["x", "y"][at % 2],
+                before + at / each,
+                ["x", "y", "z"][at % each],
                 coordinates[at]
             )));
         }
-        if u32::try_from(before + coordinates.len() / 2).is_err() {
+        if u32::try_from(before + coordinates.len() / each).is_err() {
             return Err(Error::input(format!(
                 "{} nodes are more than can be numbered",
-                before + coordinates.len() / 2
+                before + coordinates.len() / each
             )));
         }
         self.mesh.coordinates.extend_from_slice(coordinates);
         Ok(self)
     }
 
-    /// Adds elements of one shape and body: the nodes of one after the other, counter-clockwise, corners first
-    /// ([`Shape`]).
+    /// Adds elements of one shape and body: the nodes of one after the other, in the order of
+    /// [`Shape`].
     ///
     /// # Errors
     /// A number of indices that is no multiple of the shape's nodes; an index of no node, by element.
@@ -74,6 +83,13 @@ impl ModelBuilder {
         connectivity: &[I],
     ) -> Result<&mut Self> {
         let (each, n_nodes) = (shape.n_nodes(), self.n_nodes());
+        if shape.dimension() != self.mesh.dimension {
+            return Err(Error::input(format!(
+                "body `{body}`: a {} is no element of a {} model",
+                shape.name(),
+                self.scene.kind.name()
+            )));
+        }
         if !connectivity.len().is_multiple_of(each) {
             return Err(Error::input(format!(
                 "body `{body}`: {} node indices are no multiple of the {each} nodes of a {}",
@@ -98,7 +114,7 @@ impl ModelBuilder {
             }
         };
         for nodes in connectivity.chunks_exact(each) {
-            let mut own = [0u32; 8];
+            let mut own = [0u32; MAX_NODES];
             for (own, &node) in own.iter_mut().zip(nodes) {
                 // Below the number of nodes, which `nodes` keeps within u32.
                 *own = node.below(n_nodes).unwrap_or_default() as u32;
@@ -121,8 +137,8 @@ impl ModelBuilder {
         Ok(self)
     }
 
-    /// Names a surface by the element and the local number of each facet: facet k lies between corners k and k + 1
-    /// ([`Shape::facet`]).
+    /// Names a surface by the element and the local number of each facet ([`Shape::facet`]): in the
+    /// plane facet k lies between corners k and k + 1.
     ///
     /// # Errors
     /// An empty surface, a facet of no element, a name that is taken.
@@ -168,20 +184,18 @@ impl ModelBuilder {
             among[node] = true;
         }
         // A facet between two elements is found twice.
-        let mut found: BTreeMap<[usize; 2], Option<Facet>> = BTreeMap::new();
+        let mut found: BTreeMap<Vec<usize>, Option<Facet>> = BTreeMap::new();
         for element in 0..self.n_elements() {
             for local in 0..self.mesh.shapes[element].n_facets() {
                 let facet = Facet { element, local };
                 if !self.mesh.facet_nodes(facet).all(|n| among[n]) {
                     continue;
                 }
-                let mut ends = [0; 2];
-                for (end, node) in ends.iter_mut().zip(self.mesh.facet_nodes(facet)) {
-                    *end = node;
-                }
-                ends.sort_unstable();
+                let n = self.mesh.facet_corners(facet);
+                let mut corners: Vec<usize> = self.mesh.facet_nodes(facet).take(n).collect();
+                corners.sort_unstable();
                 found
-                    .entry(ends)
+                    .entry(corners)
                     .and_modify(|kept| *kept = None)
                     .or_insert(Some(facet));
             }
@@ -194,8 +208,14 @@ impl ModelBuilder {
         }
         if let Some(node) = nodes.into_iter().find(|&n| among[n]) {
             return Err(Error::input(format!(
-                "surface `{name}`: node {node} belongs to no edge of the boundary whose nodes are all given; give both ends of each \
-                 edge and its mid-side node where it has one"
+                "surface `{name}`: node {node} belongs to no {} of the boundary whose nodes are all given; give {} of each \
+                 and its mid-side nodes where it has some",
+                if self.mesh.is_solid() { "face" } else { "edge" },
+                if self.mesh.is_solid() {
+                    "the corners"
+                } else {
+                    "both ends"
+                },
             )));
         }
         self.keep_surface(name, facets)
@@ -209,7 +229,7 @@ impl ModelBuilder {
         let nodes = self.mesh.set_nodes(surface).unwrap_or_default();
         if let Curve::Circle { center, radius, .. } = curve {
             for node in nodes {
-                let [x, y] = self.mesh.point(node);
+                let [x, y] = self.mesh.in_plane(node);
                 let distance = (x - center[0]).hypot(y - center[1]);
                 let off = (distance - radius).abs();
                 if off.is_nan() || off > 1e-6 * radius {

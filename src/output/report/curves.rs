@@ -212,7 +212,7 @@ impl Along {
             // On a small part of a large circle lengths say more.
             let angle = |p: [f64; 2]| (p[1] - center[1]).atan2(p[0] - center[0]);
             let ends = [pairs.first(), pairs.last()]
-                .map(|p| p.map_or(0.0, |p| angle(model.mesh.point(p.second))));
+                .map(|p| p.map_or(0.0, |p| angle(model.mesh.in_plane(p.second))));
             *radius > 0.0 && (ends[1] - ends[0]).abs() > 20f64.to_radians()
         });
         match circle {
@@ -221,7 +221,7 @@ impl Along {
                 of_pair: pairs
                     .iter()
                     .map(|pair| {
-                        let [x, y] = model.mesh.point(pair.second);
+                        let [x, y] = model.mesh.in_plane(pair.second);
                         (y - center[1]).atan2(x - center[0]).to_degrees()
                     })
                     .collect(),

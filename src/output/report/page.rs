@@ -131,10 +131,12 @@ fn subtitle(header: &RunHeader, model: &Model) -> String {
         Kind::PlaneStrain => "Plane strain",
         Kind::PlaneStress => "Plane stress",
         Kind::Axisymmetric => "Axisymmetric",
+        Kind::Solid => "Solid",
     };
     let copies = match model.scene.symmetry {
         2 => ", half model (loads are those of the whole)",
         4 => ", quarter model (loads are those of the whole)",
+        8 => ", an eighth (loads are those of the whole)",
         _ => "",
     };
     let file = header

@@ -80,7 +80,7 @@ impl<'a> Picture<'a> {
 
     /// Where a node is shown in the plane.
     pub(super) fn node(&self, node: usize) -> [f64; 2] {
-        let [x, y] = self.mesh.point(node);
+        let [x, y] = self.mesh.in_plane(node);
         match self.displacement {
             Some(u) => [x + u[2 * node], y + u[2 * node + 1]],
             None => [x, y],
@@ -316,7 +316,7 @@ mod tests {
         };
         // Both surfaces fall across the rows of pixels, as they do round a dent.
         let tilted: Vec<f64> = (0..model.mesh.n_nodes())
-            .flat_map(|node| [0.0, -0.15 * model.mesh.point(node)[0]])
+            .flat_map(|node| [0.0, -0.15 * model.mesh.in_plane(node)[0]])
             .collect();
         let mut picture = Picture::new(&model.mesh, Some(&tilted), window, [false; 2]);
         for element in picture.visible() {

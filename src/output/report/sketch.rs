@@ -8,7 +8,8 @@ use super::window::Window;
 use crate::error::Result;
 use crate::mesh::surface::{normals, ordered_nodes};
 use crate::model::{Magnitude, Model};
-use crate::scene::{Direction, Support};
+use crate::scene::Support;
+use crate::space::Vector;
 use plotters::prelude::*;
 
 /// Colours of the bodies, in turn.
@@ -87,7 +88,7 @@ impl<'a> Signs<'a> {
             let owner = mesh.element_body[element];
             for &node in mesh.nodes(element) {
                 body[node as usize] = owner;
-                let p = mesh.point(node as usize);
+                let p = mesh.in_plane(node as usize);
                 let [low, high] = &mut boxes[owner as usize];
                 for k in 0..2 {
                     low[k] = low[k].min(p[k]);
@@ -123,7 +124,7 @@ impl<'a> Signs<'a> {
             let nodes = self.spread(on);
             let pulled = nodes
                 .iter()
-                .filter(|&&node| self.is_outward(node, load.direction))
+                .filter(|&&node| self.is_outward(node, in_plane(load.direction)))
                 .count();
             // Arrows of one direction lie on one side, also where the surface is along them.
             let outward = 2 * pulled > nodes.len();
@@ -131,8 +132,10 @@ impl<'a> Signs<'a> {
                 let direction = match (pressure, self.model.mesh.surfaces.get(on)) {
                     (Some(p), Some(surface)) => normals(&self.model.mesh, surface, &[node])
                         .first()
-                        .map_or(load.direction, |n| [-p.signum() * n[0], -p.signum() * n[1]]),
-                    _ => load.direction,
+                        .map_or(in_plane(load.direction), |n| {
+                            [-p.signum() * n[0], -p.signum() * n[1]]
+                        }),
+                    _ => in_plane(load.direction),
                 };
                 let outward = match pressure {
                     Some(_) => self.is_outward(node, direction),
@@ -145,7 +148,7 @@ impl<'a> Signs<'a> {
     }
 
     fn is_shown(&self, node: usize) -> bool {
-        self.window.sees(&[self.model.mesh.point(node)])
+        self.window.sees(&[self.model.mesh.in_plane(node)])
     }
 
     /// The nodes of a set in order, as far as they have one.
@@ -169,11 +172,11 @@ impl<'a> Signs<'a> {
         let mut arc = 0.0;
         let mut arcs = vec![0.0];
         for pair in nodes.windows(2) {
-            let (p, q) = (mesh.point(pair[0]), mesh.point(pair[1]));
+            let (p, q) = (mesh.in_plane(pair[0]), mesh.in_plane(pair[1]));
             arc += (q[0] - p[0]).hypot(q[1] - p[1]);
             arcs.push(arc);
         }
-        let shown = |node: usize| self.picture.place_of(mesh.point(node));
+        let shown = |node: usize| self.picture.place_of(mesh.in_plane(node));
         let (a, b) = (shown(first), shown(last));
         // Signs need room: one for about each forty pixels.
         let [left, right] =
@@ -204,7 +207,7 @@ impl<'a> Signs<'a> {
         let mut pieces = Vec::new();
         for node in nodes {
             if self.is_shown(node) {
-                let [x, y] = self.picture.place_of(self.model.mesh.point(node));
+                let [x, y] = self.picture.place_of(self.model.mesh.in_plane(node));
                 let at = (units(x), units(y));
                 // A point for every two pixels is enough.
                 let far = piece
@@ -227,24 +230,21 @@ impl<'a> Signs<'a> {
 
     /// Whether a direction at a node points out of its body.
     fn is_outward(&self, node: usize, direction: [f64; 2]) -> bool {
-        let p = self.model.mesh.point(node);
+        let p = self.model.mesh.in_plane(node);
         let middle = self.middles[self.body[node] as usize];
         (p[0] - middle[0]) * direction[0] + (p[1] - middle[1]) * direction[1] > 0.0
     }
 
     /// Triangles with their tips at the held nodes, filled where both directions are held.
     fn support(&self, area: &Area, support: &Support) -> Result<()> {
-        let (sin, cos) = support.angle.unwrap_or(0.0).to_radians().sin_cos();
+        let directions = support.directions();
         for node in self.spread(&support.on) {
-            for &direction in &support.fix {
-                let mut d = match direction {
-                    Direction::X => [cos, sin],
-                    Direction::Y => [-sin, cos],
-                };
+            for &direction in &directions {
+                let mut d = in_plane(direction);
                 if !self.is_outward(node, d) {
                     d = [-d[0], -d[1]];
                 }
-                let tip = self.picture.place_of(self.model.mesh.point(node));
+                let tip = self.picture.place_of(self.model.mesh.in_plane(node));
                 // Down in a drawing is -y.
                 let at = |along: f64, across: f64| {
                     (
@@ -254,7 +254,7 @@ impl<'a> Signs<'a> {
                 };
                 let corners = vec![at(0.0, 0.0), at(TRIANGLE, -5.5), at(TRIANGLE, 5.5)];
                 let line = stroke(SUPPORT, 1.5);
-                if support.fix.len() > 1 {
+                if directions.len() > 1 {
                     area.draw(&Polygon::new(corners, SUPPORT.filled()))
                         .map_err(failed)?;
                 } else {
@@ -281,7 +281,7 @@ impl<'a> Signs<'a> {
         if d == [0.0; 2] {
             return Ok(());
         }
-        let foot = self.picture.place_of(self.model.mesh.point(node));
+        let foot = self.picture.place_of(self.model.mesh.in_plane(node));
         let (from, to) = if outward {
             (2.0, ARROW + 2.0)
         } else {
@@ -307,4 +307,9 @@ impl<'a> Signs<'a> {
                 .map_err(failed)
         }
     }
+}
+
+/// The first two components of a vector.
+fn in_plane([x, y, _]: Vector) -> [f64; 2] {
+    [x, y]
 }

@@ -9,6 +9,7 @@ use crate::output::RunHeader;
 use crate::output::number::{bytes, ratio, significant};
 use crate::results::{Results, State};
 use crate::scene::{Direction, History, Load};
+use crate::space::Components;
 use maud::{Markup, PreEscaped, html};
 use plotters::style::RGBColor;
 
@@ -150,7 +151,7 @@ fn conditions(model: &Model, units: &Units) -> Markup {
 }
 
 fn axis(model: &Model, direction: Direction) -> &'static str {
-    model.kind.axes()[usize::from(direction == Direction::Y)]
+    model.kind.axes()[direction.axis()]
 }
 
 fn with_unit(value: f64, unit: &str) -> String {
@@ -158,7 +159,10 @@ fn with_unit(value: f64, unit: &str) -> String {
 }
 
 fn describe(model: &Model, load: &Load, units: &Units) -> String {
-    let vector = |v: [f64; 2]| format!("({}, {})", short(v[0]), short(v[1]));
+    let vector = |v: Components| {
+        let parts: Vec<String> = v.iter().map(short).collect();
+        format!("({})", parts.join(", "))
+    };
     let mut what = if let Some(force) = load.force {
         format!("force {}", vector(force))
     } else if let Some(pressure) = load.pressure {
@@ -168,7 +172,7 @@ fn describe(model: &Model, load: &Load, units: &Units) -> String {
     } else if let Some(kirsch) = load.kirsch {
         format!(
             "traction of a plate with a hole under remote tensions {}",
-            vector([kirsch.stress_x, kirsch.stress_y])
+            vector([kirsch.stress_x, kirsch.stress_y].into())
         )
     } else if let Some(d) = load.displacement {
         let parts = [(d.x, Direction::X), (d.y, Direction::Y)];
@@ -198,7 +202,7 @@ fn describe(model: &Model, load: &Load, units: &Units) -> String {
         History::Proportional => {}
         History::Constant => what.push_str(", constant (preload)"),
         History::Table(rows) => {
-            let rows: Vec<String> = rows.iter().map(|r| vector(*r)).collect();
+            let rows: Vec<String> = rows.iter().map(|r| vector((*r).into())).collect();
             what.push_str(&format!(
                 ", times a table of (load factor, multiple): {}",
                 rows.join(" ")

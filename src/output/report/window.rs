@@ -80,7 +80,7 @@ impl Window {
 /// plane of symmetry; so is the axis of an axisymmetric model that reaches it.
 pub(super) fn mirrors(model: &Model) -> [bool; 2] {
     let mesh = &model.mesh;
-    let Some(all) = Window::round((0..mesh.n_nodes()).map(|n| mesh.point(n))) else {
+    let Some(all) = Window::round((0..mesh.n_nodes()).map(|n| mesh.in_plane(n))) else {
         return [false; 2];
     };
     let small = 1e-9 * all.size()[0].max(all.size()[1]);
@@ -91,7 +91,7 @@ pub(super) fn mirrors(model: &Model) -> [bool; 2] {
             support.fix == [direction]
                 && support.angle.is_none_or(|a| a == 0.0)
                 && mesh.set_nodes(&support.on).is_some_and(|nodes| {
-                    nodes.len() > 1 && nodes.iter().all(|&n| mesh.point(n)[k].abs() <= small)
+                    nodes.len() > 1 && nodes.iter().all(|&n| mesh.in_plane(n)[k].abs() <= small)
                 })
         })
     });
@@ -102,19 +102,19 @@ pub(super) fn mirrors(model: &Model) -> [bool; 2] {
 /// The whole mesh.
 pub(super) fn whole(model: &Model, mirror: [bool; 2]) -> Option<Window> {
     let mesh = &model.mesh;
-    let all = Window::round((0..mesh.n_nodes()).map(|n| mesh.point(n)))?;
+    let all = Window::round((0..mesh.n_nodes()).map(|n| mesh.in_plane(n)))?;
     Some(all.mirrored(mirror).framed(WIDE_ROOM))
 }
 
 /// The surroundings of what is closed in any state, or the whole mesh where there is no contact.
 pub(super) fn near_contact(model: &Model, results: &Results, mirror: [bool; 2]) -> Option<Window> {
     let mesh = &model.mesh;
-    let all = Window::round((0..mesh.n_nodes()).map(|n| mesh.point(n)))?.mirrored(mirror);
+    let all = Window::round((0..mesh.n_nodes()).map(|n| mesh.in_plane(n)))?.mirrored(mirror);
     let pairs = results.states.iter().flat_map(|state| &state.pairs);
     let closed = pairs
         .filter(|pair| pair.status == Status::Closed)
         .map(|pair| pair.position);
-    let candidates = model.pairs.iter().map(|pair| mesh.point(pair.second));
+    let candidates = model.pairs.iter().map(|pair| mesh.in_plane(pair.second));
     let Some(patch) = Window::round(closed).or_else(|| Window::round(candidates)) else {
         return Some(all.framed(ROOM));
     };

@@ -1,27 +1,20 @@
 //! Contact, supports and loads.
 
 use super::Checks;
-use crate::scene::{Contact, History, Load, Scene};
-use crate::space::Space;
+use crate::scene::{Contact, Direction, History, Load, Scene, Support};
+use crate::space::{Components, Space};
 use crate::text::exact;
 use std::collections::BTreeSet;
 
 impl Checks {
     pub(super) fn boundary(&mut self, scene: &Scene) {
         for (index, contact) in scene.contact.iter().enumerate() {
-            self.contact(&format!("contact.{index}"), contact);
+            self.contact(&format!("contact.{index}"), contact, scene.kind);
         }
         for (index, support) in scene.support.iter().enumerate() {
             let key = format!("support.{index}");
             self.set_name(&format!("{key}.on"), &support.on);
-            self.require(
-                !support.fix.is_empty(),
-                format!("{key}.fix"),
-                "is empty; give \"x\", \"y\" or both",
-            );
-            let repeated =
-                (1..support.fix.len()).any(|i| support.fix[..i].contains(&support.fix[i]));
-            self.require(!repeated, format!("{key}.fix"), "names a direction twice");
+            self.support(&key, support, scene.kind);
         }
         let mut names = BTreeSet::new();
         for (index, load) in scene.load.iter().enumerate() {
@@ -44,7 +37,69 @@ impl Checks {
         );
     }
 
-    fn contact(&mut self, key: &str, contact: &Contact) {
+    fn support(&mut self, key: &str, support: &Support, space: Space) {
+        let fix = format!("{key}.fix");
+        if let Some(direction) = support.direction {
+            self.vector(&format!("{key}.direction"), direction, space);
+            self.is_direction(&format!("{key}.direction"), direction);
+            self.require(
+                support.fix.is_empty() && support.angle.is_none(),
+                fix,
+                "has no meaning beside `direction`; make two supports of it",
+            );
+            return;
+        }
+        let axes = match space.is_solid() {
+            true => "give some of \"x\", \"y\", \"z\"",
+            false => "give \"x\", \"y\" or both",
+        };
+        self.require(
+            !support.fix.is_empty(),
+            fix.as_str(),
+            format!("is empty; {axes}"),
+        );
+        let repeated = (1..support.fix.len()).any(|i| support.fix[..i].contains(&support.fix[i]));
+        self.require(!repeated, fix.as_str(), "names a direction twice");
+        for direction in &support.fix {
+            self.is_in(&fix, *direction, space);
+        }
+    }
+
+    /// A vector has as many components as the model coordinates.
+    fn vector(&mut self, key: &str, given: Components, space: Space) {
+        self.require(
+            given.count() == space.dimension(),
+            key,
+            format!(
+                "has {} components; a {} model needs {}",
+                given.count(),
+                space.name(),
+                space.dimension()
+            ),
+        );
+    }
+
+    fn is_direction(&mut self, key: &str, given: Components) {
+        self.require(
+            given.iter().any(|c| c != 0.0),
+            key,
+            match given.count() {
+                2 => "[0, 0] has no direction",
+                _ => "[0, 0, 0] has no direction",
+            },
+        );
+    }
+
+    /// Only a solid has a z axis.
+    fn is_in(&mut self, key: &str, direction: Direction, space: Space) {
+        self.require(
+            direction.axis() < space.dimension(),
+            key,
+            format!("\"z\" is no direction of a {} model", space.name()),
+        );
+    }
+
+    fn contact(&mut self, key: &str, contact: &Contact, space: Space) {
         self.set_name(&format!("{key}.first"), &contact.first);
         self.set_name(&format!("{key}.second"), &contact.second);
         self.require(
@@ -56,11 +111,8 @@ impl Checks {
             ),
         );
         if let Some(normal) = contact.normal {
-            self.require(
-                normal != [0.0, 0.0],
-                format!("{key}.normal"),
-                "[0, 0] has no direction",
-            );
+            self.vector(&format!("{key}.normal"), normal, space);
+            self.is_direction(&format!("{key}.normal"), normal);
         }
         if let Some(gap) = contact.gap {
             self.require(
@@ -89,18 +141,37 @@ impl Checks {
             ],
         );
         if let Some(displacement) = load.displacement {
+            let key = format!("{key}.displacement");
             self.require(
-                displacement.x.is_some() || displacement.y.is_some(),
-                format!("{key}.displacement"),
-                "has no component; give x, y or both",
+                displacement.components().iter().any(Option::is_some),
+                key.as_str(),
+                match kind.is_solid() {
+                    true => "has no component; give x, y, z or some of them",
+                    false => "has no component; give x, y or both",
+                },
+            );
+            if displacement.z.is_some() {
+                self.is_in(&key, Direction::Z, kind);
+            }
+        }
+        for (name, vector) in [("force", load.force), ("traction", load.traction)] {
+            if let Some(vector) = vector {
+                self.vector(&format!("{key}.{name}"), vector, kind);
+            }
+        }
+        if let Some(plane) = load.plane_force {
+            self.is_in(
+                &format!("{key}.plane_force.direction"),
+                plane.direction,
+                kind,
             );
         }
         if let Some(kirsch) = load.kirsch {
             self.at_least(format!("{key}.kirsch.radius"), kirsch.radius, 0.0);
             self.require(
-                !kind.is_axisymmetric(),
+                matches!(kind, Space::PlaneStrain | Space::PlaneStress),
                 format!("{key}.kirsch"),
-                "is the field of a plane model; this one is axisymmetric",
+                format!("is the field of a plane model; this one is {}", kind.name()),
             );
         }
         if let History::Table(rows) = &load.history {

@@ -90,16 +90,19 @@ impl fmt::Display for Problem {
 
 /// What is wrong with a number of copies that make the whole.
 fn symmetry_problem(kind: Space, copies: usize) -> Option<String> {
-    let (allowed, words): (&[usize], _) = if kind.is_axisymmetric() {
-        (
+    let (allowed, words): (&[usize], _) = match kind {
+        Space::Axisymmetric => (
             &[1, 2],
             "1 (all of it is meshed) or 2 (half of it, above or below a plane of symmetry)",
-        )
-    } else {
-        (
+        ),
+        Space::PlaneStrain | Space::PlaneStress => (
             &[1, 2, 4],
             "1 (all of it is meshed), 2 (a half) or 4 (a quarter)",
-        )
+        ),
+        Space::Solid => (
+            &[1, 2, 4, 8],
+            "1 (all of it is meshed), 2 (a half), 4 (a quarter) or 8 (an eighth)",
+        ),
     };
     (!allowed.contains(&copies)).then(|| format!("{copies} must be {words}"))
 }

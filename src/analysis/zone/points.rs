@@ -1,0 +1,319 @@
+//! The elements of the zone and the points at which they may yield.
+
+use super::{Evaluation, History};
+use crate::analysis::gather::{GatheredElements, Nodal, Places};
+use crate::element::{Components, Gradients, Kernel};
+use crate::material::{Lame, Material, PlasticState, Softening};
+use crate::model::Model;
+use crate::substructure::Trailing;
+use rayon::prelude::*;
+
+/// Elements that a thread takes at a time.
+const GRAIN: usize = 128;
+
+/// The plastic zone with its history. Arrays over points give every element the same number of
+/// places (`stride`), so that they are cut by element without a list.
+pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize> {
+    pub(super) elements: GatheredElements,
+    pub(super) gradients: Vec<Gradients<D, S, P, N>>,
+    /// Elements in which flow means that the zone is too small.
+    guard: Vec<bool>,
+    stride: usize,
+    materials: Vec<(Material, Lame)>,
+    committed: Vec<PlasticState<S>>,
+    /// Equal to `committed` except where `flows`.
+    trial: Vec<PlasticState<S>>,
+    /// `D - D_ep` at the last evaluated state; zero except where `flows`.
+    pub(super) softening: Vec<Softening<S>>,
+    /// Points that flowed at the last evaluated state.
+    pub(super) flows: Vec<bool>,
+    /// Flowing points of each element at the last evaluated state.
+    flowing: Vec<u8>,
+    /// Elements with a flowing point, ascending.
+    pub(super) active: Vec<u32>,
+    forces: Vec<[[f64; D]; N]>,
+    /// Initial loads of the committed plastic strains: what flows adds to them.
+    base: Trailing,
+    nodal: Nodal,
+    sums: Nodal,
+}
+
+impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S, P, N> {
+    /// Sets up the zone of the given elements (ascending); `guard` says which of them only watch.
+    /// The free freedoms of the elements must be zone or contact freedoms.
+    pub fn new(
+        kernel: &Kernel<D, S, P, N>,
+        model: &Model,
+        elements: &[usize],
+        guard: &[bool],
+        places: &Places,
+    ) -> Self {
+        let gradients = (elements.iter())
+            .map(|&e| model.gradients(kernel, e))
+            .collect();
+        let elements = GatheredElements::new(model, elements, places);
+        let n = elements.list.len();
+        // That of the mesh, not of these elements: histories pass from zone to zone.
+        let shapes = model.mesh.shapes.iter();
+        let stride = shapes.map(|s| s.n_gauss_points()).max().unwrap_or(1);
+        let (n_zone, n_contact) = places.sizes();
+        ZoneOf {
+            forces: vec![[[0.0; D]; N]; n],
+            elements,
+            gradients,
+            guard: guard.to_vec(),
+            stride,
+            materials: model
+                .materials
+                .iter()
+                .map(|m| (m.clone(), m.lame()))
+                .collect(),
+            committed: vec![PlasticState::default(); n * stride],
+            trial: vec![PlasticState::default(); n * stride],
+            softening: vec![Softening::NONE; n * stride],
+            flows: vec![false; n * stride],
+            flowing: vec![0; n],
+            active: Vec::new(),
+            base: Trailing::zeros(n_zone, n_contact),
+            nodal: Nodal::new(model, places),
+            sums: Nodal::new(model, places),
+        }
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> u64 {
+        (self.elements.bytes()
+            + self.gradients.capacity() * size_of::<Gradients<D, S, P, N>>()
+            + self.forces.capacity() * size_of::<[[f64; D]; N]>()
+            + self.committed.capacity() * 2 * size_of::<PlasticState<S>>()
+            + self.softening.capacity() * size_of::<Softening<S>>()) as u64
+    }
+
+    /// Load factors that scale the prescribed displacements from now on.
+    pub fn set_factors(&mut self, factors: &[f64]) {
+        self.nodal.set_factors(factors);
+    }
+
+    /// Integrates the flow rule for displacements `u` and adds up the initial loads: those of the
+    /// committed plastic strains, plus what the points that flow add.
+    pub fn evaluate(&mut self, u: &Trailing, initial_load: &mut Trailing) -> Evaluation {
+        let nodal = self.nodal.displacements(u);
+        let (elements, materials, stride) = (&self.elements, &self.materials, self.stride);
+        (
+            &self.gradients,
+            &mut self.flowing,
+            &mut self.forces,
+            self.trial.par_chunks_mut(stride),
+            self.softening.par_chunks_mut(stride),
+            self.flows.par_chunks_mut(stride),
+            self.committed.par_chunks(stride),
+        )
+            .into_par_iter()
+            .enumerate()
+            .with_min_len(GRAIN)
+            .for_each(
+                |(i, (gradients, flowing, force, trial, softening, flows, committed))| {
+                    let packed = &elements.list[i];
+                    let (material, law) = &materials[packed.body as usize];
+                    let strains = gradients.strains(&elements.displacements(i, nodal));
+                    let mut added = [[0.0; P]; S];
+                    *flowing = 0;
+                    for g in 0..gradients.n_points() {
+                        let (strain, old) = (&at_point(&strains, g), &committed[g]);
+                        // Most points are elastic: nothing is stored for them.
+                        if material.stays_elastic(law, strain, old) {
+                            if flows[g] {
+                                flows[g] = false;
+                                trial[g] = *old;
+                                softening[g] = Softening::NONE;
+                            }
+                            continue;
+                        }
+                        let update = material.integrate(law, strain, old);
+                        trial[g] = update.state;
+                        softening[g] = update.softening;
+                        flows[g] = true;
+                        *flowing += 1;
+                        let change =
+                            std::array::from_fn(|k| update.state.strain[k] - old.strain[k]);
+                        put(&mut added, g, law.times(&change));
+                    }
+                    if *flowing > 0 {
+                        *force = gradients.forces(&added);
+                    }
+                },
+            );
+        let mut result = Evaluation::default();
+        self.active.clear();
+        let sums = self.sums.start_sum(Some(&self.base));
+        for (i, &flowing) in self.flowing.iter().enumerate() {
+            if flowing > 0 {
+                result.flowing += flowing as usize;
+                self.active.push(i as u32);
+                result.guard_flows += usize::from(self.guard[i]);
+                self.elements.scatter(i, &self.forces[i], sums);
+            }
+        }
+        self.sums.sum_into(initial_load);
+        result
+    }
+
+    /// `out = sum_g w_g B' (D - D_ep) B v` at the last evaluated state, for a `v` that vanishes where displacements are
+    /// prescribed.
+    pub fn softening_times(&mut self, v: &Trailing, out: &mut Trailing) {
+        let nodal = self.nodal.variation(v);
+        let (elements, gradients) = (&self.elements, &self.gradients);
+        let (softening, stride) = (&self.softening, self.stride);
+        self.active
+            .par_iter()
+            .zip(&mut self.forces[..self.active.len()])
+            .with_min_len(GRAIN)
+            .for_each(|(&i, force)| {
+                let i = i as usize;
+                let gradients = &gradients[i];
+                let strains = gradients.strains(&elements.displacements(i, nodal));
+                let mut stress = [[0.0; P]; S];
+                let points = &softening[i * stride..][..gradients.n_points()];
+                for (g, lost) in points.iter().enumerate() {
+                    put(&mut stress, g, lost.times(&at_point(&strains, g)));
+                }
+                *force = gradients.forces(&stress);
+            });
+        let sums = self.sums.start_sum(None);
+        for (&i, force) in self.active.iter().zip(&self.forces) {
+            self.elements.scatter(i as usize, force, sums);
+        }
+        self.sums.sum_into(out);
+    }
+
+    /// Marks the zone freedoms of elements in which a point flowed at the last evaluated state.
+    pub fn mark_active(&self, marks: &mut [bool]) {
+        for &i in &self.active {
+            self.elements.mark(i as usize, marks);
+        }
+    }
+
+    /// True where no point flowed at the last evaluated state.
+    pub fn is_idle(&self) -> bool {
+        self.active.is_empty()
+    }
+
+    /// Forgets which points flow, so that the next tangent is elastic.
+    pub fn assume_elastic(&mut self) {
+        self.active.clear();
+    }
+
+    /// Makes the last evaluated state the history.
+    pub fn commit(&mut self) {
+        if !self.active.is_empty() {
+            for &i in &self.active {
+                let points = self.points_of(i as usize);
+                self.committed[points.clone()].copy_from_slice(&self.trial[points]);
+            }
+            self.renew_base();
+        }
+    }
+
+    /// Number of places for points that so many elements take.
+    pub fn n_points(&self, elements: &[usize]) -> usize {
+        elements.len() * self.stride
+    }
+
+    /// The history, point by point.
+    pub fn history(&self) -> History {
+        self.committed.iter().map(PlasticState::resized).collect()
+    }
+
+    /// Puts a history back.
+    pub fn restore(&mut self, history: &[PlasticState<6>]) {
+        for (own, state) in self.committed.iter_mut().zip(history) {
+            *own = state.resized();
+        }
+        self.trial.copy_from_slice(&self.committed);
+        self.renew_base();
+    }
+
+    /// Puts the history of a zone of other elements (ascending) back; elements that were not in it
+    /// have none.
+    pub fn restore_of(&mut self, elements: &[usize], history: &[PlasticState<6>]) {
+        for (i, packed) in self.elements.list.iter().enumerate() {
+            let states = &mut self.committed[i * self.stride..][..self.stride];
+            match elements.binary_search(&(packed.element as usize)) {
+                Ok(j) => {
+                    let known = &history[j * self.stride..][..self.stride];
+                    for (state, known) in states.iter_mut().zip(known) {
+                        *state = known.resized();
+                    }
+                }
+                Err(_) => states.fill(PlasticState::default()),
+            }
+        }
+        self.trial.copy_from_slice(&self.committed);
+        self.flows.fill(false);
+        self.softening.fill(Softening::NONE);
+        self.active.clear();
+        self.renew_base();
+    }
+
+    /// Initial loads of the committed plastic strains.
+    pub fn initial_load(&self, mut out: Trailing) -> Trailing {
+        out.copy_from(&self.base);
+        out
+    }
+
+    fn renew_base(&mut self) {
+        let (elements, materials, committed) = (&self.elements, &self.materials, &self.committed);
+        let stride = self.stride;
+        let sums = self.sums.start_sum(None);
+        for (i, (packed, gradients)) in elements.list.iter().zip(&self.gradients).enumerate() {
+            let states = &committed[i * stride..][..gradients.n_points()];
+            if states.iter().all(|state| state.equivalent == 0.0) {
+                continue;
+            }
+            let law = &materials[packed.body as usize].1;
+            let mut stress = [[0.0; P]; S];
+            for (g, state) in states.iter().enumerate() {
+                put(&mut stress, g, law.times(&state.strain));
+            }
+            elements.scatter(i, &gradients.forces(&stress), sums);
+        }
+        self.sums.sum_into(&mut self.base);
+    }
+
+    /// History of the zone's element `i`.
+    pub fn states(&self, i: usize) -> &[PlasticState<S>] {
+        &self.committed[self.points_of(i)]
+    }
+
+    pub(super) fn points_of(&self, i: usize) -> std::ops::Range<usize> {
+        let first = i * self.stride;
+        first..first + self.gradients[i].n_points()
+    }
+
+    /// Gauss points with plastic strain and the largest equivalent plastic strain.
+    pub fn extent(&self) -> (usize, f64) {
+        self.committed.iter().fold((0, 0.0), |(n, largest), state| {
+            (
+                n + usize::from(state.equivalent > 0.0),
+                f64::max(largest, state.equivalent),
+            )
+        })
+    }
+}
+
+/// The components at a point.
+#[inline]
+fn at_point<const S: usize, const P: usize>(components: &Components<S, P>, g: usize) -> [f64; S] {
+    components.each_ref().map(|lanes| lanes[g])
+}
+
+#[inline]
+fn put<const S: usize, const P: usize>(
+    components: &mut Components<S, P>,
+    g: usize,
+    values: [f64; S],
+) {
+    for (lanes, value) in components.iter_mut().zip(values) {
+        lanes[g] = value;
+    }
+}

@@ -1,0 +1,91 @@
+//! Local axes of a node.
+
+use crate::space::{Vector, along, cross, direction, dot, unit};
+
+/// Three axes at right angles, right-handed.
+pub type Frame = [Vector; 3];
+
+/// How far (sine of an angle) directions may be off right angles or a common line.
+pub(super) const ALIGNED: f64 = 1e-6;
+
+/// The axes of a node: the contact normal first, where there is one; the directions that are held
+/// are among them. Global axes where these will do. In the plane the third axis is out of it.
+///
+/// # Errors
+/// The place of a direction that is neither at right angles to nor along those before it.
+pub(super) fn frame(
+    dimension: usize,
+    normal: Option<Vector>,
+    held: &[Vector],
+) -> Result<Frame, usize> {
+    let mut axes: Vec<Vector> = Vec::new();
+    if dimension == 2 {
+        axes.push(unit(2));
+    }
+    axes.extend(normal);
+    let is_global = |v: &Vector| (0..3).any(|d| v[d].abs() > 1.0 - ALIGNED);
+    let in_global_axes = normal.is_none() && held.iter().all(is_global);
+    if in_global_axes {
+        return Ok([unit(0), unit(1), unit(2)]);
+    }
+    for (k, &d) in held.iter().enumerate() {
+        let off = |axis: &Vector| dot(*axis, d).abs();
+        if axes.iter().any(|axis| off(axis) > 1.0 - ALIGNED) {
+            continue;
+        }
+        if axes.iter().any(|axis| off(axis) > ALIGNED) {
+            return Err(k);
+        }
+        axes.push(d);
+    }
+    if dimension == 2 {
+        let first = axes.get(1).copied().unwrap_or(unit(0));
+        return Ok([first, cross(unit(2), first), unit(2)]);
+    }
+    let first = axes.first().copied().unwrap_or(unit(0));
+    let second = axes.get(1).copied().unwrap_or_else(|| across(first));
+    Ok([first, second, cross(first, second)])
+}
+
+/// A direction at right angles to another: the global axis that is farthest off it, made so.
+fn across(first: Vector) -> Vector {
+    let share = |d: &usize| first[*d].abs();
+    let axis = (0..3).min_by(|a, b| share(a).total_cmp(&share(b)));
+    let axis = unit(axis.unwrap_or(0));
+    direction(along(axis, -dot(axis, first), first))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn is_frame(frame: &Frame) -> bool {
+        let [a, b, c] = *frame;
+        let right = cross(a, b);
+        (0..3).all(|d| (right[d] - c[d]).abs() < 1e-15) && (dot(a, a) - 1.0).abs() < 1e-15
+    }
+
+    #[test]
+    fn the_normal_is_first_and_held_directions_are_axes() {
+        let normal = direction([0.0, 0.3, -0.8]);
+        for held in [&[][..], &[unit(0)], &[unit(0), unit(0)]] {
+            let frame = frame(3, Some(normal), held).unwrap();
+            assert!(is_frame(&frame) && frame[0] == normal);
+            assert!(held.is_empty() || frame[1] == unit(0));
+        }
+        // Supports in global axes turn nothing.
+        assert_eq!(frame(3, None, &[unit(1), unit(0)]).unwrap()[0], unit(0));
+        let slanted = direction([1.0, 2.0, 2.0]);
+        assert_eq!(frame(3, None, &[slanted]).unwrap()[0], slanted);
+        assert_eq!(frame(3, None, &[slanted, unit(0)]), Err(1));
+    }
+
+    #[test]
+    fn in_the_plane_the_second_axis_is_a_quarter_turn_on() {
+        let normal = direction([0.6, 0.8, 0.0]);
+        let plane = frame(2, Some(normal), &[]).unwrap();
+        assert_eq!(plane[1], [-normal[1], normal[0], 0.0]);
+        assert_eq!(plane[2], unit(2));
+        assert_eq!(frame(2, None, &[normal, unit(0)]), Err(1));
+    }
+}
