@@ -4,6 +4,7 @@ mod history;
 
 pub use history::{HistoryRow, PathPoint};
 
+use crate::space::Vector;
 use serde::{Deserialize, Deserializer, Serialize};
 
 /// Numbers that are not finite are written as null.
@@ -198,12 +199,38 @@ pub struct State {
     /// the mean displacement of its surface along it. Prescribed displacements, where there are
     /// any, count instead of forces: their mean on each body, added up.
     pub approach: f64,
+    /// In a solid model the patches of contact, the strongest first.
+    #[serde(default)]
+    pub patches: Vec<ContactPatch>,
     /// Each contact pair.
     pub pairs: Vec<PairState>,
     /// Fields on the whole mesh, where asked for.
     pub fields: Option<Fields>,
     /// Quality of this state.
     pub quality: Quality,
+}
+
+/// A patch of contact of a solid model: pairs that touch, joined by faces of the second surface. It is
+/// that of the whole where it reaches planes of symmetry.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct ContactPatch {
+    /// Contact (scene entry) index, from 0.
+    pub contact: usize,
+    /// Area, on the plane across the mean normal.
+    pub area: f64,
+    /// Centroid of the area.
+    pub centroid: Vector,
+    /// Half axes, the larger first, of the ellipse with the patch's area moments of second order:
+    /// those of the patch itself where it is an ellipse.
+    pub semi_axes: [f64; 2],
+    /// Direction of the larger half axis.
+    pub direction: Vector,
+    /// Largest pressure of a pair.
+    pub max_pressure: f64,
+    /// Force over area.
+    pub mean_pressure: f64,
+    /// Force.
+    pub force: f64,
 }
 
 /// A contact pair's state.
@@ -214,7 +241,7 @@ pub struct PairState {
     /// Contact (scene entry) index, from 0; `contact.csv` counts from 1.
     pub contact: usize,
     /// Position (on the second surface, undeformed).
-    pub position: [f64; 2],
+    pub position: Vector,
     /// Gap, >= 0; on the axis of revolution, where quadratic elements have no pair, negative where
     /// the surfaces overlap.
     pub gap: f64,
@@ -241,9 +268,10 @@ pub enum Status {
 /// Fields on the whole mesh.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Fields {
-    /// `n_nodes x 2` displacements in global axes.
+    /// `n_nodes x dimension` displacements in global axes.
     pub displacement: Vec<f64>,
-    /// `n_elements x 4` element means of stress: xx, yy, zz, xy (axisymmetric: rr, zz, tt, rz).
+    /// `n_elements x 4` element means of stress: xx, yy, zz, xy (axisymmetric: rr, zz, tt, rz); of a
+    /// solid `n_elements x 6`: xx, yy, zz, xy, yz, zx.
     pub stress: Vec<f64>,
     /// `n_elements` von Mises stress: the largest over the element's Gauss points.
     pub von_mises: Vec<f64>,

@@ -75,6 +75,7 @@ impl Reading<'_, '_> {
             plastic_zone_size: plastic_volume * self.solver.structure.model.symmetry,
             energy_error,
             approach: self.approach(u),
+            patches: figures.patches,
             pairs: pair_states(
                 self.solver.structure.model,
                 &self.solver.now.gap,

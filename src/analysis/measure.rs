@@ -1,9 +1,10 @@
 //! What a user reads off a state: pressure, contact half width, contact arc, approach.
 
+use super::contact_area::{ReadPatch, patches};
 use super::contact_patch::Patch;
 use super::solver::Solver;
 use crate::model::{AxisPoint, ContactSurface, Magnitude, Model};
-use crate::results::{EdgeReading, PairState, Status};
+use crate::results::{ContactPatch, EdgeReading, PairState, Status};
 use std::borrow::Cow;
 
 /// Forces below this share of the largest are of pairs about to open or just closed: at a change of
@@ -14,7 +15,7 @@ const VANISHING: f64 = 1e-7;
 const ROUND_OFF: f64 = 1e-13;
 
 /// Contact pressures and extents at the current state.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct ContactFigures {
     /// Largest pressure of a pair.
     pub max_pressure: f64,
@@ -30,6 +31,8 @@ pub struct ContactFigures {
     pub patch: Option<[f64; 2]>,
     /// Contact the patch belongs to.
     pub contact: usize,
+    /// All patches of a solid model, the strongest first.
+    pub patches: Vec<ContactPatch>,
 }
 
 /// Pressure of each pair: its force over the integral of its node's shape function, which passes a
@@ -76,7 +79,7 @@ pub fn pair_states(
         out.extend(contact.range.clone().map(|k| PairState {
             pair: k,
             contact: model.pairs[k].contact,
-            position: model.mesh.in_plane(model.pairs[k].second),
+            position: model.mesh.point(model.pairs[k].second),
             gap: gap[k],
             force: force[k],
             area: model.pairs[k].area,
@@ -96,7 +99,7 @@ pub fn pair_states(
             PairState {
                 pair: number,
                 contact: index,
-                position: model.mesh.in_plane(axis.node),
+                position: model.mesh.point(axis.node),
                 gap: apart(&axis),
                 force: 0.0,
                 area: 0.0,
@@ -127,6 +130,9 @@ pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigur
     };
     let strongest = force.iter().fold(0.0f64, |m, r| m.max(*r));
     let vanishing = (VANISHING * strongest).max(ROUND_OFF * scale);
+    if model.kind.is_solid() {
+        return with_patches(out, patches(model, force, &pressure, vanishing));
+    }
     let mut largest = 0.0;
     for (index, contact) in model.contacts.iter().enumerate() {
         let range = contact.range.clone();
@@ -186,6 +192,21 @@ pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigur
             }
         }
     }
+    out
+}
+
+/// The figures of solids: the half width is the smaller half axis of the strongest patch.
+fn with_patches(mut out: ContactFigures, read: Vec<ReadPatch>) -> ContactFigures {
+    if let Some(strongest) = read.first() {
+        out.half_width = strongest.patch.semi_axes[1];
+        out.half_width_reading = EdgeReading {
+            error: strongest.reading,
+            pairs: strongest.pairs,
+        };
+        out.pole_pressure = strongest.pole_pressure;
+        out.contact = strongest.patch.contact;
+    }
+    out.patches = read.into_iter().map(|read| read.patch).collect();
     out
 }
 

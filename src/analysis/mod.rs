@@ -21,6 +21,7 @@
 mod acceleration;
 mod check;
 mod collapse;
+mod contact_area;
 mod contact_edge;
 mod contact_patch;
 mod dent;

@@ -12,7 +12,7 @@
 mod tests;
 
 use super::reading::Reading;
-use super::stresses::{AllStresses, Stresses};
+use super::stresses::AllStresses;
 use crate::linalg::largest;
 use crate::model::Model;
 use crate::results::{Quality, Tolerances};

@@ -333,7 +333,6 @@ impl<'a> Motions<'a> {
     }
 
     pub(super) fn describe(&self, mode: &Mode) -> String {
-        let per = self.per_group();
         let groups = self.moved(mode);
         let bodies: Vec<String> = groups
             .iter()

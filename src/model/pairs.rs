@@ -8,7 +8,7 @@ use super::names::Entry;
 use crate::element::facet_points;
 use crate::error::{Error, Result};
 use crate::mesh::surface::{PAIRING, facing, longest_facet, nodes, normals};
-use crate::mesh::{Curve, Mesh, Surface};
+use crate::mesh::{Curve, Facet, Mesh, Surface};
 use crate::scene::{Contact, Scene};
 use crate::space::{Vector, difference, direction, dot, length};
 use std::collections::{BTreeMap, BTreeSet};
@@ -49,6 +49,9 @@ pub struct ContactSurface {
     pub axis: Option<AxisPoint>,
     /// Pairs at which the candidates end although both bodies go on there: material beyond could touch too.
     pub goes_on: Vec<usize>,
+    /// In a solid model the pairs at the corners of each face of the second surface that has pairs
+    /// there, in order.
+    pub faces: Vec<Vec<usize>>,
 }
 
 /// Two nodes on the axis of revolution that belong to quadratic elements. Their consistent force is zero whatever the
@@ -257,7 +260,22 @@ fn resolve_contact(
         facet_length,
         axis,
         goes_on: Vec::new(),
+        faces: faces_of(mesh, second, &pairs[start..], start),
     })
+}
+
+/// The pairs at the corners of each face of a surface of a solid; `start` is the first one's number.
+fn faces_of(mesh: &Mesh, surface: &Surface, pairs: &[Pair], start: usize) -> Vec<Vec<usize>> {
+    if !mesh.is_solid() {
+        return Vec::new();
+    }
+    let numbers = start..start + pairs.len();
+    let of_node: BTreeMap<usize, usize> = pairs.iter().map(|p| p.second).zip(numbers).collect();
+    let corners = |&facet: &Facet| {
+        let nodes = mesh.facet_nodes(facet).take(mesh.facet_corners(facet));
+        nodes.map(|node| of_node.get(&node).copied()).collect()
+    };
+    surface.facets.iter().filter_map(corners).collect()
 }
 
 /// Takes the pair on the axis that can carry no force out of the pairs from `start` on.

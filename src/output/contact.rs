@@ -55,7 +55,7 @@ pub(super) fn write(out: &mut impl Write, states: &[State]) -> io::Result<()> {
     let nothing = PairState {
         pair: 0,
         contact: 0,
-        position: [0.0; 2],
+        position: [0.0; 3],
         gap: 0.0,
         force: 0.0,
         area: 0.0,

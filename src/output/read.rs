@@ -354,7 +354,7 @@ fn pairs(rows: &Rows, model: &Model) -> Result<Vec<(usize, PairState)>> {
             let pair = PairState {
                 pair: pair - 1,
                 contact: contact - 1,
-                position: [number("x")?, number("y")?],
+                position: [number("x")?, number("y")?, 0.0],
                 gap: number("gap")?,
                 force: number("force")?,
                 area: number("area")?,

@@ -5,6 +5,7 @@ use crate::error::{Error, Result};
 use crate::index::Index;
 use crate::mesh::{Curve, Facet, Shape, Surface};
 use crate::shape::MAX_NODES;
+use crate::space::Vector;
 use std::collections::BTreeMap;
 
 impl ModelBuilder {
@@ -21,6 +22,13 @@ impl ModelBuilder {
     /// Number of elements so far.
     pub fn n_elements(&self) -> usize {
         self.mesh.n_elements()
+    }
+
+    /// The nodes of a set or surface with their coordinates; none where there is no such name.
+    pub fn set_nodes(&self, name: &str) -> Vec<(usize, Vector)> {
+        let nodes = self.mesh.set_nodes(name).unwrap_or_default();
+        let placed = nodes.into_iter().map(|node| (node, self.mesh.point(node)));
+        placed.collect()
     }
 
     /// The index of a node that there is; `what` names it in a message.

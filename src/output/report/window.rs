@@ -113,7 +113,7 @@ pub(super) fn near_contact(model: &Model, results: &Results, mirror: [bool; 2]) 
     let pairs = results.states.iter().flat_map(|state| &state.pairs);
     let closed = pairs
         .filter(|pair| pair.status == Status::Closed)
-        .map(|pair| pair.position);
+        .map(|pair| [pair.position[0], pair.position[1]]);
     let candidates = model.pairs.iter().map(|pair| mesh.in_plane(pair.second));
     let Some(patch) = Window::round(closed).or_else(|| Window::round(candidates)) else {
         return Some(all.framed(ROOM));

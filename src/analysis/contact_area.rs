@@ -1,0 +1,614 @@
+//! Patches of contact between solids: area, centroid, half axes.
+//!
+//! Where bodies touch smoothly the square of the pressure falls to zero linearly at the edge. At the
+//! last pairs that touch it is not believed (how they share their force depends on where in the face
+//! the contact ends): there, and at the first open ones, it is what a polynomial through the pairs
+//! further inside goes on to. The patch is where that is positive, cut out of the faces by straight
+//! lines; half axes are those of the ellipse with the same moments of area
+//!
+//! ```text
+//! A = int dA,   c = int x dA/A,   M = int (x - c)(x - c)' dA/A = Q diag(a^2, b^2)/4 Q'
+//! ```
+//!
+//! Beyond a plane of symmetry the patch goes on as its mirror image.
+
+use crate::model::{Model, Slot};
+use crate::results::ContactPatch;
+use crate::space::{Vector, along, cross, difference, direction, dot, unit};
+use nalgebra::{DMatrix, DVector, Matrix2, SymmetricEigen};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Layers of pairs at the edge whose pressures are not believed.
+const SKIPPED: usize = 1;
+/// Believed pairs that a quadratic is fitted to at least, one and a half times its terms.
+const FITTED: usize = 9;
+/// Share of the largest singular value below which a fit's equations count as dependent.
+const DEPENDENT: f64 = 1e-4;
+/// Layers inside those whose pressures are corrected for being means.
+const CORRECTED: usize = 3;
+/// Pieces along each side of a face that the edge is cut by.
+const PIECES: usize = 4;
+
+/// A patch with how it was read.
+pub(super) struct ReadPatch {
+    pub(super) patch: ContactPatch,
+    /// How far another reading puts its smaller half axis off.
+    pub(super) reading: f64,
+    /// Closed pairs over the smaller half axis.
+    pub(super) pairs: usize,
+    /// Pressure at the centroid.
+    pub(super) pole_pressure: f64,
+}
+
+/// The patches of all contacts, the strongest first; forces up to `vanishing` are none.
+pub(super) fn patches(
+    model: &Model,
+    force: &[f64],
+    pressure: &[f64],
+    vanishing: f64,
+) -> Vec<ReadPatch> {
+    let mut out = Vec::new();
+    for (contact, surface) in model.contacts.iter().enumerate() {
+        let topology = Topology::new(surface.range.clone(), &surface.faces);
+        let closed: BTreeSet<usize> = surface
+            .range
+            .clone()
+            .filter(|&k| force[k] > vanishing)
+            .collect();
+        for members in topology.connected(&closed) {
+            let shape = Shape::new(model, &topology, pressure, members);
+            let moments = shape.moments(SKIPPED);
+            let other = shape.moments(SKIPPED + 1);
+            out.push(shape.read(contact, force, &moments, &other));
+        }
+    }
+    out.sort_by(|a, b| b.patch.force.total_cmp(&a.patch.force));
+    out
+}
+
+/// Which pairs of a contact share faces.
+struct Topology<'m> {
+    start: usize,
+    faces: &'m [Vec<usize>],
+    /// Faces at each pair.
+    at: Vec<Vec<u32>>,
+}
+
+impl<'m> Topology<'m> {
+    fn new(range: std::ops::Range<usize>, faces: &'m [Vec<usize>]) -> Self {
+        let mut at = vec![Vec::new(); range.len()];
+        for (face, corners) in faces.iter().enumerate() {
+            for &k in corners {
+                at[k - range.start].push(face as u32);
+            }
+        }
+        Topology {
+            start: range.start,
+            faces,
+            at,
+        }
+    }
+
+    /// Pairs that share a face with a pair, itself included.
+    fn around(&self, k: usize) -> impl Iterator<Item = usize> + '_ {
+        let faces = self.at[k - self.start].iter();
+        faces.flat_map(|&face| self.faces[face as usize].iter().copied())
+    }
+
+    /// The connected sets of some pairs.
+    fn connected(&self, closed: &BTreeSet<usize>) -> Vec<BTreeSet<usize>> {
+        let mut left = closed.clone();
+        let mut out = Vec::new();
+        while let Some(first) = left.pop_first() {
+            let mut members = BTreeSet::from([first]);
+            let mut edge = vec![first];
+            while let Some(k) = edge.pop() {
+                for other in self.around(k) {
+                    if left.remove(&other) {
+                        members.insert(other);
+                        edge.push(other);
+                    }
+                }
+            }
+            out.push(members);
+        }
+        out
+    }
+}
+
+/// A plane of symmetry, `normal . x = offset`.
+#[derive(Clone, Copy)]
+struct Plane {
+    normal: Vector,
+    offset: f64,
+}
+
+/// Moments of a patch's part of the model in its own two coordinates.
+#[derive(Clone, Copy)]
+struct Moments {
+    area: f64,
+    center: [f64; 2],
+    /// `M`.
+    second: [[f64; 2]; 2],
+}
+
+/// A patch on the plane across its mean normal.
+struct Shape<'a> {
+    model: &'a Model,
+    topology: &'a Topology<'a>,
+    pressure: &'a [f64],
+    members: BTreeSet<usize>,
+    planes: Vec<Plane>,
+    origin: Vector,
+    axes: [Vector; 2],
+}
+
+impl<'a> Shape<'a> {
+    fn new(
+        model: &'a Model,
+        topology: &'a Topology<'a>,
+        pressure: &'a [f64],
+        members: BTreeSet<usize>,
+    ) -> Self {
+        let planes = planes_of(model, &members);
+        let mut normal = [0.0; 3];
+        let mut origin = [0.0; 3];
+        for &k in &members {
+            let pair = &model.pairs[k];
+            normal = along(normal, pair.area, pair.normal);
+            origin = along(
+                origin,
+                1.0 / members.len() as f64,
+                model.mesh.point(pair.second),
+            );
+        }
+        for plane in &planes {
+            origin = along(
+                origin,
+                plane.offset - dot(plane.normal, origin),
+                plane.normal,
+            );
+            normal = along(normal, -dot(plane.normal, normal), plane.normal);
+        }
+        let normal = direction(normal);
+        let first = planes.first().map_or_else(
+            || {
+                let share = |d: &usize| normal[*d].abs();
+                let axis = (0..3).min_by(|a, b| share(a).total_cmp(&share(b)));
+                let axis = unit(axis.unwrap_or(0));
+                direction(along(axis, -dot(axis, normal), normal))
+            },
+            |plane| plane.normal,
+        );
+        Shape {
+            model,
+            topology,
+            pressure,
+            members,
+            planes,
+            origin,
+            axes: [first, cross(normal, first)],
+        }
+    }
+
+    fn place(&self, k: usize) -> [f64; 2] {
+        let x = self.model.mesh.point(self.model.pairs[k].second);
+        let from = difference(x, self.origin);
+        self.axes.map(|axis| dot(axis, from))
+    }
+
+    /// Layer of each pair of the patch, counted from the open ones, and these with 0.
+    fn layers(&self) -> BTreeMap<usize, usize> {
+        let mut layers: BTreeMap<usize, usize> = BTreeMap::new();
+        for &k in &self.members {
+            for other in self.topology.around(k) {
+                if !self.members.contains(&other) {
+                    layers.insert(other, 0);
+                }
+            }
+        }
+        let mut edge: Vec<usize> = layers.keys().copied().collect();
+        for layer in 1.. {
+            let mut next = BTreeSet::new();
+            for k in edge {
+                next.extend(
+                    self.topology.around(k).filter(|other| {
+                        self.members.contains(other) && !layers.contains_key(other)
+                    }),
+                );
+            }
+            if next.is_empty() {
+                break;
+            }
+            layers.extend(next.iter().map(|&k| (k, layer)));
+            edge = next.into_iter().collect();
+        }
+        // A patch that reaches the end of the candidates all round has no open pair beside it.
+        for &k in &self.members {
+            layers.entry(k).or_insert(usize::MAX);
+        }
+        layers
+    }
+
+    /// The square of the pressure at the pairs that are believed, and at their mirror images: those
+    /// inside the `skipped` outer layers.
+    ///
+    /// A pair's pressure is a mean over the faces round it. Of `p = sqrt(s)` with a slope `g` of `s` it
+    /// is `p + h^2/12 p''`, `p'' = -g^2/(4 s^1.5)` (the mean of `x^2` by a hat function is `h^2/6`), so
+    /// that `s = p^2 + h^2 g^2/(24 p^2)`; `h^2` is the pair's area.
+    fn believed(&self, layers: &BTreeMap<usize, usize>, skipped: usize) -> Vec<Known> {
+        let inner = layers.iter().filter(|(_, layer)| **layer > skipped);
+        let known = |value: &dyn Fn(usize) -> f64| -> Vec<Known> {
+            let images = |k: usize| {
+                let value = value(k);
+                self.mirrored(k)
+                    .into_iter()
+                    .map(move |at| Known { at, value })
+            };
+            inner.clone().flat_map(|(&k, _)| images(k)).collect()
+        };
+        let square = |k: usize| self.pressure[k].max(0.0).powi(2);
+        let means = known(&square);
+        known(&|k| {
+            let mean = square(k);
+            if layers[&k] > skipped + CORRECTED {
+                return mean;
+            }
+            let slope = Fit::new(&means, self.place(k)).map_or(0.0, |fit| fit.slope());
+            let area = self.model.pairs[k].area * self.copies_of(k);
+            mean + area * slope * slope / (24.0 * mean)
+        })
+    }
+
+    /// How many images of a pair's area, its own included, lie round it.
+    fn copies_of(&self, k: usize) -> f64 {
+        let x = self.model.mesh.point(self.model.pairs[k].second);
+        let on = |plane: &&Plane| {
+            let off = (dot(plane.normal, x) - plane.offset).abs();
+            off <= 1e-6 * self.model.pairs[k].area.sqrt()
+        };
+        (1usize << self.planes.iter().filter(on).count()) as f64
+    }
+
+    /// The place of a pair and its mirror images.
+    fn mirrored(&self, k: usize) -> Vec<[f64; 2]> {
+        let mut images = vec![self.place(k)];
+        for plane in &self.planes {
+            let normal = self.axes.map(|axis| dot(axis, plane.normal));
+            // The origin lies on the plane.
+            for i in 0..images.len() {
+                let [x, y] = images[i];
+                let beyond = -2.0 * (normal[0] * x + normal[1] * y);
+                if beyond.abs() > 0.0 {
+                    images.push([x + beyond * normal[0], y + beyond * normal[1]]);
+                }
+            }
+        }
+        images
+    }
+
+    fn moments(&self, skipped: usize) -> Moments {
+        let layers = self.layers();
+        let believed = self.believed(&layers, skipped);
+        let faces: BTreeSet<u32> = (self.members.iter())
+            .flat_map(|&k| self.topology.at[k - self.topology.start].iter().copied())
+            .collect();
+        let mut sums = Sums::default();
+        for face in faces {
+            let corners = &self.topology.faces[face as usize];
+            let places: Vec<[f64; 2]> = corners.iter().map(|k| self.place(*k)).collect();
+            if corners.iter().all(|k| layers[k] > skipped) {
+                sums.add_face(&places, |_| 1.0);
+                continue;
+            }
+            let mean = |d: usize| places.iter().map(|x| x[d]).sum::<f64>() / places.len() as f64;
+            match Fit::new(&believed, [mean(0), mean(1)]) {
+                Some(fit) => sums.add_face(&places, |x| fit.value(x)),
+                // Halfway between pairs that touch and pairs that do not.
+                None => {
+                    let sign = |k: &usize| if self.members.contains(k) { 1.0 } else { -1.0 };
+                    let signs: Vec<f64> = corners.iter().map(sign).collect();
+                    sums.add_corners(&places, &signs);
+                }
+            }
+        }
+        sums.moments(|center, second| {
+            for plane in &self.planes {
+                let n = self.axes.map(|axis| dot(axis, plane.normal));
+                mirror(n, center, second);
+            }
+        })
+    }
+
+    fn read(&self, contact: usize, force: &[f64], moments: &Moments, other: &Moments) -> ReadPatch {
+        // A plane of symmetry of a model that is the whole is a wall.
+        let copies = (1usize << self.planes.len()).min(self.model.scene.symmetry) as f64;
+        let (semi_axes, major) = moments.axes();
+        let closed = || self.members.iter().copied();
+        // Pairs on a plane of symmetry carry their share of the whole's already halved.
+        let total: f64 = closed().map(|k| force[k]).sum::<f64>() * copies;
+        let area = moments.area * copies;
+        let spacing = (moments.area / self.members.len().max(1) as f64).sqrt();
+        let in_space =
+            |[x, y]: [f64; 2], from: Vector| along(along(from, x, self.axes[0]), y, self.axes[1]);
+        let pole_pressure = {
+            let images = |k: usize| {
+                let value = self.pressure[k];
+                self.mirrored(k)
+                    .into_iter()
+                    .map(move |at| Known { at, value })
+            };
+            let known: Vec<Known> = closed().flat_map(images).collect();
+            let off = |k: usize| {
+                let x = self.place(k);
+                (x[0] - moments.center[0]).hypot(x[1] - moments.center[1])
+            };
+            let nearest = closed().min_by(|&a, &b| off(a).total_cmp(&off(b)));
+            match Fit::new(&known, moments.center) {
+                Some(fit) => fit.value(moments.center),
+                None => nearest.map_or(0.0, |k| self.pressure[k]),
+            }
+        };
+        ReadPatch {
+            patch: ContactPatch {
+                contact,
+                area,
+                centroid: in_space(moments.center, self.origin),
+                semi_axes,
+                direction: in_space(major, [0.0; 3]),
+                max_pressure: closed().map(|k| self.pressure[k]).fold(0.0, f64::max),
+                mean_pressure: if area > 0.0 { total / area } else { 0.0 },
+                force: total,
+            },
+            reading: (other.axes().0[1] - semi_axes[1]).abs(),
+            pairs: (semi_axes[1] / spacing) as usize,
+            pole_pressure,
+        }
+    }
+}
+
+/// The planes of symmetry that pairs lie on: both nodes are held across them.
+fn planes_of(model: &Model, members: &BTreeSet<usize>) -> Vec<Plane> {
+    let mut out: Vec<Plane> = Vec::new();
+    for &k in members {
+        let pair = &model.pairs[k];
+        let held = |node: usize| {
+            let slots = model.freedoms.slots[node];
+            let axes = model.freedoms.local(node);
+            (1..3)
+                .filter(move |&i| slots[i] == Slot::Fixed)
+                .map(move |i| axes[i])
+        };
+        for normal in held(pair.first) {
+            let parallel = |other: Vector| dot(normal, other).abs() > 1.0 - 1e-9;
+            let known = out.iter().any(|plane| parallel(plane.normal));
+            if !known && held(pair.second).any(parallel) {
+                out.push(Plane {
+                    normal,
+                    offset: dot(normal, model.mesh.point(pair.second)),
+                });
+            }
+        }
+    }
+    // Mirror images of mirror images agree for planes at right angles.
+    let mut kept: Vec<Plane> = Vec::new();
+    for plane in out {
+        if kept
+            .iter()
+            .all(|other| dot(other.normal, plane.normal).abs() < 1e-9)
+        {
+            kept.push(plane);
+        }
+    }
+    kept
+}
+
+/// A value at a place.
+#[derive(Clone, Copy)]
+struct Known {
+    at: [f64; 2],
+    value: f64,
+}
+
+/// A polynomial round a place: quadratic, linear where the known values do not determine that.
+struct Fit {
+    origin: [f64; 2],
+    scale: f64,
+    coefficients: [f64; 6],
+}
+
+impl Fit {
+    /// By least squares through the nearest known values, weighted by nearness; `None` where they do
+    /// not determine even a plane.
+    fn new(known: &[Known], origin: [f64; 2]) -> Option<Self> {
+        let off = |known: &Known| (known.at[0] - origin[0]).hypot(known.at[1] - origin[1]);
+        let mut near: Vec<(f64, Known)> = known.iter().map(|known| (off(known), *known)).collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (terms, least, most) in [(6, FITTED, 2 * FITTED), (3, 4, 6)] {
+            if near.len() < least {
+                continue;
+            }
+            let used = &near[..most.min(near.len())];
+            let scale = used[used.len() - 1].0;
+            let mut matrix = DMatrix::zeros(used.len(), terms);
+            let mut right = DVector::zeros(used.len());
+            for (i, (off, known)) in used.iter().enumerate() {
+                let weight = 1.0 / (0.1 + (off / scale).powi(2));
+                let place = [0, 1].map(|d| (known.at[d] - origin[d]) / scale);
+                for (j, term) in monomials(place).into_iter().enumerate().take(terms) {
+                    matrix[(i, j)] = weight * term;
+                }
+                right[i] = weight * known.value;
+            }
+            let decomposed = matrix.svd(true, true);
+            let largest = decomposed.singular_values.max();
+            if decomposed.singular_values.min() <= DEPENDENT * largest {
+                continue;
+            }
+            let solution = decomposed.solve(&right, 0.0).ok()?;
+            let mut coefficients = [0.0; 6];
+            coefficients[..terms].copy_from_slice(solution.as_slice());
+            return Some(Fit {
+                origin,
+                scale,
+                coefficients,
+            });
+        }
+        None
+    }
+
+    fn value(&self, at: [f64; 2]) -> f64 {
+        let place = [0, 1].map(|d| (at[d] - self.origin[d]) / self.scale);
+        let terms = monomials(place).into_iter().zip(self.coefficients);
+        terms.map(|(term, c)| term * c).sum()
+    }
+
+    /// The size of the gradient at its place.
+    fn slope(&self) -> f64 {
+        self.coefficients[1].hypot(self.coefficients[2]) / self.scale
+    }
+}
+
+fn monomials([x, y]: [f64; 2]) -> [f64; 6] {
+    [1.0, x, y, x * x, x * y, y * y]
+}
+
+/// Sums over the parts of faces where a level is positive.
+#[derive(Default)]
+struct Sums {
+    area: f64,
+    first: [f64; 2],
+    second: [[f64; 2]; 2],
+}
+
+impl Sums {
+    /// The part of a face where a function is positive, by small straight pieces.
+    fn add_face(&mut self, corners: &[[f64; 2]], level: impl Fn([f64; 2]) -> f64) {
+        let n = PIECES;
+        let share = |i: usize| i as f64 / n as f64;
+        let mixed = |weights: &[f64]| {
+            [0, 1].map(|d| {
+                corners
+                    .iter()
+                    .zip(weights)
+                    .map(|(x, w)| w * x[d])
+                    .sum::<f64>()
+            })
+        };
+        let point = |i: usize, j: usize| {
+            let (s, t) = (share(i), share(j));
+            match corners.len() {
+                3 => mixed(&[1.0 - s - t, s, t]),
+                _ => mixed(&[(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t]),
+            }
+        };
+        for i in 0..n {
+            for j in 0..if corners.len() == 3 { n - i } else { n } {
+                let piece = [point(i, j), point(i + 1, j), point(i, j + 1)];
+                self.add_triangle(piece, piece.map(&level));
+                if corners.len() > 3 || i + j + 1 < n {
+                    let piece = [point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)];
+                    self.add_triangle(piece, piece.map(&level));
+                }
+            }
+        }
+    }
+
+    /// The part of a face where a function of its corners is positive.
+    fn add_corners(&mut self, corners: &[[f64; 2]], levels: &[f64]) {
+        let n = corners.len();
+        let middle = [0, 1].map(|d| corners.iter().map(|x| x[d]).sum::<f64>() / n as f64);
+        let mean = levels.iter().sum::<f64>() / n as f64;
+        for k in 0..n {
+            let next = (k + 1) % n;
+            let piece = [corners[k], corners[next], middle];
+            self.add_triangle(piece, [levels[k], levels[next], mean]);
+        }
+    }
+
+    fn add_triangle(&mut self, corners: [[f64; 2]; 3], levels: [f64; 3]) {
+        let mut inside: Vec<[f64; 2]> = Vec::with_capacity(4);
+        for k in 0..3 {
+            let (p, q) = (corners[k], corners[(k + 1) % 3]);
+            let (a, b) = (levels[k], levels[(k + 1) % 3]);
+            if a > 0.0 {
+                inside.push(p);
+            }
+            if (a > 0.0) != (b > 0.0) {
+                let t = a / (a - b);
+                inside.push([0, 1].map(|d| p[d] + t * (q[d] - p[d])));
+            }
+        }
+        for k in 2..inside.len() {
+            self.add_whole([inside[0], inside[k - 1], inside[k]]);
+        }
+    }
+
+    /// `int x x' dA = A/12 (sum p p' + 9 c c')` over a triangle with the centroid c.
+    fn add_whole(&mut self, [p, q, r]: [[f64; 2]; 3]) {
+        let [a, b] = [q, r].map(|x| [x[0] - p[0], x[1] - p[1]]);
+        let area = 0.5 * (a[0] * b[1] - a[1] * b[0]).abs();
+        let center = [0, 1].map(|d| (p[d] + q[d] + r[d]) / 3.0);
+        self.area += area;
+        for i in 0..2 {
+            self.first[i] += area * center[i];
+            for j in 0..2 {
+                let corners = p[i] * p[j] + q[i] * q[j] + r[i] * r[j];
+                self.second[i][j] += area / 12.0 * (corners + 9.0 * center[i] * center[j]);
+            }
+        }
+    }
+
+    /// The moments of the part and its mirror images; `mirrored` changes mean and moments about the
+    /// origin, which lies on the planes.
+    fn moments(&self, mirrored: impl Fn(&mut [f64; 2], &mut [[f64; 2]; 2])) -> Moments {
+        let per_area = 1.0 / self.area.max(f64::MIN_POSITIVE);
+        let mut center = self.first.map(|first| first * per_area);
+        let mut second = self.second.map(|row| row.map(|m| m * per_area));
+        mirrored(&mut center, &mut second);
+        for i in 0..2 {
+            for j in 0..2 {
+                second[i][j] -= center[i] * center[j];
+            }
+        }
+        Moments {
+            area: self.area,
+            center,
+            second,
+        }
+    }
+}
+
+/// The mean of a figure and its image across a line through the origin with normal `n`.
+fn mirror(n: [f64; 2], center: &mut [f64; 2], second: &mut [[f64; 2]; 2]) {
+    let off = n[0] * center[0] + n[1] * center[1];
+    for i in 0..2 {
+        center[i] -= off * n[i];
+    }
+    // R = 1 - 2 n n'; the mean of M and R M R.
+    let m = Matrix2::new(second[0][0], second[0][1], second[1][0], second[1][1]);
+    let r = Matrix2::new(
+        1.0 - 2.0 * n[0] * n[0],
+        -2.0 * n[0] * n[1],
+        -2.0 * n[0] * n[1],
+        1.0 - 2.0 * n[1] * n[1],
+    );
+    let mean = 0.5 * (m + r * m * r);
+    *second = [[mean[(0, 0)], mean[(0, 1)]], [mean[(1, 0)], mean[(1, 1)]]];
+}
+
+impl Moments {
+    /// Half axes, the larger first, and the larger one's direction.
+    fn axes(&self) -> ([f64; 2], [f64; 2]) {
+        let [[a, b], [_, c]] = self.second;
+        let eigen = SymmetricEigen::new(Matrix2::new(a, b, b, c));
+        let (large, small) = if eigen.eigenvalues[0] >= eigen.eigenvalues[1] {
+            (0, 1)
+        } else {
+            (1, 0)
+        };
+        let semi = [large, small].map(|k| 2.0 * eigen.eigenvalues[k].max(0.0).sqrt());
+        let major = eigen.eigenvectors.column(large);
+        (semi, [major[0], major[1]])
+    }
+}

@@ -1,0 +1,5 @@
+//! Three dimensions: elements, contact and plasticity of solids.
+
+mod grid;
+mod hertz;
+mod patch;

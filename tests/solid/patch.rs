@@ -1,0 +1,171 @@
+//! Uniform states are exact on distorted elements, within a body and across a contact.
+
+use crate::grid::{Grid, Point};
+use brinell::analysis::Analysis;
+use brinell::linalg::Backend;
+use brinell::mesh::Shape;
+use brinell::model::ModelBuilder;
+use brinell::progress::Silent;
+use brinell::results::Results;
+use brinell::scene::{Body, Contact, Direction, Kind, Load, Material, Support, Target};
+
+const SOLID: [Shape; 4] = [Shape::Tet4, Shape::Tet10, Shape::Hex8, Shape::Hex20];
+
+/// Points inside are moved; those on the faces of the box stay on them.
+fn bent([x, y, z]: Point) -> Point {
+    let inside = |t: f64| 4.0 * t * (1.0 - t);
+    let wave = |a: f64, b: f64, c: f64| (7.0 * a + 3.0 * b + 5.0 * c).sin();
+    [
+        x + 0.1 * inside(x) * wave(x, y, z),
+        y + 0.1 * inside(y) * wave(y, z, x),
+        z + 0.1 * inside(z) * wave(z, x, y),
+    ]
+}
+
+fn steel() -> Material {
+    Material {
+        youngs_modulus: 1000.0,
+        poissons_ratio: 0.3,
+        ..Material::default()
+    }
+}
+
+fn held(builder: &mut ModelBuilder, on: &str, direction: Direction) {
+    builder.support(Support {
+        on: on.into(),
+        fix: vec![direction],
+        ..Support::default()
+    });
+}
+
+fn run(builder: &ModelBuilder) -> Results {
+    let model = builder.build().unwrap();
+    Analysis::new(model, Backend::Dense)
+        .unwrap()
+        .run(&mut Silent)
+        .unwrap()
+}
+
+/// Straight sides: the middles of edges are halfway.
+fn straight(shape: Shape, map: fn(Point) -> Point, cells: [usize; 3]) -> impl Fn(Point) -> Point {
+    move |x: Point| {
+        if !shape.is_quadratic() {
+            return map(x);
+        }
+        let (mut low, mut high) = ([0.0; 3], [0.0; 3]);
+        for d in 0..3 {
+            let at = x[d] * cells[d] as f64;
+            low[d] = at.floor() / cells[d] as f64;
+            high[d] = at.ceil() / cells[d] as f64;
+        }
+        let (a, b) = (map(low), map(high));
+        [0, 1, 2].map(|d| 0.5 * (a[d] + b[d]))
+    }
+}
+
+/// A block under pressure, free to widen: one stress everywhere, whatever the elements.
+#[test]
+fn a_block_under_pressure_is_exact() {
+    for shape in SOLID {
+        let cells = [2, 2, 2];
+        let map = straight(shape, bent, cells);
+        let mut builder = ModelBuilder::new(Kind::Solid);
+        Grid {
+            name: "block",
+            cells,
+            shape,
+            map: &map,
+        }
+        .add(&mut builder);
+        builder.material("steel", steel()).unwrap();
+        builder
+            .body(
+                "block",
+                Body {
+                    material: "steel".into(),
+                    ..Body::default()
+                },
+            )
+            .unwrap();
+        held(&mut builder, "block.x0", Direction::X);
+        held(&mut builder, "block.y0", Direction::Y);
+        held(&mut builder, "block.z0", Direction::Z);
+        builder.load(Load {
+            on: "block.z1".into(),
+            pressure: Some(10.0),
+            ..Load::default()
+        });
+        builder.target(Target {
+            load_factor: Some(1.0),
+            fields: true,
+            ..Target::default()
+        });
+        let results = run(&builder);
+        let fields = results.states[0].fields.as_ref().unwrap();
+        for stress in fields.stress.chunks_exact(6) {
+            for (s, exact) in stress.iter().zip([0.0, 0.0, -10.0, 0.0, 0.0, 0.0]) {
+                assert!((s - exact).abs() < 1e-10, "{shape:?} {stress:?}");
+            }
+        }
+    }
+}
+
+/// Two blocks pressed together: the contact passes a uniform pressure.
+#[test]
+fn a_contact_passes_a_uniform_pressure() {
+    for shape in [Shape::Hex8, Shape::Tet4] {
+        let cells = [3, 2, 2];
+        let mut builder = ModelBuilder::new(Kind::Solid);
+        let lower = straight(shape, bent, cells);
+        let upper = |x: Point| {
+            let [a, b, c] = lower([x[0], x[1], 1.0 - x[2]]);
+            [a, b, 2.0 - c]
+        };
+        Grid {
+            name: "lower",
+            cells,
+            shape,
+            map: &lower,
+        }
+        .add(&mut builder);
+        Grid {
+            name: "upper",
+            cells,
+            shape,
+            map: &|[x, y, z]| upper([x, y, z]),
+        }
+        .add(&mut builder);
+        builder.material("steel", steel()).unwrap();
+        for body in ["lower", "upper"] {
+            builder
+                .body(
+                    body,
+                    Body {
+                        material: "steel".into(),
+                        ..Body::default()
+                    },
+                )
+                .unwrap();
+            held(&mut builder, &format!("{body}.x0"), Direction::X);
+            held(&mut builder, &format!("{body}.y0"), Direction::Y);
+        }
+        held(&mut builder, "lower.z0", Direction::Z);
+        builder.contact(Contact {
+            first: "upper.z0".into(),
+            second: "lower.z1".into(),
+            ..Contact::default()
+        });
+        builder.load(Load {
+            on: "upper.z1".into(),
+            force: Some([0.0, 0.0, -10.0].into()),
+            ..Load::default()
+        });
+        let results = run(&builder);
+        let state = &results.states[0];
+        for pair in &state.pairs {
+            assert!((pair.pressure - 10.0).abs() < 1e-9, "{shape:?} {pair:?}");
+        }
+        let patch = &state.patches[0];
+        assert!((patch.area - 1.0).abs() < 1e-12 && (patch.force - 10.0).abs() < 1e-9);
+    }
+}
