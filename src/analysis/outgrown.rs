@@ -48,7 +48,11 @@ impl Solver<'_> {
 
     fn outgrown(&self, pair: usize, reached: f64) -> Error {
         let model = self.structure.model;
-        let [x, y] = model.mesh.in_plane(model.pairs[pair].second);
+        let place: Vec<String> = (model.mesh.point(model.pairs[pair].second).iter())
+            .take(model.mesh.dimension)
+            .map(|x| format!("{x:.6}"))
+            .collect();
+        let place = place.join(", ");
         let names = &model.contacts[model.pairs[pair].contact].names;
         let targets = model.scene.program.targets.iter();
         let largest = targets
@@ -57,7 +61,7 @@ impl Solver<'_> {
         let ratio = largest / reached.abs();
         // Mean pressure only rises with the load, so that the area of contact rises no faster.
         let wider = match model.kind {
-            Kind::Axisymmetric => ratio.sqrt(),
+            Kind::Axisymmetric | Kind::Solid => ratio.sqrt(),
             _ => ratio,
         };
         let how_far = if wider > 1.0 && wider.is_finite() {
@@ -75,7 +79,7 @@ impl Solver<'_> {
         Error::new(
             ErrorKind::Outgrown,
             format!(
-                "the contact of `{}` on `{}` reaches the end of its candidates at ({x:.6}, {y:.6}) from load factor {:.6} on: both \
+                "the contact of `{}` on `{}` reaches the end of its candidates at ({place}) from load factor {:.6} on: both \
                  bodies go on there, but what lies beyond was not allowed to touch; {remedy}.{how_far}",
                 names[0], names[1], reached,
             ),

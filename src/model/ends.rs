@@ -4,6 +4,8 @@
 //! is not checked for contact, so a contact that reaches such an end is not to be believed. At a corner of one
 //! of the bodies, on a symmetry plane and on the axis of revolution nothing more could touch.
 
+mod solid;
+
 use super::{ContactSurface, Freedoms, Pair, Slot};
 use crate::mesh::{Facet, Mesh};
 use std::collections::{BTreeMap, BTreeSet};
@@ -26,10 +28,10 @@ pub(super) fn find(
     pairs: &[Pair],
     contacts: &mut [ContactSurface],
 ) {
-    let ends = match mesh.is_solid() {
-        true => Vec::new(),
-        false => ends(freedoms, pairs, contacts),
-    };
+    if mesh.is_solid() {
+        return solid::find(mesh, pairs, contacts);
+    }
+    let ends = ends(freedoms, pairs, contacts);
     if ends.is_empty() {
         return;
     }

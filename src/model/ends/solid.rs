@@ -1,0 +1,159 @@
+//! Where the candidates of a solid end although both bodies go on there: at edges of faces that no
+//! other candidate shares.
+
+use super::FEATURE_ANGLE;
+use crate::mesh::{Facet, Mesh};
+use crate::model::{ContactSurface, Pair};
+use crate::space::{Vector, along, difference, direction, dot};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The two ends of an edge, ascending.
+type Edge = [usize; 2];
+
+/// Finds [`ContactSurface::goes_on`] of each contact.
+pub(super) fn find(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface]) {
+    let candidates: BTreeSet<Facet> = contacts
+        .iter()
+        .flat_map(|contact| &contact.names)
+        .filter_map(|name| mesh.surfaces.get(name))
+        .flat_map(|surface| surface.facets.iter().copied())
+        .collect();
+    let paired: BTreeSet<usize> = pairs.iter().flat_map(|p| [p.first, p.second]).collect();
+    let outer: Vec<Vec<Edge>> = contacts.iter().map(outer_edges).collect();
+    let at_edges = outer.iter().flatten().flatten();
+    let nodes: BTreeSet<usize> = at_edges
+        .flat_map(|&k| [pairs[k].first, pairs[k].second])
+        .collect();
+    let boundary = Boundary::at(mesh, &nodes);
+    for (contact, edges) in contacts.iter_mut().zip(outer) {
+        let mut goes_on = BTreeSet::new();
+        for edge in edges {
+            let side = |of: fn(&Pair) -> usize| {
+                boundary.beyond(edge.map(|k| of(&pairs[k])), &candidates, &paired)
+            };
+            if let (Some(first), Some(second)) = (side(|p| p.first), side(|p| p.second))
+                && !(first.is_followed && second.is_followed)
+                && first.turn + second.turn < FEATURE_ANGLE
+            {
+                goes_on.extend(edge);
+            }
+        }
+        contact.goes_on.extend(goes_on);
+    }
+}
+
+/// Edges, by their pairs, of one face of a contact only.
+fn outer_edges(contact: &ContactSurface) -> Vec<Edge> {
+    let mut faces_at: BTreeMap<Edge, usize> = BTreeMap::new();
+    for face in &contact.faces {
+        for (k, &pair) in face.iter().enumerate() {
+            let next = face[(k + 1) % face.len()];
+            *faces_at
+                .entry([pair.min(next), pair.max(next)])
+                .or_default() += 1;
+        }
+    }
+    let outer = faces_at.into_iter().filter(|(_, faces)| *faces == 1);
+    outer.map(|(edge, _)| edge).collect()
+}
+
+/// How a body's boundary goes on beyond an edge of its candidates.
+struct Beyond {
+    /// Angle in degrees by which it turns away from the other body; negative towards it.
+    turn: f64,
+    /// Whether it belongs to the candidates of another contact, or another part of this one.
+    is_followed: bool,
+}
+
+/// The boundary facets at the edges between some nodes.
+struct Boundary<'m> {
+    mesh: &'m Mesh,
+    at: BTreeMap<Edge, Vec<Facet>>,
+}
+
+impl<'m> Boundary<'m> {
+    fn at(mesh: &'m Mesh, nodes: &BTreeSet<usize>) -> Self {
+        // A facet that two elements share is inside; both have its nodes.
+        let mut owners: BTreeMap<Vec<usize>, Vec<Facet>> = BTreeMap::new();
+        let touches = |e: &usize| {
+            mesh.nodes(*e)
+                .iter()
+                .any(|&n| nodes.contains(&(n as usize)))
+        };
+        for element in (0..mesh.n_elements()).filter(touches) {
+            for local in 0..mesh.shapes[element].n_facets() {
+                let facet = Facet { element, local };
+                let mut corners = corners_of(mesh, facet);
+                corners.sort_unstable();
+                owners.entry(corners).or_default().push(facet);
+            }
+        }
+        let mut at: BTreeMap<Edge, Vec<Facet>> = BTreeMap::new();
+        for facets in owners.values() {
+            let [only] = facets[..] else { continue };
+            let corners = corners_of(mesh, only);
+            for (k, &a) in corners.iter().enumerate() {
+                let b = corners[(k + 1) % corners.len()];
+                if nodes.contains(&a) && nodes.contains(&b) {
+                    at.entry([a.min(b), a.max(b)]).or_default().push(only);
+                }
+            }
+        }
+        Boundary { mesh, at }
+    }
+
+    /// How the boundary goes on beyond the edge of a paired candidate; `None` where it has not two
+    /// facets there.
+    fn beyond(
+        &self,
+        [a, b]: Edge,
+        candidates: &BTreeSet<Facet>,
+        paired: &BTreeSet<usize>,
+    ) -> Option<Beyond> {
+        let [one, two] = self.at.get(&[a.min(b), a.max(b)])?[..] else {
+            return None;
+        };
+        let is_paired = |facet: Facet| {
+            let corners = corners_of(self.mesh, facet);
+            candidates.contains(&facet) && corners.iter().all(|node| paired.contains(node))
+        };
+        let (inside, outside) = if is_paired(one) {
+            (one, two)
+        } else {
+            (two, one)
+        };
+        let (middle, normal) = self.plane(inside);
+        let (beyond, other) = self.plane(outside);
+        let angle = dot(normal, other).clamp(-1.0, 1.0).acos().to_degrees();
+        let below = dot(difference(beyond, middle), normal) <= 0.0;
+        Some(Beyond {
+            turn: if below { angle } else { -angle },
+            is_followed: is_paired(inside) && is_paired(outside),
+        })
+    }
+
+    /// Middle and outward normal of a facet.
+    fn plane(&self, facet: Facet) -> (Vector, Vector) {
+        let points: Vec<Vector> = (self.mesh.facet_nodes(facet))
+            .map(|node| self.mesh.point(node))
+            .collect();
+        let corners = &points[..self.mesh.facet_corners(facet)];
+        let share = 1.0 / corners.len() as f64;
+        let middle = corners
+            .iter()
+            .fold([0.0; 3], |sum, x| along(sum, share, *x));
+        let reference = self.mesh.shapes[facet.element].reference().facet;
+        let center = match corners.len() {
+            3 => [1.0 / 3.0, 1.0 / 3.0, 0.0],
+            _ => [0.0; 3],
+        };
+        let area = reference.area(&(reference.functions)(center), &points);
+        (middle, direction(area))
+    }
+}
+
+fn corners_of(mesh: &Mesh, facet: Facet) -> Vec<usize> {
+    mesh.facet_nodes(facet)
+        .take(mesh.facet_corners(facet))
+        .collect()
+}
