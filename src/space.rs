@@ -102,6 +102,9 @@ impl Space {
         Space::Solid,
     ];
 
+    /// Those of two dimensions.
+    pub const PLANE: [Space; 3] = [Space::PlaneStrain, Space::PlaneStress, Space::Axisymmetric];
+
     /// The name in scenes and results: `plane_strain`, `plane_stress`, `axisymmetric`, `solid`.
     pub fn name(self) -> &'static str {
         match self {

@@ -122,12 +122,12 @@ fn blocks() -> brinell::Result<()> {
         .support(Support {
             on: "floor".into(),
             fix: vec![Direction::Y],
-            angle: None,
+            ..Support::default()
         })
         .support(Support {
             on: "middle".into(),
             fix: vec![Direction::X],
-            angle: None,
+            ..Support::default()
         })
         .load(Load {
             on: "top".into(),

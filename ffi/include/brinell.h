@@ -68,6 +68,9 @@
 // Coordinates are (r, z); forces are totals over the full circle.
 #define BRINELL_AXISYMMETRIC 2
 
+// Three coordinates.
+#define BRINELL_SOLID 3
+
 // Three corners.
 #define BRINELL_SHAPE_TRI3 0
 
@@ -80,11 +83,26 @@
 // Four corners, then the mid-side nodes.
 #define BRINELL_SHAPE_QUAD8 3
 
+// Four corners: 0, 1, 2 counter-clockwise seen from 3.
+#define BRINELL_SHAPE_TET4 4
+
+// Four corners, then the middles of the edges 01, 12, 02, 03, 13, 23.
+#define BRINELL_SHAPE_TET10 5
+
+// Eight corners: the base counter-clockwise seen from the top, then the top.
+#define BRINELL_SHAPE_HEX8 6
+
+// Eight corners, then the middles of the edges of base, top, and between them.
+#define BRINELL_SHAPE_HEX20 7
+
 // Along x (r).
 #define BRINELL_X 1
 
 // Along y (z).
 #define BRINELL_Y 2
+
+// Along z, of a solid.
+#define BRINELL_Z 4
 
 // Total force (x, y), shared by the nodes like a uniform traction (surface) or equally (node set).
 #define BRINELL_LOAD_FORCE 0
@@ -289,7 +307,7 @@ typedef struct brinell_load {
   size_t size;
   // One of BRINELL_LOAD_...
   int32_t kind;
-  // BRINELL_X, BRINELL_Y or both (or-ed), where the kind needs it.
+  // BRINELL_X, BRINELL_Y, BRINELL_Z or several (or-ed), where the kind needs it.
   int32_t directions;
   // Name for messages; NULL if not given.
   const char *name;
@@ -369,6 +387,8 @@ typedef struct brinell_yield {
   double y;
   // In which body.
   uint64_t body;
+  // Where: z, of a solid.
+  double z;
 } brinell_yield;
 
 // The state at a target.
@@ -475,8 +495,8 @@ int32_t brinell_scene_parse(const char *toml, struct brinell_scene **out);
 // Frees a scene.
 void brinell_scene_free(struct brinell_scene *scene);
 
-// An empty model: one of BRINELL_PLANE_STRAIN, BRINELL_PLANE_STRESS, BRINELL_AXISYMMETRIC. `symmetry` copies of it make the whole: 1
-// where all of it is meshed, 2 for a half model, 4 for a quarter of a plane one (loads and results are those of the whole).
+// An empty model: one of BRINELL_PLANE_STRAIN, BRINELL_PLANE_STRESS, BRINELL_AXISYMMETRIC, BRINELL_SOLID. `symmetry` copies of it make the whole: 1
+// where all of it is meshed, 2 for a half model, 4 for a quarter of a plane or solid one, 8 for an eighth of a solid one (loads and results are those of the whole).
 int32_t brinell_model_new(int32_t kind,
                           size_t symmetry,
                           struct brinell_model **out);
@@ -484,12 +504,12 @@ int32_t brinell_model_new(int32_t kind,
 // Frees a model.
 void brinell_model_free(struct brinell_model *model);
 
-// Adds nodes: n x 2 coordinates, node by node. Nodes are numbered from 0 in the order in which they were added.
+// Adds nodes: n x 2 coordinates, of a solid n x 3, node by node. Nodes are numbered from 0 in the order in which they were added.
 int32_t brinell_model_nodes(struct brinell_model *model,
                             const double *coordinates,
                             size_t n);
 
-// Adds `n` elements of one shape (BRINELL_SHAPE_...) to a body: the nodes of one after the other, counter-clockwise, corners first.
+// Adds `n` elements of one shape (BRINELL_SHAPE_...) to a body: the nodes of one after the other, in the order of its shape.
 int32_t brinell_model_elements(struct brinell_model *model,
                                const char *body,
                                int32_t shape,
@@ -545,11 +565,9 @@ int32_t brinell_model_contact(struct brinell_model *model,
                               const char *second,
                               const struct brinell_contact *contact);
 
-// Holds a node set or surface along BRINELL_X, BRINELL_Y or both, in axes turned counter-clockwise by `angle` degrees.
-int32_t brinell_model_support(struct brinell_model *model,
-                              const char *on,
-                              int32_t fix,
-                              double angle);
+// Holds a node set or surface along BRINELL_X, BRINELL_Y, BRINELL_Z or several (or-ed), in axes
+// turned counter-clockwise by `angle` degrees, of a solid about the z axis.
+int32_t brinell_model_support(struct brinell_model *model, const char *on, int32_t fix, double angle);
 
 // Adds a load.
 int32_t brinell_model_load(struct brinell_model *model, const struct brinell_load *load);

@@ -135,7 +135,7 @@ mod tests {
                     error: 0.01,
                     pairs: 5,
                 },
-                location: [0.0; 2],
+                location: [0.0; 3],
                 body: 0,
             }),
             states: vec![State {

@@ -12,22 +12,20 @@
 //!
 //! Beyond a plane of symmetry the patch goes on as its mirror image.
 
+mod fit;
+mod moments;
+
 use crate::model::{Model, Slot};
 use crate::results::ContactPatch;
 use crate::space::{Vector, along, cross, difference, direction, dot, unit};
-use nalgebra::{DMatrix, DVector, Matrix2, SymmetricEigen};
+use fit::{Fit, Known};
+use moments::{Moments, Sums, mirror};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Layers of pairs at the edge whose pressures are not believed.
 const SKIPPED: usize = 1;
-/// Believed pairs that a quadratic is fitted to at least, one and a half times its terms.
-const FITTED: usize = 9;
-/// Share of the largest singular value below which a fit's equations count as dependent.
-const DEPENDENT: f64 = 1e-4;
 /// Layers inside those whose pressures are corrected for being means.
 const CORRECTED: usize = 3;
-/// Pieces along each side of a face that the edge is cut by.
-const PIECES: usize = 4;
 
 /// A patch with how it was read.
 pub(super) struct ReadPatch {
@@ -121,15 +119,6 @@ impl<'m> Topology<'m> {
 struct Plane {
     normal: Vector,
     offset: f64,
-}
-
-/// Moments of a patch's part of the model in its own two coordinates.
-#[derive(Clone, Copy)]
-struct Moments {
-    area: f64,
-    center: [f64; 2],
-    /// `M`.
-    second: [[f64; 2]; 2],
 }
 
 /// A patch on the plane across its mean normal.
@@ -401,214 +390,4 @@ fn planes_of(model: &Model, members: &BTreeSet<usize>) -> Vec<Plane> {
         }
     }
     kept
-}
-
-/// A value at a place.
-#[derive(Clone, Copy)]
-struct Known {
-    at: [f64; 2],
-    value: f64,
-}
-
-/// A polynomial round a place: quadratic, linear where the known values do not determine that.
-struct Fit {
-    origin: [f64; 2],
-    scale: f64,
-    coefficients: [f64; 6],
-}
-
-impl Fit {
-    /// By least squares through the nearest known values, weighted by nearness; `None` where they do
-    /// not determine even a plane.
-    fn new(known: &[Known], origin: [f64; 2]) -> Option<Self> {
-        let off = |known: &Known| (known.at[0] - origin[0]).hypot(known.at[1] - origin[1]);
-        let mut near: Vec<(f64, Known)> = known.iter().map(|known| (off(known), *known)).collect();
-        near.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for (terms, least, most) in [(6, FITTED, 2 * FITTED), (3, 4, 6)] {
-            if near.len() < least {
-                continue;
-            }
-            let used = &near[..most.min(near.len())];
-            let scale = used[used.len() - 1].0;
-            let mut matrix = DMatrix::zeros(used.len(), terms);
-            let mut right = DVector::zeros(used.len());
-            for (i, (off, known)) in used.iter().enumerate() {
-                let weight = 1.0 / (0.1 + (off / scale).powi(2));
-                let place = [0, 1].map(|d| (known.at[d] - origin[d]) / scale);
-                for (j, term) in monomials(place).into_iter().enumerate().take(terms) {
-                    matrix[(i, j)] = weight * term;
-                }
-                right[i] = weight * known.value;
-            }
-            let decomposed = matrix.svd(true, true);
-            let largest = decomposed.singular_values.max();
-            if decomposed.singular_values.min() <= DEPENDENT * largest {
-                continue;
-            }
-            let solution = decomposed.solve(&right, 0.0).ok()?;
-            let mut coefficients = [0.0; 6];
-            coefficients[..terms].copy_from_slice(solution.as_slice());
-            return Some(Fit {
-                origin,
-                scale,
-                coefficients,
-            });
-        }
-        None
-    }
-
-    fn value(&self, at: [f64; 2]) -> f64 {
-        let place = [0, 1].map(|d| (at[d] - self.origin[d]) / self.scale);
-        let terms = monomials(place).into_iter().zip(self.coefficients);
-        terms.map(|(term, c)| term * c).sum()
-    }
-
-    /// The size of the gradient at its place.
-    fn slope(&self) -> f64 {
-        self.coefficients[1].hypot(self.coefficients[2]) / self.scale
-    }
-}
-
-fn monomials([x, y]: [f64; 2]) -> [f64; 6] {
-    [1.0, x, y, x * x, x * y, y * y]
-}
-
-/// Sums over the parts of faces where a level is positive.
-#[derive(Default)]
-struct Sums {
-    area: f64,
-    first: [f64; 2],
-    second: [[f64; 2]; 2],
-}
-
-impl Sums {
-    /// The part of a face where a function is positive, by small straight pieces.
-    fn add_face(&mut self, corners: &[[f64; 2]], level: impl Fn([f64; 2]) -> f64) {
-        let n = PIECES;
-        let share = |i: usize| i as f64 / n as f64;
-        let mixed = |weights: &[f64]| {
-            [0, 1].map(|d| {
-                corners
-                    .iter()
-                    .zip(weights)
-                    .map(|(x, w)| w * x[d])
-                    .sum::<f64>()
-            })
-        };
-        let point = |i: usize, j: usize| {
-            let (s, t) = (share(i), share(j));
-            match corners.len() {
-                3 => mixed(&[1.0 - s - t, s, t]),
-                _ => mixed(&[(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t]),
-            }
-        };
-        for i in 0..n {
-            for j in 0..if corners.len() == 3 { n - i } else { n } {
-                let piece = [point(i, j), point(i + 1, j), point(i, j + 1)];
-                self.add_triangle(piece, piece.map(&level));
-                if corners.len() > 3 || i + j + 1 < n {
-                    let piece = [point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)];
-                    self.add_triangle(piece, piece.map(&level));
-                }
-            }
-        }
-    }
-
-    /// The part of a face where a function of its corners is positive.
-    fn add_corners(&mut self, corners: &[[f64; 2]], levels: &[f64]) {
-        let n = corners.len();
-        let middle = [0, 1].map(|d| corners.iter().map(|x| x[d]).sum::<f64>() / n as f64);
-        let mean = levels.iter().sum::<f64>() / n as f64;
-        for k in 0..n {
-            let next = (k + 1) % n;
-            let piece = [corners[k], corners[next], middle];
-            self.add_triangle(piece, [levels[k], levels[next], mean]);
-        }
-    }
-
-    fn add_triangle(&mut self, corners: [[f64; 2]; 3], levels: [f64; 3]) {
-        let mut inside: Vec<[f64; 2]> = Vec::with_capacity(4);
-        for k in 0..3 {
-            let (p, q) = (corners[k], corners[(k + 1) % 3]);
-            let (a, b) = (levels[k], levels[(k + 1) % 3]);
-            if a > 0.0 {
-                inside.push(p);
-            }
-            if (a > 0.0) != (b > 0.0) {
-                let t = a / (a - b);
-                inside.push([0, 1].map(|d| p[d] + t * (q[d] - p[d])));
-            }
-        }
-        for k in 2..inside.len() {
-            self.add_whole([inside[0], inside[k - 1], inside[k]]);
-        }
-    }
-
-    /// `int x x' dA = A/12 (sum p p' + 9 c c')` over a triangle with the centroid c.
-    fn add_whole(&mut self, [p, q, r]: [[f64; 2]; 3]) {
-        let [a, b] = [q, r].map(|x| [x[0] - p[0], x[1] - p[1]]);
-        let area = 0.5 * (a[0] * b[1] - a[1] * b[0]).abs();
-        let center = [0, 1].map(|d| (p[d] + q[d] + r[d]) / 3.0);
-        self.area += area;
-        for i in 0..2 {
-            self.first[i] += area * center[i];
-            for j in 0..2 {
-                let corners = p[i] * p[j] + q[i] * q[j] + r[i] * r[j];
-                self.second[i][j] += area / 12.0 * (corners + 9.0 * center[i] * center[j]);
-            }
-        }
-    }
-
-    /// The moments of the part and its mirror images; `mirrored` changes mean and moments about the
-    /// origin, which lies on the planes.
-    fn moments(&self, mirrored: impl Fn(&mut [f64; 2], &mut [[f64; 2]; 2])) -> Moments {
-        let per_area = 1.0 / self.area.max(f64::MIN_POSITIVE);
-        let mut center = self.first.map(|first| first * per_area);
-        let mut second = self.second.map(|row| row.map(|m| m * per_area));
-        mirrored(&mut center, &mut second);
-        for i in 0..2 {
-            for j in 0..2 {
-                second[i][j] -= center[i] * center[j];
-            }
-        }
-        Moments {
-            area: self.area,
-            center,
-            second,
-        }
-    }
-}
-
-/// The mean of a figure and its image across a line through the origin with normal `n`.
-fn mirror(n: [f64; 2], center: &mut [f64; 2], second: &mut [[f64; 2]; 2]) {
-    let off = n[0] * center[0] + n[1] * center[1];
-    for i in 0..2 {
-        center[i] -= off * n[i];
-    }
-    // R = 1 - 2 n n'; the mean of M and R M R.
-    let m = Matrix2::new(second[0][0], second[0][1], second[1][0], second[1][1]);
-    let r = Matrix2::new(
-        1.0 - 2.0 * n[0] * n[0],
-        -2.0 * n[0] * n[1],
-        -2.0 * n[0] * n[1],
-        1.0 - 2.0 * n[1] * n[1],
-    );
-    let mean = 0.5 * (m + r * m * r);
-    *second = [[mean[(0, 0)], mean[(0, 1)]], [mean[(1, 0)], mean[(1, 1)]]];
-}
-
-impl Moments {
-    /// Half axes, the larger first, and the larger one's direction.
-    fn axes(&self) -> ([f64; 2], [f64; 2]) {
-        let [[a, b], [_, c]] = self.second;
-        let eigen = SymmetricEigen::new(Matrix2::new(a, b, b, c));
-        let (large, small) = if eigen.eigenvalues[0] >= eigen.eigenvalues[1] {
-            (0, 1)
-        } else {
-            (1, 0)
-        };
-        let semi = [large, small].map(|k| 2.0 * eigen.eigenvalues[k].max(0.0).sqrt());
-        let major = eigen.eigenvectors.column(large);
-        (semi, [major[0], major[1]])
-    }
 }

@@ -1,4 +1,4 @@
-//! The strain of linear triangles, from displacements fitted over the nodes around.
+//! The strain of linear triangles and tetrahedra, from displacements fitted over the nodes around.
 //!
 //! The strain of a linear triangle is constant, right to first order at its centroid at best, and
 //! wrong in a way that depends on how its neighbours lie: a fit over such strains carries that on.
@@ -13,13 +13,12 @@
 
 use super::gather::{NodalPlaces, Places};
 use crate::model::Model;
-use crate::scene::Kind;
+use crate::shape::MAX_NODES;
+use crate::space::Vector;
 use nalgebra::{SMatrix, SVector};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Terms of a quadratic.
-const N: usize = 6;
 /// Least pivot of the scaled normal equations.
 const LEAST_PIVOT: f64 = 1e-2;
 /// Layers of elements around a triangle whose nodes are taken where those of fewer do not determine
@@ -30,25 +29,25 @@ const GRAIN: usize = 64;
 
 /// The strains of the linear triangles among some elements, as sums over nodes.
 #[derive(Debug, Default)]
-pub struct FittedStrains {
+pub struct FittedStrains<const D: usize> {
     nodes: Vec<NodalPlaces>,
     /// Where the terms of each element begin. One that is no linear triangle, or cannot be fitted,
     /// has none.
     first: Vec<u32>,
-    terms: Vec<Term>,
+    terms: Vec<Term<D>>,
 }
 
 /// What the displacement of a node counts at a centroid.
 #[derive(Debug, Clone, Copy)]
-struct Term {
+struct Term<const D: usize> {
     node: u32,
-    /// In the derivatives along x and y.
-    gradient: [f64; 2],
+    /// In the derivatives along the axes.
+    gradient: [f64; D],
     /// In the value over the radius, where there are hoop strains.
     hoop: f64,
 }
 
-impl FittedStrains {
+impl<const D: usize> FittedStrains<D> {
     /// Fits around the linear triangles among `elements`; `around` has, for the place of each in
     /// that list, the places of those of its body that share a node with it, itself included.
     pub fn new(
@@ -75,13 +74,18 @@ impl FittedStrains {
                 let mut nodes: Vec<u32> = members.iter().flat_map(corners).copied().collect();
                 nodes.sort_unstable();
                 nodes.dedup();
-                if let Some(terms) = terms(model, elements[i], nodes) {
+                // Terms of a quadratic.
+                let fit = match D {
+                    2 => terms::<D, 6>(model, elements[i], nodes),
+                    _ => terms::<D, 10>(model, elements[i], nodes),
+                };
+                if let Some(terms) = fit {
                     return terms;
                 }
             }
             Vec::new()
         };
-        let fits: Vec<Vec<Term>> = (0..elements.len())
+        let fits: Vec<Vec<Term<D>>> = (0..elements.len())
             .into_par_iter()
             .with_min_len(GRAIN)
             .map(fit)
@@ -106,30 +110,37 @@ impl FittedStrains {
     }
 
     /// The displacements of the nodes in global axes, for the values of a `Nodal`.
-    pub fn displacements(&self, nodal: &[f64]) -> Vec<[f64; 2]> {
-        let in_plane = |node: &NodalPlaces| {
-            let [x, y, _] = node.of(nodal);
-            [x, y]
-        };
-        self.nodes.iter().map(in_plane).collect()
+    pub fn displacements(&self, nodal: &[f64]) -> Vec<Vector> {
+        self.nodes.iter().map(|node| node.of(nodal)).collect()
     }
 
-    /// The strain `[xx, yy, zz, xy]` of an element at its centroid; `None` where it is not fitted.
-    pub fn strain(&self, i: usize, displacements: &[[f64; 2]]) -> Option<[f64; 4]> {
+    /// The strain `[xx, yy, zz, xy | yz, zx]` of an element at its centroid; `None` where it is not
+    /// fitted.
+    pub fn strain<const S: usize>(&self, i: usize, displacements: &[Vector]) -> Option<[f64; S]> {
         let [begin, end] = *self.first.get(i..i + 2)? else {
             return None;
         };
         let terms = &self.terms[begin as usize..end as usize];
         // A translation, which may be large, strains nothing.
         let first = displacements[terms.first()?.node as usize];
-        let mut out = [0.0; 4];
+        let mut slopes = [[0.0; D]; D];
+        let mut hoop = 0.0;
         for term in terms {
-            let (moved, [x, y]) = (displacements[term.node as usize], term.gradient);
-            let [u, v] = [0, 1].map(|d| moved[d] - first[d]);
-            out[0] += x * u;
-            out[1] += y * v;
-            out[2] += term.hoop * moved[0];
-            out[3] += y * u + x * v;
+            let moved = displacements[term.node as usize];
+            for (i, slopes) in slopes.iter_mut().enumerate() {
+                for (slope, gradient) in slopes.iter_mut().zip(term.gradient) {
+                    *slope += gradient * (moved[i] - first[i]);
+                }
+            }
+            hoop += term.hoop * moved[0];
+        }
+        let mut out = [0.0; S];
+        out[2] = hoop;
+        for d in 0..D {
+            out[d] = slopes[d][d];
+        }
+        for (shear, [i, j]) in out[3..].iter_mut().zip([[0, 1], [1, 2], [2, 0]]) {
+            *shear = slopes[i][j] + slopes[j][i];
         }
         Some(out)
     }
@@ -137,18 +148,34 @@ impl FittedStrains {
 
 /// What the displacements of nodes count in the quadratic fit at the centroid of a triangle; `None`
 /// where they do not determine it.
-fn terms(model: &Model, element: usize, nodes: Vec<u32>) -> Option<Vec<Term>> {
-    let own = model.element_coordinates::<2, 8>(element);
-    let mean = |d: usize| own[..3].iter().map(|x| x[d]).sum::<f64>() / 3.0;
+fn terms<const D: usize, const N: usize>(
+    model: &Model,
+    element: usize,
+    nodes: Vec<u32>,
+) -> Option<Vec<Term<D>>> {
+    let own = model.element_coordinates::<D, MAX_NODES>(element);
+    let own = &own[..=D];
+    let mean = |d: usize| own.iter().map(|x| x[d]).sum::<f64>() / own.len() as f64;
     let extent = |d: usize| {
-        let along = own[..3].iter().map(|x| x[d]);
+        let along = own.iter().map(|x| x[d]);
         along.clone().fold(f64::NEG_INFINITY, f64::max) - along.fold(f64::INFINITY, f64::min)
     };
-    let (centroid, size) = ([mean(0), mean(1)], [extent(0), extent(1)]);
+    let centroid: [f64; D] = std::array::from_fn(mean);
+    let size: [f64; D] = std::array::from_fn(extent);
     let monomials = |node: u32| {
-        let at = model.mesh.in_plane(node as usize);
-        let [x, y] = [0, 1].map(|d| (at[d] - centroid[d]) / size[d]);
-        SVector::<f64, N>::from([1.0, x, y, x * x, x * y, y * y])
+        let at = model.mesh.point(node as usize);
+        let x: [f64; D] = std::array::from_fn(|d| (at[d] - centroid[d]) / size[d]);
+        let mut terms = SVector::<f64, N>::zeros();
+        terms[0] = 1.0;
+        let mut next = D + 1;
+        for a in 0..D {
+            terms[a + 1] = x[a];
+            for b in a..D {
+                terms[next] = x[a] * x[b];
+                next += 1;
+            }
+        }
+        terms
     };
     let mut normal = SMatrix::<f64, N, N>::zeros();
     for &node in &nodes {
@@ -161,13 +188,13 @@ fn terms(model: &Model, element: usize, nodes: Vec<u32>) -> Option<Vec<Term>> {
     if factor.l_dirty().diagonal().min() < LEAST_PIVOT {
         return None;
     }
-    let is_axisymmetric = model.scene.kind == Kind::Axisymmetric;
+    let is_axisymmetric = model.kind.is_axisymmetric();
     let term = |node: u32| {
         let share = factor.solve(&monomials(node).component_mul(&scaling));
         let share = share.component_mul(&scaling);
         Term {
             node,
-            gradient: [share[1] / size[0], share[2] / size[1]],
+            gradient: std::array::from_fn(|d| share[d + 1] / size[d]),
             hoop: if is_axisymmetric {
                 share[0] / centroid[0]
             } else {
@@ -183,7 +210,7 @@ mod tests {
     use super::super::gather::Nodal;
     use super::*;
     use crate::model::Slot;
-    use crate::scene::Scene;
+    use crate::scene::{Kind, Scene};
     use crate::shape::Shape;
     use crate::substructure::Trailing;
 
@@ -209,7 +236,7 @@ mod tests {
             let mut zone = vec![0.0; n];
             for node in 0..mesh.n_nodes() {
                 let (u, axes) = (field(mesh.in_plane(node)), model.freedoms.local(node));
-                for (slot, axis) in model.freedoms.slots[node].iter().zip(axes) {
+                for (slot, axis) in model.freedoms.of_node(node).iter().zip(axes) {
                     let along = u[0] * axis[0] + u[1] * axis[1];
                     match *slot {
                         Slot::Free(f) => zone[f as usize] = along,
@@ -231,7 +258,7 @@ mod tests {
                     .map(|e| *e as u32)
                     .collect()
             };
-            let fitted = FittedStrains::new(&model, &elements, &places, around);
+            let fitted = FittedStrains::<2>::new(&model, &elements, &places, around);
             let mut nodal = Nodal::new(&model, &places);
             let moved = fitted.displacements(nodal.displacements(&u));
             for &e in &elements {
@@ -248,7 +275,7 @@ mod tests {
                     hoop,
                     -0.01 * x - 0.03 * y,
                 ];
-                let found = fitted.strain(e, &moved).unwrap();
+                let found: [f64; 4] = fitted.strain(e, &moved).unwrap();
                 // Round-off of displacements over the size of an element, once for each pivot that
                 // is lost.
                 let size = moved.iter().flatten().fold(0.0f64, |m, u| m.max(u.abs()));

@@ -17,15 +17,18 @@
 //! estimates, parts 1 and 2, Int. J. Numer. Meth. Engng 33 (1992) 1331-1382,
 //! doi:10.1002/nme.1620330702.
 
+mod rules;
+
 use super::stress_field::{ElementStress, StressField};
 use crate::material::Material;
 use crate::model::Model;
-use crate::scene::Kind;
+use crate::space::{cross, dot, unit};
 use nalgebra::SMatrix;
 use rayon::prelude::*;
+use rules::COMPARED;
 
-/// Terms of a polynomial of degree 2.
-const MOST_TERMS: usize = 6;
+/// Terms of a polynomial of degree 2 in three variables.
+const MOST_TERMS: usize = 10;
 /// Smallest pivot of the scaled normal equations that counts as determined: the square root of what
 /// round-off leaves.
 const DETERMINED: f64 = 1e-7;
@@ -43,12 +46,6 @@ pub(super) fn indicator<const D: usize, const S: usize, const P: usize, const N:
     field: &StressField<D, S, P, N>,
 ) -> Indicator {
     let model = field.model;
-    if D == 3 {
-        return Indicator {
-            by_element: vec![0.0; model.mesh.n_elements()],
-            total: 0.0,
-        };
-    }
     let neighbours = Neighbours::new(model);
     let samples = Samples::new(field);
     let energies: Vec<[f64; 2]> = (0..model.mesh.n_elements())
@@ -193,40 +190,6 @@ fn degree(model: &Model, e: usize) -> usize {
     model.mesh.shapes[e].reference().degree
 }
 
-/// Reference coordinates and weights: 3 x 3 Gauss points.
-const QUADRILATERAL: [([f64; 2], f64); 9] = {
-    const G: f64 = 0.774_596_669_241_483_4;
-    const A: f64 = 25.0 / 81.0;
-    const B: f64 = 40.0 / 81.0;
-    [
-        ([-G, -G], A),
-        ([0.0, -G], B),
-        ([G, -G], A),
-        ([-G, 0.0], B),
-        ([0.0, 0.0], 64.0 / 81.0),
-        ([G, 0.0], B),
-        ([-G, G], A),
-        ([0.0, G], B),
-        ([G, G], A),
-    ]
-};
-/// Reference coordinates and weights: six points, degree 4 (D. A. Dunavant, Int. J. Numer. Meth.
-/// Engng 21 (1985) 1129-1148, doi:10.1002/nme.1620210612).
-const TRIANGLE: [([f64; 2], f64); 6] = {
-    const A: f64 = 0.445_948_490_915_965;
-    const B: f64 = 0.091_576_213_509_771;
-    const WA: f64 = 0.111_690_794_839_005_5;
-    const WB: f64 = 0.054_975_871_827_661;
-    [
-        ([A, A], WA),
-        ([1.0 - 2.0 * A, A], WA),
-        ([A, 1.0 - 2.0 * A], WA),
-        ([B, B], WB),
-        ([1.0 - 2.0 * B, B], WB),
-        ([B, 1.0 - 2.0 * B], WB),
-    ]
-};
-
 /// A point of the quadrature: where, its weight, and `sigma_h` there.
 type Point<const D: usize, const S: usize> = ([f64; D], f64, [f64; S]);
 
@@ -250,41 +213,32 @@ fn quadrature<const D: usize, const S: usize, const P: usize, const N: usize>(
         return;
     }
     let shape = model.mesh.shapes[e];
-    let triangle = shape.n_corners() == 3;
-    let rule: &[([f64; 2], f64)] = if triangle { &TRIANGLE } else { &QUADRILATERAL };
-    for &(reference, weight) in rule {
-        let [a, b] = reference;
-        let at = shape.functions([a, b, 0.0]);
-        let (mut x, mut jacobian) = ([0.0; D], [[0.0; 2]; 2]);
-        for (i, c) in coordinates.iter().enumerate().take(shape.n_nodes()) {
-            for d in 0..2 {
-                x[d] += at.values[i] * c[d];
-                jacobian[0][d] += at.gradients[i][0] * c[d];
-                jacobian[1][d] += at.gradients[i][1] * c[d];
+    for point in &COMPARED[shape as usize] {
+        let at = &point.functions;
+        let mut x = [0.0; D];
+        let mut along = [[0.0; 3]; 3];
+        for (k, c) in coordinates.iter().enumerate().take(shape.n_nodes()) {
+            for d in 0..D {
+                x[d] += at.values[k] * c[d];
+                for (along, slope) in along.iter_mut().zip(at.gradients[k]) {
+                    along[d] += slope * c[d];
+                }
             }
         }
-        let determinant = jacobian[0][0] * jacobian[1][1] - jacobian[0][1] * jacobian[1][0];
-        let around = match model.kind {
-            Kind::Axisymmetric => 2.0 * std::f64::consts::PI * x[0],
-            _ => 1.0,
-        };
-        let shares = if triangle {
-            let (b, c) = (2.0 * a - 1.0 / 3.0, 2.0 * b - 1.0 / 3.0);
-            [1.0 - b - c, b, c, 0.0]
-        } else {
-            let (a, b) = (3f64.sqrt() * a, 3f64.sqrt() * b);
-            [
-                (1.0 - a) * (1.0 - b),
-                (1.0 + a) * (1.0 - b),
-                (1.0 + a) * (1.0 + b),
-                (1.0 - a) * (1.0 + b),
-            ]
-            .map(|n| 0.25 * n)
-        };
-        let between = stress
-            .each_ref()
-            .map(|lanes| shares.iter().zip(lanes).map(|(share, s)| share * s).sum());
-        visit((x, weight * determinant * around, between));
+        if D == 2 {
+            along[2] = unit(2);
+        }
+        let determinant = dot(cross(along[0], along[1]), along[2]);
+        let between = stress.each_ref().map(|lanes| {
+            point
+                .shares
+                .iter()
+                .zip(lanes)
+                .map(|(share, s)| share * s)
+                .sum()
+        });
+        let weight = point.weight * determinant * model.kind.measure(x[0]);
+        visit((x, weight, between));
     }
 }
 
@@ -300,12 +254,18 @@ fn energies<const D: usize, const S: usize, const P: usize, const N: usize>(
     let frame = Frame::new(model, e);
     // A patch that does not determine the polynomial (a single element, a row of them) takes a
     // lower degree.
-    let fit = match degree(model, e) {
-        1 => None,
-        _ => fit_of::<MOST_TERMS, D, S>(&frame, patch, samples),
+    let quadratic = || match D {
+        2 => fit_of::<6, D, S>(&frame, patch, samples),
+        _ => fit_of::<10, D, S>(&frame, patch, samples),
     };
-    let fit = fit
-        .or_else(|| fit_of::<3, D, S>(&frame, patch, samples))
+    let linear = || match D {
+        2 => fit_of::<3, D, S>(&frame, patch, samples),
+        _ => fit_of::<4, D, S>(&frame, patch, samples),
+    };
+    let fit = Some(degree(model, e))
+        .filter(|degree| *degree > 1)
+        .and_then(|_| quadratic())
+        .or_else(linear)
         .or_else(|| fit_of::<1, D, S>(&frame, patch, samples));
     let mut out = [0.0; 2];
     quadrature(model, e, element, |(position, weight, computed)| {
@@ -335,17 +295,17 @@ fn compliance_energy<const S: usize>(material: &Material, stress: &[f64; S]) -> 
 }
 
 /// Coordinates about an element, of order 1 in its patch.
-struct Frame {
-    center: [f64; 2],
-    scale: [f64; 2],
+struct Frame<const D: usize> {
+    center: [f64; D],
+    scale: [f64; D],
 }
 
-impl Frame {
+impl<const D: usize> Frame<D> {
     fn new(model: &Model, e: usize) -> Self {
-        let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
         for &node in model.mesh.nodes(e) {
             let x = model.mesh.point(node as usize);
-            for d in 0..2 {
+            for d in 0..D {
                 low[d] = low[d].min(x[d]);
                 high[d] = high[d].max(x[d]);
             }
@@ -356,16 +316,28 @@ impl Frame {
         }
     }
 
-    fn terms<const D: usize>(&self, at: [f64; D]) -> [f64; MOST_TERMS] {
-        let [x, y]: [f64; 2] = std::array::from_fn(|d| (at[d] - self.center[d]) / self.scale[d]);
-        [1.0, x, y, x * x, x * y, y * y]
+    /// The monomials of degree 0, 1, 2.
+    fn terms(&self, at: [f64; D]) -> [f64; MOST_TERMS] {
+        let x: [f64; D] = std::array::from_fn(|d| (at[d] - self.center[d]) / self.scale[d]);
+        let mut out = [0.0; MOST_TERMS];
+        out[0] = 1.0;
+        let mut next = D + 1;
+        for a in 0..D {
+            out[a + 1] = x[a];
+            for b in a..D {
+                out[next] = x[a] * x[b];
+                next += 1;
+            }
+        }
+        out
     }
 }
 
-/// Weight of a sample at `(x, y)` in element sizes from the centre: the nearer ones count more,
+/// Weight of a sample by its place in element sizes from the centre: the nearer ones count more,
 /// else a field that turns within the patch (stresses round a hole) is smoothed away.
-fn weight(x: f64, y: f64) -> f64 {
-    1.0 / (1.0 + (x * x + y * y).powi(2))
+fn weight(x: &[f64]) -> f64 {
+    let square: f64 = x.iter().map(|x| x * x).sum();
+    1.0 / (1.0 + square * square)
 }
 
 /// A polynomial with `n` terms for each component.
@@ -377,7 +349,7 @@ struct Fit<const S: usize> {
 /// The weighted least-squares polynomial with `N` terms; `None` where the samples do not determine
 /// it.
 fn fit_of<const N: usize, const D: usize, const S: usize>(
-    frame: &Frame,
+    frame: &Frame<D>,
     patch: &[u32],
     samples: &Samples<D, S>,
 ) -> Option<Fit<S>> {
@@ -388,7 +360,7 @@ fn fit_of<const N: usize, const D: usize, const S: usize>(
         for sample in samples.of(member) {
             used += 1;
             let terms = frame.terms(sample.position);
-            let weight = weight(terms[1], terms[2]);
+            let weight = weight(&terms[1..=D]);
             for a in 0..N {
                 for b in 0..=a {
                     gram[(a, b)] += weight * terms[a] * terms[b];

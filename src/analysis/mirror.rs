@@ -7,6 +7,7 @@
 
 use crate::mesh::Facet;
 use crate::model::{Model, Slot};
+use crate::space::{Vector, along, cross, difference, direction, dot, length as length_of};
 
 /// Sine of the angle up to which directions, and share of a facet's length up to which places, are
 /// the same.
@@ -15,49 +16,59 @@ const SAME: f64 = 1e-9;
 /// A plane `normal . x = offset`; the body lies where `normal . x` is smaller.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mirror {
-    normal: [f64; 2],
+    normal: Vector,
     offset: f64,
 }
 
-/// The reflection `1 - 2 n n'`, by its entries xx, xy, yy.
+/// One reflection or several after one another: the orthogonal matrix, row by row.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reflection([f64; 3]);
+pub struct Reflection([Vector; 3]);
 
 impl Mirror {
     /// The mirror image of a point.
-    pub fn image(&self, x: [f64; 2]) -> [f64; 2] {
-        let twice = -2.0 * self.beyond(x);
-        [x[0] + twice * self.normal[0], x[1] + twice * self.normal[1]]
+    pub fn image(&self, x: Vector) -> Vector {
+        along(x, -2.0 * self.beyond(x), self.normal)
     }
 
-    /// How stresses are reflected.
+    /// How stresses are reflected: `1 - 2 n n'`.
     pub fn reflection(&self) -> Reflection {
-        let [x, y] = self.normal;
-        Reflection([1.0 - 2.0 * x * x, -2.0 * x * y, 1.0 - 2.0 * y * y])
+        let n = self.normal;
+        let entry = |i: usize, j: usize| f64::from(u8::from(i == j)) - 2.0 * n[i] * n[j];
+        Reflection([0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j))))
     }
 
-    /// Whether two planes are at right angles: images in both then have the stress of the original.
+    /// Whether two planes are at right angles.
     pub fn is_normal_to(&self, other: &Mirror) -> bool {
-        let along = self.normal[0] * other.normal[0] + self.normal[1] * other.normal[1];
-        along.abs() < SAME
+        dot(self.normal, other.normal).abs() < SAME
     }
 
     /// Distance of a point beyond the plane.
-    pub fn beyond(&self, x: [f64; 2]) -> f64 {
-        self.normal[0] * x[0] + self.normal[1] * x[1] - self.offset
+    pub fn beyond(&self, x: Vector) -> f64 {
+        dot(self.normal, x) - self.offset
     }
 }
 
 impl Reflection {
-    /// The reflected stress `[xx, yy, zz, xy]`: `R sigma R`.
-    pub fn of(&self, [xx, yy, zz, xy]: [f64; 4]) -> [f64; 4] {
-        let [c, s, d] = self.0;
-        [
-            c * c * xx + 2.0 * c * s * xy + s * s * yy,
-            s * s * xx + 2.0 * s * d * xy + d * d * yy,
-            zz,
-            c * s * xx + (c * d + s * s) * xy + s * d * yy,
-        ]
+    /// This one after another.
+    pub fn after(&self, other: &Reflection) -> Reflection {
+        Reflection(self.0.map(|row| {
+            let terms = row.iter().zip(&other.0);
+            terms.fold([0.0; 3], |sum, (share, row)| along(sum, *share, *row))
+        }))
+    }
+
+    /// The reflected stress `[xx, yy, zz, xy | yz, zx]`: `R sigma R'`.
+    pub fn of<const S: usize>(&self, stress: [f64; S]) -> [f64; S] {
+        let shear = |k: usize| stress.get(k).copied().unwrap_or(0.0);
+        let tensor = [
+            [stress[0], stress[3], shear(5)],
+            [stress[3], stress[1], shear(4)],
+            [shear(5), shear(4), stress[2]],
+        ];
+        let reflected =
+            |i: usize, j: usize| -> f64 { dot(self.0[i], tensor.map(|row| dot(row, self.0[j]))) };
+        const AXES: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [1, 2], [2, 0]];
+        std::array::from_fn(|k| reflected(AXES[k][0], AXES[k][1]))
     }
 }
 
@@ -82,9 +93,8 @@ pub fn mirrors(model: &Model, loaded: &[bool], elements: &[usize]) -> Vec<Mirror
                 continue;
             };
             let same = |other: &Mirror| {
-                let [x, y] = mirror.normal;
-                (x * other.normal[1] - y * other.normal[0]).abs() < SAME
-                    && x * other.normal[0] + y * other.normal[1] > 0.0
+                length_of(cross(mirror.normal, other.normal)) < SAME
+                    && dot(mirror.normal, other.normal) > 0.0
                     && (mirror.offset - other.offset).abs() <= SAME * length
             };
             if !out.iter().any(same) {
@@ -97,39 +107,34 @@ pub fn mirrors(model: &Model, loaded: &[bool], elements: &[usize]) -> Vec<Mirror
 
 /// The plane of a facet that is held across and free along it, and the facet's length.
 fn mirror_on(model: &Model, loaded: &[bool], facet: Facet) -> Option<(Mirror, f64)> {
-    let nodes: Vec<usize> = model.mesh.facet_nodes(facet).collect();
-    let [a, b] = [nodes[0], nodes[1]].map(|n| model.mesh.in_plane(n));
-    let along = [b[0] - a[0], b[1] - a[1]];
-    let length = along[0].hypot(along[1]);
-    // The body lies on the left of the facet.
-    let normal = [along[1] / length, -along[0] / length];
+    let mesh = &model.mesh;
+    let reference = mesh.shapes[facet.element].reference().facet;
+    let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
+    let points: Vec<Vector> = nodes.iter().map(|&n| mesh.point(n)).collect();
+    let length = length_of(difference(points[1], points[0]));
+    let at_corner = (reference.functions)(reference.nodes[0]);
+    let normal = direction(reference.area(&at_corner, &points));
     let mut free = false;
     for &node in &nodes {
-        let [x, y, _] = model.freedoms.local(node)[0];
-        let across = |axis: [f64; 2]| (axis[0] * normal[1] - axis[1] * normal[0]).abs() < SAME;
-        let held = if across([x, y]) {
-            0
-        } else if across([-y, x]) {
-            1
-        } else {
-            return None;
-        };
-        let slots = model.freedoms.slots[node];
+        let axes = model.freedoms.local(node);
+        let slots = model.freedoms.of_node(node);
+        let across = |i: &usize| length_of(cross(axes[*i], normal)) < SAME;
+        let held = (0..slots.len()).find(across)?;
         if slots[held] != Slot::Fixed {
             return None;
         }
-        free |= matches!(slots[1 - held], Slot::Free(_));
+        free |= slots.iter().any(|slot| matches!(slot, Slot::Free(_)));
     }
     if !free || nodes.iter().all(|&n| loaded[n]) {
         return None;
     }
     let mirror = Mirror {
         normal,
-        offset: normal[0] * a[0] + normal[1] * a[1],
+        offset: dot(normal, points[0]),
     };
-    let curved = nodes
+    let curved = points
         .iter()
-        .any(|&n| mirror.beyond(model.mesh.in_plane(n)).abs() > SAME * length);
+        .any(|&x| mirror.beyond(x).abs() > SAME * length);
     (!curved).then_some((mirror, length))
 }
 
@@ -140,23 +145,32 @@ mod tests {
     #[test]
     fn a_mirror_turns_points_and_shear_round() {
         let mirror = Mirror {
-            normal: [-1.0, 0.0],
+            normal: [-1.0, 0.0, 0.0],
             offset: 0.0,
         };
-        assert_eq!(mirror.image([2.0, 3.0]), [-2.0, 3.0]);
+        assert_eq!(mirror.image([2.0, 3.0, 0.0]), [-2.0, 3.0, 0.0]);
         let stress = [1.0, 2.0, 3.0, 4.0];
         assert_eq!(mirror.reflection().of(stress), [1.0, 2.0, 3.0, -4.0]);
         // Across the diagonal x and y change places, and shear keeps its sign.
         let half = 0.5f64.sqrt();
         let diagonal = Mirror {
-            normal: [half, -half],
+            normal: [half, -half, 0.0],
             offset: 0.0,
         };
-        let [x, y] = diagonal.image([2.0, 3.0]);
+        let [x, y, _] = diagonal.image([2.0, 3.0, 0.0]);
         assert!((x - 3.0).abs() + (y - 2.0).abs() < 1e-15);
         let turned = diagonal.reflection().of(stress);
         for (found, expected) in turned.iter().zip([2.0, 1.0, 3.0, 4.0]) {
             assert!((found - expected).abs() < 1e-14, "{turned:?}");
         }
+        // In space, twice: across x and z together zx keeps its sign, the other shears do not.
+        let across_z = Mirror {
+            normal: [0.0, 0.0, 1.0],
+            offset: 0.5,
+        };
+        assert_eq!(across_z.image([1.0, 2.0, 3.0]), [1.0, 2.0, -2.0]);
+        let both = across_z.reflection().after(&mirror.reflection());
+        let stress = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+        assert_eq!(both.of(stress), [1.0, 2.0, 3.0, -4.0, -5.0, 6.0]);
     }
 }

@@ -9,10 +9,10 @@ use std::collections::HashMap;
 /// Highest degree of the polynomials: cubic, and then quadratic, linear, constant where the samples
 /// do not determine it.
 const CUBIC: usize = 3;
-/// Terms of a cubic.
-const N: usize = n_terms(CUBIC);
+/// Terms of a cubic in space.
+const N: usize = n_terms(3, CUBIC);
 /// Monomials of twice its degree.
-const MOMENTS: usize = n_terms(2 * CUBIC);
+const MOMENTS: usize = n_terms(3, 2 * CUBIC);
 /// Least pivot of the scaled normal equations.
 const LEAST_PIVOT: f64 = 1e-2;
 /// Reach of the weights in distances between samples.
@@ -25,8 +25,11 @@ const HALF: f64 = 0.6;
 /// Reach of the weights in sizes of an element with `n` samples: elements with more of them need
 /// fewer neighbours, and a fit over less of the field is closer to it (at a bore the error of the
 /// cubic falls with the fourth power of the reach).
-pub fn reach(n: usize) -> f64 {
-    REACH / (n as f64).sqrt()
+pub fn reach(dimension: usize, n: usize) -> f64 {
+    match dimension {
+        2 => REACH / (n as f64).sqrt(),
+        _ => REACH / (n as f64).cbrt(),
+    }
 }
 
 /// Places that are kept of a patch: those of one search and those beside.
@@ -34,45 +37,50 @@ const MOST_KEPT: usize = 300;
 
 /// Samples around an element, in coordinates relative to it and scaled by its size.
 #[derive(Debug, Clone)]
-pub struct Patch {
+pub struct Patch<const D: usize> {
     /// Middle of the element.
-    center: [f64; 2],
+    center: [f64; D],
     /// Its extents.
-    scale: [f64; 2],
+    scale: [f64; D],
     /// Reach of the weights in element sizes.
     reach: f64,
     /// First those within reach of a point of the element.
-    samples: Vec<Sample>,
+    samples: Vec<Sample<D>>,
     /// How many of the samples these are.
     n_near: usize,
     /// The samples that count in the value last asked for, with their weights and places relative
     /// to it.
-    weighted: Vec<(u32, f64, [f64; 2])>,
+    weighted: Vec<(u32, f64, [f64; D])>,
     /// Indices of samples and their shares in that value.
     shares: Vec<(u32, f64)>,
     /// Shares in earlier values, by place.
-    kept: HashMap<[u64; 2], Box<[(u32, f64)]>>,
+    kept: HashMap<[u64; D], Box<[(u32, f64)]>>,
 }
 
 /// A sample of a patch, or its mirror image.
 #[derive(Debug, Clone, Copy)]
-pub struct Sample {
+pub struct Sample<const D: usize> {
     /// Index of its stress.
     pub index: u32,
     /// Relative to the patch and scaled.
-    pub position: [f64; 2],
+    pub position: [f64; D],
     /// How its stress is reflected, where it is an image.
     pub reflection: Option<Reflection>,
 }
 
-impl Patch {
+impl<const D: usize> Patch<D> {
+    /// The exponents of the variables in the monomials, by degree.
+    const EXPONENTS: [[usize; 3]; MOMENTS] = exponents(D);
+    /// Which monomial the product of two terms is.
+    const PRODUCTS: [[usize; N]; N] = products(&Self::EXPONENTS);
+
     /// A patch round an element.
-    pub fn new(center: [f64; 2], scale: [f64; 2], reach: f64, samples: Vec<Sample>) -> Self {
-        let is_near = |sample: &Sample| {
-            let [x, y] = sample.position.map(|x| (x.abs() - HALF).max(0.0));
-            x * x + y * y < reach * reach
+    pub fn new(center: [f64; D], scale: [f64; D], reach: f64, samples: Vec<Sample<D>>) -> Self {
+        let is_near = |sample: &Sample<D>| {
+            let beyond = sample.position.map(|x| (x.abs() - HALF).max(0.0));
+            square(beyond) < reach * reach
         };
-        let (mut samples, far): (Vec<Sample>, Vec<Sample>) = samples.into_iter().partition(is_near);
+        let (mut samples, far): (Vec<_>, Vec<_>) = samples.into_iter().partition(is_near);
         let n_near = samples.len();
         samples.extend(far);
         Patch {
@@ -90,15 +98,17 @@ impl Patch {
     /// Moving least squares at a point: the fit of the highest degree that the samples around
     /// determine. What each sample adds to it depends on the point alone; `keep` has that ready
     /// where the same point is asked for again.
-    pub fn value(&mut self, samples: &[[f64; 4]], at: [f64; 2], keep: bool) -> [f64; 4] {
+    pub fn value<const S: usize>(
+        &mut self,
+        samples: &[[f64; S]],
+        at: [f64; D],
+        keep: bool,
+    ) -> [f64; S] {
         let place = at.map(f64::to_bits);
         if let Some(shares) = self.kept.get(&place) {
             return self.sum(shares, samples);
         }
-        let x = [
-            (at[0] - self.center[0]) / self.scale[0],
-            (at[1] - self.center[1]) / self.scale[1],
-        ];
+        let x = std::array::from_fn(|d| (at[d] - self.center[d]) / self.scale[d]);
         self.weigh(x);
         // Degrees as constants: the loops over the terms are unrolled.
         if !(self.fit::<CUBIC>() || self.fit::<2>() || self.fit::<1>()) {
@@ -117,8 +127,8 @@ impl Patch {
         self.kept.len()
     }
 
-    fn sum(&self, shares: &[(u32, f64)], samples: &[[f64; 4]]) -> [f64; 4] {
-        let mut out = [0.0; 4];
+    fn sum<const S: usize>(&self, shares: &[(u32, f64)], samples: &[[f64; S]]) -> [f64; S] {
+        let mut out = [0.0; S];
         for &(i, share) in shares {
             let sample = &self.samples[i as usize];
             let mut stress = samples[sample.index as usize];
@@ -138,40 +148,42 @@ impl Patch {
     ///
     /// The matrix of the normal equations holds the moments of the weights, `G_ab = sum w p_a p_b`,
     /// which are monomials of twice the degree; a sample's share is `w (c . p)` with `G c = e_0`.
-    fn fit<const D: usize>(&mut self) -> bool {
+    fn fit<const DEGREE: usize>(&mut self) -> bool {
         self.shares.clear();
-        let n = n_terms(D);
+        let n = const { n_terms(D, DEGREE) };
         if self.weighted.len() < n + n / 2 {
             return false;
         }
+        let n_moments = const { n_terms(D, 2 * DEGREE) };
         let mut moments = [0.0; MOMENTS];
-        for &(_, weight, [x, y]) in &self.weighted {
-            let (along_x, along_y) = (powers(weight, x), powers(1.0, y));
-            let exponents = &EXPONENTS[..n_terms(2 * D)];
-            for (moment, [a, b]) in moments.iter_mut().zip(exponents) {
-                *moment += along_x[*a] * along_y[*b];
+        for (_, weight, x) in &self.weighted {
+            let powers = powers(*weight, x);
+            for (moment, exponents) in moments.iter_mut().zip(&Self::EXPONENTS).take(n_moments) {
+                *moment += monomial(&powers, exponents);
             }
         }
-        let Some(coefficients) = constant_term(&moments, n) else {
+        let Some(coefficients) = constant_term(&moments, &Self::PRODUCTS, n) else {
             return false;
         };
-        let shares = self.weighted.iter().map(|&(i, weight, [x, y])| {
-            let (along_x, along_y) = (powers(weight, x), powers(1.0, y));
-            let terms = coefficients.iter().zip(&EXPONENTS[..n_terms(D)]);
-            let share: f64 = terms.map(|(c, [a, b])| c * along_x[*a] * along_y[*b]).sum();
-            (i, share)
+        let shares = self.weighted.iter().map(|(i, weight, x)| {
+            let powers = powers(*weight, x);
+            let terms = coefficients.iter().zip(&Self::EXPONENTS).take(n);
+            let share: f64 = terms
+                .map(|(c, exponents)| c * monomial(&powers, exponents))
+                .sum();
+            (*i, share)
         });
         self.shares.extend(shares);
         true
     }
 
     /// Collects the samples within reach of `x`.
-    fn weigh(&mut self, x: [f64; 2]) {
+    fn weigh(&mut self, x: [f64; D]) {
         let unit = 1.0 / (self.reach * self.reach);
         self.weighted.clear();
         for (sample, i) in self.samples[..self.n_near].iter().zip(0..) {
-            let d = [sample.position[0] - x[0], sample.position[1] - x[1]];
-            let rest = 1.0 - (d[0] * d[0] + d[1] * d[1]) * unit;
+            let d: [f64; D] = std::array::from_fn(|d| sample.position[d] - x[d]);
+            let rest = 1.0 - square(d) * unit;
             if rest > 0.0 {
                 self.weighted.push((i, rest * rest * rest, d));
             }
@@ -180,54 +192,113 @@ impl Patch {
 
     /// Collects all samples, where those within reach determine nothing: with weights that reach
     /// on.
-    fn weigh_all(&mut self, x: [f64; 2]) {
+    fn weigh_all(&mut self, x: [f64; D]) {
         let unit = 1.0 / (self.reach * self.reach);
         let weighted = self.samples.iter().zip(0..).map(|(sample, i)| {
-            let d = [sample.position[0] - x[0], sample.position[1] - x[1]];
-            (i, 1.0 / (1.0 + (d[0] * d[0] + d[1] * d[1]) * unit), d)
+            let d: [f64; D] = std::array::from_fn(|d| sample.position[d] - x[d]);
+            (i, 1.0 / (1.0 + square(d) * unit), d)
         });
         self.weighted.clear();
         self.weighted.extend(weighted);
     }
 }
 
-/// Terms of a polynomial of a degree.
-const fn n_terms(degree: usize) -> usize {
-    (degree + 1) * (degree + 2) / 2
-}
-
-/// `first` times the powers of `x` up to twice the highest degree.
+/// `x . x`
 #[inline(always)]
-fn powers(first: f64, x: f64) -> [f64; 2 * CUBIC + 1] {
-    let mut out = [first; 2 * CUBIC + 1];
-    for i in 1..out.len() {
-        out[i] = out[i - 1] * x;
+fn square<const D: usize>(x: [f64; D]) -> f64 {
+    (1..D).fold(x[0] * x[0], |sum, d| sum + x[d] * x[d])
+}
+
+/// Terms of a polynomial of a degree in so many variables.
+const fn n_terms(variables: usize, degree: usize) -> usize {
+    match variables {
+        2 => (degree + 1) * (degree + 2) / 2,
+        _ => (degree + 1) * (degree + 2) * (degree + 3) / 6,
+    }
+}
+
+/// Powers of a number up to twice the highest degree.
+type Powers = [f64; 2 * CUBIC + 1];
+
+/// Powers of each coordinate, those of the first times `first`.
+#[inline(always)]
+fn powers<const D: usize>(first: f64, x: &[f64; D]) -> [Powers; D] {
+    std::array::from_fn(|d| {
+        let mut out = [if d == 0 { first } else { 1.0 }; 2 * CUBIC + 1];
+        for i in 1..out.len() {
+            out[i] = out[i - 1] * x[d];
+        }
+        out
+    })
+}
+
+#[inline(always)]
+fn monomial<const D: usize>(powers: &[Powers; D], exponents: &[usize; 3]) -> f64 {
+    (1..D).fold(powers[0][exponents[0]], |product, d| {
+        product * powers[d][exponents[d]]
+    })
+}
+
+/// The exponents of the variables in the monomials: by degree, then by the powers of the last
+/// ones.
+const fn exponents(variables: usize) -> [[usize; 3]; MOMENTS] {
+    let mut out = [[0; 3]; MOMENTS];
+    let (mut k, mut degree) = (0, 0);
+    while degree <= 2 * CUBIC {
+        let mut of_z = 0;
+        while of_z <= if variables == 2 { 0 } else { degree } {
+            let mut of_y = 0;
+            while of_y <= degree - of_z {
+                out[k] = [degree - of_z - of_y, of_y, of_z];
+                k += 1;
+                of_y += 1;
+            }
+            of_z += 1;
+        }
+        degree += 1;
     }
     out
 }
 
-/// The exponents of x and y in the monomials: by degree and then by the power of y.
-const EXPONENTS: [[usize; 2]; MOMENTS] = {
-    let mut out = [[0; 2]; MOMENTS];
-    let mut k = 0;
-    while k < MOMENTS {
-        let degree = degree_of(k);
-        let of_y = k - n_terms_below(degree);
-        out[k] = [degree - of_y, of_y];
-        k += 1;
+/// Which monomial the product of two terms is; 0 where there are no such terms.
+const fn products(exponents: &[[usize; 3]; MOMENTS]) -> [[usize; N]; N] {
+    let mut out = [[0; N]; N];
+    let mut a = 0;
+    while a < N {
+        let mut b = 0;
+        while b < N {
+            let (p, q) = (exponents[a], exponents[b]);
+            let mut k = 0;
+            while k < MOMENTS {
+                let r = exponents[k];
+                if r[0] == p[0] + q[0] && r[1] == p[1] + q[1] && r[2] == p[2] + q[2] {
+                    out[a][b] = k;
+                    break;
+                }
+                k += 1;
+            }
+            b += 1;
+        }
+        a += 1;
     }
     out
-};
+}
 
 /// `c` of `G c = e_0`, by Cholesky's factor of `G` scaled to a unit diagonal; `None` where it has none, or hardly.
 #[inline(always)]
-fn constant_term(moments: &[f64; MOMENTS], n: usize) -> Option<[f64; N]> {
-    let scaling: [f64; N] =
-        std::array::from_fn(|i| 1.0 / moments[PRODUCTS[i][i]].max(f64::MIN_POSITIVE).sqrt());
+fn constant_term(
+    moments: &[f64; MOMENTS],
+    products: &[[usize; N]; N],
+    n: usize,
+) -> Option<[f64; N]> {
+    let mut scaling = [0.0; N];
+    for (i, scaling) in scaling.iter_mut().enumerate().take(n) {
+        *scaling = 1.0 / moments[products[i][i]].max(f64::MIN_POSITIVE).sqrt();
+    }
     let mut l = [[0.0; N]; N];
     for i in 0..n {
         for j in 0..=i {
-            let scaled = moments[PRODUCTS[i][j]] * scaling[i] * scaling[j];
+            let scaled = moments[products[i][j]] * scaling[i] * scaling[j];
             let known: f64 = (0..j).map(|k| l[i][k] * l[j][k]).sum();
             let rest = scaled - known;
             l[i][j] = if i == j { rest.sqrt() } else { rest / l[j][j] };
@@ -251,35 +322,4 @@ fn constant_term(moments: &[f64; MOMENTS], n: usize) -> Option<[f64; N]> {
         *c *= scaling;
     }
     Some(c)
-}
-
-/// Which monomial the product of two terms is.
-const PRODUCTS: [[usize; N]; N] = {
-    let mut out = [[0; N]; N];
-    let mut a = 0;
-    while a < N {
-        let mut b = 0;
-        while b < N {
-            let (ta, tb) = (degree_of(a), degree_of(b));
-            let power = a + b - n_terms_below(ta) - n_terms_below(tb);
-            out[a][b] = n_terms_below(ta + tb) + power;
-            b += 1;
-        }
-        a += 1;
-    }
-    out
-};
-
-/// Terms of lower degree.
-const fn n_terms_below(degree: usize) -> usize {
-    degree * (degree + 1) / 2
-}
-
-/// The degree of a term.
-const fn degree_of(term: usize) -> usize {
-    let mut degree = 0;
-    while term >= n_terms(degree) {
-        degree += 1;
-    }
-    degree
 }

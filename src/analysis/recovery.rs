@@ -12,17 +12,20 @@
 //! O. C. Zienkiewicz, J. Z. Zhu, superconvergent patch recovery (1992), doi:10.1002/nme.1620330702;
 //! P. Lancaster, K. Salkauskas, moving least squares (1981), doi:10.1090/S0025-5718-1981-0616367-1.
 
+mod cell;
+
 use super::fitted::FittedStrains;
 use super::gather::{GatheredElements, Nodal, Places};
-use super::mirror::{self, Reflection, mirrors};
+use super::mirror::{self, Mirror, Reflection, mirrors};
 use super::patch::{Patch, Sample, reach};
 use super::solver::Solver;
 use super::summit::{SPACINGS, Summit};
 use crate::element::{Kernel, Sampling};
 use crate::material::{Lame, Material, von_mises};
 use crate::model::Model;
-use crate::shape::Shape;
+use crate::space::{Space, Vector};
 use crate::substructure::Trailing;
+use cell::Cell;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -55,13 +58,8 @@ const GRAIN: usize = 256;
 /// Layers of elements around an element that belong to its patch.
 const LAYERS: usize = 3;
 
-type PlaneSampling = Sampling<2, 4, 4, 8>;
-/// Most nodes and points of a plane element.
-const MAX_NODES: usize = 8;
-const MAX_POINTS: usize = 4;
-
-/// The sampled stress `[xx, yy, zz, xy]` of all points of all elements, element by element.
-pub type Samples = Vec<[f64; 4]>;
+/// The sampled stresses of all points of all elements, component by component.
+pub type Samples = Vec<f64>;
 
 /// Where and how much the material is strained most.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,92 +67,86 @@ pub struct Peak {
     /// Von Mises stress over initial yield stress.
     pub ratio: f64,
     /// Coordinates.
-    pub location: [f64; 2],
+    pub location: Vector,
     /// Body.
     pub body: usize,
 }
 
 /// Samples and recovers stresses in the elements that may yield.
-pub struct Recovery {
+pub enum Recovery {
+    /// Of a plane or axisymmetric model.
+    Plane(Box<RecoveryOf<2, 4, 4, 8>>),
+    /// Of a solid one.
+    Solid(Box<RecoveryOf<3, 6, 8, 20>>),
+}
+
+/// What [`RecoveryOf`] does, whichever the dimension.
+impl Recovery {
+    /// Recovery over the given elements (ascending).
+    pub fn new(model: &Model, elements: &[usize], places: &Places) -> Self {
+        match model.kind {
+            Space::Solid => {
+                let kernel = Kernel::solid();
+                Recovery::Solid(Box::new(RecoveryOf::new(kernel, model, elements, places)))
+            }
+            space => {
+                let kernel = Kernel::plane(space);
+                Recovery::Plane(Box::new(RecoveryOf::new(kernel, model, elements, places)))
+            }
+        }
+    }
+
+    /// Elastic stresses at the sampling points in the current state.
+    pub fn sample_here(&mut self, solver: &mut Solver) -> Samples {
+        solver.refresh();
+        self.sample(&solver.now.u, &solver.at.factors)
+    }
+
+    /// [`RecoveryOf::sample`]
+    pub fn sample(&mut self, u: &Trailing, factors: &[f64]) -> Samples {
+        match self {
+            Recovery::Plane(recovery) => recovery.sample(u, factors),
+            Recovery::Solid(recovery) => recovery.sample(u, factors),
+        }
+    }
+
+    /// [`RecoveryOf::peak`]
+    pub fn peak(&mut self, model: &Model, samples: &Samples) -> Option<Peak> {
+        match self {
+            Recovery::Plane(recovery) => recovery.peak(model, samples),
+            Recovery::Solid(recovery) => recovery.peak(model, samples),
+        }
+    }
+}
+
+/// Recovery with the constants of a dimension.
+pub struct RecoveryOf<const D: usize, const S: usize, const P: usize, const N: usize> {
     elements: GatheredElements,
-    sampling: Vec<PlaneSampling>,
+    sampling: Vec<Sampling<D, S, P, N>>,
     first: Vec<usize>,
     /// Coordinates of the sampling points.
-    positions: Vec<[f64; 2]>,
+    positions: Vec<[f64; D]>,
     materials: Vec<(Material, Lame)>,
     nodal: Nodal,
-    /// Strains of the linear triangles.
-    fitted: FittedStrains,
+    /// Strains of the linear triangles and tetrahedra.
+    fitted: FittedStrains<D>,
     neighbours: BTreeMap<u32, Vec<u32>>,
-    patches: BTreeMap<u32, Patch>,
+    patches: BTreeMap<u32, Patch<D>>,
     /// Nodes on which forces act.
     loaded: Vec<bool>,
     /// Relative tolerance of the maximum.
     gamma: f64,
 }
 
-/// An element, or the third of a triangle round one of its corners, as the image of `[-1, 1]^2`.
-struct Square {
-    element: u32,
-    shape: Shape,
-    nodes: [[f64; 2]; MAX_NODES],
-    /// Reference coordinates of its corners, counterclockwise.
-    corners: [[f64; 2]; 4],
-}
-
-impl Square {
-    /// Those that an element is searched by.
-    fn of(element: u32, shape: Shape, nodes: [[f64; 2]; MAX_NODES]) -> Vec<Self> {
-        let square = |corners: [[f64; 2]; 4]| Square {
-            element,
-            shape,
-            nodes,
-            corners,
-        };
-        if shape.n_corners() == 4 {
-            return vec![square([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])];
-        }
-        let corner = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-        let middle =
-            |a: usize, b: usize| [0, 1].map(|d| 0.5 * (corner[a % 3][d] + corner[b % 3][d]));
-        let third = |a: usize| {
-            let centroid = [1.0 / 3.0; 2];
-            square([corner[a], middle(a, a + 1), centroid, middle(a, a + 2)])
-        };
-        (0..3).map(third).collect()
-    }
-
-    /// The coordinates of a point.
-    fn point(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let weights = [
-            0.25 * (1.0 - x) * (1.0 - y),
-            0.25 * (1.0 + x) * (1.0 - y),
-            0.25 * (1.0 + x) * (1.0 + y),
-            0.25 * (1.0 - x) * (1.0 + y),
-        ];
-        let mean = |d: usize| -> f64 {
-            let terms = weights.iter().zip(&self.corners);
-            terms.map(|(w, corner)| w * corner[d]).sum()
-        };
-        let n = self.shape.functions([mean(0), mean(1), 0.0]).values;
-        let mut point = [0.0; 2];
-        for (n, node) in n.iter().zip(&self.nodes) {
-            point[0] += n * node[0];
-            point[1] += n * node[1];
-        }
-        point
-    }
-}
-
-impl Recovery {
+impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<D, S, P, N> {
     /// Recovery over the given elements (ascending).
-    pub fn new(model: &Model, elements: &[usize], places: &Places) -> Self {
+    fn new(kernel: Kernel<D, S, P, N>, model: &Model, elements: &[usize], places: &Places) -> Self {
         let (mut positions, mut sampling) = (Vec::new(), Vec::with_capacity(elements.len()));
         for &e in elements {
             let nodes = model.element_coordinates(e);
-            let own = Kernel::plane(model.kind).sampling(model.mesh.shapes[e], &nodes);
-            let [x, y] = own.positions(&nodes);
-            positions.extend((0..own.n_points()).map(|g| [x[g], y[g]]));
+            let own = kernel.sampling(model.mesh.shapes[e], &nodes);
+            let at = own.positions(&nodes);
+            positions.extend((0..own.n_points()).map(|g| at.each_ref().map(|lanes| lanes[g])));
             sampling.push(own);
         }
         let packed = GatheredElements::new(model, elements, places);
@@ -166,7 +158,7 @@ impl Recovery {
                 neighbours.entry(node).or_default().push(i as u32);
             }
         }
-        let mut out = Recovery {
+        let mut out = RecoveryOf {
             elements: packed,
             sampling,
             first,
@@ -187,14 +179,8 @@ impl Recovery {
         out
     }
 
-    /// Elastic stresses at the sampling points in the current state.
-    pub fn sample_here(&mut self, solver: &mut Solver) -> Samples {
-        solver.refresh();
-        self.sample(&solver.now.u, &solver.at.factors)
-    }
-
     /// Elastic stresses at the sampling points for displacements `u` and load factors.
-    pub fn sample(&mut self, u: &Trailing, factors: &[f64]) -> Samples {
+    fn sample(&mut self, u: &Trailing, factors: &[f64]) -> Samples {
         self.nodal.set_factors(factors);
         let nodal = self.nodal.displacements(u);
         let moved = self.fitted.displacements(nodal);
@@ -204,15 +190,15 @@ impl Recovery {
             .into_par_iter()
             .with_min_len(GRAIN)
             .map(|i| match fitted.strain(i, &moved) {
-                Some(strain) => strain.map(|e| [e; MAX_POINTS]),
+                Some(strain) => strain.map(|e| [e; P]),
                 None => sampling[i].strains(&elements.displacements(i, nodal)),
             })
             .collect();
-        let mut out = Vec::with_capacity(self.positions.len());
+        let mut out = Vec::with_capacity(S * self.positions.len());
         for (i, strains) in strains.iter().enumerate() {
             let law = &self.materials[elements.list[i].body as usize].1;
             let points = 0..sampling[i].n_points();
-            out.extend(points.map(|g| law.times(&strains.each_ref().map(|lanes| lanes[g]))));
+            out.extend(points.flat_map(|g| law.times(&strains.each_ref().map(|lanes| lanes[g]))));
         }
         out
     }
@@ -221,7 +207,8 @@ impl Recovery {
     /// stress, and so no place of the largest. Where the largest sample is far below yield it is
     /// returned as it is, with its own place: neither needs to be more exact. Of equal maxima the
     /// first is named, in the order of the elements.
-    pub fn peak(&mut self, model: &Model, samples: &Samples) -> Option<Peak> {
+    fn peak(&mut self, model: &Model, samples: &Samples) -> Option<Peak> {
+        let (samples, _) = samples.as_chunks::<S>();
         let raw: Vec<f64> = (0..self.elements.list.len())
             .map(|i| {
                 let y = self.materials[self.elements.list[i].body as usize]
@@ -254,7 +241,7 @@ impl Recovery {
     }
 
     /// The first sample that is as large as the largest.
-    fn largest_sample(&self, samples: &Samples, by_element: &[f64], ratio: f64) -> Option<Peak> {
+    fn largest_sample(&self, samples: &[[f64; S]], by_element: &[f64], ratio: f64) -> Option<Peak> {
         let least = ratio * (1.0 - TIE);
         let i = by_element.iter().position(|r| *r >= least)?;
         let body = self.elements.list[i].body as usize;
@@ -263,7 +250,7 @@ impl Recovery {
             .find(|&place| von_mises(&samples[place]) / yield_stress >= least)?;
         Some(Peak {
             ratio,
-            location: self.positions[place],
+            location: in_space(self.positions[place]),
             body,
         })
     }
@@ -286,24 +273,24 @@ impl Recovery {
 
     /// The maximum over some elements. The recovered field is smooth in an element but not across:
     /// following the best element of the first search alone would let round-off choose it.
-    fn climb(&mut self, model: &Model, elements: &[u32], samples: &Samples) -> Option<Peak> {
+    fn climb(&mut self, model: &Model, elements: &[u32], samples: &[[f64; S]]) -> Option<Peak> {
         let keep = elements.len() <= FEW;
-        let mut tops: Vec<(Square, Summit)> = Vec::with_capacity(elements.len());
+        let mut tops: Vec<(Cell<D, N>, Summit<D>)> = Vec::with_capacity(elements.len());
         for &i in elements {
             self.cache_patch(model, i);
             let element = self.elements.list[i as usize].element as usize;
             let nodes = model.element_coordinates(element);
-            let squares = Square::of(i, model.mesh.shapes[element], nodes).into_iter();
-            tops.extend(squares.map(|square| (square, Summit::unknown())));
+            let cells = Cell::of(i, model.mesh.shapes[element], nodes).into_iter();
+            tops.extend(cells.map(|cell| (cell, Summit::unknown())));
         }
-        let highest = |tops: &[(Square, Summit)]| {
+        let highest = |tops: &[(Cell<D, N>, Summit<D>)]| {
             tops.iter().fold(f64::NEG_INFINITY, |m, t| m.max(t.1.value))
         };
         for spacing in SPACINGS {
-            for (square, top) in &mut tops {
+            for (cell, top) in &mut tops {
                 top.look_around(spacing, &mut |at, again| {
-                    let point = square.point(at);
-                    self.value_at(square.element, point, samples, keep && again)
+                    let point = cell.point(at);
+                    self.value_at(cell.element, point, samples, keep && again)
                 });
             }
             if left_after(spacing) <= self.gamma {
@@ -315,16 +302,16 @@ impl Recovery {
         // Like bodies yield together: the first of equals is named (elements are in ascending
         // order), not that of the larger round-off.
         let ratio = highest(&tops);
-        let (square, top) = tops.iter().find(|t| t.1.value >= ratio * (1.0 - TIE))?;
+        let (cell, top) = tops.iter().find(|t| t.1.value >= ratio * (1.0 - TIE))?;
         Some(Peak {
             ratio,
-            location: square.point(top.at),
-            body: self.elements.list[square.element as usize].body as usize,
+            location: in_space(cell.point(top.at)),
+            body: self.elements.list[cell.element as usize].body as usize,
         })
     }
 
     /// Recovered von Mises stress over yield stress at a point of an element with a patch.
-    fn value_at(&mut self, i: u32, point: [f64; 2], samples: &Samples, keep: bool) -> f64 {
+    fn value_at(&mut self, i: u32, point: [f64; D], samples: &[[f64; S]], keep: bool) -> f64 {
         let body = self.elements.list[i as usize].body as usize;
         let yield_stress = self.materials[body].0.yield_stress();
         let patch = self.patches.get_mut(&i);
@@ -341,7 +328,7 @@ impl Recovery {
     }
 
     /// The samples of the element's body in the layers of elements around it.
-    fn patch(&self, model: &Model, i: usize) -> Patch {
+    fn patch(&self, model: &Model, i: usize) -> Patch<D> {
         let mut members = std::collections::BTreeSet::from([i as u32]);
         for _ in 0..LAYERS {
             let around: Vec<u32> = members
@@ -351,17 +338,17 @@ impl Recovery {
             members.extend(around);
         }
         let nodes = model.mesh.nodes(self.elements.list[i].element as usize);
-        let mut low = [f64::INFINITY; 2];
-        let mut high = [f64::NEG_INFINITY; 2];
+        let mut low = [f64::INFINITY; D];
+        let mut high = [f64::NEG_INFINITY; D];
         for &node in nodes {
-            let x = model.mesh.in_plane(node as usize);
-            for d in 0..2 {
+            let x = model.mesh.point(node as usize);
+            for d in 0..D {
                 low[d] = low[d].min(x[d]);
                 high[d] = high[d].max(x[d]);
             }
         }
-        let center = [0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])];
-        let scale = [high[0] - low[0], high[1] - low[1]];
+        let center: [f64; D] = std::array::from_fn(|d| 0.5 * (low[d] + high[d]));
+        let scale: [f64; D] = std::array::from_fn(|d| high[d] - low[d]);
         let elements: Vec<usize> = members
             .iter()
             .map(|&m| self.elements.list[m as usize].element as usize)
@@ -372,34 +359,49 @@ impl Recovery {
             .collect();
         let mut mirrors = mirrors(model, &self.loaded, &elements);
         // A plane with the body on both sides is none of its boundary.
-        mirrors.retain(|m| own.iter().all(|&i| m.beyond(self.positions[i]) < 0.0));
-        let reach = reach(self.sampling[i].n_points());
-        let mut samples: Vec<Sample> = Vec::new();
-        let mut add = |index: usize, at: [f64; 2], reflection: Option<Reflection>| {
-            let position: [f64; 2] = std::array::from_fn(|d| (at[d] - center[d]) / scale[d]);
-            // Images are kept as far as a weight reaches from a point of the element.
-            if reflection.is_none() || position[0].hypot(position[1]) < reach + 1.0 {
-                samples.push(Sample {
-                    index: index as u32,
-                    position,
-                    reflection,
-                });
-            }
-        };
+        mirrors.retain(|m| {
+            own.iter()
+                .all(|&i| m.beyond(in_space(self.positions[i])) < 0.0)
+        });
+        let reach = reach(D, self.sampling[i].n_points());
+        let mut samples: Vec<Sample<D>> = Vec::new();
         for &i in &own {
-            let at = self.positions[i];
-            add(i, at, None);
-            for mirror in &mirrors {
-                add(i, mirror.image(at), Some(mirror.reflection()));
+            // The point, its images, and the images of images in planes at right angles.
+            let mut images = vec![(in_space(self.positions[i]), None, 0)];
+            for (number, mirror) in mirrors.iter().enumerate() {
+                let once = mirror.reflection();
+                for k in 0..images.len() {
+                    let (at, before, used): (Vector, Option<Reflection>, usize) = images[k];
+                    let others = mirrors.iter().enumerate().take(number);
+                    let meets_others = |(j, other): (usize, &Mirror)| {
+                        used & (1 << j) != 0 && !other.is_normal_to(mirror)
+                    };
+                    if !others.into_iter().any(meets_others) {
+                        let reflection = before.map_or(once, |before| once.after(&before));
+                        images.push((mirror.image(at), Some(reflection), used | (1 << number)));
+                    }
+                }
             }
-            if let [a, b] = mirrors[..]
-                && a.is_normal_to(&b)
-            {
-                add(i, a.image(b.image(at)), None);
+            for (at, reflection, _) in images {
+                let position: [f64; D] = std::array::from_fn(|d| (at[d] - center[d]) / scale[d]);
+                // Images are kept as far as a weight reaches from a point of the element.
+                let far = position.iter().map(|x| x * x).sum::<f64>().sqrt();
+                if reflection.is_none() || far < reach + 1.0 {
+                    samples.push(Sample {
+                        index: i as u32,
+                        position,
+                        reflection,
+                    });
+                }
             }
         }
         Patch::new(center, scale, reach, samples)
     }
+}
+
+/// A point in space; z = 0 in the plane.
+fn in_space<const D: usize>(x: [f64; D]) -> Vector {
+    std::array::from_fn(|d| x.get(d).copied().unwrap_or(0.0))
 }
 
 #[cfg(test)]
@@ -411,29 +413,10 @@ mod tests {
     use crate::progress::Silent;
     use crate::scene::Scene;
 
-    /// The search covers a triangle, whichever of its corners comes first: the highest point of
-    /// this function lies on the side between the last two of one numbering, and the corners are
-    /// higher than what lies between.
-    #[test]
-    fn a_triangle_is_searched_whole() {
-        let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
-        let f = |[x, y]: [f64; 2]| 1.0 + 0.02 * (y - 1.0) + 0.04 * x - 0.05 * x * x;
-        // On x + y = 1: 1 + 0.02 x - 0.05 x^2, highest at x = 0.2.
-        for first in 0..3 {
-            let mut nodes = [[0.0; 2]; MAX_NODES];
-            for (i, node) in nodes.iter_mut().take(3).enumerate() {
-                *node = corners[(first + i) % 3];
-            }
-            let highest = Square::of(0, Shape::Tri3, nodes).into_iter().map(|square| {
-                let mut top = Summit::unknown();
-                for spacing in SPACINGS {
-                    top.look_around(spacing, &mut |at, _| f(square.point(at)));
-                }
-                (top.value, square.point(top.at))
-            });
-            let (value, at) = highest.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
-            assert!((value - 1.002).abs() < 1e-9, "{first}: {value}");
-            assert!((at[0] - 0.2).abs() < 1e-4 && (at[0] + at[1] - 1.0).abs() < 1e-12);
+    fn plane(recovery: Option<&mut Recovery>) -> &mut RecoveryOf<2, 4, 4, 8> {
+        match recovery {
+            Some(Recovery::Plane(recovery)) => recovery,
+            _ => panic!("no recovery in the plane"),
         }
     }
 
@@ -445,23 +428,23 @@ mod tests {
         let analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::Dense).unwrap();
         let (model, mut observer) = (analysis.model(), Silent);
         let mut run = Run::new(&analysis, &mut observer).unwrap();
-        let recovery = run.zone.recovery(&run.solver).unwrap();
+        let recovery = plane(run.zone.recovery(&run.solver));
         let n = recovery.positions.len();
         let yield_stress = recovery.materials[0].0.yield_stress();
         let pulled = |shares: &dyn Fn(usize) -> f64| -> Samples {
             let stress = |i| [shares(i) * yield_stress, 0.0, 0.0, 0.0];
-            (0..n).map(stress).collect()
+            (0..n).flat_map(stress).collect()
         };
         assert!(n > 100);
         assert_eq!(recovery.peak(model, &pulled(&|_| 0.0)), None);
         let equal = pulled(&|i| 0.5 + 1e-14 * i as f64);
         let peak = recovery.peak(model, &equal).unwrap();
-        assert_eq!(peak.location, recovery.positions[0]);
+        assert_eq!(peak.location, in_space(recovery.positions[0]));
         assert!((peak.ratio - 0.5).abs() < 1e-9);
         for largest in [1, 2, n / 2 + 1, n - 1] {
             let samples = pulled(&|i| if i == largest { 0.6 } else { 0.5 });
             let peak = recovery.peak(model, &samples).unwrap();
-            assert_eq!(peak.location, recovery.positions[largest]);
+            assert_eq!(peak.location, in_space(recovery.positions[largest]));
             assert!((peak.ratio - 0.6).abs() < 1e-12);
         }
     }
@@ -477,13 +460,16 @@ mod tests {
             let analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::Dense).unwrap();
             let (model, mut observer) = (analysis.model(), Silent);
             let mut run = Run::new(&analysis, &mut observer).unwrap();
-            let recovery = run.zone.recovery(&run.solver).unwrap();
+            let recovery = plane(run.zone.recovery(&run.solver));
             let yield_stress = recovery.materials[0].0.yield_stress();
             let hill = |[x, y]: [f64; 2]| {
                 let (x, y) = ((x - 93.0) / 60.0, (y - 87.0) / 70.0);
                 yield_stress * (-x * x - y * y - 0.3 * x * y).exp()
             };
-            let samples = recovery.positions.iter().map(|x| [hill(*x), 0.0, 0.0, 0.0]);
+            let samples = recovery
+                .positions
+                .iter()
+                .flat_map(|x| [hill(*x), 0.0, 0.0, 0.0]);
             let samples = samples.collect();
             let ratio = recovery.peak(model, &samples).unwrap().ratio;
             let kept: usize = recovery.patches.values().map(Patch::n_kept).sum();

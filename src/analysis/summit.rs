@@ -1,6 +1,6 @@
-//! The highest point of a smooth function on a square, from few values.
+//! The highest point of a smooth function on a square or cube, from few values.
 //!
-//! Nine values on a stencil of points `spacing` apart lead, by least squares, to a quadratic whose
+//! Three values along each axis, on a stencil of points `spacing` apart, lead, by least squares, to a quadratic whose
 //! highest point on the stencil is tried, too. The place then is right to the square of the
 //! spacing, so that the next spacing may be the square of this one; the value is right to the
 //! square of the place's error. Stencils lie on a lattice: where a function that differs little is
@@ -13,48 +13,46 @@ const MOST_MOVES: usize = 50;
 /// A place this near to the edge of its stencil, in spacings, is on it.
 const ON_EDGE: f64 = 1e-9;
 
-/// The highest point that was found on `[-1, 1]^2`.
+/// The highest point that was found on `[-1, 1]^D`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Summit {
+pub struct Summit<const D: usize> {
     /// The function's value there.
     pub value: f64,
     /// Where it is.
-    pub at: [f64; 2],
+    pub at: [f64; D],
 }
 
-impl Summit {
+impl<const D: usize> Summit<D> {
     /// The middle of the square, not looked at yet.
     pub fn unknown() -> Self {
         Summit {
             value: f64::NEG_INFINITY,
-            at: [0.0; 2],
+            at: [0.0; D],
         }
     }
 
     /// Looks round the point for a higher one, and goes on from stencil to stencil while that leads
     /// uphill. `f` is told, too, whether a point lies on the lattice.
-    pub fn look_around(&mut self, spacing: f64, f: &mut impl FnMut([f64; 2], bool) -> f64) {
+    pub fn look_around(&mut self, spacing: f64, f: &mut impl FnMut([f64; D], bool) -> f64) {
         for _ in 0..MOST_MOVES {
             let from = *self;
             let center = from.at.map(|x| {
                 let nearest = (x / spacing).round() * spacing;
                 nearest.clamp(spacing - 1.0, 1.0 - spacing)
             });
-            let place = |x: [f64; 2]| [0, 1].map(|d| center[d] + spacing * x[d]);
-            let mut values = [[0.0; 3]; 3];
-            for (a, row) in values.iter_mut().enumerate() {
-                for (b, value) in row.iter_mut().enumerate() {
-                    let at = place([a as f64 - 1.0, b as f64 - 1.0]);
-                    *value = f(at, true);
-                    self.rise(*value, at);
-                }
+            let place = |x: [f64; D]| std::array::from_fn(|d| center[d] + spacing * x[d]);
+            let mut values = [0.0; MOST_VALUES];
+            for (k, value) in values.iter_mut().enumerate().take(3usize.pow(D as u32)) {
+                let at = place(on_stencil(k));
+                *value = f(at, true);
+                self.rise(*value, at);
             }
             let highest = Quadratic::of(&values).highest();
             if highest.iter().any(|x| x.fract() != 0.0) {
                 let at = place(highest);
                 self.rise(f(at, false), at);
             }
-            let leads_on = (0..2).any(|d| {
+            let leads_on = (0..D).any(|d| {
                 let beside = (self.at[d] - center[d]).abs() / spacing;
                 beside > 1.0 - ON_EDGE && self.at[d].abs() < 1.0
             });
@@ -64,69 +62,101 @@ impl Summit {
         }
     }
 
-    fn rise(&mut self, value: f64, at: [f64; 2]) {
+    fn rise(&mut self, value: f64, at: [f64; D]) {
         if value > self.value {
             *self = Summit { value, at };
         }
     }
 }
 
-/// `q(x, y) = gx x + gy y + (hxx x^2 + hyy y^2) / 2 + hxy x y` on a stencil, up to a constant.
-struct Quadratic {
-    gradient: [f64; 2],
-    /// `hxx, hyy, hxy`.
-    hessian: [f64; 3],
+/// Most values of a stencil.
+const MOST_VALUES: usize = 27;
+
+/// Point `k` of the stencil `{-1, 0, 1}^D`, the last coordinate running fastest.
+fn on_stencil<const D: usize>(k: usize) -> [f64; D] {
+    std::array::from_fn(|d| (k / 3usize.pow((D - 1 - d) as u32) % 3) as f64 - 1.0)
 }
 
-impl Quadratic {
-    /// The least-squares fit to the values at `{-1, 0, 1}^2`, whose normal equations are diagonal
+/// `q(x) = g . x + x . H x / 2` on a stencil, up to a constant.
+struct Quadratic<const D: usize> {
+    gradient: [f64; D],
+    hessian: [[f64; D]; D],
+}
+
+impl<const D: usize> Quadratic<D> {
+    /// The least-squares fit to the values at `{-1, 0, 1}^D`, whose normal equations are diagonal
     /// up to the constant.
-    fn of(values: &[[f64; 3]; 3]) -> Self {
-        let sum = |weight: &dyn Fn(f64, f64) -> f64| -> f64 {
-            let rows = values.iter().zip([-1.0, 0.0, 1.0]);
-            rows.map(|(row, x)| {
-                let terms = row.iter().zip([-1.0, 0.0, 1.0]);
-                terms.map(|(value, y)| weight(x, y) * value).sum::<f64>()
-            })
-            .sum()
+    fn of(values: &[f64; MOST_VALUES]) -> Self {
+        let n = 3usize.pow(D as u32);
+        let sum = |weight: &dyn Fn([f64; D]) -> f64| -> f64 {
+            let points = values.iter().enumerate().take(n);
+            points.map(|(k, value)| weight(on_stencil(k)) * value).sum()
         };
+        // Sums of the squares of x, of x^2 - 2/3 (twice), of x y over the stencil.
+        let (first, square, mixed) = (n / 3 * 2, n / 9, n / 9 * 4);
         Quadratic {
-            gradient: [sum(&|x, _| x) / 6.0, sum(&|_, y| y) / 6.0],
-            hessian: [
-                sum(&|x, _| x * x - 2.0 / 3.0),
-                sum(&|_, y| y * y - 2.0 / 3.0),
-                sum(&|x, y| x * y) / 4.0,
-            ],
+            gradient: std::array::from_fn(|d| sum(&|x| x[d]) / first as f64),
+            hessian: std::array::from_fn(|a| {
+                std::array::from_fn(|b| match a == b {
+                    true => sum(&|x| x[a] * x[a] - 2.0 / 3.0) / square as f64,
+                    false => sum(&|x| x[a] * x[b]) / mixed as f64,
+                })
+            }),
         }
     }
 
-    fn value(&self, [x, y]: [f64; 2]) -> f64 {
-        let ([gx, gy], [hxx, hyy, hxy]) = (self.gradient, self.hessian);
-        gx * x + gy * y + 0.5 * (hxx * x * x + hyy * y * y) + hxy * x * y
+    fn value(&self, x: [f64; D]) -> f64 {
+        let linear: f64 = (0..D).map(|a| self.gradient[a] * x[a]).sum();
+        let square = |a: usize| -> f64 { (0..D).map(|b| self.hessian[a][b] * x[a] * x[b]).sum() };
+        linear + 0.5 * (0..D).map(square).sum::<f64>()
     }
 
-    /// Its highest point on `[-1, 1]^2`: inside, on a side or at a corner.
-    fn highest(&self) -> [f64; 2] {
-        let ([gx, gy], [hxx, hyy, hxy]) = (self.gradient, self.hessian);
-        let mut best = [0.0; 2];
-        let mut try_out = |x: [f64; 2]| {
+    /// Its highest point on `[-1, 1]^D`: inside, on a side or at a corner.
+    fn highest(&self) -> [f64; D] {
+        let mut best = [0.0; D];
+        for sides in 0..3usize.pow(D as u32) {
+            // Of each coordinate -1, free, or 1.
+            let side: [f64; D] = on_stencil(sides);
+            let x = self.stationary(side);
             let inside = x.iter().all(|x| x.abs() <= 1.0);
             if inside && self.value(x) > self.value(best) {
                 best = x;
             }
-        };
-        let determinant = hxx * hyy - hxy * hxy;
-        try_out([
-            (hxy * gy - hyy * gx) / determinant,
-            (hxy * gx - hxx * gy) / determinant,
-        ]);
-        for side in [-1.0, 1.0] {
-            try_out([side, -(gy + hxy * side) / hyy]);
-            try_out([-(gx + hxy * side) / hxx, side]);
-            try_out([side, -1.0]);
-            try_out([side, 1.0]);
         }
         best
+    }
+
+    /// Where the gradient along the coordinates with `side` 0 vanishes, the others being at their
+    /// sides.
+    fn stationary(&self, side: [f64; D]) -> [f64; D] {
+        let mut matrix = self.hessian;
+        let mut x: [f64; D] = self.gradient.map(|g| -g);
+        for a in 0..D {
+            if side[a] != 0.0 {
+                matrix[a] = [0.0; D];
+                matrix[a][a] = 1.0;
+                x[a] = side[a];
+            }
+        }
+        // Gauss elimination; what has no solution is no number, and not inside.
+        for a in 0..D {
+            let pivot = (a..D).max_by(|&i, &j| matrix[i][a].abs().total_cmp(&matrix[j][a].abs()));
+            let pivot = pivot.unwrap_or(a);
+            matrix.swap(a, pivot);
+            x.swap(a, pivot);
+            for i in a + 1..D {
+                let share = matrix[i][a] / matrix[a][a];
+                for j in a..D {
+                    matrix[i][j] -= share * matrix[a][j];
+                }
+                x[i] -= share * x[a];
+            }
+        }
+        for a in (0..D).rev() {
+            let known: f64 = (a + 1..D).map(|b| matrix[a][b] * x[b]).sum();
+            x[a] = (x[a] - known) / matrix[a][a];
+        }
+        x
     }
 }
 
@@ -134,7 +164,7 @@ impl Quadratic {
 mod tests {
     use super::*;
 
-    fn found(f: impl Fn([f64; 2]) -> f64) -> (Summit, usize) {
+    fn found<const D: usize>(f: impl Fn([f64; D]) -> f64) -> (Summit<D>, usize) {
         let mut summit = Summit::unknown();
         let mut asked = 0;
         for spacing in SPACINGS {
@@ -183,9 +213,9 @@ mod tests {
 
     #[test]
     fn what_is_flat_or_no_number_ends_the_search() {
-        let (summit, asked) = found(|_| 2.0);
+        let (summit, asked) = found(|_: [f64; 2]| 2.0);
         assert_eq!((summit.value, asked), (2.0, 36));
-        assert_eq!(found(|_| f64::NAN).0, Summit::unknown());
+        assert_eq!(found(|_: [f64; 2]| f64::NAN).0, Summit::unknown());
     }
 
     /// The quadratic of least squares goes through values that are quadratic.
@@ -193,9 +223,12 @@ mod tests {
     fn a_quadratic_is_its_own_fit() {
         let given = Quadratic {
             gradient: [0.3, -0.7],
-            hessian: [-2.0, -1.0, 0.4],
+            hessian: [[-2.0, 0.4], [0.4, -1.0]],
         };
-        let values = [-1.0, 0.0, 1.0].map(|x| [-1.0, 0.0, 1.0].map(|y| 5.0 + given.value([x, y])));
+        let mut values = [0.0; MOST_VALUES];
+        for (k, value) in values.iter_mut().enumerate().take(9) {
+            *value = 5.0 + given.value(on_stencil(k));
+        }
         let fit = Quadratic::of(&values);
         for x in [[0.2, 0.9], [-1.0, 0.5]] {
             assert!((fit.value(x) - given.value(x)).abs() < 1e-14);
@@ -203,5 +236,32 @@ mod tests {
         let at = fit.highest();
         let slope = 0.3 - 2.0 * at[0] + 0.4 * at[1];
         assert!(slope.abs() < 1e-14 && at[1] < 0.0, "{at:?}");
+    }
+    /// In space too: inside, on a face, on an edge, at a corner.
+    #[test]
+    fn finds_the_highest_point_of_a_cube() {
+        let near = SPACINGS[3] * SPACINGS[3];
+        for at in [
+            [0.3, -0.2, 0.61],
+            [0.123, 1.4, -0.3],
+            [-1.7, 0.4, 2.0],
+            [1.3, 1.2, -1.1],
+        ] {
+            let f = |x: [f64; 3]| {
+                let [a, b, c] = [0, 1, 2].map(|d| x[d] - at[d]);
+                1.0 - 0.1 * (a * a + 0.4 * a * b + b * b + 0.7 * c * c) + 0.01 * a.powi(3)
+            };
+            let (summit, asked) = found(f);
+            assert!(asked <= 4 * 28 + 28, "{asked}");
+            // No point of a fine grid is higher.
+            let steps = |n: i32| (-n..=n).map(move |i| f64::from(i) / f64::from(n));
+            let grid = steps(40)
+                .flat_map(|x| steps(40).flat_map(move |y| steps(40).map(move |z| [x, y, z])));
+            let highest = grid.map(f).fold(f64::NEG_INFINITY, f64::max);
+            assert!(
+                summit.value >= highest - near * near,
+                "{summit:?} {highest}"
+            );
+        }
     }
 }

@@ -33,9 +33,7 @@ pub fn yield_share(
     let mut mixed: Samples = from.clone();
     let mut at = |s: f64| {
         for (m, (a, b)) in mixed.iter_mut().zip(from.iter().zip(to)) {
-            for c in 0..4 {
-                m[c] = a[c] + s * (b[c] - a[c]);
-            }
+            *m = a + s * (b - a);
         }
         recovery.peak(solver.structure.model, &mixed)
     };

@@ -2,7 +2,6 @@
 
 use crate::element::packed;
 use crate::model::Model;
-use crate::space::along;
 
 /// Turns an element's stiffness (packed lower triangle in global axes) into the local axes of its
 /// nodes: `K <- R' K R`, the columns of `R` the axes.
@@ -33,12 +32,16 @@ pub(super) fn turn_stiffness(model: &Model, element: usize, stiffness: &mut [f64
         }
         for a in 0..per {
             for b in 0..=a {
-                let mut times = [0.0; 3];
-                for (row, share) in block.iter().zip(axes[a]) {
-                    times = along(times, share, *row);
-                }
-                let terms = times.iter().zip(axes[b]);
-                stiffness[packed(own.start + a, own.start + b)] = terms.map(|(t, b)| t * b).sum();
+                let along = |row: &[f64; 3]| -> f64 {
+                    row.iter()
+                        .zip(axes[a])
+                        .take(per)
+                        .map(|(k, axis)| k * axis)
+                        .sum()
+                };
+                let terms = block.iter().zip(axes[b]).take(per);
+                stiffness[packed(own.start + a, own.start + b)] =
+                    terms.map(|(row, axis)| axis * along(row)).sum();
             }
         }
     }

@@ -80,6 +80,8 @@ pub struct brinell_yield {
     pub y: f64,
     /// In which body.
     pub body: u64,
+    /// Where: z, of a solid.
+    pub z: f64,
 }
 
 // SAFETY: repr(C), begins with its size, numbers only.
@@ -263,6 +265,7 @@ pub unsafe extern "C" fn brinell_results_yield(
                     half_width: point.half_width,
                     x: point.location[0],
                     y: point.location[1],
+                    z: point.location[2],
                     body: point.body as u64,
                 },
             )

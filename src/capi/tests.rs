@@ -247,7 +247,7 @@ fn a_model_from_arrays_gives_the_bits_of_the_scene() {
         point.size = size_of::<brinell_yield>();
         assert_eq!(brinell_results_yield(expected, &mut point), BRINELL_OK);
         let own = (*expected).results.first_yield.unwrap();
-        assert_eq!([point.x, point.y], own.location);
+        assert_eq!([point.x, point.y, point.z], own.location);
         assert!(point.x != point.y, "a place that tells x from y");
         assert_eq!(
             [
@@ -403,7 +403,7 @@ fn bad_arrays_are_refused_by_index_and_leave_the_model_as_it_was() {
     let mut model = null_mut();
     // SAFETY: texts, arrays and places live through the calls, the handle is freed once.
     unsafe {
-        assert_eq!(brinell_model_new(3, 1, &mut model), BRINELL_INPUT);
+        assert_eq!(brinell_model_new(4, 1, &mut model), BRINELL_INPUT);
         for (kind, symmetry) in [
             (BRINELL_PLANE_STRAIN, 0),
             (BRINELL_PLANE_STRESS, 3),
@@ -454,8 +454,8 @@ fn bad_arrays_are_refused_by_index_and_leave_the_model_as_it_was() {
         refused(elements([0, 1, 2, 3], 9), &["shape 9"]);
         assert_eq!(elements([0, 1, 2, 3], BRINELL_SHAPE_QUAD4), BRINELL_OK);
         refused(
-            brinell_model_support(model, body, 4, 0.0),
-            &["4 are no directions"],
+            brinell_model_support(model, body, 8, 0.0),
+            &["8 are no directions"],
         );
         for kind in [-1, 7] {
             let mut load: brinell_load = std::mem::zeroed();

@@ -89,6 +89,7 @@ const LABEL: usize = 9;
 
 struct Report {
     text: String,
+    is_solid: bool,
 }
 
 impl Report {
@@ -106,6 +107,7 @@ impl Report {
         };
         let mut report = Report {
             text: String::new(),
+            is_solid: scene.kind.is_solid(),
         };
         report.lines(&format!("{} ({kind})", shown_in_line(&title)));
         report.text.push('\n');
@@ -240,6 +242,10 @@ impl Report {
             (Number, "at x", number(first.location[0])),
             (Number, "y", number(first.location[1])),
         ]);
+        columns.extend(
+            self.is_solid
+                .then(|| (Number, "z", number(first.location[2]))),
+        );
         let headings: Vec<_> = columns.iter().map(|c| (c.0, c.1)).collect();
         let mut table = Table::new(&headings);
         table.row(columns.into_iter().map(|c| c.2));
@@ -289,9 +295,19 @@ impl Report {
             "pole\npressure",
             Box::new(|s| number(s.pole_pressure)),
         );
+        let larger = |s: &State| s.patches.first().map_or(0.0, |patch| patch.semi_axes[0]);
+        show(
+            contact && self.is_solid,
+            "larger\nhalf axis",
+            Box::new(move |s| number(larger(s))),
+        );
         show(
             contact && !arc,
-            "half\nwidth",
+            if self.is_solid {
+                "smaller\nhalf axis"
+            } else {
+                "half\nwidth"
+            },
             Box::new(|s| number(s.half_width)),
         );
         show(

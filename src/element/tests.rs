@@ -4,7 +4,19 @@ use crate::shape::Rule;
 
 mod solid;
 
+/// Most nodes of a plane element.
+const MAX_NODES: usize = 8;
 const MAX_FREEDOMS: usize = 2 * MAX_NODES;
+type PlaneGradients = Gradients<2, 4, 4, 8>;
+type PlaneSampling = Sampling<2, 4, 4, 8>;
+
+fn gauss(space: Space, shape: Shape, x: &[[f64; 2]; MAX_NODES]) -> PlaneGradients {
+    Kernel::plane(space).gauss(shape, x)
+}
+
+fn sampling(space: Space, shape: Shape, x: &[[f64; 2]; MAX_NODES]) -> PlaneSampling {
+    Kernel::plane(space).sampling(shape, x)
+}
 
 /// A distorted element away from the axis; mid-side nodes at the middle of straight sides.
 fn coordinates(shape: Shape) -> [[f64; 2]; MAX_NODES] {
@@ -35,10 +47,10 @@ fn strains_at(
     u: &[[f64; 2]; MAX_NODES],
 ) -> Vec<[f64; 4]> {
     let (strains, n) = if sampled {
-        let sampling = PlaneSampling::new(space, shape, x);
+        let sampling = sampling(space, shape, x);
         (sampling.strains(u), sampling.n_points())
     } else {
-        let gradients = PlaneGradients::gauss(space, shape, x);
+        let gradients = gauss(space, shape, x);
         (gradients.strains(u), gradients.n_points())
     };
     (0..n)
@@ -59,7 +71,7 @@ fn steel(space: Space) -> Lame {
 
 #[test]
 fn linear_fields_give_exact_strains() {
-    for shape in Shape::ALL {
+    for shape in Shape::PLANE {
         for space in [Space::PlaneStrain, Space::PlaneStress] {
             let x = coordinates(shape);
             let u = x.map(|p| [0.3 * p[0] - 0.2 * p[1], 0.5 * p[0] + 0.1 * p[1]]);
@@ -175,11 +187,11 @@ fn textbook_elasticity(space: Space) -> [[f64; 4]; 4] {
 
 #[test]
 fn strains_forces_and_stiffness_are_those_of_the_textbooks_b() {
-    for shape in Shape::ALL {
-        for space in Space::ALL {
+    for shape in Shape::PLANE {
+        for space in Space::PLANE {
             let x = coordinates(shape);
             let d = textbook_elasticity(space);
-            let gradients = PlaneGradients::gauss(space, shape, &x);
+            let gradients = gauss(space, shape, &x);
             let reference = textbook(space, shape, &x, shape.reference().gauss);
             let n = 2 * shape.n_nodes();
             let u: [[f64; 2]; MAX_NODES] =
@@ -245,8 +257,7 @@ fn what_is_regular_at_the_axis_is_in_equilibrium_node_by_node() {
                 let corners = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
                 let x = corners.map(|[i, j]| [r[i], z[j]]);
                 let u = padded(&x.map(|[r, z]| [a * r * z, b * r * r + c * z * z]));
-                let gradients =
-                    PlaneGradients::gauss(Space::Axisymmetric, Shape::Quad4, &padded(&x));
+                let gradients = gauss(Space::Axisymmetric, Shape::Quad4, &padded(&x));
                 let strains = gradients.strains(&u);
                 let mut stress = Components::default();
                 for g in 0..4 {
@@ -300,10 +311,10 @@ fn constant_strains_are_exact_and_a_turning_section_has_no_shear() {
 
 #[test]
 fn stiffness_is_free_of_rigid_motion() {
-    for shape in Shape::ALL {
-        for space in Space::ALL {
+    for shape in Shape::PLANE {
+        for space in Space::PLANE {
             let x = coordinates(shape);
-            let gradients = PlaneGradients::gauss(space, shape, &x);
+            let gradients = gauss(space, shape, &x);
             let n = 2 * shape.n_nodes();
             let mut k = vec![0.0; n * (n + 1) / 2];
             gradients.stiffness_into(&steel(space), &mut k);
@@ -336,7 +347,7 @@ fn no_other_motion_of_a_ring_is_free() {
         rings.extend([[1.0, 1.0], [20.0, 1.0], [1.0, 20.0]].map(|size| block(from, size)));
     }
     for x in rings {
-        let gradients = PlaneGradients::gauss(Space::Axisymmetric, Shape::Quad4, &x);
+        let gradients = gauss(Space::Axisymmetric, Shape::Quad4, &x);
         let mut k = vec![0.0; 36];
         gradients.stiffness_into(&steel(Space::Axisymmetric), &mut k);
         let matrix = nalgebra::SMatrix::<f64, 8, 8>::from_fn(|i, j| k[packed(i, j)]);
@@ -354,13 +365,13 @@ fn no_other_motion_of_a_ring_is_free() {
 
 #[test]
 fn weights_sum_to_the_area() {
-    for shape in Shape::ALL {
+    for shape in Shape::PLANE {
         let x = coordinates(shape);
         let n = shape.n_corners();
         let area: f64 = (0..n)
             .map(|i| 0.5 * (x[i][0] * x[(i + 1) % n][1] - x[(i + 1) % n][0] * x[i][1]))
             .sum();
-        let gradients = PlaneGradients::gauss(Space::PlaneStrain, shape, &x);
+        let gradients = gauss(Space::PlaneStrain, shape, &x);
         let sum: f64 = gradients.weights().iter().sum();
         assert!((sum - area).abs() < 1e-14);
     }
@@ -369,29 +380,22 @@ fn weights_sum_to_the_area() {
 #[test]
 fn facets_integrate_length_and_point_outward() {
     const LINE3: &crate::shape::FacetReference = crate::shape::FacetReference::ALL[1];
-    let points = facet_points(
-        Space::PlaneStrain,
-        LINE3,
-        &[[0.0, 0.0], [2.0, 0.0], [1.0, 0.0]],
-    );
+    let nodes = [[0.0; 3], [2.0, 0.0, 0.0], [1.0, 0.0, 0.0]];
+    let points: Vec<FacetPoint> = facet_points(Space::PlaneStrain, LINE3, &nodes).collect();
     assert!((points.iter().map(|p| p.weight).sum::<f64>() - 2.0).abs() < 1e-15);
-    assert_eq!(points[0].normal, [0.0, -1.0]);
+    assert_eq!(points[0].normal, [0.0, -1.0, 0.0]);
     let mid: f64 = points.iter().map(|p| p.weight * p.values[2]).sum();
     assert!((mid - 2.0 * 4.0 / 6.0).abs() < 1e-15);
     // On the axis of revolution the corner of a quadratic facet carries no load.
-    let axis = facet_points(
-        Space::Axisymmetric,
-        LINE3,
-        &[[0.0, 0.0], [2.0, 0.0], [1.0, 0.0]],
-    );
-    let corner: f64 = axis.iter().map(|p| p.weight * p.values[0]).sum();
+    let axis = facet_points(Space::Axisymmetric, LINE3, &nodes);
+    let corner: f64 = axis.map(|p| p.weight * p.values[0]).sum();
     assert!(corner.abs() < 1e-14);
 }
 
 #[test]
 fn sampled_strains_are_those_of_the_textbooks_b_there() {
-    for shape in Shape::ALL {
-        for space in Space::ALL {
+    for shape in Shape::PLANE {
+        for space in Space::PLANE {
             let x = coordinates(shape);
             let u = x.map(|p| [0.3 * p[0] * p[1], 0.2 * p[0] * p[0] - 0.1 * p[1] * p[0]]);
             let rule = shape.reference().sampling;
@@ -404,7 +408,7 @@ fn sampled_strains_are_those_of_the_textbooks_b_there() {
                     assert!((e - expected).abs() < 1e-14, "{shape:?} {space:?}");
                 }
             }
-            let positions = PlaneSampling::new(space, shape, &x).positions(&x);
+            let positions = sampling(space, shape, &x).positions(&x);
             for (g, (place, _)) in rule.iter().enumerate() {
                 let values = shape.functions(*place).values;
                 for d in 0..2 {

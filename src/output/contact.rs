@@ -19,6 +19,9 @@ struct Row<'a> {
     /// Undeformed position on the second surface; axisymmetric: (r, z).
     x: f64,
     y: f64,
+    /// Of a solid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    z: Option<f64>,
     gap: f64,
     force: f64,
     area: f64,
@@ -29,7 +32,7 @@ struct Row<'a> {
 }
 
 impl<'a> Row<'a> {
-    fn new(state: usize, name: &'a str, alpha: f64, pair: &PairState) -> Self {
+    fn new(dimension: usize, state: usize, name: &'a str, alpha: f64, pair: &PairState) -> Self {
         Row {
             state,
             alpha,
@@ -37,6 +40,7 @@ impl<'a> Row<'a> {
             contact: pair.contact + 1,
             x: pair.position[0],
             y: pair.position[1],
+            z: (dimension == 3).then_some(pair.position[2]),
             gap: pair.gap,
             force: pair.force,
             area: pair.area,
@@ -51,7 +55,7 @@ impl<'a> Row<'a> {
 ///
 /// # Errors
 /// Those of `out`.
-pub(super) fn write(out: &mut impl Write, states: &[State]) -> io::Result<()> {
+pub(super) fn write(out: &mut impl Write, dimension: usize, states: &[State]) -> io::Result<()> {
     let nothing = PairState {
         pair: 0,
         contact: 0,
@@ -64,7 +68,7 @@ pub(super) fn write(out: &mut impl Write, states: &[State]) -> io::Result<()> {
     };
     let rows = states.iter().enumerate().flat_map(|(i, state)| {
         let pairs = state.pairs.iter();
-        pairs.map(move |pair| Row::new(i + 1, &state.name, state.alpha, pair))
+        pairs.map(move |pair| Row::new(dimension, i + 1, &state.name, state.alpha, pair))
     });
-    table::write(out, &Row::new(0, "", 0.0, &nothing), rows)
+    table::write(out, &Row::new(dimension, 0, "", 0.0, &nothing), rows)
 }

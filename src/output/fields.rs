@@ -3,8 +3,8 @@
 //!
 //! | array | on | type | components |
 //! |---|---|---|---|
-//! | `displacement` | points | Float64 | x, y, 0 |
-//! | `stress` | cells | Float64 | xx, yy, zz, xy; axisymmetric: rr, zz, tt, rz |
+//! | `displacement` | points | Float64 | x, y, 0; of a solid x, y, z |
+//! | `stress` | cells | Float64 | xx, yy, zz, xy; axisymmetric: rr, zz, tt, rz; of a solid the tensor row by row, 9 |
 //! | `von_mises` | cells | Float64 | 1 |
 //! | `equivalent_plastic_strain` | cells | Float64 | 1 |
 //! | `yielded` | cells | UInt8 | 1 |
@@ -87,10 +87,13 @@ fn grid<'a>(header: &RunHeader, mesh: &'a Mesh, fields: &'a Fields) -> Grid<'a> 
         mesh,
         point_data: vec![DataArray::new(
             "displacement",
-            Values::Planar(&fields.displacement),
+            Values::vectors(mesh, &fields.displacement),
         )],
         cell_data: vec![
-            DataArray::named("stress", stress_names, Values::Float64(&fields.stress)),
+            match mesh.is_solid() {
+                true => DataArray::new("stress", Values::Tensors(&fields.stress)),
+                false => DataArray::named("stress", stress_names, Values::Float64(&fields.stress)),
+            },
             DataArray::new("von_mises", Values::Float64(&fields.von_mises)),
             DataArray::new(
                 "equivalent_plastic_strain",
@@ -106,11 +109,12 @@ fn grid<'a>(header: &RunHeader, mesh: &'a Mesh, fields: &'a Fields) -> Grid<'a> 
 /// Checks that every array has its length: a reader would take a short one for a damaged file.
 pub(super) fn check(mesh: &Mesh, fields: &Fields) -> Result<()> {
     let (nodes, elements) = (mesh.n_nodes(), mesh.n_elements());
+    let dimension = mesh.dimension;
     let lengths = [
-        ("coordinates", mesh.coordinates.len(), 2 * nodes),
+        ("coordinates", mesh.coordinates.len(), dimension * nodes),
         ("element bodies", mesh.element_body.len(), elements),
-        ("displacement", fields.displacement.len(), 2 * nodes),
-        ("stress", fields.stress.len(), 4 * elements),
+        ("displacement", fields.displacement.len(), dimension * nodes),
+        ("stress", fields.stress.len(), 2 * dimension * elements),
         ("von Mises stress", fields.von_mises.len(), elements),
         ("plastic strain", fields.plastic_strain.len(), elements),
         ("yield flag", fields.yielded.len(), elements),

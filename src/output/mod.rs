@@ -69,6 +69,7 @@ use crate::linalg::Backend;
 use crate::mesh::Mesh;
 use crate::model::Model;
 use crate::results::Results;
+use crate::space::Space;
 use atomic::Staging;
 use std::ffi::OsStr;
 use std::io::Write;
@@ -98,7 +99,7 @@ pub struct RunHeader {
     pub scene_title: String,
     /// The file that the scene was read from; `None` where it came from no file.
     pub scene_file: Option<String>,
-    /// `plane_strain`, `plane_stress` or `axisymmetric`, as in the scene.
+    /// `plane_strain`, `plane_stress`, `axisymmetric` or `solid`, as in the scene.
     pub kind: String,
     /// The backend that factored the stiffness: `cholmod`, `faer` or `dense`.
     pub solver: String,
@@ -118,6 +119,15 @@ impl RunHeader {
             solver: backend.name().to_string(),
             wall_seconds,
             bodies: model.mesh.bodies.clone(),
+        }
+    }
+
+    /// Number of coordinates.
+    fn dimension(&self) -> usize {
+        if self.kind == Space::Solid.name() {
+            3
+        } else {
+            2
         }
     }
 
@@ -199,7 +209,9 @@ fn write_tables_and_fields(
     if !path.is_empty() {
         staging.file(PATH_FILE, |out| history::write_path(out, path))?;
     }
-    staging.file(CONTACT_FILE, |out| contact::write(out, &results.states))?;
+    staging.file(CONTACT_FILE, |out| {
+        contact::write(out, header.dimension(), &results.states)
+    })?;
     fields::write(staging, header, mesh, &results.states)?;
     staging.file(SUMMARY_FILE, |out| {
         serde_json::to_writer_pretty(&mut *out, &summary(header, results))?;

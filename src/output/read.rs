@@ -10,9 +10,10 @@ use crate::error::{Error, Result};
 use crate::linalg::Prediction;
 use crate::model::Model;
 use crate::results::{
-    Effect, HistoryRow, PairState, PathPoint, Quality, ReferenceRow, Results, Sizes, State, Status,
-    YieldPoint,
+    ContactPatch, Effect, HistoryRow, PairState, PathPoint, Quality, ReferenceRow, Results, Sizes,
+    State, Status, YieldPoint,
 };
+use crate::space::Vector;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
 use std::path::Path;
@@ -202,7 +203,7 @@ impl Summary<'_> {
                 max_pressure: float(&root["yield"]["max_pressure"]),
                 half_width: float(&root["yield"]["half_width"]),
                 half_width_reading: Default::default(),
-                location: ["x", "y"].map(|key| float(&root["yield"]["location"][key])),
+                location: vector(&root["yield"]["location"]),
                 body: body(header, &root["yield"]["location"]["body"]),
             }),
             states: self.list("states").map(|s| state(header, s)).collect(),
@@ -227,6 +228,25 @@ impl Summary<'_> {
     }
 }
 
+/// A point or direction; z = 0 where there is none.
+fn vector(entry: &Value) -> Vector {
+    let part = |key: &str| entry.get(key).map_or(0.0, float);
+    [part("x"), part("y"), part("z")]
+}
+
+fn patch(entry: &Value) -> ContactPatch {
+    ContactPatch {
+        contact: count(&entry["contact"]).saturating_sub(1),
+        force: float(&entry["force"]),
+        area: float(&entry["area"]),
+        max_pressure: float(&entry["max_pressure"]),
+        mean_pressure: float(&entry["mean_pressure"]),
+        semi_axes: [0, 1].map(|k| float(&entry["semi_axes"][k])),
+        centroid: vector(&entry["centroid"]),
+        direction: vector(&entry["direction"]),
+    }
+}
+
 fn body(header: &RunHeader, name: &Value) -> usize {
     let named = |body: &String| name.as_str() == Some(body);
     header.bodies.iter().position(named).unwrap_or(0)
@@ -240,6 +260,9 @@ fn state(header: &RunHeader, entry: &Value) -> State {
         load: float(&entry["load"]),
         contact_force: float(&entry["contact_force"]),
         max_pressure: float(&entry["max_pressure"]),
+        patches: (entry["patches"].as_array().into_iter().flatten())
+            .map(patch)
+            .collect(),
         pole_pressure: float(&entry["pole_pressure"]),
         half_width: float(&entry["half_width"]),
         contact_arc: arc
@@ -354,7 +377,11 @@ fn pairs(rows: &Rows, model: &Model) -> Result<Vec<(usize, PairState)>> {
             let pair = PairState {
                 pair: pair - 1,
                 contact: contact - 1,
-                position: [number("x")?, number("y")?, 0.0],
+                position: [
+                    number("x")?,
+                    number("y")?,
+                    if model.kind.is_solid() { number("z")? } else { 0.0 },
+                ],
                 gap: number("gap")?,
                 force: number("force")?,
                 area: number("area")?,

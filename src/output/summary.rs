@@ -2,7 +2,8 @@
 
 use super::{RunHeader, fields};
 use crate::linalg::Prediction;
-use crate::results::{Effect, ReferenceRow, Results, State, Status, YieldPoint};
+use crate::results::{ContactPatch, Effect, ReferenceRow, Results, State, Status, YieldPoint};
+use crate::space::Vector;
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
@@ -105,13 +106,18 @@ fn whole(count: f64) -> Value {
 }
 
 fn first_yield(header: &RunHeader, point: &YieldPoint) -> Value {
-    let [x, y] = point.location;
+    let axes = ["x", "y", "z"].into_iter().zip(point.location);
+    let mut location: Map<String, Value> = axes
+        .take(header.dimension())
+        .map(|(axis, x)| (axis.to_string(), x.into()))
+        .collect();
+    location.insert("body".to_string(), header.body(point.body).into());
     json!({
         "alpha": point.alpha,
         "load": point.load,
         "max_pressure": point.max_pressure,
         "half_width": point.half_width,
-        "location": { "x": x, "y": y, "body": header.body(point.body) },
+        "location": location,
     })
 }
 
@@ -120,7 +126,7 @@ fn state(header: &RunHeader, index: usize, n_states: usize, state: &State) -> Va
     let depths = by_body(header, &state.residual_depth_by_body);
     let closed = state.pairs.iter().filter(|p| p.status == Status::Closed);
     let file = state.fields.as_ref();
-    json!({
+    let mut figures = json!({
         "name": state.name,
         "alpha": state.alpha,
         "load": state.load,
@@ -141,6 +147,25 @@ fn state(header: &RunHeader, index: usize, n_states: usize, state: &State) -> Va
         "energy_error": state.energy_error,
         "quality": state.quality,
         "fields": file.map(|_| fields::file_name(index, n_states, &state.name)),
+    });
+    if header.dimension() == 3 {
+        figures["patches"] = state.patches.iter().map(patch).collect();
+    }
+    figures
+}
+
+/// A patch of contact; contacts are counted from 1.
+fn patch(patch: &ContactPatch) -> Value {
+    let vector = |[x, y, z]: Vector| json!({ "x": x, "y": y, "z": z });
+    json!({
+        "contact": patch.contact + 1,
+        "force": patch.force,
+        "area": patch.area,
+        "max_pressure": patch.max_pressure,
+        "mean_pressure": patch.mean_pressure,
+        "semi_axes": patch.semi_axes,
+        "centroid": vector(patch.centroid),
+        "direction": vector(patch.direction),
     })
 }
 

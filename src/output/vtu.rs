@@ -41,7 +41,8 @@ impl<'a> DataArray<'a> {
     /// An array with as many components as its values have by themselves.
     pub(super) fn new(name: &'static str, values: Values<'a>) -> Self {
         let components = match values {
-            Values::Planar(_) => 3,
+            Values::Planar(_) | Values::Spatial(_) => 3,
+            Values::Tensors(_) => 9,
             _ => 1,
         };
         DataArray {
@@ -69,6 +70,10 @@ pub(super) enum Values<'a> {
     Float64(&'a [f64]),
     /// `n x 2`, written as `n x 3` with 0 for the third component.
     Planar(&'a [f64]),
+    /// `n x 3`, as they are.
+    Spatial(&'a [f64]),
+    /// Symmetric, `n x [xx yy zz xy yz zx]`, written as `n x 9`, row by row.
+    Tensors(&'a [f64]),
     /// As they are.
     UInt8(&'a [u8]),
     /// Small numbers (bodies).
@@ -81,10 +86,20 @@ pub(super) enum Values<'a> {
     CellTypes(&'a [Shape]),
 }
 
-impl Values<'_> {
+impl<'a> Values<'a> {
+    /// Vectors of as many components as a mesh has coordinates.
+    pub(super) fn vectors(mesh: &Mesh, values: &'a [f64]) -> Self {
+        match mesh.is_solid() {
+            true => Values::Spatial(values),
+            false => Values::Planar(values),
+        }
+    }
+
     fn type_name(&self) -> &'static str {
         match self {
-            Values::Float64(_) | Values::Planar(_) => "Float64",
+            Values::Float64(_) | Values::Planar(_) | Values::Spatial(_) | Values::Tensors(_) => {
+                "Float64"
+            }
             Values::UInt8(_) | Values::CellTypes(_) => "UInt8",
             Values::Int32(_) => "Int32",
             Values::Int64(_) | Values::Offsets(_) => "Int64",
@@ -94,7 +109,8 @@ impl Values<'_> {
     /// Bytes as written, without the length in front.
     fn n_bytes(&self) -> u64 {
         let n = match self {
-            Values::Float64(values) => 8 * values.len(),
+            Values::Float64(values) | Values::Spatial(values) => 8 * values.len(),
+            Values::Tensors(values) => 72 * (values.len() / 6),
             Values::Planar(values) => 24 * (values.len() / 2),
             Values::UInt8(values) => values.len(),
             Values::Int32(values) => 4 * values.len(),
@@ -109,7 +125,10 @@ impl Values<'_> {
     fn write(&self, out: &mut impl Write) -> io::Result<()> {
         out.write_all(&self.n_bytes().to_le_bytes())?;
         match self {
-            Values::Float64(values) => encode(out, values, |v| v.to_le_bytes()),
+            Values::Float64(values) | Values::Spatial(values) => {
+                encode(out, values, |v| v.to_le_bytes())
+            }
+            Values::Tensors(values) => encode(out, values.as_chunks::<6>().0, tensor),
             Values::Planar(values) => encode(out, values.as_chunks::<2>().0, planar),
             Values::UInt8(values) => out.write_all(values),
             Values::Int32(values) => encode(out, values, |v| v.to_le_bytes()),
@@ -125,6 +144,16 @@ fn planar(v: [f64; 2]) -> [u8; 24] {
     let mut bytes = [0; 24];
     bytes[..8].copy_from_slice(&v[0].to_le_bytes());
     bytes[8..16].copy_from_slice(&v[1].to_le_bytes());
+    bytes
+}
+
+/// The bytes of a symmetric tensor `[xx yy zz xy yz zx]`, row by row.
+fn tensor([xx, yy, zz, xy, yz, zx]: [f64; 6]) -> [u8; 72] {
+    let mut bytes = [0; 72];
+    let rows = [xx, xy, zx, xy, yy, yz, zx, yz, zz];
+    for (place, entry) in bytes.as_chunks_mut::<8>().0.iter_mut().zip(rows) {
+        *place = entry.to_le_bytes();
+    }
     bytes
 }
 
@@ -151,7 +180,10 @@ fn encode<Item: Copy, const BYTES: usize>(
 /// Those of `out`.
 pub(super) fn write(out: &mut impl Write, grid: &Grid<'_>) -> io::Result<()> {
     let mesh = grid.mesh;
-    let points = [DataArray::new("points", Values::Planar(&mesh.coordinates))];
+    let points = [DataArray::new(
+        "points",
+        Values::vectors(mesh, &mesh.coordinates),
+    )];
     let cells = [
         DataArray::new("connectivity", Values::Int64(&mesh.connectivity)),
         DataArray::new(

@@ -31,9 +31,15 @@ pub(super) fn read(path: &Path, mesh: &Mesh) -> Result<Fields> {
             .as_chunks::<3>()
             .0
             .iter()
-            .flat_map(|[x, y, _]| [*x, *y])
+            .flat_map(|vector| &vector[..mesh.dimension])
+            .copied()
             .collect(),
-        stress: numbers("stress")?,
+        stress: match mesh.is_solid() {
+            true => (numbers("stress")?.as_chunks::<9>().0.iter())
+                .flat_map(|s| [s[0], s[4], s[8], s[1], s[5], s[2]])
+                .collect(),
+            false => numbers("stress")?,
+        },
         von_mises: numbers("von_mises")?,
         plastic_strain: numbers("equivalent_plastic_strain")?,
         yielded: file.bytes("yielded").map_err(damaged)?.to_vec(),

@@ -123,6 +123,12 @@ impl Shape {
         Shape::Hex20,
     ];
 
+    /// Those of the plane.
+    pub const PLANE: [Shape; 4] = [Shape::Tri3, Shape::Tri6, Shape::Quad4, Shape::Quad8];
+
+    /// Those of space.
+    pub const SOLID: [Shape; 4] = [Shape::Tet4, Shape::Tet10, Shape::Hex8, Shape::Hex20];
+
     /// The row of the table.
     pub fn reference(self) -> &'static Reference {
         rows::ROWS[self as usize]

@@ -1,11 +1,16 @@
 use super::*;
 
 fn inside(shape: Shape) -> Vec<Place> {
-    let mut places = vec![[0.21, 0.34, 0.0], [0.0, 0.0, 0.0]];
-    if shape.n_corners() == 4 {
-        places.push([0.7, -0.4, 0.0]);
+    let z = if shape.dimension() == 3 { 0.17 } else { 0.0 };
+    let mut places = vec![[0.21, 0.34, z], [0.0, 0.0, 0.0]];
+    if !is_simplex(shape) {
+        places.push([0.7, -0.4, -z]);
     }
     places
+}
+
+fn is_simplex(shape: Shape) -> bool {
+    shape.n_corners() == shape.dimension() + 1
 }
 
 #[test]
@@ -43,35 +48,40 @@ fn gradients_are_derivatives_and_values_sum_to_one() {
 
 #[test]
 fn every_complete_polynomial_is_reproduced() {
+    /// Exponents of x, y, z.
+    const LINEAR: [[i32; 3]; 4] = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]];
+    const QUADRATIC: [[i32; 3]; 6] = [
+        [2, 0, 0],
+        [0, 2, 0],
+        [0, 0, 2],
+        [1, 1, 0],
+        [0, 1, 1],
+        [1, 0, 1],
+    ];
+    let power = |x: f64, n: i32| if n == 0 { 1.0 } else { x.powi(n) };
     for shape in Shape::ALL {
         let nodes = shape.reference().nodes;
-        for at @ [x, y, _] in inside(shape) {
-            let gradients = shape.functions(at).gradients;
-            let slope = |f: &dyn Fn(f64, f64) -> f64| {
-                let mut sum = [0.0; 2];
-                for (gradient, node) in gradients.iter().zip(nodes) {
-                    for d in 0..2 {
-                        sum[d] += gradient[d] * f(node[0], node[1]);
-                    }
-                }
-                sum
-            };
-            let mut cases = vec![
-                (slope(&|_, _| 1.0), [0.0, 0.0]),
-                (slope(&|x, _| x), [1.0, 0.0]),
-                (slope(&|_, y| y), [0.0, 1.0]),
-            ];
-            if shape.is_quadratic() {
-                cases.push((slope(&|x, _| x * x), [2.0 * x, 0.0]));
-                cases.push((slope(&|x, y| x * y), [y, x]));
-                cases.push((slope(&|_, y| y * y), [0.0, 2.0 * y]));
-            }
-            for (computed, exact) in cases {
-                for d in 0..2 {
-                    let error = (computed[d] - exact[d]).abs();
+        let more = QUADRATIC.iter().filter(|_| shape.is_quadratic());
+        let in_space = |n: &&[i32; 3]| shape.dimension() == 3 || n[2] == 0;
+        for n in LINEAR.iter().chain(more).filter(in_space) {
+            let value = |x: &Place| (0..3).map(|d| power(x[d], n[d])).product::<f64>();
+            for at in inside(shape) {
+                let functions = shape.functions(at);
+                for d in 0..shape.dimension() {
+                    let terms = functions.gradients.iter().zip(nodes);
+                    let computed: f64 = terms.map(|(g, x)| g[d] * value(x)).sum();
+                    let mut lower = *n;
+                    lower[d] -= 1;
+                    let exact = match lower[d] {
+                        -1 => 0.0,
+                        _ => {
+                            let rest = (0..3).map(|e| power(at[e], lower[e])).product::<f64>();
+                            f64::from(n[d]) * rest
+                        }
+                    };
                     assert!(
-                        error < 32.0 * f64::EPSILON,
-                        "{shape:?} {computed:?} {exact:?}"
+                        (computed - exact).abs() < 64.0 * f64::EPSILON,
+                        "{shape:?} {n:?}: {computed} {exact}"
                     );
                 }
             }
@@ -79,7 +89,7 @@ fn every_complete_polynomial_is_reproduced() {
     }
 }
 
-/// The functions of a facet are those of the element on it, at `s` between its ends.
+/// The functions of a facet are those of the element on it.
 #[test]
 fn facets_have_the_functions_of_their_element() {
     for shape in Shape::ALL {
@@ -92,24 +102,27 @@ fn facets_have_the_functions_of_their_element() {
         assert_eq!(facets.len(), shape.n_facets());
         for local in *facets {
             assert_eq!(local.len(), facet.nodes.len());
-            for s in [-0.3, 0.8] {
-                let (values, slopes) = (facet.functions)(s);
+            for place in [[0.3, 0.25, 0.0], [0.1, 0.6, 0.0]] {
+                let own = (facet.functions)(place);
                 let mut at = [0.0; 3];
-                let mut along = [0.0; 3];
+                let mut along = [[0.0; 3]; 2];
                 for (k, &node) in local.iter().enumerate() {
                     for d in 0..3 {
-                        at[d] += values[k] * nodes[node][d];
-                        along[d] += slopes[k] * nodes[node][d];
+                        at[d] += own.values[k] * nodes[node][d];
+                        for a in 0..facet.dimension() {
+                            along[a][d] += own.gradients[k][a] * nodes[node][d];
+                        }
                     }
                 }
                 let of_element = shape.functions(at);
                 for (i, value) in of_element.values[..nodes.len()].iter().enumerate() {
                     let k = local.iter().position(|&node| node == i);
-                    assert!((value - k.map_or(0.0, |k| values[k])).abs() < 1e-15);
-                    let gradient = of_element.gradients[i];
-                    let slope: f64 = gradient.iter().zip(along).map(|(g, t)| g * t).sum();
-                    if let Some(k) = k {
-                        assert!((slope - slopes[k]).abs() < 1e-15);
+                    assert!((value - k.map_or(0.0, |k| own.values[k])).abs() < 1e-15);
+                    let Some(k) = k else { continue };
+                    for a in 0..facet.dimension() {
+                        let terms = of_element.gradients[i].iter().zip(along[a]);
+                        let slope: f64 = terms.map(|(g, t)| g * t).sum();
+                        assert!((slope - own.gradients[k][a]).abs() < 1e-14);
                     }
                 }
             }
@@ -117,11 +130,62 @@ fn facets_have_the_functions_of_their_element() {
     }
 }
 
+/// Facets point outward: their areas add up to nothing, and their flux of the position is the
+/// volume times the dimension.
+#[test]
+fn facets_close_the_element_and_point_outward() {
+    for shape in Shape::ALL {
+        let row = shape.reference();
+        let (mut area, mut flux) = ([0.0; 3], 0.0);
+        for local in row.facets {
+            let nodes: Vec<Place> = local.iter().map(|&k| row.nodes[k]).collect();
+            for &(place, weight) in row.facet.rule {
+                let at = (row.facet.functions)(place);
+                let own = row.facet.area(&at, &nodes);
+                for d in 0..3 {
+                    area[d] += weight * own[d];
+                    let terms = at.values.iter().zip(&nodes);
+                    flux += weight * own[d] * terms.map(|(n, x)| n * x[d]).sum::<f64>();
+                }
+            }
+        }
+        let volume: f64 = row.gauss.iter().map(|(_, weight)| weight).sum();
+        assert!(area.iter().all(|a| a.abs() < 1e-14), "{shape:?} {area:?}");
+        let expected = row.dimension as f64 * volume;
+        assert!(
+            (flux - expected).abs() < 1e-14,
+            "{shape:?} {flux} {expected}"
+        );
+    }
+}
+
+/// The middle of each edge is the node that follows the corners in the order of the edges, and
+/// Gmsh's order holds every node once.
+#[test]
+fn edges_have_their_middles_in_order() {
+    for shape in Shape::ALL {
+        let row = shape.reference();
+        for (k, [a, b]) in row.edges.iter().enumerate().filter(|_| row.degree == 2) {
+            let middle = row.nodes[row.n_corners + k];
+            for d in 0..3 {
+                assert_eq!(middle[d], 0.5 * (row.nodes[*a][d] + row.nodes[*b][d]));
+            }
+        }
+        let mut order = row.gmsh_order.to_vec();
+        order.sort_unstable();
+        assert!(order.into_iter().eq(0..row.nodes.len()), "{shape:?}");
+    }
+}
+
 #[test]
 fn rules_have_the_volume_of_the_reference_element() {
     for shape in Shape::ALL {
         let row = shape.reference();
-        let volume = 1.0 / row.unit_jacobian * if row.n_corners == 3 { 0.5 } else { 1.0 };
+        let volume = match (is_simplex(shape), row.dimension) {
+            (true, 2) => 0.5,
+            (true, _) => 1.0 / 6.0,
+            _ => 1.0 / row.unit_jacobian,
+        };
         for rule in [row.gauss, row.sampling] {
             let sum: f64 = rule.iter().map(|(_, weight)| weight).sum();
             assert!((sum - volume).abs() < 1e-15, "{shape:?}");
@@ -133,21 +197,22 @@ fn rules_have_the_volume_of_the_reference_element() {
 /// the reference element at half its size (turned or not), and the parts of a facet lie on it.
 #[test]
 fn children_are_the_element_at_half_its_size() {
-    for shape in Shape::ALL {
+    for shape in Shape::PLANE {
         let row = shape.reference();
+        let refinement = row.refinement.unwrap();
         let mut places = row.nodes.to_vec();
         for facet in row.facets {
-            for k in 0..row.refinement.on_facet {
+            for k in 0..refinement.on_facet {
                 let s = if row.degree == 1 { 0.0 } else { k as f64 - 0.5 };
-                let (values, _) = (row.facet.functions)(s);
+                let at = (row.facet.functions)([s, 0.0, 0.0]);
                 let mut place = [0.0; 3];
-                for (value, &node) in values.iter().zip(*facet) {
+                for (value, &node) in at.values.iter().zip(*facet) {
                     (0..3).for_each(|d| place[d] += value * row.nodes[node][d]);
                 }
                 places.push(place);
             }
         }
-        for terms in row.refinement.inside {
+        for terms in refinement.inside {
             let mut place = [0.0; 3];
             for &(weight, node) in *terms {
                 (0..3).for_each(|d| place[d] += weight * places[node][d]);
@@ -155,11 +220,11 @@ fn children_are_the_element_at_half_its_size() {
             places.push(place);
         }
         let mut volume = 0.0;
-        for child in row.refinement.children {
+        for child in refinement.children {
             assert_eq!(child.len(), row.nodes.len());
             let nodes: Vec<Place> = child.iter().map(|&k| places[k]).collect();
             for &(at, weight) in row.gauss {
-                let mut j = [[0.0; 2]; 2];
+                let mut j = [[0.0f64; 2]; 2];
                 for (gradient, node) in shape.functions(at).gradients.iter().zip(&nodes) {
                     for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                         j[a][b] += gradient[a] * node[b];
@@ -172,10 +237,10 @@ fn children_are_the_element_at_half_its_size() {
         }
         let whole: f64 = row.gauss.iter().map(|(_, weight)| weight).sum();
         assert!((volume - whole).abs() < 1e-15);
-        for (parts, facet) in row.refinement.of_facet.iter().zip(row.facets) {
+        for (parts, facet) in refinement.of_facet.iter().zip(row.facets) {
             let ends = |[child, local]: [usize; 2]| {
                 let nodes = row.facets[local];
-                [nodes[0], nodes[1]].map(|k| row.refinement.children[child][k])
+                [nodes[0], nodes[1]].map(|k| refinement.children[child][k])
             };
             let [first, last] = [ends(parts[0]), ends(parts[1])];
             assert_eq!([first[0], last[1]], [facet[0], facet[1]], "{shape:?}");

@@ -5,7 +5,8 @@ use brinell::analytical::{Plane, ThickCylinder};
 use brinell::mesh::Shape;
 use brinell::model::Model;
 use brinell::scene::{Kind, Scene};
-use brinell::shape::MAX_NODES;
+/// Most nodes of a plane element.
+const MAX_NODES: usize = 8;
 
 const PRESSURE: f64 = 10.0;
 
@@ -65,7 +66,7 @@ fn points(model: &Model, e: usize, displacement: &[f64]) -> Vec<([f64; 2], f64, 
     for (pair, &n) in local.iter_mut().zip(nodes) {
         pair.copy_from_slice(&displacement[2 * n as usize..][..2]);
     }
-    let at = model.gradients(e);
+    let at = model.gradients(&brinell::element::Kernel::plane(model.kind), e);
     let ([px, py], strains) = (at.positions(&x), at.strains(&local));
     let gauss: Vec<_> = (at.weights().iter().enumerate())
         .map(|(g, weight)| {

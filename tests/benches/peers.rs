@@ -247,7 +247,7 @@ fn dent(frd: &Frd, size: usize) -> Result<f64, Failure> {
     let model = model(size)?;
     // The numbers of the output are not those of the deck: nodes are found by their place.
     let at = |node: usize, overlap: f64| -> Result<f64, Failure> {
-        let [x, y] = model.mesh.point(node);
+        let [x, y] = model.mesh.in_plane(node);
         let near = frd.points.iter().find(|(_, p)| {
             (p[0] - x).abs() < 1e-4 * x.abs().max(1e-3) && (p[1] - (y - overlap)).abs() < 1e-7
         });

@@ -98,7 +98,7 @@ fn version4(mesh: &Mesh) -> Result<Vec<u8>, Failure> {
         writeln!(text, "{}", node + 1)?;
     }
     for node in 0..nodes {
-        let [x, y] = mesh.point(node);
+        let [x, y] = mesh.in_plane(node);
         writeln!(text, "{x:?} {y:?} 0")?;
     }
     writeln!(

@@ -155,11 +155,11 @@ fn nodal_forces_act_as_the_pressure_that_they_are_consistent_with() {
     let nodes = model.mesh.set_nodes(&entry.on).unwrap();
     let pressure = entry.pressure.unwrap();
     // The top of 8 equal quad4 elements over a width of 2.
-    let forces: Vec<[f64; 2]> = nodes
+    let forces: Vec<[f64; 3]> = nodes
         .iter()
         .map(|&n| model.mesh.point(n)[0])
         .map(|x| if x == 0.0 || x == 2.0 { 0.125 } else { 0.25 })
-        .map(|width| [0.0, -pressure * width])
+        .map(|width| [0.0, -pressure * width, 0.0])
         .collect();
     let mut without = scene.clone();
     without.load.clear();

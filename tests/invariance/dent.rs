@@ -84,6 +84,7 @@ fn force_and_displacement_lead_to_the_same_dent() {
         scene.load[0].displacement = Some(brinell::scene::Displacement {
             x: None,
             y: Some(-pressed.approach),
+            z: None,
         });
         let by_displacement = run(&scene);
         let other = state(&by_displacement, "pressed");

@@ -80,7 +80,7 @@ impl Rectangle {
             builder.support(Support {
                 on,
                 fix,
-                angle: None,
+                ..Support::default()
             });
         }
         builder.load(Load {

@@ -51,7 +51,7 @@ fn triangles(n: usize, moved: f64) -> Model {
         (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     };
     for (node, shortest) in shortest.iter().enumerate() {
-        let [x, y] = mesh.point(node);
+        let [x, y] = mesh.in_plane(node);
         let inside = x.hypot(y) - 100.0 > 1e-6 && 200.0 - x.hypot(y) > 1e-6;
         if inside && x > 1e-6 && y > 1e-6 {
             mesh.coordinates[2 * node] += moved * random() * shortest;

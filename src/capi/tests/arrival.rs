@@ -53,7 +53,7 @@ fn what_a_load_a_target_and_a_program_say_arrives() {
         let moved = |x: Option<f64>, y: Option<f64>| {
             expected(&move |load| {
                 load.on = "end".into();
-                load.displacement = Some(Displacement { x, y });
+                load.displacement = Some(Displacement { x, y, z: None });
             })
         };
         let displaced = |directions: i32| last(BRINELL_LOAD_DISPLACEMENT, directions, 0);
@@ -63,14 +63,14 @@ fn what_a_load_a_target_and_a_program_say_arrives() {
         assert_eq!(
             last(BRINELL_LOAD_FORCE, 0, BRINELL_CONSTANT),
             expected(&|load| {
-                load.force = Some([2.0, 3.0]);
+                load.force = Some([2.0, 3.0].into());
                 load.history = History::Constant;
             })
         );
         assert_eq!(
             last(BRINELL_LOAD_TRACTION, 0, BRINELL_TABLE),
             expected(&|load| {
-                load.traction = Some([2.0, 3.0]);
+                load.traction = Some([2.0, 3.0].into());
                 load.history = History::Table(vec![[0.0, 0.5], [2.0, 3.0]]);
             })
         );

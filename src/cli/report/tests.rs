@@ -48,7 +48,7 @@ fn full() -> Results {
             max_pressure: 896.85,
             half_width: 0.15543,
             half_width_reading: Default::default(),
-            location: [0.0, -0.10947],
+            location: [0.0, -0.10947, 0.0],
             body: 1,
         }),
         states: vec![State {

@@ -1,80 +1,39 @@
-//! The kernel in space, on a hexahedron that is not in the table of shapes.
+//! The kernel in space.
 
 use super::*;
-use crate::shape::{FacetReference, Functions, Place, Reference, Refinement};
 
-type Solid = Gradients<3, 6, 8>;
-
-const CORNERS: [Place; 8] = [
-    [-1.0, -1.0, -1.0],
-    [1.0, -1.0, -1.0],
-    [1.0, 1.0, -1.0],
-    [-1.0, 1.0, -1.0],
-    [-1.0, -1.0, 1.0],
-    [1.0, -1.0, 1.0],
-    [1.0, 1.0, 1.0],
-    [-1.0, 1.0, 1.0],
-];
-
-fn trilinear(at: Place) -> Functions {
-    let mut out = Functions {
-        values: [0.0; MAX_NODES],
-        gradients: [[0.0; 3]; MAX_NODES],
-    };
-    for (k, corner) in CORNERS.iter().enumerate() {
-        let factor = |d: usize| 0.5 * (1.0 + corner[d] * at[d]);
-        out.values[k] = factor(0) * factor(1) * factor(2);
-        for d in 0..3 {
-            out.gradients[k][d] = 0.5 * corner[d] * factor((d + 1) % 3) * factor((d + 2) % 3);
-        }
-    }
-    out
-}
-
-static TABLE: LazyLock<Table<3, 8>> = LazyLock::new(|| {
-    let row = Reference {
-        name: "hexahedron",
-        dimension: 3,
-        n_corners: 8,
-        degree: 1,
-        nodes: &CORNERS,
-        functions: trilinear,
-        gauss: &[],
-        sampling: &[],
-        has_mean_dilatation: true,
-        checked: &[],
-        unit_jacobian: 0.125,
-        facet: FacetReference::ALL[0],
-        facets: &[],
-        refinement: Refinement {
-            on_facet: 0,
-            inside: &[],
-            children: &[],
-            of_facet: &[],
-        },
-        vtk: 12,
-        gmsh: 5,
-    };
-    let rule = CORNERS.map(|corner| (corner.map(|c| c / 3f64.sqrt()), 1.0));
-    Table::new(&row, &rule)
-});
+type Solid = Gradients<3, 6, 8, 20>;
+const CORNERS: usize = 8;
 
 fn steel() -> Lame {
     super::steel(Space::PlaneStrain)
 }
 
-fn distorted() -> [[f64; 3]; 8] {
-    let mut k = 0.0;
-    CORNERS.map(|x| {
-        x.map(|x| {
-            k += 1.0;
-            2.0 + x + 0.2 * f64::sin(7.0 * k)
-        })
-    })
+/// A hexahedron with the gradients of B-bar or plain ones.
+fn solid(has_mean: bool, x: &[[f64; 3]; 20]) -> Solid {
+    let mut solid = Kernel::solid().gauss(Shape::Hex8, x);
+    solid.has_mean = has_mean;
+    solid
 }
 
-fn moved(seed: f64) -> [[f64; 3]; 8] {
-    std::array::from_fn(|k| std::array::from_fn(|d| f64::sin(seed + (3 * k + d) as f64 * 1.7)))
+fn distorted() -> [[f64; 3]; 20] {
+    let mut k = 0.0;
+    let mut out = [[0.0; 3]; 20];
+    for (out, x) in out.iter_mut().zip(Shape::Hex8.reference().nodes) {
+        *out = x.map(|x| {
+            k += 1.0;
+            2.0 + x + 0.2 * f64::sin(7.0 * k)
+        });
+    }
+    out
+}
+
+fn moved(seed: f64) -> [[f64; 3]; 20] {
+    let mut out = [[0.0; 3]; 20];
+    for (k, u) in out.iter_mut().enumerate().take(CORNERS) {
+        *u = std::array::from_fn(|d| f64::sin(seed + (3 * k + d) as f64 * 1.7));
+    }
+    out
 }
 
 fn full_stiffness(solid: &Solid) -> Vec<f64> {
@@ -83,7 +42,7 @@ fn full_stiffness(solid: &Solid) -> Vec<f64> {
     k
 }
 
-fn times(k: &[f64], u: &[[f64; 3]; 8]) -> Vec<f64> {
+fn times(k: &[f64], u: &[[f64; 3]; 20]) -> Vec<f64> {
     let u = u.as_flattened();
     (0..24)
         .map(|i| (0..24).map(|j| k[packed(i, j)] * u[j]).sum())
@@ -96,7 +55,7 @@ fn a_linear_field_is_exact_and_a_rigid_motion_free() {
     let h = [[0.3, -0.2, 0.1], [0.5, 0.1, 0.7], [-0.4, 0.6, 0.2]];
     let exact = [0.3, 0.1, 0.2, 0.3, 1.3, -0.3];
     for has_mean in [false, true] {
-        let solid = Solid::new(&TABLE, Space::PlaneStrain, has_mean, &x);
+        let solid = solid(has_mean, &x);
         let u = x.map(|x| h.map(|row| row.iter().zip(x).map(|(h, x)| h * x).sum::<f64>()));
         for (lanes, exact) in solid.strains(&u).iter().zip(exact) {
             assert!(
@@ -116,7 +75,7 @@ fn a_linear_field_is_exact_and_a_rigid_motion_free() {
 #[test]
 fn the_stiffness_is_force_of_stress_of_strain() {
     for has_mean in [false, true] {
-        let solid = Solid::new(&TABLE, Space::PlaneStrain, has_mean, &distorted());
+        let solid = solid(has_mean, &distorted());
         let u = moved(0.4);
         let strain = solid.strains(&u);
         let mut stress = [[0.0; 8]; 6];
@@ -152,12 +111,13 @@ fn the_stiffness_is_force_of_stress_of_strain() {
 #[test]
 fn an_extruded_plane_element_is_the_plane_element() {
     let flat = coordinates(Shape::Quad4);
-    let x: [[f64; 3]; 8] = std::array::from_fn(|k| {
+    let mut x = [[0.0; 3]; 20];
+    for (k, point) in x.iter_mut().enumerate().take(CORNERS) {
         let [x, y] = flat[k % 4];
-        [x, y, if k < 4 { 0.0 } else { 1.0 }]
-    });
-    let plane = PlaneGradients::gauss(Space::PlaneStrain, Shape::Quad4, &flat);
-    let solid = Solid::new(&TABLE, Space::PlaneStrain, true, &x);
+        *point = [x, y, if k < 4 { 0.0 } else { 1.0 }];
+    }
+    let plane = gauss(Space::PlaneStrain, Shape::Quad4, &flat);
+    let solid = solid(true, &x);
     let mut in_plane = vec![0.0; 36];
     plane.stiffness_into(&steel(), &mut in_plane);
     let in_space = full_stiffness(&solid);

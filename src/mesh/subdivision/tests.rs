@@ -39,7 +39,7 @@ fn area(mesh: &Mesh) -> f64 {
         for local in 0..mesh.shapes[element].n_facets() {
             let x: Vec<[f64; 2]> = mesh
                 .facet_nodes(Facet { element, local })
-                .map(|n| mesh.point(n))
+                .map(|n| mesh.in_plane(n))
                 .collect();
             let cross = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];
             let (p, q) = (x[0], x[1]);
@@ -55,7 +55,7 @@ fn area(mesh: &Mesh) -> f64 {
 
 #[test]
 fn the_body_the_surfaces_and_the_sets_stay() {
-    for shape in Shape::ALL {
+    for shape in Shape::PLANE {
         let mesh = ring(shape);
         let finer = subdivided(mesh.clone(), 2, &[]).unwrap();
         validate(&finer).unwrap();
@@ -86,11 +86,11 @@ fn the_body_the_surfaces_and_the_sets_stay() {
 
 #[test]
 fn new_nodes_lie_on_the_circle_that_is_known_and_on_the_side_else() {
-    for shape in Shape::ALL {
+    for shape in Shape::PLANE {
         let off = |mesh: &Mesh, name: &str, radius: f64| -> f64 {
             let nodes = mesh.set_nodes(name).unwrap();
             let distances = nodes.iter().map(|&n| {
-                let [x, y] = mesh.point(n);
+                let [x, y] = mesh.in_plane(n);
                 (x.hypot(y) - radius).abs()
             });
             distances.fold(0.0, f64::max)
@@ -118,7 +118,7 @@ fn new_nodes_lie_on_the_circle_that_is_known_and_on_the_side_else() {
 
 #[test]
 fn nodes_that_face_each_other_have_new_ones_that_do() {
-    for shape in Shape::ALL {
+    for shape in Shape::PLANE {
         let parameters = CylinderOnHalfPlane {
             radius: 10.0,
             resolution: 3,
@@ -144,7 +144,7 @@ fn nodes_that_face_each_other_have_new_ones_that_do() {
             let contact = Contact {
                 first: first.into(),
                 second: second.into(),
-                normal: Some([0.0, if first.starts_with('c') { 2.0 } else { -2.0 }]),
+                normal: Some([0.0, if first.starts_with('c') { 2.0 } else { -2.0 }].into()),
                 ..Contact::default()
             };
             let finer = subdivided(mesh.clone(), 2, &[contact]).unwrap();
@@ -153,7 +153,7 @@ fn nodes_that_face_each_other_have_new_ones_that_do() {
                     .set_nodes(name)
                     .unwrap()
                     .into_iter()
-                    .map(|n| finer.point(n))
+                    .map(|n| finer.in_plane(n))
                     .collect();
                 x.sort_by(|a, b| a[0].total_cmp(&b[0]));
                 x
@@ -181,7 +181,7 @@ fn without_a_circle_nodes_still_face_each_other() {
     let n = mesh.n_nodes();
     for node in 0..n {
         // The same ring, twice as large, outside: its bore faces the rim.
-        let [x, y] = facing.point(node);
+        let [x, y] = facing.in_plane(node);
         mesh.coordinates.extend([2.0 * x, 2.0 * y]);
     }
     mesh.bodies.push("shell".into());
@@ -211,7 +211,7 @@ fn without_a_circle_nodes_still_face_each_other() {
     let found = partners(&finer, &contact, first, second);
     assert_eq!(found.len(), finer.set_nodes("tube.outer").unwrap().len());
     for (a, b) in found {
-        let (a, b) = (finer.point(a as usize), finer.point(b as usize));
+        let (a, b) = (finer.in_plane(a as usize), finer.in_plane(b as usize));
         assert!((a[0] - b[0]).hypot(a[1] - b[1]) < 1e-14, "{a:?} {b:?}");
     }
 }
@@ -254,7 +254,7 @@ fn a_surface_that_is_not_on_its_circle_is_named() {
         .for_each(|c| *c = (*c * 1e6).round() / 1e6);
     lay_on_circle(&mut mesh, &circle("tube.outer", [0.0; 2], 2.0)).unwrap();
     for node in mesh.set_nodes("tube.outer").unwrap() {
-        let [x, y] = mesh.point(node);
+        let [x, y] = mesh.in_plane(node);
         assert!((x.hypot(y) - 2.0).abs() < 1e-15);
     }
     let Some(Curve::Circle { outward, .. }) = mesh.surfaces["tube.outer"].curve else {

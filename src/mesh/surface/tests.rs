@@ -75,13 +75,13 @@ fn averaged_normals_are_weighted_with_length_and_point_outward() {
     mesh.coordinates[10] = 4.0;
     let bottom_and_right = surface(&[(0, 0), (1, 0), (1, 1)]);
     let normals = normals(&mesh, &bottom_and_right, &[0, 1, 2, 5, 3]);
-    assert_eq!(normals[0], [0.0, -1.0]);
-    assert_eq!(normals[1], [0.0, -1.0]);
+    assert_eq!(normals[0], [0.0, -1.0, 0.0]);
+    assert_eq!(normals[1], [0.0, -1.0, 0.0]);
     let length = 10f64.sqrt();
     assert!((normals[2][0] - 1.0 / length).abs() < 1e-15);
     assert!((normals[2][1] + 3.0 / length).abs() < 1e-15);
-    assert_eq!(normals[3], [1.0, 0.0]);
-    assert_eq!(normals[4], [0.0, 0.0], "not on the surface");
+    assert_eq!(normals[3], [1.0, 0.0, 0.0]);
+    assert_eq!(normals[4], [0.0; 3], "not on the surface");
 }
 
 #[test]
@@ -91,7 +91,7 @@ fn known_curves_give_exact_normals() {
     bottom.curve = Some(Curve::Line {
         normal: [0.0, -2.0],
     });
-    assert_eq!(normals(&mesh, &bottom, &[0, 2]), [[0.0, -1.0]; 2]);
+    assert_eq!(normals(&mesh, &bottom, &[0, 2]), [[0.0, -1.0, 0.0]; 2]);
     for outward in [true, false] {
         bottom.curve = Some(Curve::Circle {
             center: [1.0, 0.0],
@@ -99,7 +99,10 @@ fn known_curves_give_exact_normals() {
             outward,
         });
         let sign = if outward { 1.0 } else { -1.0 };
-        assert_eq!(normals(&mesh, &bottom, &[2]), [[sign, 0.0 * sign]]);
+        assert_eq!(
+            normals(&mesh, &bottom, &[2]),
+            [[sign, 0.0 * sign, 0.0 * sign]]
+        );
     }
 }
 

@@ -61,7 +61,8 @@ fn each_fault_is_named() {
         },
         &["no elements"],
     );
-    refused(|m| m.dimension = 3, &["dimension 3"]);
+    refused(|m| m.dimension = 3, &["element 1 is a quad4 in 3D"]);
+    refused(|m| m.dimension = 4, &["dimension is 4"]);
     refused(|m| m.coordinates[9] = f64::NAN, &["node 5", "y is NaN"]);
     refused(
         |m| m.coordinates[0] = f64::INFINITY,
@@ -259,7 +260,7 @@ fn a_hanging_node_is_found_on_edges_in_any_direction() {
         mesh.coordinates.extend([0.0, 4.0, 2.0, 4.0]);
         mesh.push_element(Shape::Quad4, 0, &[6, 8, 10, 9]);
         for node in 0..mesh.n_nodes() {
-            let [x, y] = mesh.point(node);
+            let [x, y] = mesh.in_plane(node);
             mesh.coordinates[2 * node] = c * x - s * y;
             mesh.coordinates[2 * node + 1] = s * x + c * y;
         }

@@ -54,7 +54,7 @@ fn hold(builder: &mut ModelBuilder, on: &str, direction: Direction) {
     builder.support(Support {
         on: on.into(),
         fix: vec![direction],
-        angle: None,
+        ..Support::default()
     });
 }
 
@@ -94,7 +94,7 @@ fn a_model_of_two_squares_has_its_sets_pairs_and_loads() {
     let pairs: Vec<_> = model.pairs.iter().map(|p| (p.first, p.second)).collect();
     assert_eq!(pairs, [(5, 2), (4, 3)]);
     for pair in &model.pairs {
-        assert_eq!(pair.normal, [0.0, 1.0]);
+        assert_eq!(pair.normal, [0.0, 1.0, 0.0]);
         assert!((pair.gap - 0.01).abs() < 4.0 * f64::EPSILON);
     }
     assert_eq!(model.scene.program.targets[0].load_factor, Some(1.0));
@@ -105,7 +105,7 @@ fn a_model_of_two_squares_has_its_sets_pairs_and_loads() {
 fn given_pairs_replace_the_geometry() {
     let mut builder = squares();
     let given = NodePair {
-        normal: Some([0.1, 2.0]),
+        normal: Some([0.1, 2.0, 0.0]),
         gap: Some(0.5),
         ..pair(5, 2)
     };
@@ -117,7 +117,7 @@ fn given_pairs_replace_the_geometry() {
     let pair = model.pairs[0];
     assert_eq!((pair.first, pair.second, pair.gap), (5, 2, 0.5));
     let length = 0.1f64.hypot(2.0);
-    assert_eq!(pair.normal, [0.1 / length, 2.0 / length]);
+    assert_eq!(pair.normal, [0.1 / length, 2.0 / length, 0.0]);
     // The node's share of the surface, not more.
     assert!((pair.area - 0.5).abs() < 1e-15);
 }
@@ -129,7 +129,7 @@ fn nodal_forces_are_summed_by_node_and_counted_for_the_whole() {
         .nodal_load(
             "push",
             &[6, 7, 6],
-            &[[0.0, -1.0], [0.0, -2.0], [0.5, -3.0]],
+            &[[0.0, -1.0, 0.0], [0.0, -2.0, 0.0], [0.5, -3.0, 0.0]],
             History::Constant,
         )
         .unwrap()
@@ -265,7 +265,7 @@ fn bad_pairs_are_refused_by_index() {
         };
         refuse(&[bad], &["pair 0", "gap", &gap.to_string()]);
     }
-    for normal in [[0.0, 0.0], [f64::NAN, 1.0], [1e300, f64::INFINITY]] {
+    for normal in [[0.0; 3], [f64::NAN, 1.0, 0.0], [1e300, f64::INFINITY, 0.0]] {
         let bad = NodePair {
             normal: Some(normal),
             ..pair(5, 2)
@@ -284,7 +284,7 @@ fn bad_pairs_are_refused_by_index() {
     );
     refused(build(&[pair(5, 0)]), Input, &["pair 0", "node 0", "`face`"]);
     let into = NodePair {
-        normal: Some([0.0, -1.0]),
+        normal: Some([0.0, -1.0, 0.0]),
         ..pair(5, 2)
     };
     refused(build(&[into]), Input, &["pair 0", "into the second body"]);
@@ -310,14 +310,14 @@ fn bad_values_and_names_are_refused() {
     let mut missing = held();
     hold(&mut missing, "flor", Direction::X);
     refused(missing.build(), Input, &["flor", "did you mean `floor`"]);
-    let forces = |forces: &[[f64; 2]]| {
+    let forces = |forces: &[[f64; 3]]| {
         held()
             .nodal_load("push", &[6, 7], forces, History::Proportional)
             .map(drop)
     };
-    refused(forces(&[[0.0; 2]]), Input, &["2 nodes", "1 forces"]);
+    refused(forces(&[[0.0; 3]]), Input, &["2 nodes", "1 forces"]);
     refused(
-        forces(&[[0.0; 2], [f64::INFINITY, 0.0]]),
+        forces(&[[0.0; 3], [f64::INFINITY, 0.0, 0.0]]),
         Input,
         &["push", "node 7", "inf"],
     );

@@ -53,7 +53,9 @@ pub(super) fn charts(model: &Model, results: &Results, units: &Units) -> Vec<Tit
             |point| point.half_width,
             |y| y.half_width,
         ));
-        for (index, contact) in model.contacts.iter().enumerate() {
+        // Of solids pressure is no curve.
+        let contacts = model.contacts.iter().enumerate();
+        for (index, contact) in contacts.filter(|_| !model.kind.is_solid()) {
             out.extend(pressure_profiles(
                 model,
                 results,
@@ -63,7 +65,8 @@ pub(super) fn charts(model: &Model, results: &Results, units: &Units) -> Vec<Tit
             ));
         }
         out.extend(residual_depth(results, units));
-        for index in 0..model.contacts.len() {
+        let plane = Some(model.contacts.len()).filter(|_| !model.kind.is_solid());
+        for index in 0..plane.unwrap_or(0) {
             out.extend(dent_profile(model, results, units, index));
         }
     } else {

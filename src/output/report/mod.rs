@@ -121,6 +121,9 @@ pub(super) fn files(
     Ok(out)
 }
 
+/// Where the fields of solids are seen.
+const IN_PARAVIEW: &str = "Fields of solids are not drawn here: open fields.pvd in ParaView.";
+
 /// A drawing of the scene.
 struct Sketched {
     name: String,
@@ -134,7 +137,8 @@ struct Sketched {
 /// The scene: all of it, and the surroundings of the contact; then both with the mesh, where it is
 /// coarse enough to be seen.
 fn scene(model: &Model, results: &Results, units: &Units) -> Result<Vec<Sketched>> {
-    let Some(whole) = window::whole(model, [false; 2]) else {
+    let plane = Some(model).filter(|model| !model.kind.is_solid());
+    let Some(whole) = plane.and_then(|model| window::whole(model, [false; 2])) else {
         return Ok(Vec::new());
     };
     let near = window::near_contact(model, results, [false; 2])
@@ -179,6 +183,10 @@ fn pictures(
     units: &Units,
     figures: &mut Figures,
 ) -> Result<Vec<Pictured>> {
+    if model.kind.is_solid() {
+        figures.about_pictures = IN_PARAVIEW.to_string();
+        return Ok(Vec::new());
+    }
     let mirror = window::mirrors(model);
     let Some(window) = window::near_contact(model, results, mirror) else {
         return Ok(Vec::new());

@@ -197,10 +197,12 @@ fn story(header: &RunHeader, model: &Model, results: &Results, units: &Units) ->
                 false => format!("load factor of {}", round(first.alpha)),
             };
             text.push_str(&format!(
-                "The material first yields at a {load}, in {} at ({}, {})",
+                "The material first yields at a {load}, in {} at ({})",
                 header.body(first.body),
-                significant(first.location[0], 3),
-                significant(first.location[1], 3)
+                (first.location.iter().take(model.mesh.dimension))
+                    .map(|x| significant(*x, 3))
+                    .collect::<Vec<_>>()
+                    .join(", ")
             ));
             if contact {
                 text.push_str(&format!(

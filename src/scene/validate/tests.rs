@@ -310,7 +310,7 @@ fn contact_supports_and_loads() {
                 "contact.0.second: \"cylinder.contact\" cannot touch itself",
             ),
             (
-                |s| s.contact[0].normal = Some([0.0, 0.0]),
+                |s| s.contact[0].normal = Some([0.0, 0.0].into()),
                 "contact.0.normal: [0, 0]",
             ),
             (

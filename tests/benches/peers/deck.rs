@@ -27,6 +27,7 @@ pub fn deck(model: &Model, settings: &Settings, legs: &[f64]) -> Result<String, 
         Kind::PlaneStrain => "CPE4",
         Kind::PlaneStress => "CPS4",
         Kind::Axisymmetric => "CAX4",
+        Kind::Solid => return Err("decks of solids are not written".into()),
     };
     let [contact] = &scene.contact[..] else {
         return Err("a deck is made of scenes with one contact".into());
@@ -48,7 +49,7 @@ pub fn deck(model: &Model, settings: &Settings, legs: &[f64]) -> Result<String, 
     };
     say("*NODE, NSET=NALL".into());
     for node in 0..mesh.n_nodes() {
-        let [x, y] = mesh.point(node);
+        let [x, y] = mesh.in_plane(node);
         let y = if is_moved[node] {
             y - settings.overlap
         } else {
@@ -146,7 +147,7 @@ pub fn deck(model: &Model, settings: &Settings, legs: &[f64]) -> Result<String, 
                 .collect();
             if forces
                 .iter()
-                .any(|f| model.freedoms.axes[f.0 as usize] != [1.0, 0.0])
+                .any(|f| model.freedoms.is_turned(f.0 as usize))
             {
                 return Err("a deck is made of loads in global axes".into());
             }

@@ -22,7 +22,7 @@ pub(super) fn example(element: Shape) -> CylinderOnHalfPlane {
 
 #[test]
 fn both_bodies_are_valid_and_match_in_x() {
-    for shape in Shape::ALL {
+    for shape in Shape::PLANE {
         let mesh =
             cylinder_on_half_plane(&example(shape), ContactSize::at_yield(HALF_WIDTH)).unwrap();
         check_common(&mesh);
@@ -38,7 +38,7 @@ fn both_bodies_are_valid_and_match_in_x() {
             let (upper, lower) = (on("cylinder"), on("half_plane"));
             assert_eq!(upper.len(), lower.len());
             for (u, l) in upper.iter().zip(&lower) {
-                let ([xu, yu], [xl, yl]) = (mesh.point(*u), mesh.point(*l));
+                let ([xu, yu], [xl, yl]) = (mesh.in_plane(*u), mesh.in_plane(*l));
                 assert_eq!(xu, xl);
                 assert_eq!(yl, 0.0);
                 let exact = Profile::of_example().height(xu);
@@ -59,7 +59,7 @@ fn both_bodies_are_valid_and_match_in_x() {
 
 #[test]
 fn candidates_end_at_the_fine_width_and_are_even() {
-    for shape in Shape::ALL {
+    for shape in Shape::PLANE {
         let p = example(shape);
         let mesh = cylinder_on_half_plane(&p, ContactSize::at_yield(HALF_WIDTH)).unwrap();
         let contact = &mesh.surfaces["cylinder.contact"];
@@ -68,12 +68,12 @@ fn candidates_end_at_the_fine_width_and_are_even() {
         assert_eq!(nodes.len(), nodes_on(12, shape));
         let h = 2.0 * HALF_WIDTH / (nodes.len() - 1) as f64;
         for (k, &node) in nodes.iter().enumerate() {
-            let error = (mesh.point(node)[0] - k as f64 * h).abs();
+            let error = (mesh.in_plane(node)[0] - k as f64 * h).abs();
             assert!(error <= 4.0 * f64::EPSILON * HALF_WIDTH);
         }
         for body in ["cylinder", "half_plane"] {
             let pole = mesh.node_sets[&format!("{body}.pole")][0];
-            assert_eq!(mesh.point(pole), [0.0, 0.0]);
+            assert_eq!(mesh.in_plane(pole), [0.0, 0.0]);
             assert!(
                 mesh.set_nodes(&format!("{body}.contact"))
                     .unwrap()
@@ -85,17 +85,17 @@ fn candidates_end_at_the_fine_width_and_are_even() {
                     .contains(&pole)
             );
             for node in mesh.set_nodes(&format!("{body}.symmetry")).unwrap() {
-                assert_eq!(mesh.point(node)[0], 0.0);
+                assert_eq!(mesh.in_plane(node)[0], 0.0);
             }
             for node in mesh.set_nodes(&format!("{body}.side")).unwrap() {
-                assert_eq!(mesh.point(node)[0], 50.0 * HALF_WIDTH);
+                assert_eq!(mesh.in_plane(node)[0], 50.0 * HALF_WIDTH);
             }
         }
         for node in mesh.set_nodes("cylinder.top").unwrap() {
-            assert_eq!(mesh.point(node)[1], 50.0 * HALF_WIDTH);
+            assert_eq!(mesh.in_plane(node)[1], 50.0 * HALF_WIDTH);
         }
         for node in mesh.set_nodes("half_plane.bottom").unwrap() {
-            assert_eq!(mesh.point(node)[1], -50.0 * HALF_WIDTH);
+            assert_eq!(mesh.in_plane(node)[1], -50.0 * HALF_WIDTH);
         }
     }
 }
@@ -105,7 +105,7 @@ fn candidates_end_at_the_fine_width_and_are_even() {
 /// changes.
 #[test]
 fn candidates_reach_as_far_as_the_contact_with_enough_elements_over_any_part_of_them() {
-    for shape in Shape::ALL {
+    for shape in Shape::PLANE {
         let p = example(shape);
         let corners = |reach: f64| {
             let size = ContactSize {
@@ -119,7 +119,7 @@ fn candidates_reach_as_far_as_the_contact_with_enough_elements_over_any_part_of_
                 .facets
                 .iter()
                 .flat_map(|&f| mesh.facet_nodes(f).take(2).collect::<Vec<_>>())
-                .map(|node| mesh.point(node)[0])
+                .map(|node| mesh.in_plane(node)[0])
                 .collect();
             x.sort_by(f64::total_cmp);
             x.dedup();
@@ -209,7 +209,7 @@ impl Profile {
 fn areas_are_those_of_the_quadrature_of_the_surface() {
     let size = 50.0 * HALF_WIDTH;
     let profile = Profile::of_example();
-    for shape in Shape::ALL {
+    for shape in Shape::PLANE {
         let mesh =
             cylinder_on_half_plane(&example(shape), ContactSize::at_yield(HALF_WIDTH)).unwrap();
         let plane = area(&mesh, "half_plane");
@@ -218,7 +218,10 @@ fn areas_are_those_of_the_quadrature_of_the_surface() {
         let (mut least, mut most) = (0.0, 0.0);
         for (piece, outside) in [("cylinder.contact", false), ("cylinder.outside", true)] {
             for &facet in &mesh.surfaces[piece].facets {
-                let ends: Vec<f64> = mesh.facet_nodes(facet).map(|n| mesh.point(n)[0]).collect();
+                let ends: Vec<f64> = mesh
+                    .facet_nodes(facet)
+                    .map(|n| mesh.in_plane(n)[0])
+                    .collect();
                 let (from, to) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
                 let error = |x: f64| {
                     let [second, fourth] = profile.derivatives(x, outside);
@@ -245,7 +248,7 @@ fn areas_are_those_of_the_quadrature_of_the_surface() {
 #[test]
 fn the_widest_candidates_are_valid() {
     let sizes = [92.0, 155.0, 2000.0];
-    for (shape, far_size) in Shape::ALL.into_iter().flat_map(|s| sizes.map(|w| (s, w))) {
+    for (shape, far_size) in Shape::PLANE.into_iter().flat_map(|s| sizes.map(|w| (s, w))) {
         let mut p = example(shape);
         // Up to 0.9 of the radius, where the circle's slope is 2.
         p.fine_width = 90.0;

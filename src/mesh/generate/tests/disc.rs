@@ -28,7 +28,7 @@ pub(super) fn sector_area(radius: f64, angle: f64, n: usize, shape: Shape) -> f6
 
 #[test]
 fn all_shapes_and_resolutions_are_valid_with_the_polygon_area() {
-    for shape in Shape::ALL {
+    for shape in Shape::PLANE {
         for resolution in [2, 4, 6, 10, 32] {
             let p = example(resolution, shape);
             let mesh = disc_in_plate(&p).unwrap();
@@ -47,7 +47,7 @@ fn all_shapes_and_resolutions_are_valid_with_the_polygon_area() {
 
 #[test]
 fn the_area_converges_with_the_order_of_the_sides() {
-    for shape in Shape::ALL {
+    for shape in Shape::PLANE {
         let error = |n: usize| {
             let mesh = disc_in_plate(&example(n, shape)).unwrap();
             (area(&mesh, "disc") / (0.25 * PI * RADIUS * RADIUS) - 1.0).abs()
@@ -61,7 +61,7 @@ fn the_area_converges_with_the_order_of_the_sides() {
 
 #[test]
 fn contact_nodes_coincide_and_lie_at_equal_angles() {
-    for shape in Shape::ALL {
+    for shape in Shape::PLANE {
         let n = 12;
         let mesh = disc_in_plate(&example(n, shape)).unwrap();
         let on = |name: &str| surface::ordered_nodes(&mesh, &mesh.surfaces[name]).unwrap();
@@ -72,19 +72,19 @@ fn contact_nodes_coincide_and_lie_at_equal_angles() {
         assert_eq!(plate.len(), disc.len());
         for (k, (&d, &p)) in disc.iter().zip(&plate).enumerate() {
             assert_ne!(d, p);
-            assert_eq!(mesh.point(d), mesh.point(p));
-            let [x, y] = mesh.point(d);
+            assert_eq!(mesh.in_plane(d), mesh.in_plane(p));
+            let [x, y] = mesh.in_plane(d);
             let angle = y.atan2(x) - FRAC_PI_2 * k as f64 / (disc.len() - 1) as f64;
             assert!(angle.abs() < 4.0 * f64::EPSILON);
         }
-        let at = |name: &str| mesh.point(mesh.node_sets[name][0]);
+        let at = |name: &str| mesh.in_plane(mesh.node_sets[name][0]);
         assert_eq!(at("disc.pole"), [0.0, RADIUS]);
         assert_eq!(at("plate.pole"), [0.0, RADIUS]);
         assert_eq!(at("disc.center"), [0.0, 0.0]);
         assert_ne!(mesh.node_sets["disc.pole"], mesh.node_sets["plate.pole"]);
         let normals = surface::normals(&mesh, &mesh.surfaces["plate.contact"], &plate);
         for (normal, &node) in normals.iter().zip(&plate) {
-            let [x, y] = mesh.point(node);
+            let [x, y] = mesh.in_plane(node);
             // Out of the plate is into the hole.
             assert!((normal[0] + x / RADIUS).abs() < 4.0 * f64::EPSILON);
             assert!((normal[1] + y / RADIUS).abs() < 4.0 * f64::EPSILON);
@@ -94,29 +94,29 @@ fn contact_nodes_coincide_and_lie_at_equal_angles() {
 
 #[test]
 fn symmetry_lines_are_exact_and_the_disc_is_its_own_mirror_image() {
-    for shape in Shape::ALL {
+    for shape in Shape::PLANE {
         let mesh = disc_in_plate(&example(6, shape)).unwrap();
         for body in ["disc", "plate"] {
             for node in mesh.set_nodes(&format!("{body}.symmetry_x")).unwrap() {
-                assert_eq!(mesh.point(node)[0], 0.0);
+                assert_eq!(mesh.in_plane(node)[0], 0.0);
             }
             for node in mesh.set_nodes(&format!("{body}.symmetry_y")).unwrap() {
-                assert_eq!(mesh.point(node)[1], 0.0);
+                assert_eq!(mesh.in_plane(node)[1], 0.0);
             }
         }
         let near = |x: f64, y: f64| {
             (0..mesh.n_nodes()).any(|n| {
-                let [a, b] = mesh.point(n);
+                let [a, b] = mesh.in_plane(n);
                 (a - x).hypot(b - y) < 16.0 * f64::EPSILON * 20.0 * RADIUS
             })
         };
         for node in 0..mesh.n_nodes() {
-            let [x, y] = mesh.point(node);
+            let [x, y] = mesh.in_plane(node);
             assert!(near(y, x), "({x}, {y})");
         }
         // Every node on a symmetry line belongs to a symmetry surface.
         let on_x = (0..mesh.n_nodes())
-            .filter(|&n| mesh.point(n)[0] == 0.0)
+            .filter(|&n| mesh.in_plane(n)[0] == 0.0)
             .count();
         let named =
             ["disc", "plate"].map(|b| mesh.set_nodes(&format!("{b}.symmetry_x")).unwrap().len());
@@ -135,7 +135,7 @@ fn elements_near_the_contact_are_about_as_deep_as_wide() {
             let radii: Vec<f64> = nodes
                 .iter()
                 .map(|&k| {
-                    let [x, y] = mesh.point(k as usize);
+                    let [x, y] = mesh.in_plane(k as usize);
                     x.hypot(y)
                 })
                 .collect();

@@ -15,7 +15,7 @@ pub(super) fn area(mesh: &Mesh, body: &str) -> f64 {
     for element in (0..mesh.n_elements()).filter(|&e| mesh.element_body[e] == body) {
         let nodes = mesh.nodes(element);
         let n = mesh.shapes[element].n_corners();
-        let at = |k: usize| mesh.point(nodes[k] as usize);
+        let at = |k: usize| mesh.in_plane(nodes[k] as usize);
         for k in 0..n {
             let (p, q) = (at(k), at((k + 1) % n));
             sum += 0.5 * (p[0] * q[1] - p[1] * q[0]);
@@ -76,7 +76,7 @@ pub(super) fn check_common(mesh: &Mesh) {
                 .iter()
                 .map(|&f| {
                     let n: Vec<usize> = mesh.facet_nodes(f).collect();
-                    let (p, q) = (mesh.point(n[0]), mesh.point(n[1]));
+                    let (p, q) = (mesh.in_plane(n[0]), mesh.in_plane(n[1]));
                     0.55 * (p[0] - q[0]).hypot(p[1] - q[1]) / radius
                 })
                 .fold(1e-12, f64::max),
@@ -88,7 +88,7 @@ pub(super) fn check_common(mesh: &Mesh) {
                 "{name} node {node} {e:?} {a:?}"
             );
             if let Curve::Circle { center, radius, .. } = curve {
-                let [x, y] = mesh.point(*node);
+                let [x, y] = mesh.in_plane(*node);
                 let off = (x - center[0]).hypot(y - center[1]) - radius;
                 assert!(
                     off.abs() <= 4.0 * f64::EPSILON * (radius + center[0].abs() + center[1].abs())

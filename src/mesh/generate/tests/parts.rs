@@ -58,7 +58,7 @@ fn disc(body: &str, element: Shape, angle: [f64; 2], elements: usize) -> Part {
 
 #[test]
 fn a_block_has_its_sides_corners_and_pieces() {
-    for shape in Shape::ALL {
+    for shape in Shape::PLANE {
         let mesh = parts(&[block("a", shape)]).unwrap();
         check_common(&mesh);
         assert!((area(&mesh, "a") - 3.0).abs() < 1e-14);
@@ -71,7 +71,7 @@ fn a_block_has_its_sides_corners_and_pieces() {
             let nodes = mesh.set_nodes(name).unwrap();
             assert_eq!(nodes.len(), nodes_on(count, shape));
             assert!(
-                nodes.iter().all(|&n| mesh.point(n)[axis] == value),
+                nodes.iter().all(|&n| mesh.in_plane(n)[axis] == value),
                 "{name}"
             );
         }
@@ -81,14 +81,14 @@ fn a_block_has_its_sides_corners_and_pieces() {
             ("a.top_left", [-1.0, 1.5]),
             ("a.top_right", [2.0, 1.5]),
         ] {
-            assert_eq!(mesh.point(mesh.node_sets[name][0]), point, "{name}");
+            assert_eq!(mesh.in_plane(mesh.node_sets[name][0]), point, "{name}");
         }
         // Elements end at -1, -0.5, 0, 0.5, 1, ...: three whole ones fit in -0.5..1.1.
         let xs: Vec<f64> = mesh
             .set_nodes("a.loaded")
             .unwrap()
             .iter()
-            .map(|&n| mesh.point(n)[0])
+            .map(|&n| mesh.in_plane(n)[0])
             .collect();
         assert_eq!(mesh.surfaces["a.loaded"].facets.len(), 3);
         assert!(xs.iter().all(|x| (-0.5..=1.0).contains(x)));
@@ -98,7 +98,7 @@ fn a_block_has_its_sides_corners_and_pieces() {
 
 #[test]
 fn ring_sectors_are_valid_even_with_thin_layers_of_coarse_arcs() {
-    for shape in Shape::ALL {
+    for shape in Shape::PLANE {
         for (angle, elements, closed) in [
             ([0.0, 90.0], [3, 5], false),
             ([0.0, 90.0], [4, 3], false),
@@ -122,7 +122,7 @@ fn ring_sectors_are_valid_even_with_thin_layers_of_coarse_arcs() {
 
 #[test]
 fn discs_of_every_span_are_valid() {
-    for shape in Shape::ALL {
+    for shape in Shape::PLANE {
         for (quarters, end) in [(1usize, 90.0), (2, 180.0), (4, 360.0)] {
             for start in [0.0, 90.0, -45.0, 17.0] {
                 for n in [2, 4, 10] {
@@ -132,7 +132,7 @@ fn discs_of_every_span_are_valid() {
                     assert!((area(&mesh, "d") / exact - 1.0).abs() < 1e-12);
                     assert_eq!(mesh.surfaces["d.outer"].facets.len(), n * quarters);
                     assert_eq!(mesh.surfaces.contains_key("d.start"), quarters < 4);
-                    assert_eq!(mesh.point(mesh.node_sets["d.center"][0]), [-2.0, 0.25]);
+                    assert_eq!(mesh.in_plane(mesh.node_sets["d.center"][0]), [-2.0, 0.25]);
                     if quarters < 4 {
                         for name in ["d.start", "d.end"] {
                             let nodes = mesh.set_nodes(name).unwrap();
@@ -148,7 +148,7 @@ fn discs_of_every_span_are_valid() {
 /// A shaft in a ring: contact nodes of both lie at the same places.
 #[test]
 fn a_disc_matches_the_ring_around_it() {
-    for shape in Shape::ALL {
+    for shape in Shape::PLANE {
         let mut outer = ring("ring", shape, [0.0, 360.0], [2, 16]);
         outer.ring.as_mut().unwrap().center = [-2.0, 0.25];
         let mesh = parts(&[disc("shaft", shape, [0.0, 360.0], 4), outer]).unwrap();
@@ -158,7 +158,7 @@ fn a_disc_matches_the_ring_around_it() {
                 .set_nodes(name)
                 .unwrap()
                 .iter()
-                .map(|&n| mesh.point(n).map(f64::to_bits))
+                .map(|&n| mesh.in_plane(n).map(f64::to_bits))
                 .collect();
             points.sort_unstable();
             points

@@ -107,7 +107,7 @@ fn version_2_bodies_surfaces_and_points() {
     assert_eq!(mesh.element_body, [0, 1, 1]);
     assert_eq!(mesh.nodes(1), [1, 4, 5]);
     assert_eq!(mesh.nodes(2), [1, 5, 2], "turned counter-clockwise");
-    assert_eq!(mesh.point(4), [2.0, 0.0]);
+    assert_eq!(mesh.in_plane(4), [2.0, 0.0]);
     assert_eq!(mesh.node_sets["pole"], [3]);
     assert_eq!(mesh.set_nodes("bottom").unwrap(), [0, 1, 4]);
     // The line runs with the hard body on its left, but its name says whose it is.
@@ -116,7 +116,7 @@ fn version_2_bodies_surfaces_and_points() {
     assert_eq!(mesh.element_body[interface.facets[0].element], 1);
     assert_eq!(
         surface::normals(&mesh, interface, &[1, 2]),
-        [[-1.0, 0.0]; 2]
+        [[-1.0, 0.0, 0.0]; 2]
     );
 }
 
@@ -140,7 +140,7 @@ fn version_4_with_second_order_and_unnamed_groups() {
     let points: Vec<[f64; 2]> = mesh
         .nodes(0)
         .iter()
-        .map(|&n| mesh.point(n as usize))
+        .map(|&n| mesh.in_plane(n as usize))
         .collect();
     assert_eq!(
         points,
@@ -203,7 +203,7 @@ fn a_negative_physical_tag_is_the_same_group() {
 
 #[test]
 fn clockwise_elements_of_every_shape_are_turned_round() {
-    for shape in Shape::ALL {
+    for shape in Shape::PLANE {
         let n = shape.n_corners();
         let corners = [[0., 0.], [2., 0.], [2.5, 2.], [0., 1.]];
         let mut points: Vec<[f64; 2]> = corners[..n].to_vec();
@@ -252,13 +252,16 @@ fn the_example_mesh_can_be_computed_with() {
     ] {
         let nodes = surface::ordered_nodes(&mesh, &mesh.surfaces[name]).unwrap();
         assert_eq!(nodes.len(), 5, "{name}");
-        assert!(nodes.iter().all(|&n| mesh.point(n)[1] == height), "{name}");
+        assert!(
+            nodes.iter().all(|&n| mesh.in_plane(n)[1] == height),
+            "{name}"
+        );
     }
     let lower = mesh.set_nodes("lower.contact").unwrap();
     let upper = mesh.set_nodes("upper.contact").unwrap();
     assert!(lower.iter().all(|n| !upper.contains(n)));
     let corner = mesh.node_sets["upper.top_left"][0];
-    assert_eq!(mesh.point(corner), [0.0, 2.0]);
+    assert_eq!(mesh.in_plane(corner), [0.0, 2.0]);
 }
 
 #[test]

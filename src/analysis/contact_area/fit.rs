@@ -1,0 +1,78 @@
+//! Polynomials through values that are known at places.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Believed pairs that a quadratic is fitted to at least, one and a half times its terms.
+const FITTED: usize = 9;
+/// Share of the largest singular value below which a fit's equations count as dependent.
+const DEPENDENT: f64 = 1e-4;
+
+/// A value at a place.
+#[derive(Clone, Copy)]
+pub(super) struct Known {
+    pub(super) at: [f64; 2],
+    pub(super) value: f64,
+}
+
+/// A polynomial round a place: quadratic, linear where the known values do not determine that.
+pub(super) struct Fit {
+    origin: [f64; 2],
+    scale: f64,
+    coefficients: [f64; 6],
+}
+
+impl Fit {
+    /// By least squares through the nearest known values, weighted by nearness; `None` where they do
+    /// not determine even a plane.
+    pub(super) fn new(known: &[Known], origin: [f64; 2]) -> Option<Self> {
+        let off = |known: &Known| (known.at[0] - origin[0]).hypot(known.at[1] - origin[1]);
+        let mut near: Vec<(f64, Known)> = known.iter().map(|known| (off(known), *known)).collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (terms, least, most) in [(6, FITTED, 2 * FITTED), (3, 4, 6)] {
+            if near.len() < least {
+                continue;
+            }
+            let used = &near[..most.min(near.len())];
+            let scale = used[used.len() - 1].0;
+            let mut matrix = DMatrix::zeros(used.len(), terms);
+            let mut right = DVector::zeros(used.len());
+            for (i, (off, known)) in used.iter().enumerate() {
+                let weight = 1.0 / (0.1 + (off / scale).powi(2));
+                let place = [0, 1].map(|d| (known.at[d] - origin[d]) / scale);
+                for (j, term) in monomials(place).into_iter().enumerate().take(terms) {
+                    matrix[(i, j)] = weight * term;
+                }
+                right[i] = weight * known.value;
+            }
+            let decomposed = matrix.svd(true, true);
+            let largest = decomposed.singular_values.max();
+            if decomposed.singular_values.min() <= DEPENDENT * largest {
+                continue;
+            }
+            let solution = decomposed.solve(&right, 0.0).ok()?;
+            let mut coefficients = [0.0; 6];
+            coefficients[..terms].copy_from_slice(solution.as_slice());
+            return Some(Fit {
+                origin,
+                scale,
+                coefficients,
+            });
+        }
+        None
+    }
+
+    pub(super) fn value(&self, at: [f64; 2]) -> f64 {
+        let place = [0, 1].map(|d| (at[d] - self.origin[d]) / self.scale);
+        let terms = monomials(place).into_iter().zip(self.coefficients);
+        terms.map(|(term, c)| term * c).sum()
+    }
+
+    /// The size of the gradient at its place.
+    pub(super) fn slope(&self) -> f64 {
+        self.coefficients[1].hypot(self.coefficients[2]) / self.scale
+    }
+}
+
+fn monomials([x, y]: [f64; 2]) -> [f64; 6] {
+    [1.0, x, y, x * x, x * y, y * y]
+}

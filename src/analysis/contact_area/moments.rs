@@ -1,0 +1,155 @@
+//! Moments of the part of faces where a level is positive.
+
+use nalgebra::{Matrix2, SymmetricEigen};
+
+/// Pieces along each side of a face that the edge is cut by.
+const PIECES: usize = 4;
+
+/// Moments of a patch's part of the model in its own two coordinates.
+#[derive(Clone, Copy)]
+pub(super) struct Moments {
+    pub(super) area: f64,
+    pub(super) center: [f64; 2],
+    /// `M`.
+    second: [[f64; 2]; 2],
+}
+
+/// Sums over the parts of faces where a level is positive.
+#[derive(Default)]
+pub(super) struct Sums {
+    area: f64,
+    first: [f64; 2],
+    second: [[f64; 2]; 2],
+}
+
+impl Sums {
+    /// The part of a face where a function is positive, by small straight pieces.
+    pub(super) fn add_face(&mut self, corners: &[[f64; 2]], level: impl Fn([f64; 2]) -> f64) {
+        let n = PIECES;
+        let share = |i: usize| i as f64 / n as f64;
+        let mixed = |weights: &[f64]| {
+            [0, 1].map(|d| {
+                corners
+                    .iter()
+                    .zip(weights)
+                    .map(|(x, w)| w * x[d])
+                    .sum::<f64>()
+            })
+        };
+        let point = |i: usize, j: usize| {
+            let (s, t) = (share(i), share(j));
+            match corners.len() {
+                3 => mixed(&[1.0 - s - t, s, t]),
+                _ => mixed(&[(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t]),
+            }
+        };
+        for i in 0..n {
+            for j in 0..if corners.len() == 3 { n - i } else { n } {
+                let piece = [point(i, j), point(i + 1, j), point(i, j + 1)];
+                self.add_triangle(piece, piece.map(&level));
+                if corners.len() > 3 || i + j + 1 < n {
+                    let piece = [point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)];
+                    self.add_triangle(piece, piece.map(&level));
+                }
+            }
+        }
+    }
+
+    /// The part of a face where a function of its corners is positive.
+    pub(super) fn add_corners(&mut self, corners: &[[f64; 2]], levels: &[f64]) {
+        let n = corners.len();
+        let middle = [0, 1].map(|d| corners.iter().map(|x| x[d]).sum::<f64>() / n as f64);
+        let mean = levels.iter().sum::<f64>() / n as f64;
+        for k in 0..n {
+            let next = (k + 1) % n;
+            let piece = [corners[k], corners[next], middle];
+            self.add_triangle(piece, [levels[k], levels[next], mean]);
+        }
+    }
+
+    fn add_triangle(&mut self, corners: [[f64; 2]; 3], levels: [f64; 3]) {
+        let mut inside: Vec<[f64; 2]> = Vec::with_capacity(4);
+        for k in 0..3 {
+            let (p, q) = (corners[k], corners[(k + 1) % 3]);
+            let (a, b) = (levels[k], levels[(k + 1) % 3]);
+            if a > 0.0 {
+                inside.push(p);
+            }
+            if (a > 0.0) != (b > 0.0) {
+                let t = a / (a - b);
+                inside.push([0, 1].map(|d| p[d] + t * (q[d] - p[d])));
+            }
+        }
+        for k in 2..inside.len() {
+            self.add_whole([inside[0], inside[k - 1], inside[k]]);
+        }
+    }
+
+    /// `int x x' dA = A/12 (sum p p' + 9 c c')` over a triangle with the centroid c.
+    fn add_whole(&mut self, [p, q, r]: [[f64; 2]; 3]) {
+        let [a, b] = [q, r].map(|x| [x[0] - p[0], x[1] - p[1]]);
+        let area = 0.5 * (a[0] * b[1] - a[1] * b[0]).abs();
+        let center = [0, 1].map(|d| (p[d] + q[d] + r[d]) / 3.0);
+        self.area += area;
+        for i in 0..2 {
+            self.first[i] += area * center[i];
+            for j in 0..2 {
+                let corners = p[i] * p[j] + q[i] * q[j] + r[i] * r[j];
+                self.second[i][j] += area / 12.0 * (corners + 9.0 * center[i] * center[j]);
+            }
+        }
+    }
+
+    /// The moments of the part and its mirror images; `mirrored` changes mean and moments about the
+    /// origin, which lies on the planes.
+    pub(super) fn moments(&self, mirrored: impl Fn(&mut [f64; 2], &mut [[f64; 2]; 2])) -> Moments {
+        let per_area = 1.0 / self.area.max(f64::MIN_POSITIVE);
+        let mut center = self.first.map(|first| first * per_area);
+        let mut second = self.second.map(|row| row.map(|m| m * per_area));
+        mirrored(&mut center, &mut second);
+        for i in 0..2 {
+            for j in 0..2 {
+                second[i][j] -= center[i] * center[j];
+            }
+        }
+        Moments {
+            area: self.area,
+            center,
+            second,
+        }
+    }
+}
+
+/// The mean of a figure and its image across a line through the origin with normal `n`.
+pub(super) fn mirror(n: [f64; 2], center: &mut [f64; 2], second: &mut [[f64; 2]; 2]) {
+    let off = n[0] * center[0] + n[1] * center[1];
+    for i in 0..2 {
+        center[i] -= off * n[i];
+    }
+    // R = 1 - 2 n n'; the mean of M and R M R.
+    let m = Matrix2::new(second[0][0], second[0][1], second[1][0], second[1][1]);
+    let r = Matrix2::new(
+        1.0 - 2.0 * n[0] * n[0],
+        -2.0 * n[0] * n[1],
+        -2.0 * n[0] * n[1],
+        1.0 - 2.0 * n[1] * n[1],
+    );
+    let mean = 0.5 * (m + r * m * r);
+    *second = [[mean[(0, 0)], mean[(0, 1)]], [mean[(1, 0)], mean[(1, 1)]]];
+}
+
+impl Moments {
+    /// Half axes, the larger first, and the larger one's direction.
+    pub(super) fn axes(&self) -> ([f64; 2], [f64; 2]) {
+        let [[a, b], [_, c]] = self.second;
+        let eigen = SymmetricEigen::new(Matrix2::new(a, b, b, c));
+        let (large, small) = if eigen.eigenvalues[0] >= eigen.eigenvalues[1] {
+            (0, 1)
+        } else {
+            (1, 0)
+        };
+        let semi = [large, small].map(|k| 2.0 * eigen.eigenvalues[k].max(0.0).sqrt());
+        let major = eigen.eigenvectors.column(large);
+        (semi, [major[0], major[1]])
+    }
+}

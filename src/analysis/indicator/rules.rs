@@ -1,0 +1,164 @@
+//! Where the stresses of quadratic elements are compared.
+
+use crate::shape::{Functions, Place, Shape};
+use std::sync::LazyLock;
+
+/// Abscissas and weights of three Gauss points.
+const GAUSS_3: [(f64, f64); 3] = {
+    const G: f64 = 0.774_596_669_241_483_4;
+    [(-G, 5.0 / 9.0), (0.0, 8.0 / 9.0), (G, 5.0 / 9.0)]
+};
+/// Reference coordinates and weights: six points, degree 4 (D. A. Dunavant, Int. J. Numer. Meth.
+/// Engng 21 (1985) 1129-1148, doi:10.1002/nme.1620210612).
+const TRIANGLE: [(Place, f64); 6] = {
+    const A: f64 = 0.445_948_490_915_965;
+    const B: f64 = 0.091_576_213_509_771;
+    const WA: f64 = 0.111_690_794_839_005_5;
+    const WB: f64 = 0.054_975_871_827_661;
+    [
+        ([A, A, 0.0], WA),
+        ([1.0 - 2.0 * A, A, 0.0], WA),
+        ([A, 1.0 - 2.0 * A, 0.0], WA),
+        ([B, B, 0.0], WB),
+        ([1.0 - 2.0 * B, B, 0.0], WB),
+        ([B, 1.0 - 2.0 * B, 0.0], WB),
+    ]
+};
+/// Reference coordinates and weights: fourteen points, degree 5 (N. J. Walkington, Quadrature on
+/// simplices of arbitrary dimension, Carnegie Mellon University 2000).
+const TETRAHEDRON: [(Place, f64); 14] = {
+    const A: f64 = 0.310_885_919_263_300_6;
+    const B: f64 = 0.092_735_250_310_891_23;
+    const C: f64 = 0.045_503_704_125_649_65;
+    const D: f64 = 0.5 - C;
+    const WA: f64 = 0.018_781_320_953_002_64;
+    const WB: f64 = 0.012_248_840_519_393_66;
+    const WC: f64 = 0.007_091_003_462_846_911;
+    [
+        ([A, A, A], WA),
+        ([1.0 - 3.0 * A, A, A], WA),
+        ([A, 1.0 - 3.0 * A, A], WA),
+        ([A, A, 1.0 - 3.0 * A], WA),
+        ([B, B, B], WB),
+        ([1.0 - 3.0 * B, B, B], WB),
+        ([B, 1.0 - 3.0 * B, B], WB),
+        ([B, B, 1.0 - 3.0 * B], WB),
+        ([C, C, D], WC),
+        ([C, D, C], WC),
+        ([D, C, C], WC),
+        ([C, D, D], WC),
+        ([D, C, D], WC),
+        ([D, D, C], WC),
+    ]
+};
+
+/// The rule by which stresses of a quadratic element are compared.
+fn rule(shape: Shape) -> Vec<(Place, f64)> {
+    match (shape.n_corners(), shape.dimension()) {
+        (3, _) => TRIANGLE.to_vec(),
+        (4, 3) => TETRAHEDRON.to_vec(),
+        (_, dimension) => {
+            let mut points = vec![([0.0; 3], 1.0)];
+            for d in 0..dimension {
+                let along = |(place, weight): (Place, f64)| {
+                    GAUSS_3.map(|(x, w)| {
+                        let mut at = place;
+                        at[d] = x;
+                        (at, weight * w)
+                    })
+                };
+                points = points.into_iter().flat_map(along).collect();
+            }
+            points
+        }
+    }
+}
+
+/// A point at which the stresses of a quadratic element are compared.
+pub(super) struct Compared {
+    pub(super) weight: f64,
+    pub(super) functions: Functions,
+    /// [`shares`]
+    pub(super) shares: Vec<f64>,
+}
+
+/// Those of each shape.
+pub(super) static COMPARED: LazyLock<[Vec<Compared>; Shape::ALL.len()]> = LazyLock::new(|| {
+    Shape::ALL.map(|shape| {
+        let point = |(place, weight)| Compared {
+            weight,
+            functions: shape.functions(place),
+            shares: shares(shape, place),
+        };
+        rule(shape).into_iter().map(point).collect()
+    })
+});
+
+/// What the stress at each Gauss point of a quadratic element counts at a place: the polynomial
+/// through them.
+fn shares(shape: Shape, at: Place) -> Vec<f64> {
+    let gauss = shape.reference().gauss;
+    let simplex = shape.n_corners() == shape.dimension() + 1;
+    if simplex {
+        // Linear, one at its own point and zero at the others, in volume coordinates.
+        let own = |place: Place| {
+            [
+                1.0 - place[0] - place[1] - place[2],
+                place[0],
+                place[1],
+                place[2],
+            ]
+        };
+        let here = own(at);
+        let of = |k: usize| {
+            let (near, far) = (own(gauss[(k + 1) % gauss.len()].0)[k], own(gauss[k].0)[k]);
+            (here[k] - near) / (far - near)
+        };
+        return (0..gauss.len()).map(of).collect();
+    }
+    let of = |(place, _): &(Place, f64)| {
+        let along = |d: usize| match place[d] == 0.0 {
+            true => 1.0,
+            false => 0.5 * (1.0 + at[d] / place[d]),
+        };
+        along(0) * along(1) * along(2)
+    };
+    gauss.iter().map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rules have the volume of their element and are exact for cubics; stresses at the Gauss points
+    /// count one at their own and add up to one.
+    #[test]
+    fn rules_are_exact_and_shares_interpolate() {
+        for shape in Shape::ALL.into_iter().filter(|shape| shape.is_quadratic()) {
+            let row = shape.reference();
+            let volume: f64 = row.gauss.iter().map(|(_, weight)| weight).sum();
+            let sum: f64 = rule(shape).iter().map(|(_, weight)| weight).sum();
+            assert!((sum - volume).abs() < 1e-14, "{shape:?}");
+            // int x^3 by the same rule as by the element's own functions: x over a simplex is
+            // d! 3!/(d + 3)! times the volume, and nothing over a cube.
+            let cubes = rule(shape)
+                .iter()
+                .map(|(x, w)| w * x[0].powi(3))
+                .sum::<f64>();
+            let exact = match (row.n_corners, row.dimension) {
+                (3, _) => volume / 10.0,
+                (4, 3) => volume / 20.0,
+                _ => 0.0,
+            };
+            assert!((cubes - exact).abs() < 1e-14, "{shape:?} {cubes} {exact}");
+            for (k, (place, _)) in row.gauss.iter().enumerate() {
+                for (j, share) in shares(shape, *place).into_iter().enumerate() {
+                    let own = f64::from(u8::from(j == k));
+                    assert!((share - own).abs() < 1e-14, "{shape:?}");
+                }
+            }
+            let between: f64 = shares(shape, [0.2, 0.1, 0.05]).iter().sum();
+            assert!((between - 1.0).abs() < 1e-14);
+        }
+    }
+}

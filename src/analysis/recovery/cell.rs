@@ -1,0 +1,117 @@
+//! What an element is searched by: images of a square or cube.
+
+use crate::shape::{Place, Shape};
+use crate::space::along;
+
+/// Corners of `[-1, 1]^3`, of which the first four have the order of a square's.
+const CORNERS: [[f64; 3]; 8] = [
+    [-1.0, -1.0, -1.0],
+    [1.0, -1.0, -1.0],
+    [1.0, 1.0, -1.0],
+    [-1.0, 1.0, -1.0],
+    [-1.0, -1.0, 1.0],
+    [1.0, -1.0, 1.0],
+    [1.0, 1.0, 1.0],
+    [-1.0, 1.0, 1.0],
+];
+
+/// An element, or the part of a triangle or tetrahedron round one of its corners, as the image of
+/// `[-1, 1]^D`.
+pub(super) struct Cell<const D: usize, const N: usize> {
+    pub(super) element: u32,
+    shape: Shape,
+    nodes: [[f64; D]; N],
+    /// Reference coordinates of its corners, in the order of [`CORNERS`].
+    corners: [Place; 8],
+}
+
+impl<const D: usize, const N: usize> Cell<D, N> {
+    /// Those that an element is searched by.
+    pub(super) fn of(element: u32, shape: Shape, nodes: [[f64; D]; N]) -> Vec<Self> {
+        let cell = |corners: [Place; 8]| Cell {
+            element,
+            shape,
+            nodes,
+            corners,
+        };
+        let row = shape.reference();
+        if row.n_corners == 1 << D {
+            return vec![cell(
+                CORNERS.map(|[x, y, z]| [x, y, if D == 2 { 0.0 } else { z }]),
+            )];
+        }
+        let mean = |of: &[usize]| {
+            let share = 1.0 / of.len() as f64;
+            let sum = |sum, &k: &usize| along(sum, share, row.nodes[k]);
+            of.iter().fold([0.0; 3], sum)
+        };
+        let round = |a: usize| {
+            if D == 2 {
+                let [b, c] = [(a + 1) % 3, (a + 2) % 3];
+                let at = [mean(&[a]), mean(&[a, b]), mean(&[a, b, c]), mean(&[a, c])];
+                return cell(std::array::from_fn(|k| at[k % 4]));
+            }
+            let [b, c, d] = [(a + 1) % 4, (a + 2) % 4, (a + 3) % 4];
+            cell([
+                mean(&[a]),
+                mean(&[a, b]),
+                mean(&[a, b, c]),
+                mean(&[a, c]),
+                mean(&[a, d]),
+                mean(&[a, b, d]),
+                mean(&[a, b, c, d]),
+                mean(&[a, c, d]),
+            ])
+        };
+        (0..row.n_corners).map(round).collect()
+    }
+
+    /// The coordinates of a point.
+    pub(super) fn point(&self, at: [f64; D]) -> [f64; D] {
+        let mut place = [0.0; 3];
+        for (corner, sign) in self.corners.iter().zip(CORNERS).take(1 << D) {
+            let weight: f64 = (0..D).map(|d| 0.5 * (1.0 + sign[d] * at[d])).product();
+            place = along(place, weight, *corner);
+        }
+        let functions = self.shape.functions(place).values;
+        let mut point = [0.0; D];
+        for (n, node) in functions.iter().zip(&self.nodes) {
+            for d in 0..D {
+                point[d] += n * node[d];
+            }
+        }
+        point
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{SPACINGS, Summit};
+    use super::*;
+
+    /// The search covers a triangle, whichever of its corners comes first: the highest point of
+    /// this function lies on the side between the last two of one numbering, and the corners are
+    /// higher than what lies between.
+    #[test]
+    fn a_triangle_is_searched_whole() {
+        let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
+        let f = |[x, y]: [f64; 2]| 1.0 + 0.02 * (y - 1.0) + 0.04 * x - 0.05 * x * x;
+        // On x + y = 1: 1 + 0.02 x - 0.05 x^2, highest at x = 0.2.
+        for first in 0..3 {
+            let mut nodes = [[0.0; 2]; 8];
+            for (i, node) in nodes.iter_mut().take(3).enumerate() {
+                *node = corners[(first + i) % 3];
+            }
+            let highest = Cell::of(0, Shape::Tri3, nodes).into_iter().map(|cell| {
+                let mut top = Summit::unknown();
+                for spacing in SPACINGS {
+                    top.look_around(spacing, &mut |at, _| f(cell.point(at)));
+                }
+                (top.value, cell.point(top.at))
+            });
+            let (value, at) = highest.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+            assert!((value - 1.002).abs() < 1e-9, "{first}: {value}");
+            assert!((at[0] - 0.2).abs() < 1e-4 && (at[0] + at[1] - 1.0).abs() < 1e-12);
+        }
+    }
+}
