@@ -10,6 +10,7 @@
 //! |---|---|---|---|
 //! | cylinder on a half plane (the paper's 5.1) | `hertz_line.rs`: [`HertzLine`] | half width, pressure, stress everywhere, first yield for any `nu` | Hertz; McEwen 1949; Johnson pp. 99-103 |
 //! | ball on a half space | `hertz_point.rs`: [`HertzPoint`] | contact radius, approach, pressure, stress everywhere, first yield for any `nu` | Hertz; Huber 1904; Johnson pp. 60-63, 90-93 |
+//! | bodies of any curvature | `hertz_ellipse.rs`: [`HertzEllipse`] | half axes, approach, pressure, first yield for any `nu` | Hertz; Johnson pp. 84-99 |
 //! | disc in a plate (the paper's 5.2) | `disc_in_plate.rs`: [`DiscInPlate`] | contact angle, pressure, gap, stress in both bodies, first yield | derived in the file from Muskhelishvili's potentials |
 //! | pin in a hole | `pin_in_hole.rs`: [`PinInHole`] | contact angle, pressure, with clearance, neat or with interference | Persson 1964; Ciavarella and Decuzzi 2001 |
 //! | hole in a plate | `kirsch.rs`: [`KirschField`] | stress, traction on a cut, displacement | Kirsch 1898; Timoshenko and Goodier par. 35 |
@@ -30,7 +31,9 @@ mod disc_in_plate;
 mod domain;
 mod elastoplastic_cylinder;
 mod elastoplastic_sphere;
+mod elliptic;
 mod flat_punch;
+mod hertz_ellipse;
 mod hertz_line;
 mod hertz_point;
 mod kirsch;
@@ -47,7 +50,9 @@ pub use contact_pair::{contact_modulus, relative_radius};
 pub use disc_in_plate::DiscInPlate;
 pub use elastoplastic_cylinder::ElastoplasticCylinder;
 pub use elastoplastic_sphere::{ElastoplasticSphere, SphereContact};
+pub use elliptic::{elliptic_d, elliptic_e, elliptic_k};
 pub use flat_punch::{CircularPunch, FlatPunch};
+pub use hertz_ellipse::HertzEllipse;
 pub use hertz_line::HertzLine;
 pub use hertz_point::HertzPoint;
 pub use kirsch::KirschField;
