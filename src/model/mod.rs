@@ -200,9 +200,12 @@ impl Model {
 
 fn build_mesh(scene: &Scene) -> Result<Mesh> {
     let folder = scene.file.as_deref().and_then(std::path::Path::parent);
-    let made = mesh::generate::from_source(&scene.mesh, folder, |p| {
-        mesh::generate::contact_size::of(scene, p)
-    });
+    let made = mesh::generate::from_source(
+        &scene.mesh,
+        folder,
+        |p| mesh::generate::contact_size::of(scene, p),
+        |p| mesh::generate::ellipse_size::of(scene, p),
+    );
     let mut mesh = made.map_err(|error| match scene.mesh.file {
         Some(_) => scene.places.in_front("mesh.file", error),
         None => scene.places.in_front("mesh", error),

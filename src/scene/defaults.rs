@@ -34,6 +34,30 @@ pub(super) fn no_bias() -> [f64; 2] {
     [1.0, 1.0]
 }
 
+pub(super) fn no_solid_bias() -> [f64; 3] {
+    [1.0; 3]
+}
+
+pub(super) fn solid_fine_width() -> f64 {
+    1.25
+}
+
+pub(super) fn solid_fine_depth() -> f64 {
+    1.0
+}
+
+pub(super) fn solid_far_size() -> f64 {
+    30.0
+}
+
+pub(super) fn solid_growth() -> f64 {
+    1.4
+}
+
+pub(super) fn solid_shape() -> Shape {
+    Shape::Hex8
+}
+
 pub(super) fn one() -> f64 {
     1.0
 }

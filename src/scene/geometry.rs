@@ -13,7 +13,10 @@ pub struct MeshSource {
     pub cylinder_on_half_plane: Option<CylinderOnHalfPlane>,
     /// Quarter of a disc in the hole of a plate (paper 5.2).
     pub disc_in_plate: Option<DiscInPlate>,
-    /// Blocks and rings, put together.
+    /// Two bodies of any curvature, as half spaces that differ from flat near the contact (solid).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub curved_bodies: Option<CurvedBodies>,
+    /// Blocks, rings and bricks, put together.
     pub parts: Option<Vec<Part>>,
     /// A Gmsh file (.msh 2.2 or 4.1, ASCII), relative to the scene file. Physical surfaces are
     /// bodies, physical curves surfaces, physical points node sets.
@@ -91,6 +94,85 @@ pub struct CylinderOnHalfPlane {
     pub element: Shape,
 }
 
+/// Two bodies whose surfaces have principal radii along x and y, pressed together along z: a ball in a
+/// groove, crossed cylinders, a crowned roller on a plate. Bodies `upper` and `lower`; the first contact
+/// is at the origin.
+///
+/// | set | where |
+/// |---|---|
+/// | `upper.contact`, `lower.contact` | the contact candidates |
+/// | `upper.outside`, `lower.outside` | the rest of the two surfaces |
+/// | `*.symmetry_x`, `*.symmetry_y` | the planes x = 0 and y = 0, where these bound the model; else `*.left`, `*.front` |
+/// | `*.right`, `*.back` | the outer ends, x and y = `far_size` larger half axes |
+/// | `upper.top`, `lower.bottom` | the cuts, z = +-`far_size` larger half axes |
+/// | `upper.pole`, `lower.pole` | node sets: the node at the origin |
+///
+/// See [`crate::mesh::generate::curved_bodies`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CurvedBodies {
+    /// Principal radii of the upper body along x and y: positive convex, negative hollow, 0 or infinite flat.
+    pub upper: [f64; 2],
+    /// Those of the lower body.
+    pub lower: [f64; 2],
+    /// Elements over the smaller half axis of the contact, at first yield and at any larger contact at least.
+    pub resolution: usize,
+    /// Half axes of the contact along x and y at first yield; by default computed from the materials (Hertz).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub semi_axes: Option<[f64; 2]>,
+    /// What of the bodies is meshed: `quarter` (x, y >= 0), `half` (x >= 0) or `full`. The scene's `symmetry` is then 4, 2 or 1.
+    #[serde(default)]
+    pub model: Meshed,
+    /// Width of the evenly meshed region, in half axes.
+    #[serde(default = "super::defaults::solid_fine_width")]
+    pub fine_width: f64,
+    /// How far the contact may reach, in half axes at first yield. By default it follows from the largest load of the program;
+    /// beyond `fine_width` elements grow by `1 + 1/resolution` up to there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact_width: Option<f64>,
+    /// Depth of the evenly meshed region, in smaller half axes.
+    #[serde(default = "super::defaults::solid_fine_depth")]
+    pub fine_depth: f64,
+    /// Size of each body, in larger half axes. The bodies stand for infinite ones.
+    #[serde(default = "super::defaults::solid_far_size")]
+    pub far_size: f64,
+    /// Ratio of neighbouring element sizes outside the even region.
+    #[serde(default = "super::defaults::solid_growth")]
+    pub growth: f64,
+    /// Element shape: hex8 or hex20.
+    #[serde(default = "super::defaults::solid_shape")]
+    pub element: Shape,
+}
+
+/// How much of a symmetric model is meshed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Meshed {
+    /// Where x and y are not negative.
+    #[default]
+    Quarter,
+    /// Where x is not negative.
+    Half,
+    /// All of it.
+    Full,
+}
+
+impl CurvedBodies {
+    /// Whether x = 0 and y = 0 bound the model.
+    pub fn halved(&self) -> [bool; 2] {
+        match self.model {
+            Meshed::Quarter => [true, true],
+            Meshed::Half => [true, false],
+            Meshed::Full => [false, false],
+        }
+    }
+
+    /// How many copies of the model make the whole.
+    pub fn copies(&self) -> usize {
+        1 << self.halved().iter().filter(|halved| **halved).count()
+    }
+}
+
 /// Quarter model (x, y >= 0) of a disc that fills the hole of a plate, tension along x. Bodies
 /// `disc` and `plate`; surfaces `disc.contact`, `plate.contact` (the hole), `plate.far`,
 /// `disc.symmetry_x`, `plate.symmetry_x` (on x = 0), `disc.symmetry_y`, `plate.symmetry_y` (on y = 0); node sets
@@ -129,11 +211,15 @@ pub struct Part {
     pub body: String,
     /// A rectangle.
     pub block: Option<Block>,
+    /// A box of a solid model: surfaces `BODY.left`, `.right` (x), `.front`, `.back` (y), `.bottom`,
+    /// `.top` (z).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub brick: Option<BrickPart>,
     /// A sector of a ring.
     pub ring: Option<Ring>,
     /// A quarter, half or full disc.
     pub disc: Option<Disc>,
-    /// Element shape.
+    /// Element shape; of a brick hex8 or hex20.
     #[serde(default = "super::defaults::shape")]
     pub element: Shape,
 }
@@ -154,6 +240,23 @@ pub struct Block {
     /// Named pieces of the sides: surface `BODY.NAME` = facets of `side` whose both ends lie in `from..to`.
     #[serde(default)]
     pub pieces: Vec<Piece>,
+}
+
+/// A box `[x0, x1] x [y0, y1] x [z0, z1]`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BrickPart {
+    /// From, to.
+    pub x: [f64; 2],
+    /// From, to.
+    pub y: [f64; 2],
+    /// From, to.
+    pub z: [f64; 2],
+    /// Number of elements along x, y and z.
+    pub elements: [usize; 3],
+    /// Size of the last element over that of the first, along x, y and z.
+    #[serde(default = "super::defaults::no_solid_bias")]
+    pub bias: [f64; 3],
 }
 
 /// A named piece of a block's side.

@@ -30,7 +30,8 @@ mod validate;
 pub use accuracy::{AccuracyDemand, DEMANDED};
 pub use boundary::{Contact, Direction, Displacement, History, Kirsch, Load, PlaneForce, Support};
 pub use geometry::{
-    Block, CylinderOnHalfPlane, Disc, DiscInPlate, MeshSource, Part, Piece, Ring, SurfaceCircle,
+    Block, BrickPart, CurvedBodies, CylinderOnHalfPlane, Disc, DiscInPlate, MeshSource, Meshed,
+    Part, Piece, Ring, SurfaceCircle,
 };
 pub use key_places::KeyPlaces;
 pub use material::{Body, Material, Plastic};

@@ -48,7 +48,7 @@ const QUADRILATERAL_RULE: &Rule = &[
 const TRIANGLE_RULE: &Rule = {
     const NEAR: f64 = 0.470_142_064_105_115_1;
     const FAR: f64 = 0.101_286_507_323_456_34;
-    const OF_NEAR: f64 = 0.066_197_076_394_253_09;
+    const OF_NEAR: f64 = 0.066_197_076_394_253_1;
     const OF_FAR: f64 = 0.062_969_590_272_413_58;
     &[
         ([1.0 / 3.0, 1.0 / 3.0, 0.0], 0.1125),

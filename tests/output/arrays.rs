@@ -14,7 +14,7 @@ use brinell::scene::{Body, Contact, Direction, History, Kind, Material, Support}
 /// file holds.
 fn blocks() -> brinell::Result<Model> {
     let mut builder = ModelBuilder::new(Kind::PlaneStrain);
-    let n = 4;
+    let n = 4_u32;
     for (body, base) in [("lower", 0.0), ("the \"upper\" one", 1.01)] {
         let first = builder.n_nodes();
         for row in 0..=n {
@@ -47,7 +47,7 @@ fn blocks() -> brinell::Result<Model> {
         .map(|k| NodePair {
             first: 25 + k,
             second: 20 + k,
-            normal: Some([0.0, 1.0]),
+            normal: Some([0.0, 1.0, 0.0]),
             gap: Some(0.001),
         })
         .collect();
@@ -59,7 +59,7 @@ fn blocks() -> brinell::Result<Model> {
     let hold = |on: &str, fix: Direction| Support {
         on: on.into(),
         fix: vec![fix],
-        angle: None,
+        ..Support::default()
     };
     builder
         .title("Arrays")
@@ -74,7 +74,7 @@ fn blocks() -> brinell::Result<Model> {
         .nodal_load(
             "push",
             &[45, 47, 49],
-            &[[0.0, -2.0], [0.0, -5.0], [0.5, -2.0]],
+            &[[0.0, -2.0, 0.0], [0.0, -5.0, 0.0], [0.5, -2.0, 0.0]],
             History::default(),
         )?;
     builder.build()

@@ -9,7 +9,7 @@
 //! subdivisions.
 
 use crate::mesh::Shape;
-use crate::scene::{Block, CylinderOnHalfPlane, DiscInPlate, MeshSource, Part};
+use crate::scene::{Block, CurvedBodies, CylinderOnHalfPlane, DiscInPlate, MeshSource, Part};
 
 /// Most by which rounding to whole elements may distort a part of the mesh against the others.
 const DISTORTION: f64 = 0.1;
@@ -50,6 +50,8 @@ impl Family for MeshSource {
             replace(p, ratio)?
         } else if let Some(p) = &mut out.disc_in_plate {
             replace(p, ratio)?
+        } else if let Some(p) = &mut out.curved_bodies {
+            replace(p, ratio)?
         } else if let Some(p) = &mut out.parts {
             replace(p, ratio)?
         } else {
@@ -69,6 +71,8 @@ impl Family for MeshSource {
             p.words()
         } else if let Some(p) = &self.disc_in_plate {
             p.words()
+        } else if let Some(p) = &self.curved_bodies {
+            p.words()
         } else if let Some(p) = &self.parts {
             p.words()
         } else {
@@ -79,6 +83,7 @@ impl Family for MeshSource {
     fn shape(&self) -> Option<Shape> {
         let generated = self.cylinder_on_half_plane.as_ref().map(|p| p.element);
         let generated = generated.or(self.disc_in_plate.as_ref().map(|p| p.element));
+        let generated = generated.or(self.curved_bodies.as_ref().map(|p| p.element));
         generated.or_else(|| self.parts.as_ref()?.shape())
     }
 
@@ -87,6 +92,9 @@ impl Family for MeshSource {
             .iter_mut()
             .for_each(|p| p.set_shape(shape));
         self.disc_in_plate
+            .iter_mut()
+            .for_each(|p| p.set_shape(shape));
+        self.curved_bodies
             .iter_mut()
             .for_each(|p| p.set_shape(shape));
         self.parts.iter_mut().for_each(|p| p.set_shape(shape));
@@ -163,6 +171,28 @@ impl Family for DiscInPlate {
     }
 }
 
+impl Family for CurvedBodies {
+    fn member(&self, ratio: f64) -> Result<(Self, f64), String> {
+        let mut out = self.clone();
+        out.resolution = scaled(self.resolution, 1, ratio);
+        let ratio = self.resolution as f64 / out.resolution as f64;
+        out.growth = grown(self.growth, ratio);
+        Ok((out, ratio))
+    }
+
+    fn words(&self) -> String {
+        growing(self.resolution, self.growth, None)
+    }
+
+    fn shape(&self) -> Option<Shape> {
+        Some(self.element)
+    }
+
+    fn set_shape(&mut self, shape: Shape) {
+        self.element = shape;
+    }
+}
+
 impl Family for Vec<Part> {
     /// In exact proportion where the element counts have a common divisor that allows it, else each
     /// rounded.
@@ -185,6 +215,10 @@ impl Family for Vec<Part> {
 
     fn words(&self) -> String {
         let counts = self.iter().map(|p| match (&p.block, &p.ring, &p.disc) {
+            _ if p.brick.is_some() => {
+                let counts: Vec<String> = counts(p).iter().map(usize::to_string).collect();
+                counts.join(" x ")
+            }
             (Some(b), _, _) => format!("{} x {}", b.elements[0], b.elements[1]),
             (_, Some(r), _) => format!("{} x {}", r.elements[0], r.elements[1]),
             (_, _, Some(d)) => d.elements.to_string(),
@@ -253,7 +287,8 @@ fn counts(part: &Part) -> Vec<usize> {
     let block = part.block.iter().flat_map(|b| b.elements);
     let ring = part.ring.iter().flat_map(|r| r.elements);
     let disc = part.disc.iter().map(|d| d.elements);
-    block.chain(ring).chain(disc).collect()
+    let brick = part.brick.iter().flat_map(|b| b.elements);
+    block.chain(ring).chain(disc).chain(brick).collect()
 }
 
 /// The parts with other counts, their biases those of the same sizes along the lines.
@@ -271,6 +306,11 @@ fn with_counts(parts: &[Part], new: impl Fn(usize) -> usize) -> Vec<Part> {
         if let Some(block) = &mut part.block {
             for axis in 0..2 {
                 block.elements[axis] = biased(block.elements[axis], &mut block.bias[axis]);
+            }
+        }
+        if let Some(brick) = &mut part.brick {
+            for axis in 0..3 {
+                brick.elements[axis] = biased(brick.elements[axis], &mut brick.bias[axis]);
             }
         }
         if let Some(ring) = &mut part.ring {

@@ -90,6 +90,26 @@ pub(super) fn elements(cells: f64, shape: Shape) -> f64 {
     }
 }
 
+/// Bytes of memory that a solid mesh takes at least, for each node of its elements: what is factored
+/// is more.
+const BYTES_PER_NODE: f64 = 2000.0;
+
+/// Refuses a solid mesh of so many hexahedra that memory cannot hold, before anything is allocated.
+pub(super) fn solid_elements(key: &str, elements: f64, shape: Shape) -> Result<()> {
+    total(key, elements)?;
+    let nodes = elements * if shape.is_quadratic() { 4.0 } else { 1.0 };
+    let needed = nodes * BYTES_PER_NODE;
+    match crate::memory::available() {
+        Some(there) if needed > there => Err(Error::input(format!(
+            "{key}: the mesh would have {elements:.3e} elements and take more than {:.0} GB of memory; \
+             {:.0} GB are free: ask for fewer or larger elements",
+            needed / 1e9,
+            there / 1e9
+        ))),
+        _ => Ok(()),
+    }
+}
+
 /// Refuses a mesh that would be too large, before anything is allocated.
 pub(super) fn total(key: &str, elements: f64) -> Result<()> {
     if elements <= MOST_ELEMENTS {

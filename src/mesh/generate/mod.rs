@@ -6,9 +6,12 @@
 //! share nodes.
 
 mod angle;
+mod brick;
 pub(crate) mod contact_size;
+mod curved_bodies;
 mod cylinder;
 mod disc;
+pub(crate) mod ellipse_size;
 mod family;
 mod grading;
 mod grid;
@@ -19,20 +22,22 @@ mod polar;
 #[cfg(test)]
 mod tests;
 
+pub use curved_bodies::{EllipseSize, curved_bodies};
 pub use cylinder::{ContactSize, WIDEST, cylinder_on_half_plane};
 pub use disc::disc_in_plate;
 pub use family::Family;
 pub use parts::parts;
 
 use super::{Mesh, gmsh};
-use crate::scene::{CylinderOnHalfPlane, MeshSource};
+use crate::scene::{CurvedBodies, CylinderOnHalfPlane, MeshSource};
 use crate::{Error, Result};
 use std::path::Path;
 
 /// The mesh that a scene's `[mesh]` asks for.
 ///
 /// A relative `file` is looked up in `directory` (the scene file's). `contact` gives the size of
-/// the contact of a cylinder on a half plane; it is only called for that geometry. What is made of
+/// the contact of a cylinder on a half plane, `ellipse` that of curved bodies; they are only called
+/// for that geometry. What is made of
 /// the mesh of a file comes after: circles ([`super::lay_on_circle`]) and subdivisions
 /// ([`super::subdivided`]).
 ///
@@ -42,8 +47,10 @@ pub fn from_source(
     source: &MeshSource,
     directory: Option<&Path>,
     contact: impl FnOnce(&CylinderOnHalfPlane) -> Result<ContactSize>,
+    ellipse: impl FnOnce(&CurvedBodies) -> Result<EllipseSize>,
 ) -> Result<Mesh> {
     let given = [
+        source.curved_bodies.is_some(),
         source.cylinder_on_half_plane.is_some(),
         source.disc_in_plate.is_some(),
         source.parts.is_some(),
@@ -53,13 +60,15 @@ pub fn from_source(
     if count != 1 {
         return Err(Error::input(format!(
             "mesh: {count} sources are given; give exactly one of cylinder_on_half_plane, \
-             disc_in_plate, parts and file"
+             disc_in_plate, curved_bodies, parts and file"
         )));
     }
     if let Some(p) = &source.cylinder_on_half_plane {
         cylinder_on_half_plane(p, contact(p)?)
     } else if let Some(p) = &source.disc_in_plate {
         disc_in_plate(p)
+    } else if let Some(p) = &source.curved_bodies {
+        curved_bodies(p, ellipse(p)?)
     } else if let Some(p) = &source.parts {
         parts(p)
     } else {

@@ -1,12 +1,13 @@
 //! Blocks, ring sectors and disc sectors, put together.
 
 use super::angle::direction;
+use super::brick::{Brick, Face};
 use super::grid::{BodyBuilder, Side, empty_mesh};
 use super::o_grid::{self, disc_grid};
 use super::polar::{Sector, is_full_circle, ring_grid};
 use super::{grading, limits};
-use crate::mesh::{Curve, Mesh};
-use crate::scene::{Block, Disc, Part, Piece, Ring};
+use crate::mesh::{Curve, Mesh, Shape};
+use crate::scene::{Block, BrickPart, Disc, Part, Piece, Ring};
 use crate::{Error, Result};
 use std::collections::BTreeSet;
 
@@ -22,6 +23,7 @@ pub fn parts(parts: &[Part]) -> Result<Mesh> {
             "mesh.parts is empty; give at least one block, ring or disc",
         ));
     }
+    let solid = parts.iter().any(|part| part.brick.is_some());
     let mut names = BTreeSet::new();
     let mut elements = 0.0;
     for (index, part) in parts.iter().enumerate() {
@@ -35,11 +37,30 @@ pub fn parts(parts: &[Part]) -> Result<Mesh> {
             )
             .within(context()));
         }
+        if part.brick.is_some() != solid {
+            let mixed =
+                "a brick is solid, the other parts are plane; a model has parts of one kind";
+            return Err(Error::input(mixed).within(context()));
+        }
         let cells = predicted_cells(part).map_err(|e| e.within(context()))?;
         elements += limits::elements(cells, part.element);
         limits::total("elements", elements).map_err(|e| e.within(context()))?;
+        if solid {
+            limits::solid_elements("elements", elements, part.element)
+                .map_err(|e| e.within(context()))?;
+        }
     }
     let mut mesh = empty_mesh();
+    if solid {
+        mesh.dimension = 3;
+        for (part, brick) in parts
+            .iter()
+            .filter_map(|part| Some((part, part.brick.as_ref()?)))
+        {
+            make_brick(&mut mesh, part, brick)?;
+        }
+        return Ok(mesh);
+    }
     for (index, part) in parts.iter().enumerate() {
         let mut builder = BodyBuilder::new(&mut mesh, &part.body, part.element);
         let made = match (&part.block, &part.ring, &part.disc) {
@@ -62,6 +83,18 @@ pub fn parts(parts: &[Part]) -> Result<Mesh> {
 
 /// Checks a part and counts its cells, before anything is allocated.
 fn predicted_cells(part: &Part) -> Result<f64> {
+    if let (Some(brick), None, None, None) = (&part.brick, &part.block, &part.ring, &part.disc) {
+        for (axis, range) in ["x", "y", "z"].into_iter().zip([brick.x, brick.y, brick.z]) {
+            limits::range(&format!("brick.{axis}"), range)?;
+        }
+        for (axis, bias) in ["x", "y", "z"].into_iter().zip(brick.bias) {
+            limits::positive(&format!("brick.bias ({axis})"), bias)?;
+        }
+        for n in brick.elements {
+            limits::at_least("brick.elements", n, 1)?;
+        }
+        return Ok(brick.elements.iter().map(|n| *n as f64).product());
+    }
     match (&part.block, &part.ring, &part.disc) {
         (Some(block), None, None) => {
             limits::range("block.x", block.x)?;
@@ -101,7 +134,7 @@ fn predicted_cells(part: &Part) -> Result<f64> {
             Ok(o_grid::n_cells(disc.elements, quarters(disc)?))
         }
         _ => Err(Error::input(
-            "give exactly one of block, ring and disc in a part",
+            "give exactly one of block, brick, ring and disc in a part",
         )),
     }
 }
@@ -146,6 +179,25 @@ const SIDES: [(&str, Side, [f64; 2]); 4] = [
     ("bottom", Side::Bottom, [0.0, -1.0]),
     ("top", Side::Top, [0.0, 1.0]),
 ];
+
+fn make_brick(mesh: &mut Mesh, part: &Part, brick: &BrickPart) -> Result<()> {
+    let [nx, ny, nz] = brick.elements;
+    let x = grading::biased("brick.x", brick.x[0], brick.x[1], nx, brick.bias[0])?;
+    let y = grading::biased("brick.y", brick.y[0], brick.y[1], ny, brick.bias[1])?;
+    let z = grading::biased("brick.z", brick.z[0], brick.z[1], nz, brick.bias[2])?;
+    let point = |[i, j, k]: [usize; 3]| [x[i], y[j], z[k]];
+    // The shape of plane parts, where none is given.
+    let element = match part.element {
+        Shape::Quad4 => Shape::Hex8,
+        given => given,
+    };
+    let body = Brick::add(mesh, &part.body, element, brick.elements, point)
+        .map_err(|e| e.within(format!("mesh.parts (body `{}`)", part.body)))?;
+    for (name, face) in Face::ALL {
+        body.side(mesh, name, face);
+    }
+    Ok(())
+}
 
 fn make_block(builder: &mut BodyBuilder, block: &Block) -> Result<()> {
     let [nx, ny] = block.elements;

@@ -17,6 +17,7 @@ fn ring(element: Shape) -> Mesh {
             bias: 1.0,
         }),
         disc: None,
+        brick: None,
         element,
     }])
     .unwrap();

@@ -1,7 +1,12 @@
 //! The mesh source: one of them, with parameters that make sense.
 
 use super::Checks;
-use crate::scene::{Block, CylinderOnHalfPlane, Disc, DiscInPlate, MeshSource, Part, Ring, Scene};
+use crate::analytical::HertzEllipse;
+use crate::scene::{
+    Block, BrickPart, CurvedBodies, CylinderOnHalfPlane, Disc, DiscInPlate, MeshSource, Part, Ring,
+    Scene,
+};
+use crate::shape::Shape;
 use crate::space::Space;
 use crate::text::exact;
 use std::collections::BTreeSet;
@@ -18,6 +23,7 @@ impl Checks {
                     mesh.cylinder_on_half_plane.is_some(),
                 ),
                 ("disc_in_plate", mesh.disc_in_plate.is_some()),
+                ("curved_bodies", mesh.curved_bodies.is_some()),
                 ("parts", mesh.parts.is_some()),
                 ("file", mesh.file.is_some()),
             ],
@@ -27,6 +33,9 @@ impl Checks {
         }
         if let Some(parameters) = &mesh.disc_in_plate {
             self.disc_in_plate(parameters, scene.kind);
+        }
+        if let Some(parameters) = &mesh.curved_bodies {
+            self.curved_bodies(parameters, scene);
         }
         if let Some(parts) = &mesh.parts {
             self.require(
@@ -71,6 +80,7 @@ impl Checks {
     fn cylinder_on_half_plane(&mut self, parameters: &CylinderOnHalfPlane, scene: &Scene) {
         let key = |name: &str| format!("mesh.cylinder_on_half_plane.{name}");
         self.positive(key("radius"), parameters.radius);
+        self.element(&key("element"), parameters.element, scene.kind);
         self.count(key("resolution"), parameters.resolution, 1);
         self.at_least(key("fine_width"), parameters.fine_width, 1.0);
         if let Some(width) = parameters.contact_width {
@@ -113,6 +123,67 @@ impl Checks {
         }
     }
 
+    fn curved_bodies(&mut self, parameters: &CurvedBodies, scene: &Scene) {
+        let key = |name: &str| format!("mesh.curved_bodies.{name}");
+        self.require(
+            scene.kind.is_solid(),
+            "kind",
+            "curved_bodies is a solid model; use kind = \"solid\"",
+        );
+        self.require(
+            scene.symmetry == parameters.copies(),
+            "symmetry",
+            format!(
+                "{} must be {}: that many copies of mesh.curved_bodies.model make the whole",
+                scene.symmetry,
+                parameters.copies()
+            ),
+        );
+        if let Err(error) = HertzEllipse::relative_radii(parameters.upper, parameters.lower) {
+            self.problem(key("upper"), error.message());
+        }
+        self.count(key("resolution"), parameters.resolution, 1);
+        self.at_least(key("fine_width"), parameters.fine_width, 1.0);
+        if let Some(width) = parameters.contact_width {
+            self.at_least(key("contact_width"), width, parameters.fine_width);
+        }
+        self.positive(key("fine_depth"), parameters.fine_depth);
+        self.at_least(key("growth"), parameters.growth, 1.0);
+        let fine = parameters.fine_width.max(parameters.fine_depth);
+        self.require(
+            parameters.far_size > fine,
+            key("far_size"),
+            format!(
+                "{} must be greater than fine_width and fine_depth ({})",
+                exact(parameters.far_size),
+                exact(fine)
+            ),
+        );
+        for semi_axis in parameters.semi_axes.into_iter().flatten() {
+            self.positive(key("semi_axes"), semi_axis);
+        }
+        self.require(
+            parameters.semi_axes.is_some() || super::may_yield(scene),
+            key("semi_axes"),
+            "are missing, and cannot be computed because no body can yield: give them, \
+             or a yield_stress to a material",
+        );
+        self.element(&key("element"), parameters.element, scene.kind);
+    }
+
+    /// An element of as many dimensions as the model.
+    fn element(&mut self, key: &str, element: Shape, kind: Space) {
+        self.require(
+            element.dimension() == kind.dimension(),
+            key,
+            format!(
+                "\"{}\" is no element of a {} model",
+                element.name(),
+                kind.name()
+            ),
+        );
+    }
+
     fn disc_in_plate(&mut self, parameters: &DiscInPlate, kind: Space) {
         let key = |name: &str| format!("mesh.disc_in_plate.{name}");
         self.positive(key("radius"), parameters.radius);
@@ -146,10 +217,11 @@ impl Checks {
             ),
         );
         self.require(
-            !kind.is_axisymmetric(),
+            matches!(kind, Space::PlaneStress | Space::PlaneStrain),
             "kind",
             "disc_in_plate is a plane model; use plane_stress or plane_strain",
         );
+        self.element(&key("element"), parameters.element, kind);
     }
 
     fn part(&mut self, key: &str, part: &Part, kind: Space) {
@@ -158,6 +230,7 @@ impl Checks {
             "shape",
             &[
                 ("block", part.block.is_some()),
+                ("brick", part.brick.is_some()),
                 ("ring", part.ring.is_some()),
                 ("disc", part.disc.is_some()),
             ],
@@ -167,6 +240,22 @@ impl Checks {
             format!("{key}.body"),
             "is empty; give the body a name",
         );
+        let solid = part.brick.is_some();
+        self.require(
+            solid == kind.is_solid(),
+            key,
+            match solid {
+                true => "a brick is a part of a solid model; use kind = \"solid\", or a block",
+                false => "blocks, rings and discs are plane parts; a solid model takes bricks",
+            },
+        );
+        // Quad4 stands for what is not given.
+        if !(solid && part.element == Shape::Quad4) {
+            self.element(&format!("{key}.element"), part.element, kind);
+        }
+        if let Some(brick) = &part.brick {
+            self.brick(&format!("{key}.brick"), brick);
+        }
         if let Some(block) = &part.block {
             self.block(&format!("{key}.block"), block, kind);
         }
@@ -175,6 +264,22 @@ impl Checks {
         }
         if let Some(disc) = &part.disc {
             self.disc(&format!("{key}.disc"), disc);
+        }
+    }
+
+    fn brick(&mut self, key: &str, brick: &BrickPart) {
+        for (axis, [from, to]) in [brick.x, brick.y, brick.z].into_iter().enumerate() {
+            self.require(
+                from < to,
+                format!("{key}.{}", ["x", "y", "z"][axis]),
+                format!(
+                    "[{}, {}] must run from the smaller to the larger coordinate",
+                    exact(from),
+                    exact(to)
+                ),
+            );
+            self.count(format!("{key}.elements.{axis}"), brick.elements[axis], 1);
+            self.positive(format!("{key}.bias.{axis}"), brick.bias[axis]);
         }
     }
 
@@ -316,6 +421,8 @@ fn generated_bodies(mesh: &MeshSource) -> Option<Vec<&str>> {
         Some(vec!["cylinder", "half_plane"])
     } else if mesh.disc_in_plate.is_some() {
         Some(vec!["disc", "plate"])
+    } else if mesh.curved_bodies.is_some() {
+        Some(vec!["upper", "lower"])
     } else {
         let parts = mesh.parts.as_ref()?;
         Some(parts.iter().map(|part| part.body.as_str()).collect())

@@ -113,9 +113,12 @@ pub(super) fn nodes_on(n: usize, shape: Shape) -> usize {
 #[test]
 fn exactly_one_source_is_needed() {
     use crate::scene::MeshSource;
-    let none = super::from_source(&MeshSource::default(), None, |_| {
-        Ok(ContactSize::at_yield(1.0))
-    })
+    let none = super::from_source(
+        &MeshSource::default(),
+        None,
+        |_| unreachable!(),
+        |_| unreachable!(),
+    )
     .unwrap_err();
     assert!(none.message().contains("0 sources"), "{none}");
     let two = MeshSource {
@@ -123,7 +126,7 @@ fn exactly_one_source_is_needed() {
         file: Some("a.msh".into()),
         ..MeshSource::default()
     };
-    let two = super::from_source(&two, None, |_| Ok(ContactSize::at_yield(1.0))).unwrap_err();
+    let two = super::from_source(&two, None, |_| unreachable!(), |_| unreachable!()).unwrap_err();
     assert!(two.message().contains("2 sources"), "{two}");
 }
 
@@ -134,24 +137,30 @@ fn the_source_decides_what_is_made() {
         cylinder_on_half_plane: Some(cylinder::example(Shape::Quad4)),
         ..MeshSource::default()
     };
-    let mesh = super::from_source(&source, None, |p| {
-        Ok(ContactSize::at_yield(0.01 * p.radius))
-    })
+    let mesh = super::from_source(
+        &source,
+        None,
+        |p| Ok(ContactSize::at_yield(0.01 * p.radius)),
+        |_| unreachable!(),
+    )
     .unwrap();
     assert_eq!(mesh.bodies, ["cylinder", "half_plane"]);
     let source = MeshSource {
         disc_in_plate: Some(disc::example(8, Shape::Quad4)),
         ..MeshSource::default()
     };
-    let mesh = super::from_source(&source, None, |_| unreachable!()).unwrap();
+    let mesh = super::from_source(&source, None, |_| unreachable!(), |_| unreachable!()).unwrap();
     assert_eq!(mesh.bodies, ["disc", "plate"]);
     let source = MeshSource {
         file: Some("no_such_file.msh".into()),
         ..MeshSource::default()
     };
-    let error = super::from_source(&source, Some(std::path::Path::new("nowhere")), |_| {
-        Ok(ContactSize::at_yield(1.0))
-    });
+    let error = super::from_source(
+        &source,
+        Some(std::path::Path::new("nowhere")),
+        |_| unreachable!(),
+        |_| unreachable!(),
+    );
     let error = error.unwrap_err();
     assert_eq!(error.kind(), crate::ErrorKind::Io);
     assert!(error.message().contains("no_such_file.msh"), "{error}");

@@ -9,6 +9,7 @@ fn part(body: &str, element: Shape) -> Part {
         block: None,
         ring: None,
         disc: None,
+        brick: None,
         element,
     }
 }

@@ -1,0 +1,205 @@
+//! Two bodies of any curvature pressed together: Hertz' model in space.
+
+use super::brick::{Brick, Face};
+use super::grading::{self, Growth};
+use super::limits;
+use crate::analytical::HertzEllipse;
+use crate::mesh::Mesh;
+use crate::scene::CurvedBodies;
+use crate::{Error, Result};
+
+const KEY: &str = "mesh.curved_bodies";
+/// Elements along the larger half axis are at most this much longer than along the smaller one.
+const LONGEST: f64 = 2.0;
+
+/// How large the contact of two curved bodies is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EllipseSize {
+    /// Half axes along x and y at first yield.
+    pub semi_axes: [f64; 2],
+    /// How far the contact may reach, in these half axes; less than the even part of the mesh is no
+    /// matter.
+    pub reach: f64,
+}
+
+/// Two bodies that are half spaces but for their curvature near the contact, which is what Hertz'
+/// theory takes them for; the first contact is at the origin, z points from the lower body to the
+/// upper.
+///
+/// Before loading the upper surface is at the height `z = x^2/(2 R_x) + y^2/(2 R_y)` above the lower
+/// one, which is flat: of the two bodies' curvature only the sum matters. Beyond the candidates it
+/// levels off. Elements are even with a size of the half axis over `resolution` out to `fine_width`
+/// half axes, and down to `fine_depth` of the smaller one; where the contact may reach further they
+/// grow by `1 + 1/resolution` up to there, and from there on by `growth`. Both surfaces have nodes
+/// at the same x and y.
+///
+/// # Errors
+/// Input errors name the key, its value and what to give instead.
+pub fn curved_bodies(p: &CurvedBodies, contact: EllipseSize) -> Result<Mesh> {
+    let layout = Layout::new(p, contact)?;
+    let [x, y, depth] = &layout.lines;
+    let cells = [x.len() / 2, y.len() / 2, depth.len() / 2];
+    let last = depth.len() - 1;
+    let mut mesh = Mesh {
+        dimension: 3,
+        ..Mesh::default()
+    };
+    let upper = Brick::add(&mut mesh, "upper", p.element, cells, |[i, j, k]| {
+        let height = depth[k];
+        // The bottom's shape fades out linearly towards the flat top.
+        let raised = layout.height(x[i], y[j]) * (1.0 - height / layout.size);
+        [x[i], y[j], if k == last { height } else { height + raised }]
+    })?;
+    let lower = Brick::add(&mut mesh, "lower", p.element, cells, |[i, j, k]| {
+        [x[i], y[j], 0.0 - depth[last - k]]
+    })?;
+    let inside = &layout.candidates;
+    let is_inside = |i: usize, j: usize| inside[0].contains(&i) && inside[1].contains(&j);
+    let whole = [0..cells[0], 0..cells[1]];
+    for (body, touching, cut, cut_name) in [
+        (&upper, Face::Bottom, Face::Top, "top"),
+        (&lower, Face::Top, Face::Bottom, "bottom"),
+    ] {
+        body.surface(&mut mesh, "contact", touching, inside.clone(), |_, _| true);
+        let outside = |i, j| !is_inside(i, j);
+        body.surface(&mut mesh, "outside", touching, whole.clone(), outside);
+        body.side(&mut mesh, cut_name, cut);
+        let left = if p.halved()[0] { "symmetry_x" } else { "left" };
+        let front = if p.halved()[1] { "symmetry_y" } else { "front" };
+        body.side(&mut mesh, left, Face::Left);
+        body.side(&mut mesh, "right", Face::Right);
+        body.side(&mut mesh, front, Face::Front);
+        body.side(&mut mesh, "back", Face::Back);
+    }
+    // The corner or middle of the surfaces is the origin.
+    let origin = [layout.origin[0], layout.origin[1]];
+    for (name, body, k) in [("upper", &upper, 0), ("lower", &lower, last)] {
+        let pole = body.node([origin[0], origin[1], k]);
+        mesh.node_sets.insert(format!("{name}.pole"), vec![pole]);
+    }
+    Ok(mesh)
+}
+
+/// Grid lines of both bodies.
+struct Layout {
+    /// Along x and y by half steps; distance from the contact surface by half steps.
+    lines: [Vec<f64>; 3],
+    /// Half steps from the beginning to 0.
+    origin: [usize; 2],
+    /// Cells that may touch, along x and y.
+    candidates: [std::ops::Range<usize>; 2],
+    /// Where these end.
+    edge: [f64; 2],
+    /// Relative radii.
+    radii: [f64; 2],
+    /// Size of each body.
+    size: f64,
+}
+
+impl Layout {
+    /// Height of the upper surface: quadratic out to the last candidate at `c`; beyond, along each
+    /// axis, `c^2 + 2 c^2 (1 - exp(-(x - c)/c))` takes the place of `x^2`.
+    fn height(&self, x: f64, y: f64) -> f64 {
+        let along = |d: usize, x: f64| {
+            let (x, edge) = (x.abs(), self.edge[d]);
+            let at = x.min(edge);
+            let square = match x <= edge {
+                true => at * at,
+                false => edge * edge * (1.0 - 2.0 * (-(x - edge) / edge).exp_m1()),
+            };
+            square / (2.0 * self.radii[d])
+        };
+        along(0, x) + along(1, y)
+    }
+
+    fn new(p: &CurvedBodies, contact: EllipseSize) -> Result<Layout> {
+        let key = |name: &str| format!("{KEY}.{name}");
+        let EllipseSize { semi_axes, reach } = contact;
+        for semi_axis in semi_axes {
+            limits::positive(&key("semi_axes"), semi_axis)?;
+        }
+        limits::positive(&key("fine_width"), p.fine_width)?;
+        limits::positive(&key("fine_depth"), p.fine_depth)?;
+        limits::positive(&key("far_size"), p.far_size)?;
+        limits::growths(&key("growth"), p.growth, &key("growth"), None)?;
+        limits::at_least(&key("resolution"), p.resolution, 1)?;
+        let radii =
+            HertzEllipse::relative_radii(p.upper, p.lower).map_err(|error| error.within(KEY))?;
+        let [large, small] = [
+            semi_axes[0].max(semi_axes[1]),
+            semi_axes[0].min(semi_axes[1]),
+        ];
+        let size = p.far_size * large;
+        let resolution = p.resolution as f64;
+        let fine = small / resolution;
+        let slow = (1.0 + 1.0 / resolution).min(p.growth);
+        let growth = Growth::new(p.growth, None, 0.0);
+        // Along each axis and down: element size, even length, and reach.
+        let plans = [0, 1, 2].map(|d| {
+            let (h, even) = match d {
+                2 => (fine, p.fine_depth * small),
+                _ => {
+                    let h = (semi_axes[d] / resolution).min(LONGEST * fine);
+                    (h, p.fine_width * semi_axes[d])
+                }
+            };
+            let n = (even / h).round().max(1.0);
+            let until = match d {
+                2 => reach * p.fine_depth / p.fine_width * small,
+                _ => reach * semi_axes[d],
+            };
+            (h, n, until.min(0.5 * size))
+        });
+        // Refused before any line is made.
+        let even: f64 = plans.iter().map(|(_, n, _)| n).product();
+        limits::total(&key("resolution"), 2.0 * even)?;
+        let near = plans.map(|(h, n, until)| grading::even_then_slow(h, n as usize, until, slow));
+        let first = |d: usize| match near[d][..] {
+            [.., a, b] => (b - a) * p.growth,
+            _ => plans[d].0,
+        };
+        let end = |d: usize| near[d].last().copied().unwrap_or(0.0);
+        let counts = [0, 1, 2].map(|d| {
+            let n = (near[d].len() - 1) as f64 + growth.count(first(d), end(d), size);
+            if d < 2 && !p.halved()[d] { 2.0 * n } else { n }
+        });
+        let elements = 2.0 * counts.iter().product::<f64>();
+        limits::solid_elements(&key("resolution"), elements, p.element)?;
+        if end(0).max(end(1)) >= size {
+            return Err(Error::input(format!(
+                "{} = {}: the bodies end within the contact candidates; give more",
+                key("far_size"),
+                p.far_size
+            )));
+        }
+        let edge = [end(0), end(1)];
+        let n_near = [0, 1].map(|d| near[d].len() - 1);
+        let mut lines: Vec<Vec<f64>> = Vec::with_capacity(3);
+        for (d, corners) in near.iter().enumerate() {
+            let name = if d == 2 { "fine_depth" } else { "fine_width" };
+            let line = grading::then_grown(&key(name), corners.clone(), first(d), size, growth)?;
+            lines.push(line);
+        }
+        let mut origin = [0; 2];
+        let mut candidates = n_near.map(|n| 0..n);
+        for d in 0..2 {
+            if !p.halved()[d] {
+                let half = lines[d].clone();
+                let mirrored = half.iter().skip(1).rev().map(|x| -x);
+                lines[d] = mirrored.chain(half.iter().copied()).collect();
+                origin[d] = half.len() - 1;
+                let middle = origin[d] / 2;
+                candidates[d] = middle - n_near[d]..middle + n_near[d];
+            }
+        }
+        let mut lines = lines.into_iter();
+        Ok(Layout {
+            lines: std::array::from_fn(|_| lines.next().unwrap_or_default()),
+            origin,
+            candidates,
+            edge,
+            radii,
+            size,
+        })
+    }
+}

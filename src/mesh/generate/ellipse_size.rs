@@ -1,0 +1,119 @@
+//! How large the contact of generated curved bodies becomes.
+
+use super::EllipseSize;
+use crate::analytical::{HertzEllipse, contact_modulus};
+use crate::error::{Error, Result};
+use crate::scene::{CurvedBodies, Direction, History, Load, Scene, Unit};
+
+/// Elastic contacts are meshed this much wider than Hertz has them: room for what is read off beside
+/// their edge.
+const ROOM: f64 = 1.15;
+
+/// The size of the contact: at first yield, and the largest of the load program.
+///
+/// # Errors
+/// A body without material, radii that leave no gap, or bodies without a yield stress where the half
+/// axes at first yield are not given.
+pub(crate) fn of(scene: &Scene, p: &CurvedBodies) -> Result<EllipseSize> {
+    let hertz = hertz(scene, p)?;
+    let yielding = yield_load(scene, &hertz);
+    let semi_axes = match (p.semi_axes, yielding) {
+        (Some(given), _) => given,
+        (None, Some(load)) => hertz.semi_axes(load),
+        (None, None) => {
+            return Err(Error::input(
+                "mesh.curved_bodies: no body has a yield stress, so the half axes of the contact at \
+                 yield are unknown; give `semi_axes`",
+            ));
+        }
+    };
+    let reach = match p.contact_width {
+        Some(width) => width,
+        None => reach(scene, p, &hertz, yielding, semi_axes).unwrap_or(0.0),
+    };
+    Ok(EllipseSize { semi_axes, reach })
+}
+
+fn hertz(scene: &Scene, p: &CurvedBodies) -> Result<HertzEllipse> {
+    let of = |body: &str| {
+        let entry = scene.bodies.get(body);
+        entry
+            .and_then(|b| scene.materials.get(&b.material))
+            .ok_or_else(|| {
+                Error::input(format!(
+                    "the generator curved_bodies needs a body `{body}` with a material"
+                ))
+            })
+    };
+    let (a, b) = (of("upper")?, of("lower")?);
+    let modulus = contact_modulus(
+        a.youngs_modulus,
+        a.poissons_ratio,
+        b.youngs_modulus,
+        b.poissons_ratio,
+    );
+    let radii = HertzEllipse::relative_radii(p.upper, p.lower)
+        .map_err(|error| error.within("mesh.curved_bodies"))?;
+    HertzEllipse::new(radii, modulus)
+}
+
+/// Load at first yield of the weaker body.
+fn yield_load(scene: &Scene, hertz: &HertzEllipse) -> Option<f64> {
+    let bodies = ["upper", "lower"].into_iter().filter_map(|body| {
+        let material = scene.materials.get(&scene.bodies.get(body)?.material)?;
+        Some(hertz.yield_load(material.poissons_ratio, material.yield_stress?))
+    });
+    bodies.reduce(f64::min)
+}
+
+/// The widest contact of the load program over that at first yield: elastic half axes grow with the
+/// cube root of the load; beyond first yield the mean pressure only rises, so that the area grows no
+/// faster than the load. `None` where the loads do not say.
+fn reach(
+    scene: &Scene,
+    p: &CurvedBodies,
+    hertz: &HertzEllipse,
+    yielding: Option<f64>,
+    semi_axes: [f64; 2],
+) -> Option<f64> {
+    let targets = scene.program.targets.iter();
+    let largest = |m: f64, value: f64| m.max(value.abs());
+    let factor = targets
+        .clone()
+        .filter_map(|t| t.load_factor)
+        .fold(0.0, largest);
+    let asked = targets.filter_map(|t| t.half_width).fold(0.0, largest);
+    let mut force = 0.0;
+    for load in &scene.load {
+        force += match &load.history {
+            History::Proportional if scene.program.unit == Unit::Yield => factor * yielding?,
+            History::Proportional => factor * normal_force(load, p, semi_axes),
+            History::Constant => normal_force(load, p, semi_axes),
+            History::Table(rows) => {
+                let times = rows.iter().map(|row| row[1]).fold(0.0, largest);
+                times * normal_force(load, p, semi_axes)
+            }
+        };
+    }
+    let elastic = ROOM * hertz.semi_axes(force)[0] / semi_axes[0];
+    let plastic = yielding.filter(|at| force > *at).map_or(0.0, |at| {
+        (force / at).sqrt() * hertz.semi_axes(at)[0] / semi_axes[0]
+    });
+    Some(elastic.max(plastic).max(ROOM * asked))
+}
+
+/// Total force along z of a load on a cut of the whole.
+fn normal_force(load: &Load, p: &CurvedBodies, semi_axes: [f64; 2]) -> f64 {
+    let size = p.far_size * semi_axes[0].max(semi_axes[1]);
+    let area = 4.0 * size * size;
+    let plane = load
+        .plane_force
+        .filter(|plane| plane.direction == Direction::Z);
+    let parts = [
+        plane.map(|plane| plane.total),
+        load.force.map(|force| force.vector()[2]),
+        load.pressure.map(|p| p * area),
+        load.traction.map(|t| t.vector()[2] * area),
+    ];
+    parts.into_iter().flatten().map(f64::abs).sum()
+}
