@@ -16,9 +16,15 @@ const LEAST_RATIO: f64 = 1.15;
 /// Closed pairs on a side of a contact over which its edge is read: the last two, and four before
 /// them from which the pressure near it is fitted ([`crate::results::EdgeReading`]).
 const READABLE: usize = 6;
-/// Elements up to which a run is compared with meshes of sixteen times as many, where coarser ones
-/// do not tell; beyond, four times.
+/// Closed pairs over the smaller half axis of a patch of solids over which its area is read: the
+/// last one, one that is believed, and the middle.
+const READABLE_PATCH: usize = 3;
+/// Elements up to which a plane run is compared with meshes of sixteen times as many, where coarser
+/// ones do not tell; beyond, four times.
 const SMALL: usize = 1000;
+/// Most elements of a mesh that a run of solids is compared with: in space the time grows with the
+/// sixth power of the fineness.
+const SOLID: usize = 16 * SMALL;
 
 /// A scene with another mesh of its family.
 #[derive(Debug, Clone)]
@@ -47,13 +53,14 @@ pub fn member(scene: &Scene, ratio: f64) -> Result<Level, String> {
 /// its edges can still be read on them, else finer ones.
 pub fn companions(scene: &Scene, results: &Results) -> Vec<Level> {
     let pairs = fewest_pairs(results);
-    let can_be_read = |ratio: f64| pairs.is_none_or(|n| n as f64 >= ratio * READABLE as f64);
-    let coarser = COARSER.into_iter().filter(|ratio| can_be_read(*ratio));
-    let finest = if results.sizes.elements <= SMALL {
-        0.25
-    } else {
-        0.5
+    let elements = results.sizes.elements;
+    let (readable, finest) = match (scene.kind.is_solid(), elements <= SMALL) {
+        (true, _) => (READABLE_PATCH, (elements as f64 / SOLID as f64).cbrt()),
+        (false, true) => (READABLE, 0.25),
+        (false, false) => (READABLE, 0.5),
     };
+    let can_be_read = |ratio: f64| pairs.is_none_or(|n| n as f64 >= ratio * readable as f64);
+    let coarser = COARSER.into_iter().filter(|ratio| can_be_read(*ratio));
     let finer = FINER.into_iter().filter(|ratio| *ratio >= finest);
     let mut levels: Vec<Level> = Vec::new();
     for ratio in coarser.chain(finer) {

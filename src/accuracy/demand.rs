@@ -45,9 +45,11 @@ const SPAN: f64 = 2.5;
 const MORE_STEPS: usize = 3;
 /// Meshes in a row on which a quantity comes hardly nearer until it counts as without a limit.
 const WITHOUT_LIMIT: usize = 2;
-/// Power of the number of elements with which the time of a factorisation grows in the plane (A.
-/// George, Nested dissection of a regular finite element mesh, SIAM J. Numer. Anal. 10 (1973) 345-363, doi:10.1137/0710032).
-const FACTORISATION: f64 = 1.5;
+/// Powers of the fineness with which the time of a factorisation grows in the plane, `n^(3/2)` (A.
+/// George, Nested dissection of a regular finite element mesh, SIAM J. Numer. Anal. 10 (1973)
+/// 345-363, doi:10.1137/0710032), and in space, `n^2` (R. Lipton, D. Rose, R. Tarjan, Generalized
+/// nested dissection, SIAM J. Numer. Anal. 16 (1979) 346-358, doi:10.1137/0716027).
+const FACTORISATION: [f64; 2] = [3.0, 6.0];
 
 /// A run that was made to a demand.
 pub struct Reached {
@@ -263,7 +265,8 @@ impl Pursuit {
     /// Why a mesh of this element size would take too long.
     fn beyond_budget(&self, ratio: f64) -> Option<String> {
         let (last, seconds) = self.sequence.last()?;
-        let expected = seconds * (last / ratio).powf(2.0 * FACTORISATION);
+        let expected =
+            seconds * (last / ratio).powf(FACTORISATION[usize::from(self.base.kind.is_solid())]);
         let left = self.budget - self.start.elapsed().as_secs_f64();
         (expected > left).then(|| {
             format!(

@@ -15,7 +15,8 @@
 mod fit;
 mod moments;
 
-use crate::model::{Model, Slot};
+use super::mirror::Mirror;
+use crate::model::Model;
 use crate::results::ContactPatch;
 use crate::space::{Vector, along, cross, difference, direction, dot, unit};
 use fit::{Fit, Known};
@@ -114,20 +115,13 @@ impl<'m> Topology<'m> {
     }
 }
 
-/// A plane of symmetry, `normal . x = offset`.
-#[derive(Clone, Copy)]
-struct Plane {
-    normal: Vector,
-    offset: f64,
-}
-
 /// A patch on the plane across its mean normal.
 struct Shape<'a> {
     model: &'a Model,
     topology: &'a Topology<'a>,
     pressure: &'a [f64],
     members: BTreeSet<usize>,
-    planes: Vec<Plane>,
+    planes: Vec<Mirror>,
     origin: Vector,
     axes: [Vector; 2],
 }
@@ -139,7 +133,7 @@ impl<'a> Shape<'a> {
         pressure: &'a [f64],
         members: BTreeSet<usize>,
     ) -> Self {
-        let planes = planes_of(model, &members);
+        let planes = Mirror::of_pairs(model, members.iter().copied());
         let mut normal = [0.0; 3];
         let mut origin = [0.0; 3];
         for &k in &members {
@@ -152,12 +146,8 @@ impl<'a> Shape<'a> {
             );
         }
         for plane in &planes {
-            origin = along(
-                origin,
-                plane.offset - dot(plane.normal, origin),
-                plane.normal,
-            );
-            normal = along(normal, -dot(plane.normal, normal), plane.normal);
+            origin = along(origin, -plane.beyond(origin), plane.normal());
+            normal = along(normal, -dot(plane.normal(), normal), plane.normal());
         }
         let normal = direction(normal);
         let first = planes.first().map_or_else(
@@ -167,7 +157,7 @@ impl<'a> Shape<'a> {
                 let axis = unit(axis.unwrap_or(0));
                 direction(along(axis, -dot(axis, normal), normal))
             },
-            |plane| plane.normal,
+            |plane| plane.normal(),
         );
         Shape {
             model,
@@ -252,8 +242,8 @@ impl<'a> Shape<'a> {
     /// How many images of a pair's area, its own included, lie round it.
     fn copies_of(&self, k: usize) -> f64 {
         let x = self.model.mesh.point(self.model.pairs[k].second);
-        let on = |plane: &&Plane| {
-            let off = (dot(plane.normal, x) - plane.offset).abs();
+        let on = |plane: &&Mirror| {
+            let off = plane.beyond(x).abs();
             off <= 1e-6 * self.model.pairs[k].area.sqrt()
         };
         (1usize << self.planes.iter().filter(on).count()) as f64
@@ -263,7 +253,7 @@ impl<'a> Shape<'a> {
     fn mirrored(&self, k: usize) -> Vec<[f64; 2]> {
         let mut images = vec![self.place(k)];
         for plane in &self.planes {
-            let normal = self.axes.map(|axis| dot(axis, plane.normal));
+            let normal = self.axes.map(|axis| dot(axis, plane.normal()));
             // The origin lies on the plane.
             for i in 0..images.len() {
                 let [x, y] = images[i];
@@ -303,7 +293,7 @@ impl<'a> Shape<'a> {
         }
         sums.moments(|center, second| {
             for plane in &self.planes {
-                let n = self.axes.map(|axis| dot(axis, plane.normal));
+                let n = self.axes.map(|axis| dot(axis, plane.normal()));
                 mirror(n, center, second);
             }
         })
@@ -354,40 +344,4 @@ impl<'a> Shape<'a> {
             pole_pressure,
         }
     }
-}
-
-/// The planes of symmetry that pairs lie on: both nodes are held across them.
-fn planes_of(model: &Model, members: &BTreeSet<usize>) -> Vec<Plane> {
-    let mut out: Vec<Plane> = Vec::new();
-    for &k in members {
-        let pair = &model.pairs[k];
-        let held = |node: usize| {
-            let slots = model.freedoms.slots[node];
-            let axes = model.freedoms.local(node);
-            (1..3)
-                .filter(move |&i| slots[i] == Slot::Fixed)
-                .map(move |i| axes[i])
-        };
-        for normal in held(pair.first) {
-            let parallel = |other: Vector| dot(normal, other).abs() > 1.0 - 1e-9;
-            let known = out.iter().any(|plane| parallel(plane.normal));
-            if !known && held(pair.second).any(parallel) {
-                out.push(Plane {
-                    normal,
-                    offset: dot(normal, model.mesh.point(pair.second)),
-                });
-            }
-        }
-    }
-    // Mirror images of mirror images agree for planes at right angles.
-    let mut kept: Vec<Plane> = Vec::new();
-    for plane in out {
-        if kept
-            .iter()
-            .all(|other| dot(other.normal, plane.normal).abs() < 1e-9)
-        {
-            kept.push(plane);
-        }
-    }
-    kept
 }

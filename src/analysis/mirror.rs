@@ -25,6 +25,38 @@ pub struct Mirror {
 pub struct Reflection([Vector; 3]);
 
 impl Mirror {
+    /// The planes, at right angles to one another, that pairs of solids lie on: both nodes of some
+    /// pair are held across them.
+    pub fn of_pairs(model: &Model, pairs: impl Iterator<Item = usize>) -> Vec<Mirror> {
+        let mut out: Vec<Mirror> = Vec::new();
+        for k in pairs {
+            let pair = &model.pairs[k];
+            let held = |node: usize| {
+                let slots = model.freedoms.slots[node];
+                let axes = model.freedoms.local(node);
+                (1..3)
+                    .filter(move |&i| slots[i] == Slot::Fixed)
+                    .map(move |i| axes[i])
+            };
+            for normal in held(pair.first) {
+                let offset = dot(normal, model.mesh.point(pair.second));
+                let mirror = Mirror { normal, offset };
+                // Mirror images of mirror images agree for planes at right angles.
+                let is_new = out.iter().all(|other| mirror.is_normal_to(other));
+                let is_same = |other: Vector| length_of(cross(normal, other)) < SAME;
+                if is_new && held(pair.second).any(is_same) {
+                    out.push(mirror);
+                }
+            }
+        }
+        out
+    }
+
+    /// The unit vector across it.
+    pub fn normal(&self) -> Vector {
+        self.normal
+    }
+
     /// The mirror image of a point.
     pub fn image(&self, x: Vector) -> Vector {
         along(x, -2.0 * self.beyond(x), self.normal)

@@ -5,7 +5,7 @@
 //! | `structure`, `solver`, `equilibrium`, `response` | structure, its state under load, response to loads | 3.7, 4.1 to 4.6 |
 //! | `yield_load`, `recovery`, `patch`, `mirror` | load at first yield, stress between the points | 3.11 to 3.14 |
 //! | `increment`, `step_length` | one elastoplastic increment that ends at the next change of contact | 4.7 to 4.23 |
-//! | `zone`, `gather`, `zone_choice`, `zone_fit` | elements that may yield, initial loads, their choice and growth | 4.1 |
+//! | `zone`, `gather`, `region`, `zone_choice`, `zone_fit` | elements that may yield, initial loads, their choice and growth | 4.1 |
 //! | `tangent`, `acceleration` | acceleration of the plastic iteration | |
 //! | `collapse` | limit load, or an iteration that did not converge | |
 //! | `program`, `position`, `first_yield`, `targets` | the program, step by step; where it is | 5.1, 5.2 |
@@ -50,6 +50,7 @@ mod quality;
 mod reading;
 mod recovery;
 mod reference;
+mod region;
 mod response;
 mod restart;
 mod solver;

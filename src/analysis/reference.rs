@@ -1,9 +1,9 @@
 //! Published and exact values beside the computed ones.
 
-use crate::analytical::{self, DiscInPlate, HertzLine, HertzPoint, Plane};
+use crate::analytical::{self, DiscInPlate, HertzEllipse, HertzLine, HertzPoint, Plane};
 use crate::model::Model;
 use crate::results::{ReferenceRow, Results, State, YieldPoint};
-use crate::scene::Kind;
+use crate::scene::{Kind, TwoBodies};
 
 /// Rows of all reference entries of the scene.
 pub(super) fn rows(model: &Model, results: &Results) -> Vec<ReferenceRow> {
@@ -14,6 +14,9 @@ pub(super) fn rows(model: &Model, results: &Results) -> Vec<ReferenceRow> {
         }
         if let Some(hertz) = entry.hertz_point {
             rows.extend(hertz_point(model, results, hertz.radius).unwrap_or_default());
+        }
+        if let Some(bodies) = entry.hertz_ellipse {
+            rows.extend(hertz_ellipse(model, results, bodies).unwrap_or_default());
         }
         if entry.disc_in_plate.is_some() {
             rows.extend(disc_in_plate(model, results).unwrap_or_default());
@@ -45,10 +48,34 @@ fn row(
     }
 }
 
-/// The coordinate `y` of first yield at a depth below the surface, which is at 0: bodies of one
-/// material yield alike on either side, and the point is that of the body that was named.
-fn along_y(depth: f64, first: &YieldPoint) -> f64 {
-    depth.copysign(first.location[1])
+/// Rows at first yield: load, largest pressure, half width and depth below the surface, with the
+/// published ratios of computed values to them.
+fn at_yield(
+    model: &Model,
+    first: &YieldPoint,
+    exact: [f64; 4],
+    published: [Option<f64>; 4],
+    source: &str,
+) -> Vec<ReferenceRow> {
+    let down = model.mesh.dimension - 1;
+    let depth = ["yield.location.y", "yield.location.z"][down - 1];
+    let [load, pressure, half_width, below] = exact;
+    // Bodies of one material yield alike on either side of the surface, which is at 0: the point is
+    // that of the body that was named.
+    let below = below.copysign(first.location[down]);
+    let [a, b, c, d] = published;
+    vec![
+        row("yield.load", load, first.load, a, source),
+        row(
+            "yield.max_pressure",
+            pressure,
+            first.max_pressure,
+            b,
+            source,
+        ),
+        row("yield.half_width", half_width, first.half_width, c, source),
+        row(depth, below, first.location[down], d, source),
+    ]
 }
 
 /// Contact modulus of the first two bodies, and nu and yield stress of the one that yields first.
@@ -68,76 +95,63 @@ fn moduli(model: &Model) -> Option<(f64, f64, f64)> {
 
 fn hertz_line(model: &Model, results: &Results, radius: f64) -> Option<Vec<ReferenceRow>> {
     let (modulus, nu, y) = moduli(model)?;
-    let first = results.first_yield?;
     let hertz = HertzLine::new(radius, modulus).ok()?;
+    let exact = [
+        hertz.yield_load(nu, y),
+        HertzLine::yield_pressure(nu, y),
+        hertz.yield_half_width(nu, y),
+        hertz.yield_depth(nu, y),
+    ];
+    let published = [Some(0.87), Some(0.94), Some(0.98), Some(0.94)];
     let table = "Table I; Johnson, Contact Mechanics, sections 4.2 and 6.1";
-    Some(vec![
-        row(
-            "yield.load",
-            hertz.yield_load(nu, y),
-            first.load,
-            Some(0.87),
-            table,
-        ),
-        row(
-            "yield.max_pressure",
-            HertzLine::yield_pressure(nu, y),
-            first.max_pressure,
-            Some(0.94),
-            table,
-        ),
-        row(
-            "yield.half_width",
-            hertz.yield_half_width(nu, y),
-            first.half_width,
-            Some(0.98),
-            table,
-        ),
-        row(
-            "yield.location.y",
-            along_y(hertz.yield_depth(nu, y), &first),
-            first.location[1],
-            Some(0.94),
-            table,
-        ),
-    ])
+    Some(at_yield(
+        model,
+        results.first_yield.as_ref()?,
+        exact,
+        published,
+        table,
+    ))
 }
 
 fn hertz_point(model: &Model, results: &Results, radius: f64) -> Option<Vec<ReferenceRow>> {
     let (modulus, nu, y) = moduli(model)?;
-    let first = results.first_yield?;
     let hertz = HertzPoint::new(radius, modulus).ok()?;
+    let exact = [
+        hertz.yield_load(nu, y),
+        HertzPoint::yield_pressure(nu, y),
+        hertz.yield_contact_radius(nu, y),
+        hertz.yield_depth(nu, y),
+    ];
     let source = "Johnson, Contact Mechanics, sections 3.4 and 6.1";
-    Some(vec![
-        row(
-            "yield.load",
-            hertz.yield_load(nu, y),
-            first.load,
-            None,
-            source,
-        ),
-        row(
-            "yield.max_pressure",
-            HertzPoint::yield_pressure(nu, y),
-            first.max_pressure,
-            None,
-            source,
-        ),
-        row(
-            "yield.half_width",
-            hertz.yield_contact_radius(nu, y),
-            first.half_width,
-            None,
-            source,
-        ),
-        row(
-            "yield.location.y",
-            along_y(hertz.yield_depth(nu, y), &first),
-            first.location[1],
-            None,
-            source,
-        ),
-    ])
+    Some(at_yield(
+        model,
+        results.first_yield.as_ref()?,
+        exact,
+        [None; 4],
+        source,
+    ))
+}
+
+fn hertz_ellipse(model: &Model, results: &Results, bodies: TwoBodies) -> Option<Vec<ReferenceRow>> {
+    let (modulus, nu, y) = moduli(model)?;
+    let radii = HertzEllipse::relative_radii(bodies.first, bodies.second).ok()?;
+    let hertz = HertzEllipse::new(radii, modulus).ok()?;
+    let load = hertz.yield_load(nu, y);
+    let [a, b] = hertz.semi_axes(load);
+    let exact = [
+        load,
+        hertz.yield_pressure(nu, y),
+        a.min(b),
+        hertz.yield_depth(nu, y),
+    ];
+    let source = "Johnson, Contact Mechanics, section 4.2; analytical::HertzEllipse";
+    Some(at_yield(
+        model,
+        results.first_yield.as_ref()?,
+        exact,
+        [None; 4],
+        source,
+    ))
 }
 
 fn disc_in_plate(model: &Model, results: &Results) -> Option<Vec<ReferenceRow>> {
@@ -201,6 +215,7 @@ fn lookup(results: &Results, path: &str) -> Option<f64> {
             "half_width" => Some(first.half_width),
             "location.x" => Some(first.location[0]),
             "location.y" => Some(first.location[1]),
+            "location.z" => Some(first.location[2]),
             _ => None,
         };
     }

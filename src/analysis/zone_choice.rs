@@ -4,6 +4,7 @@
 //! elastic stress at the program's extreme loads then predicts how far yielding spreads; a guard
 //! layer round the prediction watches, and when it flows the zone grows.
 
+use super::region::{Reach, Region};
 use super::solver::Solver;
 use super::stress_field::{largest_von_mises, stress};
 use super::structure::combination;
@@ -11,17 +12,11 @@ use crate::element::{Kernel, with_kernel};
 use crate::error::Result;
 use crate::model::{Model, Slot};
 use crate::scene::Kind;
-use crate::space::{Vector, difference, length};
+use crate::space::Vector;
 use rayon::prelude::*;
 
 /// Elements of all bodies that may yield are the zone if their number is below this.
 const SMALL: usize = 1500;
-/// First yield is looked for as deep as this share of the contact surface's extent.
-const REACH: f64 = 1.2;
-/// The first guess of the zone reaches this multiple of the contact surface's extent into the
-/// bodies. Measured on the cylinder scene loaded to 1.5 b*: 2.0 is too small, and the factorisation
-/// takes no more operations with 5 than with 1.2.
-const SPREAD: f64 = 3.0;
 /// Elastic von Mises stress over yield stress above which an element is predicted to yield: stress
 /// redistributes.
 pub(super) const PREDICTED: f64 = 0.95;
@@ -85,47 +80,30 @@ fn may_yield(model: &Model, element: usize) -> bool {
 /// spreads beyond, or all where there are few or no contact. A large zone costs the factorisation
 /// nothing; which part of it is used is chosen later.
 pub fn first_guess(model: &Model) -> Choice {
-    near_contact(model, SPREAD)
+    near_contact(model, Reach::OfZone)
 }
 
 /// Where first yield is looked for.
 pub fn place_of_first_yield(model: &Model) -> Choice {
-    near_contact(model, REACH)
+    near_contact(model, Reach::OfFirstYield)
 }
 
-fn near_contact(model: &Model, reach: f64) -> Choice {
+fn near_contact(model: &Model, reach: Reach) -> Choice {
     let n = model.mesh.n_elements();
     let candidates: Vec<bool> = (0..n).map(|e| may_yield(model, e)).collect();
     let count = candidates.iter().filter(|c| **c).count();
     if count <= SMALL || model.pairs.is_empty() {
         return Choice::from_marks(model, candidates, 0);
     }
-    let boxes: Vec<(Vector, Vector, f64)> = model
+    let regions: Vec<Region> = model
         .contacts
         .iter()
-        .map(|c| {
-            let mut low = [f64::INFINITY; 3];
-            let mut high = [f64::NEG_INFINITY; 3];
-            for pair in &model.pairs[c.range.clone()] {
-                for node in [pair.first, pair.second] {
-                    let x = model.mesh.point(node);
-                    for d in 0..3 {
-                        low[d] = low[d].min(x[d]);
-                        high[d] = high[d].max(x[d]);
-                    }
-                }
-            }
-            (low, high, reach * length(difference(high, low)))
-        })
+        .map(|contact| Region::round(model, contact.range.clone(), reach))
         .collect();
     let core = (0..n)
         .map(|e| {
             let x = model.mesh.point(model.mesh.nodes(e)[0] as usize);
-            candidates[e]
-                && boxes.iter().any(|(low, high, reach)| {
-                    let off = |d: usize| (low[d] - x[d]).max(x[d] - high[d]).max(0.0);
-                    length([off(0), off(1), off(2)]) <= *reach
-                })
+            candidates[e] && regions.iter().any(|region| region.holds(x))
         })
         .collect();
     Choice::from_marks(model, core, GUARD)

@@ -27,14 +27,18 @@ macro_rules! examples {
 
 /// All scenes of `data/scenes` that need no other file.
 const EXAMPLES: &[Example] = examples![
+    "ball_in_groove",
+    "ball_on_flat_3d",
     "ball_on_half_space",
     "contact_patch",
+    "crossed_cylinders",
     "cylinder_on_half_plane",
     "disc_in_plate",
     "flat_punch",
     "nafems_cb1",
     "pin_in_hole",
     "shrink_fit",
+    "square_punch",
     "thick_cylinder",
     "thick_sphere",
     "three_bodies",

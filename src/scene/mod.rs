@@ -39,7 +39,7 @@ pub use program::{
     DisplacementTarget, PlasticIteration, Program, Settings, Stepping, Target, Unit, YieldMethod,
 };
 pub(crate) use read::closest;
-pub use reference::{NoParameters, RadiusOnly, Reference};
+pub use reference::{NoParameters, RadiusOnly, Reference, TwoBodies};
 pub use schema::schema;
 pub use units::Units;
 

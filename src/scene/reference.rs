@@ -11,6 +11,8 @@ pub struct Reference {
     pub hertz_line: Option<RadiusOnly>,
     /// Hertz point contact at first yield: radius of the ball.
     pub hertz_point: Option<RadiusOnly>,
+    /// Hertz' elliptical contact at first yield: the principal radii of the two bodies.
+    pub hertz_ellipse: Option<TwoBodies>,
     /// Disc in a plate with a hole (paper 5.2, Table II).
     pub disc_in_plate: Option<NoParameters>,
     /// The quantity a single value is for: a path in `summary.json`, such as `yield.load` or `states.NAME.max_pressure`.
@@ -27,6 +29,16 @@ pub struct Reference {
 pub struct RadiusOnly {
     /// The radius.
     pub radius: f64,
+}
+
+/// A closed form of two bodies whose principal directions are parallel.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TwoBodies {
+    /// Principal radii of the first body: positive where convex, 0 or inf where flat.
+    pub first: [f64; 2],
+    /// Those of the second body, in the same directions.
+    pub second: [f64; 2],
 }
 
 /// A closed form that needs no parameter.

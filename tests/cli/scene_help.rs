@@ -72,7 +72,7 @@ fn the_schema_refuses_what_the_program_refuses() {
         ("/materials/steel/youngs_modulus", "stiff".into()),
         ("/bodies/base/plastic", "perhaps".into()),
         ("/load/0/history", "sometimes".into()),
-        ("/support/0/fix/0", "z".into()),
+        ("/support/0/fix/0", "w".into()),
         ("/mesh/parts/0/block/elements", serde_json::json!([1])),
         ("/program/targets", Value::Null),
         ("/title", 3.into()),

@@ -77,7 +77,7 @@ fn doubled(half: &Mesh) -> Mesh {
             new_of.push(node as u32);
         } else {
             new_of.push(out.n_nodes() as u32);
-            out.coordinates.extend(x);
+            out.coordinates.extend(&x[..2]);
         }
     }
     for e in 0..half.n_elements() {

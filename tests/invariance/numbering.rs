@@ -27,7 +27,7 @@ pub fn renumbered(mesh: &Mesh) -> Mesh {
     };
     for (old, &new) in nodes.iter().enumerate() {
         let x = mesh.point(old);
-        out.coordinates[2 * new..2 * new + 2].copy_from_slice(&x);
+        out.coordinates[2 * new..2 * new + 2].copy_from_slice(&x[..2]);
     }
     let mut old_of = vec![0; elements.len()];
     for (old, &new) in elements.iter().enumerate() {

@@ -108,7 +108,7 @@ fn the_folder_of_a_model_from_arrays_makes_its_report_again() {
     let good = String::from_utf8(before["model_as_run.json"].clone()).unwrap();
     for (from, to) in [
         ("\"connectivity\":[0,", "\"connectivity\":[99,"),
-        ("[45,[0.0,-2.0]]", "[450,[0.0,-2.0]]"),
+        ("[45,[0.0,-2.0,0.0]]", "[450,[0.0,-2.0,0.0]]"),
         ("\"first\":25", "\"first\":50"),
         ("\"youngs_modulus\":210000.0", "\"youngs_modulus\":-1.0"),
         ("\"given\"", "\"taken\""),

@@ -87,7 +87,7 @@ fn locking_is_reported() {
     assert!(
         warnings
             .iter()
-            .any(|w| w.contains("tri3") && w.contains("locks")),
+            .any(|w| w.contains("tri3") && w.contains("lock")),
         "{warnings:?}"
     );
     let (quad4, _) = limit("quad4", 0.4999);

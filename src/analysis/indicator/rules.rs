@@ -157,8 +157,10 @@ mod tests {
                     assert!((share - own).abs() < 1e-14, "{shape:?}");
                 }
             }
-            let between: f64 = shares(shape, [0.2, 0.1, 0.05]).iter().sum();
-            assert!((between - 1.0).abs() < 1e-14);
+            let within = |d: usize, x: f64| if d < row.dimension { x } else { 0.0 };
+            let place = [within(0, 0.2), within(1, 0.1), within(2, 0.05)];
+            let between: f64 = shares(shape, place).iter().sum();
+            assert!((between - 1.0).abs() < 1e-14, "{shape:?} {between}");
         }
     }
 }

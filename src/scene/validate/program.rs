@@ -139,6 +139,7 @@ impl Checks {
                 &[
                     ("hertz_line", reference.hertz_line.is_some()),
                     ("hertz_point", reference.hertz_point.is_some()),
+                    ("hertz_ellipse", reference.hertz_ellipse.is_some()),
                     ("disc_in_plate", reference.disc_in_plate.is_some()),
                     (
                         "quantity (with value and source)",
@@ -178,10 +179,20 @@ impl Checks {
                 );
                 self.needs_yield(&format!("{key}.{name}"), "values at first yield", scene);
             }
+            if reference.hertz_ellipse.is_some() {
+                let key = format!("{key}.hertz_ellipse");
+                self.require(
+                    scene.kind.is_solid(),
+                    key.as_str(),
+                    "elliptical contact needs kind = \"solid\"",
+                );
+                self.needs_yield(&key, "values at first yield", scene);
+            }
             self.require(
-                reference.disc_in_plate.is_none() || !scene.kind.is_axisymmetric(),
+                reference.disc_in_plate.is_none()
+                    || !(scene.kind.is_axisymmetric() || scene.kind.is_solid()),
                 format!("{key}.disc_in_plate"),
-                "is the solution of a plane model, this one is axisymmetric",
+                "is the solution of a plane model, this one is not",
             );
         }
     }

@@ -472,6 +472,7 @@ fn programs_settings_and_references() {
     scene.reference.push(Reference {
         hertz_line: None,
         hertz_point: None,
+        hertz_ellipse: None,
         disc_in_plate: None,
         quantity: Some("yield.load".into()),
         value: Some(1.0),

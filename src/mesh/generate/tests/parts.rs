@@ -283,14 +283,14 @@ fn refusals_of_the_list_of_parts() {
     assert!(message.contains("body is empty"), "{message}");
     let message = refusal(part("none", Shape::Quad4), |_| {});
     assert!(
-        message.contains("exactly one of block, ring and disc"),
+        message.contains("exactly one of block, brick, ring and disc"),
         "{message}"
     );
     let message = refusal(block("two", Shape::Quad4), |p| {
         p.disc = disc("", Shape::Quad4, [0.0, 90.0], 4).disc;
     });
     assert!(
-        message.contains("exactly one of block, ring and disc"),
+        message.contains("exactly one of block, brick, ring and disc"),
         "{message}"
     );
 }
