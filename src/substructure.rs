@@ -112,15 +112,21 @@ pub struct Substructure {
 
 impl Substructure {
     /// Factors and condenses the stiffness with the given zone freedoms (ascending, none of them a
-    /// contact freedom).
+    /// contact freedom) and their rings ([`Partition::rings`]).
     ///
     /// # Errors
     /// A matrix that is not positive definite, with body, node and direction; backend limits.
-    pub fn new(model: &Model, system: &System, zone: Vec<usize>, backend: Backend) -> Result<Self> {
+    pub fn new(
+        model: &Model,
+        system: &System,
+        (zone, rings): (Vec<usize>, Vec<u8>),
+        backend: Backend,
+    ) -> Result<Self> {
         let partition = Partition {
             n: model.freedoms.n,
             zone,
             contact: contact_freedoms(model)?,
+            rings,
         };
         let shift = shift(model, system, &partition);
         let cost = ContactCost::of(model);
@@ -157,11 +163,12 @@ impl Substructure {
         &mut self,
         model: &Model,
         system: &System,
-        zone: Vec<usize>,
+        zone: (Vec<usize>, Vec<u8>),
         backend: Backend,
     ) -> Result<bool> {
-        if let Some(zone) = self.condensed.choose_zone(&zone)? {
-            self.partition.zone = zone;
+        if let Some(kept) = self.condensed.choose_zone(&zone.0)? {
+            self.partition.zone = kept;
+            self.partition.rings = Vec::new();
             return Ok(false);
         }
         self.release()?;

@@ -148,7 +148,7 @@ fn run_seconds(model: &Model, sizes: &Sizes, prediction: &Prediction, factorisat
 pub fn check(model: &Model, backend: Backend) -> Result<Check> {
     let system = assemble(model)?;
     let choice = zone_choice::first_guess(model);
-    let zone = zone_choice::zone_freedoms(model, &choice.elements);
+    let (zone, rings) = zone_choice::zone_freedoms(model, &choice.elements);
     let contact = model
         .pairs
         .iter()
@@ -160,6 +160,7 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
         n: model.freedoms.n,
         zone,
         contact,
+        rings,
     };
     let mut prediction = linalg::predict(backend, &system.stiffness, &partition)?;
     let contact = ContactCost::of(model);

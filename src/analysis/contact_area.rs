@@ -281,8 +281,21 @@ impl<'a> Shape<'a> {
                 continue;
             }
             let mean = |d: usize| places.iter().map(|x| x[d]).sum::<f64>() / places.len() as f64;
-            match Fit::new(&believed, [mean(0), mean(1)]) {
-                Some(fit) => sums.add_face(&places, |x| fit.value(x)),
+            let center = [mean(0), mean(1)];
+            match Fit::new(&believed, center) {
+                Some(fit) => {
+                    // A pair that is open has no pressure: where the polynomial gives it some, it is
+                    // made to vanish there.
+                    let wrong = corners
+                        .iter()
+                        .filter(|k| !self.members.contains(k) && fit.value(self.place(**k)) > 0.0);
+                    let zeros = wrong.flat_map(|&k| self.mirrored(k));
+                    let zeros: Vec<Known> = zeros.map(|at| Known { at, value: 0.0 }).collect();
+                    let bounded = (!zeros.is_empty())
+                        .then(|| Fit::new(&[believed.as_slice(), &zeros].concat(), center));
+                    let fit = bounded.flatten().unwrap_or(fit);
+                    sums.add_face(&places, |x| fit.value(x));
+                }
                 // Halfway between pairs that touch and pairs that do not.
                 None => {
                     let sign = |k: &usize| if self.members.contains(k) { 1.0 } else { -1.0 };

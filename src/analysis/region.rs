@@ -37,11 +37,16 @@ impl Reach {
     }
 }
 
+/// Rings of a region of solids, and the radius of each in that of the next.
+const RINGS: i32 = 4;
+const NEXT_RING: f64 = 0.75;
+
 /// What lies within a distance of a box.
 pub(super) struct Region {
     low: Vector,
     high: Vector,
     distance: f64,
+    rings: i32,
 }
 
 impl Region {
@@ -77,6 +82,7 @@ impl Region {
                 low,
                 high,
                 distance,
+                rings: 1,
             };
         }
         let mut sides = extent;
@@ -92,12 +98,25 @@ impl Region {
             low,
             high,
             distance,
+            rings: RINGS,
         }
     }
 
     /// Whether a point lies in it.
     pub(super) fn holds(&self, x: Vector) -> bool {
+        self.off(x) <= self.distance
+    }
+
+    /// The ring that a point lies in, the outermost 0.
+    pub(super) fn ring(&self, x: Vector) -> u8 {
+        let off = self.off(x);
+        let within = |k: &i32| off <= self.distance * NEXT_RING.powi(*k);
+        (1..self.rings).filter(within).count() as u8
+    }
+
+    /// Distance of a point from the box.
+    fn off(&self, x: Vector) -> f64 {
         let off = |d: usize| (self.low[d] - x[d]).max(x[d] - self.high[d]).max(0.0);
-        length([off(0), off(1), off(2)]) <= self.distance
+        length([off(0), off(1), off(2)])
     }
 }

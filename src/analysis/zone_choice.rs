@@ -50,14 +50,18 @@ impl Choice {
     }
 }
 
-/// Free freedoms of the elements that are not contact freedoms, ascending.
-pub fn zone_freedoms(model: &Model, elements: &[usize]) -> Vec<usize> {
-    let mut marked = vec![false; model.freedoms.n];
+/// Free freedoms of the elements that are not contact freedoms, ascending, and their rings round
+/// the contacts ([`crate::linalg::Partition::rings`]).
+pub fn zone_freedoms(model: &Model, elements: &[usize]) -> (Vec<usize>, Vec<u8>) {
+    let regions = regions(model, Reach::OfZone);
+    let mut marked = vec![None; model.freedoms.n];
     for &e in elements {
         for &node in model.mesh.nodes(e) {
+            let x = model.mesh.point(node as usize);
+            let ring = regions.iter().map(|region| region.ring(x)).max();
             for slot in model.freedoms.slots[node as usize] {
                 if let Slot::Free(f) = slot {
-                    marked[f as usize] = true;
+                    marked[f as usize] = ring.or(Some(0));
                 }
             }
         }
@@ -65,11 +69,19 @@ pub fn zone_freedoms(model: &Model, elements: &[usize]) -> Vec<usize> {
     for pair in &model.pairs {
         for node in [pair.first, pair.second] {
             if let Some(f) = model.freedoms.normal_freedom(node) {
-                marked[f] = false;
+                marked[f] = None;
             }
         }
     }
-    (0..marked.len()).filter(|&f| marked[f]).collect()
+    let marked = marked.into_iter().enumerate();
+    marked.filter_map(|(f, ring)| Some((f, ring?))).unzip()
+}
+
+fn regions(model: &Model, reach: Reach) -> Vec<Region> {
+    let contacts = model.contacts.iter();
+    contacts
+        .map(|contact| Region::round(model, contact.range.clone(), reach))
+        .collect()
 }
 
 fn may_yield(model: &Model, element: usize) -> bool {
@@ -95,11 +107,7 @@ fn near_contact(model: &Model, reach: Reach) -> Choice {
     if count <= SMALL || model.pairs.is_empty() {
         return Choice::from_marks(model, candidates, 0);
     }
-    let regions: Vec<Region> = model
-        .contacts
-        .iter()
-        .map(|contact| Region::round(model, contact.range.clone(), reach))
-        .collect();
+    let regions = regions(model, reach);
     let core = (0..n)
         .map(|e| {
             let x = model.mesh.point(model.mesh.nodes(e)[0] as usize);

@@ -56,6 +56,10 @@ pub struct Partition {
     pub zone: Vec<usize>,
     /// Contact freedoms. Contact vectors and matrices are in this order.
     pub contact: Vec<usize>,
+    /// Ring of each zone freedom, the outermost 0; empty where there is one. Backends that can
+    /// eliminate one ring after the other, so that a choice of inner rings leaves the outer ones
+    /// out.
+    pub rings: Vec<u8>,
 }
 
 /// What a factorisation will cost, from the symbolic analysis alone.

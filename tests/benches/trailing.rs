@@ -63,6 +63,7 @@ impl Body {
                     n: grid.n,
                     zone,
                     contact: contact.clone(),
+                    ..Partition::default()
                 };
                 (share, partition)
             })

@@ -29,6 +29,9 @@ use suitesparse_sys as sys;
 /// | hex8 | 148 k | 263,000 | 87,000 | 0.5 + 40 s | 1.2 + 13 s |
 const TRY_DISSECTION_ABOVE: f64 = 10_000.0;
 
+/// A number that no part of a dissection reaches.
+const BEYOND_PARTS: i64 = 1 << 62;
+
 /// METIS draws from the random numbers of the C library, which all threads share: one caller at a
 /// time, so that the same matrix always gets the same order.
 static METIS: Mutex<()> = Mutex::new(());
@@ -126,18 +129,7 @@ fn complete(
 
 /// Approximate minimum degree with the groups as constraint sets.
 fn minimum_degree(common: &mut Common, pattern: &Pattern, groups: &Groups) -> Result<Ordering> {
-    // CAMD wants its sets numbered without gaps.
-    let mut number = [0i64; 3];
-    let mut next = 0;
-    for (set, size) in number.iter_mut().zip(groups.sizes()) {
-        *set = next;
-        next += i64::from(size > 0);
-    }
-    let mut member: Vec<i64> = groups
-        .members()
-        .iter()
-        .map(|&group| number[usize::from(group)])
-        .collect();
+    let mut member = sets(groups, |_| 0);
     let permutation = constrained_degree(common, pattern, &mut member)?;
     complete(common, pattern, groups, "CAMD", &permutation)
 }
@@ -156,13 +148,13 @@ fn dissection(common: &mut Common, pattern: &Pattern, groups: &Groups) -> Result
     let mut permutation = vec![0i64; interior];
     let mut parent = vec![0i64; interior];
     let mut part = vec![0i64; interior];
-    let parts = {
+    {
         let _alone = METIS.lock().unwrap_or_else(PoisonError::into_inner);
         let method = &mut common.as_mut().method[0];
         // Only the parts are wanted here: CAMD runs once, below, on all freedoms.
         let camd = std::mem::replace(&mut method.nd_camd, 0);
         // SAFETY: all arrays have length `interior`, the order of `block`.
-        let parts = unsafe {
+        unsafe {
             sys::cholmod_l_nested_dissection(
                 block.as_ptr(),
                 null_mut(),
@@ -171,22 +163,12 @@ fn dissection(common: &mut Common, pattern: &Pattern, groups: &Groups) -> Result
                 parent.as_mut_ptr(),
                 part.as_mut_ptr(),
                 common.as_mut(),
-            )
-        };
+            );
+        }
         common.as_mut().method[0].nd_camd = camd;
-        parts
-    };
+    }
     common.check("nested dissection", interior)?;
-    let mut member: Vec<i64> = groups
-        .members()
-        .iter()
-        .zip(&local)
-        .map(|(&group, &local)| match group {
-            0 => part[local as usize],
-            1 => parts,
-            _ => parts + i64::from(groups.sizes()[1] > 0),
-        })
-        .collect();
+    let mut member = sets(groups, |j| part[local[j] as usize]);
     let permutation = constrained_degree(common, pattern, &mut member)?;
     complete(
         common,
@@ -195,6 +177,28 @@ fn dissection(common: &mut Common, pattern: &Pattern, groups: &Groups) -> Result
         "nested dissection + CAMD",
         &permutation,
     )
+}
+
+/// The constraint set of each freedom: the parts of the interior, the rings of the zone, the contact
+/// freedoms. CAMD wants them numbered without gaps.
+fn sets(groups: &Groups, part: impl Fn(usize) -> i64) -> Vec<i64> {
+    let mut sets: Vec<i64> = groups
+        .members()
+        .iter()
+        .enumerate()
+        .map(|(j, &group)| match group {
+            0 => part(j),
+            1 => BEYOND_PARTS + i64::from(groups.ring(j)),
+            _ => i64::MAX,
+        })
+        .collect();
+    let mut used = sets.clone();
+    used.sort_unstable();
+    used.dedup();
+    for set in &mut sets {
+        *set = used.partition_point(|other| other < set) as i64;
+    }
+    sets
 }
 
 /// CAMD: freedoms of a lower set come before those of a higher one.

@@ -5,6 +5,8 @@ use crate::linalg::Partition;
 /// The group of each freedom: 0 interior, 1 zone, 2 contact.
 pub(crate) struct Groups {
     member: Vec<u8>,
+    /// Of each freedom of the zone; 0 elsewhere.
+    ring: Vec<u8>,
     sizes: [usize; 3],
 }
 
@@ -18,16 +20,29 @@ impl Groups {
         for &freedom in &partition.contact {
             member[freedom] = 2;
         }
-        Groups::from_members(member)
+        let mut ring = vec![0; partition.n];
+        for (&freedom, &own) in partition.zone.iter().zip(&partition.rings) {
+            ring[freedom] = own;
+        }
+        Groups::from_members(member, ring)
     }
 
-    /// The groups of freedoms, each given as the number of its group.
-    pub(crate) fn from_members(member: Vec<u8>) -> Self {
+    /// The groups of freedoms, each given as the number of its group, and their rings.
+    pub(crate) fn from_members(member: Vec<u8>, ring: Vec<u8>) -> Self {
         let mut sizes = [0; 3];
         for &group in &member {
             sizes[usize::from(group)] += 1;
         }
-        Groups { member, sizes }
+        Groups {
+            member,
+            ring,
+            sizes,
+        }
+    }
+
+    /// The ring of a freedom of the zone.
+    pub(crate) fn ring(&self, freedom: usize) -> u8 {
+        self.ring[freedom]
     }
 
     /// The number of a freedom's group.

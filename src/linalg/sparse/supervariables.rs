@@ -41,13 +41,15 @@ impl Supervariables {
             rows.extend(numbers.map(|&row| number[row as usize]).filter(|&s| s >= 0));
             columns.push(rows.len() as i64);
         }
-        let member = first.iter().map(|&freedom| groups.of(freedom)).collect();
+        let of_first =
+            |of: fn(&Groups, usize) -> u8| first.iter().map(|&f| of(groups, f)).collect();
+        let (member, ring) = (of_first(Groups::of), of_first(Groups::ring));
         first.push(n);
         Supervariables {
             first,
             columns,
             rows,
-            groups: Groups::from_members(member),
+            groups: Groups::from_members(member, ring),
         }
     }
 
@@ -93,6 +95,7 @@ fn continued(matrix: &Pattern, groups: &Groups) -> Vec<bool> {
         .map(|j| {
             j > 0
                 && groups.of(j) == groups.of(j - 1)
+                && groups.ring(j) == groups.ring(j - 1)
                 && matrix.column(j).split_last().map(|(_, above)| above)
                     == Some(matrix.column(j - 1))
         })

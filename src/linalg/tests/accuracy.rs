@@ -29,6 +29,7 @@ fn whole(n: usize) -> Partition {
         n,
         zone: vec![3, 4, 7],
         contact: vec![5, n - 1],
+        ..Partition::default()
     }
 }
 

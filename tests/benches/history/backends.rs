@@ -29,6 +29,7 @@ pub fn factor(backend: Backend, changes: &str) -> Result<Value, Failure> {
         n: matrix.rows(),
         zone: Vec::new(),
         contact,
+        ..Partition::default()
     };
     let start = Instant::now();
     let cost = linalg::predict(backend, matrix, &partition)?;
