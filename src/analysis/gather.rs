@@ -1,6 +1,6 @@
 //! Where the freedoms of a list of elements find displacements, and leave forces.
 
-use crate::model::{Frame, Model, Slot};
+use crate::model::{Blend, Frame, Model, Slot};
 use crate::space::Vector;
 use crate::substructure::Trailing;
 
@@ -165,6 +165,7 @@ pub struct Packed {
     n_places: u8,
     first_place: usize,
     turns: (u32, u32),
+    blends: (u32, u32),
 }
 
 /// A node whose freedoms lie along turned axes.
@@ -181,6 +182,7 @@ pub struct GatheredElements {
     pub list: Vec<Packed>,
     places: Vec<u32>,
     turns: Vec<Turn>,
+    blends: Vec<Blend>,
 }
 
 impl GatheredElements {
@@ -196,6 +198,7 @@ impl GatheredElements {
 
     fn push(&mut self, model: &Model, element: usize, places: &Places) {
         let first_turn = self.turns.len() as u32;
+        let first_blend = self.blends.len() as u32;
         let first_place = self.places.len();
         let nodes = model.mesh.nodes(element);
         let per_node = model.freedoms.per_node;
@@ -207,12 +210,14 @@ impl GatheredElements {
                 frame,
             }));
         }
+        self.blends.extend(model.freedoms.basis.of_element(nodes));
         self.list.push(Packed {
             element: element as u32,
             body: model.mesh.element_body[element],
             n_places: (per_node * nodes.len()) as u8,
             first_place,
             turns: (first_turn, self.turns.len() as u32),
+            blends: (first_blend, self.blends.len() as u32),
         });
     }
 
@@ -241,6 +246,9 @@ impl GatheredElements {
             let u = &mut out[usize::from(turn.node)];
             *u = in_global_axes(*u, &turn.frame);
         }
+        for blend in self.blends_of(packed) {
+            blend.displace(&mut out);
+        }
         out
     }
 
@@ -253,6 +261,9 @@ impl GatheredElements {
     ) {
         let packed = &self.list[i];
         let mut force = *force;
+        for blend in self.blends_of(packed) {
+            blend.share(&mut force);
+        }
         for turn in self.turns_of(packed) {
             let f = &mut force[usize::from(turn.node)];
             *f = in_local_axes(*f, &turn.frame);
@@ -273,6 +284,10 @@ impl GatheredElements {
 
     fn places_of(&self, packed: &Packed) -> &[u32] {
         &self.places[packed.first_place..][..usize::from(packed.n_places)]
+    }
+
+    fn blends_of(&self, packed: &Packed) -> &[Blend] {
+        &self.blends[packed.blends.0 as usize..packed.blends.1 as usize]
     }
 
     fn turns_of(&self, packed: &Packed) -> &[Turn] {

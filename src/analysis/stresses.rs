@@ -57,8 +57,9 @@ impl Stresses {
     pub(super) fn new<const D: usize, const S: usize, const P: usize, const N: usize>(
         field: &StressField<D, S, P, N>,
     ) -> Self {
-        let (forces, beyond_yield_outside) = nodal_forces(field);
+        let (mut forces, beyond_yield_outside) = nodal_forces(field);
         let model = field.model;
+        model.freedoms.basis.share(&mut forces);
         let mut out = Stresses {
             internal: vec![0.0; model.freedoms.n],
             reactions: vec![0.0; model.freedoms.prescribed.len()],

@@ -3,6 +3,39 @@
 use crate::element::packed;
 use crate::model::Model;
 
+/// Puts an element's stiffness (packed lower triangle in global axes) in terms of the control points
+/// of its nodes ([`crate::model::ContactBasis`]): `K <- B' K B`.
+pub(super) fn share_stiffness(model: &Model, element: usize, stiffness: &mut [f64]) {
+    let nodes = model.mesh.nodes(element);
+    let blends = model.freedoms.basis.of_element(nodes);
+    if blends.is_empty() {
+        return;
+    }
+    let per = model.freedoms.per_node;
+    let n = per * nodes.len();
+    let mut matrix = vec![0.0; n * n];
+    // `B' K`, and then `B'` times its transpose.
+    for pass in 0..2 {
+        let was = matrix.clone();
+        for i in 0..n {
+            for j in 0..n {
+                matrix[i * n + j] = match pass {
+                    0 => stiffness[packed(i, j)],
+                    _ => was[j * n + i],
+                };
+            }
+        }
+        for blend in &blends {
+            blend.share_rows(per, n, &mut matrix);
+        }
+    }
+    for i in 0..n {
+        for j in 0..=i {
+            stiffness[packed(i, j)] = matrix[i * n + j];
+        }
+    }
+}
+
 /// Turns an element's stiffness (packed lower triangle in global axes) into the local axes of its
 /// nodes: `K <- R' K R`, the columns of `R` the axes.
 pub(super) fn turn_stiffness(model: &Model, element: usize, stiffness: &mut [f64]) {

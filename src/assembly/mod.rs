@@ -112,6 +112,7 @@ impl ElementMatrices {
         with_kernel!(model.kind, kernel => blocks.for_each(|(e, block)| {
             let elastic = &elastic[model.mesh.element_body[e] as usize];
             model.gradients(&kernel, e).stiffness_into(elastic, block);
+            local::share_stiffness(model, e, block);
             local::turn_stiffness(model, e, block);
         }));
         ElementMatrices { offsets, values }

@@ -2,6 +2,7 @@
 //! for it.
 
 use super::Pair;
+use super::contact_basis::ContactBasis;
 use super::frame::{ALIGNED, Frame, frame};
 use super::names::Entry;
 use crate::error::{Error, Result};
@@ -47,6 +48,8 @@ pub struct Freedoms {
     pub prescribed: Vec<Prescribed>,
     /// A node and local direction for each free freedom, for messages.
     pub owners: Vec<(u32, u8)>,
+    /// Where freedoms are those of control points.
+    pub basis: ContactBasis,
 }
 
 /// A support within 30 degrees of a contact's tangent is meant to lie in it: the normal of the discretised surface
@@ -60,7 +63,12 @@ impl Freedoms {
     /// # Errors
     /// Input errors: a support in the direction of a contact normal, turned supports that disagree,
     /// a prescribed displacement on a held freedom, a plane surface that is not free to move.
-    pub fn new(scene: &Scene, mesh: &Mesh, pairs: &mut [Pair]) -> Result<Self> {
+    pub fn new(
+        scene: &Scene,
+        mesh: &Mesh,
+        basis: ContactBasis,
+        pairs: &mut [Pair],
+    ) -> Result<Self> {
         let n_nodes = mesh.n_nodes();
         let supports = Supports::resolve(scene, mesh)?;
         turn_normals_into_supports(pairs, &supports);
@@ -81,6 +89,7 @@ impl Freedoms {
             frames: vec![frame(mesh.dimension, None, &[]).unwrap_or_default()],
             prescribed: Vec::new(),
             owners: Vec::new(),
+            basis,
         };
         for (node, normal) in normal_of.iter().enumerate() {
             if normal.is_some() && !supports.of_node.contains_key(&node) {
@@ -93,8 +102,42 @@ impl Freedoms {
         }
         let touches: Vec<bool> = normal_of.iter().map(Option::is_some).collect();
         let ties = freedoms.apply_loads(scene, mesh, &touches)?;
+        freedoms.check_edges(mesh)?;
         freedoms.number(&ties);
         Ok(freedoms)
+    }
+
+    /// What holds the middle of an edge by its control point must hold its ends.
+    fn check_edges(&self, mesh: &Mesh) -> Result<()> {
+        let held = |node: usize, direction: Vector| {
+            let axes = self.local(node);
+            let at = (0..3).find(|&i| dot(axes[i], direction).abs() > 1.0 - ALIGNED)?;
+            let sign = dot(axes[at], direction).signum();
+            match self.slots[node][at] {
+                Slot::Free(_) => None,
+                Slot::Fixed => Some((usize::MAX, 0.0)),
+                Slot::Prescribed(p) => {
+                    let prescribed = self.prescribed[p as usize];
+                    Some((prescribed.load, sign * prescribed.value))
+                }
+            }
+        };
+        for (node, ends) in self.basis.edges() {
+            for (slot, axis) in self.slots[node].iter().zip(self.local(node)) {
+                let alike = |end: &usize| held(*end, axis) == held(node, axis);
+                if !matches!(slot, Slot::Free(_)) && !ends.iter().all(alike) {
+                    return Err(Error::input(format!(
+                        "node {} in the middle of an edge in contact is held along {}, but an end of \
+                         the edge (nodes {} and {}) is not held alike: hold or release the whole edge",
+                        mesh.node_label(node),
+                        in_words(axis, mesh.dimension),
+                        mesh.node_label(ends[0]),
+                        mesh.node_label(ends[1])
+                    )));
+                }
+            }
+        }
+        Ok(())
     }
 
     fn set_frame(&mut self, node: usize, frame: Frame) {
@@ -290,6 +333,12 @@ impl Freedoms {
 
     /// Displacement of a node in global axes, from free freedoms and load factors.
     pub fn displacement(&self, node: usize, u: &[f64], factors: &[f64]) -> Vector {
+        self.basis
+            .at_node(node, |node| self.of_control(node, u, factors))
+    }
+
+    /// Displacement of a node's control point.
+    fn of_control(&self, node: usize, u: &[f64], factors: &[f64]) -> Vector {
         let values = self.slots[node].map(|slot| self.value(slot, u, factors));
         if !self.is_turned(node) {
             return values;

@@ -70,7 +70,7 @@ pub(super) fn resolve(
     loads: &[LoadCase],
     warnings: &mut Vec<String>,
 ) -> Result<FloatingBodies> {
-    let motions = Motions::new(space, mesh);
+    let motions = Motions::new(space, mesh, freedoms.basis.clone());
     let mut floating = FloatingBodies::default();
     let supports_only = motions.free(freedoms, &[]);
     let mut is_floating = vec![false; motions.names.len()];

@@ -87,7 +87,7 @@ impl LoadCase {
         rows.iter().map(|r| r[0])
     }
 
-    /// Forces as nodal vectors in global axes.
+    /// Forces as vectors in global axes, on control points.
     pub(super) fn nodal(&self) -> &[(usize, Vector)] {
         &self.nodal
     }
@@ -118,6 +118,7 @@ pub(super) fn resolve(
             if let Some(forces) = given.forces.get(&index) {
                 case.nodal.clone_from(forces);
             }
+            case.nodal = freedoms.basis.share_of(case.nodal);
             case.forces = on_freedoms(&case.nodal, freedoms);
             Ok(case)
         })

@@ -4,6 +4,7 @@
 //! after works with numbers only.
 
 mod builder;
+mod contact_basis;
 mod ends;
 mod far_boundary;
 mod frame;
@@ -18,6 +19,7 @@ mod pairs;
 mod recipe;
 
 pub use builder::ModelBuilder;
+pub use contact_basis::{Blend, ContactBasis};
 pub use frame::Frame;
 pub use freedoms::{Freedoms, Prescribed, Slot};
 pub use given::NodePair;
@@ -132,7 +134,9 @@ impl Model {
             check_radii(&mesh)?;
         }
         let (mut pairs, mut contacts) = pairs::resolve(scene, &mesh, given)?;
-        let mut freedoms = Freedoms::new(scene, &mesh, &mut pairs)?;
+        let basis = ContactBasis::of(&mesh, &pairs, &contacts)?;
+        let mut freedoms = Freedoms::new(scene, &mesh, basis, &mut pairs)?;
+        freedoms.basis.restate(&mut pairs);
         let loads = loads::resolve(scene, &mesh, given, &freedoms)?;
         check_targets(scene, &mesh)?;
         let floating = held::resolve(kind, &mesh, &mut freedoms, &pairs, &loads, &mut warnings)?;

@@ -1,5 +1,6 @@
 //! Rigid motions of the bodies, and which of them supports and pairs leave free.
 
+use super::contact_basis::ContactBasis;
 use super::gram::{Gram, root};
 use super::{Freedoms, LoadCase, Pair, Slot};
 use crate::mesh::Mesh;
@@ -17,6 +18,7 @@ const HELD: f64 = 1e-11;
 pub(super) struct Motions<'a> {
     space: Space,
     mesh: &'a Mesh,
+    basis: ContactBasis,
     /// Group of each node.
     pub(super) group_of_node: Vec<usize>,
     center: Vec<Vector>,
@@ -57,7 +59,7 @@ pub(super) struct Forces {
 }
 
 impl<'a> Motions<'a> {
-    pub(super) fn new(space: Space, mesh: &'a Mesh) -> Self {
+    pub(super) fn new(space: Space, mesh: &'a Mesh, basis: ContactBasis) -> Self {
         let n_bodies = mesh.bodies.len();
         let mut parent: Vec<usize> = (0..n_bodies).collect();
         let mut body_of_node = vec![usize::MAX; mesh.n_nodes()];
@@ -109,6 +111,7 @@ impl<'a> Motions<'a> {
         Motions {
             space,
             mesh,
+            basis,
             group_of_node,
             center,
             size,
@@ -124,7 +127,8 @@ impl<'a> Motions<'a> {
     /// Displacement of a node along `axis`, for each rigid motion of its group;
     /// rotations are about the group's centre, scaled to its size.
     fn row(&self, node: usize, axis: Vector) -> Vec<f64> {
-        let (group, x) = (self.group_of_node[node], self.mesh.point(node));
+        let group = self.group_of_node[node];
+        let x = self.basis.at_control(node, |node| self.mesh.point(node));
         let (c, s) = (self.center[group], 2.0 / self.size[group]);
         let arm: Vector = std::array::from_fn(|d| s * (x[d] - c[d]));
         let motions = self.space.rigid_motions().iter();

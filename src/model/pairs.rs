@@ -49,8 +49,8 @@ pub struct ContactSurface {
     pub axis: Option<AxisPoint>,
     /// Pairs at which the candidates end although both bodies go on there: material beyond could touch too.
     pub goes_on: Vec<usize>,
-    /// In a solid model the pairs at the corners of each face of the second surface that has pairs
-    /// there, in order.
+    /// In a solid model the pairs at the corners of each piece of a face of the second surface, in
+    /// order.
     pub faces: Vec<Vec<usize>>,
 }
 
@@ -264,18 +264,37 @@ fn resolve_contact(
     })
 }
 
-/// The pairs at the corners of each face of a surface of a solid; `start` is the first one's number.
+/// The pairs at the corners of each piece of a face of a surface of a solid; `start` is the first
+/// one's number. A linear face is one piece; of a quadratic one the nodes are the corners of several.
 fn faces_of(mesh: &Mesh, surface: &Surface, pairs: &[Pair], start: usize) -> Vec<Vec<usize>> {
     if !mesh.is_solid() {
         return Vec::new();
     }
     let numbers = start..start + pairs.len();
     let of_node: BTreeMap<usize, usize> = pairs.iter().map(|p| p.second).zip(numbers).collect();
-    let corners = |&facet: &Facet| {
-        let nodes = mesh.facet_nodes(facet).take(mesh.facet_corners(facet));
+    let pairs_of = |&facet: &Facet| -> Option<Vec<usize>> {
+        let nodes = mesh.facet_nodes(facet);
         nodes.map(|node| of_node.get(&node).copied()).collect()
     };
-    surface.facets.iter().filter_map(corners).collect()
+    let faces = surface.facets.iter().filter_map(pairs_of);
+    faces
+        .flat_map(|face| {
+            let pieces: &[&[usize]] = match face.len() {
+                3 => &[&[0, 1, 2]],
+                4 => &[&[0, 1, 2, 3]],
+                6 => &[&[0, 3, 5], &[3, 1, 4], &[5, 4, 2], &[3, 4, 5]],
+                _ => &[
+                    &[0, 4, 7],
+                    &[4, 1, 5],
+                    &[5, 2, 6],
+                    &[6, 3, 7],
+                    &[4, 5, 6, 7],
+                ],
+            };
+            let of_piece = |piece: &&[usize]| piece.iter().map(|&k| face[k]).collect();
+            pieces.iter().map(of_piece).collect::<Vec<Vec<usize>>>()
+        })
+        .collect()
 }
 
 /// Takes the pair on the axis that can carry no force out of the pairs from `start` on.

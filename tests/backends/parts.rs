@@ -30,7 +30,8 @@ fn assert_a_part_moves_as_in_the_whole(backend: Backend) {
     let zone: Vec<usize> = (0..model.freedoms.n)
         .filter(|freedom| !contact.contains(freedom))
         .collect();
-    let structure = Substructure::new(&model, &system, zone.clone(), backend).unwrap();
+    let structure =
+        Substructure::new(&model, &system, (zone.clone(), Vec::new()), backend).unwrap();
     let mut eliminated = structure.zeros();
     for (i, value) in eliminated.iter_mut().enumerate() {
         *value = ((i * 7919) % 1013) as f64 / 1013.0 - 0.5;

@@ -58,7 +58,7 @@ fn assert_solves_allocate_nothing(backend: Backend) {
             .step_by(3)
             .filter(|freedom| !contact.contains(freedom))
             .collect();
-        let structure = Substructure::new(&model, &system, zone, backend).unwrap();
+        let structure = Substructure::new(&model, &system, (zone, Vec::new()), backend).unwrap();
         let (mut load, n) = (structure.zeros(), model.pairs.len());
         let (mut forces, slip) = (vec![0.0; n], vec![0.0; n]);
         let mut solve = || {

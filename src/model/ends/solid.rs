@@ -91,9 +91,9 @@ impl<'m> Boundary<'m> {
         let mut at: BTreeMap<Edge, Vec<Facet>> = BTreeMap::new();
         for facets in owners.values() {
             let [only] = facets[..] else { continue };
-            let corners = corners_of(mesh, only);
-            for (k, &a) in corners.iter().enumerate() {
-                let b = corners[(k + 1) % corners.len()];
+            let outline = outline(mesh, only);
+            for (k, &a) in outline.iter().enumerate() {
+                let b = outline[(k + 1) % outline.len()];
                 if nodes.contains(&a) && nodes.contains(&b) {
                     at.entry([a.min(b), a.max(b)]).or_default().push(only);
                 }
@@ -150,6 +150,15 @@ impl<'m> Boundary<'m> {
         let area = reference.area(&(reference.functions)(center), &points);
         (middle, direction(area))
     }
+}
+
+/// The nodes round a facet.
+fn outline(mesh: &Mesh, facet: Facet) -> Vec<usize> {
+    let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
+    let (corners, middles) = nodes.split_at(mesh.facet_corners(facet));
+    let each = corners.iter().enumerate();
+    each.flat_map(|(k, &corner)| std::iter::once(corner).chain(middles.get(k).copied()))
+        .collect()
 }
 
 fn corners_of(mesh: &Mesh, facet: Facet) -> Vec<usize> {

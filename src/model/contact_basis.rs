@@ -1,0 +1,264 @@
+//! Displacements of quadratic faces in contact by control points.
+//!
+//! A uniform pressure pulls at the corners of a face of eight nodes (their weight is -1/12 of the
+//! area) and leaves those of one of six alone: no contact condition can be stated there. In the
+//! basis
+//!
+//! ```text
+//! phi_c = N_c + alpha sum N_m (edges at c),   phi_m = (1 - 2 alpha) N_m,   alpha = 1/5
+//! u_m = (1 - 2 alpha) q_m + alpha (q_c1 + q_c2),   u_c = q_c
+//! ```
+//!
+//! all weights are positive (1/20 and 1/5 of the area; 2/15 and 1/5), and bodies whose control
+//! points `q` touch touch. Freedoms and forces of such faces are those of the control points; the
+//! sum of the coefficients is 1, so a rigid motion moves them as it moves points.
+//!
+//! # Source
+//! A. Popp, B. Wohlmuth, M. Gee, W. Wall, *Dual quadratic mortar finite element methods for 3D finite
+//! deformation contact*, SIAM J. Sci. Comput. 34 (2012) B421, doi:10.1137/110848190.
+
+use super::pairs::{ContactSurface, Pair};
+use crate::error::{Error, Result};
+use crate::mesh::{Mesh, Surface};
+use crate::space::{Vector, along, dot};
+use std::collections::BTreeMap;
+
+/// What each end of an edge counts at the middle of it.
+const ALPHA: f64 = 0.2;
+/// What the control point of the middle counts there.
+const OWN: f64 = 1.0 - 2.0 * ALPHA;
+
+/// The middle nodes of the edges of quadratic faces in contact, each with the ends of its edge.
+#[derive(Debug, Clone, Default)]
+pub struct ContactBasis {
+    ends: BTreeMap<usize, [usize; 2]>,
+}
+
+/// A middle node of an element with the ends of its edge, as places in its list of nodes.
+#[derive(Debug, Clone, Copy)]
+pub struct Blend {
+    middle: u8,
+    ends: [u8; 2],
+}
+
+impl Blend {
+    /// The displacement of the middle node, from those of the control points.
+    #[inline]
+    pub fn displace<const D: usize>(&self, u: &mut [[f64; D]]) {
+        let [a, b] = self.ends.map(|end| u[usize::from(end)]);
+        for (d, u) in u[usize::from(self.middle)].iter_mut().enumerate() {
+            *u = OWN * *u + ALPHA * (a[d] + b[d]);
+        }
+    }
+
+    /// The forces on the control points, from those on the nodes: the transpose.
+    #[inline]
+    pub fn share<const D: usize>(&self, forces: &mut [[f64; D]]) {
+        let own = forces[usize::from(self.middle)];
+        forces[usize::from(self.middle)] = own.map(|f| OWN * f);
+        for end in self.ends {
+            for (f, own) in forces[usize::from(end)].iter_mut().zip(own) {
+                *f += ALPHA * own;
+            }
+        }
+    }
+
+    /// The same for the rows of a matrix with `per` rows for each node.
+    pub fn share_rows(&self, per: usize, n: usize, matrix: &mut [f64]) {
+        for d in 0..per {
+            let row = |node: u8| per * usize::from(node) + d;
+            for k in 0..n {
+                let own = matrix[row(self.middle) * n + k];
+                matrix[row(self.middle) * n + k] = OWN * own;
+                for end in self.ends {
+                    matrix[row(end) * n + k] += ALPHA * own;
+                }
+            }
+        }
+    }
+}
+
+impl ContactBasis {
+    /// The basis for the pairs of a solid model.
+    ///
+    /// # Errors
+    /// `Input` where the middle of an edge of one surface faces no such node of the other.
+    pub(super) fn of(mesh: &Mesh, pairs: &[Pair], contacts: &[ContactSurface]) -> Result<Self> {
+        let mut basis = ContactBasis::default();
+        if !mesh.is_solid() {
+            return Ok(basis);
+        }
+        for contact in contacts {
+            let [firsts, seconds] = contact.names.each_ref().map(|name| {
+                let surface = mesh.surfaces.get(name);
+                surface.map(|s| middles(mesh, s)).unwrap_or_default()
+            });
+            let pairs = &pairs[contact.range.clone()];
+            let first_of: BTreeMap<usize, usize> =
+                pairs.iter().map(|pair| (pair.second, pair.first)).collect();
+            for pair in pairs {
+                let own = seconds.get(&pair.second);
+                let opposite = firsts.get(&pair.first);
+                let (own, opposite) = match (own, opposite) {
+                    (None, None) => continue,
+                    (Some(own), Some(opposite)) => (*own, *opposite),
+                    _ => return Err(differ(mesh, contact, pair)),
+                };
+                let faced = own.map(|end| first_of.get(&end).copied());
+                let [a, b] = opposite.map(Some);
+                if faced != [a, b] && faced != [b, a] {
+                    return Err(differ(mesh, contact, pair));
+                }
+                basis.ends.insert(pair.second, own);
+                basis.ends.insert(pair.first, opposite);
+            }
+        }
+        Ok(basis)
+    }
+
+    /// Whether control points are the nodes everywhere.
+    pub fn is_empty(&self) -> bool {
+        self.ends.is_empty()
+    }
+
+    /// The ends of the edge in whose middle a node lies.
+    #[inline]
+    pub fn ends(&self, node: usize) -> Option<[usize; 2]> {
+        if self.ends.is_empty() {
+            return None;
+        }
+        self.ends.get(&node).copied()
+    }
+
+    /// All middle nodes with the ends of their edges.
+    pub fn edges(&self) -> impl Iterator<Item = (usize, [usize; 2])> + '_ {
+        self.ends.iter().map(|(&node, &ends)| (node, ends))
+    }
+
+    /// A vector at a node, from those at control points.
+    #[inline]
+    pub fn at_node(&self, node: usize, control: impl Fn(usize) -> Vector) -> Vector {
+        match self.ends(node) {
+            None => control(node),
+            Some([a, b]) => {
+                let own = control(node).map(|v| OWN * v);
+                along(along(own, ALPHA, control(a)), ALPHA, control(b))
+            }
+        }
+    }
+
+    /// A vector at a control point, from those at nodes.
+    pub fn at_control(&self, node: usize, value: impl Fn(usize) -> Vector) -> Vector {
+        match self.ends(node) {
+            None => value(node),
+            Some([a, b]) => {
+                let rest = along(along(value(node), -ALPHA, value(a)), -ALPHA, value(b));
+                rest.map(|v| v / OWN)
+            }
+        }
+    }
+
+    /// Forces on control points for those on nodes.
+    pub fn share(&self, forces: &mut [Vector]) {
+        for (node, ends) in self.edges() {
+            let own = forces[node];
+            forces[node] = own.map(|f| OWN * f);
+            for end in ends {
+                forces[end] = along(forces[end], ALPHA, own);
+            }
+        }
+    }
+
+    /// As [`ContactBasis::share`], for forces on some nodes.
+    pub(super) fn share_of(&self, forces: Vec<(usize, Vector)>) -> Vec<(usize, Vector)> {
+        if self.ends.is_empty() {
+            return forces;
+        }
+        let mut out: BTreeMap<usize, Vector> = BTreeMap::new();
+        let mut add = |node: usize, share: f64, force: Vector| {
+            let sum = out.entry(node).or_default();
+            *sum = along(*sum, share, force);
+        };
+        for (node, force) in forces {
+            match self.ends(node) {
+                None => add(node, 1.0, force),
+                Some(ends) => {
+                    add(node, OWN, force);
+                    ends.into_iter().for_each(|end| add(end, ALPHA, force));
+                }
+            }
+        }
+        out.into_iter().collect()
+    }
+
+    /// The middle nodes of an element.
+    pub fn of_element(&self, nodes: &[u32]) -> Vec<Blend> {
+        if self.ends.is_empty() {
+            return Vec::new();
+        }
+        let place = |node: usize| nodes.iter().position(|&n| n as usize == node);
+        let blend = |(middle, &node): (usize, &u32)| {
+            let [a, b] = self.ends(node as usize)?.map(place);
+            Some(Blend {
+                middle: middle as u8,
+                ends: [a? as u8, b? as u8],
+            })
+        };
+        nodes.iter().enumerate().filter_map(blend).collect()
+    }
+
+    /// Puts gaps, interferences and areas of pairs, which are those of the nodes, in terms of the
+    /// control points.
+    pub(super) fn restate(&self, pairs: &mut [Pair]) {
+        if self.ends.is_empty() {
+            return;
+        }
+        let place: BTreeMap<usize, usize> = (pairs.iter().enumerate())
+            .map(|(k, p)| (p.second, k))
+            .collect();
+        let nodes = pairs.to_vec();
+        for pair in pairs.iter_mut() {
+            let along_normal = |size: fn(&Pair) -> f64| {
+                let vector = |node: usize| {
+                    let of = &nodes[place[&node]];
+                    of.normal.map(|n| size(of) * n)
+                };
+                dot(self.at_control(pair.second, vector), pair.normal)
+            };
+            (pair.gap, pair.interference) =
+                (along_normal(|p| p.gap), along_normal(|p| p.interference));
+        }
+        for (k, node) in nodes.iter().enumerate() {
+            if let Some(ends) = self.ends(node.second) {
+                pairs[k].area -= (1.0 - OWN) * node.area;
+                for end in ends {
+                    pairs[place[&end]].area += ALPHA * node.area;
+                }
+            }
+        }
+    }
+}
+
+/// The middle nodes of the edges of a surface's faces, each with the ends of its edge.
+fn middles(mesh: &Mesh, surface: &Surface) -> BTreeMap<usize, [usize; 2]> {
+    let mut out = BTreeMap::new();
+    for &facet in &surface.facets {
+        let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
+        let corners = mesh.facet_corners(facet);
+        for (i, &middle) in nodes[corners..].iter().enumerate() {
+            out.insert(middle, [nodes[i], nodes[(i + 1) % corners]]);
+        }
+    }
+    out
+}
+
+fn differ(mesh: &Mesh, contact: &ContactSurface, pair: &Pair) -> Error {
+    let [first, second] = &contact.names;
+    Error::input(format!(
+        "contact of `{first}` and `{second}`: nodes {} and {} face each other, but one is the middle \
+         of an edge and the other is not that of the edge opposite; mesh both surfaces with the same \
+         faces",
+        mesh.node_label(pair.first),
+        mesh.node_label(pair.second)
+    ))
+}
