@@ -8,7 +8,12 @@ use crate::run::{run_as_far_as_it_goes, scene};
 fn every_state_of_every_scene_is_in_balance() {
     let mut count = 0;
     for name in names("").into_iter().chain(names("hard/")) {
-        let results = run_as_far_as_it_goes(&scene(&name, &[]));
+        let own = scene(&name, &[]);
+        // Solids on a coarser mesh than their own.
+        let results = run_as_far_as_it_goes(&match own.mesh.curved_bodies {
+            Some(_) => scene(&name, &["mesh.curved_bodies.resolution=4"]),
+            None => own,
+        });
         // N. J. Higham, theorem 10.4: of the order of the unknowns times the unit round-off.
         let backward_error = f64::EPSILON * results.sizes.freedoms as f64;
         for state in &results.states {

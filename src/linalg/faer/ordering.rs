@@ -5,9 +5,9 @@
 //! | `AMD` | approximate minimum degree of interior and zone | plane meshes |
 //! | `nested dissection` | separators of interior and zone | large and solid meshes |
 //!
-//! Neither knows of groups, so each group is ordered by itself. The zone freedoms that touch the
-//! interior come last of the zone: once the interior is gone they are all coupled with one another,
-//! whatever the order. The candidate with the fewest floating point operations is kept. Both order
+//! Neither knows of groups, so each group is ordered by itself, the zone ring by ring. The freedoms
+//! that touch the interior come last of their ring: once the interior is gone they are all coupled
+//! with one another, whatever the order. The candidate with the fewest floating point operations is kept. Both order
 //! supervariables ([`Supervariables`]).
 //!
 //! # Source
@@ -85,8 +85,12 @@ fn by_groups(compressed: &Supervariables, name: &'static str, order: Order) -> R
     let sizes = compressed.sizes();
     let border = border(&pattern, groups);
     let mut permutation = part(&pattern, order, |j| groups.of(j) == 0)?;
-    permutation.extend(part(&pattern, order, |j| groups.of(j) == 1 && !border[j])?);
-    permutation.extend((0..pattern.n() as i64).filter(|&j| border[j as usize]));
+    for ring in 0..=groups.last_ring() {
+        let of_ring = |j: usize| groups.of(j) == 1 && groups.ring(j) == ring;
+        permutation.extend(part(&pattern, order, |j| of_ring(j) && !border[j])?);
+        let on_border = |j: &i64| of_ring(*j as usize) && border[*j as usize];
+        permutation.extend((0..pattern.n() as i64).filter(on_border));
+    }
     permutation.extend((0..pattern.n() as i64).filter(|&j| groups.of(j as usize) == 2));
 
     let elimination = Elimination::new(&pattern, &sizes, &permutation);

@@ -40,6 +40,12 @@ impl Groups {
         }
     }
 
+    /// The innermost ring.
+    #[cfg(feature = "faer")]
+    pub(crate) fn last_ring(&self) -> u8 {
+        self.ring.iter().copied().max().unwrap_or(0)
+    }
+
     /// The ring of a freedom of the zone.
     pub(crate) fn ring(&self, freedom: usize) -> u8 {
         self.ring[freedom]
