@@ -251,6 +251,7 @@ impl<'a> Shape<'a> {
 
     /// The place of a pair and its mirror images.
     fn mirrored(&self, k: usize) -> Vec<[f64; 2]> {
+        let size = self.model.pairs[k].area.sqrt();
         let mut images = vec![self.place(k)];
         for plane in &self.planes {
             let normal = self.axes.map(|axis| dot(axis, plane.normal()));
@@ -258,7 +259,7 @@ impl<'a> Shape<'a> {
             for i in 0..images.len() {
                 let [x, y] = images[i];
                 let beyond = -2.0 * (normal[0] * x + normal[1] * y);
-                if beyond.abs() > 0.0 {
+                if beyond.abs() > 2e-6 * size {
                     images.push([x + beyond * normal[0], y + beyond * normal[1]]);
                 }
             }
@@ -289,8 +290,11 @@ impl<'a> Shape<'a> {
                     let wrong = corners
                         .iter()
                         .filter(|k| !self.members.contains(k) && fit.value(self.place(**k)) > 0.0);
-                    let zeros = wrong.flat_map(|&k| self.mirrored(k));
-                    let zeros: Vec<Known> = zeros.map(|at| Known { at, value: 0.0 }).collect();
+                    let zero = |&k: &usize| Known {
+                        at: self.place(k),
+                        value: 0.0,
+                    };
+                    let zeros: Vec<Known> = wrong.map(zero).collect();
                     let bounded = (!zeros.is_empty())
                         .then(|| Fit::new(&[believed.as_slice(), &zeros].concat(), center));
                     let fit = bounded.flatten().unwrap_or(fit);

@@ -1,6 +1,6 @@
 //! Local axes of a node.
 
-use crate::space::{Vector, along, cross, direction, dot, unit};
+use crate::space::{Vector, along, cross, direction, dot, length, unit};
 
 /// Three axes at right angles, right-handed.
 pub type Frame = [Vector; 3];
@@ -9,10 +9,12 @@ pub type Frame = [Vector; 3];
 pub(super) const ALIGNED: f64 = 1e-6;
 
 /// The axes of a node: the contact normal first, where there is one; the directions that are held
-/// are among them. Global axes where these will do. In the plane the third axis is out of it.
+/// are spanned by some of the others. Global axes where these will do. In the plane the third axis
+/// is out of it.
 ///
 /// # Errors
-/// The place of a direction that is neither at right angles to nor along those before it.
+/// The place of a direction that is not at right angles to the normal; in the plane also of one
+/// that is neither at right angles to nor along those before it.
 pub(super) fn frame(
     dimension: usize,
     normal: Option<Vector>,
@@ -33,10 +35,21 @@ pub(super) fn frame(
         if axes.iter().any(|axis| off(axis) > 1.0 - ALIGNED) {
             continue;
         }
-        if axes.iter().any(|axis| off(axis) > ALIGNED) {
+        let rigid = if dimension == 2 {
+            axes.len()
+        } else {
+            usize::from(normal.is_some())
+        };
+        if axes[..rigid].iter().any(|axis| off(axis) > ALIGNED) {
             return Err(k);
         }
-        axes.push(d);
+        // Of planes of symmetry at any angle the edge between them is held in what they span.
+        let rest = axes
+            .iter()
+            .fold(d, |rest, axis| along(rest, -dot(*axis, d), *axis));
+        if length(rest) > ALIGNED {
+            axes.push(if rest == d { d } else { direction(rest) });
+        }
     }
     if dimension == 2 {
         let first = axes.get(1).copied().unwrap_or(unit(0));
@@ -77,7 +90,15 @@ mod tests {
         assert_eq!(frame(3, None, &[unit(1), unit(0)]).unwrap()[0], unit(0));
         let slanted = direction([1.0, 2.0, 2.0]);
         assert_eq!(frame(3, None, &[slanted]).unwrap()[0], slanted);
-        assert_eq!(frame(3, None, &[slanted, unit(0)]), Err(1));
+        // Two planes at an angle: the second axis is in what they span.
+        let edge = frame(3, None, &[slanted, unit(0)]).unwrap();
+        assert!(is_frame(&edge) && edge[0] == slanted);
+        assert!(dot(edge[2], unit(0)).abs() < 1e-15);
+        // A third one at an angle holds the node altogether.
+        assert!(is_frame(
+            &frame(3, None, &[slanted, unit(0), unit(1)]).unwrap()
+        ));
+        assert_eq!(frame(3, Some(slanted), &[unit(0)]), Err(0));
     }
 
     #[test]

@@ -189,9 +189,11 @@ impl Freedoms {
         })?;
         self.set_frame(node, frame);
         for direction in directions {
-            let along = frame.map(|axis| dot(axis, direction).abs());
-            let held = (0..3).max_by(|&a, &b| along[a].total_cmp(&along[b]));
-            self.slots[node][held.unwrap_or(0)] = Slot::Fixed;
+            for (slot, axis) in self.slots[node].iter_mut().zip(frame) {
+                if dot(axis, direction).abs() > ALIGNED {
+                    *slot = Slot::Fixed;
+                }
+            }
         }
         Ok(())
     }

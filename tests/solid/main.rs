@@ -1,5 +1,8 @@
 //! Three dimensions: elements, contact and plasticity of solids.
 
+mod extruded;
+mod generated;
 mod grid;
 mod hertz;
 mod patch;
+mod thick;

@@ -32,7 +32,9 @@ impl Fit {
             if near.len() < least {
                 continue;
             }
-            let used = &near[..most.min(near.len())];
+            // Those as far away as the last one are used too: which of them came first means nothing.
+            let last = near[most.min(near.len()) - 1].0 * (1.0 + 1e-9);
+            let used = &near[..near.partition_point(|(off, _)| *off <= last)];
             let scale = used[used.len() - 1].0;
             let mut matrix = DMatrix::zeros(used.len(), terms);
             let mut right = DVector::zeros(used.len());

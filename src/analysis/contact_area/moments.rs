@@ -43,12 +43,32 @@ impl Sums {
                 _ => mixed(&[(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t]),
             }
         };
+        if corners.len() == 3 {
+            for i in 0..n {
+                for j in 0..n - i {
+                    let piece = [point(i, j), point(i + 1, j), point(i, j + 1)];
+                    self.add_triangle(piece, piece.map(&level));
+                    if i + j + 1 < n {
+                        let piece = [point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)];
+                        self.add_triangle(piece, piece.map(&level));
+                    }
+                }
+            }
+            return;
+        }
         for i in 0..n {
-            for j in 0..if corners.len() == 3 { n - i } else { n } {
-                let piece = [point(i, j), point(i + 1, j), point(i, j + 1)];
-                self.add_triangle(piece, piece.map(&level));
-                if corners.len() > 3 || i + j + 1 < n {
-                    let piece = [point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)];
+            for j in 0..n {
+                // Four triangles round the middle: no diagonal is preferred to the other, so mirror
+                // images have the same area.
+                let square = [
+                    point(i, j),
+                    point(i + 1, j),
+                    point(i + 1, j + 1),
+                    point(i, j + 1),
+                ];
+                let middle = [0, 1].map(|d| 0.25 * square.iter().map(|x| x[d]).sum::<f64>());
+                for k in 0..4 {
+                    let piece = [square[k], square[(k + 1) % 4], middle];
                     self.add_triangle(piece, piece.map(&level));
                 }
             }

@@ -1,0 +1,109 @@
+//! A plane strain model and the same drawn out along z between planes of symmetry.
+
+use brinell::analysis::Analysis;
+use brinell::linalg::Backend;
+use brinell::model::Model;
+use brinell::progress::Silent;
+use brinell::results::{Results, State, Status};
+use brinell::scene::Scene;
+
+/// Two blocks, the upper one narrower and harder; `up` is the axis from the lower to the upper one.
+fn scene(kind: &str, up: &str, parts: &str, across: &str) -> Scene {
+    let text = format!(
+        r#"
+title = "Punch"
+kind = "{kind}"
+mesh.parts = [{parts}]
+support = [
+    {{ on = "punch.left", fix = ["x"] }},
+    {{ on = "block.left", fix = ["x"] }},
+    {{ on = "block.bottom", fix = ["{up}"] }},
+    {across}
+]
+contact = [{{ first = "punch.bottom", second = "block.top" }}]
+
+[materials.hard]
+youngs_modulus = 600000.0
+poissons_ratio = 0.3
+[materials.steel]
+youngs_modulus = 210000.0
+poissons_ratio = 0.3
+yield_stress = 300.0
+tangent_modulus = 5000.0
+[bodies.punch]
+material = "hard"
+[bodies.block]
+material = "steel"
+
+[[load]]
+on = "punch.top"
+plane_force = {{ direction = "{up}", total = -900.0 }}
+
+[program]
+targets = [{{ load_factor = 0.6 }}, {{ load_factor = 1.0 }}, {{ load_factor = 0.0 }}]
+"#
+    );
+    Scene::parse(&text, "punch").unwrap()
+}
+
+fn run(scene: &Scene) -> Results {
+    let model = Model::new(scene).unwrap();
+    let results = Analysis::new(model, Backend::default())
+        .unwrap()
+        .run(&mut Silent)
+        .unwrap();
+    assert_eq!(results.incomplete, None);
+    results
+}
+
+/// hex8 with its mean dilatation over a prism is quad4 with its own: the histories are one, to
+/// round-off.
+#[test]
+fn a_block_drawn_out_is_in_plane_strain() {
+    let plane = scene(
+        "plane_strain",
+        "y",
+        r#"{ body = "punch", block = { x = [0, 2], y = [0, 2], elements = [4, 4], bias = [1.0, 2.0] } },
+           { body = "block", block = { x = [0, 6], y = [-6, 0], elements = [12, 10], bias = [1.0, 0.2] } }"#,
+        "",
+    );
+    let solid = scene(
+        "solid",
+        "z",
+        r#"{ body = "punch", brick = { x = [0, 2], y = [0, 1], z = [0, 2], elements = [4, 2, 4], bias = [1.0, 1.0, 2.0] } },
+           { body = "block", brick = { x = [0, 6], y = [0, 1], z = [-6, 0], elements = [12, 2, 10], bias = [1.0, 1.0, 0.2] } }"#,
+        r#"{ on = "punch.front", fix = ["y"] }, { on = "punch.back", fix = ["y"] },
+    { on = "block.front", fix = ["y"] }, { on = "block.back", fix = ["y"] },"#,
+    );
+    let (plane, solid) = (run(&plane), run(&solid));
+    let closed = |s: &State| {
+        s.pairs
+            .iter()
+            .filter(|p| p.status == Status::Closed)
+            .count()
+    };
+    for (a, b) in plane.states.iter().zip(&solid.states) {
+        let largest = &plane.states[1];
+        let same = |of: fn(&State) -> f64, scale: f64| {
+            assert!(
+                (of(a) - of(b)).abs() < 1e-8 * scale,
+                "{}: {} {}",
+                a.name,
+                of(a),
+                of(b)
+            );
+        };
+        same(|s| s.contact_force, largest.contact_force);
+        same(|s| s.max_pressure, largest.max_pressure);
+        same(|s| s.approach, largest.approach);
+        same(|s| s.residual_depth, largest.approach);
+        same(
+            |s| s.max_equivalent_plastic_strain,
+            largest.max_equivalent_plastic_strain,
+        );
+        same(|s| s.plastic_zone_size, largest.plastic_zone_size);
+        // Every pair of the plane model stands for a row of three.
+        assert_eq!(closed(b), 3 * closed(a), "{}", a.name);
+    }
+    assert!(plane.states[1].plastic_points > 20);
+}

@@ -1,0 +1,173 @@
+//! The generator of two curved bodies against Hertz' theory, against its own halves, and against the
+//! axisymmetric model.
+
+use brinell::analysis::Analysis;
+use brinell::analytical::{HertzEllipse, contact_modulus};
+use brinell::linalg::Backend;
+use brinell::model::Model;
+use brinell::progress::Silent;
+use brinell::results::{Results, State};
+use brinell::scene::{Scene, Target};
+
+fn scene(name: &str, overrides: &[&str]) -> Scene {
+    let path = format!("{}/data/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let overrides: Vec<String> = overrides.iter().map(|o| o.to_string()).collect();
+    Scene::load_with(path, &overrides).unwrap()
+}
+
+fn run(scene: &Scene) -> Results {
+    let model = Model::new(scene).unwrap();
+    let results = Analysis::new(model, Backend::default())
+        .unwrap()
+        .run(&mut Silent)
+        .unwrap();
+    assert_eq!(results.incomplete, None);
+    results
+}
+
+fn near(value: f64, exact: f64, off: f64, what: &str) {
+    assert!(
+        (value / exact - 1.0).abs() < off,
+        "{what}: {value} for {exact}"
+    );
+}
+
+/// First yield of a circle and of ellipses: pressure, half axes, load and depth, to order h^2.
+#[test]
+fn first_yield_is_that_of_hertz() {
+    let modulus = contact_modulus(210e3, 0.3, 210e3, 0.3);
+    for (name, upper, lower, strength) in [
+        ("ball_on_flat_3d", [10.0, 10.0], [0.0, 0.0], 500.0),
+        ("crossed_cylinders", [0.0, 4.0], [12.0, 0.0], 500.0),
+        ("ball_in_groove", [5.0, 5.0], [-5.2, 20.0], 1800.0),
+    ] {
+        let radii = HertzEllipse::relative_radii(upper, lower).unwrap();
+        let hertz = HertzEllipse::new(radii, modulus).unwrap();
+        for n in [4, 6] {
+            let resolution = format!("mesh.curved_bodies.resolution={n}");
+            let mut scene = scene(name, &[&resolution]);
+            scene.program.targets = vec![Target {
+                first_yield: true,
+                ..Target::default()
+            }];
+            let results = run(&scene);
+            let first = results.first_yield.unwrap();
+            let (what, square) = (format!("{name} {n}"), 1.0 / (n * n) as f64);
+            near(
+                first.max_pressure,
+                hertz.yield_pressure(0.3, strength),
+                0.3 * square,
+                &what,
+            );
+            // The load goes with the third power of the pressure.
+            near(
+                first.load,
+                hertz.yield_load(0.3, strength),
+                0.9 * square,
+                &what,
+            );
+            near(
+                -first.location[2],
+                hertz.yield_depth(0.3, strength),
+                1.2 * square,
+                &what,
+            );
+            let patch = &results.states[0].patches[0];
+            let mut axes = hertz.semi_axes(first.load);
+            axes.sort_by(|a, b| b.total_cmp(a));
+            // Elements along the larger half axis are up to twice as long.
+            for (a, exact) in patch.semi_axes.iter().zip(axes) {
+                near(*a, exact, 0.2 / n as f64, &what);
+            }
+            near(
+                results.states[0].approach,
+                hertz.approach(first.load),
+                0.05,
+                &what,
+            );
+        }
+    }
+}
+
+/// What the whole shows of itself in a half and a quarter model is the same, plastic history and
+/// unloading included.
+#[test]
+fn a_quarter_and_a_half_are_those_of_the_whole() {
+    let run_as = |model: &str, symmetry: usize, supports: &str| {
+        let overrides = [
+            "mesh.curved_bodies.resolution=2",
+            "mesh.curved_bodies.contact_width=2.0",
+            "mesh.curved_bodies.far_size=12",
+            &format!("mesh.curved_bodies.model={model}"),
+            &format!("symmetry={symmetry}"),
+            &format!("support={supports}"),
+            "program.targets=[{ load_factor = 2.0 }, { load_factor = 0.0 }]",
+        ];
+        run(&scene("crossed_cylinders", &overrides))
+    };
+    let bottom = r#"{ on = "lower.bottom", fix = ["z"] }"#;
+    let across = |axis: &str| {
+        format!(
+            r#"{{ on = "upper.symmetry_{axis}", fix = ["{axis}"] }}, {{ on = "lower.symmetry_{axis}", fix = ["{axis}"] }}"#
+        )
+    };
+    let (x, y) = (across("x"), across("y"));
+    let quarter = run_as("quarter", 4, &format!("[{bottom}, {x}, {y}]"));
+    let half = run_as("half", 2, &format!("[{bottom}, {x}]"));
+    let whole = run_as("full", 1, &format!("[{bottom}]"));
+    for other in [&half, &whole] {
+        let firsts = [&quarter, other].map(|results| results.first_yield.unwrap());
+        near(firsts[1].load, firsts[0].load, 1e-9, "first yield");
+        for (a, b) in quarter.states.iter().zip(&other.states) {
+            let same = |of: fn(&State) -> f64, scale: f64| {
+                assert!(
+                    (of(a) - of(b)).abs() < 1e-9 * scale,
+                    "{}: {} {}",
+                    a.name,
+                    of(a),
+                    of(b)
+                );
+            };
+            let largest = &quarter.states[0];
+            same(|s| s.contact_force, largest.contact_force);
+            same(|s| s.max_pressure, largest.max_pressure);
+            same(|s| s.approach, largest.approach);
+            same(|s| s.residual_depth, largest.approach);
+            same(
+                |s| s.max_equivalent_plastic_strain,
+                largest.max_equivalent_plastic_strain,
+            );
+            for (p, q) in a.patches.iter().zip(&b.patches) {
+                near(q.area, p.area, 1e-7, "area");
+                near(q.semi_axes[0], p.semi_axes[0], 1e-7, "larger half axis");
+            }
+        }
+    }
+}
+
+/// The history of a ball on a flat in space is that of the axisymmetric model: both converge, the
+/// difference is of the order of the coarser mesh.
+#[test]
+fn the_history_of_a_ball_is_that_of_the_axisymmetric_model() {
+    let fine = run(&scene("ball_on_half_space", &[]));
+    let solid = run(&scene(
+        "ball_on_flat_3d",
+        &["mesh.curved_bodies.resolution=4"],
+    ));
+    let h = 0.25f64;
+    // Load factors count from each model's own first yield.
+    for (a, b) in fine.states.iter().zip(&solid.states).skip(1).take(3) {
+        near(b.load, a.load, 0.3 * h * h, &a.name);
+        near(b.max_pressure, a.max_pressure, 0.3 * h * h, &a.name);
+        near(b.approach, a.approach, 0.03, &a.name);
+        near(b.residual_depth, a.residual_depth, 3.0 * h * h, &a.name);
+    }
+    let [a, b] = [&fine, &solid].map(|results| results.states.last().unwrap());
+    near(b.residual_depth, a.residual_depth, h * h, "dent");
+    near(
+        b.max_equivalent_plastic_strain,
+        a.max_equivalent_plastic_strain,
+        h * h,
+        "plastic strain",
+    );
+}
