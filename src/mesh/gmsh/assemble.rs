@@ -1,21 +1,26 @@
-//! From what the file holds to a mesh: bodies, boundary edges, node sets.
+//! From what the file holds to a mesh: bodies, boundary facets, node sets.
 
-use super::content::{Content, RawLine};
+use super::content::{Content, RawElement};
 use super::cursor::Cursor;
+use super::kind::Kind;
 use crate::mesh::{Facet, Mesh, Shape};
+use crate::shape::MAX_NODES;
 use crate::{Error, Result};
 use std::collections::{BTreeMap, HashMap};
 
-/// Makes the mesh; `cursor` gives line numbers to messages.
+/// Makes the mesh, a solid one where there are volumes; `cursor` gives line numbers to messages.
 pub(super) fn assemble(content: Content, cursor: &Cursor) -> Result<Mesh> {
-    if content.elements.is_empty() {
+    let dimensions = content.elements.iter().map(|e| e.kind.dimension());
+    let dimension = dimensions.max().unwrap_or(0);
+    if dimension < 2 {
         return Err(cursor.error(
-            "the file has no triangles or quadrilaterals: mesh the surfaces (gmsh -2) and export \
-             those in a Physical Surface",
+            "the file has no triangles or quadrilaterals, and no volumes: mesh the surfaces (gmsh -2) \
+             and export those in a Physical Surface, or volumes (gmsh -3) in a Physical Volume",
         ));
     }
+    content.require_one_body(dimension, cursor)?;
     let mut mesh = Mesh {
-        dimension: 2,
+        dimension: dimension as usize,
         ..Mesh::default()
     };
     let kept = keep_nodes(&content, cursor, &mut mesh)?;
@@ -28,8 +33,14 @@ pub(super) fn assemble(content: Content, cursor: &Cursor) -> Result<Mesh> {
         .find(|n| mesh.node_sets.contains_key(*n))
     {
         return Err(cursor.error(format!(
-            "`{name}` is the name (or number) of both a physical curve and a physical point: \
-             rename one of them"
+            "`{name}` is the name (or number) of both a physical {} and of physical {}: rename one \
+             of them",
+            if dimension == 3 { "surface" } else { "curve" },
+            if dimension == 3 {
+                "curves or points"
+            } else {
+                "points"
+            }
         )));
     }
     Ok(mesh)
@@ -38,11 +49,14 @@ pub(super) fn assemble(content: Content, cursor: &Cursor) -> Result<Mesh> {
 /// No node of a body.
 const DROPPED: u32 = u32::MAX;
 
-/// Keeps the nodes of elements, checks that they lie in a plane z = constant; returns new indices.
+/// Keeps the nodes of bodies; returns new indices. Checks that those of a plane mesh lie in a plane
+/// z = constant.
 fn keep_nodes(content: &Content, cursor: &Cursor, mesh: &mut Mesh) -> Result<Vec<u32>> {
     let mut kept = vec![DROPPED; content.node_labels.len()];
-    for &node in &content.connectivity {
-        kept[node as usize] = 0;
+    for (_, nodes) in content.of_bodies(mesh.dimension as u64) {
+        for &node in nodes {
+            kept[node as usize] = 0;
+        }
     }
     let mut flat: Option<f64> = None;
     let mut extent: f64 = 0.0;
@@ -55,7 +69,7 @@ fn keep_nodes(content: &Content, cursor: &Cursor, mesh: &mut Mesh) -> Result<Vec
         let label = content.node_labels[node];
         let first = *flat.get_or_insert(z);
         let off = (z - first).abs();
-        if !(x.is_finite() && y.is_finite() && off.is_finite()) {
+        if ![x, y, off].iter().all(|x| x.is_finite()) {
             return Err(cursor.error(format!(
                 "node {label} has the coordinates ({x}, {y}, {z}); all must be finite"
             )));
@@ -66,10 +80,10 @@ fn keep_nodes(content: &Content, cursor: &Cursor, mesh: &mut Mesh) -> Result<Vec
         extent = extent.max(x.abs()).max(y.abs());
         *new = (mesh.node_labels.len()) as u32;
         mesh.node_labels.push(label);
-        mesh.coordinates.extend([x, y]);
+        mesh.coordinates.extend(&[x, y, z][..mesh.dimension]);
     }
     // Coordinates are often written with some ten digits.
-    if highest.0 > 1e-9 * extent {
+    if mesh.dimension == 2 && highest.0 > 1e-9 * extent {
         return Err(cursor.error(format!(
             "node {} lies {} outside of the plane z = {}: the mesh must be plane",
             highest.1,
@@ -81,13 +95,15 @@ fn keep_nodes(content: &Content, cursor: &Cursor, mesh: &mut Mesh) -> Result<Vec
 }
 
 fn add_elements(content: &Content, kept: &[u32], mesh: &mut Mesh) {
-    let mut tags: Vec<u64> = content.elements.iter().map(|e| e.group).collect();
+    let dimension = mesh.dimension as u64;
+    let of_bodies = || content.of_bodies(dimension);
+    let mut tags: Vec<u64> = of_bodies().filter_map(|(e, _)| e.group).collect();
     tags.sort_unstable();
     tags.dedup();
     // Groups of one name are one body.
     let mut body_of: HashMap<u64, usize> = HashMap::new();
     for tag in tags {
-        let name = content.group_name((2, tag));
+        let name = content.group_name((dimension, tag));
         let body = mesh.bodies.iter().position(|b| *b == name);
         let body = body.unwrap_or_else(|| {
             mesh.bodies.push(name);
@@ -95,29 +111,26 @@ fn add_elements(content: &Content, kept: &[u32], mesh: &mut Mesh) {
         });
         body_of.insert(tag, body);
     }
-    let mut start = 0;
     let mut last = None;
-    for element in &content.elements {
-        let n = element.shape.n_nodes();
-        let mut nodes = [0u32; 8];
-        for (new, &old) in nodes
-            .iter_mut()
-            .zip(&content.connectivity[start..start + n])
-        {
-            *new = kept[old as usize];
+    for (element, of_file) in of_bodies() {
+        let (Kind::Element(shape), Some(group)) = (element.kind, element.group) else {
+            continue;
+        };
+        let mut nodes = [0u32; MAX_NODES];
+        for (own, &place) in nodes.iter_mut().zip(shape.reference().gmsh_order) {
+            *own = kept[of_file[place] as usize];
         }
-        start += n;
-        let nodes = &mut nodes[..n];
-        if twice_area(mesh, element.shape, nodes) < 0.0 {
-            turn_round(element.shape, nodes);
+        let nodes = &mut nodes[..shape.n_nodes()];
+        if dimension == 2 && twice_area(mesh, shape, nodes) < 0.0 {
+            turn_round(shape, nodes);
         }
         let body = match last {
-            Some((group, body)) if group == element.group => body,
+            Some((other, body)) if other == group => body,
             // Every element's group was entered above.
-            _ => body_of[&element.group],
+            _ => body_of[&group],
         };
-        last = Some((element.group, body));
-        mesh.push_element(element.shape, body, nodes);
+        last = Some((group, body));
+        mesh.push_element(shape, body, nodes);
         mesh.element_labels.push(element.label);
     }
 }
@@ -162,6 +175,17 @@ fn add_node_sets(content: &Content, cursor: &Cursor, kept: &[u32], mesh: &mut Me
         }
         mesh.node_sets.entry(name).or_default().push(node as usize);
     }
+    // Lines of a solid mesh are nothing but their nodes.
+    let lines = content
+        .with_nodes()
+        .filter(|(e, _)| e.kind.dimension() == 1);
+    for (line, nodes) in lines.filter(|_| mesh.dimension == 3) {
+        let Some(group) = line.group else { continue };
+        let name = content.group_name((1, group));
+        let nodes = nodes.iter().map(|&node| kept[node as usize]);
+        let nodes = nodes.filter(|&node| node != DROPPED).map(|n| n as usize);
+        mesh.node_sets.entry(name).or_default().extend(nodes);
+    }
     for nodes in mesh.node_sets.values_mut() {
         nodes.sort_unstable();
         nodes.dedup();
@@ -169,66 +193,93 @@ fn add_node_sets(content: &Content, cursor: &Cursor, kept: &[u32], mesh: &mut Me
     Ok(())
 }
 
-/// Facets by their two end nodes, the smaller first; at most two elements share an edge.
-type Edges = HashMap<[u32; 2], Vec<Facet>>;
+/// The corners of a facet, ascending; `DROPPED` where it has fewer than four.
+type Corners = [u32; 4];
 
-fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
-    [a.min(b), a.max(b)]
+/// Facets by their corners; at most two elements share one.
+type Facets = HashMap<Corners, Vec<Facet>>;
+
+fn sorted(corners: impl Iterator<Item = u32>) -> Corners {
+    let mut out = [DROPPED; 4];
+    for (out, corner) in out.iter_mut().zip(corners) {
+        *out = corner;
+    }
+    out.sort_unstable();
+    out
 }
 
-/// The element facets that have the ends of boundary lines.
-fn edges_on_lines(content: &Content, kept: &[u32], mesh: &Mesh) -> Edges {
-    let mut edges = Edges::with_capacity(content.lines.len());
-    // Few edges have both ends on a line: the marks spare the others the look-up.
+/// The elements of the file that are facets of bodies and in a group, with their nodes.
+fn boundary<'c>(
+    content: &'c Content,
+    mesh: &Mesh,
+) -> impl Iterator<Item = (&'c RawElement, u64, &'c [u32])> {
+    let dimension = mesh.dimension as u64 - 1;
+    let of_boundary = content
+        .with_nodes()
+        .filter(move |(e, _)| e.kind.dimension() == dimension);
+    of_boundary.filter_map(|(e, nodes)| Some((e, e.group?, nodes)))
+}
+
+/// The facets of elements that have the corners of boundary elements.
+fn facets_on_boundary(content: &Content, kept: &[u32], mesh: &Mesh) -> Facets {
+    let mut out = Facets::new();
+    // Few facets have all corners on the boundary: the marks spare the others the look-up.
     let mut marked = vec![false; mesh.n_nodes()];
-    for line in &content.lines {
-        let ends = line.ends.map(|n| kept[n as usize]);
-        if ends.contains(&DROPPED) {
+    for (element, _, nodes) in boundary(content, mesh) {
+        let corners = || {
+            let of_file = &nodes[..element.kind.n_corners()];
+            of_file.iter().map(|&n| kept[n as usize])
+        };
+        if corners().any(|n| n == DROPPED) {
             continue;
         }
-        edges.insert(sorted(ends), Vec::new());
-        for end in ends {
-            marked[end as usize] = true;
-        }
+        out.insert(sorted(corners()), Vec::new());
+        corners().for_each(|corner| marked[corner as usize] = true);
     }
-    if edges.is_empty() {
-        return edges;
+    if out.is_empty() {
+        return out;
     }
     for element in 0..mesh.n_elements() {
-        let nodes = mesh.nodes(element);
-        let n = mesh.shapes[element].n_corners();
-        for local in 0..n {
-            let ends = [nodes[local], nodes[(local + 1) % n]];
-            if ends.iter().all(|&end| marked[end as usize])
-                && let Some(facets) = edges.get_mut(&sorted(ends))
+        for local in 0..mesh.shapes[element].n_facets() {
+            let facet = Facet { element, local };
+            let n_corners = mesh.facet_corners(facet);
+            let corners = || mesh.facet_nodes(facet).take(n_corners);
+            if corners().all(|n| marked[n])
+                && let Some(facets) = out.get_mut(&sorted(corners().map(|n| n as u32)))
             {
-                facets.push(Facet { element, local });
+                facets.push(facet);
             }
         }
     }
-    edges
+    out
 }
 
 fn add_surfaces(content: &Content, cursor: &Cursor, kept: &[u32], mesh: &mut Mesh) -> Result<()> {
-    let edges = edges_on_lines(content, kept, mesh);
+    let facets = facets_on_boundary(content, kept, mesh);
+    let dimension = mesh.dimension as u64 - 1;
     let mut names: BTreeMap<u64, String> = BTreeMap::new();
-    for line in &content.lines {
+    let given: Vec<_> = boundary(content, mesh).collect();
+    for (element, group, nodes) in given {
         let name = names
-            .entry(line.group)
-            .or_insert_with(|| content.group_name((1, line.group)));
-        let ends = line.ends.map(|n| kept[n as usize]);
-        let facets = edges.get(&sorted(ends)).map_or(&[][..], Vec::as_slice);
-        let facet =
-            choose(mesh, facets, ends, name).ok_or_else(|| no_edge(content, cursor, line, name))?;
-        let middle = mesh.facet_nodes(facet).nth(2);
-        if let Some(given) = line.middle
-            && middle != Some(kept[given as usize] as usize)
-        {
+            .entry(group)
+            .or_insert_with(|| content.group_name((dimension, group)));
+        let nodes: Vec<u32> = nodes.iter().map(|&n| kept[n as usize]).collect();
+        let (corners, middles) = nodes.split_at(element.kind.n_corners());
+        let found = facets.get(&sorted(corners.iter().copied()));
+        let found = found.map_or(&[][..], Vec::as_slice);
+        let facet = choose(mesh, found, corners, name)
+            .ok_or_else(|| no_facet(content, cursor, element, name, mesh.dimension))?;
+        let of_facet: Vec<usize> = mesh.facet_nodes(facet).skip(corners.len()).collect();
+        if let Some(wrong) = middles.iter().find(|&&n| !of_facet.contains(&(n as usize))) {
+            let label = match *wrong {
+                DROPPED => "of no element".to_string(),
+                node => mesh.node_label(node as usize).to_string(),
+            };
             return Err(cursor.error_at(
-                line.at,
+                element.at,
                 format!(
-                    "the line's mid-side node {} is not that of the edge of element {}",
-                    content.node_labels[given as usize],
+                    "the mid-side node {label} is not that of the {} of element {}",
+                    if dimension == 2 { "face" } else { "edge" },
                     mesh.element_label(facet.element)
                 ),
             ));
@@ -246,9 +297,9 @@ fn add_surfaces(content: &Content, cursor: &Cursor, kept: &[u32], mesh: &mut Mes
     Ok(())
 }
 
-/// Of the facets with a line's ends: that of the body whose name begins the surface's, else that of
-/// the element on the left of the line.
-fn choose(mesh: &Mesh, facets: &[Facet], ends: [u32; 2], name: &str) -> Option<Facet> {
+/// Of the facets with some corners: that of the body whose name begins the surface's, else that of
+/// the element on the left of a line, of the element that a face looks out of.
+fn choose(mesh: &Mesh, facets: &[Facet], corners: &[u32], name: &str) -> Option<Facet> {
     if facets.len() < 2 {
         return facets.first().copied();
     }
@@ -257,21 +308,48 @@ fn choose(mesh: &Mesh, facets: &[Facet], ends: [u32; 2], name: &str) -> Option<F
         name.strip_prefix(body.as_str())
             .is_some_and(|rest| rest.starts_with('.'))
     };
-    let is_left = |facet: &&Facet| mesh.nodes(facet.element)[facet.local] == ends[0];
+    let runs_alike = |facet: &&Facet| {
+        let own: Vec<u32> = (mesh.facet_nodes(**facet).map(|n| n as u32))
+            .take(corners.len())
+            .collect();
+        let at = own.iter().position(|n| *n == corners[0]);
+        at.is_some_and(|at| match own.len() {
+            2 => at == 0,
+            n => own[(at + 1) % n] == corners[1],
+        })
+    };
     let mut named = facets.iter().filter(is_named);
     match (named.next(), named.next()) {
         (Some(only), None) => Some(*only),
-        _ => facets.iter().find(is_left).or(facets.first()).copied(),
+        _ => facets.iter().find(runs_alike).or(facets.first()).copied(),
     }
 }
 
-fn no_edge(content: &Content, cursor: &Cursor, line: &RawLine, name: &str) -> Error {
-    let [a, b] = line.ends.map(|n| content.node_labels[n as usize]);
-    cursor.error_at(
-        line.at,
+fn no_facet(
+    content: &Content,
+    cursor: &Cursor,
+    element: &RawElement,
+    name: &str,
+    dimension: usize,
+) -> Error {
+    let mut nodes = content.with_nodes().filter(|(e, _)| e.at == element.at);
+    let nodes = nodes.next().map_or(&[][..], |(_, nodes)| nodes);
+    let label = |&n: &u32| content.node_labels[n as usize].to_string();
+    let corners: Vec<String> = (nodes.iter().take(element.kind.n_corners()))
+        .map(label)
+        .collect();
+    let why = if dimension == 2 {
         format!(
-            "the line from node {a} to node {b} of physical curve `{name}` is the edge of no element: \
-             mesh the surface beside it and put it into a Physical Surface"
-        ),
-    )
+            "the line from node {} of physical curve `{name}` is the edge of no element: mesh the \
+             surface beside it and put it into a Physical Surface",
+            corners.join(" to node ")
+        )
+    } else {
+        format!(
+            "the face with the nodes {} of physical surface `{name}` is the face of no element: mesh \
+             the volume beside it and put it into a Physical Volume",
+            corners.join(", ")
+        )
+    };
+    cursor.error_at(element.at, why)
 }

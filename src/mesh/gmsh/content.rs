@@ -2,7 +2,6 @@
 
 use super::cursor::Cursor;
 use super::kind::Kind;
-use crate::mesh::Shape;
 use crate::shape::MAX_NODES;
 use crate::{Error, ErrorKind, Result};
 use std::collections::{BTreeMap, HashMap};
@@ -22,30 +21,21 @@ pub(super) struct Content {
     pub coordinates: Vec<f64>,
     /// Node index by number.
     pub node_index: NodeIndex,
-    /// Elements of bodies.
+    /// Lines in physical groups, faces and volumes.
     pub elements: Vec<RawElement>,
-    /// Nodes of all elements, one element after the other.
+    /// Nodes of all of them, one after the other.
     pub connectivity: Vec<u32>,
-    /// Boundary lines in physical groups.
-    pub lines: Vec<RawLine>,
     /// Points in physical groups.
     pub points: Vec<RawPoint>,
 }
 
-/// An element of a body; its nodes follow those of the elements before it.
+/// An element of a body or of the boundary; its nodes follow those of the elements before it. One
+/// that is in several groups is there for each.
 pub(super) struct RawElement {
-    pub shape: Shape,
+    pub kind: Kind,
     pub label: u64,
-    /// Tag of the physical surface.
-    pub group: u64,
-}
-
-/// A boundary line.
-pub(super) struct RawLine {
-    pub ends: [u32; 2],
-    pub middle: Option<u32>,
-    /// Tag of the physical curve.
-    pub group: u64,
+    /// Tag of the physical group; `None` in no group.
+    pub group: Option<u64>,
     /// Byte offset of its line in the file.
     pub at: usize,
 }
@@ -151,7 +141,8 @@ impl Content {
                 ErrorKind::Unsupported,
                 format!(
                     "{}; brinell reads 3- and 6-node triangles, 4- and 8-node quadrilaterals, \
-                     2- and 3-node lines and points",
+                     4- and 10-node tetrahedra, 8- and 20-node hexahedra, 2- and 3-node lines and \
+                     points",
                     place.message()
                 ),
             )
@@ -186,38 +177,74 @@ impl Content {
                 group,
                 at,
             })),
-            Kind::Line(facet) => self.lines.extend(groups.iter().map(|&group| RawLine {
-                ends: [nodes[0], nodes[1]],
-                middle: (facet.nodes.len() == 3).then_some(nodes[2]),
-                group,
-                at,
-            })),
-            Kind::Element(shape) => {
-                let &[group] = groups else {
-                    return Err(cursor.error_at(at, self.wrong_groups(label, groups)));
-                };
-                self.elements.push(RawElement {
-                    shape,
-                    label,
-                    group,
-                });
-                self.connectivity.extend_from_slice(&nodes[..n]);
+            Kind::Line(_) if groups.is_empty() => {}
+            _ => {
+                let several = groups.iter().copied().map(Some);
+                let none = groups.is_empty().then_some(None);
+                for group in several.chain(none) {
+                    self.elements.push(RawElement {
+                        kind,
+                        label,
+                        group,
+                        at,
+                    });
+                    self.connectivity.extend_from_slice(&nodes[..n]);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The elements with their nodes, as indices.
+    pub(super) fn with_nodes(&self) -> impl Iterator<Item = (&RawElement, &[u32])> {
+        let mut rest = self.connectivity.as_slice();
+        self.elements.iter().map(move |element| {
+            let (nodes, after) = rest.split_at(element.kind.n_nodes());
+            rest = after;
+            (element, nodes)
+        })
+    }
+
+    /// The elements that belong to bodies with their nodes, each with its physical group.
+    pub(super) fn of_bodies(&self, dimension: u64) -> impl Iterator<Item = (&RawElement, &[u32])> {
+        self.with_nodes()
+            .filter(move |(element, _)| element.kind.dimension() == dimension)
+    }
+
+    /// Checks that every element of a body is in one physical group.
+    pub(super) fn require_one_body(&self, dimension: u64, cursor: &Cursor) -> Result<()> {
+        let mut elements = self
+            .of_bodies(dimension)
+            .map(|(element, _)| element)
+            .peekable();
+        while let Some(element) = elements.next() {
+            let mut groups: Vec<u64> = element.group.into_iter().collect();
+            // Copies of an element in several groups follow one another.
+            while let Some(copy) = elements.next_if(|next| next.at == element.at) {
+                groups.extend(copy.group);
+            }
+            if groups.len() != 1 {
+                let why = self.wrong_groups(dimension, element.label, &groups);
+                return Err(cursor.error_at(element.at, why));
             }
         }
         Ok(())
     }
 
     /// Why an element cannot be given to a body.
-    fn wrong_groups(&self, label: u64, groups: &[u64]) -> String {
+    fn wrong_groups(&self, dimension: u64, label: u64, groups: &[u64]) -> String {
+        let what = if dimension == 3 { "volume" } else { "surface" };
+        let group = if dimension == 3 { "Volume" } else { "Surface" };
         if groups.is_empty() {
             return format!(
-                "element {label} is in no physical surface: in Gmsh, put every surface into a \
-                 Physical Surface; its name is the body's"
+                "element {label} is in no physical {what}: in Gmsh, put every {what} into a Physical \
+                 {group}; its name is the body's"
             );
         }
-        let names: Vec<String> = groups.iter().map(|&g| self.group_name((2, g))).collect();
+        let name = |&g: &u64| self.group_name((dimension, g));
+        let names: Vec<String> = groups.iter().map(name).collect();
         format!(
-            "element {label} is in several physical surfaces ({}): put each surface into exactly one, \
+            "element {label} is in several physical {what}s ({}): put each {what} into exactly one, \
              which is its body",
             names.join(", ")
         )

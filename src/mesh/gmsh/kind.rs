@@ -11,16 +11,16 @@ const POINT: u64 = 15;
 pub(super) enum Kind {
     /// A point: a node of a node set.
     Point,
-    /// A line: an edge of a surface. With three nodes the last is the mid-side node.
+    /// A line: an edge of a plane surface. With three nodes the last is the mid-side node.
     Line(&'static FacetReference),
-    /// An element of a body.
+    /// An element of a body, or a face of a solid one.
     Element(Shape),
 }
 
 impl Kind {
     /// The kind of a type number; the name of the type where brinell has no such element.
     pub(super) fn from_type(number: u64) -> Result<Kind, String> {
-        if let Some(shape) = Shape::of_gmsh(number).filter(|shape| shape.dimension() == 2) {
+        if let Some(shape) = Shape::of_gmsh(number) {
             return Ok(Kind::Element(shape));
         }
         if let Some(facet) = FacetReference::ALL
@@ -38,15 +38,17 @@ impl Kind {
                         .to_string(),
                 );
             }
-            4 => "4-node tetrahedron",
-            5 => "8-node hexahedron",
+            12 => {
+                return Err(
+                    "27-node hexahedron (type 12): set Mesh.SecondOrderIncomplete = 1 in Gmsh for \
+                     20-node hexahedra"
+                        .to_string(),
+                );
+            }
             6 => "6-node prism",
             7 => "5-node pyramid",
-            11 => "10-node tetrahedron",
-            12 => "27-node hexahedron",
             13 => "18-node prism",
             14 => "14-node pyramid",
-            17 => "20-node hexahedron",
             18 => "15-node prism",
             19 => "13-node pyramid",
             20 => "9-node triangle",
@@ -78,6 +80,15 @@ impl Kind {
             Kind::Point => 0,
             Kind::Line(_) => 1,
             Kind::Element(shape) => shape.reference().dimension as u64,
+        }
+    }
+
+    /// Number of corners.
+    pub(super) fn n_corners(self) -> usize {
+        match self {
+            Kind::Point => 1,
+            Kind::Line(facet) => facet.n_corners,
+            Kind::Element(shape) => shape.n_corners(),
         }
     }
 

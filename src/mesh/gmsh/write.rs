@@ -18,8 +18,12 @@ pub fn write(mesh: &Mesh, out: &mut dyn Write) -> Result<()> {
     write_names(mesh, &mut out)?;
     writeln!(out, "$Nodes\n{}", mesh.n_nodes())?;
     for node in 0..mesh.n_nodes() {
-        let [x, y] = mesh.in_plane(node);
-        writeln!(out, "{} {x:?} {y:?} 0", mesh.node_label(node))?;
+        let [x, y, z] = mesh.point(node);
+        write!(out, "{} {x:?} {y:?} ", mesh.node_label(node))?;
+        match mesh.is_solid() {
+            true => writeln!(out, "{z:?}")?,
+            false => writeln!(out, "0")?,
+        }
     }
     writeln!(out, "$EndNodes")?;
     write_elements(mesh, &mut out)?;
@@ -38,8 +42,9 @@ fn write_names(mesh: &Mesh, out: &mut dyn Write) -> Result<()> {
         .surfaces
         .keys()
         .enumerate()
-        .map(|(k, name)| (1, k, name));
-    let bodies = mesh.bodies.iter().enumerate().map(|(k, name)| (2, k, name));
+        .map(|(k, name)| (mesh.dimension - 1, k, name));
+    let bodies = mesh.bodies.iter().enumerate();
+    let bodies = bodies.map(|(k, name)| (mesh.dimension, k, name));
     for (dimension, k, name) in sets.chain(surfaces).chain(bodies) {
         if name.contains(['"', '\n', '\r']) {
             return Err(Error::new(
@@ -64,12 +69,16 @@ fn write_elements(mesh: &Mesh, out: &mut dyn Write) -> Result<()> {
         let kind = Kind::Element(mesh.shapes[element]);
         let group = mesh.element_body[element] + 1;
         write!(out, "{label} {} 2 {group} {group}", kind.type_number())?;
-        for &node in mesh.nodes(element) {
+        let own = mesh.nodes(element);
+        let order = mesh.shapes[element].reference().gmsh_order;
+        for place in 0..own.len() {
+            // The node that stands there in the file.
+            let node = order.iter().position(|&p| p == place).map_or(0, |k| own[k]);
             write!(out, " {}", mesh.node_label(node as usize))?;
         }
         writeln!(out)?;
     }
-    // Lines and points are numbered after the largest number of an element; where that leaves no
+    // Facets and points are numbered after the largest number of an element; where that leaves no
     // room, in the gaps.
     let needed = (n_lines + n_points) as u64;
     let mut numbers: Box<dyn Iterator<Item = u64>> = match largest.checked_add(needed) {

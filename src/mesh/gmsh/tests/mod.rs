@@ -3,6 +3,7 @@
 mod damage;
 mod refusals;
 mod round_trip;
+mod solid;
 
 use super::*;
 use crate::mesh::{Shape, surface, validate};

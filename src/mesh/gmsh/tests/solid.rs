@@ -1,0 +1,135 @@
+//! Volumes.
+
+use super::*;
+use crate::mesh::Facet;
+
+/// One element of a shape with its reference nodes, the middles of edges halfway between corners,
+/// and all its facets in one surface.
+fn one(shape: Shape) -> Mesh {
+    let row = shape.reference();
+    let corner = |k: usize| {
+        let [x, y, z] = row.nodes[k];
+        [x + 0.1 * y, y, z + 0.05 * x * y]
+    };
+    let mut coordinates: Vec<f64> = (0..row.n_corners).flat_map(corner).collect();
+    for &[a, b] in row.edges.iter().take(row.nodes.len() - row.n_corners) {
+        let (a, b) = (corner(a), corner(b));
+        coordinates.extend([0, 1, 2].map(|d| 0.5 * (a[d] + b[d])));
+    }
+    let mut mesh = Mesh {
+        dimension: 3,
+        coordinates,
+        bodies: vec!["body".into()],
+        ..Mesh::default()
+    };
+    let nodes: Vec<u32> = (0..row.nodes.len() as u32).collect();
+    mesh.push_element(shape, 0, &nodes);
+    let facets = (0..shape.n_facets()).map(|local| Facet { element: 0, local });
+    mesh.surfaces.entry("skin".into()).or_default().facets = facets.collect();
+    mesh.node_sets.insert("foot".into(), vec![0, 1]);
+    mesh
+}
+
+fn written(mesh: &Mesh) -> String {
+    let mut text = Vec::new();
+    write(mesh, &mut text).unwrap();
+    String::from_utf8(text).unwrap()
+}
+
+#[test]
+fn solid_elements_come_back_as_they_were() {
+    for shape in Shape::SOLID {
+        let mesh = one(shape);
+        let read = parsed(&written(&mesh));
+        validate(&read).unwrap();
+        assert_eq!(read.dimension, 3);
+        assert_eq!(read.coordinates, mesh.coordinates);
+        assert_eq!(read.connectivity, mesh.connectivity);
+        assert_eq!(read.shapes, mesh.shapes);
+        assert_eq!(read.bodies, mesh.bodies);
+        assert_eq!(read.node_sets, mesh.node_sets);
+        assert_eq!(read.surfaces, mesh.surfaces);
+    }
+}
+
+/// The ends of the edge of each middle node in the file, as the manual of Gmsh numbers them
+/// ("Node ordering").
+#[test]
+fn middle_nodes_stand_where_the_manual_puts_them() {
+    const TETRAHEDRON: &[[usize; 2]] = &[[0, 1], [1, 2], [0, 2], [0, 3], [2, 3], [1, 3]];
+    const HEXAHEDRON: &[[usize; 2]] = &[
+        [0, 1],
+        [0, 3],
+        [0, 4],
+        [1, 2],
+        [1, 5],
+        [2, 3],
+        [2, 6],
+        [3, 7],
+        [4, 5],
+        [4, 7],
+        [5, 6],
+        [6, 7],
+    ];
+    for (shape, number, edges) in [
+        (Shape::Tet10, 11, TETRAHEDRON),
+        (Shape::Hex20, 17, HEXAHEDRON),
+    ] {
+        let mesh = one(shape);
+        let text = written(&mesh);
+        let start = format!("1 {number} 2 1 1 ");
+        let line = text.lines().find_map(|line| line.strip_prefix(&start));
+        let nodes: Vec<usize> = (line.unwrap().split(' '))
+            .map(|number| number.parse::<usize>().unwrap() - 1)
+            .collect();
+        let middles = &nodes[shape.n_corners()..];
+        for (&middle, &[a, b]) in middles.iter().zip(edges) {
+            let [x, a, b] = [middle, nodes[a], nodes[b]].map(|node| mesh.point(node));
+            for d in 0..3 {
+                assert!((x[d] - 0.5 * (a[d] + b[d])).abs() < 1e-15, "{shape:?}");
+            }
+        }
+    }
+}
+
+/// Faces without a group, lines and points beside volumes are no bodies; a face of no element and a
+/// volume of no group are named.
+#[test]
+fn what_a_solid_mesh_must_say() {
+    let text = written(&one(Shape::Tet4));
+    let with = |from: &str, to: &str| {
+        assert!(text.contains(from), "{from}: {text}");
+        text.replacen(from, to, 1)
+    };
+    // A face that Gmsh saved though it is in no group.
+    let face = with("$EndElements", "9 2 2 0 7 1 2 3\n$EndElements");
+    let more = face.replacen("$Elements\n7", "$Elements\n8", 1);
+    assert_eq!(parsed(&more).surfaces, parsed(&text).surfaces);
+    let line = with("$EndElements", "9 1 2 5 7 2 4\n$EndElements");
+    let line = line.replacen("$Elements\n7", "$Elements\n8", 1);
+    assert_eq!(parsed(&line).node_sets["5"], [1, 3]);
+    let refused = |text: String, words: &[&str]| {
+        let message = parse(text.as_bytes(), "bad.msh").unwrap_err().to_string();
+        assert!(words.iter().all(|w| message.contains(w)), "{message}");
+    };
+    refused(
+        with("1 4 2 1 1 ", "1 4 2 0 1 "),
+        &["element 1 is in no physical volume"],
+    );
+    let stray = with("$EndNodes", "5 9 9 9\n$EndNodes");
+    let stray = stray.replacen("$Nodes\n4", "$Nodes\n5", 1);
+    let stray = stray.replacen("$EndElements", "9 2 2 1 1 1 2 5\n$EndElements", 1);
+    let stray = stray.replacen("$Elements\n7", "$Elements\n8", 1);
+    refused(
+        stray,
+        &[
+            "the face with the nodes 1, 2, 5",
+            "`skin`",
+            "Physical Volume",
+        ],
+    );
+    refused(
+        with("1 4 2 1 1 ", "1 6 2 1 1 "),
+        &["6-node prism", "10-node tetrahedra"],
+    );
+}
