@@ -1,6 +1,8 @@
 //! `brinell new`: a commented scene for a common problem from a few numbers. What a scene needs
 //! beyond them (how far the fine mesh reaches, which states to write) is set from the closed forms.
 
+mod solid;
+
 use super::number::significant;
 use super::print;
 use crate::analytical::{HertzLine, HertzPoint, Plane, ShrinkFit, ThickCylinder, contact_modulus};
@@ -27,7 +29,11 @@ pub(super) enum Problem {
     #[command(
         after_help = "Example: brinell new ball-on-flat --radius 5 --load 20 --out ball.toml && brinell run ball.toml"
     )]
-    BallOnFlat(Pressed),
+    BallOnFlat(Ball),
+    /// A ball is pressed into the groove of a race and let go (three dimensions)
+    BallInGroove(solid::Groove),
+    /// Two cylinders are pressed together at right angles and let go (three dimensions)
+    CrossedCylinders(solid::Crossed),
     /// A roller is pressed on a flat and let go (plane strain; the load is per mm of length)
     #[command(
         after_help = "Example: brinell new roller-on-flat --radius 5 --load 400 --out roller.toml && brinell run roller.toml"
@@ -59,6 +65,16 @@ pub(super) struct Steel {
     pub plastic_modulus: f64,
 }
 
+/// A ball on a flat.
+#[derive(Debug, Args)]
+pub(super) struct Ball {
+    /// In three dimensions: what an axisymmetric model shows too, as a start for what it cannot
+    #[arg(long)]
+    pub three_dimensional: bool,
+    #[command(flatten)]
+    pub pressed: Pressed,
+}
+
 /// A round body on a flat.
 #[derive(Debug, Args)]
 pub(super) struct Pressed {
@@ -68,10 +84,10 @@ pub(super) struct Pressed {
     /// Largest load [N; roller: N/mm]; by default three times the load at first yield
     #[arg(long, value_name = "P", value_parser = positive, allow_negative_numbers = true)]
     pub load: Option<f64>,
-    /// Elements over the contact half width at first yield; with fewer than 16 errors are estimated
-    /// on finer meshes, which costs more
-    #[arg(long, value_name = "N", default_value_t = 16)]
-    pub resolution: usize,
+    /// Elements over the contact half width at first yield, by default 16 (with fewer errors are
+    /// estimated on finer meshes, which costs more); in three dimensions 6
+    #[arg(long, value_name = "N")]
+    pub resolution: Option<usize>,
     #[command(flatten)]
     pub steel: Steel,
 }
@@ -119,6 +135,10 @@ fn positive(text: &str) -> std::result::Result<f64, String> {
     within(text, |v| v > 0.0, "greater than 0")
 }
 
+fn not_zero(text: &str) -> std::result::Result<f64, String> {
+    within(text, |v| v != 0.0, "other than 0")
+}
+
 fn not_negative(text: &str) -> std::result::Result<f64, String> {
     within(text, |v| v >= 0.0, "not less than 0")
 }
@@ -142,7 +162,18 @@ fn within(
 /// Writes the scene of a problem.
 pub(super) fn run(arguments: &NewArguments) -> Result<()> {
     let text = match &arguments.problem {
-        Problem::BallOnFlat(pressed) => pressed_scene(pressed, true)?,
+        Problem::BallOnFlat(ball) if ball.three_dimensional => {
+            let Pressed {
+                radius,
+                load,
+                resolution,
+                steel,
+            } = &ball.pressed;
+            solid::ball_on_flat(*radius, *load, *resolution, steel)?
+        }
+        Problem::BallOnFlat(ball) => pressed_scene(&ball.pressed, true)?,
+        Problem::BallInGroove(groove) => solid::ball_in_groove(groove)?,
+        Problem::CrossedCylinders(crossed) => solid::crossed_cylinders(crossed)?,
         Problem::RollerOnFlat(pressed) => pressed_scene(pressed, false)?,
         Problem::ShaftInBore(fit) => fit_scene(fit)?,
         Problem::Punch(punch) => punch_scene(punch),
@@ -168,6 +199,12 @@ pub(super) fn run(arguments: &NewArguments) -> Result<()> {
             path.display()
         )),
     }
+}
+
+/// Two digits are enough for a load that nobody gave.
+fn rounded_up(load: f64) -> f64 {
+    let digits = 10f64.powf(load.log10().floor() - 1.0);
+    (load / digits).ceil() * digits
 }
 
 /// A number as TOML has it: with a point or an exponent.
@@ -228,11 +265,7 @@ fn pressed_scene(pressed: &Pressed, ball: bool) -> Result<String> {
             Box::new(move |load| hertz.half_width(load)),
         )
     };
-    let load = pressed.load.unwrap_or_else(|| {
-        // Two digits are enough for a load that nobody gave.
-        let digits = 10f64.powf((3.0 * yield_load).log10().floor() - 1.0);
-        (3.0 * yield_load / digits).ceil() * digits
-    });
+    let load = pressed.load.unwrap_or_else(|| rounded_up(3.0 * yield_load));
     let reach = widths(load) / widths(yield_load);
     let (shape, kind, per) = match ball {
         true => ("Ball", "axisymmetric", "N over the full circle"),
@@ -308,7 +341,7 @@ targets = [
         yields = significant(yield_load, 4),
         times = significant(times, 3),
         radius = toml(pressed.radius),
-        resolution = pressed.resolution,
+        resolution = pressed.resolution.unwrap_or(16),
         total = toml(-load),
     ))
 }

@@ -1,6 +1,7 @@
 //! What helps to write a scene: schema, examples, new scenes, completions, manual page.
 
 use super::{brinell, scene, stdout};
+use brinell::analytical::HertzEllipse;
 use brinell::scene::Scene;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -165,6 +166,7 @@ fn new_scenes_run_and_give_what_their_comments_say() {
     );
     near(&ball["states"][1]["load"], 20.0, 1e-9);
     assert!(ball["states"][2]["residual_depth"].as_f64() > Some(0.0));
+    std::fs::remove_file(folder.path().join("ball-on-flat.toml")).unwrap();
 
     // Line contact, elastic: below the yield load no dent stays and no yield is asked for.
     let roller = made_and_run(
@@ -179,6 +181,31 @@ fn new_scenes_run_and_give_what_their_comments_say() {
         1.0 / 64.0,
     );
     assert_eq!(roller["states"][1]["residual_depth"], 0.0);
+
+    // Hertz, elliptical contact, 4 elements over the smaller half axis.
+    for (problem, radii) in [
+        (&["ball-in-groove"][..], [[5.0, 5.0], [-5.2, 20.0]]),
+        (
+            &["crossed-cylinders", "--upper", "6"],
+            [[0.0, 6.0], [12.0, 0.0]],
+        ),
+        (
+            &["ball-on-flat", "--three-dimensional"],
+            [[10.0, 10.0], [0.0, 0.0]],
+        ),
+    ] {
+        let solid = made_and_run(folder.path(), &[problem, &["--resolution", "4"]].concat());
+        let [upper, lower] = radii;
+        let relative = HertzEllipse::relative_radii(upper, lower).unwrap();
+        let hertz = HertzEllipse::new(relative, modulus).unwrap();
+        near(
+            &solid["yield"]["load"],
+            hertz.yield_load(0.3, 500.0),
+            0.9 / 16.0,
+        );
+        assert!(solid["states"][2]["residual_depth"].as_f64() > Some(0.0));
+        std::fs::remove_file(folder.path().join(format!("{}.toml", problem[0]))).unwrap();
+    }
 
     // Lame: p = E d (b^2 - a^2)/(2 a b^2) for one material.
     let fit = made_and_run(

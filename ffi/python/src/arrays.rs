@@ -31,12 +31,13 @@ pub fn values<'a, T: Element>(
         .map_err(|cause| wrong(py, cause.to_string()))
 }
 
-/// `n x 2` doubles, row by row.
-pub fn rows_of_two(given: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<[f64; 2]>> {
+/// Vectors of `dimension` components, row by row; in the plane z is 0.
+pub fn vectors(given: &Bound<'_, PyAny>, dimension: usize, what: &str) -> PyResult<Vec<[f64; 3]>> {
     let array = doubles(given, what)?;
-    shape(given.py(), array.shape(), &[2], what)?;
-    let values = values(given.py(), &array)?;
-    Ok(values.chunks_exact(2).map(|r| [r[0], r[1]]).collect())
+    shape(given.py(), array.shape(), &[dimension], what)?;
+    let rows = values(given.py(), &array)?.chunks_exact(dimension);
+    let in_space = |row: &[f64]| [0, 1, 2].map(|d| row.get(d).copied().unwrap_or(0.0));
+    Ok(rows.map(in_space).collect())
 }
 
 /// Checks that an array is `n` times `rest`.

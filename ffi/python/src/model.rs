@@ -1,6 +1,6 @@
 //! Models from arrays.
 
-use crate::arrays::{backend, doubles, each_width, integers, keywords, rows_of_two, shape, values};
+use crate::arrays::{backend, doubles, each_width, integers, keywords, shape, values, vectors};
 use crate::errors::{Raise, wrong};
 use crate::run::{RunResult, Source, Way, execute};
 use crate::threads;
@@ -11,6 +11,7 @@ use brinell::scene::{
     Body, Contact, Direction, History, Kind, Load, Material, Plastic, Program, Settings, Support,
     Target,
 };
+use brinell::space::Components;
 use numpy::PyUntypedArrayMethods;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -18,11 +19,12 @@ use pyo3::types::PyDict;
 /// A model from arrays. Nodes and elements count from 0 in the order in which they were added, and errors name them so. Units are the
 /// caller's, consistent (for instance N, mm, MPa).
 ///
-/// kind: "plane_strain", "plane_stress" or "axisymmetric" (coordinates are then (r, z)).
+/// kind: "plane_strain", "plane_stress", "axisymmetric" (coordinates are then (r, z)) or "solid" (coordinates and vectors have three components).
 /// symmetry: copies of the model that make the whole (2 for a half model); loads and results are those of the whole.
 #[pyclass(module = "brinell")]
 pub struct Model {
     builder: ModelBuilder,
+    dimension: usize,
     program: Program,
 }
 
@@ -58,7 +60,12 @@ impl Model {
     #[new]
     #[pyo3(signature = (kind = "plane_strain", *, symmetry = 1, title = ""))]
     fn new(py: Python<'_>, kind: &str, symmetry: usize, title: &str) -> PyResult<Self> {
-        let kinds = [Kind::PlaneStrain, Kind::PlaneStress, Kind::Axisymmetric];
+        let kinds = [
+            Kind::PlaneStrain,
+            Kind::PlaneStress,
+            Kind::Axisymmetric,
+            Kind::Solid,
+        ];
         let kind = kinds
             .into_iter()
             .find(|k| k.name() == kind)
@@ -73,6 +80,7 @@ impl Model {
         builder.symmetry(symmetry).title(title);
         Ok(Model {
             builder,
+            dimension: kind.dimension(),
             program: Program::default(),
         })
     }
@@ -89,17 +97,17 @@ impl Model {
         self.builder.n_elements()
     }
 
-    /// Adds nodes: coordinates (n, 2).
+    /// Adds nodes: coordinates (n, 2), of a solid (n, 3).
     fn nodes(&mut self, py: Python<'_>, coordinates: &Bound<'_, PyAny>) -> PyResult<()> {
         let array = doubles(coordinates, "coordinates")?;
-        shape(py, array.shape(), &[2], "coordinates")?;
+        shape(py, array.shape(), &[self.dimension], "coordinates")?;
         let coordinates = values(py, &array)?;
         self.change(py, |b| b.nodes(coordinates).map(drop))
     }
 
-    /// Adds elements of a body: nodes (n, nodes of an element), counter-clockwise, corners first.
+    /// Adds elements of a body: nodes (n, nodes of an element), counter-clockwise, corners first; of a solid in the order of VTK.
     ///
-    /// shape: "quad4", "quad8", "tri3" or "tri6".
+    /// shape: "quad4", "quad8", "tri3", "tri6"; of a solid "hex8", "hex20", "tet4", "tet10".
     #[pyo3(signature = (body, nodes, *, shape = "quad4"))]
     fn elements(
         &mut self,
@@ -108,13 +116,18 @@ impl Model {
         nodes: &Bound<'_, PyAny>,
         shape: &str,
     ) -> PyResult<()> {
-        let shapes = [Shape::Tri3, Shape::Tri6, Shape::Quad4, Shape::Quad8];
-        let found = shapes.into_iter().find(|s| s.name() == shape);
+        let shapes = Shape::ALL.into_iter();
+        let mut shapes = shapes.filter(|s| s.dimension() == self.dimension);
+        let known = || {
+            let shapes = Shape::ALL.into_iter();
+            let shapes = shapes.filter(|s| s.dimension() == self.dimension);
+            shapes.map(Shape::name).collect::<Vec<_>>().join(", ")
+        };
+        let found = shapes.find(|s| s.name() == shape);
         let of = found.ok_or_else(|| {
-            let known = shapes.map(Shape::name).join(", ");
             wrong(
                 py,
-                format!("there is no shape {shape:?}; give one of {known}"),
+                format!("there is no shape {shape:?}; give one of {}", known()),
             )
         })?;
         let what = format!("nodes of the elements of `{body}`");
@@ -209,7 +222,7 @@ impl Model {
     ///
     /// pairs: (n, 2) nodes of the first and the second surface; None to pair them by geometry.
     /// gap: initial gap of all pairs, or (n) gaps of the given ones; None for the geometric gaps.
-    /// normal: direction from the second body to the first, of all pairs or (n, 2); None for the second surface's outward normals.
+    /// normal: direction from the second body to the first, of all pairs or one for each in rows; None for the second surface's outward normals.
     /// interference: taken off every gap, gradually before the load program.
     #[pyo3(signature = (first, second, *, pairs = None, gap = None, normal = None, interference = 0.0))]
     #[allow(clippy::too_many_arguments)] // keywords
@@ -231,7 +244,10 @@ impl Model {
         };
         let Some(pairs) = pairs else {
             contact.gap = gap.map(|g| g.extract()).transpose()?;
-            contact.normal = normal.map(|n| n.extract()).transpose()?;
+            let given = normal.map(|n| n.extract::<Vec<f64>>()).transpose()?;
+            contact.normal = given
+                .map(|n| n.try_into().map_err(|why: String| wrong(py, why)))
+                .transpose()?;
             return self.change(py, |b| {
                 b.contact(contact);
                 Ok(())
@@ -260,9 +276,13 @@ impl Model {
         };
         let normals = match normal {
             None => Vec::new(),
-            Some(normal) => match normal.extract::<[f64; 2]>() {
-                Ok(normal) => vec![normal; n],
-                Err(_) => rows_of_two(normal, "normal")?,
+            Some(normal) => match normal.extract::<Vec<f64>>() {
+                Ok(given) => {
+                    let normal: Components =
+                        given.try_into().map_err(|why: String| wrong(py, why))?;
+                    vec![normal.vector(); n]
+                }
+                Err(_) => vectors(normal, self.dimension, "normal")?,
             },
         };
         if normal.is_some() {
@@ -283,21 +303,34 @@ impl Model {
         }))
     }
 
-    /// Holds a node set or surface along "x", "y" or "xy", in axes turned counter-clockwise by `angle` degrees.
-    #[pyo3(signature = (on, fix, *, angle = None))]
-    fn support(&mut self, py: Python<'_>, on: &str, fix: &str, angle: Option<f64>) -> PyResult<()> {
+    /// Holds a node set or surface along "x", "y", of a solid "z", or several of them ("xy"), in axes turned counter-clockwise by `angle`
+    /// degrees; or, of a solid, along any one direction=(x, y, z).
+    #[pyo3(signature = (on, fix = "", *, angle = None, direction = None))]
+    fn support(
+        &mut self,
+        py: Python<'_>,
+        on: &str,
+        fix: &str,
+        angle: Option<f64>,
+        direction: Option<Vec<f64>>,
+    ) -> PyResult<()> {
         let fix = fix.chars().map(|c| match c {
             'x' => Ok(Direction::X),
             'y' => Ok(Direction::Y),
+            'z' if self.dimension == 3 => Ok(Direction::Z),
             _ => Err(wrong(
                 py,
-                format!("{c:?} is no direction; give \"x\", \"y\" or \"xy\""),
+                format!("{c:?} is no direction; give \"x\", \"y\", \"xy\" or the like"),
             )),
         });
+        let direction = direction
+            .map(|d| d.try_into().map_err(|why: String| wrong(py, why)))
+            .transpose()?;
         let support = Support {
             on: on.to_string(),
             fix: fix.collect::<PyResult<_>>()?,
             angle,
+            direction,
         };
         self.change(py, |b| {
             b.support(support);
@@ -305,7 +338,7 @@ impl Model {
         })
     }
 
-    /// Loads a surface or node set with one of force=(x, y), pressure=p, traction=(x, y), displacement={"y": -0.1},
+    /// Loads a surface or node set with one of force=(x, y), pressure=p, traction=(x, y) (of a solid three components), displacement={"y": -0.1},
     /// plane_force={"direction": "y", "total": -1000}, kirsch={...}; name=..., history="proportional", "constant" or (n, 2).
     #[pyo3(signature = (on, **values))]
     fn load<'py>(
@@ -321,7 +354,7 @@ impl Model {
         })
     }
 
-    /// Loads nodes with forces (n, 2) of their own, on the model itself (not the whole of a symmetric one).
+    /// Loads nodes with forces (n, 2), of a solid (n, 3), of their own, on the model itself (not the whole of a symmetric one).
     #[pyo3(signature = (name, nodes, forces, *, history = None))]
     fn nodal_load<'py>(
         &mut self,
@@ -333,7 +366,7 @@ impl Model {
     ) -> PyResult<()> {
         let what = format!("load `{name}`");
         let nodes = integers(nodes, &what)?;
-        let forces = rows_of_two(forces, &what)?;
+        let forces = vectors(forces, self.dimension, &what)?;
         let history = match history {
             None => History::default(),
             Some(history) => {

@@ -175,12 +175,12 @@ impl RunResult {
         tables::history(py, &self.results)
     }
 
-    /// The mesh: `coordinates` (n, 2), `connectivity` and `offsets`, `element_body`, `shapes`, `bodies`, `node_sets` (surfaces among them).
+    /// The mesh: `coordinates` (n, 2), of a solid (n, 3), `connectivity` and `offsets`, `element_body`, `shapes`, `bodies`, `node_sets` (surfaces among them).
     #[getter]
     fn mesh<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (model, mesh) = (&self.model, &self.model.mesh);
         let table = PyDict::new(py);
-        let coordinates = lent(py, model, |m| &m.mesh.coordinates[..], Some(2))?;
+        let coordinates = lent(py, model, |m| &m.mesh.coordinates[..], Some(mesh.dimension))?;
         table.set_item("coordinates", coordinates)?;
         let connectivity = lent(py, model, |m| &m.mesh.connectivity[..], None)?;
         table.set_item("connectivity", connectivity)?;
@@ -361,13 +361,13 @@ impl State {
         self.state().contact_arc
     }
 
-    /// Columns of the contact pairs: `pair`, `contact`, `x`, `y`, `gap`, `force`, `area`, `pressure`, `closed`.
+    /// Columns of the contact pairs: `pair`, `contact`, `x`, `y`, `z`, `gap`, `force`, `area`, `pressure`, `closed`.
     #[getter]
     fn pairs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         tables::pairs(py, &self.results, self.index)
     }
 
-    /// Fields on the whole mesh, not copied and not to be written to: `displacement` (n_nodes, 2), `stress` (n_elements, 4) as xx, yy, zz, xy,
+    /// Fields on the whole mesh, not copied and not to be written to: `displacement` (n_nodes, 2), `stress` (n_elements, 4) as xx, yy, zz, xy (of a solid 3 and 6, yz and zx after them),
     /// `von_mises`, `plastic_strain`, `yielded`, `error`; None where the target asks for none.
     #[getter]
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {

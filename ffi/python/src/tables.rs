@@ -37,6 +37,7 @@ pub fn pairs<'py>(
     columns!(py, table, results, |r: &Results| &r.states[state].pairs[..], pair, contact);
     table.set_item("x", column(py, results, |r: &Results| &r.states[state].pairs[..], |row| &row.position[0])?)?;
     table.set_item("y", column(py, results, |r: &Results| &r.states[state].pairs[..], |row| &row.position[1])?)?;
+    table.set_item("z", column(py, results, |r: &Results| &r.states[state].pairs[..], |row| &row.position[2])?)?;
     columns!(py, table, results, |r: &Results| &r.states[state].pairs[..], gap, force, area, pressure);
     let closed = results.states[state].pairs.iter().map(|row| row.status == Status::Closed);
     table.set_item("closed", PyArray1::from_iter(py, closed))?;
@@ -63,15 +64,18 @@ pub fn fields<'py>(
     results: &Arc<Results>,
     state: usize,
 ) -> PyResult<Option<Bound<'py, PyDict>>> {
-    if results.states[state].fields.is_none() {
+    let Some(own) = &results.states[state].fields else {
         return Ok(None);
-    }
+    };
+    // The mesh's dimension, and the components of a stress in it.
+    let dimension = own.displacement.len() / results.sizes.nodes.max(1);
+    let components = if dimension == 3 { 6 } else { 4 };
     let table = PyDict::new(py);
     let add = |name: &str, part: fn(&Fields) -> &[f64], width: Option<usize>| {
         table.set_item(name, field(py, results, state, part, width)?)
     };
-    add("displacement", |f| &f.displacement, Some(2))?;
-    add("stress", |f| &f.stress, Some(4))?;
+    add("displacement", |f| &f.displacement, Some(dimension))?;
+    add("stress", |f| &f.stress, Some(components))?;
     add("von_mises", |f| &f.von_mises, None)?;
     add("plastic_strain", |f| &f.plastic_strain, None)?;
     add("error", |f| &f.error, None)?;

@@ -437,3 +437,35 @@ def test_a_body_that_nothing_holds_is_named():
     with pytest.raises(brinell.UnheldError, match="upper") as caught:
         model.run()
     assert (caught.value.kind, caught.value.status) == ("unheld", 4)
+
+
+def test_a_solid_from_arrays_passes_its_load_on():
+    """Two cubes pressed together along z: the pressure is the load over the area."""
+    model = brinell.Model("solid")
+    cube = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
+    hexahedron = np.array([[0, 1, 3, 2, 4, 5, 7, 6]])
+    for k, body in enumerate(["lower", "upper"]):
+        model.nodes(cube + [0, 0, k])
+        model.elements(body, hexahedron + 8 * k, shape="hex8")
+        model.body(body, "steel")
+    model.material("steel", youngs_modulus=1000.0, poissons_ratio=0.3)
+    model.surface_of_nodes("below", np.array([4, 5, 6, 7]))
+    model.surface_of_nodes("above", np.array([8, 9, 10, 11]))
+    model.surface_of_nodes("top", np.array([12, 13, 14, 15]))
+    model.node_set("floor", np.arange(4))
+    model.node_set("x0", np.arange(0, 16, 2))
+    model.node_set("y0", np.array([0, 1, 4, 5, 8, 9, 12, 13]))
+    model.support("floor", "z")
+    model.support("x0", "x")
+    model.support("y0", direction=[0.0, 1.0, 0.0])
+    model.contact("above", "below", normal=[0.0, 0.0, 1.0])
+    model.load("top", force=[0.0, 0.0, -10.0])
+    result = model.run()
+    state = result[0]
+    assert state.pairs["pressure"] == pytest.approx(10.0, rel=1e-12)
+    assert (state.pairs["z"] == 1.0).all()
+    assert state.fields["stress"].shape == (2, 6)
+    assert state.fields["stress"][:, 2] == pytest.approx(-10.0, rel=1e-12)
+    assert state.fields["displacement"].shape == (16, 3)
+    with pytest.raises(brinell.InputError, match="hex8"):
+        model.elements("lower", hexahedron, shape="quad4")

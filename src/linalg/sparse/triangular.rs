@@ -4,6 +4,7 @@
 //! The memory delivers `L` once: that is the time it takes.
 
 use super::Columns;
+#[cfg(feature = "faer")]
 use super::columns::Supernodes;
 use super::tree::Forest;
 use rayon::prelude::*;

@@ -419,7 +419,11 @@ fn the_scenes_of_the_repository_are_valid() {
             let scene = Scene::load(&path).unwrap();
             assert_eq!(scene.file.as_deref(), Some(path.as_path()));
             assert!(!scene.title.is_empty(), "{}", path.display());
-            let known = ["three_bodies.toml", "square_punch.toml", "blocks_tet10.toml"];
+            let known = [
+                "three_bodies.toml",
+                "square_punch.toml",
+                "blocks_tet10.toml",
+            ];
             assert!(!scene.reference.is_empty() || known.iter().any(|n| path.ends_with(n)));
             read += 1;
         }
