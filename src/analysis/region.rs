@@ -25,14 +25,15 @@ impl Reach {
         }
     }
 
-    /// Multiple of half the contact surface's smaller width in a solid one, from the middle. Under
-    /// line contact yielding begins at 0.79 times the half width, under a point at 0.48 times (K.
-    /// Johnson, Contact Mechanics, 1985, sections 4.2 and 3.4); once it has come up round the
-    /// contact it reaches as deep as 2.3 times the contact radius (section 6.3).
-    fn in_solid(self) -> f64 {
+    /// Multiple of half the contact surface's smaller width in a solid one, from the middle; `round`
+    /// is the smaller width over the larger. Under line contact yielding begins at 0.79 times the
+    /// half width, under a point at 0.48 times (K. Johnson, Contact Mechanics, 1985, sections 4.2
+    /// and 3.4); once it has come up round a point it reaches as deep as 2.3 times the contact
+    /// radius (section 6.3), under a line as in a plane model: a half width and the reach there.
+    fn in_solid(self, round: f64) -> f64 {
         match self {
             Reach::OfFirstYield => 1.2,
-            Reach::OfZone => 2.3,
+            Reach::OfZone => 2.3 * round + (1.0 + self.in_plane()) * (1.0 - round),
         }
     }
 }
@@ -93,7 +94,7 @@ impl Region {
             low[d] += off;
             high[d] -= off;
         }
-        let distance = reach.in_solid() * half;
+        let distance = reach.in_solid(sides[1] / sides[2]) * half;
         Region {
             low,
             high,

@@ -96,7 +96,7 @@ fn tables<const D: usize, const P: usize, const N: usize>(
 
 /// Makes the gradients of elements of a dimension: D coordinates, S components of strain, up to P
 /// points and N nodes. What is generic in these takes a kernel, which says what they are
-/// ([`with_kernel!`]).
+/// (`with_kernel!`).
 #[derive(Debug, Clone, Copy)]
 pub struct Kernel<const D: usize, const S: usize, const P: usize, const N: usize> {
     space: Space,

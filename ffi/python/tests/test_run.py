@@ -460,6 +460,7 @@ def test_a_solid_from_arrays_passes_its_load_on():
     model.support("y0", direction=[0.0, 1.0, 0.0])
     model.contact("above", "below", normal=[0.0, 0.0, 1.0])
     model.load("top", force=[0.0, 0.0, -10.0])
+    model.target(load_factor=1.0)
     result = model.run()
     state = result[0]
     assert state.pairs["pressure"] == pytest.approx(10.0, rel=1e-12)

@@ -10,7 +10,7 @@ use crate::{Error, Result};
 
 const KEY: &str = "mesh.curved_bodies";
 /// Elements along the larger half axis are at most this much longer than along the smaller one.
-const LONGEST: f64 = 2.0;
+const LONGEST: f64 = 4.0;
 
 /// How large the contact of two curved bodies is.
 #[derive(Debug, Clone, Copy, PartialEq)]
