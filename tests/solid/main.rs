@@ -5,4 +5,6 @@ mod generated;
 mod grid;
 mod hertz;
 mod patch;
+#[cfg(feature = "report")]
+mod report;
 mod thick;

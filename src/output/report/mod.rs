@@ -7,6 +7,7 @@
 //! | `page`, `tables`, `trust` | the page |
 //! | `curves`, `chart` | charts: which, and how they are drawn |
 //! | `fields`, `sketch` | pictures of states; the scene drawn |
+//! | `contact_map` | pressure over a contact of solids |
 //! | `picture`, `raster`, `bands`, `window` | elements as pixels under axes, their scale of colours; what is shown |
 //! | `drawing`, `theme`, `units` | SVG text, colours for light and dark, names of units |
 //!
@@ -15,6 +16,7 @@
 
 mod bands;
 mod chart;
+mod contact_map;
 mod curves;
 mod drawing;
 mod fields;
@@ -34,6 +36,7 @@ use crate::error::Result;
 use crate::model::Model;
 use crate::results::{Results, State};
 use crate::text::shown;
+use contact_map::ContactMap;
 use drawing::Drawing;
 use fields::{Gallery, Quantity};
 use page::{Figure, Figures};
@@ -87,6 +90,14 @@ pub(super) fn files(
             .charts
             .push(keep(&titled.name, drawing, &titled.title, &titled.caption));
     }
+    for (index, drawing) in contact_maps(model, results, &units, &mut figures)? {
+        let state = &results.states[index];
+        let load = format!("load {} {}", significant(state.load, 4), units.load());
+        let caption = format!("Contact pressure, {}.", load.trim_end());
+        let name = format!("state_{:02}_contact_pressure", index + 1);
+        let figure = keep(&name, &drawing, "", &caption);
+        figures.states.push((state.name.clone(), vec![figure]));
+    }
     let pictures = pictures(model, results, &units, &mut figures)?;
     for (index, list) in pictures {
         let state = &results.states[index];
@@ -98,12 +109,8 @@ pub(super) fn files(
                 ""
             };
             let caption = format!("{title}, {}{own}", about(state, *quantity, &units));
-            keep(
-                &format!("state_{:02}_{name}", index + 1),
-                drawing,
-                "",
-                &caption,
-            )
+            let name = format!("state_{:02}_{name}", index + 1);
+            keep(&name, drawing, "", &caption)
         });
         let shown = shown.collect();
         figures.states.push((state.name.clone(), shown));
@@ -121,8 +128,9 @@ pub(super) fn files(
     Ok(out)
 }
 
-/// Where the fields of solids are seen.
-const IN_PARAVIEW: &str = "Fields of solids are not drawn here: open fields.pvd in ParaView.";
+/// What the pictures of solids are.
+const OF_SOLIDS: &str = "Pressure over the contact that carries most, seen along its normal, where it is modelled; \
+     the line is the ellipse of the half axes. For stresses and the plastic zone open fields.pvd in ParaView.";
 
 /// A drawing of the scene.
 struct Sketched {
@@ -174,6 +182,27 @@ fn scene(model: &Model, results: &Results, units: &Units) -> Result<Vec<Sketched
     Ok(out)
 }
 
+/// The pressure over the contact of solids in the states shown.
+fn contact_maps(
+    model: &Model,
+    results: &Results,
+    units: &Units,
+    figures: &mut Figures,
+) -> Result<Vec<(usize, Drawing)>> {
+    let touches = |state: &State| state.patches.iter().any(|patch| patch.force > 0.0);
+    let Some(map) = ContactMap::new(model, &results.states, units) else {
+        return Ok(Vec::new());
+    };
+    figures.about_pictures = OF_SOLIDS.to_string();
+    let shown = fields::chosen(&results.states, MOST_STATES, touches);
+    let of_interest = results.states.iter().filter(|s| touches(s)).count();
+    figures.states_left_out = of_interest - shown.len();
+    let drawn = shown.into_iter();
+    drawn
+        .map(|index| Ok((index, map.draw(&results.states[index])?)))
+        .collect()
+}
+
 type Pictured = (usize, Vec<(Quantity, Drawing, bool)>);
 
 /// The pictures of the states shown.
@@ -184,7 +213,6 @@ fn pictures(
     figures: &mut Figures,
 ) -> Result<Vec<Pictured>> {
     if model.kind.is_solid() {
-        figures.about_pictures = IN_PARAVIEW.to_string();
         return Ok(Vec::new());
     }
     let mirror = window::mirrors(model);
