@@ -148,7 +148,6 @@ impl ConstrainedStructure {
             n,
             zone: Vec::new(),
             contact: place.keys().copied().collect(),
-            ..Partition::default()
         };
         let condensed = condense(backend, &stiffness, &partition)?;
         let mut b = DMatrix::zeros(rows.len(), partition.contact.len());

@@ -36,9 +36,11 @@
 //! | compute | [`analysis::Analysis`]: the whole program or the yield load |
 //! | watch a run, or stop it | [`progress::Observer`] |
 //! | read what came out | [`results::Results`]; as files [`output`] |
+//! | list what is reported, or add to it | [`results::QUANTITIES`] |
+//! | compare with what the scene names | [`reference::compare`] |
 //! | solve contact on a stiffness of one's own | [`constrained::ConstrainedStructure`] |
 //! | know how wrong a number is, or say how wrong it may be | [`accuracy::estimate()`], [`accuracy::reach()`] |
-//! | know whether a run kept what was asked of it | [`output::ending()`] |
+//! | know whether a run kept what was asked of it | [`results::Results::ending`] |
 //! | compare with closed forms | [`analytical`] |
 //!
 //! The library never prints, never ends the process and holds no global state; everything that can
@@ -55,7 +57,7 @@
 //! - `capi`: the C interface (`ffi/include/brinell.h`; `make install` builds the libraries with
 //!   it).
 //! - `cli` (default): the program. A library needs none of it: `default-features = false,
-//!   features = ["cholmod"]` leaves out clap, indicatif, maud, plotters and png.
+//!   features = ["cholmod"]` leaves out clap, indicatif, maud and plotters.
 //! - `report` (with `cli` and `capi`): `report.html` of a result folder, and the plots of a study.
 //! - Without features (`default-features = false`) there is the dense backend, which takes up to
 //!   6000 freedoms.
@@ -79,13 +81,19 @@ pub mod panics;
 
 mod index;
 
+mod labels;
+
 pub mod analytical;
 
 pub mod space;
 
 pub mod shape;
 
+pub mod results;
+
 pub mod scene;
+
+pub mod deck;
 
 pub mod mesh;
 
@@ -105,13 +113,13 @@ pub mod substructure;
 
 pub mod constrained;
 
-pub mod results;
-
 pub mod progress;
 
 pub mod checkpoint;
 
 pub mod analysis;
+
+pub mod reference;
 
 pub mod accuracy;
 

@@ -14,6 +14,12 @@ pub fn available() -> Option<f64> {
         .reduce(f64::min)
 }
 
+/// The most memory that this process has held so far, in bytes (Linux: `VmHWM`). `None` where the
+/// system does not tell.
+pub(crate) fn peak() -> Option<u64> {
+    kibibytes("/proc/self/status", "VmHWM:").map(|bytes| bytes as u64)
+}
+
 /// Refuses what needs more memory than is available: better before hours of work than after them.
 ///
 /// # Errors
@@ -30,8 +36,8 @@ pub(crate) fn require(what: &str, bytes: f64) -> Result<()> {
     }
 }
 
-/// The first line of a file of `/proc` that starts with `key`, in bytes.
-#[cfg(target_os = "linux")]
+/// The first line of a file of `/proc` that starts with `key`, in bytes; `None` where there is no
+/// such file.
 fn kibibytes(file: &str, key: &str) -> Option<f64> {
     let text = std::fs::read_to_string(file).ok()?;
     let line = text.lines().find_map(|line| line.strip_prefix(key))?;

@@ -1,16 +1,23 @@
 //! What an analysis computed: states, history, quality and cost, free of any solver's types.
 
 mod contact;
+mod ending;
 mod history;
+mod quality;
+mod quantities;
 
 pub use contact::{ContactPatch, PairState, Status};
+pub use ending::{Ending, Incomplete};
 pub use history::{HistoryRow, PathPoint};
+pub use quality::{Quality, Tolerances};
+pub use quantities::{Estimated, Field, QUANTITIES, Quantity, Scope, Unit, value};
 
 use crate::space::Vector;
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
 
-/// Numbers that are not finite are written as null.
-fn null_is_not_a_number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
+/// Numbers that are not finite are written as null, or as an empty cell.
+pub(crate) fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     // Checkpoints are binary and know every number.
     if !from.is_human_readable() {
         return f64::deserialize(from);
@@ -32,7 +39,7 @@ fn null_is_not_a_number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Er
 ///     println!("{}: load {}, {} pairs closed", state.name, state.load, closed.count());
 /// }
 /// // A run that ends well: done to its end, and every state within its tolerances.
-/// assert!(results.incomplete.is_none() && results.inaccurate.is_empty());
+/// assert_eq!(results.ending(), brinell::results::Ending::Complete);
 /// # assert_eq!(results.states[0].pairs.iter().filter(|p| p.status == Status::Closed).count(), 9);
 /// # Ok(())
 /// # }
@@ -69,8 +76,8 @@ pub struct Results {
     /// trusted.
     pub inaccurate: Vec<String>,
     /// What the factorisation cost.
-    pub factor: crate::linalg::Prediction,
-    /// Reference values beside computed ones.
+    pub factor: Prediction,
+    /// Reference values beside computed ones, where they were compared (by `reference::compare`).
     pub reference: Vec<ReferenceRow>,
     /// How wrong each figure may be, where it was estimated (by `accuracy::estimate`).
     pub accuracy: Option<Accuracy>,
@@ -78,22 +85,20 @@ pub struct Results {
     pub warnings: Vec<String>,
     /// How often the run was stopped or killed and went on from a checkpoint.
     pub resumed: usize,
-    /// Set where the run ended before the program did: why.
-    pub incomplete: Option<String>,
-    /// Set with [`Results::incomplete`]: the kind that decides the exit code (stopped, collapse,
-    /// analysis).
-    pub incomplete_kind: Option<crate::ErrorKind>,
+    /// Set where the run ended before its program did. [`Results::ending`] says how it ended.
+    pub incomplete: Option<Incomplete>,
 }
 
 /// Sizes of the model.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Sizes {
-    /// Freedoms after supports.
-    pub freedoms: usize,
     /// Nodes.
     pub nodes: usize,
     /// Elements.
     pub elements: usize,
+    /// Freedoms after supports.
+    pub freedoms: usize,
     /// Contact pairs.
     pub contact_pairs: usize,
     /// Freedoms of the plastic zone.
@@ -103,6 +108,36 @@ pub struct Sizes {
     /// Lowest polynomial degree of the elements: 1 or 2.
     #[serde(skip)]
     pub degree: usize,
+}
+
+/// What a factorisation costs, from the symbolic analysis alone.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Prediction {
+    /// Name of the ordering chosen.
+    pub ordering: Cow<'static, str>,
+    /// Nonzeros of the factor.
+    #[serde(serialize_with = "whole", deserialize_with = "number")]
+    pub factor_nonzeros: f64,
+    /// Nonzeros of the factor's columns that belong to zone and contact freedoms.
+    #[serde(serialize_with = "whole", deserialize_with = "number")]
+    pub trailing_nonzeros: f64,
+    /// Floating point operations of the factorisation.
+    #[serde(serialize_with = "whole", deserialize_with = "number")]
+    pub flops: f64,
+    /// Bytes needed at the peak.
+    #[serde(serialize_with = "whole", deserialize_with = "number")]
+    pub memory_bytes: f64,
+}
+
+/// A count kept as a float, written as an integer where that is exact.
+fn whole<S: Serializer>(count: &f64, to: S) -> Result<S::Ok, S::Error> {
+    const LARGEST_EXACT: f64 = (1u64 << f64::MANTISSA_DIGITS) as f64;
+    if (0.0..=LARGEST_EXACT).contains(count) {
+        to.serialize_u64(count.round() as u64)
+    } else {
+        to.serialize_f64(*count)
+    }
 }
 
 /// A row of the effects ledger.
@@ -121,7 +156,7 @@ pub struct Effect {
 }
 
 /// First yield.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct YieldPoint {
     /// Factor on the scene's proportional loads at which the material first yields.
     pub alpha: f64,
@@ -191,8 +226,16 @@ pub struct State {
     pub plastic_points_by_body: Vec<usize>,
     /// Largest equivalent plastic strain.
     pub max_equivalent_plastic_strain: f64,
-    /// Area (axisymmetric: volume) of the whole whose Gauss points have plastic strain.
+    /// Area (axisymmetric or solid: volume) of the whole whose Gauss points have plastic strain.
     pub plastic_zone_size: f64,
+    /// Work done on the plastic strains of the whole, `sum_g w_g int_0^p sigma_y(p) dp` with the
+    /// equivalent plastic strain `p` of each Gauss point; in the plane per unit thickness.
+    #[serde(default)]
+    pub plastic_work: f64,
+    /// Largest distance of a Gauss point with plastic strain from a contact surface, along the normal
+    /// there; 0 without contact.
+    #[serde(default)]
+    pub plastic_depth: f64,
     /// Estimated energy norm of the stress error over that of the stress (Zienkiewicz-Zhu); known
     /// where fields are.
     pub energy_error: Option<f64>,
@@ -230,10 +273,17 @@ pub struct Fields {
     /// over the element, over the energy norm of the stress of the whole model. The square root of
     /// the sum of squares is [`State::energy_error`].
     pub error: Vec<f64>,
+    /// `n_nodes` contact pressure; 0 of nodes that are in no pair.
+    #[serde(default)]
+    pub contact_pressure: Vec<f64>,
+    /// `n_nodes` gap; NaN of nodes that are in no pair.
+    #[serde(default)]
+    pub gap: Vec<f64>,
 }
 
 /// Machine-independent cost of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Counts {
     /// Numerical factorisations of the sparse stiffness.
     pub factorizations: usize,
@@ -247,114 +297,19 @@ pub struct Counts {
     pub contact_changes: usize,
 }
 
-/// How good a state is: all figures are relative and dimensionless. Loads and displacements are
-/// measured against the largest of the run so far. Gaps are those of the displacements, contact
-/// forces those that the stresses leave over: both independent of the contact solve, neither
-/// clipped.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Quality {
-    /// Normwise backward error of the full solve: `|f - K u| / (|K| |u| + |f|)`, infinity norms.
-    pub backward_error: f64,
-    /// Componentwise backward error, the largest of a row's `|f - K u|` over its `|K| |u| + |f|`;
-    /// none in results of versions that did not have it. It has no tolerance of its own: what it
-    /// shows beside the normwise one are freedoms on which next to nothing acts.
-    pub componentwise_error: Option<f64>,
-    /// What round-off alone may leave out of balance, over the largest applied or contact force: `2
-    /// eps |K| |u|`, the largest of a row, with
-    /// `u` free of rigid motions: storing `u` and summing up the forces of its elements costs as much, whatever solved for it. Forces that
-    /// are out of balance by no more are as good as the mesh allows. Where plastic strains stay,
-    /// `u` counts as the largest of the run. None in results of versions that did not have it.
-    pub round_off: Option<f64>,
-    /// Out-of-balance force of the stresses over the largest applied or contact force.
-    pub equilibrium: f64,
-    /// Largest `gap * force` of a pair over (largest gap or displacement * largest force).
-    pub complementarity: f64,
-    /// Largest penetration over the largest displacement.
-    pub penetration: f64,
-    /// Largest tension of a pair over the largest force.
-    pub adhesion: f64,
-}
-
-/// What a state's quality may be before its result counts as inaccurate.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tolerances {
-    /// Of [`Quality::backward_error`].
-    pub backward_error: f64,
-    /// Of [`Quality::equilibrium`].
-    pub equilibrium: f64,
-    /// Of [`Quality::complementarity`], [`Quality::penetration`] and [`Quality::adhesion`].
-    pub contact: f64,
-    /// What [`Quality::round_off`] may widen those of forces to, and no further.
-    pub loosest: f64,
-}
-
-impl Quality {
-    /// Figure by figure the worse of two; what is not a number is the worst.
-    pub fn worse(&self, other: &Quality) -> Quality {
-        let worse = |a: f64, b: f64| if a.is_nan() || a > b { a } else { b };
-        let either = |a: Option<f64>, b: Option<f64>| a.into_iter().chain(b).reduce(worse);
-        Quality {
-            backward_error: worse(self.backward_error, other.backward_error),
-            componentwise_error: either(self.componentwise_error, other.componentwise_error),
-            round_off: either(self.round_off, other.round_off),
-            equilibrium: worse(self.equilibrium, other.equilibrium),
-            complementarity: worse(self.complementarity, other.complementarity),
-            penetration: worse(self.penetration, other.penetration),
-            adhesion: worse(self.adhesion, other.adhesion),
-        }
-    }
-
-    /// The largest figure of forces that is beyond its tolerance and passes because round-off alone
-    /// may leave as much.
-    pub fn excused(&self, tolerances: &Tolerances) -> Option<f64> {
-        let round_off = self.round_off.unwrap_or(0.0).min(tolerances.loosest);
-        [
-            (self.equilibrium, tolerances.equilibrium),
-            (self.complementarity, tolerances.contact),
-            (self.adhesion, tolerances.contact),
-        ]
-        .into_iter()
-        .filter(|(value, most)| value > most && *value <= round_off)
-        .map(|(value, _)| value)
-        .reduce(f64::max)
-    }
-
-    /// The figures that miss their tolerance (or are not numbers), each with its name, value and
-    /// tolerance. Those of forces may be as large as the round-off of the mesh.
-    pub fn misses(&self, tolerances: &Tolerances) -> Vec<(&'static str, f64, f64)> {
-        let round_off = self.round_off.unwrap_or(0.0).min(tolerances.loosest);
-        let forces = tolerances.contact.max(round_off);
-        [
-            (
-                "backward_error",
-                self.backward_error,
-                tolerances.backward_error,
-            ),
-            (
-                "equilibrium",
-                self.equilibrium,
-                tolerances.equilibrium.max(round_off),
-            ),
-            ("complementarity", self.complementarity, forces),
-            ("penetration", self.penetration, tolerances.contact),
-            ("adhesion", self.adhesion, forces),
-        ]
-        .into_iter()
-        .filter(|(_, value, most)| value.is_nan() || value > most)
-        .collect()
-    }
-}
-
 /// A published or exact value beside the computed one.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ReferenceRow {
     /// What: a path in `summary.json`.
     pub quantity: String,
     /// The reference value.
+    #[serde(deserialize_with = "number")]
     pub reference: f64,
     /// The computed value.
+    #[serde(deserialize_with = "number")]
     pub computed: f64,
     /// computed / reference; not a number where both are 0.
+    #[serde(deserialize_with = "number")]
     pub ratio: f64,
     /// The paper's own figure for the ratio, where it gives one.
     pub published_ratio: Option<f64>,
@@ -374,11 +329,11 @@ pub struct Accuracy {
     /// What was demanded, chosen and reached, where the scene demands an accuracy.
     pub demand: Option<Demand>,
     /// Seconds that the estimate took.
-    #[serde(deserialize_with = "null_is_not_a_number")]
+    #[serde(deserialize_with = "number")]
     pub seconds: f64,
     /// Floating point operations of the factorisations and solves of the runs that were made for
     /// it.
-    #[serde(default, deserialize_with = "null_is_not_a_number")]
+    #[serde(default, deserialize_with = "number")]
     pub work: f64,
     /// What the estimate could not do, and why.
     pub notes: Vec<String>,
@@ -388,7 +343,7 @@ pub struct Accuracy {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Demand {
     /// The smallest relative error that was demanded.
-    #[serde(deserialize_with = "null_is_not_a_number")]
+    #[serde(deserialize_with = "number")]
     pub accuracy: f64,
     /// The demand as it was written: one accuracy, or one for each quantity that is named.
     #[serde(default)]
@@ -404,7 +359,7 @@ pub struct Demand {
     pub unknown: Vec<String>,
     /// The stated relative error of the quantity that is farthest beyond its demand, or nearest to
     /// it.
-    #[serde(deserialize_with = "null_is_not_a_number")]
+    #[serde(deserialize_with = "number")]
     pub stated: f64,
     /// That quantity.
     #[serde(default)]
@@ -413,7 +368,7 @@ pub struct Demand {
     pub choices: Vec<String>,
     /// Floating point operations of the factorisations and solves of all trials, their estimates
     /// included.
-    #[serde(default, deserialize_with = "null_is_not_a_number")]
+    #[serde(default, deserialize_with = "number")]
     pub work: f64,
 }
 
@@ -436,12 +391,12 @@ pub enum EstimateMethod {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Companion {
     /// Its element size over that of the run.
-    #[serde(deserialize_with = "null_is_not_a_number")]
+    #[serde(deserialize_with = "number")]
     pub ratio: f64,
     /// Its freedoms.
     pub freedoms: usize,
     /// Seconds that its run took.
-    #[serde(deserialize_with = "null_is_not_a_number")]
+    #[serde(deserialize_with = "number")]
     pub seconds: f64,
 }
 
@@ -451,7 +406,7 @@ pub struct QuantityError {
     /// Its path in `summary.json`; states by name: `states.NAME.KEY`.
     pub quantity: String,
     /// The reported value.
-    #[serde(deserialize_with = "null_is_not_a_number")]
+    #[serde(deserialize_with = "number")]
     pub value: f64,
     /// The stated error: those of discretisation, path and algebra together.
     pub error: Option<f64>,
@@ -464,7 +419,7 @@ pub struct QuantityError {
     pub path: Option<f64>,
     /// Estimated error of the algebra: backward error, equilibrium, complementarity, and at first
     /// yield what `gamma` leaves of the largest stress.
-    #[serde(deserialize_with = "null_is_not_a_number")]
+    #[serde(deserialize_with = "number")]
     pub algebraic: f64,
     /// Order of convergence in the element size that three meshes or more show, believed or not.
     pub order: Option<f64>,

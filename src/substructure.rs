@@ -1,8 +1,8 @@
 //! The structure as contact and plasticity see it: the only door from sparse to dense.
 //!
-//! The stiffness is factored in the order `[ interior | zone | contact ]` and condensed. On the
-//! contact freedoms `(u^1, u^2)` of the pairs' first and second nodes (normal displacements) the
-//! displacement condition suggests `v = u^1` and the relative displacement
+//! The stiffness is factored in the order `[ interior | zone | contact ]` and condensed. Contact rows
+//! `s = B u_c <= delta` act on the contact freedoms; on the normal displacements `(u^1, u^2)` of nodes
+//! that face each other they suggest `v = u^1` and the relative displacement
 //! `s = u^2 - u^1 <= delta`, the paper's u_c^1 and (2.4). In these
 //!
 //! ```text
@@ -11,8 +11,8 @@
 //! ```
 //!
 //! and eliminating `v` leaves `r = t - T s = q + T g` with the gap `g = delta - s`,
-//! `q = t - T delta`. Where the second body is much the stiffer the two change places, and rigid
-//! motions of floating bodies are treated apart: see `tied`.
+//! `q = t - T delta`. Rows of any kind, and bodies of which one is much the stiffer: see `rows`.
+//! Rigid motions of floating bodies are treated apart: see `tied`.
 
 mod groups;
 mod rows;
@@ -29,13 +29,13 @@ use crate::memory;
 use crate::model::Model;
 use groups::Groups;
 
-/// A load (or displacement) on zone and contact freedoms: first nodes of all pairs, then second
-/// nodes.
+/// A load (or displacement) on zone and contact freedoms, these in the order of
+/// [`crate::model::ContactRows::freedoms`].
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Trailing {
     /// On the zone freedoms.
     pub zone: Vec<f64>,
-    /// On the contact freedoms: `n_pairs` first nodes, then `n_pairs` second nodes.
+    /// On the contact freedoms.
     pub contact: Vec<f64>,
 }
 
@@ -112,21 +112,15 @@ pub struct Substructure {
 
 impl Substructure {
     /// Factors and condenses the stiffness with the given zone freedoms (ascending, none of them a
-    /// contact freedom) and their rings ([`Partition::rings`]).
+    /// contact freedom).
     ///
     /// # Errors
     /// A matrix that is not positive definite, with body, node and direction; backend limits.
-    pub fn new(
-        model: &Model,
-        system: &System,
-        (zone, rings): (Vec<usize>, Vec<u8>),
-        backend: Backend,
-    ) -> Result<Self> {
+    pub fn new(model: &Model, system: &System, zone: Vec<usize>, backend: Backend) -> Result<Self> {
         let partition = Partition {
             n: model.freedoms.n,
             zone,
-            contact: contact_freedoms(model)?,
-            rings,
+            contact: model.rows.freedoms.clone(),
         };
         let shift = shift(model, system, &partition);
         let cost = ContactCost::of(model);
@@ -138,9 +132,12 @@ impl Substructure {
             // What the factor left of the memory.
             cost.require()?;
             let stiffness = condensed.contact_stiffness();
-            let part = parts(model);
-            let motions = &model.floating.motions;
-            let (tied, matrix) = Groups::new(stiffness, motions, &partition.contact, &part)?;
+            let contact = groups::Contact {
+                rows: &model.rows.entries,
+                freedoms: &partition.contact,
+                part: &model.floating.part_of_contact,
+            };
+            let (tied, matrix) = Groups::new(stiffness, &model.floating.motions, contact)?;
             (Some(tied), matrix)
         } else {
             (None, PairMatrix::new(Vec::new()))
@@ -163,12 +160,11 @@ impl Substructure {
         &mut self,
         model: &Model,
         system: &System,
-        zone: (Vec<usize>, Vec<u8>),
+        zone: Vec<usize>,
         backend: Backend,
     ) -> Result<bool> {
-        if let Some(kept) = self.condensed.choose_zone(&zone.0)? {
+        if let Some(kept) = self.condensed.choose_zone(&zone)? {
             self.partition.zone = kept;
-            self.partition.rings = Vec::new();
             return Ok(false);
         }
         self.release()?;
@@ -355,45 +351,53 @@ impl Substructure {
     }
 }
 
-/// What the dense part of contact costs, known from the model alone: a group of `p` pairs that
-/// bodies join takes `p^3` operations once and `p^2` numbers, for no matrix of the method has zeros
-/// there.
+/// What the dense part of contact costs, known from the model alone: a group of `p` rows and `m`
+/// leaders that bodies join takes `m^3 / 3 + m^2 p + m p^2` operations once, for no matrix of the
+/// method has zeros there.
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct ContactCost {
-    /// Pairs of nodes.
+    /// Pairs.
     pub pairs: usize,
     /// Groups of pairs that share no body.
     pub groups: usize,
     /// Pairs of the largest group.
     pub largest_group: usize,
-    /// Floating point operations: factor (`p^3 / 3`), coupling (`p^3`) and contact matrix (`p^3`)
-    /// of the tied pairs.
+    /// Floating point operations: factor, coupling and contact matrix of the tied pairs.
     pub flops: f64,
-    /// Bytes at the peak.
+    /// Bytes at the peak: factor, coupling and its transpose, contact matrix.
     pub memory_bytes: f64,
 }
 
 impl ContactCost {
-    /// Numbers of `p^2` entries that are there at the peak: factor, coupling and its transpose,
-    /// contact matrix.
-    const MATRICES: f64 = 4.0;
-
     /// The cost of a model's contact.
     pub fn of(model: &Model) -> Self {
+        let (rows, part) = (&model.rows.entries, &model.floating.part_of_contact);
         let mut sizes: Vec<usize> = Vec::new();
-        for group in groups::groups(&parts(model), std::iter::empty()) {
+        let mut group_of = vec![0; part.len()];
+        for (row, group) in rows
+            .iter()
+            .zip(groups::groups(rows, part, std::iter::empty()))
+        {
             if group == sizes.len() {
                 sizes.push(0);
             }
             sizes[group] += 1;
+            row.iter().for_each(|&(i, _)| group_of[i] = group);
         }
-        let sum = |power: i32| sizes.iter().map(|&p| (p as f64).powi(power)).sum::<f64>();
+        let mut freedoms = vec![0; sizes.len()];
+        group_of.iter().for_each(|&group| freedoms[group] += 1);
+        let (mut flops, mut entries) = (0.0, 0.0);
+        for (&rows, &freedoms) in sizes.iter().zip(&freedoms) {
+            let (p, m) = (rows as f64, (freedoms - rows) as f64);
+            flops += m.powi(3) / 3.0 + m * m * p + m * p * p;
+            entries += m * m + 2.0 * m * p + p * p;
+        }
         ContactCost {
             pairs: model.pairs.len(),
             groups: sizes.len(),
             largest_group: sizes.iter().copied().max().unwrap_or(0),
-            flops: 7.0 / 3.0 * sum(3),
-            memory_bytes: 8.0 * Self::MATRICES * sum(2),
+            flops,
+            memory_bytes: size_of::<f64>() as f64 * entries,
         }
     }
 
@@ -411,45 +415,18 @@ impl ContactCost {
     }
 }
 
-/// The part of the model that each contact freedom belongs to.
-fn parts(model: &Model) -> Vec<usize> {
-    let n = model.pairs.len();
-    (0..2 * n)
-        .map(|i| model.floating.part_of_pair[i % n][i / n])
-        .collect()
-}
-
-fn contact_freedoms(model: &Model) -> Result<Vec<usize>> {
-    let normal = |node: usize| {
-        model.freedoms.normal_freedom(node).ok_or_else(|| {
-            Error::input(format!(
-                "node {} belongs to a contact pair but its normal displacement is held by a support or load",
-                model.mesh.node_label(node)
-            ))
-        })
-    };
-    let first = model.pairs.iter().map(|p| normal(p.first));
-    let second = model.pairs.iter().map(|p| normal(p.second));
-    first.chain(second).collect()
-}
-
 /// The stiffness's own diagonal on the contact freedoms of bodies that supports do not hold, zero elsewhere.
 fn shift(model: &Model, system: &System, partition: &Partition) -> Vec<f64> {
-    let n = model.pairs.len();
-    (0..2 * n)
-        .map(|i| {
-            let floats = model.floating.of_pair[i % n][i / n];
-            let freedom = partition.contact[i];
-            if floats {
-                system
-                    .stiffness
-                    .get(freedom, freedom)
-                    .copied()
-                    .unwrap_or(0.0)
-            } else {
-                0.0
-            }
-        })
+    let diagonal = |&freedom: &usize| system.stiffness.get(freedom, freedom).copied();
+    let of = |(freedom, floats): (&usize, &bool)| match floats {
+        true => diagonal(freedom).unwrap_or(0.0),
+        false => 0.0,
+    };
+    partition
+        .contact
+        .iter()
+        .zip(&model.floating.of_contact)
+        .map(of)
         .collect()
 }
 

@@ -129,6 +129,29 @@ fn modules_import_from_above_only() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
+/// Closed forms give sizes to generated meshes and to new scenes, a load, and what a scene is compared with. What computes,
+/// estimates or reports knows none.
+#[test]
+fn closed_forms_stay_out_of_what_computes() {
+    let allowed = |name: &str| {
+        let module = module(name);
+        ["analytical", "reference", "selftest", "cli", "scene"].contains(&module)
+            || name.starts_with("src/mesh/generate/")
+            // The traction of Kirsch's plate, which a scene may ask for as a load.
+            || name == "src/model/loads.rs"
+    };
+    for path in files("src", "rs") {
+        let name = name(&path);
+        if name == "src/lib.rs" || name == "src/main.rs" || allowed(&name) {
+            continue;
+        }
+        let text = code(&path);
+        let text = text.split("#[cfg(test)]").next().unwrap_or("");
+        let uses = imports(text).contains("analytical") && !is_test(&name);
+        assert!(!uses, "{name} uses a closed form");
+    }
+}
+
 #[test]
 fn unsafe_is_at_home_in_one_place() {
     for path in files("src", "rs") {

@@ -196,7 +196,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("{}\n{}", one?, other?);
     let scene = Scene::load(&path)?;
     let results = Analysis::new(Model::new(&scene)?, Backend::default())?.run(&mut StopAtThird)?;
-    let status = results.incomplete_kind.map_or(0, |kind| kind.exit_code());
+    let status = results.ending().kind().map_or(0, |kind| kind.exit_code());
     println!(
         "stopped with status {status} after {} increments",
         results.history.len()

@@ -95,6 +95,12 @@
 // Eight corners, then the middles of the edges of base, top, and between them.
 #define BRINELL_SHAPE_HEX20 7
 
+// Linear prism of six nodes.
+#define BRINELL_SHAPE_PRISM6 8
+
+// Quadratic prism of fifteen nodes.
+#define BRINELL_SHAPE_PRISM15 9
+
 // Along x (r).
 #define BRINELL_X 1
 
@@ -167,10 +173,13 @@
 // 1 where closed, 0 where open.
 #define BRINELL_PAIR_CLOSED 6
 
-// n_nodes x 2 displacements, node by node.
+// Undeformed z, of a solid.
+#define BRINELL_PAIR_Z 7
+
+// n_nodes x 2 displacements, of a solid x 3, node by node.
 #define BRINELL_FIELD_DISPLACEMENT 0
 
-// n_elements x 4 mean stresses: xx, yy, zz, xy (axisymmetric rr, zz, tt, rz).
+// n_elements x 4 mean stresses: xx, yy, zz, xy (axisymmetric rr, zz, tt, rz); of a solid x 6, yz and zx after them.
 #define BRINELL_FIELD_STRESS 1
 
 // n_elements von Mises stresses.
@@ -278,7 +287,8 @@ typedef struct brinell_material {
   size_t n_table;
 } brinell_material;
 
-// How two surfaces touch. NULL stands for the defaults, which are all zeros: nodes are paired by geometry.
+// How two surfaces touch. NULL stands for the defaults, which are all zeros: nodes that face each other are paired, other
+// surfaces are coupled by the integrals of their shape functions.
 typedef struct brinell_contact {
   // sizeof(brinell_contact).
   size_t size;
@@ -289,16 +299,19 @@ typedef struct brinell_contact {
   // Direction from the second body to the first of all pairs (2 values), for the pairing by geometry; NULL for the second surface's
   // outward normals.
   const double *normal;
-  // Number of pairs that are given; 0: nodes are paired by geometry.
+  // Number of pairs that are given; 0: by geometry.
   size_t n_pairs;
   // n_pairs nodes of the first surface.
   const int64_t *first_nodes;
   // n_pairs nodes of the second surface.
   const int64_t *second_nodes;
-  // n_pairs x 2: direction from the second body to the first; NULL for the second surface's outward normals.
+  // n_pairs x 2, of a solid x 3: direction from the second body to the first; NULL for the second surface's outward normals.
   const double *normals;
   // n_pairs gaps >= 0; NULL for the geometric ones.
   const double *gaps;
+  // Which surface has the slaves, at whose nodes gaps and pressures are: 1 the first, 2 the second; 0: the finer one, the second
+  // where nodes face each other.
+  int32_t slave;
 } brinell_contact;
 
 // A load at factor 1.
@@ -317,7 +330,7 @@ typedef struct brinell_load {
   double values[3];
   // n_nodes nodes of a nodal load.
   const int64_t *nodes;
-  // n_nodes x 2 forces.
+  // n_nodes x 2 forces, of a solid x 3.
   const double *forces;
   // Nodes of a nodal load.
   size_t n_nodes;
@@ -427,7 +440,7 @@ typedef struct brinell_mesh {
   size_t n_nodes;
   // Number of elements.
   size_t n_elements;
-  // n_nodes x 2 coordinates, node by node.
+  // n_nodes x 2 coordinates, of a solid x 3, node by node.
   const double *coordinates;
   // Nodes of all elements, one element after the other.
   const uint32_t *connectivity;
@@ -436,6 +449,28 @@ typedef struct brinell_mesh {
   // n_elements bodies.
   const uint32_t *element_body;
 } brinell_mesh;
+
+// A patch of contact of a solid; of a patch that reaches planes of symmetry the whole.
+typedef struct brinell_patch {
+  // sizeof(brinell_patch).
+  size_t size;
+  // Which contact of the scene, from 0.
+  uint64_t contact;
+  // Area, on the plane across the mean normal.
+  double area;
+  // Centroid of the area.
+  double centroid[3];
+  // Half axes, the larger first, of the ellipse with the same moments of area.
+  double semi_axes[2];
+  // Direction of the larger half axis.
+  double direction[3];
+  // Largest pressure.
+  double max_pressure;
+  // Force over area.
+  double mean_pressure;
+  // Force.
+  double force;
+} brinell_patch;
 
 // A sparse symmetric matrix, compressed by column; repeated entries are added.
 typedef struct brinell_matrix {
@@ -569,6 +604,11 @@ int32_t brinell_model_contact(struct brinell_model *model,
 // turned counter-clockwise by `angle` degrees, of a solid about the z axis.
 int32_t brinell_model_support(struct brinell_model *model, const char *on, int32_t fix, double angle);
 
+// Holds a node set or surface along any one direction: two components, of a solid three.
+int32_t brinell_model_support_along(struct brinell_model *model,
+                                    const char *on,
+                                    const double *direction);
+
 // Adds a load.
 int32_t brinell_model_load(struct brinell_model *model, const struct brinell_load *load);
 
@@ -603,7 +643,7 @@ size_t brinell_results_n_states(const struct brinell_results *results);
 // First yield. BRINELL_INPUT where the run has none.
 int32_t brinell_results_yield(const struct brinell_results *results, struct brinell_yield *out);
 
-// The figures of state `index`, from 0.
+// The figures of state `index`, from 0; brinell_results_value has all of them.
 int32_t brinell_results_state(const struct brinell_results *results, size_t index, struct brinell_state *out);
 
 // The name of state `index`; NULL where there is no such state. Valid as long as the results.
@@ -634,6 +674,29 @@ int32_t brinell_results_mesh(const struct brinell_results *results, struct brine
 
 // Writes the result directory that the program writes: tables, fields, report.
 int32_t brinell_results_write(const struct brinell_results *results, const char *dir);
+
+// Number of the quantities that a state has.
+size_t brinell_n_quantities(void);
+
+// The key of quantity `index`, from 0, as in summary.json: "load", "half_width", "residual_depth" and so on; NULL where there
+// is none such. Static.
+const char *brinell_quantity_key(size_t index);
+
+// A number of the results by its path in summary.json: "yield.KEY" at first yield, or "states.NAME.KEY" of a state, where
+// the number of the state, from 0, may stand for its name. Counts are numbers too; not a number where it is not known.
+// BRINELL_INPUT where the results have none such.
+int32_t brinell_results_value(const struct brinell_results *results,
+                              const char *path,
+                              double *value);
+
+// Number of patches of contact of state `index` of a solid; 0 where there is no such state.
+size_t brinell_results_n_patches(const struct brinell_results *results, size_t index);
+
+// A patch of contact of state `index`, from 0.
+int32_t brinell_results_patch(const struct brinell_results *results,
+                              size_t index,
+                              size_t patch,
+                              struct brinell_patch *out);
 
 // Factors and condenses a stiffness with contact rows (NULL for none). The arrays are not needed afterwards. The state is that
 // without load.

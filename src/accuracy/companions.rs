@@ -2,11 +2,11 @@
 
 use crate::mesh::generate::Family;
 use crate::model::Model;
-use crate::results::{Results, State};
+use crate::results::{EdgeReading, Results, State};
 use crate::scene::Scene;
 
 /// Element sizes of coarser meshes, over that of the run, most wanted first. The first two are near
-/// enough to lie in the same range of convergence, and have 0.7 times the elements of the run
+/// enough to lie in the same range of convergence, and have 0.7 times the elements of a plane run
 /// together.
 const COARSER: [f64; 4] = [1.5, 2.0, 3.0, 4.0];
 /// Those of finer ones, for a run that is too coarse to have coarser ones.
@@ -17,8 +17,12 @@ const LEAST_RATIO: f64 = 1.15;
 /// them from which the pressure near it is fitted ([`crate::results::EdgeReading`]).
 const READABLE: usize = 6;
 /// Closed pairs over the smaller half axis of a patch of solids over which its area is read: the
-/// last one, one that is believed, and the middle.
-const READABLE_PATCH: usize = 3;
+/// last one, two that are believed, and the middle.
+const READABLE_PATCH: usize = 4;
+/// The nearest coarser mesh of solids, where others cannot be read: five elements instead of six.
+const NEARER: f64 = 1.2;
+/// Share of a half width below which two readings of it are the same: the edge is that of a surface.
+const ROUND_OFF: f64 = 1e-9;
 /// Elements up to which a plane run is compared with meshes of sixteen times as many, where coarser
 /// ones do not tell; beyond, four times.
 const SMALL: usize = 1000;
@@ -60,7 +64,9 @@ pub fn companions(scene: &Scene, results: &Results) -> Vec<Level> {
         (false, false) => (READABLE, 0.5),
     };
     let can_be_read = |ratio: f64| pairs.is_none_or(|n| n as f64 >= ratio * readable as f64);
-    let coarser = COARSER.into_iter().filter(|ratio| can_be_read(*ratio));
+    let nearer = scene.kind.is_solid().then_some(NEARER);
+    let coarser = COARSER.into_iter().chain(nearer);
+    let coarser = coarser.filter(|ratio| can_be_read(*ratio));
     let finer = FINER.into_iter().filter(|ratio| *ratio >= finest);
     let mut levels: Vec<Level> = Vec::new();
     for ratio in coarser.chain(finer) {
@@ -81,11 +87,16 @@ pub fn companions(scene: &Scene, results: &Results) -> Vec<Level> {
 }
 
 /// The fewest closed pairs on one side of a contact: at first yield and in the state that carries
-/// most. `None` without contact.
+/// most. `None` without contact, and where it ends with its surfaces, so that nothing is read.
 fn fewest_pairs(results: &Results) -> Option<usize> {
-    let first = results.first_yield.map(|y| y.half_width_reading.pairs);
+    let first = results.first_yield.as_ref();
+    let first = first.map(|y| (y.half_width, y.half_width_reading));
     let strongest = |a: &&State, b: &&State| a.contact_force.total_cmp(&b.contact_force);
     let state = results.states.iter().max_by(strongest);
-    let state = state.map(|s| s.half_width_reading.pairs);
-    first.into_iter().chain(state).filter(|n| *n > 0).min()
+    let state = state.map(|s| (s.half_width, s.half_width_reading));
+    let is_read = |(width, reading): &(f64, EdgeReading)| reading.error > ROUND_OFF * width;
+    let read = first.into_iter().chain(state).filter(is_read);
+    read.map(|(_, reading)| reading.pairs)
+        .filter(|n| *n > 0)
+        .min()
 }

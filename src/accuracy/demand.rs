@@ -23,7 +23,7 @@ use crate::linalg::Backend;
 use crate::mesh::generate::Family;
 use crate::model::Model;
 use crate::progress::Observer;
-use crate::results::{Demand, Results};
+use crate::results::{Demand, Incomplete, Results};
 use crate::scene::{AccuracyDemand, Scene};
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -144,7 +144,7 @@ impl Pursuit {
             let begun = Instant::now();
             let ran = self.run_on(level, observer);
             let why = match &ran {
-                Ok(reached) => reached.results.incomplete.clone(),
+                Ok(reached) => (reached.results.incomplete.as_ref()).map(|i| i.why.clone()),
                 Err(error) => Some(error.to_string()),
             };
             if let Some(why) = why {
@@ -346,8 +346,10 @@ impl Pursuit {
     fn stopped(&mut self, mut last: Mesh) -> Result<Reached> {
         let why = "stopped on the way to the demanded accuracy";
         let results = &mut last.reached.results;
-        results.incomplete = Some(format!("{why}; the results are those of the last mesh"));
-        results.incomplete_kind = Some(ErrorKind::Stopped);
+        results.incomplete = Some(Incomplete {
+            kind: ErrorKind::Stopped,
+            why: format!("{why}; the results are those of the last mesh"),
+        });
         self.end(Some(last), why.to_string())
     }
 

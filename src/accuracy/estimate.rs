@@ -32,7 +32,7 @@ pub fn estimate(
     observer: &mut dyn Observer,
 ) -> Accuracy {
     let mut runs = Runs::new(backend, extent);
-    let levels = match results.incomplete {
+    let levels = match &results.incomplete {
         None => companions(scene, results),
         Some(_) => Vec::new(),
     };

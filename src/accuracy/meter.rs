@@ -3,6 +3,7 @@
 use crate::analysis::check;
 use crate::error::Result;
 use crate::linalg::{Backend, Prediction};
+use crate::memory;
 use crate::model::Model;
 use crate::results::Results;
 use crate::scene::Scene;
@@ -56,7 +57,7 @@ impl Meter {
             cpu_seconds: processor_seconds()
                 .zip(self.processor)
                 .map(|(end, start)| end - start),
-            peak_memory_bytes: peak_memory().filter(|_| self.reset),
+            peak_memory_bytes: memory::peak().filter(|_| self.reset),
         }
     }
 }
@@ -90,15 +91,8 @@ pub fn work(results: &Results) -> f64 {
         + PER_SOLVE * counts.trailing_solves as f64 * factor.trailing_nonzeros
 }
 
-fn peak_memory() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;
-    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    kibibytes.checked_mul(1024)
-}
-
 /// What a run will cost, from the symbolic factorisation of its matrix.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Forecast {
     /// The factorisation.
     pub factor: Prediction,

@@ -1,6 +1,6 @@
 //! The quantities that a run reports, by their paths in `summary.json`.
 
-use crate::results::{EdgeReading, Results, State};
+use crate::results::{self, EdgeReading, Estimated, QUANTITIES, Results, Scope};
 use std::collections::BTreeMap;
 
 /// A reported quantity.
@@ -24,58 +24,63 @@ impl Quantity {
     }
 }
 
-/// Whether a demand on all quantities holds for those of this key. The size of the plastic zone is
-/// counted in whole Gauss points; the largest plastic strain and the pressure at the pole are
-/// values at one point: their errors are stated, and demanded where they are named.
+/// How the error of the quantities of a key is estimated.
+fn estimated(key: &str) -> Option<Estimated> {
+    results::Quantity::of(key)?.estimated
+}
+
+/// Whether a demand on all quantities holds for those of this key.
 pub(super) fn is_demanded_with_all(key: &str) -> bool {
-    ![
-        "plastic_zone_size",
-        "pole_pressure",
-        "max_equivalent_plastic_strain",
-    ]
-    .contains(&key)
+    estimated(key).is_none_or(|estimated| estimated.in_all)
 }
 
 /// Formal order of convergence: that of the displacements, one more than the degree of the elements
-/// (G. Strang, G. J. Fix, *An Analysis of the Finite Element Method*, Prentice-Hall 1973, chapter 3). The largest strain of the Gauss points and the zone
-/// that they count are those of the nearest point, a share of an element away: of first order.
+/// (G. Strang, G. J. Fix, *An Analysis of the Finite Element Method*, Prentice-Hall 1973, chapter
+/// 3). What single Gauss points have is that of the nearest one, a share of an element away: of
+/// first order.
 pub(super) fn formal_order(key: &str, degree: usize) -> f64 {
-    match key {
-        "max_equivalent_plastic_strain" | "plastic_zone_size" => 1.0,
+    match estimated(key) {
+        Some(estimated) if estimated.is_of_points => 1.0,
         _ => degree.max(1) as f64 + 1.0,
     }
 }
 
-/// All reported quantities of a run, as far as the scene has contact and yields: loads, pressures,
-/// half widths, approach, dent, largest plastic strain and size of the plastic zone.
+/// All quantities of a run whose error is estimated, as far as the scene has contact and yields:
+/// those at first yield, then those of each state.
 pub fn quantities(results: &Results) -> Vec<Quantity> {
     let contact = results.sizes.contact_pairs > 0;
     let plastic = results.states.iter().any(|s| s.plastic_points > 0);
+    let known = |scope: Scope| {
+        let of_scope = QUANTITIES.iter().filter(move |q| q.scope == scope);
+        of_scope.filter(|quantity| quantity.estimated.is_some())
+    };
+    let scopes = Scope::ALL.into_iter();
+    let known: Vec<_> = (scopes.filter(|scope| scope.holds(contact, plastic)))
+        .flat_map(known)
+        .collect();
     let mut out: Vec<Quantity> = Vec::new();
-    let mut add = |prefix: &str, key: &str, value: f64, reading: f64| {
+    let mut add = |prefix: &str, key: &str, value: f64, reading: &EdgeReading| {
         if value.is_finite() {
+            let is_read = key == "half_width";
             out.push(Quantity {
                 path: format!("{prefix}.{key}"),
                 value,
                 scale: 0.0,
-                reading,
+                reading: if is_read { reading.error } else { 0.0 },
             });
         }
     };
-    if let Some(first) = &results.first_yield {
-        add("yield", "load", first.load, 0.0);
-        if contact {
-            let reading = first.half_width_reading;
-            add("yield", "max_pressure", first.max_pressure, 0.0);
-            add("yield", "half_width", first.half_width, reading.error);
+    for quantity in &known {
+        if let (Some(first), Some(field)) = (&results.first_yield, quantity.at_yield) {
+            let value = (field.get)(first);
+            add("yield", quantity.key, value, &first.half_width_reading);
         }
     }
     for state in &results.states {
         let prefix = format!("states.{}", state.name);
-        for (key, value) in of_state(state, contact, plastic) {
-            let EdgeReading { error, .. } = state.half_width_reading;
-            let reading = if key == "half_width" { error } else { 0.0 };
-            add(&prefix, key, value, reading);
+        for quantity in &known {
+            let value = (quantity.in_state.get)(state);
+            add(&prefix, quantity.key, value, &state.half_width_reading);
         }
     }
     let mut scales: BTreeMap<String, f64> = BTreeMap::new();
@@ -89,29 +94,6 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
     out
 }
 
-/// What a state reports.
-fn of_state(state: &State, contact: bool, plastic: bool) -> Vec<(&'static str, f64)> {
-    let of_contact = [
-        ("max_pressure", state.max_pressure),
-        ("pole_pressure", state.pole_pressure),
-        ("half_width", state.half_width),
-    ];
-    let of_yielding = [
-        (
-            "max_equivalent_plastic_strain",
-            state.max_equivalent_plastic_strain,
-        ),
-        ("plastic_zone_size", state.plastic_zone_size),
-    ];
-    let mut out = vec![("load", state.load), ("approach", state.approach)];
-    out.extend(of_contact.into_iter().filter(|_| contact));
-    out.extend(of_yielding.into_iter().filter(|_| plastic));
-    if contact && plastic {
-        out.push(("residual_depth", state.residual_depth));
-    }
-    out
-}
-
 /// The value of a quantity by its path.
 pub fn value_of(quantities: &[Quantity], path: &str) -> Option<f64> {
     quantities.iter().find(|q| q.path == path).map(|q| q.value)
@@ -120,8 +102,7 @@ pub fn value_of(quantities: &[Quantity], path: &str) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::results::YieldPoint;
-    use crate::scene::DEMANDED;
+    use crate::results::{State, YieldPoint};
 
     #[test]
     fn quantities_follow_what_the_scene_has() {
@@ -163,12 +144,9 @@ mod tests {
         results.states[0].half_width = 0.3;
         // A pressure that is not a number is no quantity.
         let all = quantities(&results);
-        assert_eq!(all.len(), 3 + 7);
+        assert_eq!(all.len(), 3 + 8);
         let width = all.iter().find(|q| q.path == "yield.half_width").unwrap();
         assert_eq!((width.reading, width.scale), (0.01, 0.3));
         assert!(all.iter().filter(|q| q.reading > 0.0).count() == 1);
-        for quantity in &all {
-            assert!(DEMANDED.iter().any(|(key, _)| *key == quantity.key()));
-        }
     }
 }

@@ -1,10 +1,11 @@
 //! Runs of one scene and its relatives, each made once.
 
 use crate::analysis::Analysis;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::Result;
 use crate::linalg::Backend;
 use crate::model::Model;
 use crate::progress::{Flow, Observer};
+use crate::reference;
 use crate::results::{HistoryRow, Results};
 use crate::scene::Scene;
 use std::time::Instant;
@@ -105,14 +106,11 @@ pub(super) fn run(
     let (_, results) = analyse(Model::new(&bare)?, backend, extent, observer)?;
     match &results.incomplete {
         None => Ok(results),
-        Some(why) => {
-            let kind = results.incomplete_kind.unwrap_or(ErrorKind::Analysis);
-            Err(Error::new(kind, why.clone()))
-        }
+        Some(incomplete) => Err(incomplete.to_error()),
     }
 }
 
-/// Analyses a model as far as the extent says.
+/// Analyses a model as far as the extent says, with the references of its scene.
 pub(super) fn analyse(
     model: Model,
     backend: Backend,
@@ -120,10 +118,11 @@ pub(super) fn analyse(
     observer: &mut dyn Observer,
 ) -> Result<(Analysis, Results)> {
     let mut analysis = Analysis::new(model, backend)?;
-    let results = match extent {
+    let mut results = match extent {
         Extent::Yield => analysis.yield_load(observer)?,
         Extent::Program => analysis.run(observer)?,
     };
+    reference::compare(analysis.model(), &mut results);
     Ok((analysis, results))
 }
 

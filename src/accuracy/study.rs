@@ -145,7 +145,10 @@ fn cheapest_first(
         let is_alike = |(other, _): &&(Setting, Forecast)| {
             other.scene.mesh == setting.scene.mesh && other.backend == setting.backend
         };
-        let known = queue.iter().find(is_alike).map(|(_, forecast)| *forecast);
+        let known = queue
+            .iter()
+            .find(is_alike)
+            .map(|(_, forecast)| forecast.clone());
         let found = known.map_or_else(|| forecast(&setting.scene, setting.backend), Ok);
         match found {
             Ok(forecast) => queue.push((setting, forecast)),

@@ -148,19 +148,11 @@ fn run_seconds(model: &Model, sizes: &Sizes, prediction: &Prediction, factorisat
 pub fn check(model: &Model, backend: Backend) -> Result<Check> {
     let system = assemble(model)?;
     let choice = zone_choice::first_guess(model);
-    let (zone, rings) = zone_choice::zone_freedoms(model, &choice.elements);
-    let contact = model
-        .pairs
-        .iter()
-        .map(|p| p.first)
-        .chain(model.pairs.iter().map(|p| p.second))
-        .filter_map(|node| model.freedoms.normal_freedom(node))
-        .collect();
+    let zone = zone_choice::zone_freedoms(model, &choice.elements);
     let partition = Partition {
         n: model.freedoms.n,
         zone,
-        contact,
-        rings,
+        contact: model.rows.freedoms.clone(),
     };
     let mut prediction = linalg::predict(backend, &system.stiffness, &partition)?;
     let contact = ContactCost::of(model);

@@ -48,12 +48,14 @@ impl Patch<'_> {
     /// Where the surface ends beyond its last pair `k`: there, or on the axis.
     pub(super) fn end_arc(&self, k: usize) -> f64 {
         self.axis_beside(k)
-            .map_or(self.model.pairs[k].arc, |axis| axis.arc)
+            .map_or(self.model.pairs[k].arc, |axis| axis.pair.arc)
     }
 
     /// The point on the axis that a pair is next to.
-    fn axis_beside(&self, k: usize) -> Option<AxisPoint> {
-        let axis = self.model.contacts[self.model.pairs[k].contact].axis?;
+    fn axis_beside(&self, k: usize) -> Option<&AxisPoint> {
+        let axis = self.model.contacts[self.model.pairs[k].contact]
+            .axis
+            .as_ref()?;
         let next = if axis.begins {
             k == self.range.start
         } else {
@@ -70,9 +72,7 @@ impl Patch<'_> {
         }
         let pair = &self.model.pairs[k];
         (k == self.range.start || k + 1 == self.range.end)
-            && [pair.first, pair.second]
-                .iter()
-                .all(|&node| self.model.freedoms.slots[node][1] == crate::model::Slot::Fixed)
+            && pair.is_held_along(&self.model.freedoms)
     }
 
     /// Where contact ends beyond pair `last`, along the surface in direction `way`, read from the
@@ -169,7 +169,7 @@ impl Patch<'_> {
     fn width(&self, k: usize) -> f64 {
         match self.model.scene.kind {
             Kind::Axisymmetric => {
-                2.0 * std::f64::consts::PI * self.model.mesh.point(self.model.pairs[k].second)[0]
+                2.0 * std::f64::consts::PI * self.model.mesh.point(self.model.pairs[k].slave)[0]
             }
             _ => 1.0,
         }

@@ -4,7 +4,7 @@
 use super::measure::on_axis;
 use super::reading::Reading;
 use crate::mesh::Mesh;
-use crate::model::ContactSurface;
+use crate::model::{ContactSurface, Pair};
 
 /// The dent of a state.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,7 +67,7 @@ impl Reading<'_, '_> {
         dent
     }
 
-    /// How far each pair's two nodes have sunk into their bodies without any load.
+    /// How far each pair's two sides have sunk into their bodies without any load.
     fn sunk(&mut self) -> Vec<Sunk> {
         let forces = &self.solver.now.initial.forces;
         let n = forces.len();
@@ -93,8 +93,16 @@ impl Reading<'_, '_> {
                 *value -= amplitude * motion.at(freedom);
             }
         }
-        // The normal points from the second body to the first.
-        (0..n).map(|k| [normal[k], -normal[n + k]]).collect()
+        let model = structure.model;
+        let of_pair = |(k, pair): (usize, &Pair)| {
+            // The normal points from the slave's body to the other.
+            let [faced, slave] = model.rows.both_sides(k, &normal);
+            match model.contacts[pair.contact].slave {
+                0 => [-slave, faced],
+                _ => [faced, -slave],
+            }
+        };
+        model.pairs.iter().enumerate().map(of_pair).collect()
     }
 }
 

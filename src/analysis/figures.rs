@@ -6,11 +6,12 @@ use super::reading::Reading;
 use super::stress_field::{OfStresses, StressField};
 use super::stresses::Stresses;
 use crate::error::Result;
-use crate::model::{Magnitude, Model, Slot};
-use crate::results::{Fields, State};
+use crate::model::{Magnitude, Model};
+use crate::results::{Fields, PairState, State};
 use crate::scene::History;
 use crate::space::Vector;
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 /// A state as it is reported.
@@ -37,7 +38,7 @@ impl Reading<'_, '_> {
             self.solver.structure.model.nodal(u, factors)
         });
         let reported = self.of_stresses(displacements.deformation(), Reported { nodal });
-        let (stresses, energy_error, fields) = reported;
+        let (stresses, energy_error, mut fields) = reported;
         let stress_seconds = begun.elapsed().as_secs_f64();
         let figures = self.solver.contact_figures();
         let dent = self.dent();
@@ -53,9 +54,21 @@ impl Reading<'_, '_> {
             beyond_yield_outside,
             plastic_points,
             plastic_volume,
+            plastic_work,
+            plastic_depth,
             plastic_strain,
         } = stresses;
         let quality = self.quality(&displacements, internal, &reactions);
+        let pairs = pair_states(
+            self.solver.structure.model,
+            &self.solver.now.gap,
+            &self.solver.contact_forces(),
+            self.solver.tableau.open(),
+            |axis| self.distance_on_axis(axis, u),
+        );
+        if let Some(fields) = &mut fields {
+            on_nodes(self.solver.structure.model, &pairs, fields);
+        }
         let state = State {
             name: name.to_string(),
             alpha: self.solver.at.alpha,
@@ -73,16 +86,12 @@ impl Reading<'_, '_> {
             plastic_points_by_body: plastic_points,
             max_equivalent_plastic_strain: plastic_strain,
             plastic_zone_size: plastic_volume * self.solver.structure.model.symmetry,
+            plastic_work: plastic_work * self.solver.structure.model.symmetry,
+            plastic_depth,
             energy_error,
             approach: self.approach(u),
             patches: figures.patches,
-            pairs: pair_states(
-                self.solver.structure.model,
-                &self.solver.now.gap,
-                &self.solver.contact_forces(),
-                self.solver.tableau.open(),
-                |axis| self.distance_on_axis(axis, u),
-            ),
+            pairs,
             fields,
             quality,
         };
@@ -157,6 +166,8 @@ fn fields<const D: usize, const S: usize, const P: usize, const N: usize>(
         plastic_strain: vec![0.0; n],
         yielded: vec![0; n],
         error,
+        contact_pressure: Vec::new(),
+        gap: Vec::new(),
     };
     let elements = (
         out.stress.par_chunks_exact_mut(S),
@@ -175,6 +186,36 @@ fn fields<const D: usize, const S: usize, const P: usize, const N: usize>(
     out
 }
 
+/// Pressure and gap of the pairs on the slaves and on nodes that face them; on other masters the mean
+/// of the pressures that act on them.
+fn on_nodes(model: &Model, pairs: &[PairState], fields: &mut Fields) {
+    let n = model.mesh.n_nodes();
+    fields.contact_pressure = vec![0.0; n];
+    fields.gap = vec![f64::NAN; n];
+    let mut forces: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+    for state in pairs {
+        let Some(pair) = model.pairs.get(state.pair) else {
+            continue;
+        };
+        for node in pair.faced().into_iter().chain([pair.slave]) {
+            fields.contact_pressure[node] = state.pressure;
+            fields.gap[node] = state.gap;
+        }
+        if pair.faced().is_none() {
+            for &(node, weight) in &pair.masters {
+                let [force, area] = forces.entry(node).or_insert([0.0; 2]);
+                *force += weight * state.force;
+                *area += weight * state.area;
+            }
+        }
+    }
+    for (node, [force, area]) in forces {
+        if area > 0.0 && fields.gap[node].is_nan() {
+            fields.contact_pressure[node] = (force / area).max(0.0);
+        }
+    }
+}
+
 /// Begin and end of a patch in degrees about the centre of a circular surface: from the symmetry
 /// plane at the surface's nearer end, or from its middle where there is none.
 fn contact_arc(model: &Model, contact: usize, [from, to]: [f64; 2]) -> Option<[f64; 2]> {
@@ -182,7 +223,7 @@ fn contact_arc(model: &Model, contact: usize, [from, to]: [f64; 2]) -> Option<[f
     let (center, _) = surface.circle?;
     let pairs = &model.pairs[surface.range.clone()];
     let angle_of = |k: usize| {
-        let x = model.mesh.in_plane(pairs[k].second);
+        let x = model.mesh.in_plane(pairs[k].slave);
         (x[1] - center[1]).atan2(x[0] - center[0]).to_degrees()
     };
     let angle_at = |arc: f64| {
@@ -205,12 +246,7 @@ fn contact_arc(model: &Model, contact: usize, [from, to]: [f64; 2]) -> Option<[f
     }
     // A patch that has left the symmetry plane is still measured from there, the nearer one if both
     // ends lie on one.
-    let on_symmetry = |k: usize| {
-        let nodes = [pairs[k].first, pairs[k].second];
-        nodes
-            .iter()
-            .all(|&node| model.freedoms.slots[node][1] == Slot::Fixed)
-    };
+    let on_symmetry = |k: usize| pairs[k].is_held_along(&model.freedoms);
     let near_begin = from - pairs[0].arc <= pairs[last].arc - to;
     let pole = if near_begin { 0 } else { last };
     if !on_symmetry(pole) {
@@ -242,7 +278,7 @@ mod tests {
     fn between(model: &Model, a: usize, b: usize) -> f64 {
         let (center, radius) = model.contacts[0].circle.unwrap();
         let radii = [a, b].map(|k| {
-            let x = model.mesh.in_plane(model.pairs[k].second);
+            let x = model.mesh.in_plane(model.pairs[k].slave);
             [x[0] - center[0], x[1] - center[1]]
         });
         let [p, q] = radii;
@@ -278,8 +314,8 @@ mod tests {
     #[test]
     fn an_arc_without_a_symmetry_plane_is_told_from_its_middle() {
         let mut model = disc(&["mesh.disc_in_plate.resolution=24"]);
-        for node in [model.pairs[0].first, model.pairs[0].second] {
-            model.freedoms.slots[node][1] = Slot::Free(0);
+        for node in model.pairs[0].clone().nodes() {
+            model.freedoms.slots[node][1] = crate::model::Slot::Free(0);
         }
         let found = contact_arc(&model, 0, [2, 7].map(|k| model.pairs[k].arc)).unwrap();
         let half = 0.5 * between(&model, 2, 7);

@@ -1,7 +1,7 @@
 //! What a run leaves at its end, wherever that is.
 
 use super::program::Run;
-use super::{check, quality, reference};
+use super::{check, quality};
 use crate::results::{Quality, Results, Sizes};
 
 /// Lower bound of the condition from which it is estimated without being asked for: six digits of a
@@ -89,7 +89,6 @@ impl Run<'_, '_> {
                 _ => {}
             }
         }
-        results.reference = reference::rows(model, &results);
         results
     }
 }

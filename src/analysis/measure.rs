@@ -46,7 +46,7 @@ pub fn pressures(model: &Model, force: &[f64]) -> Vec<f64> {
 /// The even continuation of a quantity of the pairs to the axis of revolution, where a contact
 /// reaches it without a pair there.
 pub(super) fn on_axis(model: &Model, contact: &ContactSurface, values: &[f64]) -> Option<f64> {
-    let axis = contact.axis?;
+    let axis = contact.axis.as_ref()?;
     let range = contact.range.clone();
     let (near, next) = if axis.begins {
         (range.start, range.start + 1)
@@ -56,7 +56,7 @@ pub(super) fn on_axis(model: &Model, contact: &ContactSurface, values: &[f64]) -
     if !range.contains(&next) {
         return range.contains(&near).then(|| values[near]);
     }
-    let squared = |k: usize| (model.pairs[k].arc - axis.arc).powi(2);
+    let squared = |k: usize| (model.pairs[k].arc - axis.pair.arc).powi(2);
     let (a, b) = (squared(near), squared(next));
     Some((b * values[near] - a * values[next]) / (b - a))
 }
@@ -79,14 +79,14 @@ pub fn pair_states(
         out.extend(contact.range.clone().map(|k| PairState {
             pair: k,
             contact: model.pairs[k].contact,
-            position: model.mesh.point(model.pairs[k].second),
+            position: model.mesh.point(model.pairs[k].slave),
             gap: gap[k],
             force: force[k],
             area: model.pairs[k].area,
             pressure: pressure[k],
             status: status(open[k] || force[k] <= 0.0),
         }));
-        let (Some(axis), Some(p)) = (contact.axis, on_axis(model, contact, &pressure)) else {
+        let (Some(axis), Some(p)) = (&contact.axis, on_axis(model, contact, &pressure)) else {
             continue;
         };
         let place = if axis.begins {
@@ -99,8 +99,8 @@ pub fn pair_states(
             PairState {
                 pair: number,
                 contact: index,
-                position: model.mesh.point(axis.node),
-                gap: apart(&axis),
+                position: model.mesh.point(axis.pair.slave),
+                gap: apart(axis),
                 force: 0.0,
                 area: 0.0,
                 pressure: p.max(0.0),
@@ -174,7 +174,7 @@ pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigur
                     error: (ends[0].reading + ends[1].reading) / sides as f64,
                     pairs: (k - begin) / sides,
                 };
-                let at_axis = contact.axis.filter(|axis| {
+                let at_axis = contact.axis.as_ref().filter(|axis| {
                     if axis.begins {
                         begin == range.start
                     } else {
@@ -282,8 +282,11 @@ mod tests {
             &["mesh.cylinder_on_half_plane.element=quad8"],
         );
         let contact = &model.contacts[0];
-        let axis = contact.axis.expect("quadratic elements have no pair there");
-        let pressure = |k: usize| 7.0 - 3.0 * (model.pairs[k].arc - axis.arc).powi(2);
+        let axis = contact
+            .axis
+            .as_ref()
+            .expect("quadratic elements have no pair there");
+        let pressure = |k: usize| 7.0 - 3.0 * (model.pairs[k].arc - axis.pair.arc).powi(2);
         let values: Vec<f64> = (0..model.pairs.len()).map(pressure).collect();
         let found = on_axis(&model, contact, &values).unwrap();
         assert!((found - 7.0).abs() <= 1e-13 * 7.0, "{found}");
@@ -303,7 +306,7 @@ mod tests {
             "ball_on_half_space",
             &["mesh.cylinder_on_half_plane.element=quad8"],
         );
-        let begins = model.contacts[0].axis.unwrap().begins;
+        let begins = model.contacts[0].axis.as_ref().unwrap().begins;
         let n = model.pairs.len();
         // The second pair from the axis alone is closed.
         let (closed, place) = if begins { (1, 0) } else { (n - 2, n) };

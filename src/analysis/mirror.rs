@@ -12,6 +12,8 @@ use crate::space::{Vector, along, cross, difference, direction, dot, length as l
 /// Sine of the angle up to which directions, and share of a facet's length up to which places, are
 /// the same.
 const SAME: f64 = 1e-9;
+/// Share of a pair's size up to which it lies on a plane.
+const ON_PLANE: f64 = 1e-6;
 
 /// A plane `normal . x = offset`; the body lies where `normal . x` is smaller.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,10 +27,14 @@ pub struct Mirror {
 pub struct Reflection([Vector; 3]);
 
 impl Mirror {
-    /// The planes, at right angles to one another, that pairs of solids lie on: both nodes of some
-    /// pair are held across them.
-    pub fn of_pairs(model: &Model, pairs: impl Iterator<Item = usize>) -> Vec<Mirror> {
-        let mut out: Vec<Mirror> = Vec::new();
+    /// The planes that pairs of solids lie on: both nodes of some pair are held across them. First
+    /// those at right angles to one another, then those opposite to one of these: between the two
+    /// the contact goes on without end.
+    pub fn of_pairs(
+        model: &Model,
+        pairs: impl Iterator<Item = usize>,
+    ) -> (Vec<Mirror>, Vec<Mirror>) {
+        let (mut out, mut opposite): (Vec<Mirror>, Vec<Mirror>) = (Vec::new(), Vec::new());
         for k in pairs {
             let pair = &model.pairs[k];
             let held = |node: usize| {
@@ -38,18 +44,30 @@ impl Mirror {
                     .filter(move |&i| slots[i] == Slot::Fixed)
                     .map(move |i| axes[i])
             };
-            for normal in held(pair.first) {
-                let offset = dot(normal, model.mesh.point(pair.second));
-                let mirror = Mirror { normal, offset };
+            for normal in held(pair.faced().unwrap_or(pair.slave)) {
+                let x = model.mesh.point(pair.slave);
+                let mirror = Mirror {
+                    normal,
+                    offset: dot(normal, x),
+                };
+                let is_parallel = |other: Vector| length_of(cross(normal, other)) < SAME;
+                if !held(pair.slave).any(is_parallel) {
+                    continue;
+                }
                 // Mirror images of mirror images agree for planes at right angles.
-                let is_new = out.iter().all(|other| mirror.is_normal_to(other));
-                let is_same = |other: Vector| length_of(cross(normal, other)) < SAME;
-                if is_new && held(pair.second).any(is_same) {
+                if out.iter().all(|other| mirror.is_normal_to(other)) {
                     out.push(mirror);
+                }
+                // Round-off of places on one plane is far below the size of a pair's share.
+                let size = pair.area.sqrt();
+                let apart = |other: &Mirror| other.beyond(x).abs() > ON_PLANE * size;
+                let mut parallel = out.iter().filter(|other| is_parallel(other.normal));
+                if parallel.any(apart) && opposite.iter().all(|other| mirror.is_normal_to(other)) {
+                    opposite.push(mirror);
                 }
             }
         }
-        out
+        (out, opposite)
     }
 
     /// The unit vector across it.
@@ -140,7 +158,7 @@ pub fn mirrors(model: &Model, loaded: &[bool], elements: &[usize]) -> Vec<Mirror
 /// The plane of a facet that is held across and free along it, and the facet's length.
 fn mirror_on(model: &Model, loaded: &[bool], facet: Facet) -> Option<(Mirror, f64)> {
     let mesh = &model.mesh;
-    let reference = mesh.shapes[facet.element].reference().facet;
+    let reference = mesh.facet_reference(facet);
     let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
     let points: Vec<Vector> = nodes.iter().map(|&n| mesh.point(n)).collect();
     let length = length_of(difference(points[1], points[0]));

@@ -48,7 +48,7 @@ impl Solver<'_> {
 
     fn outgrown(&self, pair: usize, reached: f64) -> Error {
         let model = self.structure.model;
-        let place: Vec<String> = (model.mesh.point(model.pairs[pair].second).iter())
+        let place: Vec<String> = (model.mesh.point(model.pairs[pair].slave).iter())
             .take(model.mesh.dimension)
             .map(|x| format!("{x:.6}"))
             .collect();

@@ -18,7 +18,7 @@ use super::zone_fit::ZoneFit;
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::progress::{Flow, Observer};
-use crate::results::{HistoryRow, Quality, Results, State};
+use crate::results::{HistoryRow, Incomplete, Quality, Results, State};
 use crate::scene::Unit;
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -36,8 +36,10 @@ pub(super) fn complete(mut run: Run) -> Result<Results> {
         Ok(()) => {}
         Err(error) if results.states.is_empty() && results.history.is_empty() => return Err(error),
         Err(error) => {
-            results.incomplete = Some(error.in_full());
-            results.incomplete_kind = Some(error.kind());
+            results.incomplete = Some(Incomplete {
+                kind: error.kind(),
+                why: error.in_full(),
+            });
         }
     }
     Ok(results)

@@ -154,11 +154,9 @@ impl Reading<'_, '_> {
         }
         let contact = &self.solver.structure.sub.partition.contact;
         let left_over: Vec<f64> = contact.iter().map(|&f| out_of_balance[f]).collect();
-        let n = self.solver.now.force.len();
-        for (i, &f) in contact.iter().enumerate() {
-            let sign = if i < n { 1.0 } else { -1.0 };
-            out_of_balance[f] -= sign * self.solver.now.force[i % n];
-        }
+        let rows = &self.solver.structure.model.rows;
+        let force = &self.solver.now.force;
+        rows.add_forces(force, |i, force| out_of_balance[contact[i]] -= force);
 
         let mut quality = Quality {
             backward_error: self.backward_error(u),
@@ -171,13 +169,12 @@ impl Reading<'_, '_> {
         let gap_scale = delta
             .iter()
             .fold(self.solver.scales.displacement, |m, d| m.max(d.abs()));
-        for k in 0..n {
-            let gap = delta[k] - (u.total[contact[n + k]] - u.total[contact[k]]);
-            let forces = [left_over[k], -left_over[n + k]];
+        for (k, delta) in delta.iter().enumerate() {
+            let gap = delta - rows.slip(k, |i| u.total[contact[i]]);
             quality.penetration = quality
                 .penetration
                 .max(ratio(-gap, self.solver.scales.displacement));
-            for force in forces {
+            for force in rows.own(k).map(|(i, b)| -left_over[i] / b) {
                 let (tension, size) = (-force, force.abs());
                 quality.adhesion = quality.adhesion.max(self.share_of_forces(tension));
                 let product = ratio(gap.abs(), gap_scale) * self.share_of_forces(size);

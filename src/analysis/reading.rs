@@ -5,7 +5,7 @@ use super::stress_field::{OfStresses, StressField};
 use super::zone::Zone;
 use crate::element::Kernel;
 use crate::model::{AxisPoint, LoadCase, Magnitude};
-use crate::space::{difference, dot};
+use crate::space::{along, difference, dot};
 use std::collections::BTreeMap;
 
 /// Reads figures off the current state of a structure.
@@ -26,13 +26,14 @@ impl Reading<'_, '_> {
         let (solver, structure) = (&self.solver, &self.solver.structure);
         let (model, elements) = (structure.model, &structure.elements);
         let nodal = model.nodal(u, &solver.at.factors);
+        let formulation = model.scene.mesh.formulation;
         match &solver.zone {
             Zone::Plane(zone) => {
-                let kernel = Kernel::plane(model.kind);
+                let kernel = Kernel::plane(model.kind).integrated(formulation);
                 ask.of(&StressField::new(kernel, model, zone, elements, nodal))
             }
             Zone::Solid(zone) => ask.of(&StressField::new(
-                Kernel::solid(),
+                Kernel::solid().integrated(formulation),
                 model,
                 zone,
                 elements,
@@ -41,13 +42,17 @@ impl Reading<'_, '_> {
         }
     }
 
-    /// Distance of the two nodes of a point on the axis, for displacements of the whole model.
+    /// Distance of the bodies at a point on the axis, for displacements of the whole model.
     pub fn distance_on_axis(&self, axis: &AxisPoint, u: &[f64]) -> f64 {
         let (freedoms, at) = (&self.solver.structure.model.freedoms, &self.solver.at);
         let of = |node| freedoms.displacement(node, u, &at.factors);
-        let (first, second) = (of(axis.first), of(axis.node));
-        let opened = dot(difference(first, second), axis.normal);
-        axis.gap - at.interference * axis.interference + opened
+        let pair = &axis.pair;
+        let masters = pair.masters.iter();
+        let faced = masters.fold([0.0; 3], |sum, &(node, weight)| {
+            along(sum, weight, of(node))
+        });
+        let opened = dot(difference(faced, of(pair.slave)), pair.normal);
+        pair.gap - at.interference * pair.interference + opened
     }
 
     /// How far the loads that vary have brought the bodies together

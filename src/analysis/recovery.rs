@@ -84,13 +84,14 @@ pub enum Recovery {
 impl Recovery {
     /// Recovery over the given elements (ascending).
     pub fn new(model: &Model, elements: &[usize], places: &Places) -> Self {
+        let formulation = model.scene.mesh.formulation;
         match model.kind {
             Space::Solid => {
-                let kernel = Kernel::solid();
+                let kernel = Kernel::solid().integrated(formulation);
                 Recovery::Solid(Box::new(RecoveryOf::new(kernel, model, elements, places)))
             }
             space => {
-                let kernel = Kernel::plane(space);
+                let kernel = Kernel::plane(space).integrated(formulation);
                 Recovery::Plane(Box::new(RecoveryOf::new(kernel, model, elements, places)))
             }
         }

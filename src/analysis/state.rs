@@ -33,13 +33,14 @@ pub(super) struct State {
 }
 
 impl State {
-    /// Whether it is one of a structure with so many pairs and loads, and its parts fit each other.
-    pub(super) fn fits(&self, n_pairs: usize, n_loads: usize) -> bool {
+    /// Whether it is one of a structure with so many pairs, contact freedoms and loads, and its parts
+    /// fit each other.
+    pub(super) fn fits(&self, [n_pairs, n_contact]: [usize; 2], n_loads: usize) -> bool {
         let now = &self.equilibrium;
         let trailing = [&now.initial.load, &now.initial.eliminated, &now.u];
         let pairs = [&now.gap, &now.force, &now.initial.forces];
         let same = |v: &&crate::substructure::Trailing| {
-            v.zone.len() == now.u.zone.len() && v.contact.len() == 2 * n_pairs
+            v.zone.len() == now.u.zone.len() && v.contact.len() == n_contact
         };
         self.at.factors.len() == n_loads
             && self.open.len() == n_pairs

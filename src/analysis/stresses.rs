@@ -2,8 +2,8 @@
 //! has yielded.
 
 use super::stress_field::{OfStresses, StressField};
-use crate::model::Slot;
-use crate::space::Vector;
+use crate::model::{Model, Pair, Slot};
+use crate::space::{Vector, difference, dot};
 use rayon::prelude::*;
 
 /// Elements that are evaluated before their forces are summed: few enough to stay in the
@@ -27,6 +27,10 @@ pub(super) struct Stresses {
     pub(super) plastic_points: Vec<usize>,
     /// Volume of the Gauss points that have flowed.
     pub(super) plastic_volume: f64,
+    /// Work on their plastic strains.
+    pub(super) plastic_work: f64,
+    /// Largest distance of such a point below a contact surface, along the normal there.
+    pub(super) plastic_depth: f64,
     /// Largest equivalent plastic strain.
     pub(super) plastic_strain: f64,
 }
@@ -66,6 +70,8 @@ impl Stresses {
             beyond_yield_outside,
             plastic_points: vec![0; model.mesh.bodies.len()],
             plastic_volume: 0.0,
+            plastic_work: 0.0,
+            plastic_depth: 0.0,
             plastic_strain: 0.0,
         };
         for (node, force) in forces.into_iter().enumerate() {
@@ -81,16 +87,37 @@ impl Stresses {
         for (e, history) in field.flowed() {
             let gradients = field.model.gradients(&field.kernel, e);
             let body = model.mesh.element_body[e] as usize;
-            for (past, weight) in history.iter().zip(gradients.weights()) {
+            let surface = nearest_pair(model, e);
+            let places = gradients.positions(&model.element_coordinates(e));
+            for (g, (past, weight)) in history.iter().zip(gradients.weights()).enumerate() {
                 if past.equivalent > 0.0 {
+                    if let Some((foot, normal)) = surface {
+                        let along = (0..D).map(|d| (places[d][g] - foot[d]) * normal[d]);
+                        let depth = along.fold(0.0, |sum, part| sum + part).abs();
+                        out.plastic_depth = out.plastic_depth.max(depth);
+                    }
                     out.plastic_points[body] += 1;
                     out.plastic_volume += weight;
+                    out.plastic_work +=
+                        weight * model.materials[body].plastic_work(past.equivalent);
                     out.plastic_strain = out.plastic_strain.max(past.equivalent);
                 }
             }
         }
         out
     }
+}
+
+/// Place and normal of the pair of contact nearest to an element's first node.
+fn nearest_pair(model: &Model, element: usize) -> Option<(Vector, Vector)> {
+    let x = model.mesh.point(model.mesh.nodes(element)[0] as usize);
+    let off = |pair: &Pair| {
+        let way = difference(model.mesh.point(pair.slave), x);
+        dot(way, way)
+    };
+    let nearest = model.pairs.iter().map(|pair| (off(pair), pair));
+    let (_, pair) = nearest.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some((model.mesh.point(pair.slave), pair.normal))
 }
 
 /// Forces on the nodes in global axes, and the elements outside the zone that are beyond yield.

@@ -5,8 +5,8 @@
 //! product with `S` is never needed because `S p` follows from the recurrence of the search
 //! directions.
 //!
-//! Closed pairs constrain the search to `u_second = u_first`: forces `(c, -c)` on the two nodes of
-//! one do no work and move nothing. No step takes them from the residual, and each would multiply
+//! Closed pairs constrain the search to `B u = 0`: forces `B' c`, of a pair of nodes `(-c, c)`, do no
+//! work and move nothing. No step takes them from the residual, and each would multiply
 //! their round-off by its length, by orders in a few steps where little stiffness is left: they are
 //! taken off and kept apart.
 //!
@@ -77,9 +77,9 @@ impl Solver<'_> {
         }
         total.add(1.0, &z);
         let contact = &mut total.initial.load.contact;
+        let rows = &self.structure.model.rows;
+        rows.add_forces(&carried, |i, force| contact[i] += force);
         for (k, c) in carried.iter().enumerate() {
-            contact[k] += c;
-            contact[carried.len() + k] -= c;
             // Compressive forces hold the nodes of a pair apart.
             total.initial.forces[k] -= c;
             total.force[k] -= c;
@@ -88,18 +88,10 @@ impl Solver<'_> {
         total
     }
 
-    /// Takes the forces `(c, -c)` on the nodes of closed pairs off a load and adds them to
-    /// `carried`: what is left is the same on both nodes.
+    /// Takes the forces `-B' c` that closed pairs carry alone off a load and adds them to `carried`.
     fn take_what_closed_pairs_carry(&self, load: &mut Trailing, carried: &mut [f64]) {
-        let (first, second) = load.contact.split_at_mut(carried.len());
-        let pairs = first.iter_mut().zip(second).zip(carried);
-        for (((first, second), carried), open) in pairs.zip(self.tableau.open()) {
-            if !open {
-                let half = 0.5 * (*first + *second);
-                *carried += 0.5 * (*first - *second);
-                (*first, *second) = (half, half);
-            }
-        }
+        let rows = &self.structure.model.rows;
+        rows.take_carried(&mut load.contact, carried, self.tableau.open());
     }
 
     /// Where the displacements of search directions enter a tangent solve: where the material flows

@@ -50,31 +50,20 @@ impl Choice {
     }
 }
 
-/// Free freedoms of the elements that are not contact freedoms, ascending, and their rings round
-/// the contacts ([`crate::linalg::Partition::rings`]).
-pub fn zone_freedoms(model: &Model, elements: &[usize]) -> (Vec<usize>, Vec<u8>) {
-    let regions = regions(model, Reach::OfZone);
-    let mut marked = vec![None; model.freedoms.n];
+/// Free freedoms of the elements that are not contact freedoms, ascending.
+pub fn zone_freedoms(model: &Model, elements: &[usize]) -> Vec<usize> {
+    let mut marked = vec![false; model.freedoms.n];
     for &e in elements {
         for &node in model.mesh.nodes(e) {
-            let x = model.mesh.point(node as usize);
-            let ring = regions.iter().map(|region| region.ring(x)).max();
             for slot in model.freedoms.slots[node as usize] {
                 if let Slot::Free(f) = slot {
-                    marked[f as usize] = ring.or(Some(0));
+                    marked[f as usize] = true;
                 }
             }
         }
     }
-    for pair in &model.pairs {
-        for node in [pair.first, pair.second] {
-            if let Some(f) = model.freedoms.normal_freedom(node) {
-                marked[f] = None;
-            }
-        }
-    }
-    let marked = marked.into_iter().enumerate();
-    marked.filter_map(|(f, ring)| Some((f, ring?))).unzip()
+    model.rows.freedoms.iter().for_each(|&f| marked[f] = false);
+    (0..marked.len()).filter(|&f| marked[f]).collect()
 }
 
 fn regions(model: &Model, reach: Reach) -> Vec<Region> {
@@ -202,7 +191,7 @@ fn widen(model: &Model, mut marked: Vec<bool>, layers: usize) -> Vec<bool> {
 /// yield (0 elsewhere), for displacements of the whole model.
 pub fn stress_ratios(model: &Model, u: &[f64], factors: &[f64]) -> Vec<f64> {
     let displacements = model.nodal(u, factors);
-    with_kernel!(model.kind, kernel => ratios_of(&kernel, model, &displacements))
+    with_kernel!(model, kernel => ratios_of(&kernel, model, &displacements))
 }
 
 fn ratios_of<const D: usize, const S: usize, const P: usize, const N: usize>(
@@ -257,10 +246,11 @@ impl Solver<'_> {
         for (&f, j) in partition.zone.iter().zip(&self.now.initial.load.zone) {
             load[f] += j;
         }
-        let n = self.now.force.len();
-        for (i, &f) in partition.contact.iter().enumerate() {
-            let sign = if i < n { 1.0 } else { -1.0 };
-            load[f] += self.now.initial.load.contact[i] + sign * self.now.force[i % n];
+        let mut contact = self.now.initial.load.contact.clone();
+        let rows = &self.structure.model.rows;
+        rows.add_forces(&self.now.force, |i, force| contact[i] += force);
+        for (&f, force) in partition.contact.iter().zip(contact) {
+            load[f] += force;
         }
         load
     }

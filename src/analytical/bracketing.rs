@@ -4,7 +4,7 @@
 ///
 /// `f` must change sign once in the interval; where it does not, the end at which `f` is closer to
 /// that change is returned (a monotone `f` that is all of one sign yields an end of the interval).
-pub(super) fn root(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
+pub(crate) fn root(f: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     let rising = f(high) >= f(low);
     loop {
         let middle = low + 0.5 * (high - low);

@@ -46,6 +46,7 @@ mod thick_cylinder;
 mod thick_sphere;
 mod von_mises;
 
+pub(crate) use bracketing::root;
 pub use contact_pair::{contact_modulus, relative_radius};
 pub use disc_in_plate::DiscInPlate;
 pub use elastoplastic_cylinder::ElastoplasticCylinder;

@@ -109,7 +109,7 @@ impl ElementMatrices {
             rest = tail;
         }
         let blocks = blocks.into_par_iter().enumerate().with_min_len(256);
-        with_kernel!(model.kind, kernel => blocks.for_each(|(e, block)| {
+        with_kernel!(model, kernel => blocks.for_each(|(e, block)| {
             let elastic = &elastic[model.mesh.element_body[e] as usize];
             model.gradients(&kernel, e).stiffness_into(elastic, block);
             local::share_stiffness(model, e, block);

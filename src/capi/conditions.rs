@@ -4,7 +4,7 @@ use super::border::{SizePrefixed, shared, slice, take, text};
 use super::model::{brinell_model, change, one_of};
 use crate::error::{Error, Result};
 use crate::model::NodePair;
-use crate::scene::{Body, Contact, Direction, Material, Plastic, Support};
+use crate::scene::{Body, Contact, Direction, Material, Plastic, SlaveSide, Support};
 use crate::space::Vector;
 use std::ffi::c_char;
 
@@ -33,7 +33,8 @@ unsafe impl SizePrefixed for brinell_material {
     const NAME: &'static str = "brinell_material";
 }
 
-/// How two surfaces touch. NULL stands for the defaults, which are all zeros: nodes are paired by geometry.
+/// How two surfaces touch. NULL stands for the defaults, which are all zeros: nodes that face each other are paired, other
+/// surfaces are coupled by the integrals of their shape functions.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct brinell_contact {
@@ -46,16 +47,19 @@ pub struct brinell_contact {
     /// Direction from the second body to the first of all pairs (2 values), for the pairing by geometry; NULL for the second surface's
     /// outward normals.
     pub normal: *const f64,
-    /// Number of pairs that are given; 0: nodes are paired by geometry.
+    /// Number of pairs that are given; 0: by geometry.
     pub n_pairs: usize,
     /// n_pairs nodes of the first surface.
     pub first_nodes: *const i64,
     /// n_pairs nodes of the second surface.
     pub second_nodes: *const i64,
-    /// n_pairs x 2: direction from the second body to the first; NULL for the second surface's outward normals.
+    /// n_pairs x 2, of a solid x 3: direction from the second body to the first; NULL for the second surface's outward normals.
     pub normals: *const f64,
     /// n_pairs gaps >= 0; NULL for the geometric ones.
     pub gaps: *const f64,
+    /// Which surface has the slaves, at whose nodes gaps and pressures are: 1 the first, 2 the second; 0: the finer one, the second
+    /// where nodes face each other.
+    pub slave: i32,
 }
 
 // SAFETY: repr(C), begins with its size, numbers and pointers.
@@ -202,6 +206,16 @@ pub unsafe extern "C" fn brinell_model_contact(
                     .map(|normal| m.builder.components(*normal)),
                 gap: given.gap.as_ref().copied(),
                 interference: given.interference,
+                slave: match given.slave {
+                    0 => SlaveSide::Auto,
+                    1 => SlaveSide::First,
+                    2 => SlaveSide::Second,
+                    other => {
+                        return Err(Error::input(format!(
+                            "slave is {other}; give 1 for the first surface, 2 for the second, 0 to have it chosen"
+                        )));
+                    }
+                },
             };
             let n = given.n_pairs;
             if n == 0 {
@@ -250,6 +264,30 @@ pub unsafe extern "C" fn brinell_model_support(
                 fix: directions(fix, "support")?,
                 angle: (angle != 0.0).then_some(angle),
                 direction: None,
+            });
+            Ok(())
+        })
+    }
+}
+
+/// Holds a node set or surface along any one direction: two components, of a solid three.
+///
+/// # Safety
+/// `model` is a living handle, `on` a text that ends with a zero byte, `direction` has as many values as the model has directions.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn brinell_model_support_along(
+    model: *mut brinell_model,
+    on: *const c_char,
+    direction: *const f64,
+) -> i32 {
+    // SAFETY: the caller vouches for every pointer.
+    unsafe {
+        change(model, |m| {
+            let along = m.vectors(direction, 1, "direction of the support")?;
+            m.builder.support(Support {
+                on: text(on, "the set")?.to_string(),
+                direction: along.first().map(|along| m.builder.components(*along)),
+                ..Support::default()
             });
             Ok(())
         })

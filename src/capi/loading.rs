@@ -50,7 +50,7 @@ pub struct brinell_load {
     pub values: [f64; 3],
     /// n_nodes nodes of a nodal load.
     pub nodes: *const i64,
-    /// n_nodes x 2 forces.
+    /// n_nodes x 2 forces, of a solid x 3.
     pub forces: *const f64,
     /// Nodes of a nodal load.
     pub n_nodes: usize,

@@ -42,6 +42,10 @@ pub const BRINELL_SHAPE_TET10: i32 = 5;
 pub const BRINELL_SHAPE_HEX8: i32 = 6;
 /// Eight corners, then the middles of the edges of base, top, and between them.
 pub const BRINELL_SHAPE_HEX20: i32 = 7;
+/// Linear prism of six nodes.
+pub const BRINELL_SHAPE_PRISM6: i32 = 8;
+/// Quadratic prism of fifteen nodes.
+pub const BRINELL_SHAPE_PRISM15: i32 = 9;
 
 /// One of several values by its number.
 pub(super) fn one_of<T: Copy>(values: &[T], which: i32, what: &str) -> Result<T> {

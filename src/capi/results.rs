@@ -16,7 +16,7 @@ pub struct brinell_results {
     /// Name of each state.
     names: Vec<CString>,
     /// For each state the pairs' values, one array for each of BRINELL_PAIR_...
-    pairs: Vec<[Vec<f64>; 7]>,
+    pairs: Vec<[Vec<f64>; 8]>,
     /// One array for each of BRINELL_HISTORY_...
     history: [Vec<f64>; 7],
 }
@@ -35,10 +35,12 @@ pub const BRINELL_PAIR_AREA: i32 = 4;
 pub const BRINELL_PAIR_PRESSURE: i32 = 5;
 /// 1 where closed, 0 where open.
 pub const BRINELL_PAIR_CLOSED: i32 = 6;
+/// Undeformed z, of a solid.
+pub const BRINELL_PAIR_Z: i32 = 7;
 
-/// n_nodes x 2 displacements, node by node.
+/// n_nodes x 2 displacements, of a solid x 3, node by node.
 pub const BRINELL_FIELD_DISPLACEMENT: i32 = 0;
-/// n_elements x 4 mean stresses: xx, yy, zz, xy (axisymmetric rr, zz, tt, rz).
+/// n_elements x 4 mean stresses: xx, yy, zz, xy (axisymmetric rr, zz, tt, rz); of a solid x 6, yz and zx after them.
 pub const BRINELL_FIELD_STRESS: i32 = 1;
 /// n_elements von Mises stresses.
 pub const BRINELL_FIELD_VON_MISES: i32 = 2;
@@ -134,7 +136,7 @@ pub struct brinell_mesh {
     pub n_nodes: usize,
     /// Number of elements.
     pub n_elements: usize,
-    /// n_nodes x 2 coordinates, node by node.
+    /// n_nodes x 2 coordinates, of a solid x 3, node by node.
     pub coordinates: *const f64,
     /// Nodes of all elements, one element after the other.
     pub connectivity: *const u32,
@@ -158,6 +160,7 @@ impl brinell_results {
             BRINELL_PAIR_FORCE => pair.force,
             BRINELL_PAIR_AREA => pair.area,
             BRINELL_PAIR_PRESSURE => pair.pressure,
+            BRINELL_PAIR_Z => pair.position[2],
             _ => f64::from(u8::from(pair.status == Status::Closed)),
         };
         let of_row = |row: &HistoryRow, which: i32| match which {
@@ -189,7 +192,7 @@ impl brinell_results {
         }
     }
 
-    fn state(&self, index: usize) -> Result<&State> {
+    pub(super) fn state(&self, index: usize) -> Result<&State> {
         self.results.states.get(index).ok_or_else(|| {
             Error::input(format!(
                 "there is no state {index}: the run left {}",
@@ -273,7 +276,7 @@ pub unsafe extern "C" fn brinell_results_yield(
     })
 }
 
-/// The figures of state `index`, from 0.
+/// The figures of state `index`, from 0; brinell_results_value has all of them.
 ///
 /// # Safety
 /// `results` is a living handle; `out` is as long as it says.

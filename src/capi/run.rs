@@ -12,6 +12,7 @@ use crate::model::Model;
 use crate::output::{self, RunHeader};
 use crate::panics::outside;
 use crate::progress::{Flow, Observer};
+use crate::reference;
 use crate::results::{HistoryRow, Results};
 use crate::scene::Scene;
 use std::ffi::{CString, c_char, c_void};
@@ -181,6 +182,7 @@ fn as_it_stands(
     observer: &mut dyn Observer,
 ) -> Result<(Analysis, Results)> {
     let mut analysis = Analysis::new(model, backend)?;
-    let results = analysis.run(observer)?;
+    let mut results = analysis.run(observer)?;
+    reference::compare(analysis.model(), &mut results);
     Ok((analysis, results))
 }

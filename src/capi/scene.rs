@@ -1,6 +1,7 @@
 //! Scenes.
 
 use super::border::{free, guarded, hand_out, slice, text};
+use crate::deck::{self, Options};
 use crate::scene::Scene;
 use std::ffi::c_char;
 
@@ -28,7 +29,11 @@ pub unsafe extern "C" fn brinell_scene_load(
                 .iter()
                 .map(|&one| text(one, "an override").map(str::to_string))
                 .collect::<crate::Result<Vec<_>>>()?;
-            let scene = Scene::load_with(text(path, "the path of the scene")?, &overrides)?;
+            let scene = deck::load_with(
+                text(path, "the path of the scene")?,
+                &overrides,
+                Options::default(),
+            )?;
             hand_out(out, brinell_scene { scene })
         }
     })

@@ -1,6 +1,8 @@
 //! Misuse from the other side: a status and a message, never worse. What works is shown by the programs in `ffi/examples`.
 
 mod arrival;
+mod quantities;
+mod solid;
 
 use super::*;
 use std::ffi::{CStr, CString};
@@ -451,7 +453,7 @@ fn bad_arrays_are_refused_by_index_and_leave_the_model_as_it_was() {
             elements([0, 1, 2, 4], BRINELL_SHAPE_QUAD4),
             &["element 0", "is 4"],
         );
-        refused(elements([0, 1, 2, 3], 9), &["shape 9"]);
+        refused(elements([0, 1, 2, 3], 10), &["shape 10"]);
         assert_eq!(elements([0, 1, 2, 3], BRINELL_SHAPE_QUAD4), BRINELL_OK);
         refused(
             brinell_model_support(model, body, 8, 0.0),

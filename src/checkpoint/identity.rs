@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::linalg::Backend;
-use crate::mesh::{Curve, Mesh};
+use crate::mesh::Mesh;
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -114,15 +114,11 @@ fn hash(mesh: &Mesh) -> u128 {
         }
         match &surface.curve {
             None => number(0),
-            Some(Curve::Line { normal }) => normal.iter().for_each(|x| number(x.to_bits())),
-            Some(Curve::Circle {
-                center,
-                radius,
-                outward,
-            }) => {
-                center.iter().for_each(|x| number(x.to_bits()));
-                number(radius.to_bits());
-                number(u64::from(*outward));
+            Some(curve) => {
+                let (numbers, outward) = curve.numbers();
+                curve.name().bytes().for_each(|b| number(u64::from(b)));
+                numbers.iter().for_each(|x| number(x.to_bits()));
+                number(u64::from(outward));
             }
         }
     }
@@ -136,7 +132,7 @@ fn hash(mesh: &Mesh) -> u128 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::{Facet, Surface};
+    use crate::mesh::{Curve, Facet, Surface};
     use serde_json::json;
     use std::collections::BTreeSet;
 

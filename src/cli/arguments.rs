@@ -14,6 +14,7 @@ Examples:
   brinell yield press.toml --json
   brinell new ball-on-flat --radius 5 --load 20 > ball.toml
   brinell view press.out
+  brinell check press.inp
 
 Exit codes:
     0  done
@@ -78,9 +79,17 @@ pub(super) enum Command {
     ///
     /// Reads the scene, builds the mesh and the model, and says which effects the run will simulate
     /// and why, its size, and the time and memory of the factorisation, predicted from the pattern
-    /// of the matrix.
+    /// of the matrix. Of a deck also what was understood, taken otherwise and ignored, and why.
     #[command(after_help = "Example: brinell check data/scenes/disc_in_plate.toml")]
     Check(CheckArguments),
+    /// Write the scene and the mesh that a deck of Abaqus or CalculiX describes
+    ///
+    /// The scene (TOML) and beside it its mesh (Gmsh) can be edited and run: the results are those
+    /// of the deck.
+    #[command(
+        after_help = "Example: brinell convert press.inp --out press.toml && brinell run press.toml"
+    )]
+    Convert(super::convert::ConvertArguments),
     /// Run hard cases on this machine and build: worst figure of each family, its bound, pass or
     /// fail
     ///
@@ -180,7 +189,7 @@ pub(super) struct CheckArguments {
 
 #[derive(Debug, Args)]
 pub(super) struct CommonArguments {
-    /// The scene file
+    /// The scene file, or a deck of Abaqus or CalculiX (.inp)
     #[arg(value_name = "SCENE")]
     pub scene: PathBuf,
     /// What factors the stiffness matrix
@@ -193,6 +202,10 @@ pub(super) struct CommonArguments {
     /// Print one JSON object (the content of summary.json) instead of tables
     #[arg(long)]
     pub json: bool,
+    /// Compute the steps of a deck that ask for NLGEOM with small strains and displacements, instead
+    /// of refusing them
+    #[arg(long)]
+    pub small_strain: bool,
     #[arg(long = "set", value_name = "KEY=VALUE", help = "Put a value over the scene's (see --help)", long_help = SET_HELP)]
     pub overrides: Vec<String>,
 }

@@ -7,11 +7,13 @@ use super::{completions, example, interrupt, new, print, report, schema, study, 
 use crate::accuracy::{self, Extent};
 use crate::analysis::{self, Analysis, Check};
 use crate::checkpoint::Checkpoints;
+use crate::deck::{self, Deck, Options};
 use crate::error::{Error, Result};
 use crate::linalg::Backend;
 use crate::model::Model;
 use crate::output::{self, Claim, RunHeader};
 use crate::progress::Observer;
+use crate::reference;
 use crate::results::Results;
 use crate::scene::Scene;
 use crate::text::shown_json;
@@ -34,6 +36,7 @@ pub(super) fn execute(arguments: &Arguments, start: Instant) -> Result<()> {
         }
         Command::Yield(run) => analyse(run, None, run.out.clone(), Extent::Yield, start),
         Command::Check(check) => predict(&check.common),
+        Command::Convert(convert) => super::convert::run(convert),
         Command::Selftest(selftest) => super::selftest::execute(selftest),
         Command::Accuracy(arguments) => study::execute(arguments),
         Command::Example(example) => example::run(example),
@@ -179,6 +182,7 @@ fn once(
         }
         (Extent::Yield, _) => analysis.yield_load(progress)?,
     };
+    reference::compare(analysis.model(), &mut results);
     if !arguments.no_estimate {
         let found = accuracy::estimate(scene, backend, &results, extent, progress);
         results
@@ -210,6 +214,9 @@ pub(super) fn header(
 
 /// What a run would do and cost.
 fn predict(common: &CommonArguments) -> Result<()> {
+    if deck::is_deck(&common.scene) && !common.json {
+        print(&super::deck::account(&Deck::read(&common.scene)?))?;
+    }
     let scene = prepare(common, None)?;
     let model = Model::new(&scene)?;
     let check: Check = analysis::check(&model, common.solver.into())?;
@@ -223,7 +230,10 @@ fn predict(common: &CommonArguments) -> Result<()> {
 /// The scene with all that is put over it, `last` after the rest.
 pub(super) fn prepare(common: &CommonArguments, last: Option<String>) -> Result<Scene> {
     let overrides: Vec<String> = common.overrides.iter().cloned().chain(last).collect();
-    let scene = Scene::load_with(&common.scene, &overrides)?;
+    let options = Options {
+        small_strain: common.small_strain,
+    };
+    let scene = deck::load_with(&common.scene, &overrides, options)?;
     start_threads(common.threads.map(usize::from))?;
     Ok(scene)
 }

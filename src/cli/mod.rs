@@ -7,6 +7,8 @@
 mod arguments;
 mod commands;
 mod completions;
+mod convert;
+mod deck;
 mod example;
 mod forecast;
 mod interrupt;

@@ -359,7 +359,7 @@ title = \"Shaft in a bore, interference fit\"
 kind = \"plane_stress\"
 {UNITS}
 
-# Quarter model. Nodes must pair: the disc has `elements` over its quarter circle, the ring the same number along its angle.
+# Quarter model. The disc has `elements` over its quarter circle, the ring as many along its angle: nodes face each other.
 [[mesh.parts]]
 body = \"shaft\"
 disc = {{ radius = {radius}, elements = {n} }}

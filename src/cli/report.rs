@@ -4,8 +4,12 @@ use super::number::{bytes, number, ratio, seconds, significant};
 use super::table::{Column::*, Table, WIDTH, wrap};
 use crate::analysis::Check;
 use crate::linalg::Prediction;
-use crate::results::{Effect, Quality, ReferenceRow, Results, Sizes, State, YieldPoint};
+use crate::output::columns::{cell, of_states};
+use crate::results::{
+    Effect, QUANTITIES, Quality, ReferenceRow, Results, Sizes, State, YieldPoint,
+};
 use crate::scene::{Kind, Scene, Unit};
+use crate::space::Space;
 use crate::text::shown_in_line;
 use std::path::Path;
 
@@ -30,8 +34,8 @@ pub(super) fn results(
         scene.program.unit,
         results.sizes.contact_pairs > 0,
     );
-    if let Some(why) = &results.incomplete {
-        report.paragraph(&format!("INCOMPLETE: {why}"));
+    if let Some(incomplete) = &results.incomplete {
+        report.paragraph(&format!("INCOMPLETE: {}", incomplete.why));
     }
     report.reference(&results.reference);
     if let Some(accuracy) = &results.accuracy {
@@ -81,15 +85,25 @@ fn counted(count: usize, what: &str) -> String {
     format!("{count} {what}{plural}")
 }
 
-/// Two figures of a state within this of each other need no column each: the table shows six
-/// digits.
-const SAME: f64 = 1e-6;
 /// Width of the labels.
 const LABEL: usize = 9;
 
+/// The table of states.
+pub(super) fn states_table(states: &[State], space: Space, contact: bool) -> Table {
+    let columns = of_states(states, space, contact, true);
+    let numbers = columns.iter().map(|column| (Number, column.heading));
+    let headings: Vec<_> = std::iter::once((Text, "state")).chain(numbers).collect();
+    let mut table = Table::new(&headings);
+    for (index, state) in states.iter().enumerate() {
+        let cells = columns.iter().map(|column| column.cells[index].clone());
+        table.row(std::iter::once(state.name.clone()).chain(cells));
+    }
+    table
+}
+
 struct Report {
     text: String,
-    is_solid: bool,
+    space: Space,
 }
 
 impl Report {
@@ -107,7 +121,7 @@ impl Report {
         };
         let mut report = Report {
             text: String::new(),
-            is_solid: scene.kind.is_solid(),
+            space: scene.kind,
         };
         report.lines(&format!("{} ({kind})", shown_in_line(&title)));
         report.text.push('\n');
@@ -228,22 +242,24 @@ impl Report {
     }
 
     fn first_yield(&mut self, first: &YieldPoint, bodies: &[String], contact: bool) {
-        let body = bodies.get(first.body).cloned().unwrap_or_default();
-        let mut columns = vec![
-            (Number, "factor on\nthe loads", number(first.alpha)),
-            (Number, "load", number(first.load)),
-        ];
-        if contact {
-            columns.push((Number, "max\npressure", number(first.max_pressure)));
-            columns.push((Number, "half\nwidth", number(first.half_width)));
+        let mut columns: Vec<(super::table::Column, &'static str, String)> = Vec::new();
+        for quantity in QUANTITIES.iter().filter(|q| q.scope.holds(contact, true)) {
+            let heading = match quantity.key {
+                "alpha" => "factor on\nthe loads",
+                _ => quantity.heading,
+            };
+            let value = quantity.at_yield.map(|field| (field.get)(first));
+            columns.extend(value.map(|value| (Number, heading, cell(quantity, value))));
         }
+        let body = bodies.get(first.body).cloned().unwrap_or_default();
         columns.extend([
             (Text, "in body", body),
             (Number, "at x", number(first.location[0])),
             (Number, "y", number(first.location[1])),
         ]);
         columns.extend(
-            self.is_solid
+            self.space
+                .is_solid()
                 .then(|| (Number, "z", number(first.location[2]))),
         );
         let headings: Vec<_> = columns.iter().map(|c| (c.0, c.1)).collect();
@@ -257,105 +273,12 @@ impl Report {
         if states.is_empty() {
             return;
         }
-        let differ = |a: f64, b: f64| (a - b).abs() > SAME * a.abs().max(b.abs());
-        let arc = states.iter().any(|s| s.contact_arc.is_some());
-        let force = states.iter().any(|s| differ(s.load, s.contact_force));
-        let pole = states
-            .iter()
-            .any(|s| differ(s.max_pressure, s.pole_pressure));
-        let plastic = states.iter().any(|s| s.plastic_points > 0);
-        let degrees = |s: &State, end: usize| match s.contact_arc {
-            Some(arc) => format!("{:.2}", arc[end] + 0.0),
-            None => "-".to_string(),
-        };
-        let small = |value: f64| significant(value, 5);
-        type Cell<'a> = Box<dyn Fn(&State) -> String + 'a>;
-        let mut columns: Vec<(super::table::Column, &'static str, Cell)> = vec![
-            (Text, "state", Box::new(|s| s.name.clone())),
-            (Number, "load\nfactor", Box::new(|s| number(s.alpha))),
-            (Number, "load", Box::new(|s| number(s.load))),
-        ];
-        let mut show = |when: bool, heading: &'static str, cell: Cell<'static>| {
-            if when {
-                columns.push((Number, heading, cell));
-            }
-        };
-        show(
-            contact && force,
-            "contact\nforce",
-            Box::new(|s| number(s.contact_force)),
-        );
-        show(
-            contact,
-            "max\npressure",
-            Box::new(|s| number(s.max_pressure)),
-        );
-        show(
-            contact && pole,
-            "pole\npressure",
-            Box::new(|s| number(s.pole_pressure)),
-        );
-        let larger = |s: &State| s.patches.first().map_or(0.0, |patch| patch.semi_axes[0]);
-        show(
-            contact && self.is_solid,
-            "larger\nhalf axis",
-            Box::new(move |s| number(larger(s))),
-        );
-        show(
-            contact && !arc,
-            if self.is_solid {
-                "smaller\nhalf axis"
-            } else {
-                "half\nwidth"
-            },
-            Box::new(|s| number(s.half_width)),
-        );
-        show(
-            contact && arc,
-            "arc\nfrom\n[deg]",
-            Box::new(move |s| degrees(s, 0)),
-        );
-        show(
-            contact && arc,
-            "arc\nto\n[deg]",
-            Box::new(move |s| degrees(s, 1)),
-        );
-        show(
-            contact && !arc && !pole,
-            "approach",
-            Box::new(move |s| small(s.approach)),
-        );
-        show(
-            !contact,
-            "displace-\nment",
-            Box::new(move |s| small(s.approach)),
-        );
-        show(
-            contact && plastic,
-            "residual\ndepth",
-            Box::new(move |s| small(s.residual_depth)),
-        );
-        show(
-            plastic,
-            "plastic\npoints",
-            Box::new(|s| s.plastic_points.to_string()),
-        );
-        show(
-            plastic,
-            "max\nplastic\nstrain",
-            Box::new(move |s| small(s.max_equivalent_plastic_strain)),
-        );
-        let headings: Vec<_> = columns.iter().map(|c| (c.0, c.1)).collect();
-        let mut table = Table::new(&headings);
-        for state in states {
-            table.row(columns.iter().map(|c| (c.2)(state)));
-        }
         self.section(
             match unit {
                 Unit::Load => "States",
                 Unit::Yield => "States (load factor 1 is first yield)",
             },
-            &table,
+            &states_table(states, self.space, contact),
         );
     }
 

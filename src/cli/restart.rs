@@ -85,7 +85,7 @@ fn beside(out: &Path) -> Checkpoints {
 /// checkpoints no more, nor those that an earlier run with the same results left when it was
 /// killed.
 pub(super) fn settle(out: &Path, results: &Results) -> Result<()> {
-    match results.incomplete_kind {
+    match results.ending().kind() {
         Some(ErrorKind::Stopped) => Ok(()),
         _ => beside(out).remove(),
     }

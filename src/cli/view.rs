@@ -1,14 +1,13 @@
 //! `brinell view`: the report of a result directory made anew, or its main figures in the terminal.
 
 use super::number::{number, significant};
+use super::report::states_table;
 use super::{print, warn};
 use crate::error::Result;
-use crate::output::{
-    self,
-    rows::{self, Rows},
-};
+use crate::output::{self, rows};
+use crate::results::{HistoryRow, QUANTITIES, Results};
+use crate::space::Space;
 use clap::Args;
-use serde_json::Value;
 use std::path::PathBuf;
 
 /// What `brinell view` takes.
@@ -44,72 +43,53 @@ pub(super) fn run(arguments: &ViewArguments) -> Result<()> {
 fn terminal(arguments: &ViewArguments) -> Result<()> {
     let dir = &arguments.dir;
     let summary = rows::summary(&dir.join("summary.json"))?;
-    let mut text = headlines(&summary);
-    let history = Rows::read(&dir.join("history.csv"))?;
+    let history: Vec<HistoryRow> = rows::rows(&dir.join("history.csv"))?;
+    let mut text = format!("{}\n", summary.scene);
+    let space = summary.space();
+    text.push_str(&headlines(&summary.results(&[]), space));
     // Where a displacement is prescribed without contact the history has no load.
-    let load = history.column("load")?;
-    let (load, against) = match load.iter().any(|l| l.is_finite()) {
-        true => (load, "load"),
-        false => (history.column("alpha")?, "load factor"),
-    };
-    let columns = usize::from(arguments.width);
-    for (name, title) in [
-        ("max_pressure", "Maximum contact pressure"),
-        ("half_width", "Contact half width"),
-        (
-            "max_equivalent_plastic_strain",
-            "Largest equivalent plastic strain",
-        ),
-    ] {
-        let values = history.column(name)?;
-        let points: Vec<[f64; 2]> = load.iter().zip(&values).map(|(x, y)| [*x, *y]).collect();
-        if values.iter().any(|v| *v > 0.0) {
-            text.push_str(&format!(
-                "\n{title} against {against}\n{}",
-                plot(&points, columns)
-            ));
+    let (against, load): (_, fn(&HistoryRow) -> f64) =
+        match history.iter().any(|row| row.load.is_finite()) {
+            true => ("load", |row| row.load),
+            false => ("load factor", |row| row.alpha),
+        };
+    for quantity in QUANTITIES
+        .iter()
+        .filter(|q| q.estimated.is_some() && q.key != "load")
+    {
+        let Some(field) = quantity.in_history else {
+            continue;
+        };
+        let points: Vec<[f64; 2]> = history.iter().map(|r| [load(r), (field.get)(r)]).collect();
+        if points.iter().any(|p| p[1] > 0.0) {
+            let name = quantity.heading.replace('\n', " ");
+            let plot = plot(&points, usize::from(arguments.width));
+            text.push_str(&format!("\n{name} against {against}\n{plot}"));
         }
     }
     print(&text)
 }
 
-fn headlines(summary: &Value) -> String {
-    let say = |value: &Value| value.as_f64().map_or("-".to_string(), number);
-    let mut text = format!("{}\n", summary["scene"].as_str().unwrap_or("Untitled"));
-    if let Some(why) = summary["incomplete"].as_str() {
-        text.push_str(&format!("INCOMPLETE: {why}\n"));
+fn headlines(results: &Results, space: Space) -> String {
+    let mut text = String::new();
+    if let Some(incomplete) = &results.incomplete {
+        text.push_str(&format!("INCOMPLETE: {}\n", incomplete.why));
     }
-    let contact = summary["contact_pairs"] != 0;
-    let first = &summary["yield"];
-    if first.is_object() {
-        text.push_str(&match first["load"].is_null() {
-            true => format!("First yield at load factor {}", say(&first["alpha"])),
-            false => format!("First yield at load {}", say(&first["load"])),
+    let contact = results.sizes.contact_pairs > 0;
+    if let Some(first) = &results.first_yield {
+        let figures = QUANTITIES.iter().filter(|q| q.scope.holds(contact, true));
+        let figures = figures.filter_map(|quantity| {
+            let value = (quantity.at_yield?.get)(first);
+            let name = quantity.heading.replace('\n', " ");
+            value
+                .is_finite()
+                .then(|| format!("{name} {}", number(value)))
         });
-        if contact {
-            text.push_str(&format!(
-                ", pressure {}, half width {}",
-                say(&first["max_pressure"]),
-                say(&first["half_width"])
-            ));
-        }
-        text.push('\n');
+        let figures: Vec<String> = figures.collect();
+        text.push_str(&format!("First yield at {}\n", figures.join(", ")));
     }
-    for state in summary["states"].as_array().into_iter().flatten() {
-        text.push_str(&format!(
-            "  {:24} load {}",
-            state["name"].as_str().unwrap_or(""),
-            say(&state["load"])
-        ));
-        if contact {
-            text.push_str(&format!(
-                ", pressure {}, half width {}, residual depth {}",
-                say(&state["max_pressure"]),
-                say(&state["half_width"]),
-                say(&state["residual_depth"])
-            ));
-        }
-        text.push('\n');
+    if !results.states.is_empty() {
+        text.push_str(&states_table(&results.states, space, contact).render());
     }
     text
 }

@@ -98,6 +98,7 @@ macro_rules! of_nodes {
             6 => $to.$method::<6>($($argument),*),
             8 => $to.$method::<8>($($argument),*),
             10 => $to.$method::<10>($($argument),*),
+            15 => $to.$method::<15>($($argument),*),
             _ => $to.$method::<20>($($argument),*),
         }
     };

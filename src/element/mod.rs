@@ -25,25 +25,7 @@
 //! The interpolated field then is in equilibrium node by node on rectangles of any size (tested).
 //! Constant normal strains and turned sections have what they had.
 //!
-//! Measured errors in %, with those of the shear at the point and without factor in brackets:
-//!
-//! - Hertz' point contact, pole pressure at first yield with 8, 16, 32 elements over the radius:
-//!   0.01, 0.02, 0.00 (-2.8, -1.5, -0.8); load 0.16, 0.10, 0.06 (-0.01, -0.06, -0.02); radius 0.18,
-//!   0.08, 0.04 (0.03, -0.02, -0.01). At three times the load, plastic, the pole's pressure: 0.8,
-//!   0.3, 0.1 (-1.7, -1.0, -0.6).
-//! - Thick sphere, nu 0.3, bore on the axis, 6, 12, 24 elements: displacement 1.1, 0.5, 0.2 (3.0,
-//!   1.1, 0.3); limit pressure with 8, 16, for nu 0.4999 too: 0.47, 0.12 (0.49, 0.12). A circular
-//!   punch's limit load is 0.2 % lower than it was, with 40 elements.
-//! - Point force beside a block: the largest error of stress at the axis falls with order 1.5
-//!   (0.8), to a fifth with 32 elements; the mean error of displacements is 3 to 11 % larger.
-//! - Thin plates, four elements over the thickness that are 1, 5, 20 times as wide as high:
-//!   deflection 3 to 6, 3 to 5, -1 to 5 (2 to 5, -23 to 0, -82 to -35: shear locks). Rings that
-//!   turn in their section, 1 to 10 times as wide: 1 to 5 (-14 to 4). What is left is the mean
-//!   dilatation's, of order `h^2`.
-//! - Tubes of elements that are long along the axis lock as before (four over the wall, five times
-//!   as long: -10), because `du_z/dr` is that of the point. That of the centre mends it (-1 to 1)
-//!   and is in equilibrium too, but displacements of massive bodies are a fifth less accurate.
-//! - A tube whose bore is pushed along the axis, four elements from radius 1 to 2: -0.6 (-0.3).
+//! What it changes, measured case by case, stands in `data/elements.md`.
 //!
 //! `du_r/dz` must be that of the centre: with that of the point, times `sqrt(r_c/r)`, the field is
 //! in equilibrium too, but sections that turn are sheared, and a ring of flat elements is up to 65
@@ -62,6 +44,7 @@ pub use facet::{FacetPoint, facet_points};
 pub use gradients::{Components, Gradients, Lanes};
 pub use stiffness::packed;
 
+use crate::scene::Formulation;
 use crate::shape::{Rule, Shape};
 use crate::space::Space;
 use gradients::{Table, set_trace};
@@ -100,6 +83,7 @@ fn tables<const D: usize, const P: usize, const N: usize>(
 #[derive(Debug, Clone, Copy)]
 pub struct Kernel<const D: usize, const S: usize, const P: usize, const N: usize> {
     space: Space,
+    formulation: Formulation,
     gauss: &'static Tables<D, P, N>,
     sampling: &'static Tables<D, P, N>,
 }
@@ -110,6 +94,7 @@ impl PlaneKernel {
         let [gauss, sampling] = &PLANE;
         Kernel {
             space,
+            formulation: Formulation::Mean,
             gauss,
             sampling,
         }
@@ -122,23 +107,26 @@ impl SolidKernel {
         let [gauss, sampling] = &SOLID;
         Kernel {
             space: Space::Solid,
+            formulation: Formulation::Mean,
             gauss,
             sampling,
         }
     }
 }
 
-/// Evaluates an expression with the kernel of a space: the one place where the dimension becomes
+/// Evaluates an expression with the kernel of a model: the one place where the dimension becomes
 /// constants.
 macro_rules! with_kernel {
-    ($space:expr, $kernel:ident => $body:expr) => {
-        match $space {
+    ($model:expr, $kernel:ident => $body:expr) => {
+        match $model.kind {
             $crate::space::Space::Solid => {
                 let $kernel = $crate::element::Kernel::solid();
+                let $kernel = $kernel.integrated($model.scene.mesh.formulation);
                 $body
             }
             space => {
                 let $kernel = $crate::element::Kernel::plane(space);
+                let $kernel = $kernel.integrated($model.scene.mesh.formulation);
                 $body
             }
         }
@@ -147,6 +135,14 @@ macro_rules! with_kernel {
 pub(crate) use with_kernel;
 
 impl<const D: usize, const S: usize, const P: usize, const N: usize> Kernel<D, S, P, N> {
+    /// The kernel of a formulation.
+    pub fn integrated(self, formulation: Formulation) -> Self {
+        Kernel {
+            formulation,
+            ..self
+        }
+    }
+
     /// The gradients at the Gauss points, for the coordinates of the element's nodes.
     #[inline]
     pub fn gauss(&self, shape: Shape, nodes: &[[f64; D]; N]) -> Gradients<D, S, P, N> {
@@ -179,7 +175,9 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Kernel<D, S
 
     /// Whether the dilatation of an element is replaced by its mean (B-bar).
     fn has_mean(&self, shape: Shape) -> bool {
-        shape.reference().has_mean_dilatation && self.space != Space::PlaneStress
+        shape.reference().has_mean_dilatation
+            && self.space != Space::PlaneStress
+            && self.formulation == Formulation::Mean
     }
 }
 

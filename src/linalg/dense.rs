@@ -203,7 +203,7 @@ fn prediction(partition: &Partition) -> Prediction {
     let n = partition.n as f64;
     let trailing = (partition.zone.len() + partition.contact.len()) as f64;
     Prediction {
-        ordering: "dense",
+        ordering: "dense".into(),
         factor_nonzeros: n * (n + 1.0) / 2.0,
         flops: n * n * n / 3.0,
         trailing_nonzeros: trailing * (trailing + 1.0) / 2.0,

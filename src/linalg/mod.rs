@@ -42,6 +42,8 @@ pub use residual::{Recovered, multiply, norm, recover_refined};
 pub(crate) use residual::{largest, largest_terms};
 pub use whole::solve_whole;
 
+pub use crate::results::Prediction;
+
 use crate::error::{Error, Result};
 
 /// Upper triangle (row <= column) of a symmetric matrix, compressed by column, rows sorted.
@@ -56,25 +58,6 @@ pub struct Partition {
     pub zone: Vec<usize>,
     /// Contact freedoms. Contact vectors and matrices are in this order.
     pub contact: Vec<usize>,
-    /// Ring of each zone freedom, the outermost 0; empty where there is one. Backends that can
-    /// eliminate one ring after the other, so that a choice of inner rings leaves the outer ones
-    /// out.
-    pub rings: Vec<u8>,
-}
-
-/// What a factorisation will cost, from the symbolic analysis alone.
-#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
-pub struct Prediction {
-    /// Name of the ordering chosen.
-    pub ordering: &'static str,
-    /// Nonzeros of the factor.
-    pub factor_nonzeros: f64,
-    /// Floating point operations of the factorisation.
-    pub flops: f64,
-    /// Nonzeros of the factor's columns that belong to zone and contact freedoms.
-    pub trailing_nonzeros: f64,
-    /// Bytes needed at the peak.
-    pub memory_bytes: f64,
 }
 
 /// A matrix `K + diag(shift)` factored and condensed. `shift` acts on contact freedoms only (one

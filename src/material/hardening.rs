@@ -48,6 +48,18 @@ impl Hardening {
         self.segment(strain).1
     }
 
+    /// Work on plastic strains per volume up to an equivalent plastic strain, the area below the
+    /// curve: `int_0^strain sigma_y d eps_p`.
+    pub fn work(&self, strain: f64) -> f64 {
+        let reached = self.points.iter().take_while(|point| point[0] < strain);
+        let ends = (self.points.iter().skip(1).map(|point| point[0])).chain([f64::INFINITY]);
+        let pieces = reached.zip(ends).map(|(start, end)| {
+            let end = end.min(strain);
+            0.5 * (start[1] + self.yield_stress(end)) * (end - start[0])
+        });
+        pieces.sum()
+    }
+
     /// Smallest slope anywhere: 0 for a curve with a flat piece.
     pub fn is_perfect(&self) -> bool {
         self.slope == 0.0 && self.points.len() == 1

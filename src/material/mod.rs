@@ -102,6 +102,12 @@ impl Material {
         self.youngs_modulus / (3.0 * (1.0 - 2.0 * self.poissons_ratio))
     }
 
+    /// Work on plastic strains per volume, up to an equivalent plastic strain; 0 for an elastic
+    /// material.
+    pub fn plastic_work(&self, strain: f64) -> f64 {
+        self.hardening.as_ref().map_or(0.0, |h| h.work(strain))
+    }
+
     /// Initial yield stress, infinite for an elastic material.
     pub fn yield_stress(&self) -> f64 {
         self.hardening

@@ -37,6 +37,12 @@ fn hardening_curves_interpolate() {
     assert!((table.slope(0.0) - 100.0).abs() < 1e-12);
     assert!((table.slope(0.004) - 50.0).abs() < 1e-12);
     assert_eq!(table.yield_stress(1.0), 1.7);
+    // Trapezoids, and a rectangle beyond the last row.
+    let exact = 0.004 * 1.2 + 0.006 * 1.55 + 0.99 * 1.7;
+    assert!((table.work(1.0) - exact).abs() < 4.0 * f64::EPSILON * exact);
+    assert_eq!((table.work(0.0), table.work(0.002)), (0.0, 0.002 * 1.1));
+    let linear = Hardening::linear(2.0, 30.0);
+    assert!((linear.work(0.1) - (0.2 + 15.0 * 0.01)).abs() < 1e-15);
     assert_eq!(table.slope(1.0), 0.0);
 }
 

@@ -57,10 +57,10 @@ pub(super) fn check(mesh: &Mesh) -> Result<()> {
 
 /// The corners of a facet in its own order.
 fn corners_of(mesh: &Mesh, facet: Facet) -> impl Iterator<Item = u32> + Clone + '_ {
-    let shape = mesh.shapes[facet.element];
-    let nodes = mesh.nodes(facet.element);
-    let corners = &shape.facet(facet.local)[..shape.reference().facet.n_corners];
-    corners.iter().map(|&local| nodes[local])
+    let corners = mesh.facet_corners(facet);
+    mesh.facet_nodes(facet)
+        .take(corners)
+        .map(|node| node as u32)
 }
 
 /// The mid-side nodes of a facet, ascending.

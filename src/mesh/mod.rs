@@ -3,19 +3,27 @@
 //! The dimension is data ([`Mesh::dimension`]); element shapes carry their own node order and
 //! facets ([`Shape`]).
 
-mod circles;
 mod conformity;
+mod curve;
 pub mod generate;
 pub mod gmsh;
+pub mod inp;
 mod jacobian;
+mod pieces;
+mod round;
 mod subdivision;
 pub mod surface;
+mod sweep;
 mod validate;
 
+use crate::shape::FacetReference;
 pub use crate::shape::Shape;
 use crate::space::{Vector, in_words};
-pub use circles::lay_on_circle;
+pub use curve::Curve;
+pub(crate) use pieces::root;
+pub use round::{declared, lay_on};
 pub use subdivision::subdivided;
+pub use sweep::{extruded, revolved};
 pub use validate::validate;
 
 use serde::{Deserialize, Serialize};
@@ -28,26 +36,6 @@ pub struct Facet {
     pub element: usize,
     /// Local facet number, see [`Shape::facet`].
     pub local: usize,
-}
-
-/// The exact shape of a surface, where it is known. Normals then are exact at every node.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum Curve {
-    /// A straight line with outward unit normal.
-    Line {
-        /// Outward unit normal of the body.
-        normal: [f64; 2],
-    },
-    /// A circular arc.
-    Circle {
-        /// Centre.
-        center: [f64; 2],
-        /// Radius.
-        radius: f64,
-        /// True where the body's outward normal points away from the centre (a disc), false for a
-        /// hole.
-        outward: bool,
-    },
 }
 
 /// A named surface: facets of one body's boundary.
@@ -136,9 +124,14 @@ impl Mesh {
         self.dimension == 3
     }
 
+    /// What a facet is as an element of its own.
+    pub fn facet_reference(&self, facet: Facet) -> &'static FacetReference {
+        self.shapes[facet.element].facet_reference(facet.local)
+    }
+
     /// Number of corners of a facet.
     pub fn facet_corners(&self, facet: Facet) -> usize {
-        self.shapes[facet.element].reference().facet.n_corners
+        self.facet_reference(facet).n_corners
     }
 
     /// Node indices of an element.
@@ -147,7 +140,7 @@ impl Mesh {
     }
 
     /// Node indices of a facet: its corners first, then the mid-side nodes where there are some.
-    pub fn facet_nodes(&self, facet: Facet) -> impl Iterator<Item = usize> + '_ {
+    pub fn facet_nodes(&self, facet: Facet) -> impl Iterator<Item = usize> + Clone + '_ {
         let nodes = self.nodes(facet.element);
         self.shapes[facet.element]
             .facet(facet.local)

@@ -192,7 +192,7 @@ impl Sides {
                     (None, Some(Curve::Circle { center, .. })) => {
                         [x[0] - center[0], x[1] - center[1]]
                     }
-                    (None, None) => {
+                    (None, _) => {
                         let (_, [tx, ty]) = own.at(mesh, own.parameter(k));
                         [ty, -tx]
                     }

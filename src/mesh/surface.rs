@@ -1,7 +1,7 @@
 //! Surfaces: their nodes in order, their normals.
 
-use super::{Curve, Facet, Mesh, Surface};
-use crate::space::{Vector, cross, difference, direction, dot, in_space, length};
+use super::{Facet, Mesh, Surface};
+use crate::space::{Vector, cross, difference, direction, dot, length};
 use crate::{Error, Result};
 use std::collections::BTreeMap;
 
@@ -11,7 +11,8 @@ pub const PAIRING: f64 = 1e-5;
 /// The nodes of a surface, mid-side nodes included: in space ascending, in the plane in order.
 ///
 /// # Errors
-/// An input error if the surface is empty; in the plane those of a surface that is not one curve.
+/// An input error if the surface is empty or its faces look to different sides; in the plane those
+/// of a surface that is not one curve.
 pub fn nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
     if !mesh.is_solid() {
         return ordered_nodes(mesh, surface);
@@ -21,9 +22,33 @@ pub fn nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
     if nodes.is_empty() {
         return Err(Error::input("the surface is empty"));
     }
+    check_orientation(mesh, surface)?;
     nodes.sort_unstable();
     nodes.dedup();
     Ok(nodes)
+}
+
+/// Faces that look to the same side run through the edge between them in opposite directions.
+fn check_orientation(mesh: &Mesh, surface: &Surface) -> Result<()> {
+    let mut seen: BTreeMap<[usize; 2], Facet> = BTreeMap::new();
+    for &facet in &surface.facets {
+        let n = mesh.facet_corners(facet);
+        let corners: Vec<usize> = mesh.facet_nodes(facet).take(n).collect();
+        for (k, &from) in corners.iter().enumerate() {
+            let to = corners[(k + 1) % n];
+            if let Some(other) = seen.insert([from, to], facet) {
+                return Err(Error::input(format!(
+                    "the faces of elements {} and {} look to different sides of the surface beside \
+                     the edge from node {} to node {}: all faces of a surface must look out of one side",
+                    mesh.element_label(other.element),
+                    mesh.element_label(facet.element),
+                    mesh.node_label(from),
+                    mesh.node_label(to)
+                )));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The nodes of a surface of a plane mesh along its arc, mid-side nodes included, with the body on the left (a hole
@@ -98,22 +123,14 @@ pub fn ordered_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
 
 /// Outward unit normals of a surface at some of its nodes.
 ///
-/// Exact where the surface's [`Curve`] is known. Otherwise the mean of the normals of the facets
+/// Exact where the surface's [`Curve`](super::Curve) is known. Otherwise the mean of the normals of the facets
 /// that meet at the node, weighted with their areas; the normal of a curved facet is that at the
 /// node. A node that is not on the surface gets zeros.
 pub fn normals(mesh: &Mesh, surface: &Surface, nodes: &[usize]) -> Vec<Vector> {
     match surface.curve {
-        Some(Curve::Line { normal }) => vec![direction(in_space(normal)); nodes.len()],
-        Some(Curve::Circle {
-            center, outward, ..
-        }) => {
-            let sign = if outward { 1.0 } else { -1.0 };
-            let from_center = |&node: &usize| {
-                let way = difference(mesh.point(node), in_space(center));
-                direction(way.map(|x| sign * x))
-            };
-            nodes.iter().map(from_center).collect()
-        }
+        Some(curve) => (nodes.iter())
+            .map(|&node| curve.normal(mesh.point(node)))
+            .collect(),
         None => {
             let mut sums: BTreeMap<usize, Vector> = BTreeMap::new();
             for &facet in &surface.facets {
@@ -129,7 +146,7 @@ pub fn normals(mesh: &Mesh, surface: &Surface, nodes: &[usize]) -> Vec<Vector> {
 
 /// Adds the area vectors of a facet at its nodes.
 fn add_areas(mesh: &Mesh, facet: Facet, sums: &mut BTreeMap<usize, Vector>) {
-    let reference = mesh.shapes[facet.element].reference().facet;
+    let reference = mesh.facet_reference(facet);
     let points: Vec<Vector> = mesh.facet_nodes(facet).map(|n| mesh.point(n)).collect();
     for (node, &place) in mesh.facet_nodes(facet).zip(reference.nodes) {
         let area = reference.area(&(reference.functions)(place), &points);

@@ -1,6 +1,6 @@
 //! Checks that a mesh can be computed with.
 
-use super::{Facet, Mesh, Shape, conformity, jacobian};
+use super::{Facet, Mesh, Shape, conformity, jacobian, pieces};
 use crate::shape::MAX_NODES;
 use crate::space::{difference, length};
 use crate::{Error, Result};
@@ -16,8 +16,8 @@ const GRAIN: usize = 512;
 
 /// Checks a mesh: consistent arrays, finite coordinates, elements with distinct nodes and a
 /// positive Jacobian at corners and integration points, no unconnected nodes, unique labels and
-/// body names, no empty body, set or surface, no duplicate or overlapping elements, no hanging
-/// nodes.
+/// body names, no empty body, set or surface, no surface that looks both ways, no duplicate or
+/// overlapping elements, no hanging nodes, no body in several pieces.
 ///
 /// # Errors
 /// Input errors name the node, element, body or set by the number or name the user knows, and the
@@ -29,7 +29,8 @@ pub fn validate(mesh: &Mesh) -> Result<()> {
     check_sets(mesh)?;
     check_elements(mesh)?;
     check_unconnected(mesh)?;
-    conformity::check(mesh)
+    conformity::check(mesh)?;
+    pieces::check(mesh)
 }
 
 /// Sizes and ranges of the arrays: after this, indexing cannot fail.
@@ -173,6 +174,21 @@ fn check_sets(mesh: &Mesh) -> Result<()> {
             return Err(Error::input(format!(
                 "surface `{name}` has the same facet of element {} twice",
                 mesh.element_label(pair[0].element)
+            )));
+        }
+        let corners = |facet: &Facet| -> Vec<usize> {
+            let n = mesh.facet_corners(*facet);
+            let mut corners: Vec<usize> = mesh.facet_nodes(*facet).take(n).collect();
+            corners.sort_unstable();
+            corners
+        };
+        facets.sort_by_cached_key(corners);
+        let both_sides = |pair: &&[Facet]| corners(&pair[0]) == corners(&pair[1]);
+        if let Some(pair) = facets.windows(2).find(both_sides) {
+            let [one, two] = [pair[0], pair[1]].map(|f| mesh.element_label(f.element));
+            return Err(Error::input(format!(
+                "surface `{name}` looks both ways between elements {one} and {two}: take the facet of \
+                 one of them"
             )));
         }
     }

@@ -24,7 +24,7 @@ use crate::space::{Vector, along, dot};
 use std::collections::BTreeMap;
 
 /// What each end of an edge counts at the middle of it.
-const ALPHA: f64 = 0.2;
+const ALPHA: f64 = ContactBasis::ALPHA;
 /// What the control point of the middle counts there.
 const OWN: f64 = 1.0 - 2.0 * ALPHA;
 
@@ -79,38 +79,44 @@ impl Blend {
 }
 
 impl ContactBasis {
-    /// The basis for the pairs of a solid model.
+    /// What each end of an edge counts at the middle of it.
+    pub const ALPHA: f64 = 0.2;
+
+    /// The basis for the pairs of a solid model: of the slaves' faces, and of faces that match them.
     ///
     /// # Errors
-    /// `Input` where the middle of an edge of one surface faces no such node of the other.
+    /// `Input` where nodes face each other, and one is the middle of an edge and the other is not.
     pub(super) fn of(mesh: &Mesh, pairs: &[Pair], contacts: &[ContactSurface]) -> Result<Self> {
         let mut basis = ContactBasis::default();
         if !mesh.is_solid() {
             return Ok(basis);
         }
         for contact in contacts {
-            let [firsts, seconds] = contact.names.each_ref().map(|name| {
-                let surface = mesh.surfaces.get(name);
+            let [masters, slaves] = [1 - contact.slave, contact.slave].map(|side| {
+                let surface = mesh.surfaces.get(&contact.names[side]);
                 surface.map(|s| middles(mesh, s)).unwrap_or_default()
             });
             let pairs = &pairs[contact.range.clone()];
-            let first_of: BTreeMap<usize, usize> =
-                pairs.iter().map(|pair| (pair.second, pair.first)).collect();
-            for pair in pairs {
-                let own = seconds.get(&pair.second);
-                let opposite = firsts.get(&pair.first);
-                let (own, opposite) = match (own, opposite) {
+            if pairs.iter().any(|pair| pair.faced().is_none()) {
+                basis.ends.extend(slaves);
+                continue;
+            }
+            let faced_by: BTreeMap<usize, usize> = (pairs.iter())
+                .filter_map(|pair| Some((pair.slave, pair.faced()?)))
+                .collect();
+            for (&slave, &faced) in &faced_by {
+                let (own, opposite) = match (slaves.get(&slave), masters.get(&faced)) {
                     (None, None) => continue,
                     (Some(own), Some(opposite)) => (*own, *opposite),
-                    _ => return Err(differ(mesh, contact, pair)),
+                    _ => return Err(differ(mesh, contact, [faced, slave])),
                 };
-                let faced = own.map(|end| first_of.get(&end).copied());
+                let across = own.map(|end| faced_by.get(&end).copied());
                 let [a, b] = opposite.map(Some);
-                if faced != [a, b] && faced != [b, a] {
-                    return Err(differ(mesh, contact, pair));
+                if across != [a, b] && across != [b, a] {
+                    return Err(differ(mesh, contact, [faced, slave]));
                 }
-                basis.ends.insert(pair.second, own);
-                basis.ends.insert(pair.first, opposite);
+                basis.ends.insert(slave, own);
+                basis.ends.insert(faced, opposite);
             }
         }
         Ok(basis)
@@ -207,14 +213,29 @@ impl ContactBasis {
         nodes.iter().enumerate().filter_map(blend).collect()
     }
 
-    /// Puts gaps, interferences and areas of pairs, which are those of the nodes, in terms of the
-    /// control points.
-    pub(super) fn restate(&self, pairs: &mut [Pair]) {
+    /// Puts gaps, interferences and areas of pairs of nodes, which are those of the nodes, in terms
+    /// of the control points; of other pairs what they say of masters.
+    pub(super) fn restate(&self, pairs: &mut [Pair], contacts: &[ContactSurface]) {
         if self.ends.is_empty() {
             return;
         }
+        for contact in contacts {
+            let pairs = &mut pairs[contact.range.clone()];
+            if pairs.iter().all(|pair| pair.faced().is_some()) {
+                self.restate_nodes(pairs);
+                continue;
+            }
+            for pair in pairs {
+                let weights = |&(node, weight): &(usize, f64)| (node, [weight, 0.0, 0.0]);
+                let shared = self.share_of(pair.masters.iter().map(weights).collect());
+                pair.masters = shared.into_iter().map(|(node, w)| (node, w[0])).collect();
+            }
+        }
+    }
+
+    fn restate_nodes(&self, pairs: &mut [Pair]) {
         let place: BTreeMap<usize, usize> = (pairs.iter().enumerate())
-            .map(|(k, p)| (p.second, k))
+            .map(|(k, p)| (p.slave, k))
             .collect();
         let nodes = pairs.to_vec();
         for pair in pairs.iter_mut() {
@@ -223,13 +244,13 @@ impl ContactBasis {
                     let of = &nodes[place[&node]];
                     of.normal.map(|n| size(of) * n)
                 };
-                dot(self.at_control(pair.second, vector), pair.normal)
+                dot(self.at_control(pair.slave, vector), pair.normal)
             };
             (pair.gap, pair.interference) =
                 (along_normal(|p| p.gap), along_normal(|p| p.interference));
         }
         for (k, node) in nodes.iter().enumerate() {
-            if let Some(ends) = self.ends(node.second) {
+            if let Some(ends) = self.ends(node.slave) {
                 pairs[k].area -= (1.0 - OWN) * node.area;
                 for end in ends {
                     pairs[place[&end]].area += ALPHA * node.area;
@@ -252,13 +273,12 @@ fn middles(mesh: &Mesh, surface: &Surface) -> BTreeMap<usize, [usize; 2]> {
     out
 }
 
-fn differ(mesh: &Mesh, contact: &ContactSurface, pair: &Pair) -> Error {
+fn differ(mesh: &Mesh, contact: &ContactSurface, nodes: [usize; 2]) -> Error {
     let [first, second] = &contact.names;
+    let [a, b] = nodes.map(|node| mesh.node_label(node));
     Error::input(format!(
-        "contact of `{first}` and `{second}`: nodes {} and {} face each other, but one is the middle \
+        "contact of `{first}` and `{second}`: nodes {a} and {b} face each other, but one is the middle \
          of an edge and the other is not that of the edge opposite; mesh both surfaces with the same \
-         faces",
-        mesh.node_label(pair.first),
-        mesh.node_label(pair.second)
+         faces"
     ))
 }

@@ -6,7 +6,7 @@
 
 mod solid;
 
-use super::{ContactSurface, Freedoms, Pair, Slot};
+use super::{ContactSurface, Freedoms, Pair};
 use crate::mesh::{Facet, Mesh};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -37,7 +37,7 @@ pub(super) fn find(
     }
     let nodes: BTreeSet<usize> = ends
         .iter()
-        .flat_map(|end| [pairs[end.last].first, pairs[end.last].second])
+        .flat_map(|end| pairs[end.last].nodes())
         .collect();
     let boundary = Boundary::at(mesh, &nodes);
     let candidates: BTreeSet<Facet> = contacts
@@ -46,20 +46,29 @@ pub(super) fn find(
         .filter_map(|name| mesh.surfaces.get(name))
         .flat_map(|surface| surface.facets.iter().copied())
         .collect();
-    let may_touch: BTreeSet<usize> = pairs.iter().flat_map(|p| [p.first, p.second]).collect();
+    let may_touch: BTreeSet<usize> = pairs.iter().flat_map(Pair::nodes).collect();
     for end in ends {
-        let side = |node_of: fn(&Pair) -> usize| {
-            let inner = end.inner.map(|k| node_of(&pairs[k]));
-            boundary.beyond(node_of(&pairs[end.last]), inner)
-        };
-        let (Some(first), Some(second)) = (side(|p| p.first), side(|p| p.second)) else {
-            continue;
-        };
-        // As at the seam of a closed surface.
-        let followed = [&first, &second]
-            .iter()
-            .all(|side| candidates.contains(&side.facet) && may_touch.contains(&side.next));
-        if !followed && first.turn + second.turn < FEATURE_ANGLE {
+        let inner = end.inner.map(|k| &pairs[k]);
+        let slave = boundary.beyond(pairs[end.last].slave, inner.map(|pair| pair.slave));
+        let Some(slave) = slave else { continue };
+        let follows =
+            |side: &Beyond| candidates.contains(&side.facet) && may_touch.contains(&side.next);
+        let (mut followed, mut turn) = (follows(&slave), slave.turn);
+        if let Some(faced) = pairs[end.last].faced() {
+            let inner = inner.and_then(Pair::faced);
+            let Some(master) = boundary.beyond(faced, inner) else {
+                continue;
+            };
+            // As at the seam of a closed surface.
+            followed &= follows(&master);
+            turn += master.turn;
+        } else {
+            // Facets of the other surface go on, unless it ends among the masters.
+            let masters = pairs[end.last].masters.iter();
+            let ends = masters.filter_map(|&(node, _)| boundary.end_of(node, &candidates));
+            turn += ends.fold(0.0, |most: f64, turn| most.max(turn));
+        }
+        if !followed && turn < FEATURE_ANGLE {
             contacts[end.contact].goes_on.push(end.last);
         }
     }
@@ -78,10 +87,11 @@ fn ends(freedoms: &Freedoms, pairs: &[Pair], contacts: &[ContactSurface]) -> Vec
             (range.start, neighbour(range.start + 1), true),
             (last, last.checked_sub(1).and_then(neighbour), false),
         ] {
-            let on_axis = surface.axis.is_some_and(|axis| axis.begins == begins);
-            let on_symmetry = [pairs[end].first, pairs[end].second]
-                .iter()
-                .all(|&node| freedoms.slots[node][1] == Slot::Fixed);
+            let on_axis = surface
+                .axis
+                .as_ref()
+                .is_some_and(|axis| axis.begins == begins);
+            let on_symmetry = pairs[end].is_held_along(freedoms);
             if !on_axis && !on_symmetry {
                 out.push(End {
                     contact,
@@ -170,6 +180,17 @@ impl<'m> Boundary<'m> {
             next,
             turn: if enters { left } else { -left },
         })
+    }
+
+    /// How the boundary turns away at a node where the candidates end.
+    fn end_of(&self, node: usize, candidates: &BTreeSet<Facet>) -> Option<f64> {
+        let facets = self.at.get(&node)?;
+        let mut inside = facets.iter().filter(|facet| candidates.contains(facet));
+        let (Some(inside), None) = (inside.next(), inside.next()) else {
+            return None;
+        };
+        let inner = self.mesh.facet_nodes(*inside).take(2).find(|&n| n != node);
+        Some(self.beyond(node, inner)?.turn)
     }
 
     /// Tangent of a facet at one of its ends, away from it.

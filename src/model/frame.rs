@@ -57,7 +57,12 @@ pub(super) fn frame(
     }
     let first = axes.first().copied().unwrap_or(unit(0));
     let second = axes.get(1).copied().unwrap_or_else(|| across(first));
-    Ok([first, second, cross(first, second)])
+    let third = cross(first, second);
+    // Along a global axis, not against it: nodes of a surface held plane share a freedom.
+    if third.iter().any(|x| *x < ALIGNED - 1.0) {
+        return Ok([first, second.map(|x| -x), third.map(|x| -x)]);
+    }
+    Ok([first, second, third])
 }
 
 /// A direction at right angles to another: the global axis that is farthest off it, made so.
@@ -94,6 +99,12 @@ mod tests {
         let edge = frame(3, None, &[slanted, unit(0)]).unwrap();
         assert!(is_frame(&edge) && edge[0] == slanted);
         assert!(dot(edge[2], unit(0)).abs() < 1e-15);
+        // The edge runs along y, whichever of the planes comes first.
+        let turned = direction([1.0, 0.0, 1.0]);
+        for held in [[unit(2), turned], [turned, unit(2)]] {
+            let edge = frame(3, None, &held).unwrap();
+            assert!(is_frame(&edge) && (edge[2][1] - 1.0).abs() < 1e-15);
+        }
         // A third one at an angle holds the node altogether.
         assert!(is_frame(
             &frame(3, None, &[slanted, unit(0), unit(1)]).unwrap()

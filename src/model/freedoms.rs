@@ -58,7 +58,7 @@ const NEARLY_TANGENT: f64 = 0.5;
 
 impl Freedoms {
     /// Numbers the freedoms of a scene. Contact normals on symmetry planes are turned into the plane
-    /// (`pairs` is updated).
+    /// (`pairs` is updated). `master_normals` are those of masters that face no single node.
     ///
     /// # Errors
     /// Input errors: a support in the direction of a contact normal, turned supports that disagree,
@@ -68,14 +68,25 @@ impl Freedoms {
         mesh: &Mesh,
         basis: ContactBasis,
         pairs: &mut [Pair],
+        master_normals: &[(usize, Vector)],
     ) -> Result<Self> {
         let n_nodes = mesh.n_nodes();
         let supports = Supports::resolve(scene, mesh)?;
         turn_normals_into_supports(pairs, &supports);
         let mut normal_of = vec![None; n_nodes];
         for pair in pairs.iter() {
-            normal_of[pair.first] = Some(pair.normal);
-            normal_of[pair.second] = Some(pair.normal);
+            for node in pair.faced().into_iter().chain([pair.slave]) {
+                normal_of[node] = Some(pair.normal);
+            }
+        }
+        // Other masters have no normal that they must have: where nothing holds them, an axis of
+        // their own keeps rows short.
+        let mut touches: Vec<bool> = normal_of.iter().map(Option::is_some).collect();
+        for &(node, normal) in master_normals {
+            touches[node] = true;
+            if !supports.of_node.contains_key(&node) {
+                normal_of[node].get_or_insert(normal);
+            }
         }
         let free = match mesh.dimension {
             2 => [Slot::Free(0), Slot::Free(0), Slot::Fixed],
@@ -100,7 +111,6 @@ impl Freedoms {
         for (&node, of_node) in &supports.of_node {
             freedoms.hold(scene, mesh, node, normal_of[node], of_node)?;
         }
-        let touches: Vec<bool> = normal_of.iter().map(Option::is_some).collect();
         let ties = freedoms.apply_loads(scene, mesh, &touches)?;
         freedoms.check_edges(mesh)?;
         freedoms.number(&ties);
@@ -456,7 +466,7 @@ impl Supports {
 /// A normal that is nearly at right angles to a support is meant to be.
 fn turn_normals_into_supports(pairs: &mut [Pair], supports: &Supports) {
     for pair in pairs {
-        for node in [pair.first, pair.second] {
+        for node in pair.faced().into_iter().chain([pair.slave]) {
             for held in supports.of_node.get(&node).into_iter().flatten() {
                 let off = dot(pair.normal, held.direction);
                 if off != 0.0 && off.abs() < NEARLY_TANGENT {

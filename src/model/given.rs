@@ -65,8 +65,7 @@ pub(super) fn partners(
     given: &[NodePair],
     mesh: &Mesh,
     names: [&str; 2],
-    first_nodes: &[usize],
-    second_nodes: &[usize],
+    [first_nodes, second_nodes]: [&[usize]; 2],
     normals: &[Vector],
     gap: Option<f64>,
 ) -> Result<Vec<Option<Partner>>> {

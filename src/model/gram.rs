@@ -1,5 +1,6 @@
 //! The product of the rows that hold rigid motions with themselves, and its free motions.
 
+use crate::mesh::root;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use std::collections::BTreeMap;
 
@@ -120,12 +121,4 @@ impl Gram {
         });
         (place.keys().copied().collect(), vectors.collect())
     }
-}
-
-pub(super) fn root(parent: &mut [usize], mut i: usize) -> usize {
-    while parent[i] != i {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    i
 }

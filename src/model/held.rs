@@ -5,7 +5,7 @@
 //! no load does work on it: then one freedom is pinned, which changes nothing but the free motion.
 
 use super::motions::{self, Motions};
-use super::{Freedoms, LoadCase, Pair, far_boundary};
+use super::{ContactRows, Freedoms, LoadCase, Pair, far_boundary};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
 use crate::space::Space;
@@ -14,17 +14,16 @@ use std::collections::BTreeSet;
 /// Bodies that supports alone do not hold.
 #[derive(Debug, Clone, Default)]
 pub struct FloatingBodies {
-    /// For each contact pair: whether its first and its second node belong to a floating body.
-    pub of_pair: Vec<[bool; 2]>,
+    /// For each contact freedom: whether it belongs to a floating body.
+    pub of_contact: Vec<bool>,
     /// Names of the floating bodies.
     pub bodies: Vec<String>,
     /// Motions that were pinned.
     pub pins: Vec<Pin>,
     /// Rigid motions that supports and pins leave free: a basis.
     pub motions: Vec<RigidMotion>,
-    /// For each contact pair: the part of the model (bodies that share nodes or free motions) that its first and its second
-    /// node belong to.
-    pub part_of_pair: Vec<[usize; 2]>,
+    /// For each contact freedom: the part of the model (bodies that share nodes or free motions) that it belongs to.
+    pub part_of_contact: Vec<usize>,
 }
 
 /// A rigid motion that supports leave free: a null vector of the stiffness, known exactly where a factorisation would find
@@ -62,6 +61,7 @@ pub struct Pin {
 /// Work of a load on a motion below this, relative to the sum of its parts, is none.
 const NO_WORK: f64 = 1e-9;
 
+/// The floating bodies, and the contact rows on the freedoms that pins leave.
 pub(super) fn resolve(
     space: Space,
     mesh: &Mesh,
@@ -69,7 +69,7 @@ pub(super) fn resolve(
     pairs: &[Pair],
     loads: &[LoadCase],
     warnings: &mut Vec<String>,
-) -> Result<FloatingBodies> {
+) -> Result<(FloatingBodies, ContactRows)> {
     let motions = Motions::new(space, mesh, freedoms.basis.clone());
     let mut floating = FloatingBodies::default();
     let supports_only = motions.free(freedoms, &[]);
@@ -80,8 +80,8 @@ pub(super) fn resolve(
         }
     }
     let forces = motions.forces(loads);
-    let contact: BTreeSet<usize> = pairs.iter().flat_map(|p| [p.first, p.second]).collect();
-    for _ in 0..3 * motions.names.len() {
+    let contact: BTreeSet<usize> = pairs.iter().flat_map(Pair::nodes).collect();
+    for _ in 0..motions.per_group() * motions.names.len() {
         let free = motions.free(freedoms, pairs);
         if free.is_empty() {
             break;
@@ -123,9 +123,12 @@ pub(super) fn resolve(
             freedoms.pin(freedom);
         }
     }
-    floating.of_pair = pairs
+    let rows = ContactRows::of(mesh, freedoms, pairs)?;
+    let owner = |&freedom: &usize| motions.group_of_node[freedoms.owners[freedom].0 as usize];
+    let group_of_contact: Vec<usize> = rows.freedoms.iter().map(owner).collect();
+    floating.of_contact = group_of_contact
         .iter()
-        .map(|p| [p.first, p.second].map(|node| is_floating[motions.group_of_node[node]]))
+        .map(|&group| is_floating[group])
         .collect();
     floating.bodies = motions
         .names
@@ -136,10 +139,7 @@ pub(super) fn resolve(
         .collect();
     let modes = motions.free(freedoms, &[]);
     let part = motions.parts(&modes);
-    floating.part_of_pair = pairs
-        .iter()
-        .map(|p| [p.first, p.second].map(|node| part[motions.group_of_node[node]]))
-        .collect();
+    floating.part_of_contact = group_of_contact.iter().map(|&group| part[group]).collect();
     let owned = motions::owned(freedoms, mesh.n_nodes());
     floating.motions = modes
         .iter()
@@ -155,5 +155,5 @@ pub(super) fn resolve(
     let part_of_node: Vec<usize> = motions.group_of_node.iter().map(|&g| part[g]).collect();
     let work = |j: usize| motions.work(&modes[j], &forces);
     far_boundary::measure(&mut floating.motions, &part_of_node, freedoms, loads, work);
-    Ok(floating)
+    Ok((floating, rows))
 }

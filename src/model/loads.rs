@@ -289,7 +289,7 @@ fn integrate(
     for &facet in &surface.facets {
         let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
         let x: Vec<Vector> = nodes.iter().map(|&n| mesh.point(n)).collect();
-        let reference = mesh.shapes[facet.element].reference().facet;
+        let reference = mesh.facet_reference(facet);
         for point in facet_points(space, reference, &x) {
             let t = traction(point.position, point.normal);
             for (i, &node) in nodes.iter().enumerate() {

@@ -17,6 +17,7 @@ mod motions;
 mod names;
 mod pairs;
 mod recipe;
+mod rows;
 
 pub use builder::ModelBuilder;
 pub use contact_basis::{Blend, ContactBasis};
@@ -26,6 +27,7 @@ pub use given::NodePair;
 pub use held::{FloatingBodies, Pin, RigidMotion};
 pub use loads::{LoadCase, Magnitude};
 pub use pairs::{AxisPoint, ContactSurface, Pair};
+pub use rows::ContactRows;
 
 use crate::element::{Gradients, Kernel};
 use crate::error::{Error, Result};
@@ -55,6 +57,8 @@ pub struct Model {
     pub freedoms: Freedoms,
     /// Contact pairs, contact by contact, along each surface.
     pub pairs: Vec<Pair>,
+    /// Their rows on the free freedoms.
+    pub rows: ContactRows,
     /// The contacts of the scene.
     pub contacts: Vec<ContactSurface>,
     /// Loads.
@@ -133,13 +137,15 @@ impl Model {
         if kind.is_axisymmetric() {
             check_radii(&mesh)?;
         }
-        let (mut pairs, mut contacts) = pairs::resolve(scene, &mesh, given)?;
+        let (mut pairs, mut contacts) = pairs::resolve(scene, &mesh, given, &mut warnings)?;
         let basis = ContactBasis::of(&mesh, &pairs, &contacts)?;
-        let mut freedoms = Freedoms::new(scene, &mesh, basis, &mut pairs)?;
-        freedoms.basis.restate(&mut pairs);
+        let normals = pairs::mortar::master_normals(&mesh, &pairs, &contacts);
+        let mut freedoms = Freedoms::new(scene, &mesh, basis, &mut pairs, &normals)?;
+        freedoms.basis.restate(&mut pairs, &contacts);
         let loads = loads::resolve(scene, &mesh, given, &freedoms)?;
         check_targets(scene, &mesh)?;
-        let floating = held::resolve(kind, &mesh, &mut freedoms, &pairs, &loads, &mut warnings)?;
+        let (floating, rows) =
+            held::resolve(kind, &mesh, &mut freedoms, &pairs, &loads, &mut warnings)?;
         let loads = loads::renumber(loads, &freedoms);
         ends::find(&mesh, &freedoms, &pairs, &mut contacts);
         if matches!(origin, Origin::Scene) {
@@ -153,6 +159,7 @@ impl Model {
             may_yield,
             freedoms,
             pairs,
+            rows,
             contacts,
             loads,
             floating,
@@ -214,24 +221,27 @@ fn build_mesh(scene: &Scene) -> Result<Mesh> {
         Some(_) => scene.places.in_front("mesh.file", error),
         None => scene.places.in_front("mesh", error),
     })?;
-    for (index, circle) in scene.mesh.circles.iter().enumerate() {
-        let key = format!("mesh.circles.{index}");
-        mesh::lay_on_circle(&mut mesh, circle).map_err(|error| {
-            let error = error.within(format!("{key} (`{}`)", circle.on));
+    for (key, on, curve) in mesh::declared(&scene.mesh) {
+        mesh::lay_on(&mut mesh, on, curve).map_err(|error| {
+            let error = error.within(format!("{key} (`{on}`)"));
             scene.places.in_front(&key, error)
         })?;
     }
     let times = scene.mesh.subdivisions;
-    if times == 0 {
-        return Ok(mesh);
+    if times > 0 {
+        // What is wrong with the file is told by its own numbers.
+        mesh::validate(&mesh)?;
+        mesh = mesh::subdivided(mesh, times, &scene.contact)?;
+        mesh::validate(&mesh).map_err(|e| {
+            e.within("the subdivided mesh (is a surface that is laid on its circle too far from it for the elements beside it?)")
+        })?;
     }
-    // What is wrong with the file is told by its own numbers.
-    mesh::validate(&mesh)?;
-    let finer = mesh::subdivided(mesh, times, &scene.contact)?;
-    mesh::validate(&finer).map_err(|e| {
-        e.within("the subdivided mesh (is a surface that is laid on its circle too far from it for the elements beside it?)")
-    })?;
-    Ok(finer)
+    let (key, solid) = match (&scene.mesh.extrude, &scene.mesh.revolve) {
+        (Some(extrusion), _) => ("mesh.extrude", mesh::extruded(&mesh, extrusion)),
+        (_, Some(revolution)) => ("mesh.revolve", mesh::revolved(&mesh, revolution)),
+        _ => return Ok(mesh),
+    };
+    solid.map_err(|error| scene.places.in_front(key, error.within(key)))
 }
 
 /// Sets that targets name are looked up before the way to them begins.

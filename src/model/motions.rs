@@ -1,9 +1,9 @@
 //! Rigid motions of the bodies, and which of them supports and pairs leave free.
 
 use super::contact_basis::ContactBasis;
-use super::gram::{Gram, root};
+use super::gram::Gram;
 use super::{Freedoms, LoadCase, Pair, Slot};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, root};
 use crate::space::{self, RigidMotion, Space, Vector, unit};
 use nalgebra::DVector;
 use std::collections::{BTreeMap, BTreeSet};
@@ -120,7 +120,8 @@ impl<'a> Motions<'a> {
         }
     }
 
-    fn per_group(&self) -> usize {
+    /// Rigid motions of a group.
+    pub(super) fn per_group(&self) -> usize {
         self.space.rigid_motions().len()
     }
 
@@ -198,14 +199,15 @@ impl<'a> Motions<'a> {
         }
         for pair in pairs {
             let mut row = Vec::new();
-            for (node, sign) in [(pair.first, 1.0), (pair.second, -1.0)] {
+            let masters = pair.masters.iter().copied();
+            for (node, share) in masters.chain([(pair.slave, -1.0)]) {
                 let group = self.group_of_node[node];
                 let values = self.row(node, pair.normal);
                 row.extend(
                     values
                         .into_iter()
                         .enumerate()
-                        .map(|(m, v)| (per * group + m, sign * v)),
+                        .map(|(m, v)| (per * group + m, share * v)),
                 );
             }
             gram.add(&row);

@@ -2,37 +2,44 @@
 //! Units are the scene's; gap > 0 open, force and pressure > 0 compressive.
 
 use super::table;
-use crate::results::{PairState, State, Status};
-use serde::Serialize;
+use crate::results::{PairState, State, Status, number};
+use serde::{Deserialize, Serialize};
 use std::io::{self, Write};
 
 /// A row. The columns are the fields.
-#[derive(Serialize)]
-struct Row<'a> {
+#[derive(Serialize, Deserialize)]
+pub(super) struct Row {
     /// Number of the state, from 1, as in the names of the field files.
-    state: usize,
+    pub state: usize,
+    #[serde(deserialize_with = "number")]
     alpha: f64,
     /// Number of the pair, from 1, as in the history's events and in messages.
-    pair: usize,
+    pub pair: usize,
     /// Number of the contact, from 1, in the order of the scene.
-    contact: usize,
+    pub contact: usize,
     /// Undeformed position on the second surface; axisymmetric: (r, z).
+    #[serde(deserialize_with = "number")]
     x: f64,
+    #[serde(deserialize_with = "number")]
     y: f64,
     /// Of a solid.
     #[serde(skip_serializing_if = "Option::is_none")]
     z: Option<f64>,
+    #[serde(deserialize_with = "number")]
     gap: f64,
+    #[serde(deserialize_with = "number")]
     force: f64,
+    #[serde(deserialize_with = "number")]
     area: f64,
+    #[serde(deserialize_with = "number")]
     pressure: f64,
     status: Status,
     /// Name of the state.
-    name: &'a str,
+    name: String,
 }
 
-impl<'a> Row<'a> {
-    fn new(dimension: usize, state: usize, name: &'a str, alpha: f64, pair: &PairState) -> Self {
+impl Row {
+    fn new(dimension: usize, state: usize, name: &str, alpha: f64, pair: &PairState) -> Self {
         Row {
             state,
             alpha,
@@ -46,7 +53,21 @@ impl<'a> Row<'a> {
             area: pair.area,
             pressure: pair.pressure,
             status: pair.status,
-            name,
+            name: name.to_string(),
+        }
+    }
+
+    /// The pair again.
+    pub(super) fn pair_state(&self) -> PairState {
+        PairState {
+            pair: self.pair - 1,
+            contact: self.contact - 1,
+            position: [self.x, self.y, self.z.unwrap_or(0.0)],
+            gap: self.gap,
+            force: self.force,
+            area: self.area,
+            pressure: self.pressure,
+            status: self.status,
         }
     }
 }

@@ -1,27 +1,25 @@
-//! How a run ended: the one answer that the command line, C and Python give.
+//! How a run ended, as the command line, C and Python say it.
 
 use super::number::significant;
 use crate::error::{Error, ErrorKind, Result};
-use crate::results::{Demand, Results};
+use crate::results::{Demand, Ending, Results};
 
 /// Whether a run kept what was asked of it: the program done to its end, the quality of every state
 /// within its tolerance, and an accuracy that was demanded reached.
 ///
 /// # Errors
-/// The kind of [`Results::incomplete_kind`] where the run ended before its program did;
-/// `Inaccurate` with every figure that falls short. The results are there in each case.
+/// That of [`Ending::kind`]: where the run ended before its program did, why; `Inaccurate` with
+/// every figure that falls short. The results are there in each case.
 pub fn ending(results: &Results) -> Result<()> {
-    if let Some(why) = &results.incomplete {
-        let kind = results.incomplete_kind.unwrap_or(ErrorKind::Analysis);
-        let text = format!("the run ended before its program did: {why}");
-        return Err(Error::new(kind, text));
-    }
-    let demand = results.accuracy.as_ref().and_then(|a| a.demand.as_ref());
-    let missed = demand.filter(|d| !d.reached).map(in_words);
-    let short: Vec<String> = results.inaccurate.iter().cloned().chain(missed).collect();
-    match short.is_empty() {
-        true => Ok(()),
-        false => Err(Error::new(ErrorKind::Inaccurate, short.join("\n"))),
+    match results.ending() {
+        Ending::Complete => Ok(()),
+        Ending::Incomplete(incomplete) => {
+            Err((incomplete.to_error()).within("the run ended before its program did"))
+        }
+        Ending::Inaccurate { states, demand } => {
+            let short: Vec<String> = states.iter().cloned().chain(demand.map(in_words)).collect();
+            Err(Error::new(ErrorKind::Inaccurate, short.join("\n")))
+        }
     }
 }
 
@@ -55,7 +53,7 @@ pub(crate) fn in_words(demand: &Demand) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::results::{Accuracy, Demand};
+    use crate::results::{Accuracy, Demand, Incomplete};
 
     #[test]
     fn everything_that_falls_short_is_said() {
@@ -85,8 +83,10 @@ mod tests {
             error.message(),
             "state `pressed`\nDemanded accuracy 1 %: NOT reached: time; the stated error is 2.0 % (yield.load)"
         );
-        results.incomplete = Some("stopped".to_string());
-        results.incomplete_kind = Some(ErrorKind::Stopped);
+        results.incomplete = Some(Incomplete {
+            kind: ErrorKind::Stopped,
+            why: "stopped".to_string(),
+        });
         let error = ending(&results).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Stopped);
         assert!(error.message().ends_with("did: stopped"), "{error}");

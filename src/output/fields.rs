@@ -4,6 +4,8 @@
 //! | array | on | type | components |
 //! |---|---|---|---|
 //! | `displacement` | points | Float64 | x, y, 0; of a solid x, y, z |
+//! | `contact_pressure` | points | Float64 | 1, 0 where there is no pair |
+//! | `gap` | points | Float64 | 1, NaN where there is no pair |
 //! | `stress` | cells | Float64 | xx, yy, zz, xy; axisymmetric: rr, zz, tt, rz; of a solid the tensor row by row, 9 |
 //! | `von_mises` | cells | Float64 | 1 |
 //! | `equivalent_plastic_strain` | cells | Float64 | 1 |
@@ -85,10 +87,14 @@ fn grid<'a>(header: &RunHeader, mesh: &'a Mesh, fields: &'a Fields) -> Grid<'a> 
     let stress_names = space.unwrap_or(Space::PlaneStrain).components();
     Grid {
         mesh,
-        point_data: vec![DataArray::new(
-            "displacement",
-            Values::vectors(mesh, &fields.displacement),
-        )],
+        point_data: vec![
+            DataArray::new("displacement", Values::vectors(mesh, &fields.displacement)),
+            DataArray::new(
+                "contact_pressure",
+                Values::Float64(&fields.contact_pressure),
+            ),
+            DataArray::new("gap", Values::Float64(&fields.gap)),
+        ],
         cell_data: vec![
             match mesh.is_solid() {
                 true => DataArray::new("stress", Values::Tensors(&fields.stress)),
@@ -114,6 +120,8 @@ pub(super) fn check(mesh: &Mesh, fields: &Fields) -> Result<()> {
         ("coordinates", mesh.coordinates.len(), dimension * nodes),
         ("element bodies", mesh.element_body.len(), elements),
         ("displacement", fields.displacement.len(), dimension * nodes),
+        ("contact pressure", fields.contact_pressure.len(), nodes),
+        ("gap", fields.gap.len(), nodes),
         ("stress", fields.stress.len(), 2 * dimension * elements),
         ("von Mises stress", fields.von_mises.len(), elements),
         ("plastic strain", fields.plastic_strain.len(), elements),

@@ -30,10 +30,13 @@
 
 mod atomic;
 mod claim;
+#[cfg(feature = "report")]
+pub(crate) mod columns;
 mod contact;
 pub(crate) mod ending;
 mod fields;
 mod history;
+mod named;
 pub(crate) mod number;
 mod read;
 mod record;

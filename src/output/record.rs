@@ -36,6 +36,7 @@ pub(super) fn write(staging: &Staging, model: &Model) -> Result<()> {
         staging.file(MESH_FILE, |out| gmsh::write(&model.mesh, out))?;
         scene.mesh = MeshSource {
             file: Some(MESH_FILE.into()),
+            formulation: made.formulation,
             ..MeshSource::default()
         };
     }

@@ -2,20 +2,8 @@
 //! per quantity.
 
 use super::number::significant;
-use crate::results::{Accuracy, EstimateMethod, QuantityError};
+use crate::results::{Accuracy, EstimateMethod, QUANTITIES, Quantity, QuantityError};
 use std::collections::BTreeMap;
-
-/// Columns: key and heading.
-const KEYS: [(&str, &str); 8] = [
-    ("load", "load"),
-    ("max_pressure", "max\npressure"),
-    ("pole_pressure", "pole\npressure"),
-    ("half_width", "half\nwidth"),
-    ("approach", "approach"),
-    ("residual_depth", "residual\ndepth"),
-    ("max_equivalent_plastic_strain", "plastic\nstrain"),
-    ("plastic_zone_size", "plastic\nzone"),
-];
 
 /// The table: errors relative to the largest size of each quantity in the run.
 pub(crate) struct StatedErrors {
@@ -47,9 +35,9 @@ impl StatedErrors {
             }
         }
         let find = |prefix: &str, key: &str| of_prefix.get(prefix)?.get(key).copied();
-        let keys: Vec<_> = KEYS
+        let keys: Vec<&Quantity> = QUANTITIES
             .iter()
-            .filter(|(key, _)| prefixes.iter().any(|p| find(p, key).is_some()))
+            .filter(|quantity| prefixes.iter().any(|p| find(p, quantity.key).is_some()))
             .collect();
         let states = prefixes.iter().map(|prefix| {
             let name = match *prefix {
@@ -58,7 +46,8 @@ impl StatedErrors {
             };
             let errors = keys
                 .iter()
-                .map(|(key, _)| percent(find(prefix, key).and_then(|q| q.relative_error)));
+                .map(|quantity| find(prefix, quantity.key).and_then(|q| q.relative_error))
+                .map(percent);
             (name.to_string(), errors.collect())
         });
         type Part = fn(&QuantityError) -> Option<f64>;
@@ -68,7 +57,7 @@ impl StatedErrors {
             ("algebra", |q| Some(q.algebraic)),
         ];
         let kinds = parts.into_iter().map(|(name, part)| {
-            let largest = keys.iter().map(|(key, _)| {
+            let largest = keys.iter().map(|Quantity { key, .. }| {
                 let relative = prefixes.iter().filter_map(|p| {
                     let quantity = find(p, key)?;
                     // The scale is that of the stated error.
@@ -80,7 +69,7 @@ impl StatedErrors {
             (name, largest.collect())
         });
         Some(StatedErrors {
-            columns: keys.iter().map(|(_, heading)| *heading).collect(),
+            columns: keys.iter().map(|quantity| quantity.heading).collect(),
             states: states.collect(),
             kinds: kinds.collect(),
             method: method(accuracy),

@@ -1,10 +1,17 @@
-//! `summary.json`: the figures of a run. Keys and meanings are in [`super::SUMMARY_SCHEMA`].
+//! `summary.json`: the figures of a run, as one structure that writes and reads it. Keys and
+//! meanings are in [`super::SUMMARY_SCHEMA`]; those of a state are the table [`QUANTITIES`].
 
-use super::{RunHeader, fields};
-use crate::linalg::Prediction;
-use crate::results::{ContactPatch, Effect, ReferenceRow, Results, State, Status, YieldPoint};
-use crate::space::Vector;
-use serde_json::{Map, Value, json};
+use super::{RunHeader, fields, named::Named};
+use crate::error::ErrorKind;
+use crate::memory;
+use crate::results::{
+    Accuracy, ContactPatch, Counts, Effect, Field, Incomplete, Prediction, QUANTITIES, Quality,
+    Quantity, ReferenceRow, Results, Sizes, State, YieldPoint, number,
+};
+#[cfg(feature = "cli")]
+use crate::space::Space;
+use serde::{Deserialize, Serialize, Serializer, ser::SerializeMap};
+use serde_json::{Map, Value};
 use std::path::Path;
 
 /// The content of `summary.json`. Numbers that are not finite become null.
@@ -13,38 +20,237 @@ use std::path::Path;
 /// `total`, the wall time of the run; `peak_memory_bytes` is that of this process, null where the
 /// system does not tell.
 pub fn summary(header: &RunHeader, results: &Results) -> Value {
-    let sizes = &results.sizes;
-    let n_states = results.states.len();
-    let states = results.states.iter().enumerate();
-    json!({
-        "brinell": env!("CARGO_PKG_VERSION"),
-        "scene": scene(header),
-        "scene_file": header.scene_file,
-        "kind": header.kind,
-        "solver": header.solver,
-        "nodes": sizes.nodes,
-        "elements": sizes.elements,
-        "freedoms": sizes.freedoms,
-        "contact_pairs": sizes.contact_pairs,
-        "zone_freedoms": sizes.zone_freedoms,
-        "zone_elements": sizes.zone_elements,
-        "effects": effects(&results.effects),
-        "timings": timings(&results.timings, header.wall_seconds),
-        "peak_memory_bytes": peak_memory_bytes(),
-        "counts": results.counts,
-        "factor": factor(&results.factor),
-        "condition": results.condition,
-        "condition_estimate": results.condition_estimate,
-        "quality": results.quality,
-        "inaccurate": results.inaccurate,
-        "yield": results.first_yield.map(|point| first_yield(header, &point)),
-        "states": states.map(|(i, s)| state(header, i, n_states, s)).collect::<Vec<_>>(),
-        "reference": results.reference.iter().map(reference).collect::<Vec<_>>(),
-        "accuracy": results.accuracy,
-        "warnings": results.warnings,
-        "resumed": results.resumed,
-        "incomplete": results.incomplete,
-    })
+    // Numbers, texts and keys that are texts: nothing that JSON cannot hold.
+    serde_json::to_value(Summary::new(header, results)).unwrap_or_default()
+}
+
+/// `summary.json`. What a version did not have yet is as in a run without it.
+#[derive(Debug, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct Summary {
+    pub brinell: Option<String>,
+    pub scene: String,
+    scene_file: Option<String>,
+    kind: String,
+    solver: String,
+    #[serde(flatten)]
+    sizes: Sizes,
+    effects: Named<EffectEntry>,
+    timings: Named<Option<f64>>,
+    peak_memory_bytes: Option<u64>,
+    counts: Counts,
+    factor: Prediction,
+    #[serde(deserialize_with = "number")]
+    condition: f64,
+    condition_estimate: Option<f64>,
+    quality: Quality,
+    inaccurate: Vec<String>,
+    #[serde(rename = "yield")]
+    first_yield: Option<YieldEntry>,
+    states: Vec<StateEntry>,
+    reference: Vec<ReferenceRow>,
+    accuracy: Option<Accuracy>,
+    warnings: Vec<String>,
+    resumed: usize,
+    incomplete: Option<String>,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct EffectEntry {
+    on: bool,
+    why: String,
+    #[serde(deserialize_with = "number")]
+    seconds: f64,
+    memory_bytes: u64,
+}
+
+#[derive(Debug, Serialize, Deserialize)]
+struct YieldEntry {
+    #[serde(flatten)]
+    figures: Map<String, Value>,
+    location: Location,
+}
+
+#[derive(Debug, Default, Serialize, Deserialize)]
+struct Location {
+    #[serde(deserialize_with = "number")]
+    x: f64,
+    #[serde(deserialize_with = "number")]
+    y: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    z: Option<f64>,
+    body: String,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+struct StateEntry {
+    name: String,
+    contact_arc: Option<Arc>,
+    residual_depth_by_body: Named<Option<f64>>,
+    plastic_points_by_body: Named<usize>,
+    quality: Quality,
+    fields: Option<String>,
+    /// Of solids.
+    patches: Option<Vec<ContactPatch>>,
+    /// The quantities of the table.
+    #[serde(flatten)]
+    figures: Map<String, Value>,
+}
+
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+struct Arc {
+    #[serde(deserialize_with = "number")]
+    from: f64,
+    #[serde(deserialize_with = "number")]
+    to: f64,
+}
+
+impl Serialize for StateEntry {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut map = to.serialize_map(None)?;
+        map.serialize_entry("name", &self.name)?;
+        for (key, figure) in &self.figures {
+            map.serialize_entry(key, figure)?;
+            // What belongs to a quantity follows it.
+            match key.as_str() {
+                "half_width" => map.serialize_entry("contact_arc", &self.contact_arc)?,
+                "residual_depth" => {
+                    map.serialize_entry("residual_depth_by_body", &self.residual_depth_by_body)?;
+                }
+                "plastic_points" => {
+                    map.serialize_entry("plastic_points_by_body", &self.plastic_points_by_body)?;
+                }
+                _ => {}
+            }
+        }
+        map.serialize_entry("quality", &self.quality)?;
+        map.serialize_entry("fields", &self.fields)?;
+        if let Some(patches) = &self.patches {
+            map.serialize_entry("patches", patches)?;
+        }
+        map.end()
+    }
+}
+
+/// The quantities of a record that has these of the table.
+fn figures<R>(record: &R, field: impl Fn(&Quantity) -> Option<Field<R>>) -> Map<String, Value> {
+    let entry = |quantity: &Quantity| {
+        let value = (field(quantity)?.get)(record);
+        let figure = match quantity.is_count {
+            true => Value::from(value as u64),
+            false => value.into(),
+        };
+        Some((quantity.key.to_string(), figure))
+    };
+    QUANTITIES.iter().filter_map(entry).collect()
+}
+
+/// The record again.
+fn read_figures<R>(
+    figures: &Map<String, Value>,
+    record: &mut R,
+    field: impl Fn(&Quantity) -> Option<Field<R>>,
+) {
+    for quantity in &QUANTITIES {
+        if let (Some(field), Some(figure)) = (field(quantity), figures.get(quantity.key)) {
+            (field.set)(record, figure.as_f64().unwrap_or(f64::NAN));
+        }
+    }
+}
+
+impl Summary {
+    fn new(header: &RunHeader, results: &Results) -> Self {
+        let states = results.states.iter().enumerate();
+        let entry = |(index, state): (usize, &State)| {
+            let file = || fields::file_name(index, results.states.len(), &state.name);
+            StateEntry {
+                fields: state.fields.as_ref().map(|_| file()),
+                ..StateEntry::new(header, state)
+            }
+        };
+        Summary {
+            brinell: Some(env!("CARGO_PKG_VERSION").to_string()),
+            scene: scene(header),
+            scene_file: header.scene_file.clone(),
+            kind: header.kind.clone(),
+            solver: header.solver.clone(),
+            sizes: results.sizes,
+            effects: results.effects.iter().map(EffectEntry::new).collect(),
+            timings: timings(&results.timings, header.wall_seconds),
+            peak_memory_bytes: memory::peak(),
+            counts: results.counts,
+            factor: results.factor.clone(),
+            condition: results.condition,
+            condition_estimate: results.condition_estimate,
+            quality: results.quality,
+            inaccurate: results.inaccurate.clone(),
+            first_yield: (results.first_yield.as_ref()).map(|point| YieldEntry::new(header, point)),
+            states: states.map(entry).collect(),
+            reference: results.reference.clone(),
+            accuracy: results.accuracy.clone(),
+            warnings: results.warnings.clone(),
+            resumed: results.resumed,
+            incomplete: (results.incomplete.as_ref()).map(|incomplete| incomplete.why.clone()),
+        }
+    }
+
+    /// What the output says about the run beside its results, but for the scene's title.
+    pub(super) fn header(&self, bodies: &[String]) -> RunHeader {
+        let total = self.timings.get("total").copied().flatten();
+        RunHeader {
+            scene_title: String::new(),
+            scene_file: self.scene_file.clone(),
+            kind: self.kind.clone(),
+            solver: self.solver.clone(),
+            wall_seconds: total.unwrap_or(f64::NAN),
+            bodies: bodies.to_vec(),
+        }
+    }
+
+    /// The idealisation; an unknown one is taken for a plane one.
+    #[cfg(feature = "cli")]
+    pub(crate) fn space(&self) -> Space {
+        let named = Space::ALL.into_iter().find(|s| s.name() == self.kind);
+        named.unwrap_or(Space::PlaneStrain)
+    }
+
+    /// The names of the files with the fields of the states.
+    pub(super) fn field_files(&self) -> Vec<Option<String>> {
+        self.states.iter().map(|s| s.fields.clone()).collect()
+    }
+
+    /// All but the history, the pairs and the fields. The kind of an early end is not recorded.
+    pub(crate) fn results(self, bodies: &[String]) -> Results {
+        let phases = self.timings.0.into_iter();
+        let phases = phases.filter(|(phase, _)| phase != "total");
+        Results {
+            sizes: self.sizes,
+            effects: (self.effects.0.into_iter())
+                .map(|(name, effect)| effect.effect(name))
+                .collect(),
+            first_yield: self.first_yield.map(|entry| entry.point(bodies)),
+            states: self.states.into_iter().map(StateEntry::state).collect(),
+            timings: phases
+                .map(|(phase, seconds)| (phase, seconds.unwrap_or(f64::NAN)))
+                .collect(),
+            counts: self.counts,
+            quality: self.quality,
+            condition: self.condition,
+            condition_estimate: self.condition_estimate,
+            inaccurate: self.inaccurate,
+            factor: self.factor,
+            reference: self.reference,
+            accuracy: self.accuracy,
+            warnings: self.warnings,
+            resumed: self.resumed,
+            incomplete: self.incomplete.map(|why| Incomplete {
+                kind: ErrorKind::Analysis,
+                why,
+            }),
+            ..Results::default()
+        }
+    }
 }
 
 /// What a reader calls the scene: its title, or the name of its file.
@@ -59,20 +265,7 @@ fn scene(header: &RunHeader) -> String {
     name.map_or_else(|| "untitled".to_string(), |name| name.into_owned())
 }
 
-fn effects(effects: &[Effect]) -> Value {
-    let by_name = effects.iter().map(|effect| {
-        let entry = json!({
-            "on": effect.on,
-            "why": effect.why,
-            "seconds": effect.seconds,
-            "memory_bytes": effect.memory_bytes,
-        });
-        (effect.name.clone(), entry)
-    });
-    Value::Object(by_name.collect())
-}
-
-fn timings(phases: &[(String, f64)], total: f64) -> Value {
+fn timings(phases: &[(String, f64)], total: f64) -> Named<Option<f64>> {
     let mut seconds: Vec<(&str, f64)> = Vec::new();
     for (phase, time) in phases.iter().filter(|(phase, _)| phase != "total") {
         match seconds.iter_mut().find(|(name, _)| name == phase) {
@@ -81,117 +274,95 @@ fn timings(phases: &[(String, f64)], total: f64) -> Value {
         }
     }
     seconds.push(("total", total));
-    let by_phase = seconds.into_iter().map(|(k, v)| (k.to_owned(), v.into()));
-    Value::Object(by_phase.collect())
+    let by_phase = seconds.into_iter();
+    by_phase.map(|(k, v)| (k.to_owned(), Some(v))).collect()
 }
 
-fn factor(factor: &Prediction) -> Value {
-    json!({
-        "ordering": factor.ordering,
-        "factor_nonzeros": whole(factor.factor_nonzeros),
-        "trailing_nonzeros": whole(factor.trailing_nonzeros),
-        "flops": whole(factor.flops),
-        "memory_bytes": whole(factor.memory_bytes),
-    })
-}
+impl EffectEntry {
+    fn new(effect: &Effect) -> (String, Self) {
+        let entry = EffectEntry {
+            on: effect.on,
+            why: effect.why.clone(),
+            seconds: effect.seconds,
+            memory_bytes: effect.memory_bytes,
+        };
+        (effect.name.clone(), entry)
+    }
 
-/// A count kept as a float, written as an integer where that is exact.
-fn whole(count: f64) -> Value {
-    const LARGEST_EXACT: f64 = (1u64 << f64::MANTISSA_DIGITS) as f64;
-    if (0.0..=LARGEST_EXACT).contains(&count) {
-        (count.round() as u64).into()
-    } else {
-        count.into()
+    fn effect(self, name: String) -> Effect {
+        Effect {
+            name,
+            on: self.on,
+            why: self.why,
+            seconds: self.seconds,
+            memory_bytes: self.memory_bytes,
+        }
     }
 }
 
-fn first_yield(header: &RunHeader, point: &YieldPoint) -> Value {
-    let axes = ["x", "y", "z"].into_iter().zip(point.location);
-    let mut location: Map<String, Value> = axes
-        .take(header.dimension())
-        .map(|(axis, x)| (axis.to_string(), x.into()))
-        .collect();
-    location.insert("body".to_string(), header.body(point.body).into());
-    json!({
-        "alpha": point.alpha,
-        "load": point.load,
-        "max_pressure": point.max_pressure,
-        "half_width": point.half_width,
-        "location": location,
-    })
-}
-
-fn state(header: &RunHeader, index: usize, n_states: usize, state: &State) -> Value {
-    let points = by_body(header, &state.plastic_points_by_body);
-    let depths = by_body(header, &state.residual_depth_by_body);
-    let closed = state.pairs.iter().filter(|p| p.status == Status::Closed);
-    let file = state.fields.as_ref();
-    let mut figures = json!({
-        "name": state.name,
-        "alpha": state.alpha,
-        "load": state.load,
-        "contact_force": state.contact_force,
-        "closed_pairs": closed.count(),
-        "max_pressure": state.max_pressure,
-        "pole_pressure": state.pole_pressure,
-        "half_width": state.half_width,
-        "contact_arc": state.contact_arc.map(|[from, to]| json!({ "from": from, "to": to })),
-        "residual_depth": state.residual_depth,
-        "residual_depth_by_body": depths,
-        "rim_height": state.rim_height,
-        "approach": state.approach,
-        "plastic_points": state.plastic_points,
-        "plastic_points_by_body": points,
-        "max_equivalent_plastic_strain": state.max_equivalent_plastic_strain,
-        "plastic_zone_size": state.plastic_zone_size,
-        "energy_error": state.energy_error,
-        "quality": state.quality,
-        "fields": file.map(|_| fields::file_name(index, n_states, &state.name)),
-    });
-    if header.dimension() == 3 {
-        figures["patches"] = state.patches.iter().map(patch).collect();
+impl YieldEntry {
+    fn new(header: &RunHeader, point: &YieldPoint) -> Self {
+        let [x, y, z] = point.location;
+        YieldEntry {
+            figures: figures(point, |quantity| quantity.at_yield),
+            location: Location {
+                x,
+                y,
+                z: (header.dimension() == 3).then_some(z),
+                body: header.body(point.body),
+            },
+        }
     }
-    figures
+
+    fn point(self, bodies: &[String]) -> YieldPoint {
+        let Location { x, y, z, body } = self.location;
+        let mut point = YieldPoint {
+            location: [x, y, z.unwrap_or(0.0)],
+            body: bodies.iter().position(|name| *name == body).unwrap_or(0),
+            ..YieldPoint::default()
+        };
+        read_figures(&self.figures, &mut point, |quantity| quantity.at_yield);
+        point
+    }
 }
 
-/// A patch of contact; contacts are counted from 1.
-fn patch(patch: &ContactPatch) -> Value {
-    let vector = |[x, y, z]: Vector| json!({ "x": x, "y": y, "z": z });
-    json!({
-        "contact": patch.contact + 1,
-        "force": patch.force,
-        "area": patch.area,
-        "max_pressure": patch.max_pressure,
-        "mean_pressure": patch.mean_pressure,
-        "semi_axes": patch.semi_axes,
-        "centroid": vector(patch.centroid),
-        "direction": vector(patch.direction),
-    })
+impl StateEntry {
+    fn new(header: &RunHeader, state: &State) -> Self {
+        let depths = state.residual_depth_by_body.iter().copied();
+        let points = state.plastic_points_by_body.iter().copied();
+        StateEntry {
+            name: state.name.clone(),
+            contact_arc: state.contact_arc.map(|[from, to]| Arc { from, to }),
+            residual_depth_by_body: by_body(header, depths.map(Some)),
+            plastic_points_by_body: by_body(header, points),
+            quality: state.quality,
+            fields: None,
+            patches: (header.dimension() == 3).then(|| state.patches.clone()),
+            figures: figures(state, |quantity| Some(quantity.in_state)),
+        }
+    }
+
+    fn state(self) -> State {
+        let depths = self.residual_depth_by_body.0.into_iter();
+        let points = self.plastic_points_by_body.0.into_iter();
+        let mut state = State {
+            name: self.name,
+            contact_arc: self.contact_arc.map(|Arc { from, to }| [from, to]),
+            residual_depth_by_body: depths.map(|(_, depth)| depth.unwrap_or(f64::NAN)).collect(),
+            plastic_points_by_body: points.map(|(_, points)| points).collect(),
+            patches: self.patches.unwrap_or_default(),
+            quality: self.quality,
+            ..State::default()
+        };
+        read_figures(&self.figures, &mut state, |quantity| {
+            Some(quantity.in_state)
+        });
+        state
+    }
 }
 
 /// A figure of each body, by its name.
-fn by_body<T: Copy + Into<Value>>(header: &RunHeader, figures: &[T]) -> Map<String, Value> {
-    let named = figures.iter().enumerate();
-    named
-        .map(|(i, &figure)| (header.body(i), figure.into()))
-        .collect()
-}
-
-fn reference(row: &ReferenceRow) -> Value {
-    json!({
-        "quantity": row.quantity,
-        "reference": row.reference,
-        "computed": row.computed,
-        "ratio": row.ratio,
-        "published_ratio": row.published_ratio,
-        "source": row.source,
-    })
-}
-
-/// The most memory that this process has held so far (Linux: `VmHWM`).
-fn peak_memory_bytes() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:"))?;
-    let kibibytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    kibibytes.checked_mul(1024)
+fn by_body<T>(header: &RunHeader, figures: impl Iterator<Item = T>) -> Named<T> {
+    let named = figures.enumerate();
+    named.map(|(i, figure)| (header.body(i), figure)).collect()
 }

@@ -44,6 +44,8 @@ pub(super) fn read(path: &Path, mesh: &Mesh) -> Result<Fields> {
         plastic_strain: numbers("equivalent_plastic_strain")?,
         yielded: file.bytes("yielded").map_err(damaged)?.to_vec(),
         error: numbers("discretisation_error")?,
+        contact_pressure: numbers("contact_pressure")?,
+        gap: numbers("gap")?,
     };
     fields::check(mesh, &fields).map_err(|error| {
         damaged(format!(
@@ -152,9 +154,14 @@ mod tests {
             [7.5],
             [1.0, 2.0, 3.0, 4.0],
         );
+        let of_nodes = [0.5, f64::NAN, 1.5];
         let grid = Grid {
             mesh: &mesh,
-            point_data: vec![DataArray::new("displacement", Values::Planar(&u))],
+            point_data: vec![
+                DataArray::new("displacement", Values::Planar(&u)),
+                DataArray::new("contact_pressure", Values::Float64(&of_nodes)),
+                DataArray::new("gap", Values::Float64(&of_nodes)),
+            ],
             cell_data: vec![
                 DataArray::named("stress", &["xx", "yy", "zz", "xy"], Values::Float64(&four)),
                 DataArray::new("von_mises", Values::Float64(&one)),

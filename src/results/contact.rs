@@ -1,29 +1,85 @@
 //! What carries a contact: pairs, and in a solid model patches.
 
+use super::number;
 use crate::space::Vector;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// A patch of contact of a solid model: pairs that touch, joined by faces of the second surface. It is
 /// that of the whole where it reaches planes of symmetry.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ContactPatch {
-    /// Contact (scene entry) index, from 0.
+    /// Contact (scene entry) index, from 0; `summary.json` counts from 1.
+    #[serde(with = "from_one")]
     pub contact: usize,
-    /// Area, on the plane across the mean normal.
+    /// Force.
+    #[serde(deserialize_with = "number")]
+    pub force: f64,
+    /// Area, on the plane across the mean normal; of a patch that closes round a body that of its
+    /// surface.
+    #[serde(deserialize_with = "number")]
     pub area: f64,
-    /// Centroid of the area.
-    pub centroid: Vector,
-    /// Half axes, the larger first, of the ellipse with the patch's area moments of second order:
-    /// those of the patch itself where it is an ellipse.
-    pub semi_axes: [f64; 2],
-    /// Direction of the larger half axis.
-    pub direction: Vector,
     /// Largest pressure of a pair.
+    #[serde(deserialize_with = "number")]
     pub max_pressure: f64,
     /// Force over area.
+    #[serde(deserialize_with = "number")]
     pub mean_pressure: f64,
-    /// Force.
-    pub force: f64,
+    /// Half axes, the larger first, of the ellipse with the patch's area moments of second order:
+    /// those of the patch itself where it is an ellipse. Of a patch between two parallel planes of
+    /// symmetry, a strip without end, infinite and half its width.
+    #[serde(deserialize_with = "numbers")]
+    pub semi_axes: [f64; 2],
+    /// Centroid of the area.
+    #[serde(with = "by_axis")]
+    pub centroid: Vector,
+    /// Direction of the larger half axis.
+    #[serde(with = "by_axis")]
+    pub direction: Vector,
+}
+
+fn numbers<'de, D: Deserializer<'de>>(from: D) -> Result<[f64; 2], D::Error> {
+    #[derive(Deserialize)]
+    struct Number(#[serde(deserialize_with = "number")] f64);
+    Ok(<[Number; 2]>::deserialize(from)?.map(|n| n.0))
+}
+
+/// An index from 0 that is written as a number from 1.
+mod from_one {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub fn serialize<S: Serializer>(index: &usize, to: S) -> Result<S::Ok, S::Error> {
+        (index + 1).serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<usize, D::Error> {
+        Ok(usize::deserialize(from)?.saturating_sub(1))
+    }
+}
+
+/// A vector that is written as components by name.
+mod by_axis {
+    use super::{Vector, number};
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    #[derive(Serialize, Deserialize)]
+    struct Components {
+        #[serde(deserialize_with = "number")]
+        x: f64,
+        #[serde(deserialize_with = "number")]
+        y: f64,
+        #[serde(deserialize_with = "number")]
+        z: f64,
+    }
+
+    pub fn serialize<S: Serializer>(vector: &Vector, to: S) -> Result<S::Ok, S::Error> {
+        let [x, y, z] = *vector;
+        Components { x, y, z }.serialize(to)
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vector, D::Error> {
+        let Components { x, y, z } = Components::deserialize(from)?;
+        Ok([x, y, z])
+    }
 }
 
 /// A contact pair's state.

@@ -1,21 +1,16 @@
 //! `accuracy = "1 %"`: how wrong the results may be, all of them or those that are named.
 
+use crate::results::{QUANTITIES, Quantity};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// Quantities whose accuracy can be demanded: their keys in `summary.json`, and short names.
-pub const DEMANDED: [(&str, &str); 8] = [
-    ("load", "load"),
-    ("max_pressure", "pressure"),
-    ("pole_pressure", "pole"),
-    ("half_width", "width"),
-    ("approach", "approach"),
-    ("residual_depth", "dent"),
-    ("max_equivalent_plastic_strain", "strain"),
-    ("plastic_zone_size", "zone"),
-];
+fn demanded() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let short = |quantity: &'static Quantity| Some((quantity.key, quantity.estimated?.short));
+    QUANTITIES.iter().filter_map(short)
+}
 
 /// A demanded relative accuracy: of every quantity (`"1 %"` or `0.01`), or of those that are named
 /// (`"load = 0.5 %, dent = 2 %"` or a table). A name is a key of `summary.json`, its short name or a whole path such as
@@ -99,17 +94,16 @@ fn key(name: &str) -> Result<String, String> {
         None => (None, name),
     };
     let is_place = prefix.is_none_or(|p| p == "yield" || p.starts_with("states."));
-    let known = DEMANDED
-        .iter()
-        .find(|(key, short)| last == *key || last == *short);
+    let known = demanded().find(|(key, short)| last == *key || last == *short);
     match (known, prefix) {
         (Some((key, _)), Some(prefix)) if is_place => Ok(format!("{prefix}.{key}")),
         (Some((key, _)), None) => Ok((*key).to_string()),
         _ => {
-            let all = DEMANDED.map(|(key, short)| match key == short {
+            let all = demanded().map(|(key, short)| match key == short {
                 true => key.to_string(),
                 false => format!("{key} (or {short})"),
             });
+            let all: Vec<String> = all.collect();
             Err(format!(
                 "`{name}` is no quantity whose accuracy can be demanded; there are {}, also of one state as yield.load or \
                  states.NAME.load",

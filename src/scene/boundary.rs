@@ -6,7 +6,8 @@ use serde::de::{self, Deserializer, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 use std::fmt;
 
-/// Two surfaces that may touch, without friction. Their nodes must pair.
+/// Two surfaces that may touch, without friction. Where their nodes do not face each other they are
+/// coupled by the integrals of their shape functions (dual mortar).
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
@@ -18,9 +19,34 @@ pub struct Contact {
     pub normal: Option<Components>,
     /// Initial gap for all pairs instead of the geometric one.
     pub gap: Option<f64>,
+    /// Which surface has the slaves, at whose nodes gaps and pressures are: `"auto"` takes the finer
+    /// one (the coarser where its facets are linear and more than twice as long), the second where
+    /// nodes face each other.
+    #[serde(default, skip_serializing_if = "SlaveSide::is_auto")]
+    pub slave: SlaveSide,
     /// Interference: taken off every initial gap, applied gradually before the load program.
     #[serde(default)]
     pub interference: f64,
+}
+
+/// Which surface of a contact has the slaves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SlaveSide {
+    /// The finer one; the second where nodes face each other.
+    #[default]
+    Auto,
+    /// The first.
+    First,
+    /// The second.
+    Second,
+}
+
+impl SlaveSide {
+    /// Whether it is left open.
+    pub fn is_auto(&self) -> bool {
+        *self == SlaveSide::Auto
+    }
 }
 
 /// A support.

@@ -81,3 +81,7 @@ pub(super) fn yes() -> bool {
 pub(super) fn single() -> usize {
     1
 }
+
+pub(super) fn quarter_turn() -> f64 {
+    90.0
+}

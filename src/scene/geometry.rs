@@ -1,6 +1,7 @@
 //! Where the mesh comes from: a generator with its parameters, or a file.
 
 use crate::shape::Shape;
+use crate::space::Space;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
@@ -18,8 +19,9 @@ pub struct MeshSource {
     pub curved_bodies: Option<CurvedBodies>,
     /// Blocks, rings and bricks, put together.
     pub parts: Option<Vec<Part>>,
-    /// A Gmsh file (.msh 2.2 or 4.1, ASCII), relative to the scene file. Physical surfaces are
-    /// bodies, physical curves surfaces, physical points node sets.
+    /// A Gmsh file (.msh 2.2 or 4.1, ASCII) or the mesh of a deck of Abaqus or CalculiX (.inp), relative to the scene file. Physical surfaces are
+    /// bodies, physical curves surfaces, physical points node sets; of a solid mesh physical volumes
+    /// are bodies, physical surfaces surfaces, physical curves and points node sets.
     pub file: Option<PathBuf>,
     /// Surfaces of the file that lie on circles.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -27,6 +29,112 @@ pub struct MeshSource {
     /// How many times each element of the file is cut in four. New nodes on the surfaces in `circles` lie on these.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub subdivisions: usize,
+    /// Surfaces of the file that lie on spheres.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub spheres: Vec<SurfaceSphere>,
+    /// Surfaces of the file that lie on circular cylinders.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cylinders: Vec<SurfaceCylinder>,
+    /// Surfaces of the file that lie on tori: grooves, raceways, fillets.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tori: Vec<SurfaceTorus>,
+    /// Draws the plane mesh along z to a solid one (`kind = "solid"`).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub extrude: Option<Extrusion>,
+    /// Turns the plane mesh about the y axis to a solid one (`kind = "solid"`).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub revolve: Option<Revolution>,
+    /// How the stiffness of linear quadrilaterals, hexahedra and prisms is integrated.
+    #[serde(default, skip_serializing_if = "Formulation::is_mean")]
+    pub formulation: Formulation,
+}
+
+/// How the stiffness of linear quadrilaterals, hexahedra and prisms is integrated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Formulation {
+    /// With the mean of the dilatation over the element (B-bar): does not lock where the volume
+    /// stays the same.
+    #[default]
+    Mean,
+    /// At all points alike, as CalculiX does for `C3D8`, `CPE4` and `CAX4`: to compare with it. Locks
+    /// where the volume stays the same, as it does where the material yields.
+    Full,
+}
+
+impl Formulation {
+    /// Whether it is the usual one.
+    pub fn is_mean(&self) -> bool {
+        *self == Formulation::Mean
+    }
+}
+
+/// A plane mesh drawn along z: `BODY.front` is the section at z = 0, `BODY.back` that at `depth`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Extrusion {
+    /// Length along z.
+    pub depth: f64,
+    /// Number of elements along it.
+    pub elements: usize,
+}
+
+/// A plane mesh of coordinates (r, y), turned about the y axis from the x axis towards z:
+/// `BODY.front` is the section in the x-y plane, `BODY.back` that at `angle`; a full turn is closed.
+/// A surface on the axis becomes a node set.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Revolution {
+    /// Angle in degrees, 360 at most.
+    #[serde(default = "super::defaults::quarter_turn")]
+    pub angle: f64,
+    /// Number of elements along it.
+    pub elements: usize,
+}
+
+/// The sphere that a surface of a mesh file lies on: normals and gaps are exact.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceSphere {
+    /// Name of the surface.
+    pub on: String,
+    /// Centre.
+    #[serde(default)]
+    pub center: [f64; 3],
+    /// Radius.
+    pub radius: f64,
+}
+
+/// The circular cylinder that a surface of a mesh file lies on.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceCylinder {
+    /// Name of the surface.
+    pub on: String,
+    /// A point of the axis.
+    #[serde(default)]
+    pub point: [f64; 3],
+    /// Direction of the axis.
+    pub axis: [f64; 3],
+    /// Radius.
+    pub radius: f64,
+}
+
+/// The torus that a surface of a mesh file lies on: all points at a distance from a ring.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SurfaceTorus {
+    /// Name of the surface.
+    pub on: String,
+    /// Centre of the ring.
+    #[serde(default)]
+    pub center: [f64; 3],
+    /// Direction of its axis.
+    pub axis: [f64; 3],
+    /// Radius of the ring.
+    pub ring_radius: f64,
+    /// Radius of the tube: that of the groove.
+    pub radius: f64,
 }
 
 fn is_zero(n: &usize) -> bool {
@@ -155,6 +263,18 @@ pub enum Meshed {
     Half,
     /// All of it.
     Full,
+}
+
+impl MeshSource {
+    /// The kind of the model that the mesh is a section of, where it is drawn to a solid one: plane
+    /// strain for an extrusion, axisymmetric for a revolution, else `kind`.
+    pub fn section(&self, kind: Space) -> Space {
+        match (&self.extrude, &self.revolve) {
+            (Some(_), _) => Space::PlaneStrain,
+            (_, Some(_)) => Space::Axisymmetric,
+            _ => kind,
+        }
+    }
 }
 
 impl CurvedBodies {

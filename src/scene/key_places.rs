@@ -28,6 +28,20 @@ impl KeyPlaces {
         }
     }
 
+    /// Of keys of a text that was made from something else their places there; overrides keep theirs.
+    /// What has none is `file`'s.
+    pub(super) fn elsewhere(&self, places: &BTreeMap<String, String>, file: &str) -> KeyPlaces {
+        let there = KeyPlaces::new(places.clone());
+        let place_of = |(key, place): (&String, &String)| {
+            let place = match place.starts_with("--set ") {
+                true => place,
+                false => there.of(key).unwrap_or(file),
+            };
+            (key.clone(), place.to_string())
+        };
+        KeyPlaces::new(self.0.iter().map(place_of).collect())
+    }
+
     /// Puts the place of a key, where it is known, in front of what is wrong with it.
     pub(crate) fn in_front(&self, path: &str, error: Error) -> Error {
         match self.of(path) {

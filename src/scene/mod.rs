@@ -27,11 +27,14 @@ mod units;
 mod unsupported;
 mod validate;
 
-pub use accuracy::{AccuracyDemand, DEMANDED};
-pub use boundary::{Contact, Direction, Displacement, History, Kirsch, Load, PlaneForce, Support};
+pub use accuracy::AccuracyDemand;
+pub use boundary::{
+    Contact, Direction, Displacement, History, Kirsch, Load, PlaneForce, SlaveSide, Support,
+};
 pub use geometry::{
-    Block, BrickPart, CurvedBodies, CylinderOnHalfPlane, Disc, DiscInPlate, MeshSource, Meshed,
-    Part, Piece, Ring, SurfaceCircle,
+    Block, BrickPart, CurvedBodies, CylinderOnHalfPlane, Disc, DiscInPlate, Extrusion, Formulation,
+    MeshSource, Meshed, Part, Piece, Revolution, Ring, SurfaceCircle, SurfaceCylinder,
+    SurfaceSphere, SurfaceTorus,
 };
 pub use key_places::KeyPlaces;
 pub use material::{Body, Material, Plastic};

@@ -7,6 +7,7 @@ use crate::files;
 use crate::text::short;
 use serde::Deserialize;
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::path::Path;
 use toml::de::DeTable;
 
@@ -43,7 +44,7 @@ impl Scene {
         let path = path.as_ref();
         let text = files::read_text("read the scene", path, Some(files::LARGEST_SCENE))?;
         let name = path.display().to_string();
-        let mut scene = parse(&Source::new(&name, &text, overrides))?;
+        let mut scene = parse(&Source::new(&name, &text, overrides), None)?;
         scene.file = Some(path.to_path_buf());
         Ok(scene)
     }
@@ -70,7 +71,21 @@ impl Scene {
     /// # Errors
     /// As [`Scene::load_with`].
     pub fn parse_with(text: &str, name: &str, overrides: &[String]) -> Result<Scene> {
-        parse(&Source::new(name, text, overrides))
+        parse(&Source::new(name, text, overrides), None)
+    }
+
+    /// As [`Scene::parse_with`] of a text that was made from something else: `places` has where its
+    /// tables stand there.
+    ///
+    /// # Errors
+    /// As [`Scene::parse_with`], with these places.
+    pub(crate) fn parse_placed(
+        text: &str,
+        name: &str,
+        overrides: &[String],
+        places: &BTreeMap<String, String>,
+    ) -> Result<Scene> {
+        parse(&Source::new(name, text, overrides), Some(places))
     }
 
     /// The scene as TOML: [`Scene::parse`] reads it back.
@@ -91,7 +106,7 @@ impl Scene {
     }
 }
 
-fn parse(source: &Source<'_>) -> Result<Scene> {
+fn parse(source: &Source<'_>, made_from: Option<&BTreeMap<String, String>>) -> Result<Scene> {
     let mut root = DeTable::parse(source.text)
         .map_err(|error| source.syntax_error(&error))?
         .into_inner();
@@ -100,6 +115,9 @@ fn parse(source: &Source<'_>) -> Result<Scene> {
     let mut scene = Scene::deserialize(toml::de::Deserializer::from(root.clone()))
         .map_err(|error| explain(&error, &places))?;
     scene.places = places.by_key();
+    if let Some(places) = made_from {
+        scene.places = scene.places.elsewhere(places, source.name);
+    }
     scene.warnings = warnings;
     complete::check(&scene, root.get_ref(), &scene.places)?;
     let problems = validate::problems(&scene);

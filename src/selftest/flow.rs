@@ -63,7 +63,7 @@ fn tube(cases: &mut Cases) -> Result<()> {
                 material.poissons_ratio = nu;
             }
             let run = results(&tube)?;
-            let collapsed = run.incomplete_kind == Some(ErrorKind::Collapse);
+            let collapsed = run.ending().kind() == Some(ErrorKind::Collapse);
             let last = run.history.last().filter(|_| collapsed);
             cases.add(last.map_or(f64::NAN, |row| row.alpha / limit - 1.0));
         }
@@ -75,7 +75,7 @@ fn column(cases: &mut Cases) -> Result<()> {
     let run = results(&scene(include_str!(
         "../../data/scenes/hard/limit_load.toml"
     ))?)?;
-    let collapsed = run.incomplete_kind == Some(ErrorKind::Collapse);
+    let collapsed = run.ending().kind() == Some(ErrorKind::Collapse);
     let last = run.history.last().filter(|_| collapsed);
     cases.add(last.map_or(f64::NAN, |row| row.alpha - 1.0));
     Ok(())

@@ -8,12 +8,14 @@
 //! | `flow` | incompressible flow, limit loads, cycles, ratchetting, the axis of quadratic elements |
 //! | `peers` | cases on which other codes were seen to fail without a word |
 //! | `restart` | going on from checkpoints |
+//! | `solids` | three dimensions: Hertz, plane strain drawn out, bodies of all stiffnesses, slivers |
 
 mod contact;
 mod flow;
 mod numbers;
 mod peers;
 mod restart;
+mod solids;
 
 use crate::analysis::Analysis;
 use crate::error::{Error, Result};
@@ -86,7 +88,8 @@ pub fn run(observer: &mut dyn Observer) -> Vec<Row> {
         .chain(numbers::FAMILIES)
         .chain(flow::FAMILIES)
         .chain(peers::FAMILIES)
-        .chain(restart::FAMILIES);
+        .chain(restart::FAMILIES)
+        .chain(solids::FAMILIES);
     let mut rows = Vec::new();
     for family in families {
         if observer.stop_requested() {
@@ -171,7 +174,7 @@ fn results_by(scene: &Scene, backend: Backend) -> Result<Results> {
 fn state<'r>(results: &'r Results, name: &str) -> Result<&'r State> {
     let found = results.states.iter().find(|s| s.name == name);
     found.ok_or_else(|| {
-        let why = results.incomplete.clone().unwrap_or_default();
+        let why = results.incomplete.as_ref().map_or("", |i| i.why.as_str());
         Error::analysis(format!("state `{name}` was not reached: {why}"))
     })
 }

@@ -64,7 +64,7 @@ const TRIANGLE_RULE: &Rule = {
 const LINE: [Place; 3] = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
 
 /// Two ends.
-pub(super) static LINE2: FacetReference = FacetReference {
+static LINE2: FacetReference = FacetReference {
     n_corners: 2,
     nodes: LINE.split_at(2).0,
     functions: functions::line2,
@@ -73,7 +73,7 @@ pub(super) static LINE2: FacetReference = FacetReference {
 };
 
 /// Two ends and the node between them.
-pub(super) static LINE3: FacetReference = FacetReference {
+static LINE3: FacetReference = FacetReference {
     n_corners: 2,
     nodes: &LINE,
     functions: functions::line3,
@@ -81,8 +81,8 @@ pub(super) static LINE3: FacetReference = FacetReference {
     gmsh: 8,
 };
 
-/// The face of a linear tetrahedron.
-pub(super) static FACE3: FacetReference = FacetReference {
+/// A triangle of a linear element.
+static FACE3: FacetReference = FacetReference {
     n_corners: 3,
     nodes: TRIANGLE.split_at(3).0,
     functions: functions::tri3,
@@ -90,8 +90,8 @@ pub(super) static FACE3: FacetReference = FacetReference {
     gmsh: 2,
 };
 
-/// The face of a quadratic tetrahedron.
-pub(super) static FACE6: FacetReference = FacetReference {
+/// A triangle of a quadratic element.
+static FACE6: FacetReference = FacetReference {
     n_corners: 3,
     nodes: &TRIANGLE,
     functions: functions::tri6,
@@ -99,8 +99,8 @@ pub(super) static FACE6: FacetReference = FacetReference {
     gmsh: 9,
 };
 
-/// The face of a trilinear hexahedron.
-pub(super) static FACE4: FacetReference = FacetReference {
+/// A quadrilateral of a linear element.
+static FACE4: FacetReference = FacetReference {
     n_corners: 4,
     nodes: SQUARE.split_at(4).0,
     functions: functions::quad4,
@@ -108,8 +108,8 @@ pub(super) static FACE4: FacetReference = FacetReference {
     gmsh: 3,
 };
 
-/// The face of a serendipity hexahedron.
-pub(super) static FACE8: FacetReference = FacetReference {
+/// A quadrilateral of a quadratic element.
+static FACE8: FacetReference = FacetReference {
     n_corners: 4,
     nodes: &SQUARE,
     functions: functions::quad8,
@@ -121,9 +121,53 @@ impl FacetReference {
     /// All facets.
     pub const ALL: [&'static FacetReference; 6] = [&LINE2, &LINE3, &FACE3, &FACE6, &FACE4, &FACE8];
 
+    /// The facet of a dimension with a number of nodes.
+    pub(super) fn with_nodes(dimension: usize, n: usize) -> &'static FacetReference {
+        match (dimension, n) {
+            (1, 2) => &LINE2,
+            (1, _) => &LINE3,
+            (_, 3) => &FACE3,
+            (_, 4) => &FACE4,
+            (_, 6) => &FACE6,
+            _ => &FACE8,
+        }
+    }
+
+    /// A triangle of a linear element.
+    pub fn triangle() -> &'static FacetReference {
+        &FACE3
+    }
+
+    /// The pieces with straight edges between all of its nodes, by their corners: a linear face is
+    /// one piece.
+    pub fn pieces(&self) -> &'static [&'static [usize]] {
+        match self.nodes.len() {
+            2 => &[&[0, 1]],
+            3 if self.n_corners == 3 => &[&[0, 1, 2]],
+            3 => &[&[0, 2], &[2, 1]],
+            4 => &[&[0, 1, 2, 3]],
+            6 => &[&[0, 3, 5], &[3, 1, 4], &[5, 4, 2], &[3, 4, 5]],
+            _ => &[
+                &[0, 4, 7],
+                &[4, 1, 5],
+                &[5, 2, 6],
+                &[6, 3, 7],
+                &[4, 5, 6, 7],
+            ],
+        }
+    }
+
     /// Number of reference coordinates: 1 of a line, 2 of a face.
     pub fn dimension(&self) -> usize {
         if self.n_corners == 2 { 1 } else { 2 }
+    }
+
+    /// The reference coordinates of its middle.
+    pub fn center(&self) -> Place {
+        match self.n_corners {
+            3 => [1.0 / 3.0, 1.0 / 3.0, 0.0],
+            _ => [0.0; 3],
+        }
     }
 
     /// The outward area of a facet per unit of its reference coordinates: the product of its two

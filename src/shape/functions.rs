@@ -1,6 +1,6 @@
 //! Shape functions and their derivatives along the reference coordinates: lines, quadrilaterals and
 //! hexahedra on `[-1, 1]^d`, triangles and tetrahedra where no coordinate and not one less their
-//! sum is negative.
+//! sum is negative, prisms on such a triangle times `[-1, 1]`.
 
 use super::{MAX_NODES, Place};
 
@@ -125,6 +125,45 @@ pub(super) fn tet10([x, y, z]: Place) -> Functions {
         for d in 0..3 {
             out.gradients[k + 4][d] = 4.0 * (SLOPES_3[i][d] * l[j] + l[i] * SLOPES_3[j][d]);
         }
+    }
+    out
+}
+
+pub(super) fn prism6([x, y, z]: Place) -> Functions {
+    let mut out = Functions::NONE;
+    let l = [1.0 - x - y, x, y];
+    for (base, a) in [(0, -1.0), (3, 1.0)] {
+        let along = 0.5 * (1.0 + a * z);
+        for i in 0..3 {
+            out.values[base + i] = l[i] * along;
+            let [p, q] = SLOPES[i].map(|slope| slope * along);
+            out.gradients[base + i] = [p, q, 0.5 * a * l[i]];
+        }
+    }
+    out
+}
+
+pub(super) fn prism15([x, y, z]: Place) -> Functions {
+    let mut out = Functions::NONE;
+    let l = [1.0 - x - y, x, y];
+    let bubble = 1.0 - z * z;
+    for i in 0..3 {
+        let j = (i + 1) % 3;
+        for (base, a) in [(0, -1.0), (3, 1.0)] {
+            let along = 1.0 + a * z;
+            // Corners, then the middles of the edges of base and top.
+            let inner = 2.0 * l[i] - 1.0;
+            out.values[base + i] = 0.5 * l[i] * (inner * along - bubble);
+            let slope = 0.5 * ((4.0 * l[i] - 1.0) * along - bubble);
+            let [p, q] = SLOPES[i].map(|s| s * slope);
+            out.gradients[base + i] = [p, q, 0.5 * l[i] * (inner * a + 2.0 * z)];
+            out.values[6 + base + i] = 2.0 * l[i] * l[j] * along;
+            let [p, q] = [0, 1].map(|d| 2.0 * (SLOPES[i][d] * l[j] + l[i] * SLOPES[j][d]) * along);
+            out.gradients[6 + base + i] = [p, q, 2.0 * l[i] * l[j] * a];
+        }
+        out.values[12 + i] = l[i] * bubble;
+        let [p, q] = SLOPES[i].map(|slope| slope * bubble);
+        out.gradients[12 + i] = [p, q, -2.0 * z * l[i]];
     }
     out
 }

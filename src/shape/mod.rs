@@ -20,8 +20,8 @@ pub const MAX_FACET_NODES: usize = 8;
 
 /// The shape of an element. In the plane nodes run counter-clockwise, corners first, then mid-side
 /// nodes starting with the one between corners 0 and 1. In space they are in the order of VTK: a
-/// hexahedron's base counter-clockwise seen from inside, then its top, then the middles of the edges
-/// of base, top, and between them.
+/// hexahedron's or prism's base counter-clockwise seen from inside, then its top, then the middles of
+/// the edges of base, top, and between them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Shape {
@@ -41,6 +41,10 @@ pub enum Shape {
     Hex8,
     /// Serendipity hexahedron.
     Hex20,
+    /// Linear prism on a triangle.
+    Prism6,
+    /// Quadratic prism on a triangle.
+    Prism15,
 }
 
 /// Reference coordinates; those beyond the dimension are zero.
@@ -75,8 +79,6 @@ pub struct Reference {
     pub checked: &'static [Place],
     /// Jacobian of the element whose sides at a corner are perpendicular and of length 1.
     pub unit_jacobian: f64,
-    /// What a facet is.
-    pub facet: &'static FacetReference,
     /// Local node numbers of each facet, in the order of the facet's own nodes. In the plane the
     /// body is on the left from the first end to the second; in space nodes run counter-clockwise
     /// seen from outside.
@@ -112,7 +114,7 @@ pub struct Refinement {
 
 impl Shape {
     /// All shapes, in the order of their numbers.
-    pub const ALL: [Shape; 8] = [
+    pub const ALL: [Shape; 10] = [
         Shape::Tri3,
         Shape::Tri6,
         Shape::Quad4,
@@ -121,13 +123,22 @@ impl Shape {
         Shape::Tet10,
         Shape::Hex8,
         Shape::Hex20,
+        Shape::Prism6,
+        Shape::Prism15,
     ];
 
     /// Those of the plane.
     pub const PLANE: [Shape; 4] = [Shape::Tri3, Shape::Tri6, Shape::Quad4, Shape::Quad8];
 
     /// Those of space.
-    pub const SOLID: [Shape; 4] = [Shape::Tet4, Shape::Tet10, Shape::Hex8, Shape::Hex20];
+    pub const SOLID: [Shape; 6] = [
+        Shape::Tet4,
+        Shape::Tet10,
+        Shape::Hex8,
+        Shape::Hex20,
+        Shape::Prism6,
+        Shape::Prism15,
+    ];
 
     /// The row of the table.
     pub fn reference(self) -> &'static Reference {
@@ -181,6 +192,16 @@ impl Shape {
     /// Local node numbers of a facet: its corners, then its mid-side nodes.
     pub fn facet(self, local: usize) -> &'static [usize] {
         self.reference().facets[local]
+    }
+
+    /// What a facet is as an element of its own.
+    pub fn facet_reference(self, local: usize) -> &'static FacetReference {
+        FacetReference::with_nodes(self.dimension() - 1, self.facet(local).len())
+    }
+
+    /// Whether an element has one corner more than dimensions.
+    pub fn is_simplex(self) -> bool {
+        self.n_corners() == self.dimension() + 1
     }
 
     /// Values and derivatives of the shape functions at a place.

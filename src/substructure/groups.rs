@@ -6,11 +6,12 @@
 //! numbers from then on, whatever there is beside it: many separate joints cost what each of them
 //! costs.
 
-use super::rows::Rows;
+use super::rows::{Entries, Rows};
 use super::tied::{SplitSlip, Tied, Trace};
 use super::{PairBlock, PairMatrix};
 use crate::error::Result;
 use crate::linalg::ContactStiffness;
+use crate::mesh::root;
 use crate::model::RigidMotion;
 use nalgebra::DVector;
 use std::collections::BTreeMap;
@@ -27,39 +28,53 @@ pub(super) struct Groups {
 struct Group {
     /// Ascending.
     pairs: Vec<usize>,
+    /// Their contact freedoms, ascending.
+    contact: Vec<usize>,
     /// The rigid motions of the model that move them.
     motions: Vec<usize>,
     tied: Tied,
 }
 
+/// What groups are made from: the contact rows, the free freedom and the part of each contact
+/// freedom.
+#[derive(Clone, Copy)]
+pub(super) struct Contact<'a> {
+    pub rows: &'a [Entries],
+    pub freedoms: &'a [usize],
+    pub part: &'a [usize],
+}
+
 impl Groups {
-    /// Tied structures and contact matrix for the condensed stiffness (`2n x 2n`), the rigid
-    /// motions of floating parts, the free freedom and the part of each contact freedom.
+    /// Tied structures and contact matrix for the condensed stiffness and the rigid motions of
+    /// floating parts.
     ///
     /// # Errors
     /// Those of [`Tied::new`].
     pub(super) fn new(
         stiffness: ContactStiffness,
         motions: &[RigidMotion],
-        freedoms: &[usize],
-        part: &[usize],
+        of: Contact,
     ) -> Result<(Self, PairMatrix)> {
-        let n = freedoms.len() / 2;
+        let (n, n_contact) = (of.rows.len(), of.freedoms.len());
         let coupled = stiffness.blocks().map(|block| block.freedoms.as_slice());
-        let group_of = groups(part, coupled);
+        let group_of = groups(of.rows, of.part, coupled);
         let n_groups = group_of.iter().max().map_or(0, |last| last + 1);
         let mut pairs = vec![Vec::new(); n_groups];
-        let mut place = vec![(0, 0); 2 * n];
+        let mut group_of_freedom = vec![0; n_contact];
         for (k, &group) in group_of.iter().enumerate() {
-            place[k] = (group, pairs[group].len());
             pairs[group].push(k);
+            of.rows[k]
+                .iter()
+                .for_each(|&(i, _)| group_of_freedom[i] = group);
         }
-        for k in 0..n {
-            let (group, own) = place[k];
-            place[n + k] = (group, pairs[group].len() + own);
-        }
+        let mut place = vec![(0, 0); n_contact];
+        let mut contact = vec![Vec::new(); n_groups];
         let mut group_of_part = BTreeMap::new();
-        group_of_part.extend((0..2 * n).map(|i| (part[i], group_of[i % n])));
+        for (i, &group) in group_of_freedom.iter().enumerate() {
+            place[i] = (group, contact[group].len());
+            contact[group].push(i);
+            group_of_part.insert(of.part[i], group);
+        }
         let mut motions_of = vec![Vec::new(); n_groups];
         for (j, motion) in motions.iter().enumerate() {
             if let Some(&group) = group_of_part.get(&motion.part) {
@@ -69,12 +84,14 @@ impl Groups {
         let mut out = Vec::with_capacity(n_groups);
         let mut blocks = Vec::with_capacity(n_groups);
         let stiffness = stiffness.split(&place, n_groups).into_iter();
-        for ((stiffness, pairs), of_group) in stiffness.zip(pairs).zip(motions_of) {
-            let both = || pairs.iter().copied().chain(pairs.iter().map(|k| n + k));
-            let own_part: Vec<usize> = both().map(|i| part[i]).collect();
-            let own_freedoms: Vec<usize> = both().map(|i| freedoms[i]).collect();
+        let members = pairs.into_iter().zip(contact).zip(motions_of);
+        for (stiffness, ((pairs, contact), of_group)) in stiffness.zip(members) {
+            let own_part: Vec<usize> = contact.iter().map(|&i| of.part[i]).collect();
+            let own_freedoms: Vec<usize> = contact.iter().map(|&i| of.freedoms[i]).collect();
             let traces = traces(motions, &of_group, &own_freedoms);
-            let rows = Rows::of_pairs(pairs.len(), |i| stiffness.diagonal(i));
+            let own_row = |&k: &usize| of.rows[k].iter().map(|&(i, b)| (place[i].1, b)).collect();
+            let entries: Vec<Entries> = pairs.iter().map(own_row).collect();
+            let rows = Rows::of_contact(entries, contact.len(), |i| stiffness.diagonal(i))?;
             let (tied, matrix) = Tied::new(&stiffness, rows, &traces, &own_part)?;
             blocks.push(PairBlock {
                 pairs: pairs.clone(),
@@ -82,6 +99,7 @@ impl Groups {
             });
             out.push(Group {
                 pairs,
+                contact,
                 motions: of_group,
                 tied,
             });
@@ -102,11 +120,11 @@ impl Groups {
         }
         let mut own_forces = Vec::new();
         for group in &self.groups {
-            let mut own = self.take(group, contact);
+            let mut own = take(group, contact);
             own_forces.clear();
             own_forces.resize(group.pairs.len(), 0.0);
             group.tied.eliminate(&mut own, &mut own_forces);
-            self.put(group, &own, contact);
+            put(group, &own, contact);
             for (&k, &force) in group.pairs.iter().zip(&own_forces) {
                 forces[k] = force;
             }
@@ -119,9 +137,9 @@ impl Groups {
             return only.tied.recover(contact, slip);
         }
         for group in &self.groups {
-            let mut own = self.take(group, contact);
+            let mut own = take(group, contact);
             group.tied.recover(&mut own, &of_pairs(group, slip));
-            self.put(group, &own, contact);
+            put(group, &own, contact);
         }
     }
 
@@ -145,9 +163,9 @@ impl Groups {
     /// `motions`.
     pub(super) fn split(&self, contact: &mut [f64], slip: &[f64], motions: &mut [f64]) {
         for group in &self.groups {
-            let own = self.take(group, contact);
+            let own = take(group, contact);
             let split = group.tied.split(&own, &of_pairs(group, slip));
-            self.put(group, &split.contact, contact);
+            put(group, &split.contact, contact);
             for (&j, &value) in group.motions.iter().zip(split.motions.iter()) {
                 motions[j] += value;
             }
@@ -158,20 +176,15 @@ impl Groups {
     pub(super) fn n_entries(&self) -> usize {
         self.groups.iter().map(|group| group.tied.n_entries()).sum()
     }
+}
 
-    fn take(&self, group: &Group, contact: &[f64]) -> Vec<f64> {
-        let [first, second] = [0, self.n_pairs];
-        let firsts = group.pairs.iter().map(|k| contact[first + k]);
-        let seconds = group.pairs.iter().map(|k| contact[second + k]);
-        firsts.chain(seconds).collect()
-    }
+fn take(group: &Group, contact: &[f64]) -> Vec<f64> {
+    group.contact.iter().map(|&i| contact[i]).collect()
+}
 
-    fn put(&self, group: &Group, own: &[f64], contact: &mut [f64]) {
-        let (firsts, seconds) = own.split_at(group.pairs.len());
-        for ((&k, &first), &second) in group.pairs.iter().zip(firsts).zip(seconds) {
-            contact[k] = first;
-            contact[self.n_pairs + k] = second;
-        }
+fn put(group: &Group, own: &[f64], contact: &mut [f64]) {
+    for (&i, &value) in group.contact.iter().zip(own) {
+        contact[i] = value;
     }
 }
 
@@ -193,30 +206,37 @@ fn traces(motions: &[RigidMotion], of_group: &[usize], freedoms: &[usize]) -> Ve
     .collect()
 }
 
-/// The group of each pair, numbered in the order of their first pairs: pairs are in one where nodes
-/// of theirs are of one part, or where a list of `coupled` contact freedoms (first nodes of all
-/// pairs, then second nodes) has nodes of both.
-pub(super) fn groups<'a>(part: &[usize], coupled: impl Iterator<Item = &'a [usize]>) -> Vec<usize> {
-    let n = part.len() / 2;
+/// The group of each row, numbered in the order of their first rows: rows are in one where freedoms
+/// of theirs are of one part, or where a list of `coupled` contact freedoms has some of both.
+pub(super) fn groups<'a>(
+    rows: &[Entries],
+    part: &[usize],
+    coupled: impl Iterator<Item = &'a [usize]>,
+) -> Vec<usize> {
+    let n = rows.len();
     let mut parent: Vec<usize> = (0..n).collect();
     let mut join = |a: usize, b: usize| {
         let (a, b) = (root(&mut parent, a), root(&mut parent, b));
         parent[a.max(b)] = a.min(b);
     };
     let mut first_of_part = BTreeMap::new();
-    for (i, part) in part.iter().enumerate() {
-        join(i % n, *first_of_part.entry(*part).or_insert(i % n));
+    let mut row_of = vec![0; part.len()];
+    for (k, row) in rows.iter().enumerate() {
+        for &(i, _) in row {
+            join(k, *first_of_part.entry(part[i]).or_insert(k));
+            row_of[i] = k;
+        }
     }
     for freedoms in coupled {
-        for freedom in freedoms {
-            join(freedom % n, freedoms[0] % n);
+        for &freedom in freedoms {
+            join(row_of[freedom], row_of[freedoms[0]]);
         }
     }
     let mut number = vec![usize::MAX; n];
     let mut count = 0;
     (0..n)
         .map(|k| {
-            // The root of a group is its first pair.
+            // The root of a group is its first row.
             let root = root(&mut parent, k);
             if root == k {
                 number[k] = count;
@@ -225,14 +245,6 @@ pub(super) fn groups<'a>(part: &[usize], coupled: impl Iterator<Item = &'a [usiz
             number[root]
         })
         .collect()
-}
-
-fn root(parent: &mut [usize], mut i: usize) -> usize {
-    while parent[i] != i {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    i
 }
 
 #[cfg(test)]
@@ -244,9 +256,10 @@ mod tests {
         // Four pairs on six parts: 0 and 2 share part 5; the first nodes of 1 and 3 are coupled
         // though of different parts.
         let part = [0, 1, 5, 3, 5, 2, 4, 6];
-        assert_eq!(groups(&part, std::iter::empty()), [0, 1, 0, 2]);
+        let rows: Vec<Entries> = (0..4).map(|k| vec![(k, -1.0), (4 + k, 1.0)]).collect();
+        assert_eq!(groups(&rows, &part, std::iter::empty()), [0, 1, 0, 2]);
         let coupled: [&[usize]; 2] = [&[1, 3], &[6]];
-        assert_eq!(groups(&part, coupled.into_iter()), [0, 1, 0, 1]);
-        assert!(groups(&[], std::iter::empty()).is_empty());
+        assert_eq!(groups(&rows, &part, coupled.into_iter()), [0, 1, 0, 1]);
+        assert!(groups(&[], &[], std::iter::empty()).is_empty());
     }
 }

@@ -17,8 +17,8 @@ use nalgebra::{DMatrix, DVector};
 /// Places and coefficients of a sparse row.
 pub(crate) type Entries = Vec<(usize, f64)>;
 
-/// The second node of a pair leads only where it is stiffer than the first by this factor: for like
-/// bodies the paper's choice stands.
+/// A slave leads only where it is stiffer than its masters by this factor: for like bodies the
+/// paper's choice stands.
 const STIFFER: f64 = 4.0;
 /// What elimination leaves of a row that depends on the others, as a share of it.
 const DEPENDENT: f64 = 1e-10;
@@ -40,25 +40,74 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    /// The rows `u_second - u_first` of `n` pairs (first nodes of all pairs, then second nodes),
-    /// for the diagonal of the condensed stiffness: of the two nodes the stiffer one leads.
-    pub(crate) fn of_pairs(n: usize, diagonal: impl Fn(usize) -> f64) -> Self {
-        let second_leads = |k: usize| diagonal(n + k) > STIFFER * diagonal(k);
-        let (lead, follow): (Vec<usize>, Vec<usize>) = (0..n)
-            .map(|k| {
-                if second_leads(k) {
-                    (n + k, k)
-                } else {
-                    (k, n + k)
-                }
-            })
-            .unzip();
-        let sign = |k: usize| if follow[k] >= n { 1.0 } else { -1.0 };
+    /// The rows of a model's contact, for the diagonal of the condensed stiffness. The last freedom
+    /// of each is the slave's. It follows, unless masters are softer by more than [`STIFFER`].
+    ///
+    /// # Errors
+    /// As [`Rows::any`].
+    pub(crate) fn of_contact(
+        entries: Vec<Entries>,
+        n_contact: usize,
+        diagonal: impl Fn(usize) -> f64,
+    ) -> Result<Self> {
+        let mut rows_at = vec![0usize; n_contact];
+        entries.iter().flatten().for_each(|&(i, _)| rows_at[i] += 1);
+        let leads = |row: &Entries| {
+            let [masters @ .., (slave, _)] = row.as_slice() else {
+                return false;
+            };
+            let softer = |&(i, b): &(usize, f64)| diagonal(*slave) * b * b > STIFFER * diagonal(i);
+            masters.iter().any(softer)
+        };
+        let is_pair = |row: &Entries| matches!(row.as_slice(), [(i, _), (j, _)] if rows_at[*i] == 1 && rows_at[*j] == 1);
+        if n_contact == 2 * entries.len() && entries.iter().all(is_pair) {
+            return Ok(Self::of_pairs(entries, leads));
+        }
+        let own_slave = |row: &Entries| row.last().is_some_and(|(slave, _)| rows_at[*slave] == 1);
+        if !entries.iter().all(|row| own_slave(row) && !leads(row)) {
+            return Self::any(entries, n_contact, diagonal);
+        }
+        let follow: Vec<usize> = entries
+            .iter()
+            .filter_map(|row| row.last())
+            .map(|e| e.0)
+            .collect();
+        let mut is_follower = vec![false; n_contact];
+        follow.iter().for_each(|&i| is_follower[i] = true);
+        let lead: Vec<usize> = (0..n_contact).filter(|&i| !is_follower[i]).collect();
+        let mut place = vec![0; n_contact];
+        lead.iter().enumerate().for_each(|(k, &i)| place[i] = k);
+        let masters = |row: &Entries| row.split_last().map(|(_, masters)| masters.to_vec());
+        let carried: Vec<Entries> = (entries.iter().filter_map(masters))
+            .map(|row| row.into_iter().map(|(i, b)| (place[i], -b)).collect())
+            .collect();
+        Ok(Rows {
+            of_slip: (0..follow.len()).map(|k| vec![(k, 1.0)]).collect(),
+            moved: moved(&lead, &follow, &carried),
+            entries,
+            lead,
+            follow,
+            carried,
+        })
+    }
+
+    /// Rows `u_j - u_i` that share no freedom; `leads` tells whether `j` leads.
+    fn of_pairs(entries: Vec<Entries>, leads: impl Fn(&Entries) -> bool) -> Self {
+        let ends = |row: &Entries| {
+            let [i, j] = [row[0].0, row[1].0];
+            if leads(row) { (j, i) } else { (i, j) }
+        };
+        let (lead, follow): (Vec<usize>, Vec<usize>) = entries.iter().map(ends).unzip();
+        let sign = |(row, follow): (&Entries, &usize)| if row[1].0 == *follow { 1.0 } else { -1.0 };
+        let signs = entries.iter().zip(&follow).map(sign).enumerate();
         Rows {
-            entries: (0..n).map(|k| vec![(k, -1.0), (n + k, 1.0)]).collect(),
-            carried: (0..n).map(|k| vec![(k, 1.0)]).collect(),
-            of_slip: (0..n).map(|k| vec![(k, sign(k))]).collect(),
-            moved: (0..n).map(|k| vec![(k, 1.0), (n + k, 1.0)]).collect(),
+            of_slip: signs.map(|entry| vec![entry]).collect(),
+            carried: (0..entries.len()).map(|k| vec![(k, 1.0)]).collect(),
+            moved: entries
+                .iter()
+                .map(|row| vec![(row[0].0, 1.0), (row[1].0, 1.0)])
+                .collect(),
+            entries,
             lead,
             follow,
         }
@@ -92,19 +141,13 @@ impl Rows {
             own.try_inverse().ok_or_else(dependent)?
         };
         let carried = sparse(&(-(&inverse * b.select_columns(&lead))));
-        let mut moved: Vec<Entries> = lead.iter().map(|&freedom| vec![(freedom, 1.0)]).collect();
-        for (row, &freedom) in carried.iter().zip(&follow) {
-            for &(leader, weight) in row {
-                moved[leader].push((freedom, weight));
-            }
-        }
         Ok(Rows {
+            moved: moved(&lead, &follow, &carried),
+            of_slip: sparse(&inverse),
             entries,
             lead,
             follow,
             carried,
-            of_slip: sparse(&inverse),
-            moved,
         })
     }
 
@@ -179,18 +222,77 @@ impl Rows {
         }
     }
 
-    /// A rigid motion as motion of the leaders: their own, or that of the followers which they
-    /// carry, or the mean where the part that moves has both.
-    pub(super) fn motion_of_leader(&self, trace: &Trace, part: &[usize], leader: usize) -> f64 {
+    /// A rigid motion as motion of the leaders: their own, or one that carries the part's followers
+    /// along. Where each leader carries one that is its motion; else it is found by conjugate
+    /// gradients, and the followers are moved to round-off.
+    pub(super) fn motion_of_leaders(&self, trace: &Trace, part: &[usize]) -> DVector<f64> {
+        let n = self.lead.len();
+        let mut v = DVector::from_fn(n, |leader, _| self.motion_of_leader(trace, part, leader));
+        let own = |freedom: usize| part[freedom] == trace.part;
+        let carried: Vec<(usize, &Entries)> = (self.follow.iter().copied().zip(&self.carried))
+            .filter(|(f, _)| own(*f))
+            .collect();
+        let product = |v: &DVector<f64>| {
+            let of = |(_, row): &(usize, &Entries)| row.iter().map(|&(k, w)| w * v[k]).sum();
+            DVector::from_iterator(carried.len(), carried.iter().map(of))
+        };
+        let transposed = |r: &DVector<f64>| {
+            let mut out = DVector::zeros(n);
+            for ((_, row), r) in carried.iter().zip(r.iter()) {
+                row.iter()
+                    .filter(|(k, _)| !own(self.lead[*k]))
+                    .for_each(|&(k, w)| out[k] += w * r);
+            }
+            out
+        };
+        let exact =
+            DVector::from_iterator(carried.len(), carried.iter().map(|(f, _)| trace.values[*f]));
+        let mut rest = &exact - product(&v);
+        let enough = f64::EPSILON * exact.norm();
+        let mut gradient = transposed(&rest);
+        let mut direction = gradient.clone();
+        let mut size = gradient.norm_squared();
+        for _ in 0..2 * n {
+            if rest.norm() <= enough || size == 0.0 {
+                break;
+            }
+            let change = product(&direction);
+            let step = size / change.norm_squared();
+            v.axpy(step, &direction, 1.0);
+            rest.axpy(-step, &change, 1.0);
+            gradient = transposed(&rest);
+            let next = gradient.norm_squared();
+            direction = &gradient + direction * (next / size);
+            size = next;
+        }
+        v
+    }
+
+    /// The leader's own part of a rigid motion, or the mean of the followers' that it carries.
+    fn motion_of_leader(&self, trace: &Trace, part: &[usize], leader: usize) -> f64 {
         let moved = self.moved[leader].iter();
-        let own = moved.filter(|(freedom, _)| part[*freedom] == trace.part);
+        let own = |freedom: usize| part[freedom] == trace.part;
+        if own(self.lead[leader]) {
+            return trace.values[self.lead[leader]];
+        }
         let (mut sum, mut weights) = (0.0, 0.0);
-        for &(freedom, weight) in own {
+        for &(freedom, weight) in moved.filter(|(freedom, _)| own(*freedom)) {
             sum += weight * trace.values[freedom];
             weights += weight * weight;
         }
         if weights > 0.0 { sum / weights } else { 0.0 }
     }
+}
+
+/// What moves with each leader: itself and its followers.
+fn moved(lead: &[usize], follow: &[usize], carried: &[Entries]) -> Vec<Entries> {
+    let mut moved: Vec<Entries> = lead.iter().map(|&freedom| vec![(freedom, 1.0)]).collect();
+    for (row, &freedom) in carried.iter().zip(follow) {
+        for &(leader, weight) in row {
+            moved[leader].push((freedom, weight));
+        }
+    }
+    moved
 }
 
 /// The follower of each row.

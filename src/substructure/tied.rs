@@ -382,9 +382,10 @@ fn rigid_slips(rigid: &[Trace], rows: &Rows) -> Vec<RigidSlip> {
 /// leader that tells it best from the others.
 fn basis(rigid: &[Trace], rows: &Rows, part: &[usize]) -> (DMatrix<f64>, Vec<usize>) {
     let n = rows.lead.len();
-    let all = DMatrix::from_fn(n, rigid.len(), |leader, j| {
-        rows.motion_of_leader(&rigid[j], part, leader)
-    });
+    let mut all = DMatrix::zeros(n, rigid.len());
+    for (mut column, trace) in all.column_iter_mut().zip(rigid) {
+        column.copy_from(&rows.motion_of_leaders(trace, part));
+    }
     let mut rest = all.clone();
     let scale = all.amax();
     // Row and size of the largest entry of each column: a pivot changes the columns of motions of

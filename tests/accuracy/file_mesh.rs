@@ -190,7 +190,7 @@ fn a_contact_from_a_file_keeps_its_pairs_and_gaps() {
     let fine = Model::new(&file).unwrap();
     assert_eq!(fine.pairs.len(), 4 * (coarse.pairs.len() - 1) + 1);
     for pair in &fine.pairs {
-        let [x, ..] = fine.mesh.point(pair.second);
+        let [x, ..] = fine.mesh.point(pair.slave);
         let gap = x * x / (radius + ((radius - x) * (radius + x)).sqrt());
         // Coordinates are as exact as those of the centre.
         assert!(

@@ -9,4 +9,5 @@ mod estimate;
 mod families;
 mod file_mesh;
 mod indicator;
+mod solid;
 mod study;

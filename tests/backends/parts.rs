@@ -23,15 +23,14 @@ fn assert_a_part_moves_as_in_the_whole(backend: Backend) {
     let pairs = model
         .pairs
         .iter()
-        .flat_map(|pair| [pair.first, pair.second]);
+        .flat_map(|pair| pair.nodes().collect::<Vec<_>>());
     let contact: Vec<usize> = pairs
         .filter_map(|node| model.freedoms.normal_freedom(node))
         .collect();
     let zone: Vec<usize> = (0..model.freedoms.n)
         .filter(|freedom| !contact.contains(freedom))
         .collect();
-    let structure =
-        Substructure::new(&model, &system, (zone.clone(), Vec::new()), backend).unwrap();
+    let structure = Substructure::new(&model, &system, zone.clone(), backend).unwrap();
     let mut eliminated = structure.zeros();
     for (i, value) in eliminated.iter_mut().enumerate() {
         *value = ((i * 7919) % 1013) as f64 / 1013.0 - 0.5;

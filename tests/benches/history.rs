@@ -4,7 +4,8 @@
 //! Every measurement has a process of its own, so that peaks of memory do not mix: `run` is brinell from scene to
 //! written results, `matrix` writes the assembled matrix to a file, `cholmod` reads that file and does nothing else.
 //!
-//! `cargo bench --bench history` takes the sizes of [`SIZES`]; `-- 10k` or `-- 100k` or `-- 1M` one of them. The table
+//! `cargo bench --bench history` takes the sizes of [`SIZES`]; `-- 10k` or `-- 100k` or `-- 1M` one of them. `-- solid` takes the ball of
+//! `data/peers/ball_contact.toml` in three dimensions, loaded to five times first yield and back, in [`SOLID`]. The table
 //! goes to the terminal, the figures to `bench-results/history.json`. `-- perfect` the same without hardening. `-- scaling` runs meshes from ten thousand to
 //! three million freedoms instead, on one thread and on two (`history/scaling.rs`). `--features faer` and `-- backends` put the sparse backends beside one
 //! another (`history/backends.rs`).
@@ -28,10 +29,9 @@ use std::io::{BufReader, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-const SCENE: &str = concat!(
-    env!("CARGO_MANIFEST_DIR"),
-    "/data/scenes/cylinder_on_half_plane.toml"
-);
+const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/data/");
+const LINE: &str = "scenes/cylinder_on_half_plane.toml";
+const BALL: &str = "peers/ball_contact.toml";
 
 /// Name, and what is changed in the scene's mesh: elements over b* and growth of the element sizes outside the even
 /// region. The finer the contact, the more slowly sizes should grow: the discretisation errors stay balanced.
@@ -66,6 +66,38 @@ const SIZES: [(&str, &[&str]); 4] = [
     ),
 ];
 
+/// The same of the ball: elements over its contact radius at first yield.
+const SOLID: [(&str, &[&str]); 4] = [
+    (
+        "50k",
+        &[
+            "mesh.curved_bodies.resolution=5",
+            "mesh.curved_bodies.growth=1.3",
+        ],
+    ),
+    (
+        "110k",
+        &[
+            "mesh.curved_bodies.resolution=7",
+            "mesh.curved_bodies.growth=1.3",
+        ],
+    ),
+    (
+        "300k",
+        &[
+            "mesh.curved_bodies.resolution=10",
+            "mesh.curved_bodies.growth=1.2",
+        ],
+    ),
+    (
+        "700k",
+        &[
+            "mesh.curved_bodies.resolution=13",
+            "mesh.curved_bodies.growth=1.15",
+        ],
+    ),
+];
+
 /// Pairs of runs of which the medians count, where bare CHOLMOD takes less than `LONG` seconds.
 const REPEATED: usize = 7;
 const LONG: f64 = 5.0;
@@ -91,8 +123,13 @@ fn main() -> Result<(), Failure> {
         ["cholmod", directory] => print(&bare(Path::new(directory))?),
         ["check", changes] => print(&scaling::prediction(changes)?),
         ["scaling"] => scaling::measure(),
-        ["perfect", ref names @ ..] => compare(names, &["materials.steel.plastic_modulus=0.0"]),
-        ref names => compare(names, &[]),
+        ["perfect", ref names @ ..] => compare(
+            (LINE, &SIZES, names),
+            &["materials.steel.plastic_modulus=0.0"],
+            "history_perfect",
+        ),
+        ["solid", ref names @ ..] => compare((BALL, &SOLID, names), &[], "history_solid"),
+        ref names => compare((LINE, &SIZES, names), &[], "history"),
     }
 }
 
@@ -101,10 +138,12 @@ fn print(value: &Value) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The scene with what is changed in it, separated by semicolons.
-fn scene(changes: &str) -> Result<Scene, Failure> {
-    let overrides: Vec<String> = changes.split(';').map(str::to_string).collect();
-    let mut scene = Scene::load_with(Path::new(SCENE), &overrides)?;
+/// A scene and what is changed in it, separated by semicolons.
+fn scene(case: &str) -> Result<Scene, Failure> {
+    let mut parts = case.split(';').map(str::to_string);
+    let file = parts.next().ok_or("no scene")?;
+    let overrides: Vec<String> = parts.collect();
+    let mut scene = Scene::load_with(Path::new(DATA).join(file), &overrides)?;
     // Fields of one state, as a user with a large model would ask for.
     for target in &mut scene.program.targets {
         target.fields = target.name.as_deref() == Some("1.5 b*");
@@ -126,7 +165,7 @@ fn run(backend: Backend, changes: &str, directory: &Path) -> Result<Value, Failu
     let analysed = start.elapsed().as_secs_f64();
     let header = RunHeader {
         scene_title: scene.title.clone(),
-        kind: "plane_strain".to_string(),
+        kind: scene.kind.name().to_string(),
         solver: backend.name().to_string(),
         bodies: analysis.model().mesh.bodies.clone(),
         ..RunHeader::default()
@@ -157,7 +196,7 @@ fn run(backend: Backend, changes: &str, directory: &Path) -> Result<Value, Failu
         "quality": results.quality,
         "increments": results.history.len(),
         "states": results.states.len(),
-        "incomplete": results.incomplete,
+        "incomplete": results.incomplete.as_ref().map(|end| &end.why),
     }))
 }
 
@@ -168,15 +207,9 @@ fn write_matrix(changes: &str, directory: &Path) -> Result<(), Failure> {
     let (model, matrix) = (analysis.model(), &analysis.system().stiffness);
     let columns = matrix.proper_indptr();
     let mut values = matrix.data().to_vec();
-    for (pair, floats) in model.pairs.iter().zip(&model.floating.of_pair) {
-        for (node, floats) in [pair.first, pair.second].into_iter().zip(floats) {
-            let freedom = model
-                .freedoms
-                .normal_freedom(node)
-                .ok_or("a contact freedom is held")?;
-            if *floats {
-                values[columns[freedom + 1] as usize - 1] *= 2.0;
-            }
+    for (freedom, floats) in model.rows.freedoms.iter().zip(&model.floating.of_contact) {
+        if *floats {
+            values[columns[freedom + 1] as usize - 1] *= 2.0;
         }
     }
     let mut file = BufWriter::new(std::fs::File::create(directory.join("matrix"))?);
@@ -234,10 +267,13 @@ fn bare(directory: &Path) -> Result<Value, Failure> {
     }))
 }
 
-fn compare(names: &[&str], always: &[&str]) -> Result<(), Failure> {
+/// A scene, the sizes of its meshes, and the names of those to be taken; none for all.
+type Sizes<'a> = (&'a str, &'a [(&'a str, &'a [&'a str])], &'a [&'a str]);
+
+fn compare((file, sizes, names): Sizes, always: &[&str], to: &str) -> Result<(), Failure> {
     println!("CHOLMOD {}, {}\n", cholmod_version(), blas_name());
     let mut all = Vec::new();
-    for (name, changes) in SIZES {
+    for &(name, changes) in sizes {
         if !names.is_empty() && !names.contains(&name) {
             continue;
         }
@@ -246,7 +282,7 @@ fn compare(names: &[&str], always: &[&str]) -> Result<(), Failure> {
             .path()
             .to_str()
             .ok_or("a temporary directory with an odd name")?;
-        let changes = [changes, always].concat().join(";");
+        let changes = [&[file], changes, always].concat().join(";");
         child(&["matrix", &changes, path], None)?;
         let (bare, run) = median_pair(&["cholmod", path], &["run", &changes, path])?;
         report(name, &changes, &bare, &run);
@@ -254,11 +290,7 @@ fn compare(names: &[&str], always: &[&str]) -> Result<(), Failure> {
     }
     let results = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("bench-results");
     std::fs::create_dir_all(&results)?;
-    let file = results.join(if always.is_empty() {
-        "history.json"
-    } else {
-        "history_perfect.json"
-    });
+    let file = results.join(format!("{to}.json"));
     let text = serde_json::to_string_pretty(&json!({
         "cholmod_version": cholmod_version(),
         "blas": blas_name(),
@@ -296,6 +328,7 @@ fn report(name: &str, changes: &str, bare: &Value, run: &Value) {
         "{name} ({}): {} freedoms, {} elements, {} pairs, zone {} freedoms",
         changes
             .replace("mesh.cylinder_on_half_plane.", "")
+            .replace("mesh.curved_bodies.", "")
             .replace(';', ", "),
         count("sizes", "freedoms"),
         count("sizes", "elements"),

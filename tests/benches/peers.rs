@@ -8,7 +8,8 @@
 //!   its two finest meshes, finer than any mesh compared.
 //!
 //! The table and the plot go to `bench-results/peers.md`, `.svg`, `.json`. `-- quick` runs CalculiX's long ones once; `-- decks DIR` only
-//! writes its decks; `-- hard DIR` runs three small cases on which contact codes fail silently (`data/peers/README.md`).
+//! writes its decks; `-- solid` takes the ball of `data/peers/ball_contact.toml` in three dimensions, loaded to five times first yield and
+//! back, and one elastic load (`peers/solid.rs`); `-- hard DIR` runs three small cases on which contact codes fail silently (`data/peers/README.md`).
 
 #[path = "peers/deck.rs"]
 mod deck;
@@ -19,6 +20,8 @@ mod hard;
 #[path = "peers/plot.rs"]
 mod plot;
 mod process;
+#[path = "peers/solid.rs"]
+mod solid;
 
 use brinell::analytical::{HertzLine, contact_modulus};
 use brinell::model::Model;
@@ -71,6 +74,7 @@ fn main() -> Result<(), Failure> {
         }
         ["hard", dir] => hard::run(Path::new(dir)),
         ["quick"] => compare(true),
+        ["solid"] => solid::compare(),
         _ => compare(false),
     }
 }
@@ -90,6 +94,7 @@ fn line_deck(size: usize) -> Result<String, Failure> {
         overlap: (1.5 * element).powi(2) / (2.0 * hertz.radius),
         increments: 5,
         kind: "SURFACE TO SURFACE",
+        solver: "",
     };
     Ok(deck::deck(&model, &settings, &[2.0, 0.0])?)
 }
@@ -259,7 +264,12 @@ fn dent(frd: &Frd, size: usize) -> Result<f64, Failure> {
     let opened: Vec<(f64, f64)> = model
         .pairs
         .iter()
-        .map(|pair| Ok((pair.gap, at(pair.first, overlap)? - at(pair.second, 0.0)?)))
+        .map(|pair| {
+            Ok((
+                pair.gap,
+                at(pair.masters[0].0, overlap)? - at(pair.slave, 0.0)?,
+            ))
+        })
         .collect::<Result<_, Failure>>()?;
     let outermost = opened
         .iter()

@@ -1,12 +1,13 @@
 //! Everything else is small: reading a mesh, starting the program, writing the results.
 //!
-//! `cargo bench --bench reading` prints the speed of reading an ASCII mesh of a million nodes in either version of the format, the time
+//! `cargo bench --bench reading` prints the speed of reading an ASCII mesh of a million nodes in either version of the format and as a deck, the time
 //! of commands that compute nothing, and the share of a run that the stresses of its states and its files take. The figures go to
 //! `bench-results/reading.json`.
 
 use brinell::analysis::Analysis;
+use brinell::deck::Deck;
 use brinell::linalg::Backend;
-use brinell::mesh::{Mesh, Shape, gmsh};
+use brinell::mesh::{Mesh, Shape, gmsh, inp};
 use brinell::model::Model;
 use brinell::output::{self, RunHeader};
 use brinell::progress::Silent;
@@ -65,7 +66,42 @@ fn reading() -> Result<Value, Failure> {
         );
         out.push(json!({ "version": name, "megabytes": size, "seconds": seconds }));
     }
+    let text = deck(&mesh)?;
+    let read = inp::mesh(&Deck::parse(&text, "deck.inp")?)?;
+    assert_eq!(read.coordinates, mesh.coordinates, "read back bit for bit");
+    assert_eq!(read.connectivity, mesh.connectivity);
+    let size = text.len() as f64 / 1e6;
+    let parsing = least(5, || Ok(Deck::parse(&text, "deck.inp")?))?;
+    let seconds = least(5, || Ok(inp::mesh(&Deck::parse(&text, "deck.inp")?)?))?;
+    for (name, seconds) in [("inp, read", parsing), ("inp, with its mesh", seconds)] {
+        println!(
+            "| {name} | {size:.0} | {seconds:.3} | {:.0} |",
+            size / seconds
+        );
+        out.push(json!({ "version": name, "megabytes": size, "seconds": seconds }));
+    }
     Ok(out.into())
+}
+
+/// The mesh as a deck with a load.
+fn deck(mesh: &Mesh) -> Result<Vec<u8>, Failure> {
+    let mut text = String::from("*HEADING\nsquare\n*NODE, NSET=ALL\n");
+    for node in 0..mesh.n_nodes() {
+        let [x, y] = mesh.in_plane(node);
+        writeln!(text, "{}, {x:?}, {y:?}, 0.", node + 1)?;
+    }
+    text += "*ELEMENT, TYPE=CPE4, ELSET=square\n";
+    for element in 0..mesh.n_elements() {
+        write!(text, "{}", element + 1)?;
+        for node in mesh.nodes(element) {
+            write!(text, ", {}", node + 1)?;
+        }
+        text.push('\n');
+    }
+    text += "*MATERIAL, NAME=M\n*ELASTIC\n1., 0.3\n*SOLID SECTION, ELSET=square, MATERIAL=M\n";
+    text += "*NSET, NSET=BASE, GENERATE\n1, 1001\n*BOUNDARY\nBASE, 1, 2\n";
+    text += "*STEP\n*STATIC\n*CLOAD\n1002001, 2, 1.\n*END STEP\n";
+    Ok(text.into_bytes())
 }
 
 /// A square whose coordinates have all their digits, as generators write them.

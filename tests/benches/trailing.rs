@@ -63,7 +63,6 @@ impl Body {
                     n: grid.n,
                     zone,
                     contact: contact.clone(),
-                    ..Partition::default()
                 };
                 (share, partition)
             })

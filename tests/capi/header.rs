@@ -39,6 +39,8 @@ fn generated() -> String {
         "loading",
         "run",
         "results",
+        "quantities",
+        "patches",
         "structure",
     ] {
         builder = builder.with_src(root().join(format!("src/capi/{file}.rs")));

@@ -12,6 +12,7 @@ mod readme;
 mod refusals;
 mod scene_help;
 mod shown;
+mod solids;
 mod solvers;
 mod watching;
 

@@ -1,4 +1,4 @@
-//! What the README shows is what the program does.
+//! What the README and the guide show is what the program does.
 
 #[cfg(any(feature = "cholmod", feature = "faer"))]
 use super::brinell;
@@ -6,9 +6,13 @@ use std::process::Command;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
+fn page(name: &str) -> String {
+    std::fs::read_to_string(format!("{ROOT}/{name}")).unwrap()
+}
+
 /// The section of the README under a heading.
 fn section(heading: &str) -> String {
-    let text = std::fs::read_to_string(format!("{ROOT}/README.md")).unwrap();
+    let text = page("README.md");
     let from = text
         .find(&format!("\n## {heading}\n"))
         .unwrap_or_else(|| panic!("there is no section {heading:?}"));
@@ -20,7 +24,7 @@ fn section(heading: &str) -> String {
 #[test]
 #[cfg(any(feature = "cholmod", feature = "faer"))]
 fn the_bearing_ball_dents_its_race_as_the_table_says() {
-    let text = section("A bearing ball on its race");
+    let text = page("data/guide/bearing.md");
     let command = text
         .lines()
         .find(|l| l.starts_with("brinell new "))
@@ -99,6 +103,29 @@ fn the_worked_example_is_the_scene() {
     assert!(!holds(&scene["materials"], &different));
 }
 
+/// Every link of the README and the guide leads to a file of this repository.
+#[test]
+fn links_lead_somewhere() {
+    let guide = std::fs::read_dir(format!("{ROOT}/data/guide")).unwrap();
+    let guide = guide.map(|entry| {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        format!("data/guide/{name}")
+    });
+    let mut links = 0;
+    for name in guide.chain(["README.md".to_string(), "ffi/README.md".to_string()]) {
+        let folder = std::path::Path::new(ROOT).join(&name);
+        let folder = folder.parent().unwrap();
+        for link in page(&name).split("](").skip(1) {
+            let link = link.split(')').next().unwrap();
+            if !link.contains("://") {
+                assert!(folder.join(link).exists(), "{name}: {link}");
+                links += 1;
+            }
+        }
+    }
+    assert!(links > 40, "{links}");
+}
+
 /// Without features nothing in another language is compiled or linked.
 #[test]
 fn a_build_without_features_is_pure_rust() {
@@ -143,7 +170,6 @@ fn a_build_without_features_is_pure_rust() {
         "indicatif",
         "maud",
         "plotters",
-        "png",
         "signal-hook",
     ] {
         let is_there = |names: &[String]| names.iter().any(|name| name == of_program);

@@ -226,10 +226,10 @@ fn what_does_not_fit_the_mesh_is_told_with_its_place_in_the_scene() {
             "bodies.lowest",
         ),
         (
-            "elements = [8, 4] }\n\n[materials",
-            "elements = [7, 4] }\n\n[materials",
+            "first = \"upper.bottom\"",
+            "first = \"upper.left\"",
             place("[[contact]]", 1),
-            "contact 1 (`upper.bottom` on `lower.top`)",
+            "contact 1 (`upper.left` on `lower.top`)",
         ),
     ] {
         patch(old, new).refused(2, &[&format!("{place}{words}")]);
@@ -271,29 +271,28 @@ fn a_support_across_the_axis_of_revolution() {
 }
 
 #[test]
-fn surfaces_whose_nodes_do_not_pair_are_named_with_the_nodes() {
+fn surfaces_that_do_not_face_each_other_are_named() {
     refused_with(
         "contact_patch",
-        &["mesh.parts.1.block.elements=[7,4]"],
+        &["contact.0.first=upper.left"],
         &[],
         2,
         &[
-            "contact 1 (`upper.bottom` on `lower.top`)",
-            "nodes do not pair",
-            "nodes 44, 43, 42, 41, 40, 39, and 1 more of `lower.top`",
+            "contact 1 (`upper.left` on `lower.top`)",
+            "no part of `lower.top` lies opposite `upper.left`",
         ],
     );
 }
 
 #[test]
-fn a_node_in_two_pairs() {
+fn a_slave_of_two_contacts() {
     let twice = "{ first = \"upper.bottom\", second = \"lower.top\" }";
     refused_with(
         "contact_patch",
         &[&format!("contact=[{twice},{twice}]")],
         &[],
         2,
-        &["node 54 is in two contact pairs", "contact 1", "contact 2"],
+        &["node 45 is the slave of two contacts, 1 and 2"],
     );
 }
 

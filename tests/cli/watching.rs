@@ -80,7 +80,7 @@ fn results_are_shown_in_the_terminal() {
     for word in [
         "Shim between two blocks",
         "First yield",
-        "Maximum contact pressure",
+        "max pressure against load",
     ] {
         assert!(text.contains(word), "{word}:\n{text}");
     }

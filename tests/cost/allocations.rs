@@ -51,14 +51,14 @@ fn assert_solves_allocate_nothing(backend: Backend) {
         let contact: Vec<usize> = model
             .pairs
             .iter()
-            .flat_map(|pair| [pair.first, pair.second])
+            .flat_map(|pair| pair.nodes().collect::<Vec<_>>())
             .filter_map(|node| model.freedoms.normal_freedom(node))
             .collect();
         let zone: Vec<usize> = (0..model.freedoms.n)
             .step_by(3)
             .filter(|freedom| !contact.contains(freedom))
             .collect();
-        let structure = Substructure::new(&model, &system, (zone, Vec::new()), backend).unwrap();
+        let structure = Substructure::new(&model, &system, zone, backend).unwrap();
         let (mut load, n) = (structure.zeros(), model.pairs.len());
         let (mut forces, slip) = (vec![0.0; n], vec![0.0; n]);
         let mut solve = || {

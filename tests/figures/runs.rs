@@ -79,8 +79,8 @@ impl Run {
         scene.program.targets = targets;
         let mut analysis = Analysis::new(Model::new(&scene)?, Backend::default())?;
         let results = analysis.run(&mut Silent)?;
-        if let Some(why) = &results.incomplete {
-            return Err(format!("{}: {why}", scene.title).into());
+        if let Some(end) = &results.incomplete {
+            return Err(format!("{}: {}", scene.title, end.why).into());
         }
         let first = results.first_yield.ok_or("no first yield")?;
         Ok(Run {

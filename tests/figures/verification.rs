@@ -5,6 +5,7 @@ use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::model::Model;
 use brinell::progress::Silent;
+use brinell::reference;
 use brinell::results::Results;
 use brinell::scene::Scene;
 use std::fmt::Write;
@@ -66,7 +67,9 @@ fn table_1(text: &mut String) -> Outcome<()> {
                 "mesh.cylinder_on_half_plane.resolution={resolution}"
             )],
         )?;
-        let results = analysis(&scene)?.yield_load(&mut Silent)?;
+        let mut analysis = analysis(&scene)?;
+        let mut results = analysis.yield_load(&mut Silent)?;
+        reference::compare(analysis.model(), &mut results);
         write!(text, "| {resolution} |")?;
         for quantity in [
             "yield.load",
@@ -116,7 +119,9 @@ fn scenes(text: &mut String, quality: &mut String) -> Outcome<()> {
 fn run(file: &str, setting: Option<&str>) -> Outcome<(String, Results)> {
     let overrides: Vec<String> = setting.iter().map(|s| s.to_string()).collect();
     let scene = load(file, &overrides)?;
-    let results = analysis(&scene)?.run(&mut Silent)?;
+    let mut analysis = analysis(&scene)?;
+    let mut results = analysis.run(&mut Silent)?;
+    reference::compare(analysis.model(), &mut results);
     println!("{file} {}", setting.unwrap_or(""));
     Ok((scene.title, results))
 }
@@ -138,8 +143,8 @@ fn append(text: &mut String, title: &str, command: &str, rows: &str) -> Outcome<
 
 fn reference_rows(results: &Results) -> Outcome<String> {
     let mut rows = String::new();
-    if let Some(why) = &results.incomplete {
-        writeln!(rows, "| **ended early** | | | | {why} |")?;
+    if let Some(end) = &results.incomplete {
+        writeln!(rows, "| **ended early** | | | | {} |", end.why)?;
     }
     for r in &results.reference {
         writeln!(

@@ -44,7 +44,7 @@ impl<'a> Shape<'a> {
         let middle = &run.analysis.model().pairs;
         let middle = middle
             .iter()
-            .map(|pair| pair.second)
+            .map(|pair| pair.slave)
             .min_by(|&a, &b| mesh.point(a)[0].abs().total_cmp(&mesh.point(b)[0].abs()))
             .ok_or("no contact pair")?;
         let place = |node: usize| {

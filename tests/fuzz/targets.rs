@@ -2,8 +2,9 @@
 
 use crate::mutation::{Random, damaged};
 use brinell::analysis::Analysis;
+use brinell::deck::{Deck, Options};
 use brinell::linalg::Backend;
-use brinell::mesh::{self, Mesh, gmsh};
+use brinell::mesh::{self, Mesh, gmsh, inp};
 use brinell::model::Model;
 use brinell::progress::{Flow, Observer};
 use brinell::results::HistoryRow;
@@ -22,15 +23,18 @@ pub enum Target {
     CommandLine,
     /// A scene, run where it is small.
     Run,
+    /// A deck of Abaqus or CalculiX.
+    Deck,
 }
 
 impl Target {
-    pub const ALL: [Target; 5] = [
+    pub const ALL: [Target; 6] = [
         Target::Scene,
         Target::Override,
         Target::Mesh,
         Target::CommandLine,
         Target::Run,
+        Target::Deck,
     ];
 
     /// The kind of the input of a number: of 1000, 8 are runs.
@@ -38,7 +42,8 @@ impl Target {
         match number % 1000 {
             0..400 => Target::Scene,
             400..500 => Target::Override,
-            500..800 => Target::Mesh,
+            500..650 => Target::Mesh,
+            650..800 => Target::Deck,
             800..992 => Target::CommandLine,
             _ => Target::Run,
         }
@@ -51,10 +56,11 @@ pub struct Seeds {
     /// Scenes that run in milliseconds.
     quick: Vec<Vec<u8>>,
     meshes: Vec<Vec<u8>>,
+    decks: Vec<Vec<u8>>,
     lines: Vec<Vec<u8>>,
     overrides: Vec<Vec<u8>>,
-    /// A scene that a mesh of the seeds belongs to.
-    blocks: Scene,
+    /// Scenes that meshes of the seeds belong to, plane and solid.
+    blocks: [Scene; 2],
     scene_file: PathBuf,
 }
 
@@ -83,6 +89,22 @@ const OVERRIDES: [&str; 8] = [
     "accuracy=1%",
 ];
 
+/// The scene of the solid seeds.
+const CUBES: &str = r#"
+kind = "solid"
+mesh.file = "solid.msh"
+contact = [{ first = "upper.bottom", second = "lower.top" }]
+support = [{ on = "lower.top", fix = ["x"] }, { on = "upper.bottom", direction = [1.0, 1.0, 0.0] }]
+load = [{ on = "upper.bottom", pressure = 10.0 }]
+program.targets = [{ load_factor = 1.0 }]
+[materials.steel]
+youngs_modulus = 1000.0
+poissons_ratio = 0.3
+[bodies]
+lower = { material = "steel" }
+upper = { material = "steel" }
+"#;
+
 impl Seeds {
     pub fn read() -> Seeds {
         let root = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -104,11 +126,14 @@ impl Seeds {
             "shrink_fit",
             "thick_cylinder",
             "three_bodies",
+            "square_punch",
         ]
         .map(|name| std::fs::read_to_string(scene(name)).unwrap())
         .map(|text| {
             text.replace("[16, 16]", "[3, 3]")
                 .replace("elements = 16", "elements = 3")
+                .replace("[6, 6, 4]", "[2, 2, 1]")
+                .replace("[18, 18, 12]", "[3, 3, 3]")
         });
         let scenes = [
             texts("data/scenes", "toml"),
@@ -120,27 +145,37 @@ impl Seeds {
             texts("tests/fuzz/seeds", "msh"),
         ]
         .concat();
-        assert!(scenes.len() > 20 && meshes.len() > 2);
+        let decks = [
+            texts("tests/decks", "inp"),
+            texts("tests/fuzz/seeds", "inp"),
+        ]
+        .concat();
+        assert!(scenes.len() > 20 && meshes.len() > 2 && decks.len() > 12);
         Seeds {
             quick: quick.map(String::into_bytes).to_vec(),
             scenes,
             meshes,
+            decks,
             lines: LINES.map(|line| line.into()).to_vec(),
             overrides: OVERRIDES.map(|text| text.into()).to_vec(),
-            blocks: Scene::load(scene("gmsh_blocks")).unwrap(),
+            blocks: [
+                Scene::load(scene("gmsh_blocks")).unwrap(),
+                Scene::parse(CUBES, "cubes.toml").unwrap(),
+            ],
             scene_file: scene("contact_patch"),
         }
     }
 
     /// The input of a number.
-    pub fn input(&self, number: u64) -> Vec<u8> {
+    pub fn input(&self, number: u64, target: Target) -> Vec<u8> {
         let mut random = Random(number.wrapping_mul(0x2545_F491_4F6C_DD1D) ^ 6);
-        let from = match Target::of(number) {
+        let from = match target {
             Target::Scene => &self.scenes,
             Target::Override => &self.overrides,
             Target::Mesh => &self.meshes,
             Target::CommandLine => &self.lines,
             Target::Run => &self.quick,
+            Target::Deck => &self.decks,
         };
         damaged(&from[random.below(from.len())], from, &mut random)
     }
@@ -153,6 +188,7 @@ impl Seeds {
             Target::Mesh => self.mesh(input),
             Target::CommandLine => command_line(input),
             Target::Run => scene(input).is_some_and(|scene| run(&scene)),
+            Target::Deck => deck(input).map_err(refused).is_ok(),
         }
     }
 
@@ -176,10 +212,28 @@ impl Seeds {
             return false;
         }
         written_and_read(&mesh);
-        Model::from_mesh(&self.blocks, mesh)
+        Model::from_mesh(&self.blocks[usize::from(mesh.is_solid())], mesh)
             .map_err(refused)
             .is_ok()
     }
+}
+
+/// Reads a deck, makes its scene and its mesh, and the model of both.
+fn deck(input: &[u8]) -> brinell::Result<()> {
+    let in_place = |error: Error| {
+        assert!(error.message().contains(".inp, line "), "{error}");
+        error
+    };
+    let deck = Deck::parse(input, "fuzz.inp").map_err(in_place)?;
+    // A mesh alone needs no steps.
+    let mesh = inp::mesh(&deck).map_err(in_place);
+    let options = Options { small_strain: true };
+    let conversion = deck.convert(options).map_err(in_place)?;
+    let scene = conversion.finish("fuzz.inp", &[])?;
+    let mesh = mesh?;
+    mesh::validate(&mesh)?;
+    written_and_read(&mesh);
+    Model::from_mesh(&scene, mesh).map(drop)
 }
 
 /// A mesh survives being written.
@@ -291,7 +345,12 @@ fn run(scene: &Scene) -> bool {
     }
 }
 
-/// Quadrilateral cells of a mesh made of parts; a lot for anything else.
+/// A hexahedron weighs as much as so many quadrilaterals: it has twice the nodes and three times the
+/// freedoms of one.
+const OF_HEXAHEDRON: f64 = 6.0;
+
+/// Quadrilateral cells of a mesh made of parts; a lot for anything else, and where cells are drawn
+/// out to too many layers.
 fn cells(source: &MeshSource) -> f64 {
     let of = |part: &Part| match part {
         Part {
@@ -303,14 +362,25 @@ fn cells(source: &MeshSource) -> f64 {
         Part {
             disc: Some(disc), ..
         } => (disc.elements as f64).powi(2),
+        Part {
+            brick: Some(brick), ..
+        } => brick.elements.iter().map(|&n| n as f64).product::<f64>() * OF_HEXAHEDRON,
         _ => 0.0,
     };
     let pieces = |part: &Part| -> usize {
         let pieces: &[Piece] = part.block.as_ref().map_or(&[], |b| &b.pieces);
         pieces.len()
     };
+    let layers = match (&source.extrude, &source.revolve) {
+        (None, None) => 1.0,
+        (Some(extrude), _) => OF_HEXAHEDRON * extrude.elements as f64,
+        (_, Some(revolve)) => OF_HEXAHEDRON * revolve.elements as f64,
+    };
     match &source.parts {
-        Some(parts) => parts.iter().map(|p| of(p) + pieces(p) as f64).sum(),
+        Some(parts) => parts
+            .iter()
+            .map(|p| layers * of(p) + pieces(p) as f64)
+            .sum(),
         None => f64::INFINITY,
     }
 }

@@ -1,6 +1,6 @@
 //! One thread or two: the same bits.
 
-use crate::running::{limit, scene_file};
+use crate::running::{SMALL_BALL, limit, scene_file};
 use brinell::linalg::Backend;
 use serde_json::Value;
 use std::path::Path;
@@ -69,6 +69,8 @@ fn assert_threads_change_no_bit(solver: &str) {
             "hard/zero_gap_conforming",
             vec!["mesh.disc_in_plate.resolution=48"],
         ),
+        ("ball_on_flat_3d", SMALL_BALL.to_vec()),
+        ("roller_on_plate", Vec::new()),
     ] {
         let folder = tempfile::tempdir().unwrap();
         let [one, two] = ["1", "2"].map(|threads| {

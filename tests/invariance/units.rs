@@ -1,7 +1,8 @@
-//! Units and scales: with lengths times L and stresses times S every length is times L, pressure times S, force per thickness times L S.
+//! Units and scales: with lengths times L and stresses times S every length is times L, pressure times S, force per thickness times
+//! L S, that of a solid times L^2 S.
 
-use crate::running::{close, largest, load, run};
-use brinell::results::Results;
+use crate::running::{SMALL_BALL, close, largest, load, run};
+use brinell::results::{QUANTITIES, Results, Unit};
 
 const ELASTIC: &str = "program.targets=[{ yield = true }, { load_factor = 0.5 }, { load_factor = 0.9 }, { load_factor = 0.0 }]";
 const PLASTIC: &str = "program.targets=[{ yield = true }, { load_factor = 1.8 }, { load_factor = 0.5 }, { load_factor = 0.0 }]";
@@ -25,14 +26,44 @@ fn cylinder_with(l: f64, s: f64, more: &[&str]) -> Results {
     run(&load("hard/unload_reload", &overrides))
 }
 
-/// `scaled` is `base` in other units, to `tolerance` of the largest value of each kind.
-fn equivariant(base: &Results, scaled: &Results, l: f64, s: f64, tolerance: f64) {
+/// A coarse quarter of a ball on a flat.
+fn ball(l: f64, s: f64, more: &[&str]) -> Results {
+    let values = [
+        (
+            "mesh.curved_bodies.upper",
+            format!("[{0:?}, {0:?}]", 10.0 * l),
+        ),
+        (
+            "materials.steel.youngs_modulus",
+            format!("{:?}", 210000.0 * s),
+        ),
+        ("materials.steel.yield_stress", format!("{:?}", 500.0 * s)),
+        (
+            "materials.steel.tangent_modulus",
+            format!("{:?}", 2100.0 * s),
+        ),
+        (
+            "load.press.plane_force.total",
+            format!("{:?}", -1000.0 * l * l * s),
+        ),
+    ];
+    let mut overrides: Vec<String> = values.iter().map(|(k, v)| format!("{k}={v}")).collect();
+    overrides.extend(SMALL_BALL.iter().chain(more).map(|o| o.to_string()));
+    let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
+    run(&load("ball_on_flat_3d", &overrides))
+}
+
+/// `scaled` is `base` in other units, to `tolerance` of the largest value of each kind; forces are
+/// `f` times as large.
+fn equivariant_of(base: &Results, scaled: &Results, [l, s, f]: [f64; 3], tolerance: f64) {
     let (a, b) = (base.first_yield.unwrap(), scaled.first_yield.unwrap());
+    // Solids are pressed along z.
+    let depth = |[_, y, z]: [f64; 3]| if z == 0.0 { y } else { z };
     for (what, x, y) in [
-        ("yield load", a.load * l * s, b.load),
+        ("yield load", a.load * f, b.load),
         ("yield pressure", a.max_pressure * s, b.max_pressure),
         ("yield half width", a.half_width * l, b.half_width),
-        ("yield depth", a.location[1] * l, b.location[1]),
+        ("yield depth", depth(a.location) * l, depth(b.location)),
     ] {
         close(what, y, x, x, tolerance);
     }
@@ -41,36 +72,35 @@ fn equivariant(base: &Results, scaled: &Results, l: f64, s: f64, tolerance: f64)
         largest(base.states.iter().flat_map(|s| &s.pairs).map(f))
     };
     let (gap, force, pressure) = (all(|p| p.gap), all(|p| p.force), all(|p| p.pressure));
-    // A depth is a difference of displacements and has their round-off.
     let depth = largest(base.states.iter().map(|s| s.approach));
-    let width = largest(base.states.iter().map(|s| s.half_width));
     for (a, b) in base.states.iter().zip(&scaled.states) {
-        close("alpha", b.alpha, a.alpha, 1.0, tolerance);
-        close(
-            "half width",
-            b.half_width,
-            a.half_width * l,
-            width * l,
-            tolerance,
-        );
-        close(
-            "depth",
-            b.residual_depth,
-            a.residual_depth * l,
-            depth * l,
-            tolerance,
-        );
-        close(
-            "strain",
-            b.max_equivalent_plastic_strain,
-            a.max_equivalent_plastic_strain,
-            1e-3,
-            tolerance,
-        );
-        assert_eq!(a.plastic_points, b.plastic_points);
+        for quantity in &QUANTITIES {
+            let [x, y] = [a, b].map(quantity.in_state.get);
+            let (factor, least) = match quantity.unit {
+                Unit::One => (1.0, 1e-3),
+                // A depth is a difference of displacements and has their round-off.
+                Unit::Length => (l, depth),
+                Unit::Stress => (s, 0.0),
+                Unit::Load => (f, 0.0),
+                Unit::Size => (l * f / s, 0.0),
+                Unit::Work => (l * f, 0.0),
+            };
+            let scale = largest(base.states.iter().map(quantity.in_state.get)).max(least);
+            // Without load a pair with neither gap nor force may be called either, and the error of the stresses is that of
+            // their round-off.
+            let of_round_off = ["closed_pairs", "energy_error"].contains(&quantity.key);
+            if of_round_off && tolerance > 0.0 && a.load == 0.0 {
+                continue;
+            }
+            if quantity.is_count || x.is_nan() {
+                assert!(x == y || y.is_nan(), "{}: {x} {y}", quantity.key);
+            } else {
+                close(quantity.key, y, x * factor, scale * factor, tolerance);
+            }
+        }
         for (p, q) in a.pairs.iter().zip(&b.pairs) {
             close("gap", q.gap, p.gap * l, gap * l, tolerance);
-            close("force", q.force, p.force * l * s, force * l * s, tolerance);
+            close("force", q.force, p.force * f, force * f, tolerance);
             close(
                 "pressure",
                 q.pressure,
@@ -81,6 +111,10 @@ fn equivariant(base: &Results, scaled: &Results, l: f64, s: f64, tolerance: f64)
         }
     }
     assert_eq!(base.history.len(), scaled.history.len());
+}
+
+fn equivariant(base: &Results, scaled: &Results, l: f64, s: f64, tolerance: f64) {
+    equivariant_of(base, scaled, [l, s, l * s], tolerance);
 }
 
 const INCH: f64 = 25.4;
@@ -116,6 +150,27 @@ fn plastic_results_scale_with_the_units() {
         for (l, s) in UNITS {
             let scaled = cylinder_with(l, s, &[PLASTIC, &balance]);
             equivariant(&base, &scaled, l, s, allowed);
+        }
+    }
+}
+
+/// Solids: elastic and elastoplastic, mm and N to m and N, stresses and lengths over 12 orders. Elastic
+/// ones to what the plane model keeps. Where stresses of the size Y = 500 balance to t = 1e-12, plastic
+/// strains do to `t Y/H`, of the 1e-3 that they are measured by 236 t with H = 2121.
+#[test]
+fn solids_scale_with_the_units() {
+    for (targets, tolerance) in [(ELASTIC, 1e-11), (PLASTIC, 236e-12)] {
+        let more = [targets, "analysis.tolerance=1e-12"];
+        let base = ball(1.0, 1.0, &more);
+        assert_eq!(targets == PLASTIC, base.states[1].plastic_points > 0);
+        for (l, s) in [
+            (1e-3, 1e6),
+            (1.0, 1e12),
+            (1.0, 1e-12),
+            (1e12, 1.0),
+            (1e-12, 1.0),
+        ] {
+            equivariant_of(&base, &ball(l, s, &more), [l, s, l * l * s], tolerance);
         }
     }
 }

@@ -45,7 +45,9 @@ fn grid_and_fields_read_back_bit_exactly() {
                 "Cells/connectivity",
                 "Cells/offsets",
                 "Cells/types",
+                "PointData/contact_pressure",
                 "PointData/displacement",
+                "PointData/gap",
                 "Points/points"
             ]
         );
@@ -53,6 +55,11 @@ fn grid_and_fields_read_back_bit_exactly() {
         assert_eq!(doubles("Points/points"), in_space(&mesh.coordinates));
         let displacement = in_space(&fields.displacement);
         assert_eq!(doubles("PointData/displacement"), displacement);
+        assert_eq!(
+            doubles("PointData/contact_pressure"),
+            bits(&fields.contact_pressure)
+        );
+        assert_eq!(doubles("PointData/gap"), bits(&fields.gap));
         assert_eq!(doubles("CellData/stress"), bits(&fields.stress));
         assert_eq!(doubles("CellData/von_mises"), bits(&fields.von_mises));
         let plastic = bits(&fields.plastic_strain);

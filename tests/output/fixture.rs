@@ -3,8 +3,9 @@
 use brinell::mesh::{Mesh, Shape};
 use brinell::output::RunHeader;
 use brinell::results::{
-    Accuracy, Companion, Counts, Demand, Effect, EstimateMethod, Fields, HistoryRow, PairState,
-    PathPoint, Quality, QuantityError, ReferenceRow, Results, Sizes, State, Status, YieldPoint,
+    Accuracy, Companion, Counts, Demand, Effect, EstimateMethod, Fields, HistoryRow, Incomplete,
+    PairState, PathPoint, Quality, QuantityError, ReferenceRow, Results, Sizes, State, Status,
+    YieldPoint,
 };
 
 pub fn header() -> RunHeader {
@@ -51,6 +52,8 @@ pub fn fields(mesh: &Mesh, seed: f64) -> Fields {
         plastic_strain: values(elements, 0.7),
         yielded: (0..elements).map(|i| (i % 2) as u8).collect(),
         error: values(elements, 0.9),
+        contact_pressure: values(mesh.n_nodes(), 0.1),
+        gap: values(mesh.n_nodes(), 0.2),
     }
 }
 
@@ -94,6 +97,8 @@ pub fn results(mesh: &Mesh) -> Results {
         plastic_points_by_body: vec![3, 4],
         max_equivalent_plastic_strain: 0.02,
         plastic_zone_size: 0.004,
+        plastic_work: 0.7,
+        plastic_depth: 0.0123,
         energy_error: Some(0.05),
         approach: 0.3,
         patches: Vec::new(),
@@ -179,7 +184,7 @@ pub fn results(mesh: &Mesh) -> Results {
         condition_estimate: Some(3e4),
         inaccurate: vec!["state `released` is inaccurate".into()],
         factor: brinell::linalg::Prediction {
-            ordering: "CAMD",
+            ordering: "CAMD".into(),
             factor_nonzeros: 1234.0,
             flops: 5e20,
             trailing_nonzeros: 99.0,
@@ -228,7 +233,9 @@ pub fn results(mesh: &Mesh) -> Results {
         }),
         warnings: vec!["tri3 elements lock where they yield".into()],
         resumed: 2,
-        incomplete: Some("stopped on request".into()),
-        incomplete_kind: Some(brinell::ErrorKind::Stopped),
+        incomplete: Some(Incomplete {
+            kind: brinell::ErrorKind::Stopped,
+            why: "stopped on request".into(),
+        }),
     }
 }

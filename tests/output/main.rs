@@ -1,6 +1,7 @@
 //! The result directory: what is in it, and that it appears whole or not at all.
 
 mod arrays;
+mod browser;
 mod directory;
 mod fields;
 mod fixture;
@@ -11,5 +12,6 @@ mod limit;
 mod python;
 mod report;
 mod summary;
+mod svg;
 mod tables;
 mod vtu;

@@ -2,7 +2,7 @@
 
 use crate::fixture;
 use brinell::output::{RunHeader, SUMMARY_SCHEMA, summary, write};
-use brinell::results::{Results, State};
+use brinell::results::{QUANTITIES, Quantity, Results, State};
 use serde_json::{Value, json};
 
 fn schema() -> jsonschema::Validator {
@@ -50,7 +50,8 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
         "contact_arc": {"from": -19.625, "to": 19.625}, "residual_depth": 0.01,
         "residual_depth_by_body": {"cylinder": 0.006, "half_plane": 0.004}, "rim_height": 0.001, "approach": 0.3,
         "plastic_points": 7, "plastic_points_by_body": {"cylinder": 3, "half_plane": 4},
-        "max_equivalent_plastic_strain": 0.02, "plastic_zone_size": 0.004, "energy_error": 0.05,
+        "max_equivalent_plastic_strain": 0.02, "plastic_zone_size": 0.004, "plastic_work": 0.7,
+        "plastic_depth": 0.0123, "energy_error": 0.05,
         "quality": quality,
         "fields": "state_01_b___1.5_b_.vtu"
     });
@@ -114,6 +115,9 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
         "incomplete": "stopped on request"
     });
     assert_eq!(value, expected);
+    // In this order, too.
+    let [written, wanted] = [&value, &expected].map(|v| serde_json::to_string_pretty(v).unwrap());
+    assert_eq!(written, wanted);
 }
 
 #[test]
@@ -150,6 +154,54 @@ fn numbers_that_are_not_finite_are_null() {
     assert_eq!(value["quality"]["equilibrium"], Value::Null);
     assert_eq!(value["factor"]["flops"], Value::Null);
     assert_eq!(value["timings"]["assembly"], Value::Null);
+}
+
+/// Every quantity of the table stands in the schema of a state (of first yield, where it is known there), required and
+/// described, and nothing else that is a number does.
+#[test]
+fn the_schema_has_the_quantities_of_the_table() {
+    let schema: Value = serde_json::from_str(SUMMARY_SCHEMA).unwrap();
+    let first_yield = &schema["properties"]["yield"]["oneOf"][1];
+    let state = &schema["$defs"]["state"];
+    for (part, keys) in [
+        (state, QUANTITIES.iter().map(|q| q.key).collect::<Vec<_>>()),
+        (
+            first_yield,
+            QUANTITIES
+                .iter()
+                .filter(|q| q.at_yield.is_some())
+                .map(|q| q.key)
+                .collect(),
+        ),
+    ] {
+        let numbers = part["properties"].as_object().unwrap().iter();
+        let numbers: Vec<&String> = numbers
+            .filter(|(_, entry)| {
+                let kind = entry["$ref"].as_str().unwrap_or_default();
+                ["figure", "magnitude", "count"]
+                    .iter()
+                    .any(|k| kind.ends_with(k))
+            })
+            .map(|(key, _)| key)
+            .collect();
+        assert_eq!(numbers, keys);
+        let required = part["required"].as_array().unwrap();
+        for key in keys {
+            assert!(required.contains(&key.into()), "{key}");
+            assert!(part["properties"][key]["description"].is_string(), "{key}");
+        }
+    }
+    for quantity in &QUANTITIES {
+        let count = state["properties"][quantity.key]["$ref"] == "#/$defs/count";
+        assert_eq!(count, quantity.is_count, "{}", quantity.key);
+        // Twins, keys and short names are those of the table.
+        assert!(
+            quantity
+                .twin
+                .is_none_or(|twin| Quantity::of(twin).is_some())
+        );
+        assert!(std::ptr::eq(Quantity::of(quantity.key).unwrap(), quantity));
+    }
 }
 
 /// The schema has to refuse what is wrong: each required key taken away, each key misspelt, wrong types.

@@ -2,7 +2,7 @@
 
 use crate::fixture;
 use brinell::output::{RunHeader, write};
-use brinell::results::{HistoryRow, Results};
+use brinell::results::{HistoryRow, QUANTITIES, Results};
 use std::path::Path;
 
 fn read(file: &Path) -> (Vec<String>, Vec<Vec<String>>) {
@@ -100,6 +100,14 @@ fn history_reads_back_into_its_type() {
         event: cell("event").into(),
     };
     assert_eq!(read, row);
+    // What is a quantity stands under its key.
+    for quantity in &QUANTITIES {
+        let column = HISTORY.contains(&quantity.key);
+        assert_eq!(column, quantity.in_history.is_some(), "{}", quantity.key);
+        if let Some(field) = quantity.in_history {
+            assert_eq!(number(quantity.key), (field.get)(&row), "{}", quantity.key);
+        }
+    }
 }
 
 #[test]

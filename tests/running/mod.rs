@@ -3,6 +3,7 @@
 
 pub mod limit;
 
+use brinell::Result;
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::mesh::Mesh;
@@ -10,7 +11,6 @@ use brinell::model::Model;
 use brinell::progress::Silent;
 use brinell::results::{Results, State, Status};
 use brinell::scene::Scene;
-use brinell::{Error, Result};
 use std::path::PathBuf;
 
 /// A file under `data/scenes`.
@@ -19,6 +19,19 @@ pub fn scene_file(name: &str) -> PathBuf {
         .join("data/scenes")
         .join(format!("{name}.toml"))
 }
+
+/// Overrides that make `ball_on_flat_3d` a matter of tenths of a second.
+pub const SMALL_BALL: [&str; 3] = [
+    "mesh.curved_bodies.resolution=2",
+    "mesh.curved_bodies.contact_width=2.5",
+    "mesh.curved_bodies.far_size=10",
+];
+
+/// Overrides that make `square_punch` small.
+pub const SMALL_PUNCH: [&str; 2] = [
+    "mesh.parts.0.brick.elements=[2, 2, 2]",
+    "mesh.parts.1.brick.elements=[6, 6, 4]",
+];
 
 /// A scene of `data/scenes` with values overridden.
 pub fn load(name: &str, overrides: &[&str]) -> Scene {
@@ -50,12 +63,7 @@ pub fn run_on(scene: &Scene, mesh: Mesh) -> Results {
 fn complete(results: Results) -> Result<Results> {
     match &results.incomplete {
         None => Ok(results),
-        Some(why) => Err(Error::new(
-            results
-                .incomplete_kind
-                .unwrap_or(brinell::ErrorKind::Internal),
-            why.clone(),
-        )),
+        Some(incomplete) => Err(incomplete.to_error()),
     }
 }
 

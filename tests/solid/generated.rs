@@ -89,6 +89,60 @@ fn first_yield_is_that_of_hertz() {
     }
 }
 
+/// Elastic contact of a ball at the load of first yield, with 4 and 8 elements over the
+/// smaller half axis: pressures converge with the square of the element. (16 take some minutes:
+/// README, "What was verified".)
+#[test]
+fn the_elastic_solution_converges_to_that_of_hertz() {
+    let modulus = contact_modulus(210e3, 0.3, 210e3, 0.3);
+    let (name, upper, lower) = ("ball_on_flat_3d", [10.0, 10.0], [0.0, 0.0]);
+    let radii = HertzEllipse::relative_radii(upper, lower).unwrap();
+    let hertz = HertzEllipse::new(radii, modulus).unwrap();
+    let load = hertz.yield_load(0.3, 500.0);
+    let exact = hertz.max_pressure(load);
+    let axes = hertz.semi_axes(load);
+    let state = |n: usize| {
+        let overrides = [
+            format!("mesh.curved_bodies.resolution={n}"),
+            format!("mesh.curved_bodies.semi_axes={axes:?}"),
+            format!("load.press.plane_force.total={}", -load),
+            "bodies.upper.plastic=false".to_string(),
+            "bodies.lower.plastic=false".to_string(),
+            "program.unit=load".to_string(),
+            "program.targets=[{ load_factor = 1.0 }]".to_string(),
+            "reference=[]".to_string(),
+        ];
+        let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
+        run(&scene(name, &overrides)).states.remove(0)
+    };
+    let states = [4, 8].map(state);
+    let off = |of: fn(&State) -> f64| states.each_ref().map(|s| (of(s) / exact - 1.0).abs());
+    for (what, [coarse, fine]) in [
+        ("pole pressure", off(|s| s.pole_pressure)),
+        ("largest pressure", off(|s| s.max_pressure)),
+    ] {
+        let order = (coarse / fine).log2();
+        assert!(
+            coarse < 0.3 / 16.0 && fine < 0.3 / 64.0,
+            "{name} {what}: {coarse} {fine}, order {order}"
+        );
+    }
+    let mut axes = axes;
+    axes.sort_by(|a, b| b.total_cmp(a));
+    for (state, n) in states.iter().zip([4.0, 8.0]) {
+        for (a, exact) in state.patches[0].semi_axes.iter().zip(axes) {
+            near(*a, exact, 0.2 / n, name);
+        }
+        // The bodies end at 30 half axes, and the mesh.
+        near(
+            state.approach,
+            hertz.approach(load),
+            0.02 + 0.3 / (n * n),
+            name,
+        );
+    }
+}
+
 /// What the whole shows of itself in a half and a quarter model is the same, plastic history and
 /// unloading included.
 #[test]

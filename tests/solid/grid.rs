@@ -18,6 +18,9 @@ const TETRAHEDRA: [[usize; 4]; 6] = [
     [0, 5, 1, 6],
 ];
 
+/// The two prisms of a cell that share the face of its corners 0, 2, 6 and 4.
+const PRISMS: [[usize; 6]; 2] = [[0, 1, 2, 4, 5, 6], [0, 2, 3, 4, 6, 7]];
+
 /// A box `[0, 1]^3` of cells whose points a map puts in their place.
 pub struct Grid<'a> {
     pub name: &'a str,
@@ -50,6 +53,7 @@ impl Grid<'_> {
                     };
                     let elements: Vec<Vec<usize>> = match row.n_corners {
                         8 => vec![(0..8).collect()],
+                        6 => PRISMS.map(|p| p.to_vec()).to_vec(),
                         _ => TETRAHEDRA.map(|t| t.to_vec()).to_vec(),
                     };
                     for corners in elements {

@@ -9,8 +9,6 @@ use brinell::progress::Silent;
 use brinell::results::Results;
 use brinell::scene::{Body, Contact, Direction, Kind, Load, Material, Support, Target};
 
-const SOLID: [Shape; 4] = [Shape::Tet4, Shape::Tet10, Shape::Hex8, Shape::Hex20];
-
 /// Points inside are moved; those on the faces of the box stay on them, alike on the lowest and the
 /// highest.
 fn bent([x, y, z]: Point) -> Point {
@@ -68,7 +66,7 @@ fn straight(shape: Shape, map: fn(Point) -> Point, cells: [usize; 3]) -> impl Fn
 /// A block under pressure, free to widen: one stress everywhere, whatever the elements.
 #[test]
 fn a_block_under_pressure_is_exact() {
-    for shape in SOLID {
+    for shape in Shape::SOLID {
         let cells = [2, 2, 2];
         let map = straight(shape, bent, cells);
         let mut builder = ModelBuilder::new(Kind::Solid);
@@ -115,7 +113,7 @@ fn a_block_under_pressure_is_exact() {
 /// Two blocks pressed together: the contact passes a uniform pressure.
 #[test]
 fn a_contact_passes_a_uniform_pressure() {
-    for shape in SOLID {
+    for shape in Shape::SOLID {
         let cells = [3, 2, 2];
         let mut builder = ModelBuilder::new(Kind::Solid);
         let lower = straight(shape, bent, cells);

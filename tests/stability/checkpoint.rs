@@ -4,7 +4,7 @@
 //! their border, the tangent that predicts, the pivots behind a dense factor, the rest of a search. Then "restart changes the answer".
 //! Passing means the same bits.
 
-use crate::running::load;
+use crate::running::{SMALL_BALL, SMALL_PUNCH, load};
 use brinell::analysis::Analysis;
 use brinell::checkpoint::Checkpoints;
 use brinell::linalg::Backend;
@@ -125,14 +125,21 @@ fn the_paper_s_cylinder_goes_on_from_every_increment() {
     assert!(same_from_everywhere(&scene, 2) >= 10);
 }
 
-/// Interference (a preload that yields), fixed steps, the other iterations, separation and contact found again, cycles, collapse, bodies without
-/// contact, a target displacement: the number is every how many increments a run goes on from.
+/// Solids, interference (a preload that yields), fixed steps, the other iterations, separation and contact found again, cycles, collapse,
+/// bodies without contact, a target displacement: the number is every how many increments a run goes on from.
 #[test]
 fn every_kind_of_way_goes_on() {
     let mut tried = 0;
     let cylinder = "cylinder_on_half_plane";
     let coarse = "mesh.cylinder_on_half_plane.resolution=4";
-    let cases: [(&str, &[&str], usize); 10] = [
+    let ball = [
+        &SMALL_BALL[..],
+        &["program.targets=[{ yield = true }, { load_factor = 2.0 }, { load_factor = 0.0 }]"],
+    ]
+    .concat();
+    let cases: [(&str, &[&str], usize); 12] = [
+        ("ball_on_flat_3d", &ball, 2),
+        ("square_punch", &SMALL_PUNCH, 2),
         (
             "hard/interference",
             &[
@@ -229,7 +236,7 @@ fn what_is_not_the_same_run_is_refused_by_name() {
     let stopped = analysis(&scene)
         .run_with_checkpoints(&checkpoints, stop)
         .unwrap();
-    assert_eq!(stopped.incomplete_kind, Some(ErrorKind::Stopped));
+    assert_eq!(stopped.ending().kind(), Some(ErrorKind::Stopped));
     assert!(checkpoints.exist());
 
     let changed = |overrides: &[&str]| {

@@ -20,9 +20,9 @@ fn end_of(scene: &Scene) -> (Option<ErrorKind>, f64, String) {
     let results = as_far_as_it_goes(scene);
     let held = results.history.last().unwrap().alpha;
     (
-        results.incomplete_kind,
+        results.ending().kind(),
         held,
-        results.incomplete.unwrap_or_default(),
+        results.incomplete.map_or_else(String::new, |end| end.why),
     )
 }
 

@@ -21,7 +21,7 @@ fn limit(shape: &str, nu: f64) -> (Option<f64>, Vec<String>) {
         .run(&mut Silent)
         .unwrap();
     let exact = 2.0 * 240.0 / 3f64.sqrt() * 2f64.ln();
-    let collapsed = results.incomplete_kind == Some(ErrorKind::Collapse);
+    let collapsed = results.ending().kind() == Some(ErrorKind::Collapse);
     let last = results.history.last().unwrap().alpha;
     (collapsed.then_some(last / exact), results.warnings)
 }
@@ -57,7 +57,7 @@ fn limit_loads_of_a_sphere() {
             let mut analysis = Analysis::new(model, Backend::default()).unwrap();
             let results = analysis.run(&mut Silent).unwrap();
             assert_eq!(
-                results.incomplete_kind,
+                results.ending().kind(),
                 Some(ErrorKind::Collapse),
                 "{shape} {nu}"
             );

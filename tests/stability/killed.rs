@@ -1,17 +1,26 @@
 //! Killed at any moment: `kill -9` leaves no time to tidy up.
 #![cfg(unix)]
 
-use crate::running::{limit, scene_file};
+use crate::running::{SMALL_BALL, limit, scene_file};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-fn start(out: &Path, more: &[&str]) -> Child {
+/// A scene and what is set in it.
+type Case = (&'static str, &'static [&'static str]);
+
+const CYLINDER: Case = (
+    "cylinder_on_half_plane",
+    &["mesh.cylinder_on_half_plane.resolution=12"],
+);
+const BALL: Case = ("ball_on_flat_3d", &SMALL_BALL);
+
+fn start((scene, sets): Case, out: &Path, more: &[&str]) -> Child {
     Command::new(env!("CARGO_BIN_EXE_brinell"))
         .arg("run")
-        .arg(scene_file("cylinder_on_half_plane"))
+        .arg(scene_file(scene))
         .args(["-q", "--no-report", "--no-estimate", "--threads", "1"])
-        .args(["--set", "mesh.cylinder_on_half_plane.resolution=12"])
+        .args(sets.iter().flat_map(|set| ["--set", set]))
         .arg("--out")
         .arg(out)
         .args(more)
@@ -38,12 +47,11 @@ fn summary(dir: &Path) -> serde_json::Value {
 /// The same run again and again, killed at times of no pattern, until one of them comes to its end. A restart that loses a digit of the state, or a
 /// checkpoint that is half written, changes the results or ends the run: passing means that every number of the summary and every byte of every
 /// other file is that of the run that nobody disturbed.
-#[test]
-fn a_run_killed_again_and_again_has_the_results_of_one_that_was_not() {
+fn killed_again_and_again(case: Case) {
     let folder = tempfile::tempdir().unwrap();
     let (plain, killed) = (folder.path().join("plain"), folder.path().join("killed"));
     let begin = Instant::now();
-    let output = limit::finish(start(&plain, &[]));
+    let output = limit::finish(start(case, &plain, &[]));
     assert!(
         output.status.success(),
         "{}",
@@ -57,7 +65,7 @@ fn a_run_killed_again_and_again_has_the_results_of_one_that_was_not() {
     let mut with_checkpoint = 0;
     let mut rounds = 0;
     let stderr = loop {
-        let mut child = start(&killed, &["--checkpoint", "--resume"]);
+        let mut child = start(case, &killed, &["--checkpoint", "--resume"]);
         random ^= random << 13;
         random ^= random >> 7;
         random ^= random << 17;
@@ -125,6 +133,16 @@ fn a_run_killed_again_and_again_has_the_results_of_one_that_was_not() {
     assert_eq!(left.len(), 2, "{left:?}");
 }
 
+#[test]
+fn a_run_killed_again_and_again_has_the_results_of_one_that_was_not() {
+    killed_again_and_again(CYLINDER);
+}
+
+#[test]
+fn a_solid_killed_again_and_again_has_the_results_of_one_that_was_not() {
+    killed_again_and_again(BALL);
+}
+
 /// Every number of the summary and every byte of every other file.
 fn same_results(plain: &Path, other: &Path) {
     assert_eq!(summary(plain), summary(other));
@@ -145,10 +163,10 @@ fn same_results(plain: &Path, other: &Path) {
 fn a_run_stopped_by_the_user_goes_on() {
     let folder = tempfile::tempdir().unwrap();
     let (plain, stopped) = (folder.path().join("plain"), folder.path().join("stopped"));
-    assert!(limit::wait(&mut start(&plain, &[])).success());
+    assert!(limit::wait(&mut start(CYLINDER, &plain, &[])).success());
     let checkpoint = folder.path().join("stopped.checkpoint/checkpoint");
     for attempt in 0.. {
-        let mut child = start(&stopped, &["--checkpoint=3"]);
+        let mut child = start(CYLINDER, &stopped, &["--checkpoint=3"]);
         while !checkpoint.is_file() && child.try_wait().unwrap().is_none() {
             std::thread::sleep(Duration::from_millis(1));
         }
@@ -163,7 +181,7 @@ fn a_run_stopped_by_the_user_goes_on() {
     }
     assert!(summary(&stopped)["incomplete"].is_string());
     assert!(checkpoint.is_file());
-    assert!(limit::wait(&mut start(&stopped, &["--resume"])).success());
+    assert!(limit::wait(&mut start(CYLINDER, &stopped, &["--resume"])).success());
     same_results(&plain, &stopped);
     assert!(!checkpoint.exists());
 }
@@ -174,7 +192,7 @@ fn a_demanded_accuracy_leaves_no_checkpoints() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     for option in ["--checkpoint", "--resume"] {
-        let refused = start(&out, &["--accuracy", "5%", option]);
+        let refused = start(CYLINDER, &out, &["--accuracy", "5%", option]);
         let output = limit::finish(refused);
         let stderr = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(2), "{stderr}");

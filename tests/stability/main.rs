@@ -7,6 +7,8 @@ mod collapse;
 mod cycles;
 mod elsewhere;
 mod flow;
+#[path = "../solid/grid.rs"]
+mod grid;
 mod held_by_contact;
 mod incompressible;
 mod killed;
@@ -20,4 +22,5 @@ mod refinement;
 #[path = "../running/mod.rs"]
 mod running;
 mod selftest;
+mod solids;
 mod touching;

@@ -97,12 +97,12 @@ fn a_strip_that_is_too_short_ends_the_run_at_its_end() {
     let results = Analysis::new(model, Backend::default())
         .and_then(|mut a| a.run(&mut Silent))
         .unwrap();
-    assert_eq!(results.incomplete_kind, Some(ErrorKind::Outgrown));
+    assert_eq!(results.ending().kind(), Some(ErrorKind::Outgrown));
     assert_eq!(results.states.len(), 1, "the state at first yield is right");
     // The last increment is the one in which the last pair closes.
     let last = results.history.last().unwrap();
     assert_eq!(last.event, format!("closes: pair {}", end + 1));
-    let message = results.incomplete.unwrap();
+    let message = results.incomplete.unwrap().why;
     for part in [
         "`cylinder.contact` on `half_plane.contact`",
         &format!("load factor {:.6}", last.alpha),

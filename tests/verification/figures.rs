@@ -188,7 +188,7 @@ fn contact_normals_are_turned_into_inclined_supports() {
     let turned = [-angle.to_radians().sin(), angle.to_radians().cos()];
     let mut corners = 0;
     for pair in &model.pairs {
-        let at_left = model.mesh.point(pair.second)[0] == 0.0;
+        let at_left = model.mesh.point(pair.slave)[0] == 0.0;
         corners += usize::from(at_left);
         let expected = if at_left { turned } else { [0.0, 1.0] };
         for d in 0..2 {

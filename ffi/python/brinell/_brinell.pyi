@@ -21,17 +21,10 @@ def run(
 
 class State:
     name: str
-    alpha: float
-    load: float
-    contact_force: float
-    max_pressure: float
-    half_width: float
-    residual_depth: float
-    approach: float
-    plastic_points: int
-    max_equivalent_plastic_strain: float
+    def __getattr__(self, quantity: str) -> float: ...
     contact_arc: Optional[list[float]]
     pairs: _Table
+    patches: list[dict[str, Any]]
     fields: Optional[dict[str, NDArray[Any]]]
     quality: dict[str, float]
 
@@ -70,6 +63,7 @@ class Model:
         gap: Optional[ArrayLike] = None,
         normal: Optional[ArrayLike] = None,
         interference: float = 0.0,
+        slave: str = "auto",
     ) -> None: ...
     def support(self, on: str, fix: str, *, angle: Optional[float] = None) -> None: ...
     def load(self, on: str, **values: Any) -> None: ...

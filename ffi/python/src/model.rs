@@ -8,8 +8,8 @@ use brinell::mesh::{Curve, Shape};
 use brinell::model::{ModelBuilder, NodePair};
 use brinell::panics::contained;
 use brinell::scene::{
-    Body, Contact, Direction, History, Kind, Load, Material, Plastic, Program, Settings, Support,
-    Target,
+    Body, Contact, Direction, History, Kind, Load, Material, Plastic, Program, Settings, SlaveSide,
+    Support, Target,
 };
 use brinell::space::Components;
 use numpy::PyUntypedArrayMethods;
@@ -107,7 +107,8 @@ impl Model {
 
     /// Adds elements of a body: nodes (n, nodes of an element), counter-clockwise, corners first; of a solid in the order of VTK.
     ///
-    /// shape: "quad4", "quad8", "tri3", "tri6"; of a solid "hex8", "hex20", "tet4", "tet10".
+    /// shape: "quad4", "quad8", "tri3", "tri6"; of a solid "hex8", "hex20", "tet4", "tet10",
+    /// "prism6", "prism15".
     #[pyo3(signature = (body, nodes, *, shape = "quad4"))]
     fn elements(
         &mut self,
@@ -220,11 +221,13 @@ impl Model {
 
     /// Lets two surfaces touch.
     ///
-    /// pairs: (n, 2) nodes of the first and the second surface; None to pair them by geometry.
+    /// pairs: (n, 2) nodes of the first and the second surface; None to pair nodes that face each other, and to couple other surfaces
+    /// by the integrals of their shape functions.
     /// gap: initial gap of all pairs, or (n) gaps of the given ones; None for the geometric gaps.
     /// normal: direction from the second body to the first, of all pairs or one for each in rows; None for the second surface's outward normals.
     /// interference: taken off every gap, gradually before the load program.
-    #[pyo3(signature = (first, second, *, pairs = None, gap = None, normal = None, interference = 0.0))]
+    /// slave: "first" or "second", the surface at whose nodes gaps and pressures are; "auto" for the finer one.
+    #[pyo3(signature = (first, second, *, pairs = None, gap = None, normal = None, interference = 0.0, slave = "auto"))]
     #[allow(clippy::too_many_arguments)] // keywords
     fn contact(
         &mut self,
@@ -235,11 +238,22 @@ impl Model {
         gap: Option<&Bound<'_, PyAny>>,
         normal: Option<&Bound<'_, PyAny>>,
         interference: f64,
+        slave: &str,
     ) -> PyResult<()> {
         let mut contact = Contact {
             first: first.to_string(),
             second: second.to_string(),
             interference,
+            slave: match slave {
+                "auto" => SlaveSide::Auto,
+                "first" => SlaveSide::First,
+                "second" => SlaveSide::Second,
+                _ => {
+                    let why =
+                        format!("slave is \"{slave}\"; give \"first\", \"second\" or \"auto\"");
+                    return Err(wrong(py, why));
+                }
+            },
             ..Contact::default()
         };
         let Some(pairs) = pairs else {

@@ -9,14 +9,16 @@ use crate::threads;
 use brinell::ErrorKind;
 use brinell::accuracy::{self, Extent};
 use brinell::analysis::Analysis;
+use brinell::deck::{self, Options};
 use brinell::linalg::Backend;
 use brinell::model::Model;
 use brinell::output::{self, RunHeader};
 use brinell::panics::contained;
-use brinell::results::{self, Results};
+use brinell::reference;
+use brinell::results::{self, QUANTITIES, Quantity, Results};
 use brinell::scene::Scene;
 use numpy::PyArray1;
-use pyo3::exceptions::PyIndexError;
+use pyo3::exceptions::{PyAttributeError, PyIndexError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::{Path, PathBuf};
@@ -55,7 +57,7 @@ pub fn run(
     budget: Option<f64>,
 ) -> PyResult<Py<RunResult>> {
     let read = || match is_path {
-        true => Scene::load_with(scene, &overrides),
+        true => deck::load_with(scene, &overrides, Options::default()),
         false => Scene::parse_with(scene, "scene", &overrides),
     };
     let scene = contained(read).raise(py)?;
@@ -93,6 +95,7 @@ pub fn execute(py: Python<'_>, source: Source, way: Way) -> PyResult<Py<RunResul
             let mut analysis = Analysis::new(model, backend)?;
             let mut results = analysis.run(&mut watcher)?;
             let model = analysis.model().clone();
+            reference::compare(&model, &mut results);
             if way.estimate {
                 let extent = Extent::Program;
                 let found =
@@ -222,7 +225,7 @@ impl RunResult {
     /// Why the run ended before its program did; None where it did not.
     #[getter]
     fn incomplete(&self) -> Option<&str> {
-        self.results.incomplete.as_deref()
+        (self.results.incomplete.as_ref()).map(|incomplete| incomplete.why.as_str())
     }
 
     /// Quality figures that miss their tolerance: such results are not to be trusted.
@@ -301,58 +304,28 @@ impl State {
         &self.state().name
     }
 
-    /// Load factor in the program's unit.
-    #[getter]
-    fn alpha(&self) -> f64 {
-        self.state().alpha
+    /// A quantity by its key in `summary.json`: `load`, `half_width`, `residual_depth`, ...
+    fn __getattr__<'py>(&self, py: Python<'py>, key: &str) -> PyResult<Bound<'py, PyAny>> {
+        let Some(quantity) = Quantity::of(key) else {
+            let keys: Vec<&str> = QUANTITIES.iter().map(|quantity| quantity.key).collect();
+            return Err(PyAttributeError::new_err(format!(
+                "a state has no {key:?}; its quantities are {}",
+                keys.join(", ")
+            )));
+        };
+        let value = (quantity.in_state.get)(self.state());
+        match quantity.is_count {
+            true => Ok((value as u64).into_pyobject(py)?.into_any()),
+            false => Ok(value.into_pyobject(py)?.into_any()),
+        }
     }
 
-    /// Total load.
-    #[getter]
-    fn load(&self) -> f64 {
-        self.state().load
-    }
-
-    /// Sum of the contact forces.
-    #[getter]
-    fn contact_force(&self) -> f64 {
-        self.state().contact_force
-    }
-
-    /// Largest contact pressure.
-    #[getter]
-    fn max_pressure(&self) -> f64 {
-        self.state().max_pressure
-    }
-
-    /// Contact half width.
-    #[getter]
-    fn half_width(&self) -> f64 {
-        self.state().half_width
-    }
-
-    /// The dent that stays.
-    #[getter]
-    fn residual_depth(&self) -> f64 {
-        self.state().residual_depth
-    }
-
-    /// Displacement of the loaded surface along the load.
-    #[getter]
-    fn approach(&self) -> f64 {
-        self.state().approach
-    }
-
-    /// Gauss points with plastic strain.
-    #[getter]
-    fn plastic_points(&self) -> usize {
-        self.state().plastic_points
-    }
-
-    /// Largest equivalent plastic strain.
-    #[getter]
-    fn max_equivalent_plastic_strain(&self) -> f64 {
-        self.state().max_equivalent_plastic_strain
+    /// What a state has, the quantities among it.
+    fn __dir__(&self) -> Vec<&'static str> {
+        let own = ["name", "contact_arc", "pairs", "fields", "quality"];
+        own.into_iter()
+            .chain(QUANTITIES.iter().map(|quantity| quantity.key))
+            .collect()
     }
 
     /// Begin and end of a contact on a circle, in degrees from its middle; None elsewhere.
@@ -365,6 +338,13 @@ impl State {
     #[getter]
     fn pairs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         tables::pairs(py, &self.results, self.index)
+    }
+
+    /// Patches of the contact of a solid, a dictionary each: `contact`, `area`, `centroid`, `semi_axes` (the larger first), `direction` of
+    /// the larger one, `max_pressure`, `mean_pressure`, `force`.
+    #[getter]
+    fn patches<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        Ok(pythonize::pythonize(py, &self.state().patches)?)
     }
 
     /// Fields on the whole mesh, not copied and not to be written to: `displacement` (n_nodes, 2), `stress` (n_elements, 4) as xx, yy, zz, xy (of a solid 3 and 6, yz and zx after them),

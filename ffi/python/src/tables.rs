@@ -1,7 +1,7 @@
 //! Rows as columns: dictionaries of numpy's views, which `pandas.DataFrame` takes as they are.
 
-use crate::lent::{Number, column, lent};
-use brinell::results::{Fields, Results, Status};
+use crate::lent::{Number, column, lent, read_only};
+use brinell::results::{Fields, QUANTITIES, Results, Status};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -44,17 +44,20 @@ pub fn pairs<'py>(
     Ok(table)
 }
 
-/// A row per state.
-#[rustfmt::skip]
-pub fn states<'py>(py: Python<'py>, results: &Arc<Results>) -> PyResult<Bound<'py, PyDict>> {
+/// A row per state, with a column for each quantity. They are collected from the states.
+pub fn states<'py>(py: Python<'py>, results: &Results) -> PyResult<Bound<'py, PyDict>> {
     let table = PyDict::new(py);
     let names = results.states.iter().map(|row| row.name.as_str());
     table.set_item("name", names.collect::<Vec<&str>>())?;
-    columns!(py, table, results, |r: &Results| &r.states[..],
-        alpha, load, contact_force, max_pressure, pole_pressure, half_width, residual_depth, approach, plastic_points,
-        max_equivalent_plastic_strain, plastic_zone_size);
-    let error = results.states.iter().map(|row| row.energy_error.unwrap_or(f64::NAN));
-    table.set_item("energy_error", PyArray1::from_iter(py, error))?;
+    for quantity in &QUANTITIES {
+        let values = results.states.iter().map(quantity.in_state.get);
+        let column = if quantity.is_count {
+            PyArray1::from_iter(py, values.map(|count| count as isize)).into_any()
+        } else {
+            PyArray1::from_iter(py, values).into_any()
+        };
+        table.set_item(quantity.key, read_only(column)?)?;
+    }
     Ok(table)
 }
 
@@ -79,6 +82,8 @@ pub fn fields<'py>(
     add("von_mises", |f| &f.von_mises, None)?;
     add("plastic_strain", |f| &f.plastic_strain, None)?;
     add("error", |f| &f.error, None)?;
+    add("contact_pressure", |f| &f.contact_pressure, None)?;
+    add("gap", |f| &f.gap, None)?;
     let yielded = field(py, results, state, |f| &f.yielded[..], None)?;
     table.set_item("yielded", yielded)?;
     Ok(Some(table))

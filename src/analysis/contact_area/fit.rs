@@ -6,6 +6,8 @@ use nalgebra::{DMatrix, DVector};
 const FITTED: usize = 9;
 /// Share of the largest singular value below which a fit's equations count as dependent.
 const DEPENDENT: f64 = 1e-4;
+/// Most iterations of a singular value decomposition: each value takes two or three.
+const ITERATIONS: usize = 1000;
 
 /// A value at a place.
 #[derive(Clone, Copy)]
@@ -36,6 +38,9 @@ impl Fit {
             let last = near[most.min(near.len()) - 1].0 * (1.0 + 1e-9);
             let used = &near[..near.partition_point(|(off, _)| *off <= last)];
             let scale = used[used.len() - 1].0;
+            if scale <= 0.0 {
+                continue;
+            }
             let mut matrix = DMatrix::zeros(used.len(), terms);
             let mut right = DVector::zeros(used.len());
             for (i, (off, known)) in used.iter().enumerate() {
@@ -46,7 +51,7 @@ impl Fit {
                 }
                 right[i] = weight * known.value;
             }
-            let decomposed = matrix.svd(true, true);
+            let decomposed = matrix.try_svd(true, true, 5.0 * f64::EPSILON, ITERATIONS)?;
             let largest = decomposed.singular_values.max();
             if decomposed.singular_values.min() <= DEPENDENT * largest {
                 continue;
@@ -67,6 +72,11 @@ impl Fit {
         let place = [0, 1].map(|d| (at[d] - self.origin[d]) / self.scale);
         let terms = monomials(place).into_iter().zip(self.coefficients);
         terms.map(|(term, c)| term * c).sum()
+    }
+
+    /// The sum of both second derivatives.
+    pub(super) fn laplacian(&self) -> f64 {
+        2.0 * (self.coefficients[3] + self.coefficients[5]) / self.scale.powi(2)
     }
 
     /// The size of the gradient at its place.

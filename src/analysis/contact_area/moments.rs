@@ -159,6 +159,21 @@ pub(super) fn mirror(n: [f64; 2], center: &mut [f64; 2], second: &mut [[f64; 2];
 }
 
 impl Moments {
+    /// The moments in the unit of which those along the axes are so many.
+    pub(super) fn scaled(&self, units: [f64; 2]) -> Moments {
+        let second = |i: usize, j: usize| self.second[i][j] * units[i] * units[j];
+        Moments {
+            area: self.area * units[0] * units[1],
+            center: [0, 1].map(|d| self.center[d] * units[d]),
+            second: [0, 1].map(|i| [0, 1].map(|j| second(i, j))),
+        }
+    }
+
+    /// The same with another area.
+    pub(super) fn with_area(self, area: f64) -> Moments {
+        Moments { area, ..self }
+    }
+
     /// Half axes, the larger first, and the larger one's direction.
     pub(super) fn axes(&self) -> ([f64; 2], [f64; 2]) {
         let [[a, b], [_, c]] = self.second;

@@ -1,6 +1,7 @@
 //! Where the stresses of quadratic elements are compared.
 
 use crate::shape::{Functions, Place, Shape};
+use std::ops::Range;
 use std::sync::LazyLock;
 
 /// Abscissas and weights of three Gauss points.
@@ -57,21 +58,24 @@ fn rule(shape: Shape) -> Vec<(Place, f64)> {
     match (shape.n_corners(), shape.dimension()) {
         (3, _) => TRIANGLE.to_vec(),
         (4, 3) => TETRAHEDRON.to_vec(),
-        (_, dimension) => {
-            let mut points = vec![([0.0; 3], 1.0)];
-            for d in 0..dimension {
-                let along = |(place, weight): (Place, f64)| {
-                    GAUSS_3.map(|(x, w)| {
-                        let mut at = place;
-                        at[d] = x;
-                        (at, weight * w)
-                    })
-                };
-                points = points.into_iter().flat_map(along).collect();
-            }
-            points
-        }
+        (6, _) => times_lines(TRIANGLE.to_vec(), 2..3),
+        (_, dimension) => times_lines(vec![([0.0; 3], 1.0)], 0..dimension),
     }
+}
+
+/// The product of a rule with that of a line along further coordinates.
+fn times_lines(mut points: Vec<(Place, f64)>, dimensions: Range<usize>) -> Vec<(Place, f64)> {
+    for d in dimensions {
+        let along = |(place, weight): (Place, f64)| {
+            GAUSS_3.map(|(x, w)| {
+                let mut at = place;
+                at[d] = x;
+                (at, weight * w)
+            })
+        };
+        points = points.into_iter().flat_map(along).collect();
+    }
+    points
 }
 
 /// A point at which the stresses of a quadratic element are compared.
@@ -98,32 +102,34 @@ pub(super) static COMPARED: LazyLock<[Vec<Compared>; Shape::ALL.len()]> = LazyLo
 /// through them.
 fn shares(shape: Shape, at: Place) -> Vec<f64> {
     let gauss = shape.reference().gauss;
-    let simplex = shape.n_corners() == shape.dimension() + 1;
-    if simplex {
-        // Linear, one at its own point and zero at the others, in volume coordinates.
-        let own = |place: Place| {
-            [
-                1.0 - place[0] - place[1] - place[2],
-                place[0],
-                place[1],
-                place[2],
-            ]
-        };
-        let here = own(at);
-        let of = |k: usize| {
-            let (near, far) = (own(gauss[(k + 1) % gauss.len()].0)[k], own(gauss[k].0)[k]);
-            (here[k] - near) / (far - near)
-        };
-        return (0..gauss.len()).map(of).collect();
-    }
-    let of = |(place, _): &(Place, f64)| {
-        let along = |d: usize| match place[d] == 0.0 {
-            true => 1.0,
-            false => 0.5 * (1.0 + at[d] / place[d]),
-        };
-        along(0) * along(1) * along(2)
+    // Points of the simplex in its first coordinates: all of a triangle or tetrahedron, the base of
+    // a prism, none of a square or cube.
+    let (points, first) = match (shape.is_simplex(), shape.n_corners()) {
+        (true, n) if n == gauss.len() => (n, n - 1),
+        (false, 6) => (3, 2),
+        _ => (1, 0),
     };
-    gauss.iter().map(of).collect()
+    // Linear, one at its own point and zero at the others, in volume coordinates.
+    let volumes = |place: Place| {
+        let within: Place = std::array::from_fn(|d| if d < first { place[d] } else { 0.0 });
+        let [x, y, z] = within;
+        [1.0 - x - y - z, x, y, z]
+    };
+    let here = volumes(at);
+    let of = |k: usize| {
+        let own = k % points;
+        let mut share = 1.0;
+        if first > 0 {
+            let near = volumes(gauss[(own + 1) % points].0)[own];
+            share = (here[own] - near) / (volumes(gauss[own].0)[own] - near);
+        }
+        let along = |d: usize| match gauss[k].0[d] == 0.0 {
+            true => 1.0,
+            false => 0.5 * (1.0 + at[d] / gauss[k].0[d]),
+        };
+        (first..shape.dimension()).fold(share, |share, d| share * along(d))
+    };
+    (0..gauss.len()).map(of).collect()
 }
 
 #[cfg(test)]
@@ -140,13 +146,13 @@ mod tests {
             let sum: f64 = rule(shape).iter().map(|(_, weight)| weight).sum();
             assert!((sum - volume).abs() < 1e-14, "{shape:?}");
             // int x^3 by the same rule as by the element's own functions: x over a simplex is
-            // d! 3!/(d + 3)! times the volume, and nothing over a cube.
+            // d! 3!/(d + 3)! times the volume, and nothing over a cube; over a prism as over its base.
             let cubes = rule(shape)
                 .iter()
                 .map(|(x, w)| w * x[0].powi(3))
                 .sum::<f64>();
             let exact = match (row.n_corners, row.dimension) {
-                (3, _) => volume / 10.0,
+                (3 | 6, _) => volume / 10.0,
                 (4, 3) => volume / 20.0,
                 _ => 0.0,
             };

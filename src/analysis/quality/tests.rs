@@ -103,7 +103,7 @@ fn a_corrupted_factor_is_caught() {
     let pole = model.pairs.len() / 2;
     let freedom = model
         .freedoms
-        .normal_freedom(model.pairs[pole].second)
+        .normal_freedom(model.pairs[pole].slave)
         .expect("free");
     let mut corrupted = system.clone();
     *corrupted

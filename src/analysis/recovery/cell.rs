@@ -15,7 +15,7 @@ const CORNERS: [[f64; 3]; 8] = [
     [-1.0, 1.0, 1.0],
 ];
 
-/// An element, or the part of a triangle or tetrahedron round one of its corners, as the image of
+/// An element, or the part of a triangle, prism or tetrahedron round one of its corners, as the image of
 /// `[-1, 1]^D`.
 pub(super) struct Cell<const D: usize, const N: usize> {
     pub(super) element: u32,
@@ -46,10 +46,15 @@ impl<const D: usize, const N: usize> Cell<D, N> {
             of.iter().fold([0.0; 3], sum)
         };
         let round = |a: usize| {
-            if D == 2 {
+            if !row.n_corners.is_multiple_of(4) {
+                // A triangle, or base and top of a prism.
                 let [b, c] = [(a + 1) % 3, (a + 2) % 3];
-                let at = [mean(&[a]), mean(&[a, b]), mean(&[a, b, c]), mean(&[a, c])];
-                return cell(std::array::from_fn(|k| at[k % 4]));
+                let at = |start: usize| {
+                    let [a, b, c] = [a, b, c].map(|k| start + k);
+                    [mean(&[a]), mean(&[a, b]), mean(&[a, b, c]), mean(&[a, c])]
+                };
+                let [base, top] = [at(0), at(row.n_corners - 3)];
+                return cell(std::array::from_fn(|k| [base, top][k / 4][k % 4]));
             }
             let [b, c, d] = [(a + 1) % 4, (a + 2) % 4, (a + 3) % 4];
             cell([
@@ -63,7 +68,8 @@ impl<const D: usize, const N: usize> Cell<D, N> {
                 mean(&[a, c, d]),
             ])
         };
-        (0..row.n_corners).map(round).collect()
+        let n = if row.n_corners == 4 { 4 } else { 3 };
+        (0..n).map(round).collect()
     }
 
     /// The coordinates of a point.

@@ -114,11 +114,12 @@ impl<'m> Solver<'m> {
 
     /// Whether a state may be one of this structure, with the zone at hand or another.
     pub(in crate::analysis) fn knows(&self, state: &State) -> bool {
+        let model = self.structure.model;
         let n_zone = self.structure.sub.zeros().zone.len();
         let n_points = self.zone.n_points(&state.elements);
         state.fits(
-            self.structure.model.pairs.len(),
-            self.structure.model.loads.len(),
+            [model.pairs.len(), model.rows.n_contact()],
+            model.loads.len(),
         ) && state.history.len() == n_points
             && state
                 .elements

@@ -1,7 +1,7 @@
 //! The printed summaries: what must be in them, and that they fit the page.
 
 use super::*;
-use crate::results::{Counts, HistoryRow};
+use crate::results::{Counts, HistoryRow, Incomplete};
 use std::path::PathBuf;
 
 fn scene() -> Scene {
@@ -82,7 +82,7 @@ fn full() -> Results {
             adhesion: 0.0,
         },
         factor: Prediction {
-            ordering: "camd",
+            ordering: "camd".into(),
             factor_nonzeros: 1.5e6,
             flops: 3.25e9,
             trailing_nonzeros: 4.5e4,
@@ -123,7 +123,7 @@ fn a_report_fits_the_page_and_holds_every_section() {
         "\nStates (load factor 1 is first yield)\n",
         "1.05150",
         "-1234568",
-        "-1.2346e-12",
+        "-1.23457e-12",
         "\nReference values\n",
         "0.996710",
         "0.94",
@@ -201,7 +201,10 @@ fn columns_are_those_that_tell_something() {
 #[test]
 fn an_incomplete_run_says_so() {
     let mut partial = full();
-    partial.incomplete = Some("stopped at load factor 1.2".into());
+    partial.incomplete = Some(Incomplete {
+        kind: crate::ErrorKind::Stopped,
+        why: "stopped at load factor 1.2".into(),
+    });
     let text = report(&partial, None);
     assert!(
         text.contains("\nINCOMPLETE: stopped at load factor 1.2\n"),

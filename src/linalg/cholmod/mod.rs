@@ -117,7 +117,7 @@ pub fn predict_with_method(
 }
 
 /// What CHOLMOD alone needs for a matrix.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Unconstrained {
     /// Figures of the analysis.
     pub prediction: Prediction,

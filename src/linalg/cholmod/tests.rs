@@ -71,7 +71,6 @@ fn the_storage_does_not_change_the_fill_and_large_factors_are_supernodal() {
         n: grid.n,
         zone: grid.freedoms(0..2, |[_, y]| y > 50),
         contact: vec![],
-        ..Partition::default()
     };
     let matrix = grid.stiffness(|_| 1.0);
     let storages = [

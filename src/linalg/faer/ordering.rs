@@ -5,9 +5,9 @@
 //! | `AMD` | approximate minimum degree of interior and zone | plane meshes |
 //! | `nested dissection` | separators of interior and zone | large and solid meshes |
 //!
-//! Neither knows of groups, so each group is ordered by itself, the zone ring by ring. The freedoms
-//! that touch the interior come last of their ring: once the interior is gone they are all coupled
-//! with one another, whatever the order. The candidate with the fewest floating point operations is kept. Both order
+//! Neither knows of groups, so each group is ordered by itself. The freedoms of the zone that touch the
+//! interior come last of it: once the interior is gone they are all coupled with one another,
+//! whatever the order. The candidate with the fewest floating point operations is kept. Both order
 //! supervariables ([`Supervariables`]).
 //!
 //! # Source
@@ -83,14 +83,12 @@ fn dissection(compressed: &Supervariables) -> Result<Ordering> {
 fn by_groups(compressed: &Supervariables, name: &'static str, order: Order) -> Result<Ordering> {
     let (pattern, groups) = (compressed.pattern(), compressed.groups());
     let sizes = compressed.sizes();
-    let border = border(&pattern, groups);
+    let border = groups.border(&pattern);
+    let in_zone = |j: usize| groups.of(j) == 1;
     let mut permutation = part(&pattern, order, |j| groups.of(j) == 0)?;
-    for ring in 0..=groups.last_ring() {
-        let of_ring = |j: usize| groups.of(j) == 1 && groups.ring(j) == ring;
-        permutation.extend(part(&pattern, order, |j| of_ring(j) && !border[j])?);
-        let on_border = |j: &i64| of_ring(*j as usize) && border[*j as usize];
-        permutation.extend((0..pattern.n() as i64).filter(on_border));
-    }
+    permutation.extend(part(&pattern, order, |j| in_zone(j) && !border[j])?);
+    let on_border = |j: &i64| in_zone(*j as usize) && border[*j as usize];
+    permutation.extend((0..pattern.n() as i64).filter(on_border));
     permutation.extend((0..pattern.n() as i64).filter(|&j| groups.of(j as usize) == 2));
 
     let elimination = Elimination::new(&pattern, &sizes, &permutation);
@@ -112,22 +110,6 @@ fn by_groups(compressed: &Supervariables, name: &'static str, order: Order) -> R
         permutation: compressed.expand(&ordered),
         flops,
     })
-}
-
-/// The zone's vertices next to the interior.
-fn border(pattern: &Pattern, groups: &Groups) -> Vec<bool> {
-    let mut border = vec![false; pattern.n()];
-    for j in 0..pattern.n() {
-        for &row in pattern.column(j) {
-            let i = row as usize;
-            match (groups.of(i), groups.of(j)) {
-                (0, 1) => border[j] = true,
-                (1, 0) => border[i] = true,
-                _ => {}
-            }
-        }
-    }
-    border
 }
 
 /// The vertices that `is_in` holds, as `order` orders them among themselves.

@@ -71,7 +71,6 @@ fn counts_are_those_of_the_structure() {
             n,
             zone: (n / 2..n - n / 5).collect(),
             contact: (n - n / 5..n).collect(),
-            ..Partition::default()
         };
         for method in METHODS {
             let groups = Groups::new(&partition);

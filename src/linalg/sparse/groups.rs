@@ -1,12 +1,11 @@
 //! The groups of an order `[ interior | zone | contact ]`.
 
+use super::Pattern;
 use crate::linalg::Partition;
 
 /// The group of each freedom: 0 interior, 1 zone, 2 contact.
 pub(crate) struct Groups {
     member: Vec<u8>,
-    /// Of each freedom of the zone; 0 elsewhere.
-    ring: Vec<u8>,
     sizes: [usize; 3],
 }
 
@@ -20,35 +19,32 @@ impl Groups {
         for &freedom in &partition.contact {
             member[freedom] = 2;
         }
-        let mut ring = vec![0; partition.n];
-        for (&freedom, &own) in partition.zone.iter().zip(&partition.rings) {
-            ring[freedom] = own;
-        }
-        Groups::from_members(member, ring)
+        Groups::from_members(member)
     }
 
-    /// The groups of freedoms, each given as the number of its group, and their rings.
-    pub(crate) fn from_members(member: Vec<u8>, ring: Vec<u8>) -> Self {
+    /// The groups of freedoms, each given as the number of its group.
+    pub(crate) fn from_members(member: Vec<u8>) -> Self {
         let mut sizes = [0; 3];
         for &group in &member {
             sizes[usize::from(group)] += 1;
         }
-        Groups {
-            member,
-            ring,
-            sizes,
+        Groups { member, sizes }
+    }
+
+    /// The freedoms of the zone that are coupled with the interior.
+    pub(crate) fn border(&self, pattern: &Pattern) -> Vec<bool> {
+        let mut border = vec![false; pattern.n()];
+        for j in 0..pattern.n() {
+            for &row in pattern.column(j) {
+                let i = row as usize;
+                match (self.of(i), self.of(j)) {
+                    (0, 1) => border[j] = true,
+                    (1, 0) => border[i] = true,
+                    _ => {}
+                }
+            }
         }
-    }
-
-    /// The innermost ring.
-    #[cfg(feature = "faer")]
-    pub(crate) fn last_ring(&self) -> u8 {
-        self.ring.iter().copied().max().unwrap_or(0)
-    }
-
-    /// The ring of a freedom of the zone.
-    pub(crate) fn ring(&self, freedom: usize) -> u8 {
-        self.ring[freedom]
+        border
     }
 
     /// The number of a freedom's group.
@@ -60,12 +56,6 @@ impl Groups {
     #[cfg(feature = "cholmod")]
     pub(crate) fn members(&self) -> &[u8] {
         &self.member
-    }
-
-    /// Number of freedoms of each group.
-    #[cfg(feature = "cholmod")]
-    pub(crate) fn sizes(&self) -> [usize; 3] {
-        self.sizes
     }
 
     /// First column of each group, and the number of freedoms.

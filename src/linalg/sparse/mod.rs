@@ -235,7 +235,7 @@ impl<F: LowerFactor> Condensed for SparseCondensed<F> {
     }
 
     fn cost(&self) -> Prediction {
-        self.cost
+        self.cost.clone()
     }
 
     fn weakest_pivot(&self) -> Pivot {
@@ -297,7 +297,7 @@ pub(crate) fn prediction(
     let of_contact: i64 = factor.column_counts()[first_contact..].iter().sum();
     let blocks = 2.0 * of_contact as f64 - (n - first_contact) as f64;
     Prediction {
-        ordering: name,
+        ordering: name.into(),
         factor_nonzeros: factor.nonzeros(),
         flops: factor.flops(),
         trailing_nonzeros: trailing as f64,

@@ -41,15 +41,13 @@ impl Supervariables {
             rows.extend(numbers.map(|&row| number[row as usize]).filter(|&s| s >= 0));
             columns.push(rows.len() as i64);
         }
-        let of_first =
-            |of: fn(&Groups, usize) -> u8| first.iter().map(|&f| of(groups, f)).collect();
-        let (member, ring) = (of_first(Groups::of), of_first(Groups::ring));
+        let member = first.iter().map(|&f| groups.of(f)).collect();
         first.push(n);
         Supervariables {
             first,
             columns,
             rows,
-            groups: Groups::from_members(member, ring),
+            groups: Groups::from_members(member),
         }
     }
 
@@ -95,7 +93,6 @@ fn continued(matrix: &Pattern, groups: &Groups) -> Vec<bool> {
         .map(|j| {
             j > 0
                 && groups.of(j) == groups.of(j - 1)
-                && groups.ring(j) == groups.ring(j - 1)
                 && matrix.column(j).split_last().map(|(_, above)| above)
                     == Some(matrix.column(j - 1))
         })

@@ -128,7 +128,6 @@ fn an_elastic_body_agrees_with_the_dense_backend() {
         n: grid.n,
         zone,
         contact,
-        ..Partition::default()
     };
     let stiffness = grid.stiffness(|[_, y]| if y < 8 { 3.0 } else { 1.0 });
     let sample = Sample::new(stiffness, partition, vec![]);
@@ -148,7 +147,6 @@ fn the_trailing_solve_is_the_full_solve_on_a_large_grid() {
         n: grid.n,
         zone,
         contact,
-        ..Partition::default()
     };
     let matrix = grid.stiffness(|_| 1.0);
     for Way { name, condense, .. } in chosen() {
@@ -232,7 +230,6 @@ fn refinement_keeps_the_backward_error_at_round_off() {
         n: grid.n,
         zone: grid.freedoms(0..2, |[_, y]| y > 24),
         contact: vec![],
-        ..Partition::default()
     };
     let matrix = grid.stiffness(|[x, y]| if (x + y) % 3 == 0 { 1e8 } else { 1.0 });
     for Way { name, condense, .. } in ways() {
@@ -274,7 +271,6 @@ pub(in crate::linalg) fn assert_subtrees_are_solved_like_the_whole<F: LowerFacto
         n: grid.n,
         zone,
         contact,
-        ..Partition::default()
     };
     let matrix = grid.stiffness(|_| 1.0);
     let mut condensed = condense(&matrix, &partition);
@@ -334,7 +330,6 @@ fn calls_from_several_threads_give_the_same_bits() {
         n: grid.n,
         zone,
         contact,
-        ..Partition::default()
     };
     for Way { name, condense, .. } in ways() {
         let condensed = condense(&grid.stiffness(|_| 1.0), &partition, &[]).expect(name);
@@ -371,7 +366,6 @@ fn an_indefinite_pivot_is_named_by_every_way() {
             n: grid.n,
             zone: (60..90).collect(),
             contact: contact.clone(),
-            ..Partition::default()
         };
         for Way { name, condense, .. } in ways() {
             let error = condense(&matrix, &partition, &[]).err().expect(name);
@@ -476,7 +470,6 @@ pub(in crate::linalg) fn assert_the_cheaper_order_is_chosen(
         n: grid.n,
         zone,
         contact,
-        ..Partition::default()
     };
     let [chosen, degree, dissection] = predict(&grid.stiffness(|_| 1.0), &partition);
     assert_ne!(degree.flops, dissection.flops);

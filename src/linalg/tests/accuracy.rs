@@ -29,7 +29,6 @@ fn whole(n: usize) -> Partition {
         n,
         zone: vec![3, 4, 7],
         contact: vec![5, n - 1],
-        ..Partition::default()
     }
 }
 

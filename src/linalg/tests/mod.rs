@@ -273,7 +273,6 @@ fn a_chain_of_springs_condenses_to_its_series_stiffness() {
                 n,
                 zone: zone.clone(),
                 contact: vec![n - 1],
-                ..Partition::default()
             };
             let condensed = condense(backend, &chain, &partition, &[]).unwrap();
             let stiffness = condensed.contact_stiffness().diagonal(0);
@@ -288,7 +287,6 @@ fn a_chain_of_springs_condenses_to_its_series_stiffness() {
                 n,
                 zone,
                 contact: vec![n - 1],
-                ..Partition::default()
             };
             let u = solved(condensed.as_ref(), &chain, &partition, &u, &end).u;
             for (j, u) in u.iter().enumerate() {
@@ -360,7 +358,6 @@ fn a_body_held_by_contact_alone_has_a_singular_contact_stiffness() {
         n: grid.n,
         zone,
         contact,
-        ..Partition::default()
     };
     let shift = vec![1.0; partition.contact.len()];
     let sample = Sample::new(grid.stiffness(|_| 1.0), partition, shift);
@@ -392,7 +389,6 @@ fn the_weakest_pivot_is_that_of_the_softest_support() {
                 n: 2,
                 zone,
                 contact,
-                ..Partition::default()
             };
             let pivot = condense(backend, &k, &partition, &[])
                 .unwrap()

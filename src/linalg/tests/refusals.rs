@@ -25,12 +25,7 @@ fn a_pivot_that_is_not_positive_names_its_freedom() {
     ];
     for backend in backends() {
         for (zone, contact) in partitions.clone() {
-            let partition = Partition {
-                n,
-                zone,
-                contact,
-                ..Partition::default()
-            };
+            let partition = Partition { n, zone, contact };
             for pivot in [-1.0, 0.0] {
                 let error = condense(backend, &build(pivot), &partition, &[])
                     .err()
@@ -65,13 +60,11 @@ fn arguments_that_do_not_fit_are_refused() {
         n: 6,
         zone: vec![1],
         contact: vec![4, 2],
-        ..Partition::default()
     };
     let with = |zone: Vec<usize>, contact: Vec<usize>| Partition {
         n: 6,
         zone,
         contact,
-        ..Partition::default()
     };
     let mut infinite = k.clone();
     infinite.data_mut()[3] = f64::INFINITY;

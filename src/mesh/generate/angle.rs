@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 /// `[cos, sin]` of an angle in degrees; exactly 0 and 1 at multiples of 90 degrees, exactly equal
 /// components at odd multiples of 45, so that nodes on symmetry lines lie exactly on them.
-pub(super) fn direction(degrees: f64) -> [f64; 2] {
+pub(crate) fn direction(degrees: f64) -> [f64; 2] {
     let turned = degrees.rem_euclid(360.0);
     let quadrant = (turned / 90.0).floor();
     let [c, s] = first_quadrant(turned - 90.0 * quadrant);
@@ -32,7 +32,7 @@ fn first_quadrant(degrees: f64) -> [f64; 2] {
 
 /// Directions at `2 n + 1` equal angles from `start` over `span` degrees: element corners and
 /// mid-sides.
-pub(super) fn directions(start: f64, span: f64, n: usize) -> Vec<[f64; 2]> {
+pub(crate) fn directions(start: f64, span: f64, n: usize) -> Vec<[f64; 2]> {
     let halves = 2 * n;
     (0..=halves)
         .map(|k| direction(start + span * k as f64 / halves as f64))

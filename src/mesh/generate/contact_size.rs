@@ -1,4 +1,6 @@
-//! How large the contact of a generated cylinder or ball becomes: what its mesh is made to the measure of.
+//! How large the contact of a generated cylinder or ball becomes: what its mesh is made to the
+//! measure of. Hertz' theory gives that size and nothing else: no result depends on it but through
+//! the mesh.
 
 use super::{ContactSize, WIDEST};
 use crate::analytical::{self, HertzLine, HertzPoint};
@@ -65,7 +67,7 @@ impl Hertz {
             b.youngs_modulus,
             b.poissons_ratio,
         );
-        Ok(if scene.kind.is_axisymmetric() {
+        Ok(if scene.mesh.section(scene.kind).is_axisymmetric() {
             Hertz::Point(HertzPoint::new(p.radius, modulus)?)
         } else {
             Hertz::Line(HertzLine::new(p.radius, modulus)?)
@@ -205,12 +207,17 @@ fn prescribed(displacement: Option<&Displacement>) -> f64 {
 }
 
 /// Total force along y of a load on the whole cylinder or ball, where its kind and place tell: the mesh is that of half a
-/// cylinder, forces that are given as totals are those of `symmetry` such models.
+/// cylinder, or a sector of a ball, forces that are given as totals are those of `symmetry` such models.
 fn normal_force(scene: &Scene, load: &Load, size: f64) -> f64 {
-    let (models, area) = if scene.kind.is_axisymmetric() {
-        (1.0, PI * size * size)
-    } else {
-        (2.0, size)
+    // How many such models make the ball, or a unit of the cylinder's length.
+    let (models, area) = match (&scene.mesh.extrude, &scene.mesh.revolve) {
+        (Some(extrude), _) => (2.0 / extrude.depth, size * extrude.depth),
+        (_, Some(revolve)) => {
+            let share = revolve.angle / 360.0;
+            (1.0 / share, PI * size * size * share)
+        }
+        _ if scene.kind.is_axisymmetric() => (1.0, PI * size * size),
+        _ => (2.0, size),
     };
     let on_cut = ["cylinder.top", "half_plane.bottom"].contains(&load.on.as_str());
     let on_area = |stress: f64| if on_cut { stress * area } else { 0.0 };

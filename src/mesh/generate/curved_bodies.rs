@@ -163,8 +163,7 @@ impl Layout {
             let n = (near[d].len() - 1) as f64 + growth.count(first(d), end(d), size);
             if d < 2 && !p.halved()[d] { 2.0 * n } else { n }
         });
-        let elements = 2.0 * counts.iter().product::<f64>();
-        limits::solid_elements(&key("resolution"), elements, p.element)?;
+        limits::solids(&key("resolution"), &[counts; 2], p.element)?;
         if end(0).max(end(1)) >= size {
             return Err(Error::input(format!(
                 "{} = {}: the bodies end within the contact candidates; give more",

@@ -1,4 +1,5 @@
-//! How large the contact of generated curved bodies becomes.
+//! How large the contact of generated curved bodies becomes: as for cylinders, Hertz' theory gives
+//! the size that the mesh is made to, and nothing else.
 
 use super::EllipseSize;
 use crate::analytical::{HertzEllipse, contact_modulus};

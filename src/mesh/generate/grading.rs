@@ -3,6 +3,7 @@
 //! Positions come as `2 n + 1` values for `n` elements: even entries are corners, odd entries the
 //! mid-side positions half way between them.
 
+use crate::analytical::root;
 use crate::{Error, Result};
 
 /// Even spacing from `from` to `to`. Symmetric ranges give exactly symmetric positions.
@@ -226,22 +227,11 @@ fn ratio_that_fills(sum: f64, n: usize, guess: f64) -> f64 {
         return 1.0;
     }
     let series = |q: f64| (1..n).fold(1.0, |s, _| 1.0 + q * s);
-    let mut low = 0.0;
     let mut high = guess.max(1.0);
     while series(high) < sum {
         high *= 2.0;
     }
-    loop {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            return middle;
-        }
-        if series(middle) < sum {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
+    root(|q| series(q) - sum, 0.0, high)
 }
 
 /// Puts the mid-side positions between the corners; neighbours must differ in floating point.

@@ -90,15 +90,29 @@ pub(super) fn elements(cells: f64, shape: Shape) -> f64 {
     }
 }
 
-/// Bytes of memory that a solid mesh takes at least, for each node of its elements: what is factored
-/// is more.
+/// Bytes of memory that a solid mesh takes at least, for each node: the mesh and its matrix.
 const BYTES_PER_NODE: f64 = 2000.0;
 
-/// Refuses a solid mesh of so many hexahedra that memory cannot hold, before anything is allocated.
-pub(super) fn solid_elements(key: &str, elements: f64, shape: Shape) -> Result<()> {
+/// Bytes of the factor for each node and each node along the shortest side of a body, at least.
+/// Nested dissection leaves `O(n m)` entries of a grid of n nodes and m along its shortest side;
+/// of boxes with 1e5 to 1e6 freedoms they take 670 to 780 bytes (`hex8`), 950 (`hex20`).
+const BYTES_OF_FACTOR: f64 = 500.0;
+
+/// Refuses bodies of so many hexahedral cells along each axis that memory cannot hold, before
+/// anything is allocated.
+pub(in crate::mesh) fn solids(key: &str, bodies: &[[f64; 3]], shape: Shape) -> Result<()> {
+    let elements = bodies
+        .iter()
+        .map(|cells| cells.iter().product::<f64>())
+        .sum();
     total(key, elements)?;
-    let nodes = elements * if shape.is_quadratic() { 4.0 } else { 1.0 };
-    let needed = nodes * BYTES_PER_NODE;
+    let per_cell: f64 = if shape.is_quadratic() { 4.0 } else { 1.0 };
+    let bytes = |cells: &[f64; 3]| {
+        let nodes = per_cell * cells.iter().product::<f64>();
+        let shortest = per_cell.cbrt() * cells.iter().copied().fold(f64::INFINITY, f64::min);
+        nodes * BYTES_PER_NODE.max(BYTES_OF_FACTOR * shortest)
+    };
+    let needed: f64 = bodies.iter().map(bytes).sum();
     match crate::memory::available() {
         Some(there) if needed > there => Err(Error::input(format!(
             "{key}: the mesh would have {elements:.3e} elements and take more than {:.0} GB of memory; \

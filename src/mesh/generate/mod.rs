@@ -15,20 +15,22 @@ pub(crate) mod ellipse_size;
 mod family;
 mod grading;
 mod grid;
-mod limits;
+pub(super) mod limits;
 mod o_grid;
 mod parts;
 mod polar;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use angle::direction;
 pub use curved_bodies::{EllipseSize, curved_bodies};
 pub use cylinder::{ContactSize, WIDEST, cylinder_on_half_plane};
 pub use disc::disc_in_plate;
 pub use family::Family;
 pub use parts::parts;
 
-use super::{Mesh, gmsh};
+use super::{Mesh, gmsh, inp};
+use crate::deck;
 use crate::scene::{CurvedBodies, CylinderOnHalfPlane, MeshSource};
 use crate::{Error, Result};
 use std::path::Path;
@@ -38,8 +40,8 @@ use std::path::Path;
 /// A relative `file` is looked up in `directory` (the scene file's). `contact` gives the size of
 /// the contact of a cylinder on a half plane, `ellipse` that of curved bodies; they are only called
 /// for that geometry. What is made of
-/// the mesh of a file comes after: circles ([`super::lay_on_circle`]) and subdivisions
-/// ([`super::subdivided`]).
+/// the mesh of a file comes after: circles ([`super::lay_on`]) and subdivisions
+/// ([`super::subdivided`]), and the way to a solid ([`super::extruded`], [`super::revolved`]).
 ///
 /// # Errors
 /// Input errors if not exactly one source is given, and those of the source itself.
@@ -73,9 +75,10 @@ pub fn from_source(
         parts(p)
     } else {
         let file = source.file.as_deref().unwrap_or(Path::new(""));
-        match directory {
-            Some(directory) => gmsh::read(&directory.join(file)),
-            None => gmsh::read(file),
+        let path = directory.map_or_else(|| file.to_path_buf(), |directory| directory.join(file));
+        match deck::is_deck(&path) {
+            true => inp::read(&path),
+            false => gmsh::read(&path),
         }
     }
 }

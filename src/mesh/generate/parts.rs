@@ -26,6 +26,7 @@ pub fn parts(parts: &[Part]) -> Result<Mesh> {
     let solid = parts.iter().any(|part| part.brick.is_some());
     let mut names = BTreeSet::new();
     let mut elements = 0.0;
+    let mut bricks = Vec::new();
     for (index, part) in parts.iter().enumerate() {
         let context = || format!("mesh.parts: part {} (body `{}`)", index + 1, part.body);
         if part.body.trim().is_empty() {
@@ -45,9 +46,9 @@ pub fn parts(parts: &[Part]) -> Result<Mesh> {
         let cells = predicted_cells(part).map_err(|e| e.within(context()))?;
         elements += limits::elements(cells, part.element);
         limits::total("elements", elements).map_err(|e| e.within(context()))?;
-        if solid {
-            limits::solid_elements("elements", elements, part.element)
-                .map_err(|e| e.within(context()))?;
+        if let Some(brick) = &part.brick {
+            bricks.push(brick.elements.map(|n| n as f64));
+            limits::solids("elements", &bricks, part.element).map_err(|e| e.within(context()))?;
         }
     }
     let mut mesh = empty_mesh();

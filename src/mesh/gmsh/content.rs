@@ -2,9 +2,10 @@
 
 use super::cursor::Cursor;
 use super::kind::Kind;
+use crate::labels::LabelIndex;
 use crate::shape::MAX_NODES;
 use crate::{Error, ErrorKind, Result};
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 /// A physical group: dimension and tag.
 pub(super) type Group = (u64, u64);
@@ -20,7 +21,7 @@ pub(super) struct Content {
     /// Coordinates, three per node.
     pub coordinates: Vec<f64>,
     /// Node index by number.
-    pub node_index: NodeIndex,
+    pub node_index: LabelIndex,
     /// Lines in physical groups, faces and volumes.
     pub elements: Vec<RawElement>,
     /// Nodes of all of them, one after the other.
@@ -47,55 +48,6 @@ pub(super) struct RawPoint {
     pub group: u64,
     /// Byte offset of its line in the file.
     pub at: usize,
-}
-
-/// Node index by node number: a table where numbers are dense, a map where they are not.
-pub(super) enum NodeIndex {
-    /// Index by number; `u32::MAX` where there is none.
-    Table(Vec<u32>),
-    /// For widely spread numbers.
-    Map(HashMap<u64, u32>),
-}
-
-impl Default for NodeIndex {
-    fn default() -> Self {
-        NodeIndex::Table(Vec::new())
-    }
-}
-
-impl NodeIndex {
-    /// The index, or the number that is there twice.
-    fn new(labels: &[u64]) -> std::result::Result<NodeIndex, u64> {
-        let largest = labels.iter().copied().max().unwrap_or(0);
-        if largest <= 8 * labels.len() as u64 + 1024 {
-            let mut table = vec![u32::MAX; largest as usize + 1];
-            for (index, &label) in labels.iter().enumerate() {
-                let entry = &mut table[label as usize];
-                if *entry != u32::MAX {
-                    return Err(label);
-                }
-                *entry = index as u32;
-            }
-            return Ok(NodeIndex::Table(table));
-        }
-        let mut map = HashMap::with_capacity(labels.len());
-        for (index, &label) in labels.iter().enumerate() {
-            if map.insert(label, index as u32).is_some() {
-                return Err(label);
-            }
-        }
-        Ok(NodeIndex::Map(map))
-    }
-
-    fn get(&self, label: u64) -> Option<u32> {
-        match self {
-            NodeIndex::Table(table) => {
-                let index = *table.get(usize::try_from(label).ok()?)?;
-                (index != u32::MAX).then_some(index)
-            }
-            NodeIndex::Map(map) => map.get(&label).copied(),
-        }
-    }
 }
 
 impl Content {
@@ -128,7 +80,7 @@ impl Content {
                 self.node_labels.len()
             )));
         }
-        self.node_index = NodeIndex::new(&self.node_labels)
+        self.node_index = LabelIndex::new(&self.node_labels)
             .map_err(|label| cursor.error(format!("node {label} is given twice in $Nodes")))?;
         Ok(())
     }
@@ -141,8 +93,8 @@ impl Content {
                 ErrorKind::Unsupported,
                 format!(
                     "{}; brinell reads 3- and 6-node triangles, 4- and 8-node quadrilaterals, \
-                     4- and 10-node tetrahedra, 8- and 20-node hexahedra, 2- and 3-node lines and \
-                     points",
+                     4- and 10-node tetrahedra, 6- and 15-node prisms, 8- and 20-node hexahedra, \
+                     2- and 3-node lines and points",
                     place.message()
                 ),
             )

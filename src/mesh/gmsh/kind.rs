@@ -45,11 +45,15 @@ impl Kind {
                         .to_string(),
                 );
             }
-            6 => "6-node prism",
             7 => "5-node pyramid",
-            13 => "18-node prism",
+            13 => {
+                return Err(
+                    "18-node prism (type 13): set Mesh.SecondOrderIncomplete = 1 in Gmsh for \
+                     15-node prisms"
+                        .to_string(),
+                );
+            }
             14 => "14-node pyramid",
-            18 => "15-node prism",
             19 => "13-node pyramid",
             20 => "9-node triangle",
             21 => "10-node triangle",

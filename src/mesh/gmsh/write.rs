@@ -92,7 +92,7 @@ fn write_elements(mesh: &Mesh, out: &mut dyn Write) -> Result<()> {
     for (group, surface) in (1..).zip(mesh.surfaces.values()) {
         for &facet in &surface.facets {
             let number = next();
-            let kind = Kind::Line(mesh.shapes[facet.element].reference().facet);
+            let kind = Kind::Line(mesh.facet_reference(facet));
             write!(out, "{number} {} 2 {group} {group}", kind.type_number())?;
             for node in mesh.facet_nodes(facet) {
                 write!(out, " {}", mesh.node_label(node))?;

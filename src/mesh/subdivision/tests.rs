@@ -1,8 +1,8 @@
 use super::*;
-use crate::mesh::circles::lay_on_circle;
 use crate::mesh::generate;
+use crate::mesh::lay_on;
 use crate::mesh::{Shape, validate};
-use crate::scene::{CylinderOnHalfPlane, Part, Ring, SurfaceCircle};
+use crate::scene::{CylinderOnHalfPlane, Part, Ring};
 
 /// A quarter ring, without the shape of its surfaces, as a file would hold it.
 fn ring(element: Shape) -> Mesh {
@@ -25,11 +25,11 @@ fn ring(element: Shape) -> Mesh {
     mesh
 }
 
-fn circle(on: &str, center: [f64; 2], radius: f64) -> SurfaceCircle {
-    SurfaceCircle {
-        on: on.into(),
+fn circle(center: [f64; 2], radius: f64) -> Curve {
+    Curve::Circle {
         center,
         radius,
+        outward: true,
     }
 }
 
@@ -106,7 +106,7 @@ fn new_nodes_lie_on_the_circle_that_is_known_and_on_the_side_else() {
             "{shape:?}"
         );
         assert!(off(&polygon, "tube.inner", 1.0) > 1e-6);
-        lay_on_circle(&mut mesh, &circle("tube.inner", [0.0; 2], 1.0)).unwrap();
+        lay_on(&mut mesh, "tube.inner", circle([0.0; 2], 1.0)).unwrap();
         let round = subdivided(mesh, 3, &[]).unwrap();
         validate(&round).unwrap();
         assert!(
@@ -136,7 +136,7 @@ fn nodes_that_face_each_other_have_new_ones_that_do() {
             generate::cylinder_on_half_plane(&parameters, generate::ContactSize::at_yield(0.5))
                 .unwrap();
         mesh.surfaces.values_mut().for_each(|s| s.curve = None);
-        lay_on_circle(&mut mesh, &circle("cylinder.contact", [0.0, 10.0], 10.0)).unwrap();
+        lay_on(&mut mesh, "cylinder.contact", circle([0.0, 10.0], 10.0)).unwrap();
         for [first, second] in [
             ["cylinder.contact", "half_plane.contact"],
             ["half_plane.contact", "cylinder.contact"],
@@ -235,25 +235,25 @@ fn what_cannot_be_subdivided_is_named() {
 
 #[test]
 fn a_surface_that_is_not_on_its_circle_is_named() {
-    let refused = |given: SurfaceCircle| {
-        let error = lay_on_circle(&mut ring(Shape::Quad4), &given).unwrap_err();
+    let refused = |on: &str, given: Curve| {
+        let error = lay_on(&mut ring(Shape::Quad4), on, given).unwrap_err();
         error.message().to_string()
     };
-    let error = refused(circle("tube.inside", [0.0; 2], 1.0));
+    let error = refused("tube.inside", circle([0.0; 2], 1.0));
     assert!(
         error.contains("no such surface") && error.contains("tube.inner"),
         "{error}"
     );
-    let error = refused(circle("tube.inner", [0.0; 2], 1.1));
+    let error = refused("tube.inner", circle([0.0; 2], 1.1));
     assert!(error.contains("lies 1.000e-1 off"), "{error}");
-    let error = refused(circle("tube.inner", [f64::NAN, 0.0], 1.0));
+    let error = refused("tube.inner", circle([f64::NAN, 0.0], 1.0));
     assert!(error.contains("off the circle"), "{error}");
     // The digits that a file leaves out are given back.
     let mut mesh = ring(Shape::Quad4);
     mesh.coordinates
         .iter_mut()
         .for_each(|c| *c = (*c * 1e6).round() / 1e6);
-    lay_on_circle(&mut mesh, &circle("tube.outer", [0.0; 2], 2.0)).unwrap();
+    lay_on(&mut mesh, "tube.outer", circle([0.0; 2], 2.0)).unwrap();
     for node in mesh.set_nodes("tube.outer").unwrap() {
         let [x, y] = mesh.in_plane(node);
         assert!((x.hypot(y) - 2.0).abs() < 1e-15);

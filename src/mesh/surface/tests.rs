@@ -1,5 +1,5 @@
 use super::*;
-use crate::mesh::Shape;
+use crate::mesh::{Curve, Shape};
 
 /// Two unit squares side by side, and their outer edges.
 fn two_squares() -> Mesh {
@@ -123,5 +123,38 @@ fn a_parabolic_facet_has_its_own_normal_at_each_node() {
         let length = f64::hypot(1.0, slope);
         assert!((normal[0] - slope / length).abs() < 1e-15, "{normal:?}");
         assert!((normal[1] + 1.0 / length).abs() < 1e-15, "{normal:?}");
+    }
+}
+
+/// The lower face of one hexahedron and the upper one of its neighbour, beside each other.
+#[test]
+fn faces_that_look_to_different_sides_are_named() {
+    let mut mesh = Mesh {
+        dimension: 3,
+        bodies: vec!["a".to_string()],
+        ..Mesh::default()
+    };
+    // Two layers of two cubes.
+    for k in 0..3 {
+        for j in 0..2 {
+            for i in 0..3 {
+                mesh.coordinates.extend([i, j, k].map(f64::from));
+            }
+        }
+    }
+    for first in [0, 1, 6, 7] {
+        let below = [first, first + 1, first + 4, first + 3];
+        let nodes = [below, below.map(|n| n + 6)].concat();
+        mesh.push_element(Shape::Hex8, 0, &nodes);
+    }
+    // Facet 0 is the lower, facet 1 the upper one: both at z = 1.
+    assert!(nodes(&mesh, &surface(&[(0, 1), (1, 1)])).is_ok());
+    let error = nodes(&mesh, &surface(&[(0, 1), (3, 0)])).unwrap_err();
+    for text in [
+        "elements 1 and 4 look to different sides",
+        "from node ",
+        "one side",
+    ] {
+        assert!(error.message().contains(text), "{error}");
     }
 }

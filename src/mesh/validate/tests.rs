@@ -282,3 +282,52 @@ fn bodies_may_share_nodes_when_bonded() {
     mesh.element_body[3] = 1;
     validate(&mesh).unwrap();
 }
+
+/// A second grid beside the first: as another body it is taken, as a part of it refused, unless a
+/// body in between joins the two.
+#[test]
+fn a_body_in_several_pieces_is_named() {
+    let two = |bodies: &[&str], of: [usize; 3]| {
+        let mut mesh = Mesh {
+            dimension: 2,
+            bodies: bodies.iter().map(|b| b.to_string()).collect(),
+            ..Mesh::default()
+        };
+        for (k, body) in of.into_iter().enumerate() {
+            let (low, first) = (2.0 * k as f64, 4 * k as u32);
+            mesh.coordinates
+                .extend([low, 0.0, low + 1.0, 0.0, low + 1.0, 1.0, low, 1.0]);
+            mesh.push_element(
+                Shape::Quad4,
+                body,
+                &[first, first + 1, first + 2, first + 3],
+            );
+        }
+        mesh
+    };
+    validate(&two(&["a", "b", "c"], [0, 1, 2])).unwrap();
+    let error = validate(&two(&["a", "b"], [0, 1, 0])).unwrap_err();
+    for text in [
+        "body `a` is in several pieces",
+        "node 1 at (0, 0)",
+        "node 9 at (4, 0)",
+    ] {
+        assert!(error.message().contains(text), "{error}");
+    }
+    let mut joined = two(&["a", "b"], [0, 1, 0]);
+    joined.push_element(Shape::Quad4, 1, &[1, 4, 7, 2]);
+    joined.push_element(Shape::Quad4, 1, &[5, 8, 11, 6]);
+    validate(&joined).unwrap();
+}
+
+/// The edge between two elements, seen from both.
+#[test]
+fn a_surface_that_looks_both_ways_is_named() {
+    refused(
+        |m| {
+            let inside = [(0, 1), (1, 3)].map(|(element, local)| Facet { element, local });
+            m.surfaces.entry("inside".into()).or_default().facets = inside.to_vec();
+        },
+        &["surface `inside` looks both ways between elements 1 and 2"],
+    );
+}

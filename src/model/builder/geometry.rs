@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::index::Index;
 use crate::mesh::{Curve, Facet, Shape, Surface};
 use crate::shape::MAX_NODES;
-use crate::space::Vector;
+use crate::space::{Vector, difference, in_words, length};
 use std::collections::BTreeMap;
 
 impl ModelBuilder {
@@ -232,20 +232,21 @@ impl ModelBuilder {
     /// States the exact shape of a surface: normals are then exact at every node.
     ///
     /// # Errors
-    /// No such surface; a node of it that is off the circle by more than 1e-6 of its radius.
+    /// No such surface; a node of it that is off a round shape by more than 1e-6 of its radius.
     pub fn curve(&mut self, surface: &str, curve: Curve) -> Result<&mut Self> {
         let nodes = self.mesh.set_nodes(surface).unwrap_or_default();
-        if let Curve::Circle { center, radius, .. } = curve {
-            for node in nodes {
-                let [x, y] = self.mesh.in_plane(node);
-                let distance = (x - center[0]).hypot(y - center[1]);
-                let off = (distance - radius).abs();
-                if off.is_nan() || off > 1e-6 * radius {
-                    return Err(Error::input(format!(
-                        "surface `{surface}`: node {node} is {distance} from ({}, {}), not {radius}",
-                        center[0], center[1]
-                    )));
-                }
+        for node in nodes {
+            let x = self.mesh.point(node);
+            let (Some((_, off)), Some((from, radius, _))) = (curve.nearest(x), curve.spine(x))
+            else {
+                continue;
+            };
+            if off.is_nan() || off > 1e-6 * radius {
+                return Err(Error::input(format!(
+                    "surface `{surface}`: node {node} is {} from {}, not {radius}",
+                    length(difference(x, from)),
+                    in_words(from, self.mesh.dimension)
+                )));
             }
         }
         match self.mesh.surfaces.get_mut(surface) {

@@ -91,7 +91,11 @@ fn refused<T>(result: Result<T>, kind: ErrorKind, words: &[&str]) {
 fn a_model_of_two_squares_has_its_sets_pairs_and_loads() {
     let model = held().build().unwrap();
     assert_eq!(model.mesh.node_sets["left"], [0, 3, 4, 7]);
-    let pairs: Vec<_> = model.pairs.iter().map(|p| (p.first, p.second)).collect();
+    let pairs: Vec<_> = model
+        .pairs
+        .iter()
+        .map(|p| (p.masters[0].0, p.slave))
+        .collect();
     assert_eq!(pairs, [(5, 2), (4, 3)]);
     for pair in &model.pairs {
         assert_eq!(pair.normal, [0.0, 1.0, 0.0]);
@@ -114,8 +118,8 @@ fn given_pairs_replace_the_geometry() {
     hold(&mut builder, "left", Direction::X);
     let model = builder.build().unwrap();
     assert_eq!(model.pairs.len(), 1);
-    let pair = model.pairs[0];
-    assert_eq!((pair.first, pair.second, pair.gap), (5, 2, 0.5));
+    let pair = &model.pairs[0];
+    assert_eq!((pair.masters[0].0, pair.slave, pair.gap), (5, 2, 0.5));
     let length = 0.1f64.hypot(2.0);
     assert_eq!(pair.normal, [0.1 / length, 2.0 / length, 0.0]);
     // The node's share of the surface, not more.
@@ -288,7 +292,7 @@ fn bad_pairs_are_refused_by_index() {
         ..pair(5, 2)
     };
     refused(build(&[into]), Input, &["pair 0", "into the second body"]);
-    refused(build(&[]), Input, &["do not pair"]);
+    refused(build(&[]), Input, &["no pair of nodes is given"]);
 }
 
 #[test]
@@ -323,12 +327,12 @@ fn bad_values_and_names_are_refused() {
     );
     let mut twice = held();
     let entry = Contact {
-        first: "face".into(),
-        second: "opposite".into(),
+        first: "opposite".into(),
+        second: "face".into(),
         ..Contact::default()
     };
     twice.contact(entry);
-    refused(twice.build(), Input, &["is in two contact pairs"]);
+    refused(twice.build(), Input, &["is the slave of two contacts"]);
 }
 
 #[test]

@@ -18,23 +18,30 @@ pub(super) fn find(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface])
         .filter_map(|name| mesh.surfaces.get(name))
         .flat_map(|surface| surface.facets.iter().copied())
         .collect();
-    let paired: BTreeSet<usize> = pairs.iter().flat_map(|p| [p.first, p.second]).collect();
+    let paired: BTreeSet<usize> = pairs.iter().flat_map(Pair::nodes).collect();
     let outer: Vec<Vec<Edge>> = contacts.iter().map(outer_edges).collect();
     let at_edges = outer.iter().flatten().flatten();
-    let nodes: BTreeSet<usize> = at_edges
-        .flat_map(|&k| [pairs[k].first, pairs[k].second])
-        .collect();
+    let nodes: BTreeSet<usize> = at_edges.flat_map(|&k| pairs[k].nodes()).collect();
     let boundary = Boundary::at(mesh, &nodes);
     for (contact, edges) in contacts.iter_mut().zip(outer) {
         let mut goes_on = BTreeSet::new();
         for edge in edges {
-            let side = |of: fn(&Pair) -> usize| {
-                boundary.beyond(edge.map(|k| of(&pairs[k])), &candidates, &paired)
+            let slaves = edge.map(|k| pairs[k].slave);
+            let Some(slave) = boundary.beyond(slaves, &candidates, &paired) else {
+                continue;
             };
-            if let (Some(first), Some(second)) = (side(|p| p.first), side(|p| p.second))
-                && !(first.is_followed && second.is_followed)
-                && first.turn + second.turn < FEATURE_ANGLE
-            {
+            let [a, b] = edge.map(|k| &pairs[k]);
+            let (mut is_followed, mut turn) = (slave.is_followed, slave.turn);
+            if let (Some(a), Some(b)) = (a.faced(), b.faced()) {
+                let Some(master) = boundary.beyond([a, b], &candidates, &paired) else {
+                    continue;
+                };
+                is_followed &= master.is_followed;
+                turn += master.turn;
+            } else {
+                turn += boundary.end_among([a, b], &candidates);
+            }
+            if !is_followed && turn < FEATURE_ANGLE {
                 goes_on.extend(edge);
             }
         }
@@ -122,14 +129,45 @@ impl<'m> Boundary<'m> {
         } else {
             (two, one)
         };
+        Some(Beyond {
+            turn: self.turn(inside, outside),
+            is_followed: is_paired(inside) && is_paired(outside),
+        })
+    }
+
+    /// How the boundary of the other body turns away at edges between masters of two pairs where
+    /// the candidates end; 0 where they go on.
+    fn end_among(&self, pairs: [&Pair; 2], candidates: &BTreeSet<Facet>) -> f64 {
+        let masters: Vec<usize> = (pairs.iter().flat_map(|pair| &pair.masters))
+            .map(|&(node, _)| node)
+            .collect();
+        let mut turn = 0.0f64;
+        for (k, &a) in masters.iter().enumerate() {
+            for &b in &masters[k + 1..] {
+                let facets = self.at.get(&[a.min(b), a.max(b)]).map(Vec::as_slice);
+                let Some(&[one, two]) = facets else { continue };
+                if candidates.contains(&one) == candidates.contains(&two) {
+                    continue;
+                }
+                let (inside, outside) = match candidates.contains(&one) {
+                    true => (one, two),
+                    false => (two, one),
+                };
+                turn = turn.max(self.turn(inside, outside));
+            }
+        }
+        turn
+    }
+
+    /// Angle in degrees by which the boundary turns away from the other body between two facets.
+    fn turn(&self, inside: Facet, outside: Facet) -> f64 {
         let (middle, normal) = self.plane(inside);
         let (beyond, other) = self.plane(outside);
         let angle = dot(normal, other).clamp(-1.0, 1.0).acos().to_degrees();
-        let below = dot(difference(beyond, middle), normal) <= 0.0;
-        Some(Beyond {
-            turn: if below { angle } else { -angle },
-            is_followed: is_paired(inside) && is_paired(outside),
-        })
+        match dot(difference(beyond, middle), normal) <= 0.0 {
+            true => angle,
+            false => -angle,
+        }
     }
 
     /// Middle and outward normal of a facet.
@@ -142,12 +180,9 @@ impl<'m> Boundary<'m> {
         let middle = corners
             .iter()
             .fold([0.0; 3], |sum, x| along(sum, share, *x));
-        let reference = self.mesh.shapes[facet.element].reference().facet;
-        let center = match corners.len() {
-            3 => [1.0 / 3.0, 1.0 / 3.0, 0.0],
-            _ => [0.0; 3],
-        };
-        let area = reference.area(&(reference.functions)(center), &points);
+        let reference = self.mesh.facet_reference(facet);
+        let at = (reference.functions)(reference.center());
+        let area = reference.area(&at, &points);
         (middle, direction(area))
     }
 }

@@ -1,7 +1,6 @@
 //! The scale of colours beside a picture.
 
 use super::drawing::{Area, failed, nice_step, stroke, tick, units, write};
-use super::raster::Palette;
 use super::theme::{INK, Scale};
 use crate::error::Result;
 use plotters::prelude::*;
@@ -15,12 +14,11 @@ pub(super) struct Bands {
     scale: Scale,
     /// What the numbers are.
     unit: String,
-    first_color: u8,
 }
 
 impl Bands {
-    /// Bands that cover `values`; colours go into `palette`.
-    pub(super) fn new(values: [f64; 2], scale: Scale, unit: &str, palette: &mut Palette) -> Self {
+    /// Bands that cover `values`.
+    pub(super) fn new(values: [f64; 2], scale: Scale, unit: &str) -> Self {
         let [low, high] = values;
         let extent = if high > low {
             high - low
@@ -30,19 +28,18 @@ impl Bands {
         let step = nice_step(extent, 14);
         let low = (low / step + 1e-9).floor() * step;
         let count = ((high - low) / step - 1e-9).ceil().clamp(1.0, 24.0) as usize;
-        let mut bands = Bands {
+        Bands {
             low,
             step,
             count,
             scale,
             unit: unit.to_string(),
-            first_color: 0,
-        };
-        let indices: Vec<u8> = (0..count)
-            .map(|band| palette.add(bands.color(band), 1.0))
-            .collect();
-        bands.first_color = indices.first().copied().unwrap_or(0);
-        bands
+        }
+    }
+
+    /// Lower ends of the bands and their colours, from the lowest on.
+    pub(super) fn levels(&self) -> impl Iterator<Item = (f64, RGBColor)> {
+        (0..self.count).map(|band| (self.low + band as f64 * self.step, self.color(band)))
     }
 
     fn color(&self, band: usize) -> RGBColor {
@@ -53,12 +50,6 @@ impl Bands {
             Scale::Diverging => self.scale.color(middle, self.low, high),
             _ => self.scale.color(middle, self.low + last, high - last),
         }
-    }
-
-    /// The palette's index for a value.
-    pub(super) fn index(&self, value: f64) -> u8 {
-        let band = ((value - self.low) / self.step).max(0.0) as usize;
-        self.first_color + band.min(self.count - 1) as u8
     }
 
     /// A column of the colours with the numbers between them, from `at` down.
@@ -118,8 +109,7 @@ mod tests {
             [0.0, 0.0],
             [1e-7, 3e-7],
         ] {
-            let mut palette = Palette::new();
-            let bands = Bands::new(values, Scale::Rising, "MPa", &mut palette);
+            let bands = Bands::new(values, Scale::Rising, "MPa");
             assert!(
                 bands.count >= 1 && bands.count <= 16,
                 "{values:?}: {}",
@@ -129,9 +119,8 @@ mod tests {
             let round_off = 1e-8 * bands.step;
             assert!(bands.low <= values[0] + round_off, "{values:?}");
             assert!(high >= values[1] - round_off, "{values:?}");
-            assert_eq!(bands.index(values[0]), 1);
-            assert_eq!(bands.index(f64::INFINITY), bands.count as u8);
-            assert_eq!(bands.index(f64::NAN), 1);
+            let levels: Vec<f64> = bands.levels().map(|(level, _)| level).collect();
+            assert!(levels.len() == bands.count && levels.is_sorted_by(|a, b| a < b));
         }
     }
 }

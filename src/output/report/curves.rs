@@ -1,15 +1,14 @@
 //! Which charts a run has, and their curves.
 
+use super::along_contact::{dent_profile, pressure_profiles};
 use super::chart::{Chart, Curve, Pen};
-use super::fields::chosen;
+use super::contact_frame::ContactFrame;
+use super::profile;
 use super::units::{Units, labelled};
 use crate::model::Model;
-use crate::results::{HistoryRow, PairState, PathPoint, Results, State, Status};
+use crate::results::{HistoryRow, PathPoint, Results};
 use crate::scene::Unit;
 use plotters::prelude::SeriesLabelPosition;
-
-/// Most states in a chart of profiles.
-const MOST_PROFILES: usize = 8;
 
 /// A chart with its words.
 pub(super) struct Titled {
@@ -24,7 +23,12 @@ pub(super) struct Titled {
 }
 
 /// All charts of a run, those about the load first.
-pub(super) fn charts(model: &Model, results: &Results, units: &Units) -> Vec<Titled> {
+pub(super) fn charts(
+    model: &Model,
+    results: &Results,
+    units: &Units,
+    frame: Option<&ContactFrame>,
+) -> Vec<Titled> {
     let mut out = Vec::new();
     if !model.pairs.is_empty() {
         out.extend(against_load(
@@ -69,9 +73,9 @@ pub(super) fn charts(model: &Model, results: &Results, units: &Units) -> Vec<Tit
         for index in 0..plane.unwrap_or(0) {
             out.extend(dent_profile(model, results, units, index));
         }
-    } else {
-        out.extend(displacement(results, units));
+        out.extend(profile::chart(model, results, units, frame));
     }
+    out.extend(displacement(results, units, !model.pairs.is_empty()));
     out.extend(plastic_strain(results, units));
     out
 }
@@ -191,152 +195,12 @@ fn against_load(
     })
 }
 
-fn curve(label: &str, color: usize, pen: Pen, points: Vec<[f64; 2]>) -> Curve {
+pub(super) fn curve(label: &str, color: usize, pen: Pen, points: Vec<[f64; 2]>) -> Curve {
     Curve {
         label: label.to_string(),
         color: Some(color),
         pen,
         points,
-    }
-}
-
-/// Place along a contact: an angle from the middle of its axis where the surface is a circle, else
-/// the length of arc.
-struct Along {
-    label: String,
-    of_pair: Vec<f64>,
-}
-
-impl Along {
-    fn new(model: &Model, units: &Units, contact: usize) -> Self {
-        let surface = &model.contacts[contact];
-        let pairs = &model.pairs[surface.range.clone()];
-        let circle = surface.circle.filter(|(center, radius)| {
-            // On a small part of a large circle lengths say more.
-            let angle = |p: [f64; 2]| (p[1] - center[1]).atan2(p[0] - center[0]);
-            let ends = [pairs.first(), pairs.last()]
-                .map(|p| p.map_or(0.0, |p| angle(model.mesh.in_plane(p.second))));
-            *radius > 0.0 && (ends[1] - ends[0]).abs() > 20f64.to_radians()
-        });
-        match circle {
-            Some((center, _)) => Along {
-                label: "angle on the contact circle [°]".to_string(),
-                of_pair: pairs
-                    .iter()
-                    .map(|pair| {
-                        let [x, y] = model.mesh.in_plane(pair.second);
-                        (y - center[1]).atan2(x - center[0]).to_degrees()
-                    })
-                    .collect(),
-            },
-            None => {
-                let begin = pairs.iter().map(|p| p.arc).fold(f64::INFINITY, f64::min);
-                // From the side on which the surfaces are closest, which is where contact begins.
-                let turned = pairs
-                    .first()
-                    .zip(pairs.last())
-                    .is_some_and(|(a, b)| b.gap < a.gap);
-                let end = pairs.iter().map(|p| p.arc).fold(0.0, f64::max);
-                Along {
-                    label: labelled("distance along the contact surface", units.length()),
-                    of_pair: pairs
-                        .iter()
-                        .map(|p| if turned { end - p.arc } else { p.arc - begin })
-                        .collect(),
-                }
-            }
-        }
-    }
-
-    /// A value of the pairs of a state along the contact, in order.
-    fn curve(
-        &self,
-        model: &Model,
-        contact: usize,
-        pairs: &[PairState],
-        value: impl Fn(&PairState) -> f64,
-    ) -> Vec<[f64; 2]> {
-        let range = model.contacts[contact].range.clone();
-        let mut points: Vec<[f64; 2]> = pairs
-            .iter()
-            .filter(|pair| range.contains(&pair.pair))
-            .map(|pair| [self.of_pair[pair.pair - range.start], value(pair)])
-            .collect();
-        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        points
-    }
-}
-
-/// Pressure along a contact at the states, as far as anything was closed (and a little beyond).
-fn pressure_profiles(
-    model: &Model,
-    results: &Results,
-    units: &Units,
-    contact: usize,
-    names: &[String; 2],
-) -> Option<Titled> {
-    let along = Along::new(model, units, contact);
-    let closed = |state: &State| {
-        state
-            .pairs
-            .iter()
-            .any(|p| p.contact == contact && p.status == Status::Closed)
-    };
-    let of_interest = |state: &State| closed(state);
-    let shown = chosen(&results.states, MOST_PROFILES, of_interest);
-    let states: Vec<&State> = shown.iter().map(|&i| &results.states[i]).collect();
-    let top = (0..states.len()).max_by(|&a, &b| states[a].load.total_cmp(&states[b].load))?;
-    let mut curves: Vec<Curve> = states
-        .iter()
-        .enumerate()
-        .map(|(i, state)| {
-            let points = along.curve(model, contact, &state.pairs, |pair| pair.pressure);
-            // The way back in dashes.
-            let pen = if i > top { Pen::Dashed } else { Pen::Dotted };
-            curve(&state.name, i, pen, points)
-        })
-        .collect();
-    // Where nothing is pressed in any state there is nothing to see, but for one point on each
-    // side.
-    let pressed: Vec<f64> = curves
-        .iter()
-        .flat_map(|c| &c.points)
-        .filter(|p| p[1] > 0.0)
-        .map(|p| p[0])
-        .collect();
-    let low = pressed.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = pressed.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let room = 0.15 * (high - low);
-    for curve in &mut curves {
-        curve
-            .points
-            .retain(|p| p[0] >= low - room && p[0] <= high + room);
-    }
-    let several = model.contacts.len() > 1;
-    let of = if several {
-        format!(", {} on {}", names[0], names[1])
-    } else {
-        String::new()
-    };
-    Some(Titled {
-        name: numbered("pressure_distribution", contact, several),
-        title: format!("Contact pressure at the states{of}"),
-        caption: "A dot for each pair of nodes; dashed: after the largest load.".to_string(),
-        chart: Chart {
-            labels: [along.label, labelled("pressure", units.stress())],
-            widened: if curves.len() > 3 { 0.4 } else { 0.2 },
-            curves,
-            from_zero: [false, true],
-            legend: SeriesLabelPosition::UpperRight,
-        },
-    })
-}
-
-fn numbered(name: &str, contact: usize, several: bool) -> String {
-    if several {
-        format!("{name}_{}", contact + 1)
-    } else {
-        name.to_string()
     }
 }
 
@@ -366,72 +230,32 @@ fn residual_depth(results: &Results, units: &Units) -> Option<Titled> {
     })
 }
 
-/// The shape of the dent, where a state without contact force shows it.
-fn dent_profile(model: &Model, results: &Results, units: &Units, contact: usize) -> Option<Titled> {
-    let largest = results
-        .states
-        .iter()
-        .fold(0.0f64, |m, s| m.max(s.contact_force));
-    let free = results
-        .states
-        .iter()
-        .rev()
-        .find(|state| state.residual_depth > 0.0 && state.contact_force <= 1e-9 * largest)?;
-    let range = model.contacts[contact].range.clone();
-    let pairs = &model.pairs[range.clone()];
-    if pairs.iter().any(|p| p.interference != 0.0) {
-        return None;
-    }
-    let along = Along::new(model, units, contact);
-    let mut points = along.curve(model, contact, &free.pairs, |pair| {
-        pair.gap - model.pairs[pair.pair].gap
-    });
-    // The pair that was farthest apart did not take part: what it shows is rigid motion.
-    let outermost = range
-        .clone()
-        .max_by(|&a, &b| model.pairs[a].gap.total_cmp(&model.pairs[b].gap))?;
-    let outermost = free.pairs.iter().find(|p| p.pair == outermost)?;
-    let level = outermost.gap - model.pairs[outermost.pair].gap;
-    for p in &mut points {
-        p[1] = level - p[1];
-    }
-    let several = model.contacts.len() > 1;
-    Some(Titled {
-        name: numbered("dent", contact, several),
-        title: "Shape of the dent".to_string(),
-        caption: format!(
-            "Change of the gap in state \u{201c}{}\u{201d}, without load, downwards; both bodies together.",
-            free.name
-        ),
-        chart: Chart {
-            labels: [along.label, labelled("change of shape", units.length())],
-            curves: vec![curve("", 0, Pen::Dotted, points)],
-            from_zero: [false, true],
-            widened: 0.0,
-            legend: SeriesLabelPosition::LowerRight,
-        },
-    })
-}
-
-/// Without contact: displacement of the loaded surface against load.
-fn displacement(results: &Results, units: &Units) -> Option<Titled> {
+/// Load against the approach of the bodies, without contact against the displacement of the loaded
+/// surface: the stiffness.
+fn displacement(results: &Results, units: &Units, has_contact: bool) -> Option<Titled> {
     if results.states.len() < 2 || results.states.iter().all(|s| s.approach == 0.0) {
         return None;
     }
     let points = results.states.iter().map(|s| [s.approach, s.load]);
+    let (name, title, caption) = match has_contact {
+        true => (
+            "approach",
+            "Load against approach",
+            "How far the loads move the bodies towards each other; the states in their order.",
+        ),
+        false => (
+            "displacement",
+            "Load against displacement",
+            "Mean displacement of the loaded surface in the direction of the load; the states in their order.",
+        ),
+    };
     Some(Titled {
-        name: "displacement".to_string(),
-        title: "Load against displacement".to_string(),
-        caption: "Mean displacement of the loaded surface in the direction of the load; the states in their order."
-            .to_string(),
+        name: name.to_string(),
+        title: title.to_string(),
+        caption: caption.to_string(),
         chart: Chart {
-            labels: [labelled("displacement", units.length()), load_label(units)],
-            curves: vec![curve(
-                "",
-                0,
-                Pen::Dotted,
-                points.collect(),
-            )],
+            labels: [labelled(name, units.length()), load_label(units)],
+            curves: vec![curve("", 0, Pen::Dotted, points.collect())],
             from_zero: [true; 2],
             widened: 0.0,
             legend: SeriesLabelPosition::LowerRight,

@@ -1,7 +1,7 @@
-//! A drawing: SVG text made by the plotting library, with images laid under it.
+//! A drawing: SVG text made by the plotting library, with paths laid under it.
 //!
 //! The library places everything on whole units. Drawings are therefore made [`FINE`] times as
-//! large as they are shown, which puts lines to a quarter of a pixel.
+//! large as they are shown, which puts lines to an eighth of a pixel.
 
 use super::theme::{self, FAINT, INK, PAPER};
 use crate::error::{Error, Result};
@@ -11,9 +11,9 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 /// Units of a drawing per pixel that it is meant to be shown at.
-pub(super) const FINE: u32 = 4;
+pub(super) const FINE: u32 = 8;
 /// Letters in pixels.
-const LETTERS: f64 = 13.0;
+pub(super) const LETTERS: f64 = 13.0;
 const FONT: &str = "system-ui, -apple-system, Segoe UI, Roboto, Helvetica, Arial, sans-serif";
 
 /// The area that the plotting library draws on.
@@ -25,19 +25,6 @@ pub(super) struct Drawing {
     content: String,
     width: u32,
     height: u32,
-}
-
-/// A place in a drawing: from the left, from the top, width and height, in pixels as shown.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Place {
-    /// From the left.
-    pub x: f64,
-    /// From the top.
-    pub y: f64,
-    /// Width.
-    pub width: f64,
-    /// Height.
-    pub height: f64,
 }
 
 impl Drawing {
@@ -66,17 +53,9 @@ impl Drawing {
         })
     }
 
-    /// Puts an image under what is drawn.
-    pub(super) fn underlay(&mut self, place: Place, url: &str) {
-        let fine = f64::from(FINE);
-        let image = format!(
-            "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" href=\"{url}\"/>\n",
-            fine * place.x,
-            fine * place.y,
-            fine * place.width,
-            fine * place.height
-        );
-        self.content.insert_str(0, &image);
+    /// Puts elements of SVG under what is drawn.
+    pub(super) fn underlay(&mut self, elements: &str) {
+        self.content.insert_str(0, elements);
     }
 
     /// The text of a file of its own: fixed colours on a ground of their own.
@@ -102,18 +81,28 @@ impl Drawing {
 
     fn tag(&self, attributes: &str) -> String {
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\"{attributes}>\n",
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\"{}{attributes}>\n",
             self.width * FINE,
-            self.height * FINE
+            self.height * FINE,
+            font()
         )
     }
 }
 
-/// The library's text without what it repeats: full opacity, empty lines.
+/// The library's text without what it repeats: the font, which is the whole drawing's, full opacity,
+/// empty lines.
 fn compact(text: &str) -> String {
-    text.replace(" opacity=\"1\"", "")
+    text.replace(&font(), "")
+        .replace(" opacity=\"1\"", "")
         .replace(" stroke-width=\"1\"", "")
         .replace(" dx=\"0\" dy=\"0\"", "")
+}
+
+/// The attributes of the usual letters, as the library writes them: its size of a font is that of a
+/// line, 1.24 times the letters'.
+fn font() -> String {
+    let size = LETTERS * f64::from(FINE) / 1.24;
+    format!(" font-family=\"{FONT}\" font-size=\"{size}\"")
 }
 
 /// An error of the plotting library.
@@ -261,15 +250,14 @@ mod tests {
             )
         })
         .unwrap();
-        let place = Place {
-            x: 1.0,
-            y: 2.0,
-            width: 3.0,
-            height: 4.0,
-        };
-        drawing.underlay(place, "data:,");
+        drawing.underlay(&format!(
+            "<path fill=\"{}\" d=\"M0 0l1 0 0 1z\"/>",
+            theme::hex(INK)
+        ));
         for text in [drawing.file(), drawing.inline("a & \"b\" <c>")] {
             roxmltree::Document::parse(&text).unwrap();
+            // Of the whole drawing alone.
+            assert_eq!(text.matches("font-size").count(), 1, "{text}");
         }
         assert!(drawing.inline("").contains("var(--ink)"));
         assert!(!drawing.file().contains("var("));

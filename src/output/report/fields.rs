@@ -1,15 +1,20 @@
-//! Pictures of a state: von Mises stress, pressure, plastic zone, on the deformed contour.
+//! Pictures of a state: von Mises stress, pressure, plastic zone, on the deformed contour of a plane
+//! model or of a cut through a solid one.
 
 use super::bands::Bands;
-use super::drawing::Drawing;
+use super::contours::Sheet;
+use super::drawing::{Drawing, tick};
+use super::patchwork::Patchwork;
 use super::picture::Picture;
-use super::theme::Scale;
+use super::theme::{INK, PAPER, Scale};
 use super::units::Units;
 use super::window::Window;
 use crate::error::Result;
-use crate::model::Model;
+use crate::mesh::Mesh;
+use crate::output::number::significant;
 use crate::results::{Fields, State};
 use plotters::style::RGBColor;
+use rayon::prelude::*;
 
 /// What is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,26 +23,21 @@ pub(super) enum Quantity {
     VonMises,
     /// Mean pressure `-(s_xx + s_yy + s_zz)/3`, compressive positive.
     Pressure,
-    /// Equivalent plastic strain of the elements that have yielded.
+    /// Equivalent plastic strain where the material has yielded.
     PlasticZone,
 }
 
 impl Quantity {
     /// Its value in an element.
-    fn of(self, fields: &Fields, element: usize) -> f64 {
+    fn of(self, mesh: &Mesh, fields: &Fields, element: usize) -> f64 {
         match self {
             Quantity::VonMises => fields.von_mises[element],
             Quantity::Pressure => {
-                let s = &fields.stress[4 * element..4 * element + 3];
+                let s = &fields.stress[2 * mesh.dimension * element..][..3];
                 -(s[0] + s[1] + s[2]) / 3.0
             }
             Quantity::PlasticZone => fields.plastic_strain[element],
         }
-    }
-
-    /// Whether it is shown in this element.
-    fn is_shown(self, fields: &Fields, element: usize) -> bool {
-        self != Quantity::PlasticZone || fields.yielded[element] > 0
     }
 
     fn scale(self) -> Scale {
@@ -56,158 +56,162 @@ impl Quantity {
     }
 }
 
-/// What all pictures of a run share, so that they can be compared: window and scales.
-pub(super) struct Gallery<'a> {
-    model: &'a Model,
-    units: &'a Units,
-    window: Window,
-    mirror: [bool; 2],
-    /// Smallest and largest value of each quantity over all states shown.
-    common: Ranges,
+/// A plane that is looked at.
+pub(super) struct View {
+    /// Short name, for files; may be empty.
+    pub name: &'static str,
+    /// What it is, for captions; may be empty.
+    pub words: String,
+    /// Its triangles, mirror images included.
+    pub patchwork: Patchwork,
+    /// What of it is shown.
+    pub window: Window,
+    /// Labels of its axes.
+    pub labels: [String; 2],
 }
 
-/// Smallest and largest value of each quantity.
-type Ranges = [[f64; 2]; 3];
+/// A picture of a state.
+pub(super) struct Shown {
+    /// Index of the state.
+    pub state: usize,
+    /// Index of the view.
+    pub view: usize,
+    /// What is shown.
+    pub quantity: Quantity,
+    /// The picture.
+    pub drawing: Drawing,
+    /// Whether its scale is not that of the other states.
+    pub has_own_scale: bool,
+}
 
 /// A state whose values reach less than this share of the largest ones has a scale of its own:
 /// residual stresses are to be seen.
 const FAINT: f64 = 0.3;
+/// The border of the plastic zone is where this share of the elements round a node has yielded.
+const ZONE: f64 = 0.5;
+/// Bodies where nothing is shown of them.
+const NEUTRAL: RGBColor = RGBColor(0x9a, 0xa5, 0xb1);
 
-impl<'a> Gallery<'a> {
-    /// Takes the measure of some states.
-    pub(super) fn new(
-        model: &'a Model,
-        units: &'a Units,
-        window: Window,
-        mirror: [bool; 2],
-        states: &[&State],
-    ) -> Self {
-        let mut gallery = Gallery {
-            model,
-            units,
-            window,
-            mirror,
-            common: [[0.0; 2]; 3],
-        };
-        for fields in states.iter().filter_map(|state| state.fields.as_ref()) {
-            let ranges = gallery.ranges(fields);
-            for (all, one) in gallery.common.iter_mut().zip(ranges) {
-                *all = [all[0].min(one[0]), all[1].max(one[1])];
-            }
-        }
-        gallery
-    }
-
-    /// The ranges of a state's values in the window, zero always within.
-    fn ranges(&self, fields: &Fields) -> Ranges {
-        let mut ranges = [[0.0f64; 2]; 3];
-        let picture = self.picture(fields);
-        for element in picture.visible() {
-            for quantity in [
-                Quantity::VonMises,
-                Quantity::Pressure,
-                Quantity::PlasticZone,
-            ] {
-                let value = quantity.of(fields, element);
-                if value.is_finite() && quantity.is_shown(fields, element) {
-                    let range = &mut ranges[quantity as usize];
-                    *range = [range[0].min(value), range[1].max(value)];
-                }
-            }
-        }
-        ranges
-    }
-
-    fn picture<'f>(&self, fields: &'f Fields) -> Picture<'f>
-    where
-        'a: 'f,
-    {
-        let mesh = &self.model.mesh;
-        Picture::new(mesh, Some(&fields.displacement), self.window, self.mirror)
-    }
-
-    /// Whether any state shown has yielded in the window.
-    pub(super) fn has_plastic_zone(&self) -> bool {
-        self.common[Quantity::PlasticZone as usize][1] > 0.0
-    }
-
-    /// The scale of a quantity in a state, and whether it is this state's own.
-    fn range(&self, quantity: Quantity, fields: &Fields) -> ([f64; 2], bool) {
-        let common = self.common[quantity as usize];
-        if quantity == Quantity::PlasticZone {
-            return (common, false);
-        }
-        let own = self.ranges(fields)[quantity as usize];
-        let size = |r: [f64; 2]| r[0].abs().max(r[1].abs());
-        if size(own) > 0.0 && size(own) < FAINT * size(common) {
-            (own, true)
-        } else {
-            (common, false)
-        }
-    }
-
-    /// The picture of a quantity in a state, and whether its scale is not that of the other states.
-    ///
-    /// # Errors
-    /// `Internal` where it cannot be drawn.
-    pub(super) fn draw(&self, quantity: Quantity, fields: &Fields) -> Result<(Drawing, bool)> {
-        let mesh = &self.model.mesh;
-        let mut picture = self.picture(fields);
-        let neutral = picture.palette.add(RGBColor(0x9a, 0xa5, 0xb1), 0.35);
-        let ink = picture.palette.add(RGBColor(0x3a, 0x42, 0x4c), 1.0);
-        let (range, own) = self.range(quantity, fields);
-        let unit = quantity.unit(self.units);
-        let bands = Bands::new(range, quantity.scale(), unit, &mut picture.palette);
-        let visible = picture.visible();
-        let smooth = nodal_means(self.model, fields, quantity, &visible);
-        for &element in &visible {
-            // Parts are bodies, and in the plastic picture zones of bodies: their borders are
-            // drawn.
-            let body = mesh.element_body[element] as u16;
-            if quantity.is_shown(fields, element) {
-                let zone = u16::from(quantity == Quantity::PlasticZone);
-                let value = quantity.of(fields, element);
-                picture.element(
-                    element,
-                    2 * body + 1 + zone,
-                    |node| smooth[node],
-                    value,
-                    |v| bands.index(v),
-                );
-            } else {
-                picture.element(element, 2 * body + 1, |_| 0.0, 0.0, |_| neutral);
-            }
-        }
-        picture.raster.outline(1, ink);
-        for contact in &self.model.contacts {
-            for pairs in self.model.pairs[contact.range.clone()].windows(2) {
-                picture.crack([&pairs[0], &pairs[1]], ink);
-            }
-        }
-        let labels = self.units.axes(self.model.kind);
-        let drawing = picture.finish([&labels[0], &labels[1]], Some(&bands), |_| Ok(()))?;
-        Ok((drawing, own))
-    }
+/// Values of a quantity in a state on a view, and the share of the elements round that have yielded.
+struct Values<'v> {
+    state: usize,
+    view: usize,
+    quantity: Quantity,
+    sheet: Sheet<'v>,
+    zone: Vec<f64>,
 }
 
-/// Means at the nodes of the values of the elements round them: smooth contours. Zero where no
-/// element is shown.
-fn nodal_means(model: &Model, fields: &Fields, quantity: Quantity, elements: &[usize]) -> Vec<f64> {
-    let mut sums = vec![0.0; model.mesh.n_nodes()];
-    let mut counts = vec![0u32; model.mesh.n_nodes()];
-    for &element in elements {
-        if quantity.is_shown(fields, element) {
-            let value = quantity.of(fields, element);
-            for &node in model.mesh.nodes(element) {
-                sums[node as usize] += value;
-                counts[node as usize] += 1;
+/// Draws the quantities in the states on the views. Quantities of all states have one scale.
+///
+/// # Errors
+/// `Internal` where one cannot be drawn.
+pub(super) fn draw(
+    mesh: &Mesh,
+    units: &Units,
+    views: &[View],
+    states: &[(usize, &Fields)],
+    quantities: &[Quantity],
+) -> Result<Vec<Shown>> {
+    let tasks: Vec<_> = states
+        .iter()
+        .flat_map(|state| (0..views.len()).map(move |view| (state, view)))
+        .flat_map(|(state, view)| quantities.iter().map(move |&q| (state, view, q)))
+        .collect();
+    let values: Vec<Values> = tasks
+        .into_par_iter()
+        .map(|(&(state, fields), view, quantity)| {
+            let patchwork = &views[view].patchwork;
+            let places = patchwork.places(mesh, Some(&fields.displacement));
+            let values = patchwork.of_elements(mesh, |e| quantity.of(mesh, fields, e));
+            Values {
+                state,
+                view,
+                quantity,
+                sheet: patchwork.sheet(places, values),
+                zone: patchwork.of_elements(mesh, |e| f64::from(fields.yielded[e].min(1))),
             }
+        })
+        .collect();
+    let range = |values: &Values| {
+        let window = views[values.view].window;
+        let shown = values.sheet.places.iter().zip(&values.sheet.values);
+        let shown = shown.filter(|(place, value)| value.is_finite() && window.sees(&[**place]));
+        // Zero always within.
+        shown.fold([0.0f64; 2], |[low, high], (_, v)| {
+            [low.min(*v), high.max(*v)]
+        })
+    };
+    let ranges: Vec<[f64; 2]> = values.iter().map(range).collect();
+    let drawn = values.par_iter().zip(&ranges).map(|(shown, own)| {
+        let alike = values
+            .iter()
+            .zip(&ranges)
+            .filter(|(v, _)| v.quantity == shown.quantity);
+        let common = alike.fold([0.0f64; 2], |all, (_, r)| {
+            [all[0].min(r[0]), all[1].max(r[1])]
+        });
+        let size = |r: [f64; 2]| r[0].abs().max(r[1].abs());
+        let has_own_scale = shown.quantity != Quantity::PlasticZone
+            && size(*own) > 0.0
+            && size(*own) < FAINT * size(common);
+        let range = if has_own_scale { *own } else { common };
+        let drawing = draw_one(units, &views[shown.view], shown, range)?;
+        Ok(Shown {
+            state: shown.state,
+            view: shown.view,
+            quantity: shown.quantity,
+            drawing,
+            has_own_scale,
+        })
+    });
+    drawn.collect()
+}
+
+fn draw_one(units: &Units, view: &View, shown: &Values, range: [f64; 2]) -> Result<Drawing> {
+    let quantity = shown.quantity;
+    let sheet = &shown.sheet;
+    let bands = Bands::new(range, quantity.scale(), quantity.unit(units));
+    let zone = Sheet {
+        places: sheet.places.clone(),
+        values: shown.zone.clone(),
+        ..*sheet
+    };
+    let zone = zone.above(ZONE);
+    let mut picture = Picture::new(view.window);
+    let all = sheet.above(f64::NEG_INFINITY);
+    // Each band lies on the one below it: between two there is no gap for the ground to show.
+    let is_zone = quantity == Quantity::PlasticZone;
+    if is_zone {
+        picture.fill(&all, NEUTRAL, 0.35);
+    }
+    for (band, (level, color)) in bands.levels().enumerate() {
+        match (band, is_zone) {
+            (0, true) => picture.fill(&zone, color, 1.0),
+            (0, false) => picture.fill(&all, color, 1.0),
+            _ => picture.fill(&sheet.above(level), color, 1.0),
         }
     }
-    for (sum, &count) in sums.iter_mut().zip(&counts) {
-        *sum /= f64::from(count.max(1));
+    picture.outline(all, INK, 0.9);
+    if is_zone {
+        picture.outline(zone, INK, 0.9);
+    } else if quantity == Quantity::VonMises {
+        picture.outline(zone.clone(), INK, 2.6);
+        picture.outline(zone, PAPER, 1.3);
     }
-    sums
+    if let Some(top) = sheet
+        .largest(|p| view.window.sees(&[p]))
+        .filter(|&k| sheet.values[k] > 0.0)
+    {
+        let value = tick(rounded(sheet.values[top]));
+        picture.mark(sheet.places[top], &value);
+    }
+    let labels = [view.labels[0].as_str(), view.labels[1].as_str()];
+    picture.finish(labels, Some(&bands), |_| Ok(()))
+}
+
+/// Three digits.
+fn rounded(value: f64) -> f64 {
+    significant(value, 3).parse().unwrap_or(value)
 }
 
 /// States to show: at most `most` of those of interest, the first, the one with the largest load

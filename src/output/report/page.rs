@@ -15,6 +15,8 @@ const STYLE: &str = include_str!("report.css");
 
 /// A drawing in its place on the page.
 pub(super) struct Figure {
+    /// Its place in the page.
+    pub name: String,
     /// Heading; empty: none.
     pub title: String,
     /// What is seen.
@@ -93,8 +95,8 @@ pub(super) fn page(
                 header {
                     h1 { (title) }
                     p.quiet { (subtitle(header, model)) }
-                    @if let Some(why) = &results.incomplete {
-                        div.note.bad { b { "Incomplete. " } (why) }
+                    @if let Some(incomplete) = &results.incomplete {
+                        div.note.bad { b { "Incomplete. " } (incomplete.why) }
                     }
                     p.lead { (story(header, model, results, units)) }
                     (cards(model, results, units))
@@ -301,15 +303,19 @@ fn cards(model: &Model, results: &Results, units: &Units) -> Markup {
     }
 }
 
-/// Figures beside each other.
+/// Figures beside each other. Each is a link to itself as the target of the page, which the style
+/// lets fill the screen, with a link back over it: enlarging needs no script.
 pub(super) fn figures(list: &[Figure], class: &str) -> Markup {
     html! {
         div class=(class) {
             @for figure in list {
-                figure {
-                    @if !figure.title.is_empty() { h3 { (figure.title) } }
-                    (PreEscaped(&figure.svg))
-                    @if !figure.caption.is_empty() { figcaption { (figure.caption) } }
+                div.frame id={ "at-" (figure.name) } {
+                    figure id={ "fig-" (figure.name) } {
+                        @if !figure.title.is_empty() { h3 { (figure.title) } }
+                        a.enlarge href={ "#fig-" (figure.name) } aria-label="Enlarge" { (PreEscaped(&figure.svg)) }
+                        @if !figure.caption.is_empty() { figcaption { (figure.caption) } }
+                        a.close href={ "#at-" (figure.name) } aria-label="Close" { "\u{d7}" }
+                    }
                 }
             }
         }

@@ -1,15 +1,19 @@
 //! The scene drawn: bodies, supports, loads, contact, and the mesh.
 
+use super::contours::joined;
 use super::drawing::{Area, Drawing, failed, stroke, units};
+use super::outer;
+use super::patchwork::{ring, seen};
 use super::picture::Picture;
-use super::theme::CURVES;
+use super::theme::{CURVES, INK};
 use super::units::Units;
 use super::window::Window;
 use crate::error::Result;
+use crate::mesh::Facet;
 use crate::mesh::surface::{normals, ordered_nodes};
 use crate::model::{Magnitude, Model};
 use crate::scene::Support;
-use crate::space::Vector;
+use crate::space::{Vector, unit};
 use plotters::prelude::*;
 
 /// Colours of the bodies, in turn.
@@ -34,6 +38,11 @@ const TRIANGLE: f64 = 10.0;
 const ARROW: f64 = 26.0;
 const HEAD: f64 = 7.0;
 
+/// Pixels across an element (the root of its area) from which on its sides are drawn.
+const SMALLEST_SIDE: f64 = 4.0;
+/// Colour of the sides of elements.
+const SIDE: RGBColor = RGBColor(0x6a, 0x74, 0x80);
+
 /// Draws what lies in a window, undeformed; with `mesh` the sides of the elements too, of those
 /// that are large enough to be seen. Returns the share of the area whose elements are.
 ///
@@ -45,34 +54,70 @@ pub(super) fn draw(
     window: Window,
     mesh: bool,
 ) -> Result<(Drawing, f64)> {
-    let mut picture = Picture::large(&model.mesh, window);
-    let fills: Vec<u8> = BODIES
-        .iter()
-        .map(|&color| picture.palette.add(color, FILL))
-        .collect();
-    let ink = picture.palette.add(RGBColor(0x5a, 0x64, 0x70), 1.0);
-    let side = picture.palette.add(RGBColor(0x6a, 0x74, 0x80), 0.55);
-    let visible = picture.visible();
-    for &element in &visible {
-        let body = model.mesh.element_body[element] as usize;
-        let fill = fills[body % fills.len()];
-        picture.element(element, body as u16 + 1, |_| 0.0, 0.0, |_| fill);
+    let mut picture = Picture::large(window);
+    let mut sides: Vec<Vec<(usize, usize)>> = vec![Vec::new(); model.mesh.bodies.len()];
+    for facet in outer::facets(&model.mesh, 0..model.mesh.n_elements()) {
+        let nodes: Vec<usize> = ring(&model.mesh, facet).collect();
+        let body = model.mesh.element_body[facet.element] as usize;
+        sides[body].extend(nodes.windows(2).map(|ends| (ends[0], ends[1])));
     }
-    let meshed = match mesh {
-        true => picture.sides(&visible, side),
-        false => 0.0,
+    let mut outlines = Vec::new();
+    for (body, sides) in sides.into_iter().enumerate() {
+        let place = |ring: Vec<usize>| ring.into_iter().map(|n| model.mesh.in_plane(n)).collect();
+        let rings: Vec<Vec<[f64; 2]>> = joined(sides).into_iter().map(place).collect();
+        picture.fill(&rings, BODIES[body % BODIES.len()], FILL);
+        outlines.extend(rings);
+    }
+    let (lines, meshed) = match mesh {
+        true => sides_seen(model, &picture, window),
+        false => (Vec::new(), 0.0),
     };
-    picture.raster.outline(1, ink);
+    picture.stroke(&lines, SIDE, 0.5);
+    picture.outline(outlines, INK, 0.9);
     let signs = Signs::new(model, &picture, window);
     let labels = units.axes(model.kind);
     let drawing = picture.finish([&labels[0], &labels[1]], None, |area| signs.draw(area))?;
     Ok((drawing, meshed))
 }
 
+/// The sides of elements of which more than a grey would be seen, and these elements' share of the
+/// area.
+fn sides_seen(model: &Model, picture: &Picture, window: Window) -> (Vec<Vec<[f64; 2]>>, f64) {
+    let mesh = &model.mesh;
+    let pixel = {
+        let [a, b] = [window.low, window.high].map(|p| picture.place_of(p));
+        window.size()[0] / (b[0] - a[0])
+    };
+    let (mut drawn, mut all) = (0.0, 0.0);
+    let mut sides = Vec::new();
+    for element in seen(mesh, [unit(0), unit(1)], window, [false; 2], &[]) {
+        let nodes = mesh.nodes(element).iter();
+        let Some(bounds) = Window::round(nodes.map(|&n| mesh.in_plane(n as usize))) else {
+            continue;
+        };
+        let area: f64 = (0..2)
+            .map(|d| bounds.high[d].min(window.high[d]) - bounds.low[d].max(window.low[d]))
+            .map(|extent| extent.max(0.0))
+            .product();
+        all += area;
+        let [w, h] = bounds.size();
+        if w * h < (SMALLEST_SIDE * pixel).powi(2) {
+            continue;
+        }
+        drawn += area;
+        for local in 0..mesh.shapes[element].n_facets() {
+            let nodes: Vec<usize> = ring(mesh, Facet { element, local }).collect();
+            sides.extend(nodes.windows(2).map(|ends| [ends[0], ends[1]]));
+        }
+    }
+    let lines = outer::long_lines(sides, |node| mesh.in_plane(node));
+    (lines, if all > 0.0 { drawn / all } else { 0.0 })
+}
+
 /// What is drawn on the bodies.
 struct Signs<'a> {
     model: &'a Model,
-    picture: &'a Picture<'a>,
+    picture: &'a Picture,
     window: Window,
     /// Body of each node, and the middle of each body.
     body: Vec<u32>,
@@ -80,7 +125,7 @@ struct Signs<'a> {
 }
 
 impl<'a> Signs<'a> {
-    fn new(model: &'a Model, picture: &'a Picture<'a>, window: Window) -> Self {
+    fn new(model: &'a Model, picture: &'a Picture, window: Window) -> Self {
         let mesh = &model.mesh;
         let mut body = vec![0; mesh.n_nodes()];
         let mut boxes = vec![[[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]; mesh.bodies.len()];

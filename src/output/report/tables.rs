@@ -6,8 +6,9 @@ use super::theme::hex;
 use super::units::{Units, labelled};
 use crate::model::Model;
 use crate::output::RunHeader;
+use crate::output::columns::of_states;
 use crate::output::number::{bytes, ratio, significant};
-use crate::results::{Results, State};
+use crate::results::Results;
 use crate::scene::{Direction, History, Load};
 use crate::space::Components;
 use maud::{Markup, PreEscaped, html};
@@ -218,72 +219,28 @@ fn describe(model: &Model, load: &Load, units: &Units) -> String {
 
 /// The states, with the columns that tell something in this scene.
 pub(super) fn states(model: &Model, results: &Results, units: &Units) -> Markup {
-    type Cell = fn(&State) -> String;
     let states = &results.states;
     if states.is_empty() {
         return PreEscaped(String::new());
     }
-    let any = |value: fn(&State) -> f64| states.iter().any(|s| value(s) != 0.0);
-    let contact = !model.pairs.is_empty();
-    let plastic = any(|s| s.plastic_points as f64);
-    let mut columns: Vec<(bool, String, Cell)> = vec![
-        (true, factor(model.scene.program.unit).to_string(), |s| {
-            digits(s.alpha)
-        }),
-        (true, labelled("load", units.load()), |s| digits(s.load)),
-    ];
-    let (length, stress) = (units.length(), units.stress());
-    if contact {
-        // Where the load is the contact force one column says it.
-        if states
-            .iter()
-            .any(|s| digits(s.load) != digits(s.contact_force))
-        {
-            let name = labelled("contact force", units.load());
-            columns.push((true, name, |s| digits(s.contact_force)));
-        }
-        columns.push((true, labelled("max. pressure", stress), |s| {
-            digits(s.max_pressure)
-        }));
-        columns.push((true, labelled("half width", length), |s| {
-            digits(s.half_width)
-        }));
-        if states.iter().any(|s| s.contact_arc.is_some()) {
-            columns.push((true, "contact arc [\u{b0}]".to_string(), |s| {
-                s.contact_arc
-                    .map_or("\u{2013}".to_string(), |[a, b]| format!("{a:.2} to {b:.2}"))
-            }));
-        }
-    }
-    if any(|s| s.approach) {
-        let name = if contact { "approach" } else { "displacement" };
-        columns.push((true, labelled(name, length), |s| significant(s.approach, 5)));
-    }
-    if contact && plastic {
-        columns.push((true, labelled("residual depth", length), |s| {
-            significant(s.residual_depth, 5)
-        }));
-    }
-    if plastic {
-        columns.push((true, "plastic points".to_string(), |s| {
-            s.plastic_points.to_string()
-        }));
-        columns.push((true, "largest plastic strain".to_string(), |s| {
-            significant(s.max_equivalent_plastic_strain, 5)
-        }));
-    }
-    let mut head = vec![text("state")];
-    head.extend(columns.iter().map(|c| (c.0, c.1.clone())));
+    let columns = of_states(states, model.kind, !model.pairs.is_empty(), false);
+    let unit = model.scene.program.unit;
+    let mut head = vec![text("state"), numbers(factor(unit))];
+    let rest = columns.iter().skip(1).map(|column| {
+        let name = column.heading.replace("-\n", "").replace('\n', " ");
+        numbers(labelled(&name, &units.of_quantity(column.unit)))
+    });
+    head.extend(rest);
     let rows: Vec<Vec<Markup>> = states
         .iter()
-        .map(|state| {
-            let mut row = vec![plain(&state.name)];
-            row.extend(columns.iter().map(|c| plain((c.2)(state))));
-            row
+        .enumerate()
+        .map(|(index, state)| {
+            let cells = columns.iter().map(|column| plain(&column.cells[index]));
+            std::iter::once(plain(&state.name)).chain(cells).collect()
         })
         .collect();
     html! {
-        p.quiet { "A load factor is " (super::curves::factor_unit(model.scene.program.unit)) "." }
+        p.quiet { "A load factor is " (super::curves::factor_unit(unit)) "." }
         (table(&head, &rows))
     }
 }

@@ -1,6 +1,7 @@
 //! Units and labels: the scene's names where it gives them, else nothing.
 
 use crate::model::{LoadCase, Magnitude, Model};
+use crate::results::Unit;
 use crate::scene;
 use crate::space::Space;
 
@@ -10,12 +11,15 @@ pub(super) struct Units {
     names: Option<scene::Units>,
     /// Of the total load.
     load: String,
+    /// Whether forces are per thickness.
+    is_plane: bool,
 }
 
 impl Units {
     /// Those of a model.
     pub(super) fn of(model: &Model) -> Self {
         let names = model.scene.units.clone();
+        let is_plane = !model.kind.is_axisymmetric() && !model.kind.is_solid();
         let load = names.as_ref().map_or(String::new(), |names| {
             // The first load that varies is what the total load is said of; of a displacement it is
             // the force that it takes.
@@ -23,11 +27,15 @@ impl Units {
             let leading = model.loads.iter().find(varies).or(model.loads.first());
             match leading.map(|load| load.measures) {
                 Some(Magnitude::Stress) => names.stress.clone(),
-                _ if model.kind.is_axisymmetric() => names.force.clone(),
+                _ if !is_plane => names.force.clone(),
                 _ => format!("{}/{}", names.force, names.length),
             }
         });
-        Units { names, load }
+        Units {
+            names,
+            load,
+            is_plane,
+        }
     }
 
     /// Of lengths.
@@ -43,6 +51,25 @@ impl Units {
     /// Of the total load.
     pub(super) fn load(&self) -> &str {
         &self.load
+    }
+
+    /// Of a quantity.
+    pub(super) fn of_quantity(&self, unit: Unit) -> String {
+        let Some(names) = &self.names else {
+            return String::new();
+        };
+        let (force, length) = (&names.force, &names.length);
+        match unit {
+            Unit::One => String::new(),
+            Unit::Length => length.clone(),
+            Unit::Stress => names.stress.clone(),
+            Unit::Load => self.load.clone(),
+            Unit::Size if self.is_plane => format!("{length}\u{b2}"),
+            Unit::Size => format!("{length}\u{b3}"),
+            // Per unit thickness.
+            Unit::Work if self.is_plane => force.clone(),
+            Unit::Work => format!("{force} {length}"),
+        }
     }
 
     /// Labels of the axes of the plane.
@@ -72,6 +99,7 @@ mod tests {
         for (name, expected) in [
             ("cylinder_on_half_plane", "N/mm"),
             ("ball_on_half_space", "N"),
+            ("ball_on_flat_3d", "N"),
             ("thick_cylinder", "MPa"),
             ("contact_patch", ""),
         ] {

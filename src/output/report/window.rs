@@ -2,7 +2,7 @@
 
 use crate::model::Model;
 use crate::results::{Results, Status};
-use crate::scene::{Direction, Kind};
+use crate::space::Vector;
 
 /// A rectangle of the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,7 +24,7 @@ const SHAPE: [f64; 2] = [0.55, 1.1];
 
 impl Window {
     /// The smallest window round some points; `None` without points.
-    fn round(points: impl Iterator<Item = [f64; 2]>) -> Option<Self> {
+    pub(super) fn round(points: impl Iterator<Item = [f64; 2]>) -> Option<Self> {
         points.fold(None, |window: Option<Window>, p| {
             let mut window = window.unwrap_or(Window { low: p, high: p });
             for k in 0..2 {
@@ -49,7 +49,7 @@ impl Window {
     }
 
     /// With its mirror images.
-    fn mirrored(mut self, mirror: [bool; 2]) -> Self {
+    pub(super) fn mirrored(mut self, mirror: [bool; 2]) -> Self {
         for k in 0..2 {
             if mirror[k] {
                 let far = self.low[k].abs().max(self.high[k].abs());
@@ -59,8 +59,21 @@ impl Window {
         self
     }
 
+    /// What is round a patch of contact, as far as there is anything, with facets of a length.
+    pub(super) fn surroundings(self, all: Window, facet: f64) -> Window {
+        let [w, h] = self.size();
+        let size = (0.5 * w.max(h)).max(3.0 * facet);
+        let mut window = self;
+        for k in 0..2 {
+            let middle = 0.5 * (self.low[k] + self.high[k]);
+            window.low[k] = (middle - REACH[k] * size).max(all.low[k]);
+            window.high[k] = (middle + REACH[k] * size).min(all.high[k]);
+        }
+        window.framed(ROOM)
+    }
+
     /// Room on all sides, and neither a slit nor a tower: the shorter side grows.
-    fn framed(mut self, room: f64) -> Self {
+    pub(super) fn framed(mut self, room: f64) -> Self {
         let [w, h] = self.size();
         let least = w.max(h).max(f64::MIN_POSITIVE);
         let width = (w + 2.0 * room * least).max(h / SHAPE[1]);
@@ -74,29 +87,49 @@ impl Window {
     }
 }
 
-/// In which axes the model is a half of what it stands for: x (mirror at x = 0), y.
+/// In which axes the model is a half of what it stands for: mirrored at x = 0, y = 0, z = 0.
 ///
 /// A support that only holds x, all of whose nodes lie on x = 0 with the model on one side, is a
 /// plane of symmetry; so is the axis of an axisymmetric model that reaches it.
-pub(super) fn mirrors(model: &Model) -> [bool; 2] {
+pub(super) fn mirrors(model: &Model) -> [bool; 3] {
     let mesh = &model.mesh;
-    let Some(all) = Window::round((0..mesh.n_nodes()).map(|n| mesh.in_plane(n))) else {
-        return [false; 2];
-    };
-    let small = 1e-9 * all.size()[0].max(all.size()[1]);
-    let one_sided = [0, 1].map(|k| all.low[k].abs() <= small || all.high[k].abs() <= small);
-    let held = [Direction::X, Direction::Y].map(|direction| {
+    let [low, high] = extent(model);
+    let small = negligible(model);
+    let one_sided = |k: usize| low[k].abs() <= small || high[k].abs() <= small;
+    let is_held = |k: usize| {
         model.scene.support.iter().any(|support| {
-            let k = usize::from(direction == Direction::Y);
-            support.fix == [direction]
+            matches!(support.fix[..], [only] if only.axis() == k)
                 && support.angle.is_none_or(|a| a == 0.0)
                 && mesh.set_nodes(&support.on).is_some_and(|nodes| {
-                    nodes.len() > 1 && nodes.iter().all(|&n| mesh.in_plane(n)[k].abs() <= small)
+                    nodes.len() > 1 && nodes.iter().all(|&n| mesh.point(n)[k].abs() <= small)
                 })
         })
-    });
-    let axis = model.kind == Kind::Axisymmetric;
-    [one_sided[0] && (held[0] || axis), one_sided[1] && held[1]]
+    };
+    let axis = |k: usize| k == 0 && model.kind.is_axisymmetric();
+    let mirrors = |k: usize| k < mesh.dimension && one_sided(k) && (is_held(k) || axis(k));
+    [0, 1, 2].map(mirrors)
+}
+
+/// Smallest and largest coordinates of the mesh.
+pub(super) fn extent(model: &Model) -> [Vector; 2] {
+    let start = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    (0..model.mesh.n_nodes()).fold(start, |[low, high], node| {
+        let x = model.mesh.point(node);
+        [0, 1].map(|side| {
+            [0, 1, 2].map(|d| match side {
+                0 => low[d].min(x[d]),
+                _ => high[d].max(x[d]),
+            })
+        })
+    })
+}
+
+/// A length that is none beside the mesh.
+pub(super) fn negligible(model: &Model) -> f64 {
+    let [low, high] = extent(model);
+    (0..3)
+        .map(|d| 1e-9 * (high[d] - low[d]))
+        .fold(0.0, f64::max)
 }
 
 /// The whole mesh.
@@ -114,24 +147,15 @@ pub(super) fn near_contact(model: &Model, results: &Results, mirror: [bool; 2]) 
     let closed = pairs
         .filter(|pair| pair.status == Status::Closed)
         .map(|pair| [pair.position[0], pair.position[1]]);
-    let candidates = model.pairs.iter().map(|pair| mesh.in_plane(pair.second));
+    let candidates = model.pairs.iter().map(|pair| mesh.in_plane(pair.slave));
     let Some(patch) = Window::round(closed).or_else(|| Window::round(candidates)) else {
         return Some(all.framed(ROOM));
     };
-    let patch = patch.mirrored(mirror);
     let facet = model
         .contacts
         .iter()
         .fold(0.0f64, |m, c| m.max(c.facet_length));
-    let [w, h] = patch.size();
-    let size = (0.5 * w.max(h)).max(3.0 * facet);
-    let mut window = patch;
-    for k in 0..2 {
-        let middle = 0.5 * (patch.low[k] + patch.high[k]);
-        window.low[k] = (middle - REACH[k] * size).max(all.low[k]);
-        window.high[k] = (middle + REACH[k] * size).min(all.high[k]);
-    }
-    Some(window.framed(ROOM))
+    Some(patch.mirrored(mirror).surroundings(all, facet))
 }
 
 #[cfg(test)]

@@ -95,7 +95,7 @@ impl Checks {
         self.require(
             direction.axis() < space.dimension(),
             key,
-            format!("\"z\" is no direction of a {} model", space.name()),
+            format!("\"z\" is no direction where kind = \"{}\"", space.name()),
         );
     }
 

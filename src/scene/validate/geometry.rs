@@ -2,18 +2,16 @@
 
 use super::Checks;
 use crate::analytical::HertzEllipse;
-use crate::scene::{
-    Block, BrickPart, CurvedBodies, CylinderOnHalfPlane, Disc, DiscInPlate, MeshSource, Part, Ring,
-    Scene,
-};
+use crate::scene::{CurvedBodies, CylinderOnHalfPlane, DiscInPlate, MeshSource, Scene};
 use crate::shape::Shape;
-use crate::space::Space;
+use crate::space::{Space, length};
 use crate::text::exact;
 use std::collections::BTreeSet;
 
 impl Checks {
     pub(super) fn geometry(&mut self, scene: &Scene) {
         let mesh = &scene.mesh;
+        let section = mesh.section(scene.kind);
         self.exactly_one(
             "mesh",
             "mesh source",
@@ -32,7 +30,7 @@ impl Checks {
             self.cylinder_on_half_plane(parameters, scene);
         }
         if let Some(parameters) = &mesh.disc_in_plate {
-            self.disc_in_plate(parameters, scene.kind);
+            self.disc_in_plate(parameters, section);
         }
         if let Some(parameters) = &mesh.curved_bodies {
             self.curved_bodies(parameters, scene);
@@ -44,14 +42,14 @@ impl Checks {
                 "is empty; give at least one part",
             );
             for (index, part) in parts.iter().enumerate() {
-                self.part(&format!("mesh.parts.{index}"), part, scene.kind);
+                self.part(&format!("mesh.parts.{index}"), part, section);
             }
         }
         if let Some(file) = &mesh.file {
             self.require(
                 !file.as_os_str().is_empty(),
                 "mesh.file",
-                "is empty; give the path of a Gmsh file, relative to the scene file",
+                "is empty; give the path of a Gmsh file or a deck, relative to the scene file",
             );
         }
         let from_file = mesh.file.is_some();
@@ -60,27 +58,107 @@ impl Checks {
             "mesh.subdivisions",
             "is for meshes from a file; give the generator more elements instead",
         );
-        self.require(
-            from_file || mesh.circles.is_empty(),
-            "mesh.circles",
-            "is for meshes from a file; a generator knows the shape of its surfaces",
-        );
-        for (index, circle) in mesh.circles.iter().enumerate() {
-            let key = |name: &str| format!("mesh.circles.{index}.{name}");
-            self.positive(key("radius"), circle.radius);
+        let radii = |list: &'static str, radii: Vec<f64>| (list, radii);
+        for (list, radii) in [
+            radii("circles", mesh.circles.iter().map(|s| s.radius).collect()),
+            radii("spheres", mesh.spheres.iter().map(|s| s.radius).collect()),
+            radii(
+                "cylinders",
+                mesh.cylinders.iter().map(|s| s.radius).collect(),
+            ),
+            radii("tori", mesh.tori.iter().map(|s| s.radius).collect()),
+        ] {
             self.require(
-                circle.center.iter().all(|c| c.is_finite()),
-                key("center"),
-                "must be finite",
+                from_file || radii.is_empty(),
+                format!("mesh.{list}"),
+                "is for meshes from a file; a generator knows the shape of its surfaces",
+            );
+            for (index, radius) in radii.into_iter().enumerate() {
+                self.positive(format!("mesh.{list}.{index}.radius"), radius);
+            }
+        }
+        for (index, cylinder) in mesh.cylinders.iter().enumerate() {
+            self.axis(&format!("mesh.cylinders.{index}.axis"), cylinder.axis);
+        }
+        for (index, torus) in mesh.tori.iter().enumerate() {
+            self.axis(&format!("mesh.tori.{index}.axis"), torus.axis);
+            self.require(
+                torus.ring_radius > torus.radius,
+                format!("mesh.tori.{index}.ring_radius"),
+                format!(
+                    "{} must be greater than the radius of the tube ({})",
+                    exact(torus.ring_radius),
+                    exact(torus.radius)
+                ),
             );
         }
+        self.sweep(scene);
         self.bodies_of_mesh(scene);
+    }
+
+    fn axis(&mut self, key: &str, axis: [f64; 3]) {
+        let size = length(axis);
+        self.require(
+            size > 0.0 && size.is_finite(),
+            key,
+            "must be a direction: three numbers that are not all zero",
+        );
+    }
+
+    /// What makes a solid of a plane mesh.
+    fn sweep(&mut self, scene: &Scene) {
+        let mesh = &scene.mesh;
+        let (key, elements) = match (&mesh.extrude, &mesh.revolve) {
+            (None, None) => return,
+            (Some(_), Some(_)) => {
+                return self.problem(
+                    "mesh.revolve",
+                    "the mesh is extruded already; give extrude or revolve",
+                );
+            }
+            (Some(extrude), None) => {
+                self.positive("mesh.extrude.depth".to_string(), extrude.depth);
+                ("mesh.extrude", extrude.elements)
+            }
+            (None, Some(revolve)) => {
+                self.require(
+                    revolve.angle > 0.0 && revolve.angle <= 360.0,
+                    "mesh.revolve.angle",
+                    format!(
+                        "{} must be an angle in degrees, more than 0 and at most 360",
+                        exact(revolve.angle)
+                    ),
+                );
+                // An element may not turn by 120 degrees or more.
+                let least = if revolve.angle >= 270.0 {
+                    4
+                } else {
+                    1 + (revolve.angle / 90.0) as usize
+                };
+                self.count("mesh.revolve.elements".to_string(), revolve.elements, least);
+                ("mesh.revolve", revolve.elements)
+            }
+        };
+        self.count(format!("{key}.elements"), elements, 1);
+        self.require(
+            scene.kind.is_solid(),
+            "kind",
+            format!("{key} makes a solid model; use kind = \"solid\""),
+        );
+        let solid = mesh.curved_bodies.is_some()
+            || mesh.parts.iter().flatten().any(|part| part.brick.is_some());
+        self.require(
+            !solid,
+            key,
+            "is for plane meshes; this one is solid without it",
+        );
     }
 
     fn cylinder_on_half_plane(&mut self, parameters: &CylinderOnHalfPlane, scene: &Scene) {
         let key = |name: &str| format!("mesh.cylinder_on_half_plane.{name}");
         self.positive(key("radius"), parameters.radius);
-        self.element(&key("element"), parameters.element, scene.kind);
+        let section = scene.mesh.section(scene.kind);
+        self.element(&key("element"), parameters.element, section);
         self.count(key("resolution"), parameters.resolution, 1);
         self.at_least(key("fine_width"), parameters.fine_width, 1.0);
         if let Some(width) = parameters.contact_width {
@@ -172,14 +250,18 @@ impl Checks {
     }
 
     /// An element of as many dimensions as the model.
-    fn element(&mut self, key: &str, element: Shape, kind: Space) {
+    pub(super) fn element(&mut self, key: &str, element: Shape, kind: Space) {
         self.require(
             element.dimension() == kind.dimension(),
             key,
             format!(
-                "\"{}\" is no element of a {} model",
+                "\"{}\" is no element where kind = \"{}\"{}",
                 element.name(),
-                kind.name()
+                kind.name(),
+                match kind.is_solid() {
+                    true => "; mesh.extrude and mesh.revolve make solids of plane meshes",
+                    false => "",
+                }
             ),
         );
     }
@@ -222,168 +304,6 @@ impl Checks {
             "disc_in_plate is a plane model; use plane_stress or plane_strain",
         );
         self.element(&key("element"), parameters.element, kind);
-    }
-
-    fn part(&mut self, key: &str, part: &Part, kind: Space) {
-        self.exactly_one(
-            key,
-            "shape",
-            &[
-                ("block", part.block.is_some()),
-                ("brick", part.brick.is_some()),
-                ("ring", part.ring.is_some()),
-                ("disc", part.disc.is_some()),
-            ],
-        );
-        self.require(
-            !part.body.is_empty(),
-            format!("{key}.body"),
-            "is empty; give the body a name",
-        );
-        let solid = part.brick.is_some();
-        self.require(
-            solid == kind.is_solid(),
-            key,
-            match solid {
-                true => "a brick is a part of a solid model; use kind = \"solid\", or a block",
-                false => "blocks, rings and discs are plane parts; a solid model takes bricks",
-            },
-        );
-        // Quad4 stands for what is not given.
-        if !(solid && part.element == Shape::Quad4) {
-            self.element(&format!("{key}.element"), part.element, kind);
-        }
-        if let Some(brick) = &part.brick {
-            self.brick(&format!("{key}.brick"), brick);
-        }
-        if let Some(block) = &part.block {
-            self.block(&format!("{key}.block"), block, kind);
-        }
-        if let Some(ring) = &part.ring {
-            self.ring(&format!("{key}.ring"), ring);
-        }
-        if let Some(disc) = &part.disc {
-            self.disc(&format!("{key}.disc"), disc);
-        }
-    }
-
-    fn brick(&mut self, key: &str, brick: &BrickPart) {
-        for (axis, [from, to]) in [brick.x, brick.y, brick.z].into_iter().enumerate() {
-            self.require(
-                from < to,
-                format!("{key}.{}", ["x", "y", "z"][axis]),
-                format!(
-                    "[{}, {}] must run from the smaller to the larger coordinate",
-                    exact(from),
-                    exact(to)
-                ),
-            );
-            self.count(format!("{key}.elements.{axis}"), brick.elements[axis], 1);
-            self.positive(format!("{key}.bias.{axis}"), brick.bias[axis]);
-        }
-    }
-
-    fn block(&mut self, key: &str, block: &Block, kind: Space) {
-        for (name, [from, to], index) in [("x", block.x, 0), ("y", block.y, 1)] {
-            self.require(
-                from < to,
-                format!("{key}.{name}"),
-                format!(
-                    "[{}, {}] must run from the smaller to the larger coordinate",
-                    exact(from),
-                    exact(to)
-                ),
-            );
-            self.count(format!("{key}.elements.{index}"), block.elements[index], 1);
-            self.positive(format!("{key}.bias.{index}"), block.bias[index]);
-        }
-        self.require(
-            !kind.is_axisymmetric() || block.x[0] >= 0.0,
-            format!("{key}.x"),
-            format!(
-                "{} is left of the axis: in an axisymmetric model x is the radius",
-                exact(block.x[0])
-            ),
-        );
-        let sides = ["left", "right", "bottom", "top"];
-        let corners = ["bottom_left", "bottom_right", "top_left", "top_right"];
-        let mut names = BTreeSet::new();
-        for (index, piece) in block.pieces.iter().enumerate() {
-            let key = format!("{key}.pieces.{index}");
-            self.require(
-                names.insert(&piece.name) && !piece.name.is_empty(),
-                format!("{key}.name"),
-                format!("\"{}\" is empty or used twice", piece.name),
-            );
-            self.require(
-                !sides.contains(&piece.name.as_str()) && !corners.contains(&piece.name.as_str()),
-                format!("{key}.name"),
-                format!(
-                    "\"{}\" is the name of a side or corner; choose another",
-                    piece.name
-                ),
-            );
-            self.require(
-                sides.contains(&piece.side.as_str()),
-                format!("{key}.side"),
-                format!("\"{}\" is none of {}", piece.side, sides.join(", ")),
-            );
-            self.require(
-                piece.from < piece.to,
-                key,
-                format!(
-                    "from = {} must be less than to = {}",
-                    exact(piece.from),
-                    exact(piece.to)
-                ),
-            );
-        }
-    }
-
-    fn ring(&mut self, key: &str, ring: &Ring) {
-        let [inner, outer] = ring.radius;
-        self.require(
-            inner > 0.0 && inner < outer,
-            format!("{key}.radius"),
-            format!(
-                "[{}, {}] must be positive and ascending (a disc has no inner radius)",
-                exact(inner),
-                exact(outer)
-            ),
-        );
-        let [start, end] = ring.angle;
-        self.require(
-            start < end && end - start <= 360.0,
-            format!("{key}.angle"),
-            format!(
-                "[{}, {}] must be ascending and at most 360 degrees apart",
-                exact(start),
-                exact(end)
-            ),
-        );
-        for index in 0..2 {
-            self.count(format!("{key}.elements.{index}"), ring.elements[index], 1);
-        }
-        self.positive(format!("{key}.bias"), ring.bias);
-    }
-
-    fn disc(&mut self, key: &str, disc: &Disc) {
-        self.positive(format!("{key}.radius"), disc.radius);
-        let [start, end] = disc.angle;
-        self.require(
-            [90.0, 180.0, 360.0].contains(&(end - start)),
-            format!("{key}.angle"),
-            format!(
-                "[{}, {}] must be 90, 180 or 360 degrees apart",
-                exact(start),
-                exact(end)
-            ),
-        );
-        self.require(
-            disc.elements >= 2 && disc.elements.is_multiple_of(2),
-            format!("{key}.elements"),
-            format!("{} must be an even number, 2 or more", disc.elements),
-        );
     }
 
     /// Generated meshes have known bodies: each needs a material, and there are no others.

@@ -3,6 +3,7 @@
 mod boundary;
 mod geometry;
 mod material;
+mod parts;
 mod program;
 
 use super::{History, Scene};

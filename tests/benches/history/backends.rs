@@ -1,7 +1,7 @@
 //! The sparse backends beside one another: ordering and analysis, factorisation with condensation, a whole history, and peak memory,
 //! each in a process of its own, on one thread and on two.
 
-use super::{Failure, LONG, REPEATED, SIZES, child, peak_memory, scene};
+use super::{BALL, Failure, LINE, LONG, REPEATED, SIZES, SOLID, child, peak_memory, scene};
 use brinell::analysis::Analysis;
 use brinell::linalg::{self, Backend, Partition};
 use brinell::model::Model;
@@ -18,7 +18,7 @@ pub fn factor(backend: Backend, changes: &str) -> Result<Value, Failure> {
     let nodes = model
         .pairs
         .iter()
-        .flat_map(|pair| [pair.first, pair.second]);
+        .flat_map(|pair| pair.nodes().collect::<Vec<_>>());
     let contact: Vec<usize> = nodes
         .filter_map(|node| model.freedoms.normal_freedom(node))
         .collect();
@@ -29,7 +29,6 @@ pub fn factor(backend: Backend, changes: &str) -> Result<Value, Failure> {
         n: matrix.rows(),
         zone: Vec::new(),
         contact,
-        ..Partition::default()
     };
     let start = Instant::now();
     let cost = linalg::predict(backend, matrix, &partition)?;
@@ -55,11 +54,12 @@ pub fn measure(names: &[&str]) -> Result<(), Failure> {
         "| freedoms | threads | backend | order and analysis | factor | half a solve | flops | nonzeros | memory | history | memory |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|---|");
-    for (name, changes) in SIZES
-        .iter()
-        .filter(|s| names.is_empty() || names.contains(&s.0))
+    let plane = SIZES.iter().map(|size| (LINE, size));
+    let cases = plane.chain(SOLID.iter().map(|size| (BALL, size)));
+    for (file, (name, changes)) in
+        cases.filter(|(_, size)| names.is_empty() || names.contains(&size.0))
     {
-        let changes = changes.join(";");
+        let changes = [&[file], *changes].concat().join(";");
         for threads in THREADS {
             for backend in [Backend::Cholmod, Backend::Faer] {
                 let by = backend.name();

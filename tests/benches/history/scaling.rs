@@ -4,7 +4,7 @@
 //! fine has twice as many changes of contact. The exponents are fitted to the larger half of the sizes. Beside the
 //! measured factorisation stands what `brinell check` predicts from the symbolic analysis.
 
-use super::{Failure, child, scene};
+use super::{Failure, LINE, child, scene};
 use brinell::analysis;
 use brinell::linalg::Backend;
 use brinell::model::Model;
@@ -17,7 +17,7 @@ const THREADS: [usize; 2] = [1, 2];
 
 fn changes(resolution: f64) -> String {
     format!(
-        "mesh.cylinder_on_half_plane.resolution={resolution};mesh.cylinder_on_half_plane.growth={}",
+        "{LINE};mesh.cylinder_on_half_plane.resolution={resolution};mesh.cylinder_on_half_plane.growth={}",
         1.0 + 2.0 / resolution
     )
 }

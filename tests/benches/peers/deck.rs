@@ -1,5 +1,6 @@
 //! A scene as a deck of CalculiX: the same mesh, materials, supports and load history; contact surface to surface with a linear penalty.
 
+use brinell::mesh::Shape;
 use brinell::model::Model;
 use brinell::scene::{Direction, Kind};
 use std::fmt::Write;
@@ -15,6 +16,8 @@ pub struct Settings {
     pub increments: usize,
     /// `SURFACE TO SURFACE` or `NODE TO SURFACE`.
     pub kind: &'static str,
+    /// What follows `*STATIC`: nothing, or a solver.
+    pub solver: &'static str,
 }
 
 /// The deck: one step for each load factor of the legs.
@@ -23,11 +26,20 @@ pub struct Settings {
 /// Where the scene holds what no deck is made of here: other elements than quad4, several contacts or loads.
 pub fn deck(model: &Model, settings: &Settings, legs: &[f64]) -> Result<String, String> {
     let (mesh, scene) = (&model.mesh, &model.scene);
-    let element_type = match scene.kind {
-        Kind::PlaneStrain => "CPE4",
-        Kind::PlaneStress => "CPS4",
-        Kind::Axisymmetric => "CAX4",
-        Kind::Solid => return Err("decks of solids are not written".into()),
+    let element_type = match (scene.kind, mesh.shapes[0]) {
+        (Kind::PlaneStrain, Shape::Quad4) => "CPE4",
+        (Kind::PlaneStress, Shape::Quad4) => "CPS4",
+        (Kind::Axisymmetric, Shape::Quad4) => "CAX4",
+        (Kind::Solid, Shape::Hex8) => "C3D8",
+        (Kind::Solid, Shape::Hex20) => "C3D20R",
+        (_, shape) => return Err(format!("a deck is not made of {}", shape.name())),
+    };
+    // The overlap is along the axis that the bodies are pressed together by.
+    let up = mesh.dimension - 1;
+    let axis = |direction: Direction| match direction {
+        Direction::X => 1,
+        Direction::Y => 2,
+        Direction::Z => 3,
     };
     let [contact] = &scene.contact[..] else {
         return Err("a deck is made of scenes with one contact".into());
@@ -36,8 +48,8 @@ pub fn deck(model: &Model, settings: &Settings, legs: &[f64]) -> Result<String, 
     let moved = mesh.bodies.iter().position(|body| body == moved);
     let mut is_moved = vec![false; mesh.n_nodes()];
     for element in 0..mesh.n_elements() {
-        if mesh.nodes(element).len() != 4 {
-            return Err("a deck is made of quad4 elements".into());
+        if mesh.shapes[element] != mesh.shapes[0] {
+            return Err("a deck is made of elements of one shape".into());
         }
         for &node in mesh.nodes(element) {
             is_moved[node as usize] = Some(mesh.element_body[element] as usize) == moved;
@@ -49,13 +61,12 @@ pub fn deck(model: &Model, settings: &Settings, legs: &[f64]) -> Result<String, 
     };
     say("*NODE, NSET=NALL".into());
     for node in 0..mesh.n_nodes() {
-        let [x, y] = mesh.in_plane(node);
-        let y = if is_moved[node] {
-            y - settings.overlap
-        } else {
-            y
-        };
-        say(format!("{}, {x:.12e}, {y:.12e}", node + 1));
+        let mut x = mesh.point(node);
+        if is_moved[node] {
+            x[up] -= settings.overlap;
+        }
+        let [x, y, z] = x;
+        say(format!("{}, {x:.12e}, {y:.12e}, {z:.12e}", node + 1));
     }
     for (body, name) in mesh.bodies.iter().enumerate() {
         say(format!(
@@ -67,7 +78,9 @@ pub fn deck(model: &Model, settings: &Settings, legs: &[f64]) -> Result<String, 
                 .iter()
                 .map(|n| (n + 1).to_string())
                 .collect();
-            say(format!("{}, {}", element + 1, nodes.join(", ")));
+            // No more than sixteen numbers fit on a line.
+            let lines: Vec<String> = nodes.chunks(10).map(|n| n.join(", ")).collect();
+            say(format!("{}, {}", element + 1, lines.join(",\n")));
         }
     }
     for (name, surface) in [("SLAVE", &contact.first), ("MASTER", &contact.second)] {
@@ -105,7 +118,7 @@ pub fn deck(model: &Model, settings: &Settings, legs: &[f64]) -> Result<String, 
     for support in &scene.support {
         for node in mesh.set_nodes(&support.on).ok_or("no such set")? {
             for direction in &support.fix {
-                let d = 1 + usize::from(*direction == Direction::Y);
+                let d = axis(*direction);
                 say(format!("{}, {d}, {d}", node + 1));
             }
         }
@@ -116,7 +129,7 @@ pub fn deck(model: &Model, settings: &Settings, legs: &[f64]) -> Result<String, 
     let nodes = mesh.set_nodes(&load.on).ok_or("no such set")?;
     let applied: Box<dyn Fn(f64) -> String> = match (load.plane_force, load.displacement) {
         (Some(force), _) => {
-            let d = 1 + usize::from(force.direction == Direction::Y);
+            let d = axis(force.direction);
             let leader = nodes[0] + 1;
             say("*EQUATION".into());
             for node in &nodes[1..] {
@@ -162,7 +175,8 @@ pub fn deck(model: &Model, settings: &Settings, legs: &[f64]) -> Result<String, 
     let step = 1.0 / settings.increments as f64;
     for &alpha in legs {
         say(format!(
-            "*STEP, INC=1000\n*STATIC\n{step}, 1., 1e-6, {step}\n{}\n*NODE FILE\nU\n*CONTACT FILE\nCDIS, CSTR\n*END STEP",
+            "*STEP, INC=1000\n*STATIC{}\n{step}, 1., 1e-6, {step}\n{}\n*NODE FILE\nU\n*CONTACT FILE\nCDIS, CSTR\n*END STEP",
+            settings.solver,
             applied(alpha)
         ));
     }

@@ -1,4 +1,5 @@
 //! Results of CalculiX read from its `.frd` file. Plane models come out as a layer of solid elements: nodes are told by their place.
+//! Those of solid models keep their numbers.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +9,7 @@ pub struct Increment {
     /// Total time: 1 at the end of the first leg, 2 at the end of the second.
     pub time: f64,
     /// Displacements by number.
-    pub displacement: BTreeMap<u64, [f64; 2]>,
+    pub displacement: BTreeMap<u64, [f64; 3]>,
     /// Contact pressures by number: nodes of the slave surface.
     pub pressure: BTreeMap<u64, f64>,
 }
@@ -17,7 +18,7 @@ pub struct Increment {
 #[derive(Debug, Clone, Default)]
 pub struct Frd {
     /// Places of the nodes.
-    pub points: BTreeMap<u64, [f64; 2]>,
+    pub points: BTreeMap<u64, [f64; 3]>,
     /// Increments in their order.
     pub increments: Vec<Increment>,
 }
@@ -70,10 +71,10 @@ impl Frd {
         };
         match (block, self.increments.last_mut()) {
             ("points", _) => {
-                self.points.insert(node, [value(0), value(1)]);
+                self.points.insert(node, [0, 1, 2].map(value));
             }
             ("DISP", Some(increment)) => {
-                increment.displacement.insert(node, [value(0), value(1)]);
+                increment.displacement.insert(node, [0, 1, 2].map(value));
             }
             // Opening, two slips, pressure.
             ("CONTACT", Some(increment)) => {

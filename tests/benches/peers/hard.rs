@@ -64,6 +64,7 @@ pub fn run(dir: &Path) -> Result<(), Failure> {
             overlap,
             increments: 5,
             kind,
+            solver: "",
         };
         std::fs::write(
             dir.join(format!("{name}.inp")),

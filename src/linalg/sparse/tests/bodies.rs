@@ -22,7 +22,6 @@ fn bodies_that_only_touch_have_blocks_of_their_own() {
         n: 2 * grid.n,
         zone: twice(&below),
         contact: twice(&top),
-        ..Partition::default()
     };
     let shift = (0..2 * top.len()).map(|k| k as f64).collect();
     let sample = Sample::new(both.to_csc(), partition, shift);

@@ -80,6 +80,7 @@ pub(super) fn check_common(mesh: &Mesh) {
                     0.55 * (p[0] - q[0]).hypot(p[1] - q[1]) / radius
                 })
                 .fold(1e-12, f64::max),
+            _ => unreachable!("a shape of solids"),
         };
         for ((e, a), node) in exact.iter().zip(&averaged).zip(&nodes) {
             assert!((e[0].hypot(e[1]) - 1.0).abs() < 4.0 * f64::EPSILON);

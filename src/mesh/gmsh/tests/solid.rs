@@ -71,7 +71,19 @@ fn middle_nodes_stand_where_the_manual_puts_them() {
         [5, 6],
         [6, 7],
     ];
+    const PRISM: &[[usize; 2]] = &[
+        [0, 1],
+        [0, 2],
+        [0, 3],
+        [1, 2],
+        [1, 4],
+        [2, 5],
+        [3, 4],
+        [3, 5],
+        [4, 5],
+    ];
     for (shape, number, edges) in [
+        (Shape::Prism15, 18, PRISM),
         (Shape::Tet10, 11, TETRAHEDRON),
         (Shape::Hex20, 17, HEXAHEDRON),
     ] {
@@ -129,7 +141,7 @@ fn what_a_solid_mesh_must_say() {
         ],
     );
     refused(
-        with("1 4 2 1 1 ", "1 6 2 1 1 "),
-        &["6-node prism", "10-node tetrahedra"],
+        with("1 4 2 1 1 ", "1 7 2 1 1 "),
+        &["5-node pyramid", "10-node tetrahedra"],
     );
 }

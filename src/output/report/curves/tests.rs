@@ -77,7 +77,7 @@ fn a_curve_goes_through_the_points_between_increments() {
         assert!(within(point.load, from.load, to.load), "{point:?}");
     }
     assert!(results.path.is_sorted_by_key(|point| point.increment));
-    for chart in &charts(analysis.model(), &results, &units)[..2] {
+    for chart in &charts(analysis.model(), &results, &units, None)[..2] {
         let drawn: usize = chart.chart.curves[..2].iter().map(|c| c.points.len()).sum();
         let rows = results.history.len();
         assert!(

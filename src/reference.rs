@@ -1,12 +1,22 @@
-//! Published and exact values beside the computed ones.
+//! Published and exact values beside the computed ones: what a scene's `[[reference]]` asks for.
+//! Nothing that computes, estimates or chooses knows of them.
+
+mod pressure;
+
+pub use pressure::hertz_pressure;
 
 use crate::analytical::{self, DiscInPlate, HertzEllipse, HertzLine, HertzPoint, Plane};
 use crate::model::Model;
-use crate::results::{ReferenceRow, Results, State, YieldPoint};
+use crate::results::{ReferenceRow, Results, YieldPoint, value};
 use crate::scene::{Kind, TwoBodies};
 
-/// Rows of all reference entries of the scene.
-pub(super) fn rows(model: &Model, results: &Results) -> Vec<ReferenceRow> {
+/// Puts the rows of all reference entries of the scene into its results
+/// ([`Results::reference`]).
+pub fn compare(model: &Model, results: &mut Results) {
+    results.reference = rows(model, results);
+}
+
+fn rows(model: &Model, results: &Results) -> Vec<ReferenceRow> {
     let mut rows = Vec::new();
     for entry in &model.scene.reference {
         if let Some(hertz) = entry.hertz_line {
@@ -21,11 +31,11 @@ pub(super) fn rows(model: &Model, results: &Results) -> Vec<ReferenceRow> {
         if entry.disc_in_plate.is_some() {
             rows.extend(disc_in_plate(model, results).unwrap_or_default());
         }
-        if let (Some(quantity), Some(value)) = (&entry.quantity, entry.value)
-            && let Some(computed) = lookup(results, quantity)
+        if let (Some(quantity), Some(exact)) = (&entry.quantity, entry.value)
+            && let Some(computed) = value(results, quantity)
         {
             let source = entry.source.as_deref().unwrap_or("scene");
-            rows.push(row(quantity, value, computed, None, source));
+            rows.push(row(quantity, exact, computed, None, source));
         }
     }
     rows
@@ -201,45 +211,4 @@ fn disc_in_plate(model: &Model, results: &Results) -> Option<Vec<ReferenceRow>> 
         }
     }
     Some(rows)
-}
-
-/// A value by its path in `summary.json`: `yield.KEY` or `states.NAME.KEY` (name or index).
-fn lookup(results: &Results, path: &str) -> Option<f64> {
-    let (head, rest) = path.split_once('.')?;
-    if head == "yield" {
-        let first = results.first_yield?;
-        return match rest {
-            "alpha" => Some(first.alpha),
-            "load" => Some(first.load),
-            "max_pressure" => Some(first.max_pressure),
-            "half_width" => Some(first.half_width),
-            "location.x" => Some(first.location[0]),
-            "location.y" => Some(first.location[1]),
-            "location.z" => Some(first.location[2]),
-            _ => None,
-        };
-    }
-    let (name, key) = rest.rsplit_once('.')?;
-    let state = results.states.iter().find(|s| s.name == name).or_else(|| {
-        name.parse::<usize>()
-            .ok()
-            .and_then(|i| results.states.get(i))
-    })?;
-    state_value(state, key)
-}
-
-fn state_value(state: &State, key: &str) -> Option<f64> {
-    Some(match key {
-        "alpha" => state.alpha,
-        "load" => state.load,
-        "contact_force" => state.contact_force,
-        "max_pressure" => state.max_pressure,
-        "pole_pressure" => state.pole_pressure,
-        "half_width" => state.half_width,
-        "residual_depth" => state.residual_depth,
-        "approach" => state.approach,
-        "plastic_points" => state.plastic_points as f64,
-        "max_equivalent_plastic_strain" => state.max_equivalent_plastic_strain,
-        _ => return None,
-    })
 }

@@ -1,0 +1,208 @@
+//! Which body each element belongs to: the connected parts of each section.
+
+use super::Deck;
+use super::data::Target;
+use super::sets::What;
+use crate::error::{Error, Result};
+use crate::space::Space;
+use std::collections::{BTreeMap, HashMap};
+
+/// The bodies of a deck.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Bodies {
+    pub(crate) names: Vec<String>,
+    /// Body of each element.
+    pub(crate) of_element: Vec<u32>,
+    /// Section of each body; none of a deck without sections.
+    pub(super) sections: Vec<Option<usize>>,
+}
+
+/// No section.
+const NONE: u32 = u32::MAX;
+
+impl Deck {
+    /// The dimension and idealisation that all elements have.
+    ///
+    /// # Errors
+    /// No elements, or elements of several kinds, at the first other one.
+    pub(crate) fn space(&self) -> Result<Space> {
+        let Some(first) = self.elements.types.first() else {
+            return Err(self.error(self.end, "ELEMENT", "the deck has no elements"));
+        };
+        let types = &self.elements.types;
+        match types.iter().position(|other| other.space != first.space) {
+            Some(other) => {
+                let message = format!(
+                    "elements of kind {} after others of kind {}: a model is of one kind",
+                    types[other].space.name(),
+                    first.space.name()
+                );
+                Err(self.error(self.elements.places[other], "ELEMENT", message))
+            }
+            None => Ok(first.space),
+        }
+    }
+
+    /// The bodies, in the order of their first elements.
+    ///
+    /// # Errors
+    /// An element in no section or in two.
+    pub(crate) fn bodies(&self) -> Result<Bodies> {
+        let section_of = self.section_of_elements()?;
+        let part_of = self.parts(&section_of);
+        let mut out = Bodies::default();
+        // By section and part: the number of the body.
+        let mut known: BTreeMap<(u32, u32), u32> = BTreeMap::new();
+        let mut sections = Vec::new();
+        for (&section, &part) in section_of.iter().zip(&part_of) {
+            let next = known.len() as u32;
+            let body = *known.entry((section, part)).or_insert(next);
+            if body == next {
+                sections.push(section);
+            }
+            out.of_element.push(body);
+        }
+        out.names = self.body_names(&sections, &out.of_element)?;
+        let has_sections = !self.properties.sections.is_empty();
+        let section = |section: &u32| has_sections.then_some(*section as usize);
+        out.sections = sections.iter().map(section).collect();
+        Ok(out)
+    }
+
+    /// The section of each element; where there are none, the number of the first set it is in.
+    fn section_of_elements(&self) -> Result<Vec<u32>> {
+        let mut out = vec![NONE; self.n_elements()];
+        if self.properties.sections.is_empty() {
+            for (number, (name, _)) in self.sets.elements.iter().enumerate() {
+                let set = Target::Set(name.to_string());
+                for element in self.indices(What::Elements, &set, (self.end, "ELSET"))? {
+                    let section = &mut out[element as usize];
+                    *section = (*section).min(number as u32);
+                }
+            }
+            return Ok(out);
+        }
+        for (number, section) in self.properties.sections.iter().enumerate() {
+            let at = (section.place, "SOLID SECTION");
+            let set = Target::Set(section.elements.clone());
+            for element in self.indices(What::Elements, &set, at)? {
+                if out[element as usize] != NONE {
+                    let label = self.elements.labels[element as usize];
+                    let message = format!("element {label} is in another section too: give it one");
+                    return Err(self.error(at.0, at.1, message));
+                }
+                out[element as usize] = number as u32;
+            }
+        }
+        match out.iter().position(|section| *section == NONE) {
+            Some(element) => {
+                let label = self.elements.labels[element];
+                let message = format!(
+                    "element {label} is in no *SOLID SECTION: give its set one, with a material"
+                );
+                Err(self.error(self.elements.places[element], "ELEMENT", message))
+            }
+            None => Ok(out),
+        }
+    }
+
+    /// A number for each element that those of its section share to which it is connected by nodes.
+    fn parts(&self, section_of: &[u32]) -> Vec<u32> {
+        let mut parent: Vec<u32> = (0..section_of.len() as u32).collect();
+        // Of each node its first section, and an element of it; nodes of several sections are few.
+        let mut first = vec![(NONE, NONE); self.n_nodes()];
+        let mut others: HashMap<(u32, u32), u32> = HashMap::new();
+        for (element, &section) in section_of.iter().enumerate() {
+            let element = element as u32;
+            for &node in self.element_nodes(element as usize) {
+                let (of, other) = &mut first[node as usize];
+                if *other == NONE {
+                    (*of, *other) = (section, element);
+                    continue;
+                }
+                let other = match *of == section {
+                    true => *other,
+                    false => *others.entry((node, section)).or_insert(element),
+                };
+                let (a, b) = (root(&mut parent, other), root(&mut parent, element));
+                parent[a.max(b) as usize] = a.min(b);
+            }
+        }
+        (0..section_of.len() as u32)
+            .map(|element| root(&mut parent, element))
+            .collect()
+    }
+
+    /// Names of the bodies, of which `sections` are given: of the section's set where it is all of it,
+    /// else of a set that is the body, else with a number.
+    fn body_names(&self, sections: &[u32], of_element: &[u32]) -> Result<Vec<String>> {
+        let of_section = |section: u32| match self.properties.sections.get(section as usize) {
+            Some(section) => section.elements.as_str(),
+            None => (self.sets.elements.iter().nth(section as usize)).map_or("body", |set| set.0),
+        };
+        let mut parts: BTreeMap<u32, usize> = BTreeMap::new();
+        let numbers = sections.iter().map(|section| {
+            let number = parts.entry(*section).or_insert(0);
+            *number += 1;
+            *number
+        });
+        let numbers: Vec<usize> = numbers.collect();
+        let mut own: BTreeMap<u32, String> = BTreeMap::new();
+        if parts.values().any(|parts| *parts > 1) {
+            own = self.sets_that_are_bodies(sections.len(), of_element)?;
+        }
+        let name = |(body, section): (usize, &u32)| {
+            let of_section = of_section(*section);
+            let name = self.sets.elements.written(of_section).unwrap_or(of_section);
+            match own.get(&(body as u32)) {
+                _ if parts[section] == 1 => name.to_string(),
+                Some(own) => own.clone(),
+                None => format!("{name}-{}", numbers[body]),
+            }
+        };
+        Ok(sections.iter().enumerate().map(name).collect())
+    }
+
+    /// Element sets that hold exactly the elements of a body.
+    fn sets_that_are_bodies(
+        &self,
+        n_bodies: usize,
+        of_element: &[u32],
+    ) -> Result<BTreeMap<u32, String>> {
+        let mut sizes = vec![0; n_bodies];
+        of_element
+            .iter()
+            .for_each(|&body| sizes[body as usize] += 1);
+        let mut out = BTreeMap::new();
+        for (name, members) in self.sets.elements.iter() {
+            let Some((_, place)) = members.first() else {
+                continue;
+            };
+            let set = Target::Set(name.to_string());
+            let elements = self.indices(What::Elements, &set, (*place, "ELSET"))?;
+            let Some(&first) = elements.first() else {
+                continue;
+            };
+            let body = of_element[first as usize];
+            let is_of = |element: &u32| of_element[*element as usize] == body;
+            if elements.len() == sizes[body as usize] && elements.iter().all(is_of) {
+                out.entry(body).or_insert_with(|| name.to_string());
+            }
+        }
+        Ok(out)
+    }
+}
+
+fn root(parent: &mut [u32], mut element: u32) -> u32 {
+    while parent[element as usize] != element {
+        let above = parent[parent[element as usize] as usize];
+        parent[element as usize] = above;
+        element = above;
+    }
+    element
+}
+
+/// Makes an error one of an effect that brinell does not have.
+pub(super) fn unsupported(error: Error) -> Error {
+    Error::new(crate::ErrorKind::Unsupported, error.message())
+}

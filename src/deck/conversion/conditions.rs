@@ -1,0 +1,285 @@
+//! Supports and loads.
+//!
+//! What a line gives for a whole set stays one entry on that set, where all its members go through the
+//! same; what is left is gathered by what it goes through, on sets made for it.
+
+use super::super::bodies::unsupported;
+use super::super::data::{Condition, Kind, Target};
+use super::super::facets::Face;
+use super::super::history::{Key, Map};
+use super::super::series::Series;
+use super::super::source::Place;
+use super::Draft;
+use crate::error::Result;
+use crate::scene::{Displacement, Load, Support};
+use crate::space::Vector;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Members that go through the same, by degree of freedom and what they go through.
+type Groups = BTreeMap<(u8, Vec<u64>), (Vec<u32>, Series, Place)>;
+
+impl Draft<'_> {
+    pub(super) fn conditions(&mut self) -> Result<()> {
+        let mut boundary = self.deck.histories(Kind::Boundary)?;
+        let mut forces = self.deck.histories(Kind::Force)?;
+        self.turn(&mut boundary, &mut forces)?;
+        self.hold_plane(&mut boundary, &mut forces)?;
+        self.boundary(boundary)?;
+        self.forces(forces)?;
+        let pressures = self.deck.histories(Kind::Pressure)?;
+        self.pressures(pressures)
+    }
+
+    /// All lines of a kind that are for a set.
+    fn lines_on_sets(&self, kind: Kind) -> Vec<Condition> {
+        let program = &self.deck.program;
+        let steps = program.steps.iter().flat_map(|step| &step.conditions);
+        let all = program.initial.iter().chain(steps);
+        let of_kind = all.filter(|c| c.kind == kind && matches!(c.on, Target::Set(_)));
+        of_kind.cloned().collect()
+    }
+
+    /// Takes out what whole node sets go through: the set, axis, series and line of each.
+    fn of_node_sets(&self, kind: Kind, map: &mut Map) -> Result<Vec<(String, u8, Series, Place)>> {
+        let mut out = Vec::new();
+        for condition in self.lines_on_sets(kind) {
+            let Target::Set(name) = &condition.on else {
+                continue;
+            };
+            let Some(name) = self.deck.sets.nodes.written(name) else {
+                continue;
+            };
+            let mut by_axis: BTreeMap<u8, Vec<u32>> = BTreeMap::new();
+            for (node, axis) in self.deck.keys(&condition)? {
+                if self.geometry.is_used[node as usize] {
+                    by_axis.entry(axis).or_default().push(node);
+                }
+            }
+            for (axis, nodes) in by_axis {
+                let entries: Option<Vec<_>> = nodes.iter().map(|&n| map.get(&(n, axis))).collect();
+                let Some(entries) = entries else { continue };
+                let Some(first) = entries.first() else {
+                    continue;
+                };
+                let series = first.series.clone();
+                if entries.iter().any(|entry| entry.series != series) {
+                    continue;
+                }
+                nodes
+                    .iter()
+                    .for_each(|&node| drop(map.remove(&(node, axis))));
+                out.push((name.to_string(), axis, series, condition.place));
+            }
+        }
+        Ok(out)
+    }
+
+    /// Gathers members by what they go through.
+    fn groups(map: Map) -> Groups {
+        let mut out = Groups::new();
+        for ((member, axis), entry) in map {
+            let key = (axis, entry.series.bits());
+            let new = || (Vec::new(), entry.series.clone(), entry.place);
+            out.entry(key).or_insert_with(new).0.push(member);
+        }
+        out
+    }
+
+    /// Nodes held at zero become supports, others prescribed displacements.
+    fn boundary(&mut self, mut map: Map) -> Result<()> {
+        map.retain(|key, _| self.geometry.is_used[key.0 as usize]);
+        for (on, axis, series, place) in self.of_node_sets(Kind::Boundary, &mut map)? {
+            match series.is_zero() {
+                true => self.hold(&on, &[axis as usize], place),
+                false => self.displace(on, axis, series, place),
+            }
+        }
+        // What is held at a node, as a mask of axes.
+        let mut held: BTreeMap<u32, (u8, Place)> = BTreeMap::new();
+        map.retain(|&(node, axis), entry| {
+            if entry.series.is_zero() {
+                held.entry(node).or_insert((0, entry.place)).0 |= 1 << axis;
+            }
+            !entry.series.is_zero()
+        });
+        let mut by_mask: BTreeMap<u8, (Vec<u32>, Place)> = BTreeMap::new();
+        for (node, (mask, place)) in held {
+            by_mask
+                .entry(mask)
+                .or_insert((Vec::new(), place))
+                .0
+                .push(node);
+        }
+        for (mask, (nodes, place)) in by_mask {
+            let axes: Vec<usize> = (0..3).filter(|axis| mask & (1 << axis) != 0).collect();
+            let on = self.geometry.add_nodes(&made("boundary", place), nodes);
+            self.hold(&on, &axes, place);
+        }
+        for ((axis, _), (nodes, series, place)) in Self::groups(map) {
+            let on = self.geometry.add_nodes(&made("boundary", place), nodes);
+            self.displace(on, axis, series, place);
+        }
+        Ok(())
+    }
+
+    fn displace(&mut self, on: String, axis: u8, series: Series, place: Place) {
+        let value = |of: u8| (of == axis).then(|| series.largest());
+        let load = Load {
+            on,
+            displacement: Some(Displacement {
+                x: value(0),
+                y: value(1),
+                z: value(2),
+            }),
+            ..Load::default()
+        };
+        self.add_load("displacement", load, series, place);
+    }
+
+    /// Each node of a set has the force: the scene's is that of all of them, shared equally.
+    fn forces(&mut self, mut map: Map) -> Result<()> {
+        map.retain(|_, entry| !entry.series.is_zero());
+        let unused = map
+            .iter()
+            .find(|(key, _)| !self.geometry.is_used[key.0 as usize]);
+        if let Some((key, entry)) = unused {
+            let node = self.deck.nodes.labels[key.0 as usize];
+            let message = format!("a force acts on node {node}, which belongs to no element");
+            return Err(self.deck.error(entry.place, "CLOAD", message));
+        }
+        for (on, axis, series, place) in self.of_node_sets(Kind::Force, &mut map)? {
+            self.push(on, axis, series, place);
+        }
+        for ((axis, _), (nodes, series, place)) in Self::groups(map) {
+            let on = self.geometry.add_nodes(&made("cload", place), nodes);
+            self.push(on, axis, series, place);
+        }
+        Ok(())
+    }
+
+    fn push(&mut self, on: String, axis: u8, series: Series, place: Place) {
+        let n = self.geometry.node_sets.get(&on).map_or(0, Vec::len);
+        let mut total: Vector = [0.0; 3];
+        total[axis as usize] = n as f64 * series.largest() / self.thickness;
+        let load = Load {
+            on,
+            force: Some(self.components(total)),
+            ..Load::default()
+        };
+        self.add_load("force", load, series, place);
+    }
+
+    fn pressures(&mut self, mut map: Map) -> Result<()> {
+        map.retain(|_, entry| !entry.series.is_zero());
+        for condition in self.lines_on_sets(Kind::Pressure) {
+            let Target::Set(name) = &condition.on else {
+                continue;
+            };
+            if condition.range[0] != 0 {
+                continue;
+            }
+            let faces = self.deck.keys(&condition)?;
+            let entries: Option<Vec<_>> = faces.iter().map(|face| map.get(face)).collect();
+            let Some(entries) = entries else { continue };
+            let Some(series) = entries.first().map(|first| first.series.clone()) else {
+                continue;
+            };
+            if entries.iter().all(|entry| entry.series == series) {
+                faces.iter().for_each(|face| drop(map.remove(face)));
+                let on = self.geometry.surface_name(name);
+                self.press(on, series, condition.place);
+            }
+        }
+        let mut groups: BTreeMap<Vec<u64>, (Vec<Face>, Series, Place)> = BTreeMap::new();
+        for (face, entry) in map {
+            let new = || (Vec::new(), entry.series.clone(), entry.place);
+            let key = entry.series.bits();
+            groups.entry(key).or_insert_with(new).0.push(face);
+        }
+        for (faces, series, place) in groups.into_values() {
+            let on = self.geometry.add_surface(&made("dload", place), faces);
+            self.press(on, series, place);
+        }
+        Ok(())
+    }
+
+    fn press(&mut self, on: String, series: Series, place: Place) {
+        let load = Load {
+            on,
+            pressure: Some(series.largest()),
+            ..Load::default()
+        };
+        self.add_load("pressure", load, series, place);
+    }
+
+    /// Conditions in local axes: supports become supports along these, forces their components.
+    fn turn(&mut self, boundary: &mut Map, forces: &mut Map) -> Result<()> {
+        let axes = self.deck.local_axes()?;
+        if axes.is_empty() {
+            return Ok(());
+        }
+        let turned: Vec<Key> = boundary
+            .keys()
+            .filter(|k| axes.contains_key(&k.0))
+            .copied()
+            .collect();
+        let mut by_direction: BTreeMap<[u64; 3], (Vector, BTreeSet<u32>, Place)> = BTreeMap::new();
+        for key in turned {
+            let Some(entry) = boundary.remove(&key) else {
+                continue;
+            };
+            if !self.geometry.is_used[key.0 as usize] {
+                continue;
+            }
+            if !entry.series.is_zero() {
+                let node = self.deck.nodes.labels[key.0 as usize];
+                let message = format!(
+                    "node {node} is moved along an axis of a *TRANSFORM: displacements are given along x, y, z"
+                );
+                return Err(unsupported(self.deck.error(
+                    entry.place,
+                    "BOUNDARY",
+                    message,
+                )));
+            }
+            let direction = axes[&key.0][key.1 as usize];
+            let bits = direction.map(|x| (x + 0.0).to_bits());
+            let new = (direction, BTreeSet::new(), entry.place);
+            by_direction.entry(bits).or_insert(new).1.insert(key.0);
+        }
+        for (direction, nodes, place) in by_direction.into_values() {
+            let name = made("boundary", place);
+            let on = self.geometry.add_nodes(&name, nodes.into_iter().collect());
+            let direction = Some(self.components(direction));
+            let support = Support {
+                on,
+                direction,
+                ..Support::default()
+            };
+            self.add_support(support, place);
+        }
+        let turned: Vec<Key> = forces
+            .keys()
+            .filter(|k| axes.contains_key(&k.0))
+            .copied()
+            .collect();
+        let turned: Vec<_> = turned
+            .into_iter()
+            .filter_map(|k| Some((k, forces.remove(&k)?)))
+            .collect();
+        for ((node, axis), entry) in turned {
+            for (global, &share) in axes[&node][axis as usize].iter().enumerate() {
+                let mut of_axis = entry.clone();
+                of_axis.series = Series::starting(0.0);
+                let sum = forces.entry((node, global as u8)).or_insert(of_axis);
+                sum.series.add(&entry.series, share);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The name of a set that is made for a line.
+fn made(keyword: &str, place: Place) -> String {
+    format!("{keyword}-line-{}", place.line())
+}

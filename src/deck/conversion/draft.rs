@@ -1,0 +1,79 @@
+//! The scene in the making: supports, loads and contacts with their places.
+
+use super::super::Deck;
+use super::super::series::Series;
+use super::super::source::Place;
+use super::Geometry;
+use crate::scene::{Contact, Direction, Load, Support};
+use crate::space::{Components, Vector};
+use std::collections::BTreeMap;
+
+/// Parts of a scene, and the sets that they are on.
+pub(super) struct Draft<'d> {
+    pub(super) deck: &'d Deck,
+    pub(super) geometry: Geometry,
+    /// Forces are per unit of it.
+    pub(super) thickness: f64,
+    pub(super) supports: Vec<Support>,
+    /// Loads at their largest, and what they go through.
+    pub(super) loads: Vec<(Load, Series)>,
+    pub(super) contacts: Vec<Contact>,
+    /// Lines of the deck by key.
+    pub(super) places: BTreeMap<String, String>,
+}
+
+impl<'d> Draft<'d> {
+    pub(super) fn new(deck: &'d Deck, geometry: Geometry, thickness: f64) -> Self {
+        Draft {
+            deck,
+            geometry,
+            thickness,
+            supports: Vec::new(),
+            loads: Vec::new(),
+            contacts: Vec::new(),
+            places: BTreeMap::new(),
+        }
+    }
+
+    /// A vector with as many components as the model has axes.
+    pub(super) fn components(&self, vector: Vector) -> Components {
+        match self.deck.dimension() {
+            2 => [vector[0], vector[1]].into(),
+            _ => vector.into(),
+        }
+    }
+
+    /// Holds a set along axes, together with what the entry before holds of it.
+    pub(super) fn hold(&mut self, on: &str, axes: &[usize], place: Place) {
+        let directions = axes.iter().map(|&axis| Direction::ALL[axis]);
+        if let Some(last) = self.supports.last_mut()
+            && last.on == on
+            && last.direction.is_none()
+        {
+            let new: Vec<Direction> = directions.filter(|d| !last.fix.contains(d)).collect();
+            last.fix.extend(new);
+            return;
+        }
+        let support = Support {
+            on: on.to_string(),
+            fix: directions.collect(),
+            ..Support::default()
+        };
+        self.add_support(support, place);
+    }
+
+    pub(super) fn add_support(&mut self, support: Support, place: Place) {
+        let key = format!("support.{}", self.supports.len());
+        self.places.insert(key, self.deck.files.show(place));
+        self.supports.push(support);
+    }
+
+    /// Adds a load under a name made of `kind`.
+    pub(super) fn add_load(&mut self, kind: &str, mut load: Load, series: Series, place: Place) {
+        let number = self.loads.len();
+        load.name = format!("{kind}-{}", number + 1);
+        self.places
+            .insert(format!("load.{number}"), self.deck.files.show(place));
+        self.loads.push((load, series));
+    }
+}

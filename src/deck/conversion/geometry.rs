@@ -1,0 +1,95 @@
+//! The sets of the mesh that a deck becomes: those it names, and those that its conditions need.
+
+use super::super::Deck;
+use super::super::data::Target;
+use super::super::facets::Face;
+use super::super::sets::What;
+use crate::error::Result;
+use std::collections::BTreeMap;
+
+/// Sets by name: nodes of elements, and faces.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Geometry {
+    pub(crate) node_sets: BTreeMap<String, Vec<u32>>,
+    pub(crate) surfaces: BTreeMap<String, Vec<Face>>,
+    /// Whether a node belongs to an element.
+    pub(crate) is_used: Vec<bool>,
+    /// Names of surfaces by those in the deck, in capitals.
+    surface_names: BTreeMap<String, String>,
+}
+
+impl Geometry {
+    /// What a surface of the deck is called in the mesh.
+    pub(super) fn surface_name(&self, name: &str) -> String {
+        let found = self.surface_names.get(&name.to_uppercase());
+        found.map_or_else(|| name.to_string(), String::clone)
+    }
+
+    /// Adds a set of nodes under a name that is free.
+    pub(super) fn add_nodes(&mut self, name: &str, nodes: Vec<u32>) -> String {
+        let name = self.free_name(name);
+        self.node_sets.insert(name.clone(), nodes);
+        name
+    }
+
+    /// Adds a surface under a name that is free.
+    pub(super) fn add_surface(&mut self, name: &str, faces: Vec<Face>) -> String {
+        let name = self.free_name(name);
+        self.surfaces.insert(name.clone(), faces);
+        name
+    }
+
+    fn free_name(&self, name: &str) -> String {
+        let is_taken =
+            |name: &String| self.node_sets.contains_key(name) || self.surfaces.contains_key(name);
+        let numbered = (2..).map(|number| format!("{name}-{number}"));
+        let mut names = std::iter::once(name.to_string()).chain(numbered);
+        names.find(|name| !is_taken(name)).unwrap_or_default()
+    }
+
+    /// The nodes of a set that belong to elements.
+    pub(super) fn used(&self, mut nodes: Vec<u32>) -> Vec<u32> {
+        nodes.retain(|node| self.is_used[*node as usize]);
+        nodes
+    }
+}
+
+impl Deck {
+    /// The sets that the deck names. A surface that shares the name of a node set gets another one.
+    ///
+    /// # Errors
+    /// Names and numbers in them that there are not.
+    pub(crate) fn geometry(&self) -> Result<Geometry> {
+        let mut out = Geometry {
+            is_used: vec![false; self.n_nodes()],
+            ..Geometry::default()
+        };
+        self.connectivity
+            .iter()
+            .for_each(|&node| out.is_used[node as usize] = true);
+        for (name, members) in self.sets.nodes.iter() {
+            let Some((_, place)) = members.first() else {
+                continue;
+            };
+            let set = Target::Set(name.to_string());
+            let nodes = out.used(self.indices(What::Nodes, &set, (*place, "NSET"))?);
+            if !nodes.is_empty() {
+                out.node_sets.insert(name.to_string(), nodes);
+            }
+        }
+        for (name, parts) in self.sets.surfaces.iter() {
+            let Some((_, place)) = parts.first() else {
+                continue;
+            };
+            let faces = self.surface(name, (*place, "SURFACE"))?;
+            let clashes = out.node_sets.contains_key(name);
+            let own = match clashes {
+                true => format!("{name}_surface"),
+                false => name.to_string(),
+            };
+            let own = out.add_surface(&own, faces);
+            out.surface_names.insert(name.to_uppercase(), own);
+        }
+        Ok(out)
+    }
+}

@@ -1,0 +1,268 @@
+//! From a deck to a scene on its mesh.
+
+mod conditions;
+mod contact;
+mod draft;
+mod geometry;
+mod plane;
+
+pub(crate) use geometry::Geometry;
+
+use super::Deck;
+use super::bodies::{Bodies, unsupported};
+use super::data::{Account, Note, Section};
+use super::series::are_alike;
+use crate::error::{Error, ErrorKind, Result};
+use crate::scene::{
+    Body, History, KeyPlaces, Material, MeshSource, Program, Scene, Settings, Stepping, Target,
+};
+use crate::space::Space;
+use crate::text::exact;
+use draft::Draft;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// How a deck is to be taken.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Options {
+    /// Steps with `NLGEOM` are computed with small strains and displacements, instead of refused.
+    pub small_strain: bool,
+}
+
+/// A deck as a scene, whose mesh is the deck itself.
+#[derive(Debug, Clone)]
+pub struct Conversion {
+    /// The scene; its `mesh.file` is the deck.
+    pub scene: Scene,
+    /// What was understood, taken otherwise, and ignored.
+    pub account: Account,
+    pub(crate) geometry: Geometry,
+    /// Lines of the deck by the keys of the scene that come of them.
+    pub(super) places: BTreeMap<String, String>,
+}
+
+impl Deck {
+    /// The scene that the deck describes.
+    ///
+    /// # Errors
+    /// `Unsupported` with all lines that ask for what brinell does not have; `Input` by file, line and
+    /// keyword for what does not fit together.
+    pub fn convert(&self, options: Options) -> Result<Conversion> {
+        let mut account = self.account.clone();
+        self.judge_nlgeom(options, &mut account);
+        if !account.refused.is_empty() {
+            let lines: Vec<String> = account.refused.iter().map(Note::to_string).collect();
+            return Err(Error::new(ErrorKind::Unsupported, lines.join("\n")));
+        }
+        if self.program.steps.is_empty() {
+            return Err(self.error(
+                self.end,
+                "STEP",
+                "the deck has no step; give it one, with its loads",
+            ));
+        }
+        let space = self.space()?;
+        let bodies = self.bodies()?;
+        if let Some(section) = bodies.sections.iter().position(Option::is_none) {
+            let message = format!("body {} has no section", bodies.names[section]);
+            return Err(self.error(self.end, "SOLID SECTION", message));
+        }
+        let mut draft = Draft::new(self, self.geometry()?, self.thickness(space, &mut account)?);
+        draft.conditions()?;
+        draft.contacts(&mut account)?;
+        let mut scene = self.empty_scene(space);
+        self.add_bodies(&bodies, &mut scene, &mut draft.places)?;
+        self.add_loads(&mut draft, &mut scene);
+        self.choose_stepping(&draft, &mut scene);
+        scene.support = std::mem::take(&mut draft.supports);
+        scene.contact = std::mem::take(&mut draft.contacts);
+        Ok(Conversion {
+            scene,
+            account,
+            geometry: draft.geometry,
+            places: draft.places,
+        })
+    }
+
+    fn judge_nlgeom(&self, options: Options, account: &mut Account) {
+        let Some(place) = self.nlgeom else { return };
+        let (list, text) = match options.small_strain {
+            true => (
+                &mut account.taken,
+                "NLGEOM: strains and displacements are taken to be small all the same",
+            ),
+            false => (
+                &mut account.refused,
+                "NLGEOM: strains and displacements are small here; take it out, or compute with --small-strain",
+            ),
+        };
+        Account::add(list, &self.files, place, "STEP", text);
+    }
+
+    /// The one thickness of a plane model: forces are per unit of it.
+    fn thickness(&self, space: Space, account: &mut Account) -> Result<f64> {
+        if !matches!(space, Space::PlaneStrain | Space::PlaneStress) {
+            return Ok(1.0);
+        }
+        let sections = &self.properties.sections;
+        let of = |section: &Section| section.thickness.unwrap_or(1.0);
+        let first = sections.first().map_or(1.0, of);
+        if let Some(other) = sections.iter().find(|section| of(section) != first) {
+            let message = format!(
+                "the thickness is {}, that of another section {}: a plane model has one",
+                exact(of(other)),
+                exact(first)
+            );
+            return Err(unsupported(self.error(
+                other.place,
+                "SOLID SECTION",
+                message,
+            )));
+        }
+        if let Some(section) = sections.first().filter(|_| first != 1.0) {
+            let text = format!(
+                "forces are per unit thickness: those of the deck over {}",
+                exact(first)
+            );
+            Account::add(
+                &mut account.taken,
+                &self.files,
+                section.place,
+                "SOLID SECTION",
+                &text,
+            );
+        }
+        Ok(first)
+    }
+
+    /// A scene with nothing in it but its mesh and its targets.
+    fn empty_scene(&self, space: Space) -> Scene {
+        let file = self.files.first();
+        let name = Path::new(file).file_name().unwrap_or_default();
+        let title = match self.title.is_empty() {
+            true => name.to_string_lossy().into_owned(),
+            false => self.title.clone(),
+        };
+        Scene {
+            title,
+            kind: space,
+            units: None,
+            symmetry: 1,
+            mesh: MeshSource {
+                file: Some(name.into()),
+                ..MeshSource::default()
+            },
+            materials: BTreeMap::new(),
+            bodies: BTreeMap::new(),
+            contact: Vec::new(),
+            support: Vec::new(),
+            load: Vec::new(),
+            program: Program::default(),
+            analysis: Settings::default(),
+            accuracy: None,
+            reference: Vec::new(),
+            file: None,
+            places: KeyPlaces::default(),
+            warnings: Vec::new(),
+        }
+    }
+
+    fn add_bodies(
+        &self,
+        bodies: &Bodies,
+        scene: &mut Scene,
+        places: &mut BTreeMap<String, String>,
+    ) -> Result<()> {
+        let materials = &self.properties.materials;
+        for (name, section) in bodies.names.iter().zip(&bodies.sections) {
+            let section = &self.properties.sections[section.unwrap_or(0)];
+            let Some(data) = materials.get(&section.material) else {
+                let message = format!("there is no *MATERIAL {}", section.material);
+                return Err(self.error(section.place, "SOLID SECTION", message));
+            };
+            let Some([youngs_modulus, poissons_ratio]) = data.elastic else {
+                let message = format!("{} has no *ELASTIC; give it one", section.material);
+                return Err(self.error(data.place, "MATERIAL", message));
+            };
+            let material = materials
+                .written(&section.material)
+                .unwrap_or_default()
+                .to_string();
+            let of_material = Material {
+                youngs_modulus,
+                poissons_ratio,
+                yield_stress: data.plastic.first().map(|row| row[1]),
+                hardening_table: (data.plastic.len() > 1).then(|| data.plastic.clone()),
+                ..Material::default()
+            };
+            places.insert(format!("materials.{material}"), self.files.show(data.place));
+            places.insert(format!("bodies.{name}"), self.files.show(section.place));
+            scene.materials.insert(material.clone(), of_material);
+            let body = Body {
+                material,
+                ..Body::default()
+            };
+            scene.bodies.insert(name.clone(), body);
+        }
+        Ok(())
+    }
+
+    /// Without contact there is no event to step to: steps then take equal increments, at least as many
+    /// as the deck's first ones would be.
+    fn choose_stepping(&self, draft: &Draft, scene: &mut Scene) {
+        let can_yield = scene.materials.values().any(|m| m.yield_stress.is_some());
+        if draft.contacts.is_empty() && can_yield {
+            let increments = self.program.steps.iter().map(|step| step.increments);
+            let program = &mut scene.program;
+            program.stepping = Stepping::Steps;
+            program.steps = increments.max().unwrap_or(1).max(program.steps);
+        }
+    }
+
+    /// Loads with their histories, and a target for each step. Where everything that changes does so in
+    /// proportion and from step to step, load factors are multiples of the loads; otherwise times.
+    fn add_loads(&self, draft: &mut Draft, scene: &mut Scene) {
+        let ends = self.step_ends();
+        let shapes: Vec<_> = draft
+            .loads
+            .iter()
+            .map(|(_, series)| series.shape())
+            .collect();
+        let is_constant = |shape: &&Vec<[f64; 2]>| shape.iter().all(|row| row[1] == 1.0);
+        let mut varying = shapes.iter().filter(|shape| !is_constant(shape));
+        let first = varying.next();
+        let from_step_to_step = |shape: &&Vec<[f64; 2]>| {
+            let [start, rest @ ..] = &shape[..] else {
+                return false;
+            };
+            start[1] == 0.0 && rest.iter().all(|row| ends.contains(&row[0]))
+        };
+        let common = first.filter(from_step_to_step);
+        let common = common.filter(|first| varying.all(|shape| are_alike(shape, first)));
+        let factor = |time: f64| match common {
+            Some(shape) => super::series::interpolate(shape, time),
+            None => time,
+        };
+        for (number, &end) in ends.iter().enumerate() {
+            let place = self.files.show(self.program.steps[number].place);
+            draft
+                .places
+                .insert(format!("program.targets.{number}"), place);
+            scene.program.targets.push(Target {
+                name: Some(format!("step-{}", number + 1)),
+                load_factor: Some(factor(end)),
+                fields: true,
+                ..Target::default()
+            });
+        }
+        let loads = std::mem::take(&mut draft.loads).into_iter().zip(&shapes);
+        for ((mut load, _), shape) in loads {
+            load.history = match common {
+                _ if is_constant(&shape) => History::Constant,
+                Some(_) => History::Proportional,
+                None => History::Table(shape.clone()),
+            };
+            scene.load.push(load);
+        }
+    }
+}

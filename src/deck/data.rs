@@ -1,0 +1,283 @@
+//! What a deck says, keyword by keyword: names and numbers as they are written, each with its place.
+
+use super::element_type::ElementType;
+use super::source::{Files, Place};
+use std::collections::BTreeMap;
+
+/// Nodes, in the order of the deck.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Nodes {
+    pub(super) labels: Vec<u64>,
+    /// Three per node.
+    pub(super) coordinates: Vec<f64>,
+    pub(super) places: Vec<Place>,
+}
+
+/// Elements, in the order of the deck.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Elements {
+    pub(super) labels: Vec<u64>,
+    pub(super) types: Vec<ElementType>,
+    /// Start of the nodes of each element, and the end of the last one's.
+    pub(super) offsets: Vec<usize>,
+    /// Numbers of the nodes of all elements, one after the other.
+    pub(super) nodes: Vec<u64>,
+    pub(super) places: Vec<Place>,
+}
+
+/// Something named, or one node or element by its number.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Target {
+    Label(u64),
+    Set(String),
+}
+
+/// What is in a set.
+#[derive(Debug, Clone)]
+pub(super) enum Member {
+    Of(Target),
+    /// From, to, by steps of.
+    Range(u64, u64, u64),
+    /// Of the nodes or elements of the deck those from one to before another.
+    Rows(usize, usize),
+    /// The nodes of an element set.
+    NodesOf(String),
+}
+
+/// Names without regard to case, with what they name.
+#[derive(Debug, Clone)]
+pub(super) struct Named<T>(BTreeMap<String, (String, T)>);
+
+impl<T> Default for Named<T> {
+    fn default() -> Self {
+        Named(BTreeMap::new())
+    }
+}
+
+impl<T> Named<T> {
+    pub(super) fn get(&self, name: &str) -> Option<&T> {
+        self.0.get(&name.to_uppercase()).map(|(_, value)| value)
+    }
+
+    pub(super) fn get_mut(&mut self, name: &str) -> Option<&mut T> {
+        self.0.get_mut(&name.to_uppercase()).map(|(_, value)| value)
+    }
+
+    /// The entry of a name, made where there is none yet.
+    pub(super) fn entry(&mut self, name: &str) -> &mut T
+    where
+        T: Default,
+    {
+        let new = || (name.to_string(), T::default());
+        &mut self.0.entry(name.to_uppercase()).or_insert_with(new).1
+    }
+
+    /// The name as it was first written, and what it names.
+    pub(super) fn iter(&self) -> impl Iterator<Item = (&str, &T)> {
+        self.0.values().map(|(name, value)| (name.as_str(), value))
+    }
+
+    /// How a name was first written.
+    pub(super) fn written(&self, name: &str) -> Option<&str> {
+        self.0
+            .get(&name.to_uppercase())
+            .map(|(name, _)| name.as_str())
+    }
+
+    /// All names in small letters, for messages.
+    pub(super) fn names(&self) -> Vec<String> {
+        self.0
+            .values()
+            .map(|(name, _)| name.to_lowercase())
+            .collect()
+    }
+}
+
+/// Members of a set with their places.
+pub(super) type Members = Vec<(Member, Place)>;
+
+/// What a surface is made of.
+#[derive(Debug, Clone)]
+pub(super) enum SurfacePart {
+    /// A face, by its number, of elements.
+    Face(Target, usize),
+    /// The faces of elements that belong to no other element.
+    Free(Target),
+    /// The faces all of whose nodes are among some.
+    OfNodes(Target),
+}
+
+/// Sets and surfaces.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Sets {
+    pub(super) nodes: Named<Members>,
+    pub(super) elements: Named<Members>,
+    pub(super) surfaces: Named<Vec<(SurfacePart, Place)>>,
+}
+
+/// A material.
+#[derive(Debug, Clone, Default)]
+pub(super) struct MaterialData {
+    pub(super) place: Place,
+    /// Young's modulus and Poisson's ratio.
+    pub(super) elastic: Option<[f64; 2]>,
+    /// Plastic strain and yield stress.
+    pub(super) plastic: Vec<[f64; 2]>,
+}
+
+/// What a set of elements is made of.
+#[derive(Debug, Clone)]
+pub(super) struct Section {
+    pub(super) elements: String,
+    pub(super) material: String,
+    /// Thickness of a plane body.
+    pub(super) thickness: Option<f64>,
+    pub(super) place: Place,
+}
+
+/// Two surfaces that may touch.
+#[derive(Debug, Clone)]
+pub(super) struct ContactPair {
+    pub(super) slave: String,
+    pub(super) master: String,
+    pub(super) interaction: String,
+    /// Distance within which nodes of the slave surface are moved onto the master surface.
+    pub(super) adjust: Option<f64>,
+    pub(super) place: Place,
+}
+
+/// The distance of two surfaces, whatever the nodes say.
+#[derive(Debug, Clone)]
+pub(super) struct Clearance {
+    pub(super) slave: String,
+    pub(super) master: String,
+    pub(super) value: f64,
+    pub(super) place: Place,
+}
+
+/// A function of time, piecewise linear, flat outside.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Amplitude {
+    /// Time and value.
+    pub(super) rows: Vec<[f64; 2]>,
+    /// Of the time since the beginning of the first step, not of the step at hand.
+    pub(super) is_total: bool,
+}
+
+/// `sum coefficient u = 0`.
+#[derive(Debug, Clone)]
+pub(super) struct Equation {
+    /// Nodes, degree of freedom from 1, coefficient.
+    pub(super) terms: Vec<(Target, usize, f64)>,
+    pub(super) place: Place,
+}
+
+/// Local axes of the nodes of a set.
+#[derive(Debug, Clone)]
+pub(super) struct Transform {
+    pub(super) nodes: String,
+    /// About an axis through two points, instead of axes along two vectors.
+    pub(super) is_cylindrical: bool,
+    pub(super) points: [[f64; 3]; 2],
+    pub(super) place: Place,
+}
+
+/// Materials, contact and constraints.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Properties {
+    pub(super) materials: Named<MaterialData>,
+    pub(super) sections: Vec<Section>,
+    pub(super) interactions: Named<Place>,
+    pub(super) contacts: Vec<ContactPair>,
+    pub(super) clearances: Vec<Clearance>,
+    pub(super) equations: Vec<Equation>,
+    pub(super) transforms: Vec<Transform>,
+}
+
+/// What a condition does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Degrees of freedom have a value.
+    Boundary,
+    /// A force on each node along a degree of freedom.
+    Force,
+    /// A pressure on a face of each element, or on a surface.
+    Pressure,
+}
+
+/// A line of `*BOUNDARY`, `*CLOAD`, `*DLOAD` or `*DSLOAD`.
+#[derive(Debug, Clone)]
+pub(super) struct Condition {
+    pub(super) kind: Kind,
+    pub(super) on: Target,
+    /// First and last degree of freedom from 1; the number of the face twice, 0 of a surface.
+    pub(super) range: [usize; 2],
+    pub(super) value: f64,
+    pub(super) amplitude: Option<String>,
+    pub(super) place: Place,
+}
+
+/// A step.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Step {
+    pub(super) place: Place,
+    pub(super) period: f64,
+    /// Increments that it is to take, where it says so.
+    pub(super) increments: usize,
+    pub(super) conditions: Vec<Condition>,
+    /// Where it is said that the conditions of each kind replace those of the steps before.
+    pub(super) renewed: [Option<Place>; 3],
+}
+
+/// Conditions and steps.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Program {
+    /// Conditions before the first step.
+    pub(super) initial: Vec<Condition>,
+    pub(super) steps: Vec<Step>,
+    pub(super) amplitudes: Named<Amplitude>,
+}
+
+/// A remark on a line of the deck.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Note {
+    /// `FILE, line N`.
+    pub place: String,
+    /// The keyword, as it is written in manuals.
+    pub keyword: String,
+    /// What there is to say.
+    pub text: String,
+}
+
+impl std::fmt::Display for Note {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}: *{}: {}", self.place, self.keyword, self.text)
+    }
+}
+
+/// What became of a deck.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Account {
+    /// Keywords that were read: how often, and where first.
+    pub understood: BTreeMap<String, (usize, String)>,
+    /// What is taken otherwise than the deck means it.
+    pub taken: Vec<Note>,
+    /// What changes nothing here, and why.
+    pub ignored: Vec<Note>,
+    /// What brinell does not have.
+    pub refused: Vec<Note>,
+}
+
+impl Account {
+    /// Adds a remark to one of its lists, but no second one of the same keyword and text.
+    pub(super) fn add(list: &mut Vec<Note>, files: &Files, place: Place, key: &str, text: &str) {
+        let is_there = |note: &Note| note.keyword == key && note.text == text;
+        if !list.iter().any(is_there) {
+            list.push(Note {
+                place: files.show(place),
+                keyword: key.to_string(),
+                text: text.to_string(),
+            });
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! The element types of a deck.
+
+use super::keyword::plain;
+use crate::shape::Shape;
+use crate::space::Space;
+
+/// What an element type is to brinell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct ElementType {
+    pub(super) shape: Shape,
+    pub(super) space: Space,
+    /// How its formulation differs from what it is computed with.
+    pub(super) note: Option<&'static str>,
+}
+
+/// How formulations differ from the element that takes their place.
+const REDUCED: &str =
+    "one point with hourglass control there; here full integration with mean dilatation (B-bar)";
+const FULL: &str = "full integration there; here reduced integration";
+const MODES: &str = "incompatible modes there; here mean dilatation (B-bar), without them";
+const HYBRID: &str = "pressure unknowns there; here none: mean dilatation or reduced integration";
+const MODIFIED: &str = "modified there; here the plain quadratic element";
+
+/// Families of the plane, by the beginning of their names.
+const PLANE: [(&str, Space); 3] = [
+    ("CPE", Space::PlaneStrain),
+    ("CPS", Space::PlaneStress),
+    ("CAX", Space::Axisymmetric),
+];
+
+impl ElementType {
+    /// The type of a name; what is wrong with it otherwise.
+    ///
+    /// # Errors
+    /// The reason, with what can be taken.
+    pub(super) fn from_name(name: &str) -> Result<ElementType, String> {
+        let name = plain(name);
+        let plane = PLANE.iter().find_map(|(start, space)| {
+            let (shape, note) = in_plane(name.strip_prefix(start)?)?;
+            Some((shape, *space, note))
+        });
+        let solid = name.strip_prefix("C3D").and_then(in_space);
+        let solid = solid.map(|(shape, note)| (shape, Space::Solid, note));
+        let (shape, space, note) = plane.or(solid).ok_or_else(|| {
+            let why = match name.as_bytes() {
+                [b'S', ..] | [b'M', b'3', ..] => "shells and membranes are not",
+                [b'B', ..] | [b'T', ..] => "beams and trusses are not",
+                [b'R', b'3', ..] | [b'R', b'2', ..] | [b'R', b'A', ..] => "rigid elements are not",
+                _ => "it is not",
+            };
+            format!(
+                "TYPE={name}: {why} among the elements of brinell, which are CPE, CPS and CAX with 3, 4, 6 and 8 nodes \
+                 and C3D4, C3D6, C3D8, C3D10, C3D15, C3D20"
+            )
+        })?;
+        Ok(ElementType { shape, space, note })
+    }
+}
+
+type Found = Option<(Shape, Option<&'static str>)>;
+
+fn in_plane(rest: &str) -> Found {
+    Some(match rest {
+        "3" => (Shape::Tri3, None),
+        "3H" => (Shape::Tri3, Some(HYBRID)),
+        "4" => (Shape::Quad4, None),
+        "4R" | "4RH" => (Shape::Quad4, Some(REDUCED)),
+        "4I" | "4IH" => (Shape::Quad4, Some(MODES)),
+        "4H" => (Shape::Quad4, Some(HYBRID)),
+        "6" => (Shape::Tri6, None),
+        "6H" => (Shape::Tri6, Some(HYBRID)),
+        "6M" | "6MH" => (Shape::Tri6, Some(MODIFIED)),
+        "8" => (Shape::Quad8, Some(FULL)),
+        "8R" => (Shape::Quad8, None),
+        "8H" | "8RH" => (Shape::Quad8, Some(HYBRID)),
+        _ => return None,
+    })
+}
+
+fn in_space(rest: &str) -> Found {
+    Some(match rest {
+        "4" => (Shape::Tet4, None),
+        "4H" => (Shape::Tet4, Some(HYBRID)),
+        "6" => (Shape::Prism6, None),
+        "6H" => (Shape::Prism6, Some(HYBRID)),
+        "8" => (Shape::Hex8, None),
+        "8R" | "8RH" => (Shape::Hex8, Some(REDUCED)),
+        "8I" | "8IH" => (Shape::Hex8, Some(MODES)),
+        "8H" => (Shape::Hex8, Some(HYBRID)),
+        "10" => (Shape::Tet10, None),
+        "10T" | "10M" | "10MH" | "10I" => (Shape::Tet10, Some(MODIFIED)),
+        "10H" => (Shape::Tet10, Some(HYBRID)),
+        "15" => (Shape::Prism15, Some(FULL)),
+        "15H" => (Shape::Prism15, Some(HYBRID)),
+        "20" => (Shape::Hex20, Some(FULL)),
+        "20R" => (Shape::Hex20, None),
+        "20H" | "20RH" => (Shape::Hex20, Some(HYBRID)),
+        _ => return None,
+    })
+}
+
+/// Corners of the faces of each solid, by their number in the deck.
+fn faces(shape: Shape) -> &'static [&'static [usize]] {
+    match shape {
+        Shape::Tet4 | Shape::Tet10 => &[&[0, 1, 2], &[0, 3, 1], &[1, 3, 2], &[2, 3, 0]],
+        Shape::Hex8 | Shape::Hex20 => &[
+            &[0, 1, 2, 3],
+            &[4, 7, 6, 5],
+            &[0, 4, 5, 1],
+            &[1, 5, 6, 2],
+            &[2, 6, 7, 3],
+            &[3, 7, 4, 0],
+        ],
+        Shape::Prism6 | Shape::Prism15 => &[
+            &[0, 1, 2],
+            &[3, 5, 4],
+            &[0, 3, 4, 1],
+            &[1, 4, 5, 2],
+            &[2, 5, 3, 0],
+        ],
+        Shape::Tri3 | Shape::Tri6 => &[&[0, 1], &[1, 2], &[2, 0]],
+        Shape::Quad4 | Shape::Quad8 => &[&[0, 1], &[1, 2], &[2, 3], &[3, 0]],
+    }
+}
+
+/// The local facet of a face number of the deck, from 1; `None` where there is no such face.
+pub(super) fn facet(shape: Shape, number: usize) -> Option<usize> {
+    let corners = faces(shape).get(number.checked_sub(1)?)?;
+    (0..shape.n_facets()).find(|&local| {
+        let n = shape.facet_reference(local).n_corners;
+        let own = &shape.facet(local)[..n];
+        n == corners.len() && own.iter().all(|corner| corners.contains(corner))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_face_is_a_facet_and_no_facet_is_two_faces() {
+        for shape in Shape::ALL {
+            let mut found: Vec<usize> = (1..=shape.n_facets())
+                .map(|number| facet(shape, number).unwrap())
+                .collect();
+            found.sort_unstable();
+            found.dedup();
+            assert_eq!(found.len(), shape.n_facets(), "{shape:?}");
+            assert_eq!(facet(shape, shape.n_facets() + 1), None);
+            assert_eq!(facet(shape, 0), None);
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Faces of elements that no other element has.
+
+use super::Deck;
+use crate::shape::Shape;
+use std::collections::HashMap;
+
+/// An element and its local facet.
+pub(crate) type Face = (u32, u8);
+
+/// The corners of a face, ascending; filled up where it has fewer than four.
+type Corners = [u32; 4];
+
+fn corners(nodes: &[u32], shape: Shape, local: usize) -> Corners {
+    let mut out = [u32::MAX; 4];
+    let n = shape.facet_reference(local).n_corners;
+    for (out, &corner) in out.iter_mut().zip(&shape.facet(local)[..n]) {
+        *out = nodes[corner];
+    }
+    out.sort_unstable();
+    out
+}
+
+impl Deck {
+    /// The faces of some elements that no other element of the deck has.
+    pub(super) fn free_faces_of(&self, elements: &[u32]) -> Vec<Face> {
+        let nodes = elements
+            .iter()
+            .flat_map(|&e| self.element_nodes(e as usize));
+        let faces = self.free_faces_among(nodes.copied());
+        let is_of_these = |face: &Face| elements.binary_search(&face.0).is_ok();
+        faces.into_iter().filter(is_of_these).collect()
+    }
+
+    /// The faces all of whose corners are among some nodes and that one element alone has.
+    pub(super) fn free_faces_among(&self, nodes: impl IntoIterator<Item = u32>) -> Vec<Face> {
+        let mut marked = vec![false; self.n_nodes()];
+        nodes
+            .into_iter()
+            .for_each(|node| marked[node as usize] = true);
+        let mut found: HashMap<Corners, (Face, usize)> = HashMap::new();
+        for element in 0..self.n_elements() {
+            let nodes = self.element_nodes(element);
+            let shape = self.elements.types[element].shape;
+            for local in 0..shape.n_facets() {
+                let corners = corners(nodes, shape, local);
+                let is_among = |node: &u32| *node == u32::MAX || marked[*node as usize];
+                if corners.iter().all(is_among) {
+                    let new = ((element as u32, local as u8), 0);
+                    found.entry(corners).or_insert(new).1 += 1;
+                }
+            }
+        }
+        let alone = found.into_values().filter(|(_, count)| *count == 1);
+        let mut faces: Vec<Face> = alone.map(|(face, _)| face).collect();
+        faces.sort_unstable();
+        faces
+    }
+}

@@ -1,0 +1,112 @@
+//! Equations that hold a surface plane, and local axes.
+
+use super::Deck;
+use super::bodies::unsupported;
+use super::data::{Equation, Transform};
+use super::history::Key;
+use super::sets::What;
+use super::source::Place;
+use crate::error::Result;
+use crate::space::{Vector, along, cross, difference, direction, dot, length};
+use std::collections::BTreeMap;
+
+/// Nodes whose displacement along an axis is that of one of them.
+#[derive(Debug, Clone)]
+pub(super) struct HeldPlane {
+    /// The node and axis that all follow.
+    pub(super) leader: Key,
+    /// The leader among them.
+    pub(super) nodes: Vec<u32>,
+    pub(super) place: Place,
+}
+
+impl Deck {
+    /// What equations hold plane: `u_i - u_leader = 0` along one axis.
+    ///
+    /// # Errors
+    /// Other equations, and names and numbers that there are not.
+    pub(super) fn held_planes(&self) -> Result<Vec<HeldPlane>> {
+        let mut out: BTreeMap<Key, HeldPlane> = BTreeMap::new();
+        for equation in &self.properties.equations {
+            let (leader, followers) = self.follows(equation)?;
+            let plane = out.entry(leader).or_insert_with(|| HeldPlane {
+                leader,
+                nodes: vec![leader.0],
+                place: equation.place,
+            });
+            plane.nodes.extend(followers);
+        }
+        let mut planes: Vec<HeldPlane> = out.into_values().collect();
+        for plane in &mut planes {
+            plane.nodes.sort_unstable();
+            plane.nodes.dedup();
+        }
+        Ok(planes)
+    }
+
+    /// The node that is followed along an axis, and those that follow.
+    fn follows(&self, equation: &Equation) -> Result<(Key, Vec<u32>)> {
+        let refused = || {
+            let message = "only equations u_i - u_k = 0 between the same degree of freedom of two nodes are there, \
+                           which hold a surface plane";
+            unsupported(self.error(equation.place, "EQUATION", message))
+        };
+        let [(of, freedom, a), (to, other, b)] = &equation.terms[..] else {
+            return Err(refused());
+        };
+        if freedom != other || *a != -*b || *a == 0.0 || !(1..=3).contains(freedom) {
+            return Err(refused());
+        }
+        let at = (equation.place, "EQUATION");
+        let followers = self.indices(What::Nodes, of, at)?;
+        match self.indices(What::Nodes, to, at)?[..] {
+            [leader] => Ok(((leader, *freedom as u8 - 1), followers)),
+            _ => Err(refused()),
+        }
+    }
+
+    /// Local axes of the nodes that have some.
+    ///
+    /// # Errors
+    /// Points that give no axes, and names that there are not.
+    pub(super) fn local_axes(&self) -> Result<BTreeMap<u32, [Vector; 3]>> {
+        let mut out = BTreeMap::new();
+        for transform in &self.properties.transforms {
+            let at = (transform.place, "TRANSFORM");
+            let set = super::data::Target::Set(transform.nodes.clone());
+            for node in self.indices(What::Nodes, &set, at)? {
+                let x = self.point(node as usize);
+                let axes = axes_at(transform, x).ok_or_else(|| {
+                    let label = self.nodes.labels[node as usize];
+                    let message = format!("the points give node {label} no axes");
+                    self.error(at.0, at.1, message)
+                })?;
+                out.insert(node, axes);
+            }
+        }
+        Ok(out)
+    }
+}
+
+/// The axes at a point: along the first vector, in the plane of both, and at right angles; or outward
+/// from the axis through both points, around it, and along it.
+fn axes_at(transform: &Transform, x: Vector) -> Option<[Vector; 3]> {
+    let [a, b] = transform.points;
+    let (first, third) = match transform.is_cylindrical {
+        true => {
+            let axis = difference(b, a);
+            if length(axis) == 0.0 {
+                return None;
+            }
+            let axis = direction(axis);
+            let from = difference(x, a);
+            (along(from, -dot(from, axis), axis), axis)
+        }
+        false => (a, cross(a, b)),
+    };
+    if length(first) == 0.0 || length(third) == 0.0 {
+        return None;
+    }
+    let (first, third) = (direction(first), direction(third));
+    Some([first, cross(third, first), third])
+}

@@ -1,0 +1,309 @@
+//! What each degree of freedom, node and face goes through over all steps.
+//!
+//! A value that a step gives is reached linearly from the one before over the time of the step, or
+//! follows an amplitude; one that it does not give stays, or with `OP=NEW` goes back to zero. Values
+//! for the same node or face in one step add up, those of supports replace one another.
+
+use super::Deck;
+use super::bodies::unsupported;
+use super::data::{Amplitude, Condition, Kind, Step, Target};
+use super::facets::Face;
+use super::series::{Series, interpolate};
+use super::sets::What;
+use super::source::Place;
+use crate::error::Result;
+use crate::text::exact;
+use std::collections::BTreeMap;
+
+/// A value that begins farther from where the last step ended, as a share of the two, jumps.
+const JUMP: f64 = 1e-9;
+
+/// A node and its degree of freedom from 0, or an element and its local facet.
+pub(super) type Key = Face;
+
+/// Values of one key.
+#[derive(Debug, Clone)]
+pub(super) struct Entry {
+    pub(super) series: Series,
+    /// The line that gave it last.
+    pub(super) place: Place,
+    /// Values with amplitudes over the whole time, which run on.
+    runs_on: Vec<(f64, String)>,
+}
+
+/// Values by key.
+pub(super) type Map = BTreeMap<Key, Entry>;
+
+/// A step in time.
+struct Interval {
+    start: f64,
+    end: f64,
+}
+
+/// What a step gives for a key: values with their amplitudes.
+struct Given<'d> {
+    values: Vec<(f64, Option<&'d str>)>,
+    place: Place,
+}
+
+impl Kind {
+    fn keyword(self) -> &'static str {
+        match self {
+            Kind::Boundary => "BOUNDARY",
+            Kind::Force => "CLOAD",
+            Kind::Pressure => "DLOAD",
+        }
+    }
+}
+
+impl Deck {
+    /// Times at which steps end.
+    pub(super) fn step_ends(&self) -> Vec<f64> {
+        let mut time = 0.0;
+        let steps = self.program.steps.iter();
+        steps
+            .map(|step| {
+                time += step.period;
+                time
+            })
+            .collect()
+    }
+
+    /// The values of all keys of a kind.
+    ///
+    /// # Errors
+    /// Names and numbers that there are not; supports that come or go between steps, values that jump.
+    pub(super) fn histories(&self, kind: Kind) -> Result<Map> {
+        let mut map = Map::new();
+        let initial = self.program.initial.iter();
+        for condition in initial.filter(|condition| condition.kind == kind) {
+            for key in self.keys(condition)? {
+                let entry = Entry {
+                    series: Series::starting(0.0),
+                    place: condition.place,
+                    runs_on: Vec::new(),
+                };
+                map.insert(key, entry);
+            }
+        }
+        let mut start = 0.0;
+        for (number, step) in self.program.steps.iter().enumerate() {
+            let end = start + step.period;
+            self.go_through(kind, number, step, &Interval { start, end }, &mut map)?;
+            start = end;
+        }
+        if let Some(entry) = map.values().find(|entry| !entry.series.is_finite()) {
+            let message = "a value is too large, or a time";
+            return Err(self.error(entry.place, kind.keyword(), message));
+        }
+        Ok(map)
+    }
+
+    fn go_through(
+        &self,
+        kind: Kind,
+        number: usize,
+        step: &Step,
+        time: &Interval,
+        map: &mut Map,
+    ) -> Result<()> {
+        let mut given = self.given(kind, step)?;
+        let is_renewed = step.renewed[kind as usize];
+        for (key, entry) in map.iter_mut() {
+            if let Some(given) = given.remove(key) {
+                self.apply(kind, number, &given, time, entry)?;
+                continue;
+            }
+            match (is_renewed, kind) {
+                (Some(place), Kind::Boundary) => return Err(self.released(*key, number, place)),
+                (Some(_), _) => {
+                    entry.runs_on.clear();
+                    entry.series.push(time.end, 0.0);
+                }
+                (None, _) => self.run_on(entry, time)?,
+            }
+        }
+        for (key, given) in given {
+            if number > 0 && kind == Kind::Boundary {
+                let node = self.nodes.labels[key.0 as usize];
+                let message = format!(
+                    "node {node} is held along {} only from step {} on: supports are the same in all steps; hold it from \
+                     the first step on, or press with a force",
+                    key.1 + 1,
+                    number + 1
+                );
+                return Err(unsupported(self.error(
+                    given.place,
+                    kind.keyword(),
+                    message,
+                )));
+            }
+            let mut entry = Entry {
+                series: Series::starting(0.0),
+                place: given.place,
+                runs_on: Vec::new(),
+            };
+            if number > 0 {
+                entry.series.push(time.start, 0.0);
+            }
+            self.apply(kind, number, &given, time, &mut entry)?;
+            map.insert(key, entry);
+        }
+        Ok(())
+    }
+
+    fn released(&self, key: Key, number: usize, place: Place) -> crate::Error {
+        let node = self.nodes.labels[key.0 as usize];
+        let message = format!(
+            "OP=NEW releases node {node} along {} in step {}: supports are the same in all steps; repeat them, or press \
+             with a force where it is to come free",
+            key.1 + 1,
+            number + 1
+        );
+        unsupported(self.error(place, "BOUNDARY", message))
+    }
+
+    /// What a step gives, key by key.
+    fn given<'d>(&self, kind: Kind, step: &'d Step) -> Result<BTreeMap<Key, Given<'d>>> {
+        let mut out: BTreeMap<Key, Given> = BTreeMap::new();
+        for condition in step.conditions.iter().filter(|c| c.kind == kind) {
+            let value = (condition.value, condition.amplitude.as_deref());
+            for key in self.keys(condition)? {
+                let given = out.entry(key).or_insert(Given {
+                    values: Vec::new(),
+                    place: condition.place,
+                });
+                if kind == Kind::Boundary {
+                    given.values.clear();
+                }
+                given.values.push(value);
+                given.place = condition.place;
+            }
+        }
+        Ok(out)
+    }
+
+    /// The keys that a condition is for. Rotations and the direction out of a plane are none.
+    ///
+    /// # Errors
+    /// Names and numbers that there are not.
+    pub(super) fn keys(&self, condition: &Condition) -> Result<Vec<Key>> {
+        let at = (condition.place, condition.kind.keyword());
+        let [first, last] = condition.range;
+        if condition.kind != Kind::Pressure {
+            let dimension = self.dimension();
+            let nodes = self.indices(What::Nodes, &condition.on, at)?;
+            let freedoms = first - 1..last.min(dimension);
+            let of_node = |node| freedoms.clone().map(move |freedom| (node, freedom as u8));
+            return Ok(nodes.into_iter().flat_map(of_node).collect());
+        }
+        match &condition.on {
+            Target::Set(name) if first == 0 => self.surface(name, (condition.place, "DSLOAD")),
+            on => {
+                let elements = self.indices(What::Elements, on, at)?;
+                let facet = |element: u32| self.facet(element, first, at);
+                elements.into_iter().map(facet).collect()
+            }
+        }
+    }
+
+    /// Of the first element, and so of all.
+    pub(super) fn dimension(&self) -> usize {
+        let first = self.elements.types.first();
+        first.map_or(3, |first| first.space.dimension())
+    }
+
+    /// Takes a key to the end of a step that gives values for it.
+    fn apply(
+        &self,
+        kind: Kind,
+        number: usize,
+        given: &Given,
+        time: &Interval,
+        entry: &mut Entry,
+    ) -> Result<()> {
+        entry.place = given.place;
+        entry.runs_on.clear();
+        if given
+            .values
+            .iter()
+            .all(|(_, amplitude)| amplitude.is_none())
+        {
+            let sum = given.values.iter().map(|(value, _)| value).sum();
+            entry.series.push(time.end, sum);
+            return Ok(());
+        }
+        let keyword = kind.keyword();
+        let named = given.values.iter().map(|(value, name)| {
+            let Some(name) = name else {
+                let message = "values with and without an amplitude meet in one step; give all one";
+                return Err(self.error(given.place, keyword, message));
+            };
+            let amplitude = self.program.amplitudes.get(name).ok_or_else(|| {
+                let message = format!("there is no *AMPLITUDE {name}");
+                self.error(given.place, keyword, message)
+            })?;
+            if amplitude.is_total {
+                entry.runs_on.push((*value, name.to_string()));
+            }
+            Ok((*value, amplitude))
+        });
+        let laws: Vec<(f64, &Amplitude)> = named.collect::<Result<_>>()?;
+        let start = value_at(&laws, time.start, time);
+        let last = entry.series.last();
+        if number == 0 {
+            entry.series = Series::starting(start);
+        } else if (start - last).abs() > JUMP * start.abs().max(last.abs()) {
+            let message = format!(
+                "the value jumps from {} to {} at the start of step {}: begin the amplitude where the step before ends",
+                exact(last),
+                exact(start),
+                number + 1
+            );
+            return Err(unsupported(self.error(given.place, keyword, message)));
+        }
+        follow(&laws, time, &mut entry.series);
+        Ok(())
+    }
+
+    /// Takes a key through a step that says nothing of it.
+    fn run_on(&self, entry: &mut Entry, time: &Interval) -> Result<()> {
+        let amplitude = |name: &str| self.program.amplitudes.get(name);
+        let laws = entry.runs_on.iter();
+        let laws: Vec<(f64, &Amplitude)> = laws
+            .filter_map(|(value, name)| Some((*value, amplitude(name)?)))
+            .collect();
+        match laws.is_empty() {
+            true => entry.series.push(time.end, entry.series.last()),
+            false => follow(&laws, time, &mut entry.series),
+        }
+        Ok(())
+    }
+}
+
+/// The sum of some values times their amplitudes.
+fn value_at(laws: &[(f64, &Amplitude)], at: f64, time: &Interval) -> f64 {
+    let of_law = |(value, amplitude): &(f64, &Amplitude)| {
+        let own = match amplitude.is_total {
+            true => at,
+            false => at - time.start,
+        };
+        value * interpolate(&amplitude.rows, own)
+    };
+    laws.iter().map(of_law).sum()
+}
+
+/// Follows amplitudes to the end of a step.
+fn follow(laws: &[(f64, &Amplitude)], time: &Interval, series: &mut Series) {
+    let mut times = vec![time.end];
+    for (_, amplitude) in laws {
+        let offset = if amplitude.is_total { 0.0 } else { time.start };
+        let kinks = amplitude.rows.iter().map(|row| row[0] + offset);
+        times.extend(kinks.filter(|t| time.start < *t && *t < time.end));
+    }
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    for at in times {
+        series.push(at, value_at(laws, at, time));
+    }
+}

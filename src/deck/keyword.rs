@@ -1,0 +1,398 @@
+//! A keyword with its parameters, and what brinell does with each keyword that there is.
+
+use super::fields::Where;
+use super::source::{Files, Place};
+use crate::error::{Error, Result};
+use crate::scene::closest;
+
+/// What is done with a keyword.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Use {
+    /// It is read.
+    Read,
+    /// It is skipped: it changes nothing here, and why.
+    Ignored(&'static str),
+    /// It asks for something that brinell does not have, and what.
+    Refused(&'static str),
+}
+
+const OUTPUT: Use = Use::Ignored(
+    "output: displacements, stresses and contact of every step are written for all nodes",
+);
+const NO_TEMPERATURE: Use = Use::Ignored("nothing depends on temperature, and none is prescribed");
+const CONTROL: Use =
+    Use::Ignored("increments end at changes of contact; there is no iteration to control");
+const SHELLS: Use = Use::Refused("bodies are continua: there are no shells, beams or membranes");
+const POINTS: Use = Use::Refused("there are no springs, masses or dashpots");
+const CONSTRAINTS: Use =
+    Use::Refused("nodes are tied to each other only by the elements they share");
+const INERTIA: Use = Use::Refused("loads are applied slowly: there is no inertia and no time");
+const HEAT: Use = Use::Refused("there is no heat transfer");
+const PARTS: Use = Use::Refused(
+    "decks are flat: write it without parts and assemblies (in Abaqus/CAE: model attributes, \"Do not use parts and \
+     assemblies in input files\")",
+);
+const LAWS: Use = Use::Refused(
+    "materials are isotropic and linear elastic, with von Mises plasticity and isotropic hardening",
+);
+
+/// All keywords that are known, as they are written.
+const KEYWORDS: &[(&str, Use)] = &[
+    ("AMPLITUDE", Use::Read),
+    ("BOUNDARY", Use::Read),
+    ("CLEARANCE", Use::Read),
+    ("CLOAD", Use::Read),
+    ("CONTACT PAIR", Use::Read),
+    ("DLOAD", Use::Read),
+    ("DSLOAD", Use::Read),
+    ("ELASTIC", Use::Read),
+    ("ELEMENT", Use::Read),
+    ("ELSET", Use::Read),
+    ("END STEP", Use::Read),
+    ("EQUATION", Use::Read),
+    ("FRICTION", Use::Read),
+    ("HEADING", Use::Read),
+    ("INCLUDE", Use::Read),
+    ("MATERIAL", Use::Read),
+    ("NODE", Use::Read),
+    ("NSET", Use::Read),
+    ("PLASTIC", Use::Read),
+    ("SOLID SECTION", Use::Read),
+    ("STATIC", Use::Read),
+    ("STEP", Use::Read),
+    ("SURFACE", Use::Read),
+    ("SURFACE BEHAVIOR", Use::Read),
+    ("SURFACE INTERACTION", Use::Read),
+    ("TRANSFORM", Use::Read),
+    ("CONTACT FILE", OUTPUT),
+    ("CONTACT OUTPUT", OUTPUT),
+    ("CONTACT PRINT", OUTPUT),
+    ("EL FILE", OUTPUT),
+    ("EL PRINT", OUTPUT),
+    ("ELEMENT OUTPUT", OUTPUT),
+    ("ENERGY OUTPUT", OUTPUT),
+    ("ENERGY PRINT", OUTPUT),
+    ("FACE PRINT", OUTPUT),
+    ("FILE FORMAT", OUTPUT),
+    ("FILE OUTPUT", OUTPUT),
+    ("MONITOR", OUTPUT),
+    ("NODE FILE", OUTPUT),
+    ("NODE OUTPUT", OUTPUT),
+    ("NODE PRINT", OUTPUT),
+    ("OUTPUT", OUTPUT),
+    ("PREPRINT", OUTPUT),
+    ("PRINT", OUTPUT),
+    ("RESTART", OUTPUT),
+    ("SECTION PRINT", OUTPUT),
+    ("TIME POINTS", OUTPUT),
+    ("CONTACT CONTROLS", CONTROL),
+    ("CONTROLS", CONTROL),
+    ("CONDUCTIVITY", NO_TEMPERATURE),
+    ("EXPANSION", NO_TEMPERATURE),
+    ("INITIAL CONDITIONS", Use::Read),
+    ("PHYSICAL CONSTANTS", NO_TEMPERATURE),
+    ("SPECIFIC HEAT", NO_TEMPERATURE),
+    (
+        "DENSITY",
+        Use::Ignored("loads are applied slowly: mass has no effect"),
+    ),
+    (
+        "DAMPING",
+        Use::Ignored("loads are applied slowly: damping has no effect"),
+    ),
+    (
+        "USER ELEMENT",
+        Use::Refused("there are no elements of the user's"),
+    ),
+    (
+        "TEMPERATURE",
+        Use::Refused("there is no thermal strain yet"),
+    ),
+    (
+        "CHANGE SURFACE BEHAVIOR",
+        Use::Refused("contact is the same in all steps"),
+    ),
+    (
+        "MODEL CHANGE",
+        Use::Refused("contact and elements are the same in all steps"),
+    ),
+    ("TIE", CONSTRAINTS),
+    ("MPC", CONSTRAINTS),
+    ("COUPLING", CONSTRAINTS),
+    ("KINEMATIC", CONSTRAINTS),
+    ("DISTRIBUTING", CONSTRAINTS),
+    ("DISTRIBUTING COUPLING", CONSTRAINTS),
+    ("KINEMATIC COUPLING", CONSTRAINTS),
+    ("EMBEDDED ELEMENT", CONSTRAINTS),
+    (
+        "RIGID BODY",
+        Use::Refused("bodies deform: mesh it, with a stiff elastic material"),
+    ),
+    (
+        "RIGID SURFACE",
+        Use::Refused("bodies deform: mesh it, with a stiff elastic material"),
+    ),
+    ("PRE-TENSION SECTION", CONSTRAINTS),
+    ("SHELL SECTION", SHELLS),
+    ("SHELL GENERAL SECTION", SHELLS),
+    ("BEAM SECTION", SHELLS),
+    ("BEAM GENERAL SECTION", SHELLS),
+    ("MEMBRANE SECTION", SHELLS),
+    ("FLUID SECTION", SHELLS),
+    ("SPRING", POINTS),
+    ("MASS", POINTS),
+    ("DASHPOT", POINTS),
+    ("GAP", POINTS),
+    ("CYCLIC SYMMETRY MODEL", CONSTRAINTS),
+    ("ORIENTATION", LAWS),
+    ("CREEP", LAWS),
+    ("CYCLIC HARDENING", LAWS),
+    ("DEFORMATION PLASTICITY", LAWS),
+    ("DRUCKER PRAGER", LAWS),
+    ("HYPERELASTIC", LAWS),
+    ("HYPERFOAM", LAWS),
+    ("MOHR COULOMB", LAWS),
+    ("POTENTIAL", LAWS),
+    ("RATE DEPENDENT", LAWS),
+    ("USER MATERIAL", LAWS),
+    ("DEPVAR", LAWS),
+    ("VISCOELASTIC", LAWS),
+    ("DYNAMIC", INERTIA),
+    ("MODAL DYNAMIC", INERTIA),
+    ("STEADY STATE DYNAMICS", INERTIA),
+    ("COMPLEX FREQUENCY", INERTIA),
+    ("FREQUENCY", INERTIA),
+    (
+        "VISCO",
+        Use::Refused("plastic flow does not depend on time: make it *STATIC"),
+    ),
+    (
+        "BUCKLE",
+        Use::Refused("strains and displacements are small: nothing buckles"),
+    ),
+    ("GREEN", INERTIA),
+    (
+        "SENSITIVITY",
+        Use::Refused("there is no sensitivity analysis"),
+    ),
+    ("HEAT TRANSFER", HEAT),
+    ("COUPLED TEMPERATURE-DISPLACEMENT", HEAT),
+    ("UNCOUPLED TEMPERATURE-DISPLACEMENT", HEAT),
+    ("CFLUX", HEAT),
+    ("DFLUX", HEAT),
+    ("FILM", HEAT),
+    ("RADIATE", HEAT),
+    ("GAP CONDUCTANCE", HEAT),
+    ("SUBMODEL", Use::Refused("there are no submodels")),
+    ("SUPERELEMENT", Use::Refused("there are no substructures")),
+    (
+        "CONTACT",
+        Use::Refused("general contact names no surfaces: give a *CONTACT PAIR for each"),
+    ),
+    (
+        "CONTACT INCLUSIONS",
+        Use::Refused("general contact names no surfaces: give *CONTACT PAIR"),
+    ),
+    ("PART", PARTS),
+    ("INSTANCE", PARTS),
+    ("ASSEMBLY", PARTS),
+    ("END PART", PARTS),
+    ("END INSTANCE", PARTS),
+    ("END ASSEMBLY", PARTS),
+    ("BASE MOTION", INERTIA),
+    (
+        "IMPERFECTION",
+        Use::Refused("nodes stay where they are given"),
+    ),
+    (
+        "NGEN",
+        Use::Refused("nodes are not generated: write them out"),
+    ),
+    (
+        "NFILL",
+        Use::Refused("nodes are not generated: write them out"),
+    ),
+    (
+        "NCOPY",
+        Use::Refused("nodes are not generated: write them out"),
+    ),
+    (
+        "ELGEN",
+        Use::Refused("elements are not generated: write them out"),
+    ),
+    (
+        "ELCOPY",
+        Use::Refused("elements are not generated: write them out"),
+    ),
+    (
+        "SYSTEM",
+        Use::Refused("coordinates are global: give them in x, y, z"),
+    ),
+];
+
+/// A keyword line.
+#[derive(Debug, Clone)]
+pub(super) struct Keyword {
+    /// As it is written in the table above, or in the deck where it is in none.
+    pub(super) name: String,
+    /// Names in capitals, without blanks; values as they are written.
+    parameters: Vec<(String, Option<String>)>,
+    pub(super) place: Place,
+}
+
+/// Capitals without blanks: neither case nor blanks mean anything.
+pub(super) fn plain(word: &str) -> String {
+    let letters = word.chars().filter(|c| !c.is_whitespace());
+    letters.map(|c| c.to_ascii_uppercase()).collect()
+}
+
+impl Keyword {
+    /// Reads a keyword line, its continuations joined, which begins with a star.
+    pub(super) fn parse(text: &str, place: Place) -> Keyword {
+        let mut parts = text.trim_start_matches('*').split(',');
+        let written = parts.next().unwrap_or_default().trim().to_ascii_uppercase();
+        let known = find(&plain(&written)).map(|(name, _)| name.to_string());
+        let parameters = parts.map(str::trim).filter(|part| !part.is_empty());
+        let parameters = parameters.map(|part| match part.split_once('=') {
+            Some((key, value)) => {
+                let value = value.trim().trim_matches('"');
+                (plain(key), Some(value.to_string()))
+            }
+            None => (plain(part), None),
+        });
+        Keyword {
+            name: known.unwrap_or(written),
+            parameters: parameters.collect(),
+            place,
+        }
+    }
+
+    /// What is done with it.
+    ///
+    /// # Errors
+    /// The one that may be meant, where it is not known.
+    pub(super) fn what_for(&self) -> std::result::Result<Use, String> {
+        if let Some((_, what)) = find(&plain(&self.name)) {
+            return Ok(what);
+        }
+        let known: Vec<String> = KEYWORDS.iter().map(|(k, _)| k.to_lowercase()).collect();
+        let known: Vec<&str> = known.iter().map(String::as_str).collect();
+        Err(match closest(&self.name, &known) {
+            Some(meant) => format!(
+                "unknown keyword, did you mean *{}?",
+                meant.to_ascii_uppercase()
+            ),
+            None => "unknown keyword; take it out, with the lines that belong to it".to_string(),
+        })
+    }
+
+    /// An error at its line.
+    pub(super) fn error(&self, files: &Files, message: impl std::fmt::Display) -> Error {
+        let (place, name) = (files.show(self.place), &self.name);
+        Error::input(format!("{place}: *{name}: {message}"))
+    }
+
+    /// A place for messages about one of its data lines.
+    pub(super) fn at<'t>(&'t self, file: &'t str, place: Place) -> Where<'t> {
+        Where {
+            file,
+            line: place.line(),
+            keyword: &self.name,
+        }
+    }
+
+    /// Whether a parameter is given, with a value or without.
+    pub(super) fn has(&self, key: &str) -> bool {
+        self.parameters.iter().any(|(name, _)| name == key)
+    }
+
+    /// The value of a parameter; `None` where it is not given or has none.
+    pub(super) fn get(&self, key: &str) -> Option<&str> {
+        let mut found = self.parameters.iter().filter(|(name, _)| name == key);
+        found.next().and_then(|(_, value)| value.as_deref())
+    }
+
+    /// The value of a parameter that must be there.
+    ///
+    /// # Errors
+    /// That it is not.
+    pub(super) fn require(&self, files: &Files, key: &str) -> Result<&str> {
+        self.get(key)
+            .filter(|value| !value.is_empty())
+            .ok_or_else(|| {
+                let message = format!("the parameter {key} is missing; write {key}=...");
+                self.error(files, message)
+            })
+    }
+
+    /// The value of a parameter in capitals, which must be one of some words; the first of them
+    /// where it is not given.
+    ///
+    /// # Errors
+    /// The value and what it can be.
+    pub(super) fn choice(
+        &self,
+        files: &Files,
+        key: &str,
+        words: &[&'static str],
+    ) -> Result<&'static str> {
+        if !self.has(key) {
+            return Ok(words[0]);
+        }
+        let value = self.get(key).unwrap_or_default();
+        let found = words.iter().find(|word| plain(word) == plain(value));
+        found.copied().ok_or_else(|| {
+            let can_be = words.join(", ");
+            self.error(
+                files,
+                format!("{key}={value} is not known here; it can be {can_be}"),
+            )
+        })
+    }
+
+    /// Checks that it has no parameters but these.
+    ///
+    /// # Errors
+    /// The first other one.
+    pub(super) fn allow(&self, files: &Files, known: &[&str]) -> Result<()> {
+        let other = self
+            .parameters
+            .iter()
+            .find(|(name, _)| !known.contains(&name.as_str()));
+        let Some((name, _)) = other else {
+            return Ok(());
+        };
+        let lower: Vec<String> = known.iter().map(|k| k.to_lowercase()).collect();
+        let lower: Vec<&str> = lower.iter().map(String::as_str).collect();
+        let meant = closest(name, &lower).map_or(String::new(), |meant| {
+            format!(", did you mean {}?", meant.to_ascii_uppercase())
+        });
+        let known = match known {
+            [] => "it takes none".to_string(),
+            _ => format!("known here: {}", known.join(", ")),
+        };
+        Err(self.error(files, format!("unknown parameter {name}{meant} ({known})")))
+    }
+}
+
+fn find(plain_name: &str) -> Option<(&'static str, Use)> {
+    let mut all = KEYWORDS.iter();
+    all.find(|(name, _)| plain(name) == plain_name).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn case_and_blanks_mean_nothing() {
+        let line = "*solidsection , ELSET = \"My set\", m a t e rial=Steel";
+        let keyword = Keyword::parse(line, Place::default());
+        assert_eq!(keyword.name, "SOLID SECTION");
+        assert_eq!(keyword.get("ELSET"), Some("My set"));
+        assert_eq!(keyword.get("MATERIAL"), Some("Steel"));
+        let unknown = Keyword::parse("*NODES", Place::default());
+        let message = unknown.what_for().unwrap_err();
+        assert!(message.contains("did you mean *NODE?"), "{message}");
+    }
+}

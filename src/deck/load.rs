@@ -1,0 +1,51 @@
+//! A scene from a file that may be a scene or a deck.
+
+use super::{Deck, Options};
+use crate::error::Result;
+use crate::scene::Scene;
+use std::path::Path;
+
+/// Whether a file is a deck, by the ending of its name: `.inp`.
+pub fn is_deck(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("inp"))
+}
+
+/// Reads and validates a scene file, or the scene that a deck describes.
+///
+/// # Errors
+/// As [`load_with`].
+pub fn load(path: impl AsRef<Path>) -> Result<Scene> {
+    load_with(path, &[], Options::default())
+}
+
+/// As [`load()`], with `overrides` put over the scene, each `key.path=value`
+/// ([`Scene::load_with`]). How a deck was taken is in the scene's warnings.
+///
+/// # Errors
+/// Those of [`Scene::load_with`], [`Deck::read`] and [`Deck::convert`].
+pub fn load_with(path: impl AsRef<Path>, overrides: &[String], options: Options) -> Result<Scene> {
+    let path = path.as_ref();
+    if !is_deck(path) {
+        return Scene::load_with(path, overrides);
+    }
+    let conversion = Deck::read(path)?.convert(options)?;
+    let mut scene = conversion.finish(&path.display().to_string(), overrides)?;
+    scene.file = Some(path.to_path_buf());
+    Ok(scene)
+}
+
+impl super::Conversion {
+    /// The scene as it would be read from a file: validated, with overrides put over it, and with the
+    /// places of the deck.
+    ///
+    /// # Errors
+    /// Those of [`Scene::parse_with`], at the lines of the deck.
+    pub fn finish(&self, name: &str, overrides: &[String]) -> Result<Scene> {
+        let text = self.scene.to_toml()?;
+        let mut scene = Scene::parse_placed(&text, name, overrides, &self.places)?;
+        let taken = self.account.taken.iter().map(ToString::to_string);
+        scene.warnings.splice(0..0, taken);
+        Ok(scene)
+    }
+}

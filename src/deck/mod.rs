@@ -1,0 +1,187 @@
+//! Decks of Abaqus and CalculiX (`.inp`): a model with its steps, as a scene and a mesh.
+//!
+//! ```text
+//!  text ─▶ source ─▶ reader ─▶ Deck ─▶ resolve ─▶ history ─▶ conversion ─▶ Scene
+//!          (lines,    (a reader  (what it  (sets,     (steps,    (supports, loads,
+//!           places,    per        says)     bodies,    series     targets; sets they
+//!           INCLUDE)   keyword)             faces)     in time)   are on)          ─▶ mesh::inp
+//! ```
+//!
+//! Everything that is read has a place, and errors name it: file, line, keyword, value, what to do.
+//! Keywords that brinell has no effect for are either ignored, where they change nothing here, or
+//! refused; [`Deck::account`] lists both, with the reason. Names have no case.
+//!
+//! Each step becomes a target (`step-1`, ...). Load factors are multiples of the loads where all
+//! that changes changes in proportion, step by step; otherwise they are the time.
+//!
+//! # Source
+//! G. Dhondt, *CalculiX CrunchiX User's Manual* 2.20, chapters 6 (elements, loads) and 7 (keywords);
+//! *Abaqus Keywords Reference Guide*.
+
+mod bodies;
+mod conversion;
+mod data;
+mod element_type;
+mod facets;
+mod fields;
+mod held_plane;
+mod history;
+mod keyword;
+mod load;
+mod reader;
+mod series;
+mod sets;
+mod source;
+#[cfg(test)]
+mod tests;
+
+pub use conversion::{Conversion, Options};
+pub use data::{Account, Note};
+pub use load::{is_deck, load, load_with};
+
+use crate::error::{Error, Result};
+use crate::files;
+use crate::labels::LabelIndex;
+use crate::shape::Shape;
+use crate::space::Vector;
+use data::{Elements, Nodes, Program, Properties, Sets};
+use reader::Reader;
+use source::{Files, Place, Source};
+use std::borrow::Cow;
+use std::path::Path;
+
+/// A deck that was read.
+#[derive(Default)]
+pub struct Deck {
+    /// The heading.
+    title: String,
+    files: Files,
+    nodes: Nodes,
+    elements: Elements,
+    sets: Sets,
+    properties: Properties,
+    program: Program,
+    account: Account,
+    /// Where large deformation is asked for first.
+    nlgeom: Option<Place>,
+    /// The end of the deck.
+    end: Place,
+    node_index: LabelIndex,
+    element_index: LabelIndex,
+    /// Indices of the nodes of all elements, one after the other.
+    connectivity: Vec<u32>,
+}
+
+impl Deck {
+    /// Reads a deck, and the files that it includes, which are relative to its folder.
+    ///
+    /// # Errors
+    /// `Io` where a file cannot be read; `Input` by file, line and keyword where the deck is damaged
+    /// or has a keyword that is not known; `Unsupported` for elements that brinell does not have.
+    pub fn read(path: &Path) -> Result<Deck> {
+        let text = files::read("read the deck", path, None)?;
+        let name = path.display().to_string();
+        Reader::new(Source::new(Cow::Owned(text), &name, path.parent())).read()
+    }
+
+    /// Reads a deck from the bytes of a file; `name` stands for the file in messages. Files that it
+    /// includes are relative to the working directory.
+    ///
+    /// ```
+    /// use brinell::deck::Deck;
+    ///
+    /// let error = Deck::parse(b"*NODE\n1, 0., zero", "block.inp").err().unwrap();
+    /// assert_eq!(error.to_string(), "block.inp, line 2: *NODE: y is `zero`; give a finite number");
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Deck::read`].
+    pub fn parse(text: &[u8], name: &str) -> Result<Deck> {
+        Reader::new(Source::new(Cow::Borrowed(text), name, None)).read()
+    }
+
+    /// What was understood, taken otherwise than it is meant, ignored, and refused.
+    pub fn account(&self) -> &Account {
+        &self.account
+    }
+
+    /// Numbers of nodes and elements are looked up from now on.
+    fn index(&mut self) -> Result<()> {
+        if self.nodes.labels.len().max(self.elements.labels.len()) >= u32::MAX as usize {
+            return Err(Error::input("more nodes or elements than can be numbered"));
+        }
+        let twice = |what: &str, labels: &[u64], places: &[Place], label: u64| {
+            let mut all = labels.iter().zip(places).filter(|(l, _)| **l == label);
+            let place = all.nth(1).map_or(Place::default(), |(_, place)| *place);
+            let place = self.files.show(place);
+            Error::input(format!(
+                "{place}: *{what}: number {label} is given twice; number them uniquely"
+            ))
+        };
+        let (nodes, elements) = (&self.nodes, &self.elements);
+        self.node_index = LabelIndex::new(&nodes.labels)
+            .map_err(|label| twice("NODE", &nodes.labels, &nodes.places, label))?;
+        self.element_index = LabelIndex::new(&elements.labels)
+            .map_err(|label| twice("ELEMENT", &elements.labels, &elements.places, label))?;
+        let index = |label: &u64| self.node_index.get(*label);
+        let found: Option<Vec<u32>> = self.elements.nodes.iter().map(index).collect();
+        self.connectivity = found.ok_or_else(|| self.missing_node())?;
+        Ok(())
+    }
+
+    /// The first element that refers to a node that there is not.
+    fn missing_node(&self) -> Error {
+        let elements = &self.elements;
+        let is_missing = |label: &&u64| self.node_index.get(**label).is_none();
+        let missing = (elements.offsets.windows(2).enumerate()).find_map(|(element, ends)| {
+            let label = elements.nodes[ends[0]..ends[1]].iter().find(is_missing)?;
+            Some((element, label))
+        });
+        let (element, label) = missing.unwrap_or((0, &0));
+        let name = elements.labels[element];
+        let message = format!("element {name} refers to node {label}, which is not in *NODE");
+        self.error(elements.places[element], "ELEMENT", message)
+    }
+
+    /// An error at a line, of a keyword.
+    fn error(&self, place: Place, keyword: &str, message: impl std::fmt::Display) -> Error {
+        let place = self.files.show(place);
+        Error::input(format!("{place}: *{keyword}: {message}"))
+    }
+
+    /// The number of a node.
+    pub(crate) fn node_label(&self, node: usize) -> u64 {
+        self.nodes.labels[node]
+    }
+
+    /// The number of an element.
+    pub(crate) fn element_label(&self, element: usize) -> u64 {
+        self.elements.labels[element]
+    }
+
+    /// The shape of an element.
+    pub(crate) fn shape(&self, element: usize) -> Shape {
+        self.elements.types[element].shape
+    }
+
+    /// The coordinates of a node.
+    pub(crate) fn point(&self, node: usize) -> Vector {
+        let at = 3 * node;
+        std::array::from_fn(|d| self.nodes.coordinates[at + d])
+    }
+
+    /// An error at the line of a node.
+    pub(crate) fn node_error(&self, node: usize, message: impl std::fmt::Display) -> Error {
+        self.error(self.nodes.places[node], "NODE", message)
+    }
+
+    /// Number of nodes.
+    pub fn n_nodes(&self) -> usize {
+        self.nodes.labels.len()
+    }
+
+    /// Number of elements.
+    pub fn n_elements(&self) -> usize {
+        self.elements.labels.len()
+    }
+}

@@ -1,0 +1,183 @@
+//! Reading a deck, keyword by keyword.
+
+mod history;
+mod mesh;
+mod properties;
+
+use super::data::Account;
+use super::fields::Fields;
+use super::keyword::{Keyword, Use};
+use super::source::{Line, Source};
+use super::{Deck, Place};
+use crate::error::Result;
+
+/// Keyword lines of more bytes than this are none.
+const LONGEST_KEYWORD: usize = 1 << 16;
+
+/// A deck being read.
+pub(super) struct Reader<'t> {
+    source: Source<'t>,
+    deck: Deck,
+    /// The material that what is read belongs to.
+    material: Option<String>,
+    is_in_step: bool,
+}
+
+impl<'t> Reader<'t> {
+    pub(super) fn new(source: Source<'t>) -> Self {
+        Reader {
+            source,
+            deck: Deck::default(),
+            material: None,
+            is_in_step: false,
+        }
+    }
+
+    /// Reads to the end.
+    ///
+    /// # Errors
+    /// `Input` by file, line and keyword where the deck is damaged, `Unsupported` for elements that
+    /// brinell does not have. What else it does not have is in the account.
+    pub(super) fn read(mut self) -> Result<Deck> {
+        if let Some(line) = self.source.next_data()? {
+            let place = self.source.files.show(line.place);
+            return Err(crate::Error::input(format!(
+                "{place}: this is not a deck of Abaqus or CalculiX: it should begin with a keyword such as *HEADING or *NODE"
+            )));
+        }
+        while let Some(line) = self.source.next()? {
+            let keyword = self.keyword(line)?;
+            self.block(&keyword)?;
+        }
+        let here = self.source.here();
+        self.deck.files = self.source.files;
+        self.deck.end = here;
+        self.deck.index()?;
+        Ok(self.deck)
+    }
+
+    /// A keyword line with its continuations: it goes on where it ends with a comma.
+    fn keyword(&mut self, line: Line) -> Result<Keyword> {
+        let mut text = String::from_utf8_lossy(self.source.bytes(line)).into_owned();
+        while text.ends_with(',') && text.len() < LONGEST_KEYWORD {
+            let Some(next) = self.source.next_data()? else {
+                break;
+            };
+            text.push_str(&String::from_utf8_lossy(self.source.bytes(next)));
+        }
+        Ok(Keyword::parse(&text, line.place))
+    }
+
+    fn block(&mut self, keyword: &Keyword) -> Result<()> {
+        match keyword.what_for() {
+            Ok(Use::Read) => {
+                let files = &self.source.files;
+                let first = || (0, files.show(keyword.place));
+                let understood = &mut self.deck.account.understood;
+                understood
+                    .entry(keyword.name.clone())
+                    .or_insert_with(first)
+                    .0 += 1;
+                self.read_block(keyword)
+            }
+            Ok(Use::Ignored(why)) => {
+                self.ignore(keyword, keyword.place, why);
+                self.skip()
+            }
+            Ok(Use::Refused(why)) => {
+                self.refuse(keyword, keyword.place, why);
+                self.skip()
+            }
+            Err(message) => Err(keyword.error(&self.source.files, message)),
+        }
+    }
+
+    fn read_block(&mut self, keyword: &Keyword) -> Result<()> {
+        match keyword.name.as_str() {
+            "HEADING" => self.heading(keyword),
+            "NODE" => self.nodes(keyword),
+            "ELEMENT" => self.elements(keyword),
+            "NSET" => self.set(keyword, "NSET"),
+            "ELSET" => self.set(keyword, "ELSET"),
+            "SURFACE" => self.surface(keyword),
+            "MATERIAL" => self.material(keyword),
+            "ELASTIC" => self.elastic(keyword),
+            "PLASTIC" => self.plastic(keyword),
+            "SOLID SECTION" => self.section(keyword),
+            "SURFACE INTERACTION" => self.interaction(keyword),
+            "SURFACE BEHAVIOR" => self.behavior(keyword),
+            "FRICTION" => self.friction(keyword),
+            "CONTACT PAIR" => self.contact_pair(keyword),
+            "CLEARANCE" => self.clearance(keyword),
+            "EQUATION" => self.equation(keyword),
+            "TRANSFORM" => self.transform(keyword),
+            "INITIAL CONDITIONS" => self.initial_conditions(keyword),
+            "AMPLITUDE" => self.amplitude(keyword),
+            "STEP" => self.step(keyword),
+            "STATIC" => self.statics(keyword),
+            "BOUNDARY" => self.boundary(keyword),
+            "CLOAD" => self.cload(keyword),
+            "DLOAD" => self.dload(keyword),
+            "DSLOAD" => self.dsload(keyword),
+            "END STEP" => self.end_step(keyword),
+            other => Err(crate::Error::internal(format!("nothing reads *{other}"))),
+        }
+    }
+
+    /// Skips the data lines of a keyword.
+    fn skip(&mut self) -> Result<()> {
+        while self.source.next_data()?.is_some() {}
+        Ok(())
+    }
+
+    /// Requires that a keyword has no more data lines.
+    fn no_more(&mut self, keyword: &Keyword) -> Result<()> {
+        match self.source.next_data()? {
+            Some(line) => {
+                let fields = fields(&self.source, keyword, line);
+                Err(fields.place.error("this line is one too many; take it out"))
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn ignore(&mut self, keyword: &Keyword, place: Place, why: &str) {
+        let list = &mut self.deck.account.ignored;
+        Account::add(list, &self.source.files, place, &keyword.name, why);
+    }
+
+    fn refuse(&mut self, keyword: &Keyword, place: Place, why: &str) {
+        let list = &mut self.deck.account.refused;
+        Account::add(list, &self.source.files, place, &keyword.name, why);
+    }
+
+    fn take(&mut self, keyword: &Keyword, place: Place, how: &str) {
+        let list = &mut self.deck.account.taken;
+        Account::add(list, &self.source.files, place, &keyword.name, how);
+    }
+
+    /// The next data line, which must be there.
+    fn one_line(&mut self, keyword: &Keyword, what: &str) -> Result<Line> {
+        self.source.next_data()?.ok_or_else(|| {
+            let message = format!("a line with {what} should follow; give it");
+            keyword.error(&self.source.files, message)
+        })
+    }
+
+    /// The first line is the title.
+    fn heading(&mut self, keyword: &Keyword) -> Result<()> {
+        keyword.allow(&self.source.files, &[])?;
+        if let Some(line) = self.source.next_data()? {
+            self.deck.title = String::from_utf8_lossy(self.source.bytes(line)).into_owned();
+        }
+        self.skip()
+    }
+}
+
+/// The values of a line.
+fn fields<'a>(source: &'a Source, keyword: &'a Keyword, line: Line) -> Fields<'a> {
+    Fields::new(
+        source.bytes(line),
+        keyword.at(source.file(line), line.place),
+    )
+}

@@ -1,0 +1,375 @@
+//! Steps, amplitudes and the conditions of each step.
+
+use super::mesh::{face, target};
+use super::{Reader, fields};
+use crate::deck::data::{Condition, Kind, Step, Target};
+use crate::deck::fields::Fields;
+use crate::deck::keyword::Keyword;
+use crate::deck::source::Line;
+use crate::error::Result;
+use crate::text::exact;
+
+/// Most increments of a step that are taken over.
+const MOST_INCREMENTS: f64 = 1000.0;
+
+/// Kinds of supports by name, and the degrees of freedom that they hold.
+const NAMED_SUPPORTS: [(&str, &[[usize; 2]]); 5] = [
+    ("XSYMM", &[[1, 1], [5, 6]]),
+    ("YSYMM", &[[2, 2], [4, 4], [6, 6]]),
+    ("ZSYMM", &[[3, 3], [4, 5]]),
+    ("PINNED", &[[1, 3]]),
+    ("ENCASTRE", &[[1, 6]]),
+];
+
+impl Reader<'_> {
+    pub(super) fn amplitude(&mut self, keyword: &Keyword) -> Result<()> {
+        let files = &self.source.files;
+        keyword.allow(files, &["NAME", "TIME", "DEFINITION", "VALUE"])?;
+        let name = keyword.require(files, "NAME")?;
+        keyword.choice(files, "DEFINITION", &["TABULAR"])?;
+        keyword.choice(files, "VALUE", &["RELATIVE"])?;
+        let times = ["STEP TIME", "TOTAL TIME"];
+        let is_total = keyword.choice(files, "TIME", &times)? == "TOTAL TIME";
+        let mut rows: Vec<[f64; 2]> = Vec::new();
+        while let Some(line) = self.source.next_data()? {
+            let mut row = fields(&self.source, keyword, line);
+            while !row.is_at_end() {
+                let time = row.number("the time")?;
+                let value = row.number("the value")?;
+                let last = rows.last().map(|last| last[0]);
+                if last.is_some_and(|last| time <= last) {
+                    return Err(row.place.error(format!(
+                        "time {} must be greater than {} before it",
+                        exact(time),
+                        exact(last.unwrap_or_default())
+                    )));
+                }
+                rows.push([time, value]);
+            }
+        }
+        if rows.is_empty() {
+            let message = "lines with times and values should follow; give them";
+            return Err(keyword.error(&self.source.files, message));
+        }
+        let amplitude = self.deck.program.amplitudes.entry(name);
+        (amplitude.rows, amplitude.is_total) = (rows, is_total);
+        Ok(())
+    }
+
+    pub(super) fn step(&mut self, keyword: &Keyword) -> Result<()> {
+        let files = &self.source.files;
+        let known = [
+            "INC",
+            "INCF",
+            "NLGEOM",
+            "NAME",
+            "AMPLITUDE",
+            "PERTURBATION",
+            "THERMALNETWORK",
+            "EXTRAPOLATION",
+            "UNSYMM",
+            "SHEARINCR",
+        ];
+        keyword.allow(files, &known)?;
+        if self.is_in_step {
+            let message = "the step before has no *END STEP; put it in front of this line";
+            return Err(keyword.error(files, message));
+        }
+        if keyword.has("PERTURBATION") {
+            self.refuse(
+                keyword,
+                keyword.place,
+                "PERTURBATION: steps go on where the one before ended",
+            );
+        }
+        let nlgeom = keyword.has("NLGEOM") && !keyword.get("NLGEOM").is_some_and(is_no);
+        if nlgeom && self.deck.nlgeom.is_none() {
+            self.deck.nlgeom = Some(keyword.place);
+        }
+        if keyword.choice(&self.source.files, "AMPLITUDE", &["RAMP", "STEP"])? == "STEP" {
+            let how =
+                "AMPLITUDE=STEP: what changes is ramped over the step; only its end is the same";
+            self.take(keyword, keyword.place, how);
+        }
+        self.is_in_step = true;
+        self.deck.program.steps.push(Step {
+            place: keyword.place,
+            period: 1.0,
+            ..Step::default()
+        });
+        // A line of words may describe the step.
+        self.skip()
+    }
+
+    pub(super) fn statics(&mut self, keyword: &Keyword) -> Result<()> {
+        let files = &self.source.files;
+        keyword.allow(
+            files,
+            &[
+                "DIRECT",
+                "SOLVER",
+                "EXPLICIT",
+                "TIMERESET",
+                "TOTALTIMEATSTART",
+                "STABILIZE",
+            ],
+        )?;
+        for key in ["TIMERESET", "TOTALTIMEATSTART"] {
+            if keyword.has(key) {
+                return Err(keyword.error(
+                    files,
+                    format!("{key}: time runs on from step to step; take it out"),
+                ));
+            }
+        }
+        let Some(step) = self.current_step() else {
+            return Err(keyword.error(&self.source.files, "it stands in no *STEP; put it in one"));
+        };
+        let mut period = 1.0;
+        let mut increments = 1.0;
+        if let Some(line) = self.source.next_data()? {
+            let mut row = fields(&self.source, keyword, line);
+            let first = row.number_or("the first increment", 1.0)?;
+            if !row.is_at_end() {
+                period = row.number_or("the time of the step", 1.0)?;
+            }
+            if period <= 0.0 {
+                let message = format!(
+                    "the time of the step is {}; it must be positive",
+                    exact(period)
+                );
+                return Err(row.place.error(message));
+            }
+            if first > 0.0 {
+                // A share of the time may be rounded.
+                increments = (period / first - 1e-6).ceil().clamp(1.0, MOST_INCREMENTS);
+            }
+        }
+        self.deck.program.steps[step].period = period;
+        self.deck.program.steps[step].increments = increments as usize;
+        self.skip()
+    }
+
+    pub(super) fn end_step(&mut self, keyword: &Keyword) -> Result<()> {
+        keyword.allow(&self.source.files, &[])?;
+        if !self.is_in_step {
+            return Err(keyword.error(
+                &self.source.files,
+                "there is no *STEP that it ends; take it out",
+            ));
+        }
+        self.is_in_step = false;
+        self.no_more(keyword)
+    }
+
+    /// The index of the step at hand.
+    fn current_step(&self) -> Option<usize> {
+        self.deck
+            .program
+            .steps
+            .len()
+            .checked_sub(1)
+            .filter(|_| self.is_in_step)
+    }
+
+    /// What all conditions have in common: their parameters.
+    fn conditions(&mut self, keyword: &Keyword, kind: Kind) -> Result<Option<String>> {
+        let files = &self.source.files;
+        keyword.allow(files, &["OP", "AMPLITUDE", "FIXED", "TYPE"])?;
+        let is_new = keyword.choice(files, "OP", &["MOD", "NEW"])? == "NEW";
+        keyword.choice(files, "TYPE", &["DISPLACEMENT"])?;
+        let amplitude = keyword.get("AMPLITUDE").map(str::to_string);
+        match self.current_step() {
+            Some(step) if is_new => {
+                let renewed = &mut self.deck.program.steps[step].renewed[kind as usize];
+                renewed.get_or_insert(keyword.place);
+            }
+            None if kind != Kind::Boundary => {
+                return Err(keyword.error(files, "it stands in no *STEP; put it in one"));
+            }
+            _ => {}
+        }
+        if keyword.has("FIXED") {
+            self.refuse(
+                keyword,
+                keyword.place,
+                "FIXED: give the displacement as a value",
+            );
+        }
+        Ok(amplitude)
+    }
+
+    fn add(&mut self, condition: Condition) {
+        match self.current_step() {
+            Some(step) => self.deck.program.steps[step].conditions.push(condition),
+            None => self.deck.program.initial.push(condition),
+        }
+    }
+
+    pub(super) fn boundary(&mut self, keyword: &Keyword) -> Result<()> {
+        let amplitude = self.conditions(keyword, Kind::Boundary)?;
+        while let Some(line) = self.source.next_data()? {
+            let mut row = fields(&self.source, keyword, line);
+            let on = target(&mut row)?;
+            let (ranges, value) = freedoms(&mut row)?;
+            row.end()?;
+            let is_initial = !self.is_in_step;
+            if is_initial && value != 0.0 {
+                return Err(row.place.error(format!(
+                    "the value {} stands before the first step; put it into a *STEP",
+                    exact(value)
+                )));
+            }
+            for range in ranges {
+                self.add(Condition {
+                    kind: Kind::Boundary,
+                    on: on.clone(),
+                    range,
+                    value,
+                    amplitude: amplitude.clone(),
+                    place: line.place,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn cload(&mut self, keyword: &Keyword) -> Result<()> {
+        let amplitude = self.conditions(keyword, Kind::Force)?;
+        while let Some(line) = self.source.next_data()? {
+            let mut row = fields(&self.source, keyword, line);
+            let on = target(&mut row)?;
+            let freedom = row.label("the degree of freedom")? as usize;
+            let value = row.number("the force")?;
+            row.end()?;
+            if !(1..=3).contains(&freedom) {
+                return Err(row.place.error(format!(
+                    "degree of freedom {freedom}: forces act along 1, 2 and 3; moments and heat are not"
+                )));
+            }
+            self.add(Condition {
+                kind: Kind::Force,
+                on,
+                range: [freedom; 2],
+                value,
+                amplitude: amplitude.clone(),
+                place: line.place,
+            });
+        }
+        Ok(())
+    }
+
+    pub(super) fn dload(&mut self, keyword: &Keyword) -> Result<()> {
+        let amplitude = self.conditions(keyword, Kind::Pressure)?;
+        while let Some(line) = self.source.next_data()? {
+            let mut row = fields(&self.source, keyword, line);
+            let on = target(&mut row)?;
+            if let Some(why) = body_load(row) {
+                self.refuse(keyword, line.place, &why);
+                continue;
+            }
+            let face = face(&mut row, b'P')?;
+            let value = row.number("the pressure")?;
+            row.end()?;
+            self.add_pressure(on, face, value, &amplitude, line);
+        }
+        Ok(())
+    }
+
+    pub(super) fn dsload(&mut self, keyword: &Keyword) -> Result<()> {
+        let amplitude = self.conditions(keyword, Kind::Pressure)?;
+        while let Some(line) = self.source.next_data()? {
+            let mut row = fields(&self.source, keyword, line);
+            let on = Target::Set(row.text("the surface")?);
+            let what = row.text("the kind of load")?;
+            if !what.eq_ignore_ascii_case("P") {
+                let why = format!("{what}: of loads on surfaces only pressures, P, are there");
+                self.refuse(keyword, line.place, &why);
+                continue;
+            }
+            let value = row.number("the pressure")?;
+            row.end()?;
+            self.add_pressure(on, 0, value, &amplitude, line);
+        }
+        Ok(())
+    }
+
+    fn add_pressure(
+        &mut self,
+        on: Target,
+        face: usize,
+        value: f64,
+        amplitude: &Option<String>,
+        line: Line,
+    ) {
+        self.add(Condition {
+            kind: Kind::Pressure,
+            on,
+            range: [face; 2],
+            value,
+            amplitude: amplitude.clone(),
+            place: line.place,
+        });
+    }
+}
+
+fn is_no(value: &str) -> bool {
+    value.trim().eq_ignore_ascii_case("no")
+}
+
+/// Ranges of degrees of freedom, and their value.
+fn freedoms(row: &mut Fields) -> Result<(Vec<[usize; 2]>, f64)> {
+    let mut ahead = *row;
+    let word = ahead.word();
+    if word.first().is_some_and(u8::is_ascii_alphabetic) {
+        let name = row.text("the support")?.to_uppercase();
+        let named = NAMED_SUPPORTS.iter().find(|(known, _)| *known == name);
+        let Some((_, ranges)) = named else {
+            let known: Vec<&str> = NAMED_SUPPORTS.iter().map(|(known, _)| *known).collect();
+            let known = known.join(", ");
+            return Err(row.place.error(format!(
+                "{name} is neither a degree of freedom nor one of {known}"
+            )));
+        };
+        return Ok((ranges.to_vec(), 0.0));
+    }
+    let first = row.label("the first degree of freedom")? as usize;
+    let mut last = first;
+    if !row.is_at_end() {
+        let mut ahead = *row;
+        if ahead.word().is_empty() {
+            row.word();
+        } else {
+            last = row.label("the last degree of freedom")? as usize;
+        }
+    }
+    let value = match row.is_at_end() {
+        true => 0.0,
+        false => row.number_or("the value", 0.0)?,
+    };
+    if first == 0 || last < first || last > 6 {
+        return Err(row.place.error(format!(
+            "degrees of freedom {first} to {last}: displacements are 1, 2 and 3, the last must not be less than the first"
+        )));
+    }
+    Ok((vec![[first, last]], value))
+}
+
+/// Why a load of `*DLOAD` is none that brinell has.
+fn body_load(mut row: Fields) -> Option<String> {
+    let word = row.word();
+    if word
+        .first()
+        .is_some_and(|first| first.eq_ignore_ascii_case(&b'P'))
+        && word.len() == 2
+    {
+        return None;
+    }
+    let word = super::super::fields::shown(word).to_uppercase();
+    Some(match word.as_str() {
+        "GRAV" | "CENTRIF" | "BX" | "BY" | "BZ" | "NEWTON" => {
+            format!("{word}: there are no body forces yet, loads act on nodes and faces")
+        }
+        _ => format!("{word}: of loads on elements only pressures on faces, P1 to P6, are there"),
+    })
+}

@@ -1,0 +1,352 @@
+//! Materials, sections, contact and constraints.
+
+use super::mesh::target;
+use super::{Reader, fields};
+use crate::deck::data::{Clearance, ContactPair, Equation, MaterialData, Section, Transform};
+use crate::deck::keyword::Keyword;
+use crate::error::Result;
+use crate::text::exact;
+
+/// Most terms of an equation.
+const MOST_TERMS: u64 = 100_000;
+
+impl Reader<'_> {
+    pub(super) fn material(&mut self, keyword: &Keyword) -> Result<()> {
+        let files = &self.source.files;
+        keyword.allow(files, &["NAME"])?;
+        let name = keyword.require(files, "NAME")?;
+        if self.deck.properties.materials.get(name).is_some() {
+            let message = format!("a second material {name}; rename one of them");
+            return Err(keyword.error(files, message));
+        }
+        self.deck.properties.materials.entry(name).place = keyword.place;
+        self.material = Some(name.to_string());
+        self.no_more(keyword)
+    }
+
+    /// The material that a law belongs to.
+    fn of_material(&mut self, keyword: &Keyword) -> Result<&mut MaterialData> {
+        let name = self.material.as_deref();
+        let materials = &mut self.deck.properties.materials;
+        match name.and_then(|name| materials.get_mut(name)) {
+            Some(material) => Ok(material),
+            None => Err(keyword.error(
+                &self.source.files,
+                "it belongs to no *MATERIAL; put it below one",
+            )),
+        }
+    }
+
+    pub(super) fn elastic(&mut self, keyword: &Keyword) -> Result<()> {
+        keyword.allow(&self.source.files, &["TYPE"])?;
+        let types = [
+            "ISO",
+            "ISOTROPIC",
+            "ORTHO",
+            "ORTHOTROPIC",
+            "ENGINEERING CONSTANTS",
+            "ANISO",
+            "ANISOTROPIC",
+        ];
+        if !keyword
+            .choice(&self.source.files, "TYPE", &types)?
+            .starts_with("ISO")
+        {
+            self.refuse(keyword, keyword.place, "elasticity is isotropic here");
+            return self.skip();
+        }
+        let line = self.one_line(keyword, "Young's modulus and Poisson's ratio")?;
+        let mut row = fields(&self.source, keyword, line);
+        let law = [
+            row.number("Young's modulus")?,
+            row.number("Poisson's ratio")?,
+        ];
+        if !row.is_at_end() {
+            row.number_or("the temperature", 0.0)?;
+        }
+        row.end()?;
+        self.of_material(keyword)?.elastic = Some(law);
+        if let Some(line) = self.source.next_data()? {
+            let why = "it depends on temperature, and there is none yet: give one line";
+            self.refuse(keyword, line.place, why);
+        }
+        self.skip()
+    }
+
+    pub(super) fn plastic(&mut self, keyword: &Keyword) -> Result<()> {
+        keyword.allow(&self.source.files, &["HARDENING", "RATE"])?;
+        let laws = ["ISOTROPIC", "KINEMATIC", "COMBINED", "JOHNSON COOK", "USER"];
+        let law = keyword.choice(&self.source.files, "HARDENING", &laws)?;
+        if law != "ISOTROPIC" || keyword.has("RATE") {
+            let why = "hardening is isotropic and independent of rate here: there is no kinematic hardening yet";
+            self.refuse(keyword, keyword.place, why);
+            return self.skip();
+        }
+        let mut rows: Vec<[f64; 2]> = Vec::new();
+        let mut temperatures = Vec::new();
+        while let Some(line) = self.source.next_data()? {
+            let mut row = fields(&self.source, keyword, line);
+            let stress = row.number("the yield stress")?;
+            let strain = row.number_or("the plastic strain", 0.0)?;
+            let temperature = row.number_or("the temperature", 0.0)?;
+            row.end()?;
+            if temperatures.iter().any(|t| *t != temperature) {
+                let why = "it depends on temperature, and there is none yet: give one table";
+                self.refuse(keyword, line.place, why);
+                break;
+            }
+            let last = rows.last().map_or(-1.0, |row| row[0]);
+            if (rows.is_empty() && strain != 0.0) || strain <= last {
+                return Err(row.place.error(format!(
+                    "the plastic strain is {}; the first must be 0, and each greater than the one before",
+                    exact(strain)
+                )));
+            }
+            temperatures.push(temperature);
+            rows.push([strain, stress]);
+        }
+        if rows.is_empty() {
+            let message = "a line with yield stress and plastic strain should follow; give it";
+            return Err(keyword.error(&self.source.files, message));
+        }
+        self.of_material(keyword)?.plastic = rows;
+        self.skip()
+    }
+
+    pub(super) fn section(&mut self, keyword: &Keyword) -> Result<()> {
+        let files = &self.source.files;
+        keyword.allow(files, &["ELSET", "MATERIAL", "ORIENTATION", "CONTROLS"])?;
+        let elements = keyword.require(files, "ELSET")?.to_string();
+        let material = keyword.require(files, "MATERIAL")?.to_string();
+        if keyword.has("ORIENTATION") {
+            self.refuse(
+                keyword,
+                keyword.place,
+                "materials are isotropic: take ORIENTATION out",
+            );
+        }
+        let mut thickness = None;
+        if let Some(line) = self.source.next_data()? {
+            let mut row = fields(&self.source, keyword, line);
+            let given = row.number_or("the thickness", 1.0)?;
+            if given <= 0.0 {
+                let message = format!("the thickness is {}; it must be positive", exact(given));
+                return Err(row.place.error(message));
+            }
+            thickness = Some(given);
+        }
+        self.deck.properties.sections.push(Section {
+            elements,
+            material,
+            thickness,
+            place: keyword.place,
+        });
+        self.skip()
+    }
+
+    pub(super) fn interaction(&mut self, keyword: &Keyword) -> Result<()> {
+        let files = &self.source.files;
+        keyword.allow(files, &["NAME"])?;
+        let name = keyword.require(files, "NAME")?;
+        *self.deck.properties.interactions.entry(name) = keyword.place;
+        // A thickness out of the plane may follow: forces are per unit of it.
+        self.skip()
+    }
+
+    /// Contact is exact complementarity whatever a deck says.
+    pub(super) fn behavior(&mut self, keyword: &Keyword) -> Result<()> {
+        let files = &self.source.files;
+        keyword.allow(
+            files,
+            &[
+                "PRESSURE-OVERCLOSURE",
+                "PENALTY",
+                "AUGMENTEDLAGRANGE",
+                "NOSEPARATION",
+            ],
+        )?;
+        let laws = [
+            "HARD",
+            "LINEAR",
+            "EXPONENTIAL",
+            "TABULAR",
+            "TIED",
+            "SCALE FACTOR",
+        ];
+        let law = keyword.choice(files, "PRESSURE-OVERCLOSURE", &laws)?;
+        if law == "TIED" || keyword.has("NOSEPARATION") {
+            self.refuse(
+                keyword,
+                keyword.place,
+                "surfaces that touch can part: let bodies that never do share nodes",
+            );
+        } else if law != "HARD" {
+            let how = format!(
+                "PRESSURE-OVERCLOSURE={law} is taken as hard contact: the surfaces do not overlap, and no stiffness is needed"
+            );
+            self.take(keyword, keyword.place, &how);
+        }
+        self.skip()
+    }
+
+    /// A coefficient of 0 is no friction.
+    pub(super) fn friction(&mut self, keyword: &Keyword) -> Result<()> {
+        let mut coefficient = f64::NAN;
+        if let Some(line) = self.source.next_data()? {
+            let mut row = fields(&self.source, keyword, line);
+            coefficient = row.number_or("the coefficient of friction", 0.0)?;
+        }
+        if coefficient != 0.0 {
+            self.refuse(
+                keyword,
+                keyword.place,
+                "contact is frictionless: take it out, or give the coefficient 0",
+            );
+        }
+        self.skip()
+    }
+
+    pub(super) fn contact_pair(&mut self, keyword: &Keyword) -> Result<()> {
+        let files = &self.source.files;
+        let known = [
+            "INTERACTION",
+            "TYPE",
+            "SMALLSLIDING",
+            "ADJUST",
+            "EXTENSIONZONE",
+            "HCRIT",
+            "TRACKING",
+        ];
+        keyword.allow(files, &known)?;
+        let interaction = keyword.require(files, "INTERACTION")?.to_string();
+        let adjust = match keyword.get("ADJUST") {
+            Some(text) => match text.parse::<f64>() {
+                Ok(distance) if distance >= 0.0 && distance.is_finite() => Some(distance),
+                _ => {
+                    let why = format!(
+                        "ADJUST={text}: only a distance, 0 or more, is read; give one or take it out"
+                    );
+                    return Err(keyword.error(files, why));
+                }
+            },
+            None => None,
+        };
+        let mut is_first = true;
+        while let Some(line) = self.source.next_data()? {
+            let mut row = fields(&self.source, keyword, line);
+            let slave = row.text("the slave surface")?;
+            let master = row.text("the master surface")?;
+            row.end()?;
+            self.deck.properties.contacts.push(ContactPair {
+                slave,
+                master,
+                interaction: interaction.clone(),
+                adjust,
+                place: line.place,
+            });
+            is_first = false;
+        }
+        if is_first {
+            let message = "a line with the slave and the master surface should follow; give it";
+            return Err(keyword.error(&self.source.files, message));
+        }
+        if !keyword.has("SMALLSLIDING") {
+            let how = "sliding is small: each node stays at what it faces in the mesh";
+            self.take(keyword, keyword.place, how);
+        }
+        Ok(())
+    }
+
+    pub(super) fn clearance(&mut self, keyword: &Keyword) -> Result<()> {
+        let files = &self.source.files;
+        keyword.allow(files, &["MASTER", "SLAVE", "VALUE"])?;
+        let [master, slave, value] =
+            ["MASTER", "SLAVE", "VALUE"].map(|key| keyword.require(files, key));
+        let (master, slave, value) = (master?.to_string(), slave?.to_string(), value?);
+        let number = value.parse::<f64>().ok().filter(|value| value.is_finite());
+        let value = number.ok_or_else(|| {
+            keyword.error(files, format!("VALUE={value} is not a number; give one"))
+        })?;
+        self.deck.properties.clearances.push(Clearance {
+            slave,
+            master,
+            value,
+            place: keyword.place,
+        });
+        self.no_more(keyword)
+    }
+
+    /// The number of terms; then node, degree of freedom and coefficient of each, line by line.
+    pub(super) fn equation(&mut self, keyword: &Keyword) -> Result<()> {
+        keyword.allow(&self.source.files, &[])?;
+        while let Some(first) = self.source.next_data()? {
+            let mut row = fields(&self.source, keyword, first);
+            let n = row.label("the number of terms")?;
+            if !(2..=MOST_TERMS).contains(&n) {
+                return Err(row.place.error(format!(
+                    "{n} terms; give at least 2 and at most {MOST_TERMS}"
+                )));
+            }
+            row.end()?;
+            let mut terms = Vec::new();
+            while (terms.len() as u64) < n {
+                let line = self.one_line(keyword, "node, degree of freedom and coefficient")?;
+                let mut row = fields(&self.source, keyword, line);
+                while !row.is_at_end() {
+                    let node = target(&mut row)?;
+                    let freedom = row.label("the degree of freedom")? as usize;
+                    terms.push((node, freedom, row.number("the coefficient")?));
+                }
+            }
+            if terms.len() as u64 != n {
+                let place = self.source.files.show(first.place);
+                let message = format!(
+                    "{place}: *EQUATION: {n} terms are announced, {} are given",
+                    terms.len()
+                );
+                return Err(crate::Error::input(message));
+            }
+            self.deck.properties.equations.push(Equation {
+                terms,
+                place: first.place,
+            });
+        }
+        Ok(())
+    }
+
+    pub(super) fn transform(&mut self, keyword: &Keyword) -> Result<()> {
+        let files = &self.source.files;
+        keyword.allow(files, &["NSET", "TYPE"])?;
+        let nodes = keyword.require(files, "NSET")?.to_string();
+        let is_cylindrical = keyword.choice(files, "TYPE", &["R", "C"])? == "C";
+        let line = self.one_line(keyword, "the coordinates of two points")?;
+        let mut row = fields(&self.source, keyword, line);
+        let mut points = [[0.0; 3]; 2];
+        for x in points.as_flattened_mut() {
+            *x = row.number_or("a coordinate", 0.0)?;
+        }
+        row.end()?;
+        self.deck.properties.transforms.push(Transform {
+            nodes,
+            is_cylindrical,
+            points,
+            place: keyword.place,
+        });
+        self.no_more(keyword)
+    }
+
+    pub(super) fn initial_conditions(&mut self, keyword: &Keyword) -> Result<()> {
+        match keyword.get("TYPE").map(str::to_uppercase).as_deref() {
+            Some("TEMPERATURE") => {
+                let why = "nothing depends on temperature, and none is prescribed";
+                self.ignore(keyword, keyword.place, why);
+            }
+            _ => self.refuse(
+                keyword,
+                keyword.place,
+                "bodies begin without stress and strain",
+            ),
+        }
+        self.skip()
+    }
+}

@@ -1,0 +1,117 @@
+//! Values over time, piecewise linear.
+
+/// Values closer than this share of the largest are the same: they come from sums and products.
+const SAME: f64 = 1e-12;
+
+/// Time and value, from time 0 on; flat after the last row.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Series(Vec<[f64; 2]>);
+
+impl Series {
+    /// A value at time 0.
+    pub(super) fn starting(value: f64) -> Series {
+        Series(vec![[0.0, value]])
+    }
+
+    /// The last value; 0 before there is any.
+    pub(super) fn last(&self) -> f64 {
+        self.0.last().map_or(0.0, |row| row[1])
+    }
+
+    /// Goes on linearly to a value at a later time.
+    pub(super) fn push(&mut self, time: f64, value: f64) {
+        if let [.., [t0, v0], [t1, v1]] = self.0[..] {
+            let on_line = v0 + (value - v0) * (t1 - t0) / (time - t0);
+            let size = v0.abs().max(v1.abs()).max(value.abs());
+            if (on_line - v1).abs() <= SAME * size {
+                self.0.pop();
+            }
+        }
+        self.0.push([time, value]);
+    }
+
+    /// The value of the largest size, with its sign.
+    pub(super) fn largest(&self) -> f64 {
+        let values = self.0.iter().map(|row| row[1]);
+        values.fold(0.0, |m: f64, v| if v.abs() > m.abs() { v } else { m })
+    }
+
+    pub(super) fn is_finite(&self) -> bool {
+        self.0.as_flattened().iter().all(|x| x.is_finite())
+    }
+
+    pub(super) fn is_zero(&self) -> bool {
+        self.largest() == 0.0
+    }
+
+    /// Its value at a time.
+    pub(super) fn at(&self, time: f64) -> f64 {
+        interpolate(&self.0, time)
+    }
+
+    /// Its rows over the largest value.
+    pub(super) fn shape(&self) -> Vec<[f64; 2]> {
+        let largest = self.largest();
+        let rows = self.0.iter();
+        rows.map(|&[time, value]| [time, value / largest]).collect()
+    }
+
+    /// Adds another one, times a factor.
+    pub(super) fn add(&mut self, other: &Series, factor: f64) {
+        let mut times: Vec<f64> = self.0.iter().chain(&other.0).map(|row| row[0]).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        let mut sum = Series::default();
+        for time in times {
+            sum.push(time, self.at(time) + factor * other.at(time));
+        }
+        *self = sum;
+    }
+
+    /// The numbers it is made of, to find equal ones by.
+    pub(super) fn bits(&self) -> Vec<u64> {
+        let numbers = self.0.as_flattened().iter();
+        // Zeros of either sign are alike.
+        numbers.map(|x| (x + 0.0).to_bits()).collect()
+    }
+}
+
+/// The value of a piecewise linear function, flat outside.
+pub(super) fn interpolate(rows: &[[f64; 2]], time: f64) -> f64 {
+    let next = rows.partition_point(|row| row[0] <= time);
+    match (next.checked_sub(1).map(|i| rows[i]), rows.get(next)) {
+        (Some(a), Some(b)) => a[1] + (b[1] - a[1]) * (time - a[0]) / (b[0] - a[0]),
+        (Some(a), None) => a[1],
+        (None, Some(b)) => b[1],
+        (None, None) => 0.0,
+    }
+}
+
+/// Whether two shapes are the same but for round-off.
+pub(super) fn are_alike(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
+    let close = |x: f64, y: f64| (x - y).abs() <= SAME * x.abs().max(y.abs()).max(1.0);
+    let numbers = a.as_flattened().iter().zip(b.as_flattened());
+    a.len() == b.len() && numbers.into_iter().all(|(x, y)| close(*x, *y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_on_a_line_are_one() {
+        let mut series = Series::starting(0.0);
+        for time in 1..5 {
+            series.push(f64::from(time), 0.1 * f64::from(time));
+        }
+        series.push(6.0, 0.0);
+        assert_eq!(series.0.len(), 3);
+        assert_eq!(series.largest(), 0.4);
+        assert!((series.at(5.0) - 0.2).abs() < 1e-15);
+        let mut sum = series.clone();
+        sum.add(&series, -2.0);
+        assert!((sum.at(2.5) + series.at(2.5)).abs() < 1e-15);
+        assert!(are_alike(&sum.shape(), &series.shape()));
+        assert!(!are_alike(&sum.shape(), &Series::starting(1.0).shape()));
+    }
+}

@@ -1,0 +1,203 @@
+//! From names and numbers to indices of nodes, elements and faces.
+
+use super::data::{Member, Members, Named, SurfacePart, Target};
+use super::facets::Face;
+use super::source::Place;
+use super::{Deck, element_type};
+use crate::error::Result;
+use crate::labels::LabelIndex;
+use crate::scene::closest;
+use std::collections::BTreeSet;
+
+/// Nodes or elements.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum What {
+    Nodes,
+    Elements,
+}
+
+impl What {
+    /// A node or element, and the keyword that makes sets of them.
+    fn words(self) -> [&'static str; 2] {
+        match self {
+            What::Nodes => ["node", "NSET"],
+            What::Elements => ["element", "ELSET"],
+        }
+    }
+}
+
+/// Where something is named: its line and keyword.
+pub(super) type At<'k> = (Place, &'k str);
+
+impl Deck {
+    fn table(&self, what: What) -> (&Named<Members>, &LabelIndex, &[u64]) {
+        match what {
+            What::Nodes => (&self.sets.nodes, &self.node_index, &self.nodes.labels),
+            What::Elements => (
+                &self.sets.elements,
+                &self.element_index,
+                &self.elements.labels,
+            ),
+        }
+    }
+
+    /// The indices of one node or element, or of a set: ascending, each once.
+    ///
+    /// # Errors
+    /// A number or name that there is not, at the line that names it.
+    pub(super) fn indices(&self, what: What, target: &Target, at: At) -> Result<Vec<u32>> {
+        let mut out = Vec::new();
+        self.collect(what, target, at, &mut BTreeSet::new(), &mut out)?;
+        out.sort_unstable();
+        out.dedup();
+        Ok(out)
+    }
+
+    fn collect(
+        &self,
+        what: What,
+        target: &Target,
+        at: At,
+        seen: &mut BTreeSet<String>,
+        out: &mut Vec<u32>,
+    ) -> Result<()> {
+        let [thing, key] = what.words();
+        let (sets, index, _) = self.table(what);
+        let name = match target {
+            Target::Label(label) => {
+                let found = index.get(*label).ok_or_else(|| {
+                    self.error(at.0, at.1, format!("there is no {thing} {label}"))
+                })?;
+                out.push(found);
+                return Ok(());
+            }
+            Target::Set(name) => name,
+        };
+        let members = sets
+            .get(name)
+            .ok_or_else(|| self.unknown(&format!("{thing} set"), name, sets.names(), at))?;
+        // A set adds nothing the second time, not even one that holds itself.
+        if !seen.insert(name.to_uppercase()) {
+            return Ok(());
+        }
+        for (member, place) in members {
+            let at = (*place, key);
+            match member {
+                Member::Of(target) => self.collect(what, target, at, seen, out)?,
+                Member::Rows(first, last) => out.extend(*first as u32..*last as u32),
+                Member::Range(first, last, step) => {
+                    self.range(what, [*first, *last, *step], at, out)?;
+                }
+                Member::NodesOf(name) => {
+                    let of = Target::Set(name.clone());
+                    for element in self.indices(What::Elements, &of, at)? {
+                        out.extend_from_slice(self.element_nodes(element as usize));
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Numbers of `GENERATE`. Looked up one by one where they are few, else among those there are.
+    fn range(
+        &self,
+        what: What,
+        [first, last, step]: [u64; 3],
+        at: At,
+        out: &mut Vec<u32>,
+    ) -> Result<()> {
+        let (_, index, labels) = self.table(what);
+        let thing = what.words()[0];
+        if (last - first) / step >= labels.len() as u64 {
+            let message = format!(
+                "GENERATE from {first} to {last} by {step} names more {thing}s than the {} there are",
+                labels.len()
+            );
+            return Err(self.error(at.0, at.1, message));
+        }
+        for label in (first..=last).step_by(step as usize) {
+            let found = index
+                .get(label)
+                .ok_or_else(|| self.error(at.0, at.1, format!("there is no {thing} {label}")))?;
+            out.push(found);
+        }
+        Ok(())
+    }
+
+    fn unknown(&self, what: &str, name: &str, known: Vec<String>, at: At) -> crate::error::Error {
+        let known: Vec<&str> = known.iter().map(String::as_str).collect();
+        let message = match closest(name, &known) {
+            Some(meant) => {
+                let meant = meant.to_uppercase();
+                format!("there is no {what} {name}, did you mean {meant}?")
+            }
+            None => format!("there is no {what} {name}; name one that there is"),
+        };
+        self.error(at.0, at.1, message)
+    }
+
+    /// Indices of the nodes of an element.
+    pub(crate) fn element_nodes(&self, element: usize) -> &[u32] {
+        let offsets = &self.elements.offsets;
+        &self.connectivity[offsets[element]..offsets[element + 1]]
+    }
+
+    /// The local facet of a face number of an element.
+    pub(super) fn facet(&self, element: u32, number: usize, at: At) -> Result<Face> {
+        let shape = self.elements.types[element as usize].shape;
+        let local = element_type::facet(shape, number).ok_or_else(|| {
+            let message = format!(
+                "element {} is a {} and has {} faces, none with number {number}",
+                self.elements.labels[element as usize],
+                shape.name(),
+                shape.n_facets()
+            );
+            self.error(at.0, at.1, message)
+        })?;
+        Ok((element, local as u8))
+    }
+
+    /// The faces of a surface: ascending, each once.
+    ///
+    /// # Errors
+    /// A name, number or face that there is not; a surface without faces.
+    pub(super) fn surface(&self, name: &str, at: At) -> Result<Vec<Face>> {
+        let surfaces = &self.sets.surfaces;
+        let parts = surfaces
+            .get(name)
+            .ok_or_else(|| self.unknown("surface", name, surfaces.names(), at))?;
+        let mut out = Vec::new();
+        for (part, place) in parts {
+            let at = (*place, "SURFACE");
+            match part {
+                SurfacePart::Face(on, number) => {
+                    for element in self.indices(What::Elements, on, at)? {
+                        out.push(self.facet(element, *number, at)?);
+                    }
+                }
+                SurfacePart::Free(on) => {
+                    let elements = self.indices(What::Elements, on, at)?;
+                    out.extend(self.free_faces_of(&elements));
+                }
+                SurfacePart::OfNodes(_) => {}
+            }
+        }
+        let mut nodes = Vec::new();
+        for (part, place) in parts {
+            if let SurfacePart::OfNodes(on) = part {
+                nodes.extend(self.indices(What::Nodes, on, (*place, "SURFACE"))?);
+            }
+        }
+        if !nodes.is_empty() {
+            out.extend(self.free_faces_among(nodes));
+        }
+        out.sort_unstable();
+        out.dedup();
+        if out.is_empty() {
+            let message = format!("the surface {name} has no faces of elements");
+            return Err(self.error(at.0, at.1, message));
+        }
+        Ok(out)
+    }
+}

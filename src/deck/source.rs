@@ -1,0 +1,203 @@
+//! The lines of a deck and of the files that it includes, one after the other, each with its place.
+
+use crate::error::{Error, Result};
+use crate::files;
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
+
+/// Files that one deck may include: more are a mistake, or an attack.
+const MOST_FILES: usize = 1000;
+
+/// A line of a file of the deck.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub(super) struct Place {
+    file: u32,
+    line: u32,
+}
+
+/// Names of the files of a deck, for messages.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Files(Vec<String>);
+
+impl Files {
+    /// `FILE, line N`.
+    pub(super) fn show(&self, place: Place) -> String {
+        format!("{}, line {}", self.name(place), place.line)
+    }
+
+    /// The name of the deck itself.
+    pub(super) fn first(&self) -> &str {
+        self.0.first().map_or("", String::as_str)
+    }
+
+    fn name(&self, place: Place) -> &str {
+        self.0.get(place.file as usize).map_or("", String::as_str)
+    }
+}
+
+impl Place {
+    /// The line's number alone, for lists that concern one file.
+    pub(super) fn line(self) -> u32 {
+        self.line
+    }
+}
+
+/// A line that is neither blank nor a comment.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Line {
+    pub(super) place: Place,
+    start: usize,
+    end: usize,
+}
+
+/// A file that is being read.
+struct Open {
+    file: u32,
+    at: usize,
+    line: u32,
+}
+
+/// The lines of a deck. `*INCLUDE` is followed here: what comes after it does not see it.
+pub(super) struct Source<'t> {
+    texts: Vec<Cow<'t, [u8]>>,
+    pub(super) files: Files,
+    /// What relative paths are relative to.
+    folder: Option<PathBuf>,
+    open: Vec<Open>,
+    ahead: Option<Line>,
+}
+
+impl<'t> Source<'t> {
+    pub(super) fn new(text: Cow<'t, [u8]>, name: &str, folder: Option<&Path>) -> Self {
+        Source {
+            texts: vec![text],
+            files: Files(vec![name.to_string()]),
+            folder: folder.map(Path::to_path_buf),
+            open: vec![Open {
+                file: 0,
+                at: 0,
+                line: 0,
+            }],
+            ahead: None,
+        }
+    }
+
+    /// The bytes of a line, without blanks at its ends.
+    pub(super) fn bytes(&self, line: Line) -> &[u8] {
+        &self.texts[line.place.file as usize][line.start..line.end]
+    }
+
+    /// The name of a line's file.
+    pub(super) fn file(&self, line: Line) -> &str {
+        self.files.name(line.place)
+    }
+
+    /// The place of the end of what was read.
+    pub(super) fn here(&self) -> Place {
+        self.open.last().map_or(Place::default(), |open| Place {
+            file: open.file,
+            line: open.line,
+        })
+    }
+
+    /// The next line; `None` at the end of the deck.
+    ///
+    /// # Errors
+    /// Those of [`Source::include`].
+    pub(super) fn next(&mut self) -> Result<Option<Line>> {
+        if let Some(line) = self.ahead.take() {
+            return Ok(Some(line));
+        }
+        while let Some(open) = self.open.last_mut() {
+            let text = &self.texts[open.file as usize];
+            let rest = &text[open.at..];
+            if rest.is_empty() {
+                if self.open.len() == 1 {
+                    return Ok(None);
+                }
+                self.open.pop();
+                continue;
+            }
+            let length = rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len());
+            let whole = &rest[..length];
+            let left = whole.len() - whole.trim_ascii_start().len();
+            let trimmed = whole.trim_ascii();
+            let line = Line {
+                place: Place {
+                    file: open.file,
+                    line: open.line + 1,
+                },
+                start: open.at + left,
+                end: open.at + left + trimmed.len(),
+            };
+            open.at += (length + 1).min(rest.len());
+            open.line += 1;
+            match trimmed {
+                [] | [b'*', b'*', ..] => {}
+                [b'*', ..] if is_include(trimmed) => self.include(line)?,
+                _ => return Ok(Some(line)),
+            }
+        }
+        Ok(None)
+    }
+
+    /// The next data line; `None` where a keyword comes next, or the end.
+    ///
+    /// # Errors
+    /// Those of [`Source::next`].
+    pub(super) fn next_data(&mut self) -> Result<Option<Line>> {
+        match self.next()? {
+            Some(line) if self.bytes(line).first() == Some(&b'*') => {
+                self.ahead = Some(line);
+                Ok(None)
+            }
+            other => Ok(other),
+        }
+    }
+
+    /// Goes on in the file that an `*INCLUDE` names.
+    ///
+    /// # Errors
+    /// `Input` where it names none, one that is being read, or too many are named; those of reading it.
+    fn include(&mut self, line: Line) -> Result<()> {
+        let place = self.files.show(line.place);
+        let refused = |why: String| Err(Error::input(format!("{place}: *INCLUDE: {why}")));
+        let text = String::from_utf8_lossy(self.bytes(line)).into_owned();
+        let given = text.split(',').skip(1).find_map(|parameter| {
+            let (key, value) = parameter.split_once('=')?;
+            let value = value.trim().trim_matches('"');
+            key.trim().eq_ignore_ascii_case("input").then_some(value)
+        });
+        let Some(given) = given.filter(|given| !given.is_empty()) else {
+            return refused("no file is named; write *INCLUDE, INPUT=FILE".to_string());
+        };
+        let path = match &self.folder {
+            Some(folder) => folder.join(given),
+            None => PathBuf::from(given),
+        };
+        let name = path.display().to_string();
+        let is_open = |open: &Open| self.files.0[open.file as usize] == name;
+        if self.open.iter().any(is_open) {
+            return refused(format!("{name} includes itself; take the line out"));
+        }
+        if self.texts.len() > MOST_FILES {
+            return refused(format!("more than {MOST_FILES} files are included"));
+        }
+        let text = files::read("read the included file", &path, None)
+            .map_err(|error| error.within(format!("{place}: *INCLUDE")))?;
+        self.open.push(Open {
+            file: self.texts.len() as u32,
+            at: 0,
+            line: 0,
+        });
+        self.texts.push(Cow::Owned(text));
+        self.files.0.push(name);
+        Ok(())
+    }
+}
+
+/// Whether a line that begins with a star is an `*INCLUDE`.
+fn is_include(line: &[u8]) -> bool {
+    let word = line.split(|&b| b == b',').next().unwrap_or_default();
+    word[1..].trim_ascii().eq_ignore_ascii_case(b"include")
+}

@@ -1,0 +1,146 @@
+use super::*;
+use crate::scene::{Direction, History, Scene};
+use std::path::PathBuf;
+
+fn read(name: &str) -> Deck {
+    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    Deck::read(&root.join(name)).unwrap()
+}
+
+fn small_strain(deck: &Deck) -> Conversion {
+    deck.convert(Options { small_strain: true }).unwrap()
+}
+
+fn directions(scene: &Scene, on: &str) -> Vec<Direction> {
+    let mut of = scene.support.iter().filter(|support| support.on == on);
+    of.next().map_or(Vec::new(), |support| support.fix.clone())
+}
+
+#[test]
+fn a_deck_begins_with_a_keyword() {
+    for text in ["1, 2", "$MeshFormat", "kind = \"solid\""] {
+        let error = Deck::parse(text.as_bytes(), "a.inp").err().unwrap();
+        assert!(error.message().starts_with("a.inp, line 1: "), "{error}");
+    }
+    // Nothing at all is read, but is no model.
+    let deck = Deck::parse(b"** a comment\n\n", "a.inp").unwrap();
+    assert!(deck.convert(Options::default()).is_err());
+}
+
+#[test]
+fn every_keyword_becomes_what_it_means() {
+    let deck = read("tests/fuzz/seeds/every_keyword.inp");
+    let conversion = small_strain(&deck);
+    let scene = conversion.finish("every.inp", &[]).unwrap();
+    // One section of two bodies that share no node: sets that are the bodies give the names.
+    assert_eq!(scene.bodies.keys().collect::<Vec<_>>(), ["HIGH", "LOW"]);
+    let steel = &scene.materials["STEEL"];
+    assert_eq!(steel.yield_stress, Some(300.0));
+    assert_eq!(
+        steel.hardening_table,
+        Some(vec![[0.0, 300.0], [0.1, 400.0]])
+    );
+    // The axes of the transform are the global ones.
+    let turned = scene
+        .support
+        .iter()
+        .filter(|support| support.direction.is_some());
+    assert_eq!(turned.count(), 2);
+    assert_eq!(directions(&scene, "boundary-line-60"), [Direction::X]);
+    // The force on the leader of a plane, over the thickness; the pressure that goes again.
+    let plane = &scene.load[0];
+    assert_eq!(plane.plane_force.unwrap().total, -2.5);
+    assert_eq!(
+        plane.history,
+        History::Table(vec![[0.0, 0.0], [1.0, 1.0], [2.0, 0.5]])
+    );
+    let pressure = &scene.load[1];
+    assert_eq!(pressure.pressure, Some(3.0));
+    assert_eq!(
+        pressure.history,
+        History::Table(vec![[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]])
+    );
+    let contact = &scene.contact[0];
+    assert_eq!((contact.first.as_str(), contact.gap), ("UNDER", Some(0.0)));
+    let targets = scene.program.targets.iter();
+    let targets: Vec<_> = targets
+        .map(|t| (t.name.as_deref(), t.load_factor))
+        .collect();
+    assert_eq!(
+        targets,
+        [(Some("step-1"), Some(1.0)), (Some("step-2"), Some(2.0))]
+    );
+    // Places are those of the deck.
+    assert!(
+        scene
+            .places
+            .of("load.1.pressure")
+            .unwrap()
+            .ends_with("line 68")
+    );
+}
+
+#[test]
+fn loads_that_change_alike_give_load_factors() {
+    let text = "\
+*NODE
+1, 0., 0.
+2, 1., 0.
+3, 1., 1.
+4, 0., 1.
+*ELEMENT, TYPE=CPS4, ELSET=E
+1, 1, 2, 3, 4
+*MATERIAL, NAME=M
+*ELASTIC
+1., 0.
+*SOLID SECTION, ELSET=E, MATERIAL=M
+*BOUNDARY
+1, 1, 2
+2, 2
+*STEP
+*STATIC
+1., 4.
+*CLOAD
+3, 2, 10.
+4, 2, 10.
+*DLOAD
+1, P3, -2.
+*END STEP
+*STEP
+*STATIC
+*CLOAD
+3, 2, 5.
+4, 2, 5.
+*DLOAD
+1, P3, -1.
+*END STEP
+";
+    let deck = Deck::parse(text.as_bytes(), "a.inp").unwrap();
+    let scene = small_strain(&deck).scene;
+    assert!(
+        scene
+            .load
+            .iter()
+            .all(|load| load.history == History::Proportional)
+    );
+    // The two nodes are one set, and its force that of both.
+    assert_eq!(scene.load.len(), 2);
+    assert_eq!(scene.load[0].force.unwrap().vector(), [0.0, 20.0, 0.0]);
+    let factors: Vec<_> = scene
+        .program
+        .targets
+        .iter()
+        .map(|t| t.load_factor)
+        .collect();
+    assert_eq!(factors, [Some(1.0), Some(0.5)]);
+}
+
+/// Sets that hold themselves or each other end.
+#[test]
+fn sets_in_a_circle_are_the_sum_of_their_members() {
+    let text = "*NODE\n1\n2\n3\n*NSET, NSET=A\nB, 1\n*NSET, NSET=B\nA, B, 3\n";
+    let deck = Deck::parse(text.as_bytes(), "a.inp").unwrap();
+    let a = data::Target::Set("a".to_string());
+    let at = (Place::default(), "NSET");
+    assert_eq!(deck.indices(sets::What::Nodes, &a, at).unwrap(), [0, 2]);
+}

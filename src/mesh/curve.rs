@@ -1,0 +1,234 @@
+//! Exact shapes of surfaces.
+
+use crate::space::{Vector, along, difference, direction, dot, in_space, length};
+use serde::{Deserialize, Serialize};
+
+/// The exact shape of a surface, where it is known. Normals then are exact at every node.
+///
+/// `outward` is true where the body's outward normal points away from the centre, the axis or the
+/// ring (a disc, a shaft, a ball), false for a hole or a groove.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Curve {
+    /// A straight line with outward unit normal.
+    Line {
+        /// Outward unit normal of the body.
+        normal: [f64; 2],
+    },
+    /// A circular arc.
+    Circle {
+        /// Centre.
+        center: [f64; 2],
+        /// Radius.
+        radius: f64,
+        /// True where the body's outward normal points away from the centre (a disc), false for a
+        /// hole.
+        outward: bool,
+    },
+    /// A plane, of a solid.
+    Plane {
+        /// Outward unit normal of the body.
+        normal: Vector,
+    },
+    /// A part of a sphere.
+    Sphere {
+        /// Centre.
+        center: Vector,
+        /// Radius.
+        radius: f64,
+        /// See above.
+        outward: bool,
+    },
+    /// A part of a circular cylinder.
+    Cylinder {
+        /// A point of the axis.
+        point: Vector,
+        /// Direction of the axis.
+        axis: Vector,
+        /// Radius.
+        radius: f64,
+        /// See above.
+        outward: bool,
+    },
+    /// A part of a torus: all points at a distance from a ring.
+    Torus {
+        /// Centre of the ring.
+        center: Vector,
+        /// Its axis.
+        axis: Vector,
+        /// Its radius.
+        ring: f64,
+        /// Distance from the ring: the radius of the tube.
+        radius: f64,
+        /// See above.
+        outward: bool,
+    },
+}
+
+impl Curve {
+    /// The nearest point to `x` of what the surface has its radius from: the centre, the axis, the
+    /// ring; with the radius and the side of the body. `None` of lines and planes.
+    pub fn spine(&self, x: Vector) -> Option<(Vector, f64, bool)> {
+        match *self {
+            Curve::Line { .. } | Curve::Plane { .. } => None,
+            Curve::Circle {
+                center,
+                radius,
+                outward,
+            } => Some((in_space(center), radius, outward)),
+            Curve::Sphere {
+                center,
+                radius,
+                outward,
+            } => Some((center, radius, outward)),
+            Curve::Cylinder {
+                point,
+                axis,
+                radius,
+                outward,
+            } => {
+                let axis = direction(axis);
+                let nearest = along(point, dot(difference(x, point), axis), axis);
+                Some((nearest, radius, outward))
+            }
+            Curve::Torus {
+                center,
+                axis,
+                ring,
+                radius,
+                outward,
+            } => {
+                let axis = direction(axis);
+                let way = difference(x, center);
+                let across = along(way, -dot(way, axis), axis);
+                Some((along(center, ring, direction(across)), radius, outward))
+            }
+        }
+    }
+
+    /// The outward unit normal at a point of the surface.
+    pub fn normal(&self, x: Vector) -> Vector {
+        match *self {
+            Curve::Line { normal } => direction(in_space(normal)),
+            Curve::Plane { normal } => direction(normal),
+            _ => {
+                let (from, _, outward) = self.spine(x).unwrap_or_default();
+                let sign = if outward { 1.0 } else { -1.0 };
+                direction(difference(x, from).map(|d| sign * d))
+            }
+        }
+    }
+
+    /// The nearest point of a round surface, and how far it is; `None` of lines and planes.
+    pub fn nearest(&self, x: Vector) -> Option<(Vector, f64)> {
+        let (from, radius, _) = self.spine(x)?;
+        let way = difference(x, from);
+        Some((
+            along(from, radius, direction(way)),
+            (length(way) - radius).abs(),
+        ))
+    }
+
+    /// The surface with the body on one side of it.
+    pub fn facing(self, outward: bool) -> Curve {
+        let mut out = self;
+        match &mut out {
+            Curve::Line { .. } | Curve::Plane { .. } => {}
+            Curve::Circle { outward: o, .. }
+            | Curve::Sphere { outward: o, .. }
+            | Curve::Cylinder { outward: o, .. }
+            | Curve::Torus { outward: o, .. } => *o = outward,
+        }
+        out
+    }
+
+    /// All numbers of it, in order, and whether the normal points away from the centre.
+    pub fn numbers(&self) -> (Vec<f64>, bool) {
+        let join = |parts: &[&[f64]]| parts.concat();
+        match self {
+            Curve::Line { normal } => (normal.to_vec(), true),
+            Curve::Plane { normal } => (normal.to_vec(), true),
+            Curve::Circle {
+                center,
+                radius,
+                outward,
+            } => (join(&[center, &[*radius]]), *outward),
+            Curve::Sphere {
+                center,
+                radius,
+                outward,
+            } => (join(&[center, &[*radius]]), *outward),
+            Curve::Cylinder {
+                point,
+                axis,
+                radius,
+                outward,
+            } => (join(&[point, axis, &[*radius]]), *outward),
+            Curve::Torus {
+                center,
+                axis,
+                ring,
+                radius,
+                outward,
+            } => (join(&[center, axis, &[*ring, *radius]]), *outward),
+        }
+    }
+
+    /// What it is, in words.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Curve::Line { .. } => "line",
+            Curve::Circle { .. } => "circle",
+            Curve::Plane { .. } => "plane",
+            Curve::Sphere { .. } => "sphere",
+            Curve::Cylinder { .. } => "cylinder",
+            Curve::Torus { .. } => "torus",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space::cross;
+
+    /// Normals are unit vectors, perpendicular to the surface by differences, and points are drawn
+    /// to where they belong.
+    #[test]
+    fn nearest_points_lie_on_the_surface_along_the_normal() {
+        let axis = [1.0, 2.0, -2.0];
+        let point = [0.3, -0.1, 0.7];
+        let shapes = [
+            Curve::Sphere {
+                center: point,
+                radius: 2.0,
+                outward: true,
+            },
+            Curve::Cylinder {
+                point,
+                axis,
+                radius: 2.0,
+                outward: false,
+            },
+            Curve::Torus {
+                center: point,
+                axis,
+                ring: 5.0,
+                radius: 2.0,
+                outward: true,
+            },
+        ];
+        for curve in shapes {
+            let x = [3.0, 1.5, 2.0];
+            let (on, off) = curve.nearest(x).unwrap();
+            let (_, none) = curve.nearest(on).unwrap();
+            assert!(none < 1e-14 && off > 0.01, "{curve:?}");
+            let normal = curve.normal(on);
+            assert!((length(normal) - 1.0).abs() < 1e-15);
+            let way = difference(x, on);
+            assert!(length(cross(way, normal)) < 1e-14, "{curve:?}");
+            assert!((length(way) - off).abs() < 1e-14, "{curve:?}");
+            let turned = curve.facing(!curve.numbers().1).normal(on);
+            assert!((dot(turned, normal) + 1.0).abs() < 1e-14);
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! The mesh of a deck of Abaqus or CalculiX ([`crate::deck`]).
+
+use super::{Facet, Mesh, Surface};
+use crate::deck::{Deck, Options};
+use crate::error::Result;
+use std::path::Path;
+
+/// Reads the mesh of a deck.
+///
+/// # Errors
+/// As [`Deck::read`] and [`mesh`].
+pub fn read(path: &Path) -> Result<Mesh> {
+    mesh(&Deck::read(path)?)
+}
+
+/// The mesh of a deck: sections, or their connected parts, are its bodies; node sets and surfaces keep
+/// their names, and those that loads and supports are on are there too. Nodes of no element are
+/// dropped. What a deck asks for that brinell does not have is no matter here.
+///
+/// # Errors
+/// Names and numbers that there are not; elements in no section or of several kinds; nodes out of
+/// the plane.
+pub fn mesh(deck: &Deck) -> Result<Mesh> {
+    let options = Options { small_strain: true };
+    let geometry = match deck.convert(options) {
+        Ok(conversion) => conversion.geometry,
+        Err(_) => deck.geometry()?,
+    };
+    let bodies = deck.bodies()?;
+    let mut mesh = Mesh {
+        dimension: deck.space()?.dimension(),
+        bodies: bodies.names,
+        ..Mesh::default()
+    };
+    // New indices of the nodes that are kept.
+    let mut kept = vec![u32::MAX; deck.n_nodes()];
+    for (node, kept) in kept.iter_mut().enumerate() {
+        if geometry.is_used[node] {
+            *kept = mesh.node_labels.len() as u32;
+            mesh.node_labels.push(deck.node_label(node));
+            mesh.coordinates.extend(&deck.point(node)[..mesh.dimension]);
+        }
+    }
+    if mesh.dimension == 2 {
+        check_plane(deck, &geometry.is_used)?;
+    }
+    mesh.shapes.reserve(deck.n_elements());
+    let mut nodes = Vec::new();
+    for (element, &body) in bodies.of_element.iter().enumerate() {
+        nodes.clear();
+        nodes.extend(
+            deck.element_nodes(element)
+                .iter()
+                .map(|&node| kept[node as usize]),
+        );
+        mesh.push_element(deck.shape(element), body as usize, &nodes);
+        mesh.element_labels.push(deck.element_label(element));
+    }
+    let nodes = |nodes: Vec<u32>| nodes.iter().map(|&n| kept[n as usize] as usize).collect();
+    mesh.node_sets = (geometry.node_sets.into_iter())
+        .map(|(name, set)| (name, nodes(set)))
+        .collect();
+    for (name, faces) in geometry.surfaces {
+        let facet = |(element, local): (u32, u8)| Facet {
+            element: element as usize,
+            local: local as usize,
+        };
+        let facets = faces.into_iter().map(facet).collect();
+        mesh.surfaces.insert(
+            name,
+            Surface {
+                facets,
+                curve: None,
+            },
+        );
+    }
+    Ok(mesh)
+}
+
+/// Nodes of a plane mesh lie in a plane z = constant.
+fn check_plane(deck: &Deck, is_used: &[bool]) -> Result<()> {
+    let nodes = || (0..deck.n_nodes()).filter(|&node| is_used[node]);
+    let Some(first) = nodes().next() else {
+        return Ok(());
+    };
+    let height = deck.point(first)[2];
+    let extent = nodes().map(|node| {
+        let [x, y, _] = deck.point(node);
+        x.abs().max(y.abs())
+    });
+    let extent = extent.fold(0.0, f64::max);
+    // Coordinates are often written with some ten digits.
+    let is_off = |node: &usize| (deck.point(*node)[2] - height).abs() > 1e-9 * extent;
+    match nodes().find(is_off) {
+        Some(node) => {
+            let (label, z) = (deck.node_label(node), deck.point(node)[2]);
+            let message = format!(
+                "node {label} lies at z = {z}, others at {height}: a plane model lies in one plane"
+            );
+            Err(deck.node_error(node, message))
+        }
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,176 @@
+//! Pairs of nodes that face each other.
+
+use super::{Entries, Found, Pair};
+use crate::element::facet_points;
+use crate::error::{Error, Result};
+use crate::mesh::surface::{PAIRING, facing, longest_facet, nodes, normals};
+use crate::mesh::{Mesh, Surface};
+use crate::model::given::{NodePair, Partner, partners};
+use crate::scene::SlaveSide;
+use crate::space::{Vector, difference, direction, dot, length};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The pairs of a contact whose nodes face each other, or are given; `None` where they do not.
+///
+/// # Errors
+/// Surfaces that are not one curve; pairs that share a node, overlap, or are no pairs.
+pub(super) fn pairs(entries: &Entries, given: Option<&[NodePair]>) -> Result<Option<Found>> {
+    let (mesh, contact) = (entries.mesh, entries.contact);
+    // The paper's: the normal is the second body's.
+    let slave = match contact.slave {
+        SlaveSide::First if given.is_none() => 0,
+        _ => 1,
+    };
+    let [master_surface, slave_surface] = [entries.surfaces[1 - slave], entries.surfaces[slave]];
+    let master_nodes = nodes(mesh, master_surface)?;
+    let slave_nodes = nodes(mesh, slave_surface)?;
+    let normal = match contact.normal {
+        Some(n) => vec![entries.towards_master(direction(n.vector()), slave); slave_nodes.len()],
+        None => normals(mesh, slave_surface, &slave_nodes),
+    };
+    let facet_length = longest_facet(mesh, master_surface).max(longest_facet(mesh, slave_surface));
+    let tolerance = PAIRING * facet_length;
+    let partner_of: Vec<Option<Partner>> = match given {
+        Some(given) => {
+            let names = [contact.first.as_str(), contact.second.as_str()];
+            let nodes = [&*master_nodes, &*slave_nodes];
+            partners(given, mesh, names, nodes, &normal, contact.gap)?
+        }
+        None => (slave_nodes.iter().zip(&normal))
+            .map(|(&node, &normal)| {
+                let faced = facing(mesh, mesh.point(node), normal, &master_nodes, tolerance);
+                faced.map(|first| Partner {
+                    first,
+                    normal,
+                    gap: contact.gap,
+                })
+            })
+            .collect(),
+    };
+
+    // Beyond the end of the shorter surface there is nothing to press on; who gives the pairs decides himself.
+    let touching: BTreeSet<usize> = slave_nodes
+        .iter()
+        .zip(&partner_of)
+        .filter(|(_, partner)| given.is_some() || partner.is_some())
+        .map(|(&node, _)| node)
+        .collect();
+    let areas = nodal_areas(entries, slave_surface, &touching);
+
+    let mut taken = vec![false; master_nodes.len()];
+    let mut is_complete = true;
+    let mut arc = 0.0;
+    let mut pairs = Vec::new();
+    for (j, &node) in slave_nodes.iter().enumerate() {
+        let x = mesh.point(node);
+        if j > 0 && !mesh.is_solid() {
+            arc += length(difference(x, mesh.point(slave_nodes[j - 1])));
+        }
+        match partner_of[j] {
+            Some(partner) if !taken[partner.first] => {
+                taken[partner.first] = true;
+                let area = areas.get(&node).copied().unwrap_or(0.0);
+                let faced = master_nodes[partner.first];
+                let geometric = dot(difference(mesh.point(faced), x), partner.normal);
+                pairs.push(Pair {
+                    contact: entries.index,
+                    slave: node,
+                    masters: vec![(faced, 1.0)],
+                    normal: partner.normal,
+                    gap: partner.gap.unwrap_or(geometric),
+                    interference: contact.interference,
+                    area,
+                    arc,
+                });
+            }
+            _ => is_complete = false,
+        }
+    }
+    // One surface may reach beyond the other, but the shorter one must pair completely, facet by
+    // facet; who gives the pairs decides himself.
+    is_complete |= taken.iter().all(|taken| *taken);
+    let match_up = || facets_match(mesh, [master_surface, slave_surface], &pairs);
+    if given.is_none() && (pairs.is_empty() || !is_complete || !match_up()) {
+        return Ok(None);
+    }
+    if pairs.is_empty() {
+        return Err(Error::input(
+            "no pair of nodes is given; name some, or leave them out to have the surfaces paired",
+        ));
+    }
+    for pair in &pairs {
+        let faced = pair.masters[0].0;
+        if faced == pair.slave {
+            return Err(Error::input(format!(
+                "node {} is on both surfaces; the bodies must not share nodes where they touch",
+                mesh.node_label(faced)
+            )));
+        }
+        if pair.gap < -1e-9 * facet_length && contact.gap.is_none() {
+            return Err(Error::input(format!(
+                "nodes {} and {} overlap by {:.3e} in the mesh; move the bodies apart, or state the overlap as `interference` \
+                 with `gap = 0`",
+                mesh.node_label(faced),
+                mesh.node_label(pair.slave),
+                -pair.gap
+            )));
+        }
+    }
+    Ok(Some(Found {
+        pairs,
+        slave,
+        facet_length,
+    }))
+}
+
+/// Whether the facets of either surface whose nodes all have a partner face such facets of the
+/// other.
+fn facets_match(mesh: &Mesh, [master, slave]: [&Surface; 2], pairs: &[Pair]) -> bool {
+    let partner: BTreeMap<usize, usize> = (pairs.iter())
+        .map(|pair| (pair.slave, pair.masters[0].0))
+        .collect();
+    let is_faced: BTreeSet<usize> = partner.values().copied().collect();
+    let sorted = |nodes: Option<Vec<usize>>| {
+        let mut nodes = nodes?;
+        nodes.sort_unstable();
+        Some(nodes)
+    };
+    let own = |facet| {
+        mesh.facet_nodes(facet)
+            .map(|n| Some(n).filter(|n| is_faced.contains(n)))
+    };
+    let across = |facet| mesh.facet_nodes(facet).map(|n| partner.get(&n).copied());
+    let masters = master
+        .facets
+        .iter()
+        .filter_map(|&f| sorted(own(f).collect()));
+    let slaves = slave
+        .facets
+        .iter()
+        .filter_map(|&f| sorted(across(f).collect()));
+    masters.collect::<BTreeSet<_>>() == slaves.collect::<BTreeSet<_>>()
+}
+
+/// Integrals of each node's shape function over the facets of a surface all of whose nodes are among `faces`.
+fn nodal_areas(
+    entries: &Entries,
+    surface: &Surface,
+    faces: &BTreeSet<usize>,
+) -> BTreeMap<usize, f64> {
+    let mesh = entries.mesh;
+    let mut areas: BTreeMap<usize, f64> = BTreeMap::new();
+    for &facet in &surface.facets {
+        let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
+        if !nodes.iter().all(|node| faces.contains(node)) {
+            continue;
+        }
+        let x: Vec<Vector> = nodes.iter().map(|&n| mesh.point(n)).collect();
+        let reference = mesh.facet_reference(facet);
+        for point in facet_points(entries.space, reference, &x) {
+            for (&node, value) in nodes.iter().zip(&point.values) {
+                *areas.entry(node).or_default() += point.weight * value;
+            }
+        }
+    }
+    areas
+}

@@ -1,0 +1,305 @@
+//! Surfaces whose nodes do not face each other: dual mortar coupling, small sliding.
+//!
+//! With the trace basis `phi_j` of the slave, functions `psi_j` dual to it on each of its facets and
+//! the shape functions `N_k` of the master,
+//!
+//! ```text
+//!     int psi_j phi_l = delta_jl int phi_j,    D_j = int psi_j,    M_jk = int psi_j N_k
+//!     g_j = delta_j - n_j . (d_j - sum_k w_jk d_k),    w_jk = M_jk / D_j,    p_j = r_j / D_j
+//! ```
+//!
+//! over what of the slave faces the master. Quadratic facets of solids have the basis of
+//! [`crate::model::ContactBasis`], whose weights are positive.
+//!
+//! # Source
+//! B. Wohlmuth, *A mortar finite element method using dual spaces for the Lagrange multiplier*, SIAM
+//! J. Numer. Anal. 38 (2000) 989; A. Popp, B. Wohlmuth, M. Gee, W. Wall, SIAM J. Sci. Comput. 34
+//! (2012) B421; partly covered facets: A. Popp, A. Seitz, M. Gee, W. Wall, Comput. Methods Appl.
+//! Mech. Engrg. 264 (2013) 67.
+
+mod dual;
+mod face;
+mod overlap;
+mod roundness;
+
+use super::{ContactSurface, Entries, Found, NO_AREA, Pair};
+use crate::error::{Error, Result};
+use crate::mesh::surface::{longest_facet, nodes, normals};
+use crate::mesh::{Curve, Mesh, Surface};
+use crate::scene::SlaveSide;
+use crate::space::{Vector, difference, direction, dot, length};
+use dual::{Integrals, integrate};
+use face::Face;
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Rows with less of their weight covered than this share are left out: they would be the inverse
+/// of round-off.
+const COVERED: f64 = 1e-8;
+/// Overlap of the meshes, as a share of a facet's length, that is round-off.
+const TOUCHING: f64 = 1e-9;
+/// Share of a facet's weight up to which a master counts nothing.
+const NOTHING: f64 = 1e-13;
+
+/// The facets of both surfaces, and where they truly are.
+struct Sides<'a> {
+    entries: &'a Entries<'a>,
+    slaves: Vec<Face>,
+    masters: Vec<Face>,
+    /// Exact shapes of slave and master, where known.
+    curves: [Option<Curve>; 2],
+    /// Unit normal of each slave node.
+    normals: BTreeMap<usize, Vector>,
+}
+
+/// The pairs of a contact.
+///
+/// # Errors
+/// Surfaces that are not one curve, do not face each other, share nodes or overlap.
+pub(super) fn pairs(entries: &Entries, notes: &mut Vec<String>) -> Result<Found> {
+    let (mesh, contact) = (entries.mesh, entries.contact);
+    let slave = match contact.slave {
+        SlaveSide::First => 0,
+        SlaveSide::Second => 1,
+        SlaveSide::Auto => finer(mesh, entries.surfaces),
+    };
+    let [slave_surface, master_surface] = [entries.surfaces[slave], entries.surfaces[1 - slave]];
+    let slave_nodes = nodes(mesh, slave_surface)?;
+    nodes(mesh, master_surface)?;
+    let faces = |surface: &Surface| -> Vec<Face> {
+        surface
+            .facets
+            .iter()
+            .map(|&facet| Face::new(mesh, facet))
+            .collect()
+    };
+    let curves =
+        [slave_surface, master_surface].map(|s| s.curve.or_else(|| roundness::find(mesh, s)));
+    let shaped = Surface {
+        facets: slave_surface.facets.clone(),
+        curve: curves[0],
+    };
+    let normals = match contact.normal {
+        Some(n) => vec![entries.towards_master(direction(n.vector()), slave); slave_nodes.len()],
+        None => normals(mesh, &shaped, &slave_nodes),
+    };
+    let sides = Sides {
+        entries,
+        slaves: faces(slave_surface),
+        masters: faces(master_surface),
+        curves,
+        normals: slave_nodes.iter().copied().zip(normals).collect(),
+    };
+    let integrals = sum(sides
+        .slaves
+        .par_iter()
+        .map(|face| integrate(&sides, face))
+        .collect())?;
+    let facet_length = longest_facet(mesh, slave_surface).max(longest_facet(mesh, master_surface));
+    let mut left_out = Vec::new();
+    let mut pairs = Vec::new();
+    let mut arc = 0.0;
+    for (j, &node) in slave_nodes.iter().enumerate() {
+        if j > 0 && !mesh.is_solid() {
+            arc += length(difference(mesh.point(node), mesh.point(slave_nodes[j - 1])));
+        }
+        let Some(of_node) = integrals.get(&node) else {
+            continue;
+        };
+        match sides.pair(node, of_node, arc) {
+            Some(pair) => pairs.push(pair),
+            None => left_out.push(node),
+        }
+    }
+    if pairs.is_empty() {
+        return Err(Error::input(format!(
+            "no part of `{}` lies opposite `{}`, seen along its normal: check the names of the surfaces and where the bodies \
+             are, or give `normal`",
+            [&contact.first, &contact.second][slave],
+            [&contact.first, &contact.second][1 - slave],
+        )));
+    }
+    sides.check(&pairs, facet_length, slave)?;
+    if !left_out.is_empty() {
+        notes.push(format!(
+            "contact {}: {} of `{}` face the other surface by less than a part in 1e8 of their share and stay free",
+            entries.index + 1,
+            super::list(mesh, &left_out),
+            [&contact.first, &contact.second][slave],
+        ));
+    }
+    Ok(Found {
+        pairs,
+        slave,
+        facet_length,
+    })
+}
+
+/// Integrals of all facets, node by node.
+fn sum(facets: Vec<Result<Vec<(usize, Integrals)>>>) -> Result<BTreeMap<usize, Integrals>> {
+    let mut sums: BTreeMap<usize, Integrals> = BTreeMap::new();
+    for facet in facets {
+        for (node, of_facet) in facet? {
+            sums.entry(node).or_default().add(&of_facet);
+        }
+    }
+    Ok(sums)
+}
+
+/// How much longer than those of the slave linear facets of a master may be. They stay straight:
+/// beyond that the kinks between them, not the contact, would shape the pressure.
+const LONGER: f64 = 2.0;
+
+/// The surface with the smaller facets where the two may face each other, the second if alike; the
+/// other one where its facets are linear and longer by more than [`LONGER`].
+fn finer(mesh: &Mesh, surfaces: [&Surface; 2]) -> usize {
+    let faces = surfaces.map(|surface| -> Vec<Face> {
+        surface
+            .facets
+            .iter()
+            .map(|&facet| Face::new(mesh, facet))
+            .collect()
+    });
+    let median = |own: &[Face], other: &[Face]| {
+        let faced = |face: &&Face| other.iter().any(|o| face.may_face(o));
+        let mut sizes: Vec<f64> = own.iter().filter(faced).map(|face| face.radius).collect();
+        sizes.sort_by(f64::total_cmp);
+        sizes.get(sizes.len() / 2).copied().unwrap_or(f64::INFINITY)
+    };
+    let [first, second] = [median(&faces[0], &faces[1]), median(&faces[1], &faces[0])];
+    let finer = usize::from(first >= second * (1.0 - 1e-6));
+    let is_linear = |face: &Face| face.nodes.len() == face.reference.n_corners;
+    let ratio = if finer == 0 {
+        second / first
+    } else {
+        first / second
+    };
+    match ratio > LONGER * (1.0 + 1e-6) && faces[1 - finer].iter().all(is_linear) {
+        true => 1 - finer,
+        false => finer,
+    }
+}
+
+impl Sides<'_> {
+    /// The pair of a slave node; `None` where too little of it is covered.
+    fn pair(&self, node: usize, of_node: &Integrals, arc: f64) -> Option<Pair> {
+        let (mesh, contact) = (self.entries.mesh, self.entries.contact);
+        let normal = *self.normals.get(&node)?;
+        let (weight, masters) = match of_node.covered > COVERED * of_node.whole {
+            true => (of_node.covered, of_node.weights()),
+            false => (0.0, Vec::new()),
+        };
+        let met = self.meet(node, normal, &of_node.faced);
+        // On the axis of revolution a quadratic element has no weight: see `AxisPoint`.
+        let largest = of_node.largest;
+        let on_axis = self.entries.space.is_axisymmetric()
+            && mesh.point(node)[0].abs() <= COVERED * largest
+            && weight <= NO_AREA * of_node.of_facet;
+        let masters = match &met {
+            Some(met) if on_axis => met.masters.clone(),
+            _ if weight > 0.0 => masters,
+            _ => return None,
+        };
+        let weighted = || dot(of_node.gap.map(|g| g / weight), normal);
+        let (gap, interference) = match met {
+            Some(met) if !of_node.is_transformed => (met.gap, contact.interference),
+            _ if of_node.is_transformed => {
+                let share = dot(of_node.normal.map(|n| n / weight), normal);
+                (weighted(), share * contact.interference)
+            }
+            _ => (weighted(), contact.interference),
+        };
+        Some(Pair {
+            contact: self.entries.index,
+            slave: node,
+            masters,
+            normal,
+            gap: contact.gap.unwrap_or(gap),
+            interference,
+            area: weight,
+            arc,
+        })
+    }
+
+    /// Refuses pairs that share nodes or overlap.
+    fn check(&self, pairs: &[Pair], facet_length: f64, slave: usize) -> Result<()> {
+        let (mesh, contact) = (self.entries.mesh, self.entries.contact);
+        for pair in pairs {
+            if pair.masters.iter().any(|&(node, _)| node == pair.slave) {
+                return Err(Error::input(format!(
+                    "node {} is on both surfaces; the bodies must not share nodes where they touch",
+                    mesh.node_label(pair.slave)
+                )));
+            }
+        }
+        let deepest = pairs.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
+        let Some(deepest) = deepest.filter(|pair| pair.gap < -TOUCHING * facet_length) else {
+            return Ok(());
+        };
+        let place = format!(
+            "node {} of `{}` at {} overlaps the other surface by {:.3e} in the mesh",
+            mesh.node_label(deepest.slave),
+            [&contact.first, &contact.second][slave],
+            mesh.place(deepest.slave),
+            -deepest.gap
+        );
+        let facets = self.depth_of_facets();
+        Err(Error::input(match -deepest.gap <= facets {
+            true => format!(
+                "{place}: no more than flat facets deviate from a curved surface ({facets:.1e}), which is not what \
+                 the bodies do; say what the surface is (`mesh.circles`, `spheres`, `cylinders`, `tori`), \
+                 give `gap`, or use quadratic elements"
+            ),
+            false => format!(
+                "{place}; move the bodies apart, or state the overlap as `interference` with `gap = 0`"
+            ),
+        }))
+    }
+
+    /// How far facets of both surfaces may be off a surface through their nodes: a chord `h` whose
+    /// ends turn by an angle `t` is off its arc by `h t / 8`.
+    fn depth_of_facets(&self) -> f64 {
+        [
+            (&self.slaves, self.curves[0]),
+            (&self.masters, self.curves[1]),
+        ]
+        .into_iter()
+        .filter(|(_, curve)| curve.is_none())
+        .map(|(faces, _)| {
+            let mut at: BTreeMap<usize, &Face> = BTreeMap::new();
+            let mut largest = 0.0f64;
+            for face in faces {
+                for &node in &face.nodes {
+                    if let Some(other) = at.insert(node, face) {
+                        let turn = dot(face.normal, other.normal).clamp(-1.0, 1.0).acos();
+                        largest = largest.max(2.0 * face.radius.max(other.radius) * turn / 8.0);
+                    }
+                }
+            }
+            largest
+        })
+        .sum()
+    }
+}
+
+/// The normals of masters that face no single node, for axes of their own.
+pub(in crate::model) fn master_normals(
+    mesh: &Mesh,
+    pairs: &[Pair],
+    contacts: &[ContactSurface],
+) -> Vec<(usize, Vector)> {
+    let mut out = Vec::new();
+    for contact in contacts {
+        let pairs = pairs[contact.range.clone()].iter();
+        let masters: BTreeSet<usize> = pairs
+            .filter(|pair| pair.faced().is_none())
+            .flat_map(|pair| pair.masters.iter().map(|&(node, _)| node))
+            .collect();
+        let masters: Vec<usize> = masters.into_iter().collect();
+        if let Some(surface) = mesh.surfaces.get(&contact.names[1 - contact.slave]) {
+            let normals = normals(mesh, surface, &masters);
+            out.extend(masters.into_iter().zip(normals));
+        }
+    }
+    out
+}

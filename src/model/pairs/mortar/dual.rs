@@ -1,0 +1,236 @@
+//! Integrals over a slave facet, with the functions dual to its trace basis.
+//!
+//! The dual functions come from an orthogonal factorisation at the points of the covered part,
+//! `sqrt(w) phi = Q R`, so that `psi = D R^-1 Q' / sqrt(w)`: where little is covered that loses half
+//! of the digits that the inverse of `int phi_j phi_l` would.
+
+use super::face::{Face, Plane};
+use super::{NOTHING, Sides, overlap};
+use crate::error::{Error, Result};
+use crate::shape::MAX_FACET_NODES;
+use crate::space::{Vector, along, difference, direction, dot, length};
+use nalgebra::DMatrix;
+use std::collections::BTreeMap;
+
+/// Smallest over largest diagonal entry of `R` at which a facet counts as covered at all.
+const SLIVER: f64 = 1e-7;
+/// Share of a facet that may be covered twice.
+const TWICE: f64 = 0.01;
+/// What each end of an edge counts at the middle of it: that of [`crate::model::ContactBasis`].
+const ALPHA: f64 = crate::model::ContactBasis::ALPHA;
+
+/// Integrals of the functions of a slave node.
+#[derive(Default)]
+pub(super) struct Integrals {
+    /// `int phi` over all of the node's facets.
+    pub whole: f64,
+    /// `D = int psi` over what is covered.
+    pub covered: f64,
+    /// `M` by master nodes.
+    masters: BTreeMap<usize, f64>,
+    /// `int psi` times the vector from the slave to the master.
+    pub gap: Vector,
+    /// `int psi` times the unit normal.
+    pub normal: Vector,
+    /// Master facets, by their number, that facets of the node face.
+    pub faced: Vec<usize>,
+    /// Covered area of the facets, and the radius of the largest.
+    pub of_facet: f64,
+    pub largest: f64,
+    /// Whether the node's displacement is that of a control point.
+    pub is_transformed: bool,
+}
+
+impl Integrals {
+    pub(super) fn add(&mut self, other: &Integrals) {
+        self.whole += other.whole;
+        self.covered += other.covered;
+        for (&node, m) in &other.masters {
+            *self.masters.entry(node).or_default() += m;
+        }
+        self.gap = along(self.gap, 1.0, other.gap);
+        self.normal = along(self.normal, 1.0, other.normal);
+        self.faced.extend(&other.faced);
+        self.of_facet = self.of_facet.max(other.of_facet);
+        self.largest = self.largest.max(other.largest);
+        self.is_transformed |= other.is_transformed;
+    }
+
+    /// `w_k = M_k / D`; they add up to 1.
+    pub(super) fn weights(&self) -> Vec<(usize, f64)> {
+        let counts = |(_, m): &(&usize, &f64)| m.abs() > NOTHING * self.covered;
+        let sum: f64 = self.masters.iter().filter(counts).map(|(_, m)| m).sum();
+        let masters = self.masters.iter().filter(counts);
+        masters.map(|(&node, m)| (node, m / sum)).collect()
+    }
+}
+
+/// A point of the covered part.
+struct Sample {
+    root_weight: f64,
+    /// `phi` of the slave's nodes.
+    slave: [f64; MAX_FACET_NODES],
+    /// `N` of the master's.
+    master: [f64; MAX_FACET_NODES],
+    gap: Vector,
+    normal: Vector,
+}
+
+/// The integrals of each node of a slave facet that faces masters.
+///
+/// # Errors
+/// A facet that masters cover twice.
+pub(super) fn integrate(sides: &Sides, face: &Face) -> Result<Vec<(usize, Integrals)>> {
+    let plane = Plane::new(face.center, face.normal, face.is_solid());
+    let pieces = face.pieces(&plane);
+    let mut samples = Vec::new();
+    let mut faced = Vec::new();
+    for (number, master) in sides.masters.iter().enumerate() {
+        if !face.may_face(master) {
+            continue;
+        }
+        let start = samples.len();
+        let are_quadratic = face.is_transformed() || master.is_transformed();
+        for piece in &pieces {
+            for other in master.pieces(&plane) {
+                for (point, weight) in overlap::points(piece, &other, are_quadratic) {
+                    samples.extend(sample(sides, [face, master], &plane, point, weight));
+                }
+            }
+        }
+        if samples.len() > start {
+            faced.push((number, start..samples.len()));
+        }
+    }
+    if samples.is_empty() {
+        return Ok(Vec::new());
+    }
+    let n = face.nodes.len();
+    let (whole, area) = whole(sides, face);
+    let covered_area: f64 = samples.iter().map(|s| s.root_weight * s.root_weight).sum();
+    if covered_area > (1.0 + TWICE) * area {
+        let mesh = sides.entries.mesh;
+        return Err(Error::input(format!(
+            "the other surface lies twice over the facet at node {} ({}): make two contacts of its parts",
+            mesh.node_label(face.nodes[0]),
+            mesh.place(face.nodes[0])
+        )));
+    }
+    let basis = DMatrix::from_fn(samples.len(), n, |g, l| {
+        samples[g].root_weight * samples[g].slave[l]
+    });
+    let qr = basis.qr();
+    let r = qr.r();
+    let size = |pick: fn(f64, f64) -> f64, from: f64| {
+        r.diagonal().iter().map(|d| d.abs()).fold(from, pick)
+    };
+    if samples.len() < n || size(f64::min, f64::INFINITY) <= SLIVER * size(f64::max, 0.0) {
+        return Ok(Vec::new());
+    }
+    let q = qr.q();
+    // Coefficients on `phi` of functions at the samples: `R^-1 Q' sqrt(w) f`.
+    let coefficients =
+        |columns: usize, range: std::ops::Range<usize>, of: &dyn Fn(&Sample, usize) -> f64| {
+            let values = DMatrix::from_fn(range.len(), columns, |g, k| {
+                let sample = &samples[range.start + g];
+                sample.root_weight * of(sample, k)
+            });
+            let mut out = q.rows(range.start, range.len()).tr_mul(&values);
+            r.solve_upper_triangular_mut(&mut out);
+            out
+        };
+    let all = 0..samples.len();
+    let gap = coefficients(3, all.clone(), &|s, d| s.gap[d]);
+    let normal = coefficients(3, all, &|s, d| s.normal[d]);
+    let mut out: Vec<(usize, Integrals)> = (face.nodes.iter().enumerate())
+        .map(|(l, &node)| {
+            let covered = (samples.iter())
+                .map(|s| s.root_weight * s.root_weight * s.slave[l])
+                .sum();
+            let integrals = Integrals {
+                whole: whole[l],
+                covered,
+                masters: BTreeMap::new(),
+                gap: std::array::from_fn(|d| covered * gap[(l, d)]),
+                normal: std::array::from_fn(|d| covered * normal[(l, d)]),
+                faced: faced.iter().map(|(number, _)| *number).collect(),
+                of_facet: covered_area,
+                largest: face.radius,
+                is_transformed: face.is_transformed(),
+            };
+            (node, integrals)
+        })
+        .collect();
+    for (number, range) in faced {
+        let master = &sides.masters[number];
+        let of_masters = coefficients(master.nodes.len(), range, &|s, k| s.master[k]);
+        for (l, (_, integrals)) in out.iter_mut().enumerate() {
+            for (k, &node) in master.nodes.iter().enumerate() {
+                *integrals.masters.entry(node).or_default() +=
+                    integrals.covered * of_masters[(l, k)];
+            }
+        }
+    }
+    Ok(out)
+}
+
+/// `int phi` of each node over a whole facet, and its area.
+fn whole(sides: &Sides, face: &Face) -> ([f64; MAX_FACET_NODES], f64) {
+    let mut out = [0.0; MAX_FACET_NODES];
+    let mut area = 0.0;
+    for point in crate::element::facet_points(sides.entries.space, face.reference, &face.x) {
+        area += point.weight;
+        for (sum, value) in out.iter_mut().zip(trace(face, point.values)) {
+            *sum += point.weight * value;
+        }
+    }
+    (out, area)
+}
+
+/// The trace basis of a slave facet, of its shape functions.
+fn trace(face: &Face, values: [f64; MAX_FACET_NODES]) -> [f64; MAX_FACET_NODES] {
+    if !face.is_transformed() {
+        return values;
+    }
+    let n = face.reference.n_corners;
+    let mut out = values;
+    for k in 0..n {
+        let middle = values[n + k];
+        out[n + k] = (1.0 - 2.0 * ALPHA) * middle;
+        out[k] += ALPHA * middle;
+        out[(k + 1) % n] += ALPHA * middle;
+    }
+    out
+}
+
+/// What is integrated at a point of a slave's plane.
+fn sample(
+    sides: &Sides,
+    [face, master]: [&Face; 2],
+    plane: &Plane,
+    point: super::face::Point,
+    weight: f64,
+) -> Option<Sample> {
+    let [here, there] = [face.locate(plane, point)?, master.locate(plane, point)?];
+    let at = (face.reference.functions)(here);
+    let area = face.reference.area(&at, &face.x);
+    let (x, values) = face.at(here);
+    let (y, of_master) = master.at(there);
+    let measure = length(area) / dot(area, plane.normal) * sides.entries.space.measure(x[0]);
+    let normal = face
+        .nodes
+        .iter()
+        .zip(values)
+        .fold([0.0; 3], |sum, (node, value)| {
+            let normal = sides.normals.get(node).copied().unwrap_or_default();
+            along(sum, value, normal)
+        });
+    let [own, other] = [(0, x), (1, y)].map(|(side, x)| sides.truly(side, x, plane.normal));
+    Some(Sample {
+        root_weight: (weight * measure).sqrt(),
+        slave: trace(face, values),
+        master: of_master,
+        gap: difference(other, own),
+        normal: direction(normal),
+    })
+}

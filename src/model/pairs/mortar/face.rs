@@ -1,0 +1,205 @@
+//! A facet as mortar integrals see it: projected along a direction, and mapped back.
+
+use crate::mesh::{Facet, Mesh};
+use crate::shape::{FacetReference, MAX_FACET_NODES, Place};
+use crate::space::{Vector, along, cross, difference, direction, dot, length, unit};
+
+/// Facets face each other where their normals are opposed by this much at least: seen more
+/// slantingly they are no surface to press on.
+const OPPOSED: f64 = 0.2;
+/// Steps of Newton's method for the place of a point, of which a straight facet needs one.
+const STEPS: usize = 30;
+
+/// A facet.
+pub(super) struct Face {
+    pub reference: &'static FacetReference,
+    pub nodes: Vec<usize>,
+    pub x: Vec<Vector>,
+    pub center: Vector,
+    /// Outward, at the centre.
+    pub normal: Vector,
+    /// Of a ball round the centre that holds the nodes.
+    pub radius: f64,
+}
+
+/// A plane at right angles to a direction, or a line of one.
+pub(super) struct Plane {
+    pub origin: Vector,
+    pub normal: Vector,
+    axes: [Vector; 2],
+}
+
+/// Coordinates in a plane; of a plane model the second is 0.
+pub(super) type Point = [f64; 2];
+
+impl Plane {
+    pub(super) fn new(origin: Vector, normal: Vector, is_solid: bool) -> Self {
+        let axes = if is_solid {
+            let least = (0..3).min_by(|&a, &b| normal[a].abs().total_cmp(&normal[b].abs()));
+            let first = direction(cross(unit(least.unwrap_or(0)), normal));
+            [first, cross(normal, first)]
+        } else {
+            // The nodes of a facet run with the body on the left.
+            [cross(unit(2), normal), [0.0; 3]]
+        };
+        Plane {
+            origin,
+            normal,
+            axes,
+        }
+    }
+
+    pub(super) fn project(&self, x: Vector) -> Point {
+        self.axes.map(|axis| dot(difference(x, self.origin), axis))
+    }
+}
+
+impl Face {
+    pub(super) fn new(mesh: &Mesh, facet: Facet) -> Self {
+        let reference = mesh.facet_reference(facet);
+        let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
+        let x: Vec<Vector> = nodes.iter().map(|&node| mesh.point(node)).collect();
+        let at = (reference.functions)(reference.center());
+        let center = position(&at.values, &x);
+        let normal = direction(reference.area(&at, &x));
+        let radius = x
+            .iter()
+            .map(|&x| length(difference(x, center)))
+            .fold(0.0, f64::max);
+        Face {
+            reference,
+            nodes,
+            x,
+            center,
+            normal,
+            radius,
+        }
+    }
+
+    pub(super) fn is_solid(&self) -> bool {
+        self.reference.dimension() == 2
+    }
+
+    /// Whether the basis of its slaves is that of control points: quadratic facets of solids.
+    pub(super) fn is_transformed(&self) -> bool {
+        self.is_solid() && self.nodes.len() > self.reference.n_corners
+    }
+
+    /// Whether another face may lie opposite.
+    pub(super) fn may_face(&self, other: &Face) -> bool {
+        if dot(self.normal, other.normal) > -OPPOSED {
+            return false;
+        }
+        let way = difference(other.center, self.center);
+        let off = dot(way, self.normal);
+        let reach = self.radius + other.radius;
+        // Not behind: the far side of another body.
+        off >= -2.0 * reach && dot(way, way) - off * off <= reach * reach
+    }
+
+    /// Position and shape functions at a place.
+    pub(super) fn at(&self, place: Place) -> (Vector, [f64; MAX_FACET_NODES]) {
+        let at = (self.reference.functions)(place);
+        (
+            position(&at.values, &self.x),
+            std::array::from_fn(|k| at.values[k]),
+        )
+    }
+
+    /// The place that lies on a point of a plane, seen along its normal.
+    pub(super) fn locate(&self, plane: &Plane, point: Point) -> Option<Place> {
+        let mut place = self.reference.center();
+        for _ in 0..STEPS {
+            let at = (self.reference.functions)(place);
+            let here = plane.project(position(&at.values, &self.x));
+            let off = [point[0] - here[0], point[1] - here[1]];
+            let mut slopes = [[0.0; 2]; 2];
+            for (gradient, &x) in at.gradients.iter().zip(&self.x) {
+                let x = plane.project(x);
+                for i in 0..2 {
+                    for j in 0..2 {
+                        slopes[i][j] += gradient[j] * x[i];
+                    }
+                }
+            }
+            let step = if self.is_solid() {
+                let det = slopes[0][0] * slopes[1][1] - slopes[0][1] * slopes[1][0];
+                [
+                    (slopes[1][1] * off[0] - slopes[0][1] * off[1]) / det,
+                    (slopes[0][0] * off[1] - slopes[1][0] * off[0]) / det,
+                ]
+            } else {
+                [off[0] / slopes[0][0], 0.0]
+            };
+            if !step.iter().all(|s| s.is_finite()) {
+                return None;
+            }
+            place[0] += step[0];
+            place[1] += step[1];
+            let size = step[0].abs().max(step[1].abs());
+            if size <= 1e-14 {
+                return Some(place);
+            }
+            if size > 1e3 {
+                return None;
+            }
+        }
+        // What is left is the round-off of a slender facet.
+        Some(place)
+    }
+
+    /// Whether a place is one of the facet, up to `off`.
+    pub(super) fn holds(&self, place: Place, off: f64) -> bool {
+        let [a, b, _] = place;
+        match (self.reference.dimension(), self.reference.n_corners) {
+            (1, _) => a.abs() <= 1.0 + off,
+            (_, 3) => a >= -off && b >= -off && a + b <= 1.0 + off,
+            _ => a.abs() <= 1.0 + off && b.abs() <= 1.0 + off,
+        }
+    }
+
+    /// The pieces of the facet in a plane, counter-clockwise as seen against its normal: the facet
+    /// itself where its edges are straight there, else triangles and a quadrilateral between all of
+    /// its nodes.
+    pub(super) fn pieces(&self, plane: &Plane) -> Vec<Vec<Point>> {
+        let points: Vec<Point> = self.x.iter().map(|&x| plane.project(x)).collect();
+        let n = self.reference.n_corners;
+        let mut pieces: Vec<Vec<Point>> = if self.is_straight(&points) {
+            vec![points[..n].to_vec()]
+        } else {
+            let pieces = self.reference.pieces().iter();
+            pieces
+                .map(|piece| piece.iter().map(|&k| points[k]).collect())
+                .collect()
+        };
+        if self.is_solid() && dot(self.normal, plane.normal) < 0.0 {
+            pieces.iter_mut().for_each(|piece| piece.reverse());
+        }
+        pieces
+    }
+
+    /// Whether middle nodes lie on the chords of their edges.
+    fn is_straight(&self, points: &[Point]) -> bool {
+        let n = self.reference.n_corners;
+        let off = |(k, middle): (usize, &Point)| {
+            let [a, b] = [points[k], points[(k + 1) % n]];
+            let way = [b[0] - a[0], b[1] - a[1]];
+            let across = way[0] * (middle[1] - a[1]) - way[1] * (middle[0] - a[0]);
+            across.abs() / (way[0] * way[0] + way[1] * way[1])
+        };
+        !self.is_solid()
+            || points[n..]
+                .iter()
+                .enumerate()
+                .map(off)
+                .all(|off| off <= STRAIGHT)
+    }
+}
+
+/// Share of an edge's length that its middle may be off the chord.
+const STRAIGHT: f64 = 1e-9;
+
+fn position(values: &[f64], x: &[Vector]) -> Vector {
+    let each = values.iter().zip(x);
+    each.fold([0.0; 3], |sum, (&value, &x)| along(sum, value, x))
+}

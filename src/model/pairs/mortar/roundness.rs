@@ -1,0 +1,132 @@
+//! Where surfaces truly are: on circles that their nodes lie on, and gaps between true surfaces.
+
+use super::Sides;
+use super::face::Plane;
+use crate::mesh::surface::ordered_nodes;
+use crate::mesh::{Curve, Mesh, Surface};
+use crate::space::{Vector, along, difference, dot, length};
+
+/// What nodes may lie off a circle that is to be recognised, as a share of what chords between them
+/// do; and what these must be off a straight line, as a share of their length.
+const OFF: f64 = 1e-2;
+const BENT: f64 = 1e-8;
+/// Fewest nodes, and largest turn from one to the next in degrees, of what is a circle rather than
+/// a polygon.
+const FEWEST: usize = 6;
+const LARGEST_TURN: f64 = 30.0;
+/// Share of a facet by which a point on the border of two may be off either.
+const BORDER: f64 = 1e-6;
+
+/// The circle that the nodes of a plane surface lie on.
+pub(super) fn find(mesh: &Mesh, surface: &Surface) -> Option<Curve> {
+    if mesh.is_solid() {
+        return None;
+    }
+    let nodes = ordered_nodes(mesh, surface).ok()?;
+    if nodes.len() < FEWEST {
+        return None;
+    }
+    let points: Vec<[f64; 2]> = nodes.iter().map(|&node| mesh.in_plane(node)).collect();
+    let third = nodes.len() / 3;
+    let (center, radius) = through([points[0], points[third], points[2 * third]])?;
+    let far = |p: &[f64; 2]| (p[0] - center[0]).hypot(p[1] - center[1]);
+    let steps = points
+        .windows(2)
+        .map(|p| (p[1][0] - p[0][0]).hypot(p[1][1] - p[0][1]));
+    let chord = steps.fold(0.0, f64::max);
+    let depth = chord * chord / (8.0 * radius);
+    let is_polygon = chord > 2.0 * radius * (0.5 * LARGEST_TURN).to_radians().sin();
+    if is_polygon
+        || depth <= BENT * chord
+        || points.iter().any(|p| (far(p) - radius).abs() > OFF * depth)
+    {
+        return None;
+    }
+    // The body lies on the left of its boundary: inside a circle that is run through so.
+    let [a, b] = [points[0], points[1]];
+    let [p, q] = [a, b].map(|x| [x[0] - center[0], x[1] - center[1]]);
+    Some(Curve::Circle {
+        center,
+        radius,
+        outward: p[0] * q[1] - p[1] * q[0] > 0.0,
+    })
+}
+
+/// Centre and radius of the circle through three points.
+fn through([a, b, c]: [[f64; 2]; 3]) -> Option<([f64; 2], f64)> {
+    let [p, q] = [b, c].map(|x| [x[0] - a[0], x[1] - a[1]]);
+    let det = 2.0 * (p[0] * q[1] - p[1] * q[0]);
+    let [pp, qq] = [p, q].map(|x| x[0] * x[0] + x[1] * x[1]);
+    // Points of a straight line have no circle.
+    if det.abs() <= BENT * pp.max(qq) {
+        return None;
+    }
+    let way = [(q[1] * pp - p[1] * qq) / det, (p[0] * qq - q[0] * pp) / det];
+    Some(([a[0] + way[0], a[1] + way[1]], way[0].hypot(way[1])))
+}
+
+/// What the line along a slave's normal meets.
+pub(super) struct Met {
+    pub gap: f64,
+    pub masters: Vec<(usize, f64)>,
+}
+
+impl Sides<'_> {
+    /// The master facet that the normal of a slave meets, among some, and how far it is there.
+    pub(super) fn meet(&self, node: usize, normal: Vector, faced: &[usize]) -> Option<Met> {
+        let mesh = self.entries.mesh;
+        let x = mesh.point(node);
+        let plane = Plane::new(x, normal, mesh.is_solid());
+        let mut nearest: Option<(f64, Met)> = None;
+        for &number in faced {
+            let face = &self.masters[number];
+            if dot(face.normal, normal) >= 0.0 {
+                continue;
+            }
+            let Some(place) = face
+                .locate(&plane, [0.0; 2])
+                .filter(|&place| face.holds(place, BORDER))
+            else {
+                continue;
+            };
+            let (y, values) = face.at(place);
+            let far = dot(difference(y, x), normal).abs();
+            if nearest.as_ref().is_none_or(|(known, _)| far < *known) {
+                let [own, other] = [(0, x), (1, y)].map(|(side, x)| self.truly(side, x, normal));
+                let met = Met {
+                    gap: dot(difference(other, own), normal),
+                    masters: face.nodes.iter().copied().zip(values).collect(),
+                };
+                nearest = Some((far, met));
+            }
+        }
+        nearest.map(|(_, met)| met)
+    }
+
+    /// Where the line through a point of a mesh's surface along a direction meets the true surface:
+    /// that of the slave (0) or of the master (1).
+    pub(super) fn truly(&self, side: usize, x: Vector, way: Vector) -> Vector {
+        let Some(curve) = self.curves[side] else {
+            return x;
+        };
+        let mut at = x;
+        // Newton's method for the distance from the surface; a facet is near it.
+        for _ in 0..20 {
+            let Some((from, radius, outward)) = curve.spine(at) else {
+                return x;
+            };
+            let out = difference(at, from);
+            let off = length(out) - radius;
+            let sign = if outward { 1.0 } else { -1.0 };
+            let slope = sign * dot(curve.normal(at), way);
+            if slope.abs() < 0.1 {
+                return x;
+            }
+            at = along(at, -off / slope, way);
+            if off.abs() <= 4.0 * f64::EPSILON * radius {
+                break;
+            }
+        }
+        at
+    }
+}

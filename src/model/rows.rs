@@ -1,0 +1,219 @@
+//! Contact rows: what each pair restricts, on free freedoms.
+//!
+//! ```text
+//!     u_slave . n - sum_k w_k u_k . n = sum_i b_i u_i <= delta
+//! ```
+//!
+//! Nodes that face each other give two coefficients, -1 and 1; surfaces that do not match give one
+//! of 1 and several of the masters.
+
+use super::freedoms::{Freedoms, Slot};
+use super::pairs::Pair;
+use crate::error::{Error, Result};
+use crate::mesh::Mesh;
+use crate::space::dot;
+use std::collections::BTreeMap;
+
+/// Share of a weight up to which a master's direction is at right angles to the normal.
+const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
+
+/// The rows of all pairs.
+#[derive(Debug, Clone, Default)]
+pub struct ContactRows {
+    /// The free freedoms that rows act on: those of masters in the order of the pairs, then the
+    /// slaves' normal ones.
+    pub freedoms: Vec<usize>,
+    /// Of each pair places in `freedoms` and coefficients `b`; the last is the slave's, 1.
+    pub entries: Vec<Vec<(usize, f64)>>,
+    /// Number of rows that act on each contact freedom.
+    rows_at: Vec<u32>,
+    /// Whether no two rows share a freedom and all coefficients are -1 and 1.
+    are_apart: bool,
+}
+
+impl ContactRows {
+    /// The rows of pairs.
+    ///
+    /// # Errors
+    /// A slave whose normal displacement is held, a master that a load moves.
+    pub(super) fn of(mesh: &Mesh, freedoms: &Freedoms, pairs: &[Pair]) -> Result<Self> {
+        let held = |node: usize| {
+            Error::input(format!(
+                "node {} belongs to a contact pair but its normal displacement is held by a support or load",
+                mesh.node_label(node)
+            ))
+        };
+        let normal = |node: usize| freedoms.normal_freedom(node).ok_or_else(|| held(node));
+        let slaves: Vec<usize> =
+            (pairs.iter().map(|pair| normal(pair.slave))).collect::<Result<_>>()?;
+        let is_slave: BTreeMap<usize, usize> = slaves
+            .iter()
+            .enumerate()
+            .map(|(k, &freedom)| (freedom, k))
+            .collect();
+        let mut of_masters: Vec<Vec<(usize, f64)>> = Vec::with_capacity(pairs.len());
+        let mut place: BTreeMap<usize, usize> = BTreeMap::new();
+        let mut masters = Vec::new();
+        for pair in pairs {
+            let row = on_masters(freedoms, pair).ok_or_else(|| moved(mesh, pair))?;
+            if let Some(node) = pair.faced()
+                && row.is_empty()
+            {
+                return Err(held(node));
+            }
+            for &(freedom, _) in &row {
+                if !is_slave.contains_key(&freedom) {
+                    place.entry(freedom).or_insert_with(|| {
+                        masters.push(freedom);
+                        masters.len() - 1
+                    });
+                }
+            }
+            of_masters.push(row);
+        }
+        let n_masters = masters.len();
+        let place_of = |freedom: usize| match is_slave.get(&freedom) {
+            Some(k) => n_masters + k,
+            None => place[&freedom],
+        };
+        let entries: Vec<Vec<(usize, f64)>> = (of_masters.into_iter().enumerate())
+            .map(|(k, row)| {
+                let of_masters = row.into_iter().map(|(freedom, b)| (place_of(freedom), b));
+                of_masters.chain([(n_masters + k, 1.0)]).collect()
+            })
+            .collect();
+        let are_apart = n_masters == pairs.len()
+            && entries
+                .iter()
+                .all(|row| row.len() == 2 && row[0].0 < n_masters && row[0].1 == -1.0);
+        masters.extend(slaves);
+        let mut rows_at = vec![0; masters.len()];
+        entries.iter().flatten().for_each(|&(i, _)| rows_at[i] += 1);
+        Ok(ContactRows {
+            freedoms: masters,
+            entries,
+            rows_at,
+            are_apart,
+        })
+    }
+
+    /// Number of contact freedoms.
+    pub fn n_contact(&self) -> usize {
+        self.freedoms.len()
+    }
+
+    /// Displacement of a row `sum b_i u_i`, for those of the contact freedoms.
+    pub fn slip(&self, row: usize, contact: impl Fn(usize) -> f64) -> f64 {
+        self.entries[row].iter().map(|&(i, b)| b * contact(i)).sum()
+    }
+
+    /// Adds what forces of the rows, compressive positive, do to the contact freedoms: `-B' r`.
+    pub fn add_forces(&self, forces: &[f64], mut add: impl FnMut(usize, f64)) {
+        for (row, force) in self.entries.iter().zip(forces) {
+            for &(i, b) in row {
+                add(i, -b * force);
+            }
+        }
+    }
+
+    /// Displacement along the normal of what faces the slave, and of the slave.
+    pub fn both_sides(&self, row: usize, contact: &[f64]) -> [f64; 2] {
+        let [masters @ .., slave] = self.entries[row].as_slice() else {
+            return [0.0; 2];
+        };
+        let faced: f64 = masters.iter().map(|&(i, b)| -b * contact[i]).sum();
+        [faced, contact[slave.0]]
+    }
+
+    /// The freedoms on which no other row acts and this one with its whole force, with the sign of
+    /// their coefficients.
+    pub fn own(&self, row: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let entries = self.entries[row].iter().copied();
+        entries.filter(|&(i, b)| b.abs() == 1.0 && self.rows_at[i] == 1)
+    }
+
+    /// Takes the forces that rows alone carry off a load on the contact freedoms and adds them, as
+    /// compressive forces of the rows, to `carried`: of a pair of nodes what is left is the same on
+    /// both, else nothing is left on the slave. Open rows are passed over.
+    pub fn take_carried(&self, contact: &mut [f64], carried: &mut [f64], open: &[bool]) {
+        if self.are_apart {
+            let (first, second) = contact.split_at_mut(carried.len());
+            let pairs = first.iter_mut().zip(second).zip(carried);
+            for (((first, second), carried), open) in pairs.zip(open) {
+                if !open {
+                    let half = 0.5 * (*first + *second);
+                    *carried += 0.5 * (*first - *second);
+                    (*first, *second) = (half, half);
+                }
+            }
+            return;
+        }
+        // A slave may be the master of another row: a chain of bodies is as long as there are rows.
+        for _ in 0..self.entries.len() {
+            let mut changed = false;
+            let closed = self
+                .entries
+                .iter()
+                .zip(&mut *carried)
+                .zip(open)
+                .filter(|(_, open)| !**open);
+            for ((row, carried), _) in closed {
+                let Some(&(slave, _)) = row.last() else {
+                    continue;
+                };
+                let force = contact[slave];
+                if force == 0.0 {
+                    continue;
+                }
+                changed = true;
+                *carried -= force;
+                for &(i, b) in row {
+                    contact[i] -= b * force;
+                }
+                contact[slave] = 0.0;
+            }
+            if !changed {
+                break;
+            }
+        }
+    }
+}
+
+/// Coefficients of a pair's row on the freedoms of its masters; `None` where a load moves one.
+fn on_masters(freedoms: &Freedoms, pair: &Pair) -> Option<Vec<(usize, f64)>> {
+    let mut row: Vec<(usize, f64)> = Vec::new();
+    for &(node, weight) in &pair.masters {
+        let axes = freedoms.local(node);
+        let along_normal = axes[0] == pair.normal;
+        for (local, slot) in freedoms.of_node(node).iter().enumerate() {
+            // The axis that is the normal counts one, to the last bit.
+            let share = match (along_normal, local) {
+                (true, 0) => 1.0,
+                (true, _) => continue,
+                (false, _) => dot(pair.normal, axes[local]),
+            };
+            match slot {
+                _ if share.abs() <= ROUND_OFF => {}
+                Slot::Fixed => {}
+                Slot::Prescribed(_) if pair.faced().is_none() => return None,
+                Slot::Prescribed(_) => {}
+                Slot::Free(freedom) => {
+                    let freedom = *freedom as usize;
+                    match row.iter_mut().find(|entry| entry.0 == freedom) {
+                        Some(entry) => entry.1 -= weight * share,
+                        None => row.push((freedom, -weight * share)),
+                    }
+                }
+            }
+        }
+    }
+    Some(row)
+}
+
+fn moved(mesh: &Mesh, pair: &Pair) -> Error {
+    Error::input(format!(
+        "node {} faces nodes whose displacement towards it a load prescribes: let the load act on \
+         another surface of the body",
+        mesh.node_label(pair.slave)
+    ))
+}

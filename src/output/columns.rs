@@ -1,0 +1,93 @@
+//! The table of states as a reader sees it, on the terminal and in the report: a column for each
+//! quantity that says something in this run.
+
+use super::number::number;
+use crate::results::{QUANTITIES, Quantity, State, Unit};
+use crate::space::Space;
+
+/// Two figures of a state within this of each other need no column each: the table shows six
+/// digits.
+const SAME: f64 = 1e-6;
+
+/// A column.
+pub(crate) struct Column {
+    /// Its heading, in lines.
+    pub heading: &'static str,
+    /// What it is measured in, for who names units.
+    pub unit: Unit,
+    /// A cell for each state.
+    pub cells: Vec<String>,
+}
+
+/// A figure of a quantity as it is shown.
+pub(crate) fn cell(quantity: &Quantity, value: f64) -> String {
+    match quantity.is_count {
+        true => format!("{value}"),
+        false => number(value),
+    }
+}
+
+/// The columns of states; a narrow table leaves out what is a detail, and the width and the approach
+/// where arcs or pressures at the pole stand beside them.
+pub(crate) fn of_states(
+    states: &[State],
+    space: Space,
+    contact: bool,
+    is_narrow: bool,
+) -> Vec<Column> {
+    let yielding = states.iter().any(|s| s.plastic_points > 0);
+    let has_arc = contact && states.iter().any(|s| s.contact_arc.is_some());
+    let differs = |a: f64, b: f64| (a - b).abs() > SAME * a.abs().max(b.abs());
+    let is_twice = |quantity: &Quantity| {
+        let twin = quantity.twin.and_then(Quantity::of);
+        twin.is_some_and(|twin| {
+            let [a, b] = [quantity, twin].map(|q| q.in_state.get);
+            !states.iter().any(|state| differs(a(state), b(state)))
+        })
+    };
+    let says = |quantity: &&Quantity| {
+        let shown = !quantity.heading.is_empty() && quantity.scope.holds(contact, yielding);
+        shown && !(is_narrow && quantity.is_detail) && !is_twice(quantity)
+    };
+    let shown: Vec<&Quantity> = QUANTITIES.iter().filter(says).collect();
+    let is_crowded = is_narrow && (has_arc || shown.iter().any(|q| q.key == "pole_pressure"));
+    let mut out = Vec::new();
+    let mut add = |heading, unit, cell: &dyn Fn(&State) -> String| {
+        let cells = states.iter().map(cell).collect();
+        out.push(Column {
+            heading,
+            unit,
+            cells,
+        });
+    };
+    for quantity in shown {
+        let of_state = |state: &State| cell(quantity, (quantity.in_state.get)(state));
+        match quantity.key {
+            "half_width" => {
+                if space.is_solid() {
+                    let larger =
+                        |state: &State| state.patches.first().map_or(0.0, |p| p.semi_axes[0]);
+                    add("larger\nhalf axis", quantity.unit, &|s| number(larger(s)));
+                    add("smaller\nhalf axis", quantity.unit, &of_state);
+                } else if !(is_narrow && has_arc) {
+                    add(quantity.heading, quantity.unit, &of_state);
+                }
+                for (end, heading) in ["arc\nfrom\n[deg]", "arc\nto\n[deg]"]
+                    .into_iter()
+                    .enumerate()
+                {
+                    if has_arc {
+                        add(heading, Unit::One, &|state| match state.contact_arc {
+                            Some(arc) => format!("{:.2}", arc[end] + 0.0),
+                            None => "-".to_string(),
+                        });
+                    }
+                }
+            }
+            "approach" if !contact => add("displace-\nment", quantity.unit, &of_state),
+            "approach" if is_crowded => {}
+            _ => add(quantity.heading, quantity.unit, &of_state),
+        }
+    }
+    out
+}

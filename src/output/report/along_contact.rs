@@ -1,0 +1,236 @@
+//! Charts along a contact of a plane model: pressures at the states, the shape of the dent.
+
+use super::chart::{Chart, Curve, Pen};
+use super::curves::{Titled, curve};
+use super::fields::chosen;
+use super::units::{Units, labelled};
+use super::window::mirrors;
+use crate::model::Model;
+use crate::reference::hertz_pressure;
+use crate::results::{PairState, Results, State, Status};
+use plotters::prelude::SeriesLabelPosition;
+
+/// Most states in a chart of profiles.
+const MOST_PROFILES: usize = 8;
+/// Pieces of the curve of a reference.
+const PIECES: usize = 60;
+
+/// Place along a contact: an angle from the middle of its axis where the surface is a circle, else
+/// the length of arc.
+struct Along {
+    label: String,
+    is_angle: bool,
+    of_pair: Vec<f64>,
+}
+
+impl Along {
+    fn new(model: &Model, units: &Units, contact: usize) -> Self {
+        let surface = &model.contacts[contact];
+        let pairs = &model.pairs[surface.range.clone()];
+        let circle = surface.circle.filter(|(center, radius)| {
+            // On a small part of a large circle lengths say more.
+            let angle = |p: [f64; 2]| (p[1] - center[1]).atan2(p[0] - center[0]);
+            let ends = [pairs.first(), pairs.last()]
+                .map(|p| p.map_or(0.0, |p| angle(model.mesh.in_plane(p.slave))));
+            *radius > 0.0 && (ends[1] - ends[0]).abs() > 20f64.to_radians()
+        });
+        match circle {
+            Some((center, _)) => Along {
+                is_angle: true,
+                label: "angle on the contact circle [°]".to_string(),
+                of_pair: pairs
+                    .iter()
+                    .map(|pair| {
+                        let [x, y] = model.mesh.in_plane(pair.slave);
+                        (y - center[1]).atan2(x - center[0]).to_degrees()
+                    })
+                    .collect(),
+            },
+            None => {
+                let begin = pairs.iter().map(|p| p.arc).fold(f64::INFINITY, f64::min);
+                // From the side on which the surfaces are closest, which is where contact begins.
+                let turned = pairs
+                    .first()
+                    .zip(pairs.last())
+                    .is_some_and(|(a, b)| b.gap < a.gap);
+                let end = pairs.iter().map(|p| p.arc).fold(0.0, f64::max);
+                Along {
+                    is_angle: false,
+                    label: labelled("distance along the contact surface", units.length()),
+                    of_pair: pairs
+                        .iter()
+                        .map(|p| if turned { end - p.arc } else { p.arc - begin })
+                        .collect(),
+                }
+            }
+        }
+    }
+
+    /// A value of the pairs of a state along the contact, in order.
+    fn curve(
+        &self,
+        model: &Model,
+        contact: usize,
+        pairs: &[PairState],
+        value: impl Fn(&PairState) -> f64,
+    ) -> Vec<[f64; 2]> {
+        let range = model.contacts[contact].range.clone();
+        let mut points: Vec<[f64; 2]> = pairs
+            .iter()
+            .filter(|pair| range.contains(&pair.pair))
+            .map(|pair| [self.of_pair[pair.pair - range.start], value(pair)])
+            .collect();
+        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        points
+    }
+}
+
+/// Pressure along a contact at the states, as far as anything was closed (and a little beyond).
+pub(super) fn pressure_profiles(
+    model: &Model,
+    results: &Results,
+    units: &Units,
+    contact: usize,
+    names: &[String; 2],
+) -> Option<Titled> {
+    let along = Along::new(model, units, contact);
+    let closed = |state: &State| {
+        state
+            .pairs
+            .iter()
+            .any(|p| p.contact == contact && p.status == Status::Closed)
+    };
+    let of_interest = |state: &State| closed(state);
+    let shown = chosen(&results.states, MOST_PROFILES, of_interest);
+    let states: Vec<&State> = shown.iter().map(|&i| &results.states[i]).collect();
+    let top = (0..states.len()).max_by(|&a, &b| states[a].load.total_cmp(&states[b].load))?;
+    let mut curves: Vec<Curve> = states
+        .iter()
+        .enumerate()
+        .map(|(i, state)| {
+            let points = along.curve(model, contact, &state.pairs, |pair| pair.pressure);
+            // The way back in dashes.
+            let pen = if i > top { Pen::Dashed } else { Pen::Dotted };
+            curve(&state.name, i, pen, points)
+        })
+        .collect();
+    // Where nothing is pressed in any state there is nothing to see, but for one point on each
+    // side.
+    let pressed: Vec<f64> = curves
+        .iter()
+        .flat_map(|c| &c.points)
+        .filter(|p| p[1] > 0.0)
+        .map(|p| p[0])
+        .collect();
+    let low = pressed.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = pressed.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let room = 0.15 * (high - low);
+    for curve in &mut curves {
+        curve
+            .points
+            .retain(|p| p[0] >= low - room && p[0] <= high + room);
+    }
+    let elastic = states
+        .iter()
+        .rev()
+        .find_map(|state| Some((state, elastic_pressure(model, state)?)));
+    let mut caption = "A dot for each pair of nodes; dashed: after the largest load.".to_string();
+    if let Some((state, points)) = elastic.filter(|_| !along.is_angle) {
+        caption.push_str(&format!(
+            " The grey line is Hertz\u{2019}s pressure under the load of \u{201c}{}\u{201d}.",
+            state.name
+        ));
+        curves.push(Curve {
+            label: "Hertz".to_string(),
+            color: None,
+            pen: Pen::Line,
+            points,
+        });
+    }
+    let several = model.contacts.len() > 1;
+    let of = if several {
+        format!(", {} on {}", names[0], names[1])
+    } else {
+        String::new()
+    };
+    Some(Titled {
+        name: numbered("pressure_distribution", contact, several),
+        title: format!("Contact pressure at the states{of}"),
+        caption,
+        chart: Chart {
+            labels: [along.label, labelled("pressure", units.stress())],
+            widened: if curves.len() > 3 { 0.4 } else { 0.2 },
+            curves,
+            from_zero: [false, true],
+            legend: SeriesLabelPosition::UpperRight,
+        },
+    })
+}
+
+fn numbered(name: &str, contact: usize, several: bool) -> String {
+    if several {
+        format!("{name}_{}", contact + 1)
+    } else {
+        name.to_string()
+    }
+}
+
+/// The shape of the dent, where a state without contact force shows it.
+pub(super) fn dent_profile(
+    model: &Model,
+    results: &Results,
+    units: &Units,
+    contact: usize,
+) -> Option<Titled> {
+    let largest = results
+        .states
+        .iter()
+        .fold(0.0f64, |m, s| m.max(s.contact_force));
+    let free = results
+        .states
+        .iter()
+        .rev()
+        .find(|state| state.residual_depth > 0.0 && state.contact_force <= 1e-9 * largest)?;
+    let range = model.contacts[contact].range.clone();
+    let pairs = &model.pairs[range.clone()];
+    if pairs.iter().any(|p| p.interference != 0.0) {
+        return None;
+    }
+    let along = Along::new(model, units, contact);
+    let mut points = along.curve(model, contact, &free.pairs, |pair| {
+        pair.gap - model.pairs[pair.pair].gap
+    });
+    // The pair that was farthest apart did not take part: what it shows is rigid motion.
+    let outermost = range
+        .clone()
+        .max_by(|&a, &b| model.pairs[a].gap.total_cmp(&model.pairs[b].gap))?;
+    let outermost = free.pairs.iter().find(|p| p.pair == outermost)?;
+    let level = outermost.gap - model.pairs[outermost.pair].gap;
+    for p in &mut points {
+        p[1] = level - p[1];
+    }
+    let several = model.contacts.len() > 1;
+    Some(Titled {
+        name: numbered("dent", contact, several),
+        title: "Shape of the dent".to_string(),
+        caption: format!(
+            "Change of the gap in state \u{201c}{}\u{201d}, without load, downwards; both bodies together.",
+            free.name
+        ),
+        chart: Chart {
+            labels: [along.label, labelled("change of shape", units.length())],
+            curves: vec![curve("", 0, Pen::Dotted, points)],
+            from_zero: [false, true],
+            widened: 0.0,
+            legend: SeriesLabelPosition::LowerRight,
+        },
+    })
+}
+
+/// Hertz' pressure beside that of a state in which nothing has yielded, of a half model with one
+/// contact.
+fn elastic_pressure(model: &Model, state: &State) -> Option<Vec<[f64; 2]>> {
+    let is_alone = model.contacts.len() == 1 && model.materials.len() == 2;
+    let compares = state.plastic_points == 0 && is_alone && mirrors(model)[0];
+    compares.then(|| hertz_pressure(model, state.contact_force, PIECES))?
+}

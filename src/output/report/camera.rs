@@ -1,0 +1,99 @@
+//! From where solids are looked at.
+
+use super::contact_frame::global;
+use super::window::{extent, mirrors};
+use crate::model::Model;
+use crate::space::{Vector, along, cross, difference, direction, dot};
+
+/// Distance of the eye, in half diagonals of what is shown.
+pub(super) const DISTANCE: f64 = 5.0;
+/// Where the eye is: how far round from the first axis, how far up, in degrees.
+const ROUND: f64 = 36.0;
+const UP: f64 = 24.0;
+/// Share of the lower body's height by which one that lies on another may reach down into it.
+const OVERLAP: f64 = 0.1;
+
+/// From where something is looked at.
+pub(super) struct Camera {
+    /// Where the eye is.
+    pub eye: Vector,
+    /// To the right, up, and towards the eye.
+    pub axes: [Vector; 3],
+}
+
+impl Camera {
+    /// Looks at a middle from `distance`. Up is along `up`; of the axes across it those along which
+    /// the model is a half are seen from the side of its planes of symmetry.
+    pub(super) fn new(center: Vector, distance: f64, up: Vector, across: [Vector; 2]) -> Self {
+        let [round, high] = [ROUND, UP].map(f64::to_radians);
+        let level = along(across[0].map(|x| x * round.cos()), round.sin(), across[1]);
+        let toward = direction(along(level.map(|x| x * high.cos()), high.sin(), up));
+        let right = direction(cross(up, toward));
+        Camera {
+            eye: along(center, distance, toward),
+            axes: [right, cross(toward, right), toward],
+        }
+    }
+
+    /// Right and up over the distance along the line of sight, and that distance.
+    pub(super) fn project(&self, x: Vector) -> ([f64; 2], f64) {
+        let way = difference(x, self.eye);
+        let depth = -dot(way, self.axes[2]);
+        ([0, 1].map(|d| dot(way, self.axes[d]) / depth), depth)
+    }
+}
+
+/// The way up and the axes across it, towards the eye.
+pub(super) struct Stand {
+    /// Up.
+    pub up: Vector,
+    /// Across.
+    pub across: [Vector; 2],
+}
+
+impl Stand {
+    /// Up along a normal of the contact; planes of symmetry face the eye.
+    pub(super) fn new(model: &Model, up: Vector, across: [Vector; 2]) -> Self {
+        let mirror = mirrors(model);
+        let [low, high] = extent(model);
+        let toward = |axis: Vector| {
+            let half = global(axis).filter(|&d| mirror[d]);
+            let is_above = half.is_some_and(|d| low[d] + high[d] > 0.0);
+            let sign = if is_above { -1.0 } else { 1.0 };
+            axis.map(|x| x * sign)
+        };
+        Stand {
+            up,
+            across: across.map(toward),
+        }
+    }
+}
+
+/// The bodies from the lowest to the highest along a direction; one rank for those that reach into
+/// each other's heights by more than [`OVERLAP`].
+pub(super) fn ranks(model: &Model, up: Vector) -> Vec<usize> {
+    let mesh = &model.mesh;
+    let mut heights = vec![[f64::INFINITY, f64::NEG_INFINITY]; mesh.bodies.len()];
+    for element in 0..mesh.n_elements() {
+        let [low, high] = &mut heights[mesh.element_body[element] as usize];
+        for &node in mesh.nodes(element) {
+            let height = dot(up, mesh.point(node as usize));
+            (*low, *high) = (low.min(height), high.max(height));
+        }
+    }
+    let mut order: Vec<usize> = (0..heights.len()).collect();
+    let middle = |body: usize| heights[body][0] + heights[body][1];
+    order.sort_by(|&a, &b| middle(a).total_cmp(&middle(b)));
+    let mut ranks = vec![0; heights.len()];
+    let (mut rank, mut top, mut least) = (0, f64::NEG_INFINITY, f64::INFINITY);
+    for body in order {
+        let [low, high] = heights[body];
+        least = least.min(high - low);
+        if top - low <= OVERLAP * least {
+            (rank, least) = (rank + 1, high - low);
+        }
+        ranks[body] = rank;
+        top = top.max(high);
+    }
+    ranks
+}

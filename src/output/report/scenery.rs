@@ -1,0 +1,138 @@
+//! The scene drawn: all of it, and the surroundings of the contact; then both with the mesh.
+
+use super::Captioned;
+use super::camera::Stand;
+use super::contact_frame::ContactFrame;
+use super::drawing::Drawing;
+use super::perspective::Perspective;
+use super::units::Units;
+use super::{sketch, window};
+use crate::error::Result;
+use crate::model::Model;
+use crate::output::number::significant;
+use crate::results::Results;
+use crate::space::{Vector, difference, dot, unit};
+
+/// Least share of the area whose elements are large enough to be seen that is worth a drawing of
+/// the mesh.
+const LEAST_MESH: f64 = 0.2;
+/// Width of the surroundings of the contact over that of the model from which on they are no
+/// drawing of their own.
+const MOST_NEAR: f64 = 0.6;
+/// How far the surroundings of a contact of solids reach, in its half axes.
+const REACH: f64 = 2.6;
+
+/// Draws one view without or with the mesh, and states the share of its area whose mesh is seen.
+type View<'v> = (
+    &'static str,
+    &'static str,
+    Box<dyn Fn(bool) -> Result<(Drawing, f64)> + 'v>,
+);
+
+/// The drawings without the mesh, and those with it where it is coarse enough to be seen.
+///
+/// # Errors
+/// `Internal` where one cannot be drawn.
+pub(super) fn draw(
+    model: &Model,
+    results: &Results,
+    units: &Units,
+    frame: Option<&ContactFrame>,
+) -> Result<[Vec<Captioned>; 2]> {
+    let (views, about) = match model.kind.is_solid() {
+        true => (solid(model, frame), size(model, units)),
+        false => (
+            plane(model, results, units),
+            "As given in the scene, without load.".to_string(),
+        ),
+    };
+    let mut out = [Vec::new(), Vec::new()];
+    for mesh in [false, true] {
+        for (name, title, draw) in &views {
+            let (drawing, share) = draw(mesh)?;
+            if mesh && share < LEAST_MESH {
+                continue;
+            }
+            let caption = match mesh {
+                true if share < 1.0 => {
+                    "With the mesh, without load; elements too small to be seen are left plain."
+                }
+                true => "With the mesh, without load.",
+                false => about.as_str(),
+            };
+            out[usize::from(mesh)].push(Captioned {
+                name: format!("{name}{}", if mesh { "_mesh" } else { "" }),
+                title: title.to_string(),
+                caption: caption.to_string(),
+                drawing,
+            });
+        }
+    }
+    Ok(out)
+}
+
+const WHOLE: [&str; 2] = ["scene", "The whole model"];
+const NEAR: [&str; 2] = ["contact_region", "Near the contact"];
+
+fn plane<'v>(model: &'v Model, results: &Results, units: &'v Units) -> Vec<View<'v>> {
+    let Some(whole) = window::whole(model, [false; 2]) else {
+        return Vec::new();
+    };
+    let near = window::near_contact(model, results, [false; 2])
+        .filter(|near| !model.pairs.is_empty() && near.size()[0] < MOST_NEAR * whole.size()[0]);
+    let windows = [(WHOLE, Some(whole)), (NEAR, near)];
+    let views = windows
+        .into_iter()
+        .filter_map(|(words, window)| Some((words, window?)));
+    views
+        .map(|([name, title], window)| -> View {
+            let draw = move |mesh| sketch::draw(model, units, window, mesh);
+            (name, title, Box::new(draw))
+        })
+        .collect()
+}
+
+fn solid<'v>(model: &'v Model, frame: Option<&ContactFrame>) -> Vec<View<'v>> {
+    let (up, across) = frame.map_or((unit(2), [unit(0), unit(1)]), |f| (f.up, f.axes));
+    let stand = Stand::new(model, up, across);
+    let [low, high] = window::extent(model);
+    let width = difference(high, low).into_iter().fold(0.0, f64::max);
+    let near = frame.and_then(|frame| {
+        let reach = REACH * frame.reach[0].max(frame.reach[1]);
+        let is_near = |x: Vector| {
+            let way = difference(x, frame.center);
+            [frame.axes[0], frame.axes[1], up]
+                .iter()
+                .all(|axis| dot(*axis, way).abs() <= reach)
+        };
+        let is_smaller = 2.0 * reach < MOST_NEAR * width;
+        is_smaller.then(|| Perspective::new(model, &stand, is_near))?
+    });
+    let whole = Perspective::new(model, &stand, |_| true);
+    let views = [(WHOLE, whole), (NEAR, near)].into_iter();
+    views
+        .filter_map(|([name, title], view)| {
+            let view = view?;
+            let draw = move |mesh| view.draw(model.kind.axes(), mesh);
+            Some((name, title, Box::new(draw) as Box<_>))
+        })
+        .collect()
+}
+
+/// What a perspective does not show: the size.
+fn size(model: &Model, units: &Units) -> String {
+    let [low, high] = window::extent(model);
+    let sides = difference(high, low).map(|side| significant(side, 3));
+    let halves = (0..3).filter(|&d| window::mirrors(model)[d]).count();
+    let planes = match halves {
+        0 => "",
+        1 => "; the plane of symmetry faces the reader",
+        _ => "; the planes of symmetry face the reader",
+    };
+    format!(
+        "In perspective, without load{planes}. The whole is {} {}.",
+        sides.join(" \u{d7} "),
+        units.length()
+    )
+    .replace(" .", ".")
+}

@@ -1,0 +1,66 @@
+//! How a run ended.
+
+use super::{Demand, Results};
+use crate::error::{Error, ErrorKind};
+
+/// Why a run ended before its program did.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Incomplete {
+    /// What decides the exit code: stopped, collapse, analysis, ...
+    pub kind: ErrorKind,
+    /// In words.
+    pub why: String,
+}
+
+impl Incomplete {
+    /// The same as an error.
+    pub fn to_error(&self) -> Error {
+        Error::new(self.kind, self.why.as_str())
+    }
+}
+
+/// How a run ended, with what it did not keep of what was asked of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Ending<'r> {
+    /// Its program is done, every state within its tolerances, the demanded accuracy reached.
+    Complete,
+    /// Its program is done, but not so.
+    Inaccurate {
+        /// States whose quality misses its tolerance, with the figure.
+        states: &'r [String],
+        /// A demanded accuracy that was not reached.
+        demand: Option<&'r Demand>,
+    },
+    /// It ended before its program did.
+    Incomplete(&'r Incomplete),
+}
+
+impl Results {
+    /// How the run ended.
+    pub fn ending(&self) -> Ending<'_> {
+        if let Some(incomplete) = &self.incomplete {
+            return Ending::Incomplete(incomplete);
+        }
+        let demand = self.accuracy.as_ref().and_then(|a| a.demand.as_ref());
+        let demand = demand.filter(|demand| !demand.reached);
+        if self.inaccurate.is_empty() && demand.is_none() {
+            Ending::Complete
+        } else {
+            Ending::Inaccurate {
+                states: &self.inaccurate,
+                demand,
+            }
+        }
+    }
+}
+
+impl Ending<'_> {
+    /// The kind that decides the exit code; `None` where all was kept.
+    pub fn kind(&self) -> Option<ErrorKind> {
+        match self {
+            Ending::Complete => None,
+            Ending::Inaccurate { .. } => Some(ErrorKind::Inaccurate),
+            Ending::Incomplete(incomplete) => Some(incomplete.kind),
+        }
+    }
+}

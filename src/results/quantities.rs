@@ -1,0 +1,248 @@
+//! The quantities that a run reports: one table, from which `summary.json`, the tables of terminal
+//! and report, C, Python, the error estimates and the demands on accuracy take theirs. Whoever adds
+//! one adds its field to [`State`] with its computation, an entry here, and what it means to the
+//! schema, which a test holds to this table.
+
+use super::{HistoryRow, PairState, PathPoint, Results, State, Status, YieldPoint};
+
+/// What a quantity is measured in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// Nothing: a factor, a count, a strain, a relative error.
+    One,
+    /// A length.
+    Length,
+    /// A stress.
+    Stress,
+    /// What loads: a force, in the plane per length; where a stress loads, that.
+    Load,
+    /// An area in the plane, else a volume.
+    Size,
+    /// An energy, in the plane per length.
+    Work,
+}
+
+/// In which runs a quantity says something.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scope {
+    /// In all.
+    Always,
+    /// With contact.
+    Contact,
+    /// Where the material yields.
+    Yielding,
+    /// With contact, where the material yields.
+    YieldingContact,
+}
+
+impl Scope {
+    /// All of them.
+    pub const ALL: [Scope; 4] = [
+        Scope::Always,
+        Scope::Contact,
+        Scope::Yielding,
+        Scope::YieldingContact,
+    ];
+
+    /// Whether a run with contact, in which material yields, is in it.
+    pub fn holds(self, contact: bool, yielding: bool) -> bool {
+        match self {
+            Scope::Always => true,
+            Scope::Contact => contact,
+            Scope::Yielding => yielding,
+            Scope::YieldingContact => contact && yielding,
+        }
+    }
+}
+
+/// Where a record keeps a quantity. Counts are numbers too; one that is not known is not a number.
+#[derive(Debug)]
+pub struct Field<Record> {
+    /// Reads it.
+    pub get: fn(&Record) -> f64,
+    /// Writes it, as a summary is read back.
+    pub(crate) set: fn(&mut Record, f64),
+}
+
+impl<Record> Clone for Field<Record> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<Record> Copy for Field<Record> {}
+
+/// How the error of a quantity is estimated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Estimated {
+    /// A short name, for demands on it.
+    pub short: &'static str,
+    /// Whether it is that of single Gauss points, which a mesh reaches with first order.
+    pub is_of_points: bool,
+    /// Whether a demand on all quantities is one on it.
+    pub in_all: bool,
+}
+
+/// A quantity.
+#[derive(Debug)]
+pub struct Quantity {
+    /// Its key in `summary.json`, name of its column in the tables and in Python.
+    pub key: &'static str,
+    /// What it is measured in.
+    pub unit: Unit,
+    /// Whether it is a count.
+    pub is_count: bool,
+    /// Where it says something.
+    pub scope: Scope,
+    /// Heading of its column in the tables for readers, in lines; empty: it is in none.
+    pub heading: &'static str,
+    /// Whether narrow tables leave it out.
+    pub is_detail: bool,
+    /// The key of one beside which its column would say the same twice where both are equal.
+    pub twin: Option<&'static str>,
+    /// How its error is estimated, if it is.
+    pub estimated: Option<Estimated>,
+    /// At first yield.
+    pub at_yield: Option<Field<YieldPoint>>,
+    /// In a state.
+    pub in_state: Field<State>,
+    /// In a row of the history.
+    pub in_history: Option<Field<HistoryRow>>,
+    /// On the path between two rows.
+    pub on_path: Option<Field<PathPoint>>,
+}
+
+impl Quantity {
+    /// That of a key.
+    pub fn of(key: &str) -> Option<&'static Quantity> {
+        QUANTITIES.iter().find(|quantity| quantity.key == key)
+    }
+
+    /// Its value at a state or at first yield of a run.
+    fn at(&self, place: &Place) -> Option<f64> {
+        match place {
+            Place::Yield(point) => Some((self.at_yield?.get)(point)),
+            Place::State(state) => Some((self.in_state.get)(state)),
+        }
+    }
+}
+
+/// The field of a name.
+macro_rules! field {
+    ($name:ident) => {
+        Field {
+            get: |record| record.$name as f64,
+            set: |record, value| record.$name = value as _,
+        }
+    };
+}
+
+/// A quantity that the entry says nothing more of: of states alone, in no table for readers.
+const fn plain(key: &'static str, unit: Unit, scope: Scope, in_state: Field<State>) -> Quantity {
+    Quantity {
+        key,
+        unit,
+        is_count: false,
+        scope,
+        heading: "",
+        is_detail: false,
+        twin: None,
+        estimated: None,
+        at_yield: None,
+        in_state,
+        in_history: None,
+        on_path: None,
+    }
+}
+
+/// An entry: a field of states with its unit and scope, where else there is a field of that name,
+/// and what else is to be said.
+macro_rules! entry {
+    ($name:ident, $unit:ident, $scope:ident, [$($place:ident)*] $(, $more:ident: $value:expr)*) => {
+        entry!(field!($name), $name, $unit, $scope, [$($place)*] $(, $more: $value)*)
+    };
+    ($field:expr, $name:ident, $unit:ident, $scope:ident, [$($place:ident)*] $(, $more:ident: $value:expr)*) => {
+        Quantity {
+            $($place: Some(field!($name)),)*
+            $($more: $value,)*
+            ..plain(stringify!($name), Unit::$unit, Scope::$scope, $field)
+        }
+    };
+}
+
+/// With an estimated error.
+const fn error(short: &'static str, is_of_points: bool, in_all: bool) -> Option<Estimated> {
+    Some(Estimated {
+        short,
+        is_of_points,
+        in_all,
+    })
+}
+
+/// All quantities, in the order of `summary.json`.
+#[rustfmt::skip] // a row for each
+pub static QUANTITIES: [Quantity; 16] = [
+    entry!(alpha, One, Always, [at_yield in_history on_path], heading: "load\nfactor"),
+    entry!(load, Load, Always, [at_yield in_history on_path], heading: "load", estimated: error("load", false, true)),
+    entry!(contact_force, Load, Contact, [in_history], heading: "contact\nforce", twin: Some("load")),
+    entry!(CLOSED_PAIRS, closed_pairs, One, Contact, [in_history], is_count: true),
+    entry!(max_pressure, Stress, Contact, [at_yield in_history on_path],
+        heading: "max\npressure", estimated: error("pressure", false, true)),
+    entry!(pole_pressure, Stress, Contact, [],
+        heading: "pole\npressure", twin: Some("max_pressure"), estimated: error("pole", false, false)),
+    entry!(half_width, Length, Contact, [at_yield in_history on_path],
+        heading: "half\nwidth", estimated: error("width", false, true)),
+    entry!(residual_depth, Length, YieldingContact, [],
+        heading: "residual\ndepth", estimated: error("dent", false, true)),
+    entry!(rim_height, Length, YieldingContact, []),
+    entry!(approach, Length, Always, [], heading: "approach", estimated: error("approach", false, true)),
+    entry!(plastic_points, One, Yielding, [in_history], heading: "plastic\npoints", is_count: true),
+    entry!(max_equivalent_plastic_strain, One, Yielding, [in_history],
+        heading: "plastic\nstrain", estimated: error("strain", true, false)),
+    entry!(plastic_zone_size, Size, Yielding, [],
+        heading: "plastic\nzone", is_detail: true, estimated: error("zone", true, false)),
+    entry!(plastic_work, Work, Yielding, [],
+        heading: "plastic\nwork", is_detail: true, estimated: error("work", false, false)),
+    entry!(plastic_depth, Length, YieldingContact, []),
+    entry!(ENERGY_ERROR, energy_error, One, Always, []),
+];
+
+/// It follows from the pairs.
+const CLOSED_PAIRS: Field<State> = Field {
+    get: |state| {
+        let closed = |pair: &&PairState| pair.status == Status::Closed;
+        state.pairs.iter().filter(closed).count() as f64
+    },
+    set: |_, _| {},
+};
+
+/// Known where fields are.
+const ENERGY_ERROR: Field<State> = Field {
+    get: |state| state.energy_error.unwrap_or(f64::NAN),
+    set: |state, value| state.energy_error = (!value.is_nan()).then_some(value),
+};
+
+/// A state, or first yield.
+enum Place<'r> {
+    Yield(&'r YieldPoint),
+    State(&'r State),
+}
+
+/// The number at a path of `summary.json`: `yield.KEY` or `states.NAME.KEY`, where the number of the
+/// state, from 0, may stand for its name. `None` where the run has none such.
+pub fn value(results: &Results, path: &str) -> Option<f64> {
+    let (head, rest) = path.split_once('.')?;
+    if head == "yield" {
+        let point = results.first_yield.as_ref()?;
+        let axis = |axis: &str| ["x", "y", "z"].iter().position(|name| *name == axis);
+        return match rest.strip_prefix("location.") {
+            Some(name) => Some(point.location[axis(name)?]),
+            None => Quantity::of(rest)?.at(&Place::Yield(point)),
+        };
+    }
+    let (name, key) = rest.rsplit_once('.').filter(|_| head == "states")?;
+    let states = &results.states;
+    let by_number = || states.get(name.parse::<usize>().ok()?);
+    let named = states.iter().find(|state| state.name == name);
+    Quantity::of(key)?.at(&Place::State(named.or_else(by_number)?))
+}

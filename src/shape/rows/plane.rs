@@ -1,0 +1,246 @@
+//! Rows of plane shapes.
+
+use crate::shape::{Place, Reference, Refinement, Rule, functions};
+
+/// The order of nodes that is Gmsh's own.
+pub(super) const IN_ORDER: [usize; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
+
+pub(in crate::shape) const TRIANGLE: [Place; 6] = [
+    [0.0, 0.0, 0.0],
+    [1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.5, 0.0, 0.0],
+    [0.5, 0.5, 0.0],
+    [0.0, 0.5, 0.0],
+];
+
+pub(in crate::shape) const SQUARE: [Place; 8] = [
+    [-1.0, -1.0, 0.0],
+    [1.0, -1.0, 0.0],
+    [1.0, 1.0, 0.0],
+    [-1.0, 1.0, 0.0],
+    [0.0, -1.0, 0.0],
+    [1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [-1.0, 0.0, 0.0],
+];
+
+/// Gauss abscissa `1/sqrt(3)` of the 2 x 2 rule.
+pub(super) const G2: f64 = 0.577_350_269_189_625_8;
+/// Gauss abscissa `sqrt(3/5)` of the 3 x 3 rule.
+const G3: f64 = 0.774_596_669_241_483_4;
+
+const GAUSS_2X2: &Rule = &[
+    ([-G2, -G2, 0.0], 1.0),
+    ([G2, -G2, 0.0], 1.0),
+    ([G2, G2, 0.0], 1.0),
+    ([-G2, G2, 0.0], 1.0),
+];
+const CENTER: &Rule = &[([0.0, 0.0, 0.0], 4.0)];
+
+pub(super) const SIXTH: f64 = 1.0 / 6.0;
+const CENTROID: &Rule = &[([1.0 / 3.0, 1.0 / 3.0, 0.0], 0.5)];
+const INNER_3: &Rule = &[
+    ([SIXTH, SIXTH, 0.0], SIXTH),
+    ([4.0 * SIXTH, SIXTH, 0.0], SIXTH),
+    ([SIXTH, 4.0 * SIXTH, 0.0], SIXTH),
+];
+
+pub(super) static TRI3: Reference = Reference {
+    name: "tri3",
+    dimension: 2,
+    n_corners: 3,
+    degree: 1,
+    nodes: TRIANGLE.split_at(3).0,
+    functions: functions::tri3,
+    gauss: CENTROID,
+    sampling: CENTROID,
+    has_mean_dilatation: false,
+    // Its Jacobian is constant.
+    checked: TRIANGLE.split_at(1).0,
+    unit_jacobian: 1.0,
+    facets: &[&[0, 1], &[1, 2], &[2, 0]],
+    edges: SIDES_3,
+    refinement: Some(&Refinement {
+        on_facet: 1,
+        inside: &[],
+        children: &[&[0, 3, 5], &[1, 4, 3], &[2, 5, 4], &[3, 4, 5]],
+        of_facet: OF_TRIANGLE,
+    }),
+    vtk: 5,
+    gmsh: 2,
+    gmsh_order: IN_ORDER.split_at(3).0,
+};
+
+pub(super) static TRI6: Reference = Reference {
+    name: "tri6",
+    dimension: 2,
+    n_corners: 3,
+    degree: 2,
+    nodes: &TRIANGLE,
+    functions: functions::tri6,
+    gauss: INNER_3,
+    sampling: INNER_3,
+    has_mean_dilatation: false,
+    checked: &[
+        TRIANGLE[0],
+        TRIANGLE[1],
+        TRIANGLE[2],
+        INNER_3[0].0,
+        INNER_3[1].0,
+        INNER_3[2].0,
+        TRIANGLE[3],
+        TRIANGLE[4],
+        TRIANGLE[5],
+    ],
+    unit_jacobian: 1.0,
+    facets: &[&[0, 1, 3], &[1, 2, 4], &[2, 0, 5]],
+    edges: SIDES_3,
+    refinement: Some(&Refinement {
+        on_facet: 2,
+        // The element's own shape functions at the middles of the new sides.
+        inside: &[
+            &[(-0.125, 1), (-0.125, 2), (0.5, 3), (0.5, 5), (0.25, 4)],
+            &[(-0.125, 2), (-0.125, 0), (0.5, 4), (0.5, 3), (0.25, 5)],
+            &[(-0.125, 0), (-0.125, 1), (0.5, 5), (0.5, 4), (0.25, 3)],
+        ],
+        children: &[
+            &[0, 3, 5, 6, 12, 11],
+            &[1, 4, 3, 8, 13, 7],
+            &[2, 5, 4, 10, 14, 9],
+            &[3, 4, 5, 13, 14, 12],
+        ],
+        of_facet: OF_TRIANGLE,
+    }),
+    vtk: 22,
+    gmsh: 9,
+    gmsh_order: IN_ORDER.split_at(6).0,
+};
+
+pub(super) static QUAD4: Reference = Reference {
+    name: "quad4",
+    dimension: 2,
+    n_corners: 4,
+    degree: 1,
+    nodes: SQUARE.split_at(4).0,
+    functions: functions::quad4,
+    gauss: GAUSS_2X2,
+    sampling: CENTER,
+    has_mean_dilatation: true,
+    // Its Jacobian is linear along each reference coordinate.
+    checked: SQUARE.split_at(4).0,
+    unit_jacobian: 0.25,
+    facets: &[&[0, 1], &[1, 2], &[2, 3], &[3, 0]],
+    edges: SIDES_4,
+    refinement: Some(&Refinement {
+        on_facet: 1,
+        inside: &[&[
+            (-0.25, 0),
+            (-0.25, 1),
+            (-0.25, 2),
+            (-0.25, 3),
+            (0.5, 4),
+            (0.5, 5),
+            (0.5, 6),
+            (0.5, 7),
+        ]],
+        children: &[&[0, 4, 8, 7], &[1, 5, 8, 4], &[2, 6, 8, 5], &[3, 7, 8, 6]],
+        of_facet: OF_SQUARE,
+    }),
+    vtk: 9,
+    gmsh: 3,
+    gmsh_order: IN_ORDER.split_at(4).0,
+};
+
+pub(super) static QUAD8: Reference = Reference {
+    name: "quad8",
+    dimension: 2,
+    n_corners: 4,
+    degree: 2,
+    nodes: &SQUARE,
+    functions: functions::quad8,
+    // Reduced integration.
+    gauss: GAUSS_2X2,
+    sampling: GAUSS_2X2,
+    has_mean_dilatation: false,
+    checked: &[
+        SQUARE[0],
+        SQUARE[1],
+        SQUARE[2],
+        SQUARE[3],
+        GAUSS_2X2[0].0,
+        GAUSS_2X2[1].0,
+        GAUSS_2X2[2].0,
+        GAUSS_2X2[3].0,
+        [-G3, -G3, 0.0],
+        [G3, -G3, 0.0],
+        [G3, G3, 0.0],
+        [-G3, G3, 0.0],
+        [0.0, 0.0, 0.0],
+        [G3, 0.0, 0.0],
+        [-G3, 0.0, 0.0],
+        [0.0, G3, 0.0],
+        [0.0, -G3, 0.0],
+    ],
+    unit_jacobian: 0.25,
+    facets: &[&[0, 1, 4], &[1, 2, 5], &[2, 3, 6], &[3, 0, 7]],
+    edges: SIDES_4,
+    refinement: Some(&Refinement {
+        on_facet: 2,
+        // The centre, and the middles of the new sides: the element's own shape functions.
+        inside: &[
+            &[
+                (-0.25, 0),
+                (-0.25, 1),
+                (-0.25, 2),
+                (-0.25, 3),
+                (0.5, 4),
+                (0.5, 5),
+                (0.5, 6),
+                (0.5, 7),
+            ],
+            &beside(4, 5, 6, 7),
+            &beside(5, 6, 7, 4),
+            &beside(6, 7, 4, 5),
+            &beside(7, 4, 5, 6),
+        ],
+        children: &[
+            &[0, 4, 16, 7, 8, 17, 20, 15],
+            &[1, 5, 16, 4, 10, 18, 17, 9],
+            &[2, 6, 16, 5, 12, 19, 18, 11],
+            &[3, 7, 16, 6, 14, 20, 19, 13],
+        ],
+        of_facet: OF_SQUARE,
+    }),
+    vtk: 23,
+    gmsh: 16,
+    gmsh_order: IN_ORDER.split_at(8).0,
+};
+
+const SIDES_3: &[[usize; 2]] = &[[0, 1], [1, 2], [2, 0]];
+const SIDES_4: &[[usize; 2]] = &[[0, 1], [1, 2], [2, 3], [3, 0]];
+
+/// Half way from the middle of a side to the centre of a quadrilateral, for the middles of the
+/// sides from that one on.
+const fn beside(own: usize, next: usize, opposite: usize, last: usize) -> [(f64, usize); 8] {
+    [
+        (-0.1875, 0),
+        (-0.1875, 1),
+        (-0.1875, 2),
+        (-0.1875, 3),
+        (0.75, own),
+        (0.375, next),
+        (0.25, opposite),
+        (0.375, last),
+    ]
+}
+
+/// Children keep the corner of their number as their first node; the fourth of a triangle is the
+/// one between the middles of its sides.
+const OF_TRIANGLE: &[&[[usize; 2]]] = &[&[[0, 0], [1, 2]], &[[1, 0], [2, 2]], &[[2, 0], [0, 2]]];
+const OF_SQUARE: &[&[[usize; 2]]] = &[
+    &[[0, 0], [1, 3]],
+    &[[1, 0], [2, 3]],
+    &[[2, 0], [3, 3]],
+    &[[3, 0], [0, 3]],
+];

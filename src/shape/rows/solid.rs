@@ -1,0 +1,321 @@
+//! Rows of solid shapes.
+
+use super::plane::{G2, IN_ORDER, SIXTH};
+use crate::shape::{Place, Reference, Rule, functions};
+
+/// Corners of each edge of a tetrahedron, in the order of the nodes between them.
+pub(in crate::shape) const EDGES_OF_TETRAHEDRON: [[usize; 2]; 6] =
+    [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
+/// Corners of each edge of a prism, in the order of the nodes between them.
+const EDGES_OF_PRISM: [[usize; 2]; 9] = [
+    [0, 1],
+    [1, 2],
+    [2, 0],
+    [3, 4],
+    [4, 5],
+    [5, 3],
+    [0, 3],
+    [1, 4],
+    [2, 5],
+];
+/// Corners of each edge of a hexahedron, in the order of the nodes between them.
+const EDGES_OF_CUBE: [[usize; 2]; 12] = [
+    [0, 1],
+    [1, 2],
+    [2, 3],
+    [3, 0],
+    [4, 5],
+    [5, 6],
+    [6, 7],
+    [7, 4],
+    [0, 4],
+    [1, 5],
+    [2, 6],
+    [3, 7],
+];
+
+const TETRAHEDRON: [Place; 10] = with_middles(
+    [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0],
+    ],
+    EDGES_OF_TETRAHEDRON,
+);
+
+pub(in crate::shape) const PRISM: [Place; 15] = with_middles(
+    [
+        [0.0, 0.0, -1.0],
+        [1.0, 0.0, -1.0],
+        [0.0, 1.0, -1.0],
+        [0.0, 0.0, 1.0],
+        [1.0, 0.0, 1.0],
+        [0.0, 1.0, 1.0],
+    ],
+    EDGES_OF_PRISM,
+);
+
+pub(in crate::shape) const CUBE: [Place; 20] = with_middles(
+    [
+        [-1.0, -1.0, -1.0],
+        [1.0, -1.0, -1.0],
+        [1.0, 1.0, -1.0],
+        [-1.0, 1.0, -1.0],
+        [-1.0, -1.0, 1.0],
+        [1.0, -1.0, 1.0],
+        [1.0, 1.0, 1.0],
+        [-1.0, 1.0, 1.0],
+    ],
+    EDGES_OF_CUBE,
+);
+
+/// The corners, then the middle of each edge.
+const fn with_middles<const C: usize, const E: usize, const N: usize>(
+    corners: [Place; C],
+    edges: [[usize; 2]; E],
+) -> [Place; N] {
+    let mut out = [[0.0; 3]; N];
+    let mut k = 0;
+    while k < N {
+        if k < C {
+            out[k] = corners[k];
+        } else {
+            let [a, b] = edges[k - C];
+            let mut d = 0;
+            while d < 3 {
+                out[k][d] = 0.5 * (corners[a][d] + corners[b][d]);
+                d += 1;
+            }
+        }
+        k += 1;
+    }
+    out
+}
+
+const GAUSS_2X2X2: &Rule = &[
+    ([-G2, -G2, -G2], 1.0),
+    ([G2, -G2, -G2], 1.0),
+    ([G2, G2, -G2], 1.0),
+    ([-G2, G2, -G2], 1.0),
+    ([-G2, -G2, G2], 1.0),
+    ([G2, -G2, G2], 1.0),
+    ([G2, G2, G2], 1.0),
+    ([-G2, G2, G2], 1.0),
+];
+const CENTER_OF_CUBE: &Rule = &[([0.0, 0.0, 0.0], 8.0)];
+const CENTROID_OF_TETRAHEDRON: &Rule = &[([0.25, 0.25, 0.25], 1.0 / 6.0)];
+/// Four points, exact to degree 2: `(5 -+ sqrt 5)/20`.
+const INNER_4: &Rule = {
+    const NEAR: f64 = 0.138_196_601_125_010_5;
+    const FAR: f64 = 1.0 - 3.0 * NEAR;
+    const WEIGHT: f64 = 1.0 / 24.0;
+    &[
+        ([NEAR, NEAR, NEAR], WEIGHT),
+        ([FAR, NEAR, NEAR], WEIGHT),
+        ([NEAR, FAR, NEAR], WEIGHT),
+        ([NEAR, NEAR, FAR], WEIGHT),
+    ]
+};
+
+pub(super) static TET4: Reference = Reference {
+    name: "tet4",
+    dimension: 3,
+    n_corners: 4,
+    degree: 1,
+    nodes: TETRAHEDRON.split_at(4).0,
+    functions: functions::tet4,
+    gauss: CENTROID_OF_TETRAHEDRON,
+    sampling: CENTROID_OF_TETRAHEDRON,
+    has_mean_dilatation: false,
+    checked: TETRAHEDRON.split_at(1).0,
+    unit_jacobian: 1.0,
+    facets: &[&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[2, 0, 3]],
+    edges: &EDGES_OF_TETRAHEDRON,
+    refinement: None,
+    vtk: 10,
+    gmsh: 4,
+    gmsh_order: IN_ORDER.split_at(4).0,
+};
+
+pub(super) static TET10: Reference = Reference {
+    name: "tet10",
+    dimension: 3,
+    n_corners: 4,
+    degree: 2,
+    nodes: &TETRAHEDRON,
+    functions: functions::tet10,
+    gauss: INNER_4,
+    sampling: INNER_4,
+    has_mean_dilatation: false,
+    checked: &{
+        let mut places = [[0.0; 3]; 14];
+        let mut k = 0;
+        while k < 14 {
+            places[k] = if k < 10 {
+                TETRAHEDRON[k]
+            } else {
+                INNER_4[k - 10].0
+            };
+            k += 1;
+        }
+        places
+    },
+    unit_jacobian: 1.0,
+    facets: &[
+        &[0, 2, 1, 6, 5, 4],
+        &[0, 1, 3, 4, 8, 7],
+        &[1, 2, 3, 5, 9, 8],
+        &[2, 0, 3, 6, 7, 9],
+    ],
+    edges: &EDGES_OF_TETRAHEDRON,
+    refinement: None,
+    vtk: 24,
+    gmsh: 11,
+    gmsh_order: &[0, 1, 2, 3, 4, 5, 6, 7, 9, 8],
+};
+
+/// Three points of a triangle at two heights. In a prism of fifteen nodes it leaves three modes
+/// without stiffness, none of which neighbours share (four prisms side by side, two on top of each
+/// other), as the reduced rule of the serendipity hexahedron leaves six.
+const INNER_3X2: &Rule = &[
+    ([SIXTH, SIXTH, -G2], SIXTH),
+    ([4.0 * SIXTH, SIXTH, -G2], SIXTH),
+    ([SIXTH, 4.0 * SIXTH, -G2], SIXTH),
+    ([SIXTH, SIXTH, G2], SIXTH),
+    ([4.0 * SIXTH, SIXTH, G2], SIXTH),
+    ([SIXTH, 4.0 * SIXTH, G2], SIXTH),
+];
+const CENTER_OF_PRISM: &Rule = &[([1.0 / 3.0, 1.0 / 3.0, 0.0], 1.0)];
+
+/// Corners and Gauss points.
+const CHECKED_OF_PRISM: [Place; 12] = {
+    let mut places = [[0.0; 3]; 12];
+    let mut k = 0;
+    while k < 12 {
+        places[k] = if k < 6 { PRISM[k] } else { INNER_3X2[k - 6].0 };
+        k += 1;
+    }
+    places
+};
+
+pub(super) static PRISM6: Reference = Reference {
+    name: "prism6",
+    dimension: 3,
+    n_corners: 6,
+    degree: 1,
+    nodes: PRISM.split_at(6).0,
+    functions: functions::prism6,
+    gauss: INNER_3X2,
+    sampling: CENTER_OF_PRISM,
+    has_mean_dilatation: true,
+    checked: &CHECKED_OF_PRISM,
+    unit_jacobian: 0.5,
+    facets: &[
+        &[0, 2, 1],
+        &[3, 4, 5],
+        &[0, 1, 4, 3],
+        &[1, 2, 5, 4],
+        &[2, 0, 3, 5],
+    ],
+    edges: &EDGES_OF_PRISM,
+    refinement: None,
+    vtk: 13,
+    gmsh: 6,
+    gmsh_order: IN_ORDER.split_at(6).0,
+};
+
+pub(super) static PRISM15: Reference = Reference {
+    name: "prism15",
+    dimension: 3,
+    n_corners: 6,
+    degree: 2,
+    nodes: &PRISM,
+    functions: functions::prism15,
+    // Reduced integration.
+    gauss: INNER_3X2,
+    sampling: INNER_3X2,
+    has_mean_dilatation: false,
+    checked: &CHECKED_OF_PRISM,
+    unit_jacobian: 0.5,
+    facets: &[
+        &[0, 2, 1, 8, 7, 6],
+        &[3, 4, 5, 9, 10, 11],
+        &[0, 1, 4, 3, 6, 13, 9, 12],
+        &[1, 2, 5, 4, 7, 14, 10, 13],
+        &[2, 0, 3, 5, 8, 12, 11, 14],
+    ],
+    edges: &EDGES_OF_PRISM,
+    refinement: None,
+    vtk: 26,
+    gmsh: 18,
+    gmsh_order: &[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11],
+};
+
+/// Corners and Gauss points.
+const CHECKED_OF_CUBE: [Place; 16] = {
+    let mut places = [[0.0; 3]; 16];
+    let mut k = 0;
+    while k < 16 {
+        places[k] = if k < 8 { CUBE[k] } else { GAUSS_2X2X2[k - 8].0 };
+        k += 1;
+    }
+    places
+};
+
+pub(super) static HEX8: Reference = Reference {
+    name: "hex8",
+    dimension: 3,
+    n_corners: 8,
+    degree: 1,
+    nodes: CUBE.split_at(8).0,
+    functions: functions::hex8,
+    gauss: GAUSS_2X2X2,
+    sampling: CENTER_OF_CUBE,
+    has_mean_dilatation: true,
+    checked: &CHECKED_OF_CUBE,
+    unit_jacobian: 0.125,
+    facets: &[
+        &[0, 3, 2, 1],
+        &[4, 5, 6, 7],
+        &[0, 1, 5, 4],
+        &[1, 2, 6, 5],
+        &[2, 3, 7, 6],
+        &[3, 0, 4, 7],
+    ],
+    edges: &EDGES_OF_CUBE,
+    refinement: None,
+    vtk: 12,
+    gmsh: 5,
+    gmsh_order: &IN_ORDER,
+};
+
+pub(super) static HEX20: Reference = Reference {
+    name: "hex20",
+    dimension: 3,
+    n_corners: 8,
+    degree: 2,
+    nodes: &CUBE,
+    functions: functions::hex20,
+    // Reduced integration.
+    gauss: GAUSS_2X2X2,
+    sampling: GAUSS_2X2X2,
+    has_mean_dilatation: false,
+    checked: &CHECKED_OF_CUBE,
+    unit_jacobian: 0.125,
+    facets: &[
+        &[0, 3, 2, 1, 11, 10, 9, 8],
+        &[4, 5, 6, 7, 12, 13, 14, 15],
+        &[0, 1, 5, 4, 8, 17, 12, 16],
+        &[1, 2, 6, 5, 9, 18, 13, 17],
+        &[2, 3, 7, 6, 10, 19, 14, 18],
+        &[3, 0, 4, 7, 11, 16, 15, 19],
+    ],
+    edges: &EDGES_OF_CUBE,
+    refinement: None,
+    vtk: 25,
+    gmsh: 17,
+    gmsh_order: &[
+        0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15,
+    ],
+};

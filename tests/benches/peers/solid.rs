@@ -1,0 +1,228 @@
+//! A ball in three dimensions beside CalculiX on the same mesh: C3D8 and C3D20R, its iterative Cholesky solver.
+//!
+//! Errors are those of the largest pressure at 0.8 of the yield load against Hertz, and at five times the yield load and of the dent
+//! against brinell's values extrapolated from its two finest meshes.
+
+use super::deck::{self, Settings};
+use super::frd::Frd;
+use super::process::{Failure, children_seconds};
+use brinell::analytical::{HertzPoint, contact_modulus};
+use brinell::model::Model;
+use brinell::scene::Scene;
+use serde_json::{Value, json};
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/data/peers/ball_contact.toml");
+/// Elements over the contact radius at first yield, and their shape.
+const CASES: [(usize, &str); 3] = [(4, "hex8"), (6, "hex8"), (4, "hex20")];
+/// brinell's own meshes from which the reference is extrapolated.
+const FINEST: [usize; 2] = [6, 9];
+/// Load factors of the program, in the order of its states.
+const LEGS: [f64; 3] = [0.8, 5.0, 0.0];
+
+/// Largest pressures at the two loads, the dent, processor seconds.
+#[derive(Debug, Clone, Copy)]
+struct Outcome {
+    elastic: f64,
+    five: f64,
+    dent: f64,
+    seconds: f64,
+}
+
+/// Processor seconds of a command with one thread.
+fn timed(command: &mut Command) -> Result<f64, Failure> {
+    let before = children_seconds()?;
+    let status = command
+        .env("OMP_NUM_THREADS", "1")
+        .env("OPENBLAS_NUM_THREADS", "1")
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status()?;
+    if !status.success() {
+        return Err(format!("ended with {status}").into());
+    }
+    Ok(children_seconds()? - before)
+}
+
+fn overrides((size, shape): (usize, &str)) -> Vec<String> {
+    vec![
+        format!("mesh.curved_bodies.resolution={size}"),
+        format!("mesh.curved_bodies.element=\"{shape}\""),
+    ]
+}
+
+fn brinell(case: (usize, &str), dir: &Path, elastic_only: bool) -> Result<Outcome, Failure> {
+    let out = dir.join(format!("brinell_{}_{}", case.0, case.1));
+    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    command.args([
+        "run",
+        SCENE,
+        "--threads",
+        "1",
+        "--no-estimate",
+        "--no-report",
+        "-q",
+    ]);
+    command.arg("--out").arg(&out);
+    for change in overrides(case) {
+        command.arg("--set").arg(change);
+    }
+    if elastic_only {
+        let target = "program.targets=[{ name = \"elastic\", load_factor = 0.8, fields = false }]";
+        command.arg("--set").arg(target);
+    }
+    let seconds = timed(&mut command)?;
+    let summary: Value = serde_json::from_str(&std::fs::read_to_string(out.join("summary.json"))?)?;
+    std::fs::remove_dir_all(&out)?;
+    let state = |name: &str, key: &str| -> f64 {
+        let states = summary["states"].as_array().into_iter().flatten();
+        let mut named = states.filter(|s| s["name"] == name);
+        named
+            .next()
+            .and_then(|s| s[key].as_f64())
+            .unwrap_or(f64::NAN)
+    };
+    Ok(Outcome {
+        elastic: state("elastic", "max_pressure"),
+        five: state("five", "max_pressure"),
+        dent: state("unloaded", "residual_depth"),
+        seconds,
+    })
+}
+
+fn calculix(case: (usize, &str), dir: &Path, elastic_only: bool) -> Result<Outcome, Failure> {
+    let mut scene = Scene::load_with(SCENE, &overrides(case))?;
+    if elastic_only {
+        scene.materials.values_mut().for_each(|m| {
+            m.yield_stress = None;
+            m.plastic_modulus = None;
+        });
+        scene
+            .mesh
+            .curved_bodies
+            .as_mut()
+            .ok_or("another mesh")?
+            .semi_axes = {
+            let r = hertz()?.yield_contact_radius(0.3, 500.0);
+            Some([r, r])
+        };
+    }
+    let model = Model::new(&scene)?;
+    let radius = hertz()?.yield_contact_radius(0.3, 500.0);
+    let overlap = (1.5 * radius / case.0 as f64).powi(2) / (2.0 * 10.0);
+    let settings = Settings {
+        penalty: 1000.0 * 210e3,
+        overlap,
+        increments: 5,
+        kind: "SURFACE TO SURFACE",
+        solver: ", SOLVER=ITERATIVE CHOLESKY",
+    };
+    let legs = if elastic_only { &LEGS[..1] } else { &LEGS[..] };
+    let name = format!("ball_{}_{}", case.0, case.1);
+    let text = deck::deck(&model, &settings, legs)?;
+    std::fs::write(dir.join(format!("{name}.inp")), text)?;
+    let seconds = timed(Command::new("ccx").args(["-i", &name]).current_dir(dir))?;
+    let frd = Frd::parse(&std::fs::read_to_string(dir.join(format!("{name}.frd")))?);
+    let largest = |time: f64| {
+        let pressures = frd.at(time).map(|i| i.pressure.values().copied());
+        pressures.map_or(f64::NAN, |p| p.fold(0.0, f64::max))
+    };
+    // The change of the gap without load where it is most, the outermost pair's taken off.
+    let dent = frd.at(3.0).map_or(f64::NAN, |unloaded| {
+        let z = |node: usize| {
+            unloaded
+                .displacement
+                .get(&(node as u64 + 1))
+                .map_or(f64::NAN, |u| u[2])
+        };
+        let pairs = model.pairs.iter();
+        let opened: Vec<(f64, f64)> = pairs
+            .map(|p| (p.gap, z(p.masters[0].0) - z(p.slave)))
+            .collect();
+        let outermost = opened.iter().max_by(|a, b| a.0.total_cmp(&b.0));
+        let outermost = outermost.map_or(f64::NAN, |o| o.1);
+        opened.iter().map(|o| o.1 - outermost).fold(0.0, f64::max)
+    });
+    Ok(Outcome {
+        elastic: largest(1.0),
+        five: largest(2.0),
+        dent,
+        seconds,
+    })
+}
+
+fn hertz() -> Result<HertzPoint, Failure> {
+    let modulus = contact_modulus(210e3, 0.3, 210e3, 0.3);
+    Ok(HertzPoint::new(10.0, modulus)?)
+}
+
+/// A quantity from two meshes whose errors go with the square of the element size.
+fn extrapolated(coarse: f64, fine: f64) -> f64 {
+    let ratio = (FINEST[1] as f64 / FINEST[0] as f64).powi(2);
+    fine + (fine - coarse) / (ratio - 1.0)
+}
+
+/// The table goes to the terminal and to `bench-results/peers_solid.md` and `.json`.
+pub fn compare() -> Result<(), Failure> {
+    let folder = tempfile::tempdir()?;
+    let dir = folder.path();
+    let [coarse, fine] = [
+        brinell((FINEST[0], "hex8"), dir, false)?,
+        brinell((FINEST[1], "hex8"), dir, false)?,
+    ];
+    let exact = Outcome {
+        elastic: hertz()?.max_pressure(0.8 * hertz()?.yield_load(0.3, 500.0)),
+        five: extrapolated(coarse.five, fine.five),
+        dent: extrapolated(coarse.dent, fine.dent),
+        seconds: 0.0,
+    };
+    let mut table = String::from(
+        "| elements over a | shape | program | processor seconds, history | elastic load | pressure at 0.8 P* | at 5 P* | dent |\n|---|---|---|---|---|---|---|---|\n",
+    );
+    let mut rows = Vec::new();
+    for case in CASES {
+        let mut both = Vec::new();
+        for program in ["brinell", "CalculiX"] {
+            let run = if program == "brinell" {
+                brinell
+            } else {
+                calculix
+            };
+            let (history, elastic) = (run(case, dir, false)?, run(case, dir, true)?);
+            let percent = |value: f64, exact: f64| 100.0 * (value / exact - 1.0).abs();
+            let [a, b, c] = [
+                percent(history.elastic, exact.elastic),
+                percent(history.five, exact.five),
+                percent(history.dent, exact.dent),
+            ];
+            let row = format!(
+                "| {} | {} | {program} | {:.2} | {:.2} | {a:.2} % | {b:.2} % | {c:.2} % |",
+                case.0, case.1, history.seconds, elastic.seconds
+            );
+            println!("{row}");
+            writeln!(table, "{row}")?;
+            rows.push(json!({
+                "elements": case.0, "shape": case.1, "program": program, "history_seconds": history.seconds,
+                "elastic_seconds": elastic.seconds, "errors_percent": [a, b, c],
+            }));
+            both.push((history.seconds, elastic.seconds));
+        }
+        let (ours, theirs) = (both[0], both[1]);
+        writeln!(
+            table,
+            "| {} | {} | ratio | {:.0} | {:.0} | | | |",
+            case.0,
+            case.1,
+            theirs.0 / ours.0,
+            theirs.1 / ours.1
+        )?;
+    }
+    println!("{table}");
+    let results = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("bench-results");
+    std::fs::create_dir_all(&results)?;
+    std::fs::write(results.join("peers_solid.md"), &table)?;
+    let text = serde_json::to_string_pretty(&rows)? + "\n";
+    Ok(std::fs::write(results.join("peers_solid.json"), text)?)
+}

@@ -1,0 +1,158 @@
+//! Displacements of every node at the end of every step, compared with those of CalculiX.
+
+use super::{deck_path, folder, run};
+use std::collections::BTreeMap;
+use std::process::{Command, Stdio};
+
+/// A deck and how far its displacements may be from those of CalculiX, as a share of the largest.
+struct Case {
+    name: &'static str,
+    overrides: &'static [&'static str],
+    bound: f64,
+}
+
+/// CalculiX prints seven digits.
+const PRINTED: f64 = 1e-6;
+const FULL: &[&str] = &["mesh.formulation=full"];
+
+const CASES: [Case; 12] = [
+    // The penalty lets the blocks overlap by a pressure of 100 over 1e9.
+    case("two_blocks", FULL, 1e-4),
+    case("history", &[], PRINTED),
+    case("plastic", &[], 2e-4),
+    case("bricks", FULL, PRINTED),
+    case("ring", &[], PRINTED),
+    case("tetrahedra", &[], PRINTED),
+    case("wedges", &[], 1e-2),
+    case("tube", &[], 2e-4),
+    case("held_plane", &[], PRINTED),
+    case("included", FULL, 1e-3),
+    case("interference", FULL, 1e-4),
+    case("tilted_block", FULL, 2e-3),
+];
+
+const fn case(name: &'static str, overrides: &'static [&'static str], bound: f64) -> Case {
+    Case {
+        name,
+        overrides,
+        bound,
+    }
+}
+
+/// Displacements by node, by time.
+type Table = BTreeMap<String, BTreeMap<u64, [f64; 3]>>;
+
+/// The tables of displacements of a `.dat` file.
+fn parse(text: &str) -> Table {
+    let mut out = Table::new();
+    let mut time = None;
+    for line in text.lines() {
+        if let Some((_, given)) = line.split_once("and time ") {
+            time = line
+                .contains("displacements")
+                .then(|| given.trim().to_string());
+            continue;
+        }
+        let words: Vec<&str> = line.split_whitespace().collect();
+        if let (Some(time), [node, x, y, z]) = (&time, &words[..]) {
+            let u = [x, y, z].map(|word| word.parse().unwrap());
+            out.entry(time.clone())
+                .or_default()
+                .insert(node.parse().unwrap(), u);
+        }
+    }
+    out
+}
+
+fn stored(name: &str) -> Table {
+    let path = folder().join(format!("reference/{name}.dat"));
+    parse(&std::fs::read_to_string(path).unwrap())
+}
+
+fn largest(table: &BTreeMap<u64, [f64; 3]>) -> f64 {
+    table
+        .values()
+        .flatten()
+        .fold(0.0, |m: f64, u| m.max(u.abs()))
+}
+
+#[test]
+fn displacements_are_those_of_calculix() {
+    let mut wrong = Vec::new();
+    for case in &CASES {
+        let (model, results) = run(&deck_path(case.name), case.overrides);
+        let stored = stored(case.name);
+        assert_eq!(results.states.len(), stored.len(), "{}", case.name);
+        let scale = stored.values().map(largest).fold(0.0, f64::max);
+        for (state, (time, table)) in results.states.iter().zip(&stored) {
+            let fields = state.fields.as_ref().unwrap();
+            let d = model.mesh.dimension;
+            let mut worst = (0.0, 0);
+            for (node, u) in fields.displacement.chunks(d).enumerate() {
+                let label = model.mesh.node_label(node);
+                for (a, b) in u.iter().zip(table[&label]) {
+                    let error = (a - b).abs() / scale;
+                    if error > worst.0 {
+                        worst = (error, label);
+                    }
+                }
+            }
+            println!(
+                "{} at {time}: {:.2e} at node {}",
+                case.name, worst.0, worst.1
+            );
+            if worst.0 > case.bound {
+                wrong.push(format!(
+                    "{} at {time}: {:.2e} at node {}",
+                    case.name, worst.0, worst.1
+                ));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// What is stored is what CalculiX prints, where it is installed.
+#[test]
+fn calculix_prints_what_is_stored() {
+    let is_there = Command::new("ccx")
+        .arg("-v")
+        .stdout(Stdio::null())
+        .status()
+        .is_ok();
+    if !is_there {
+        println!("skipped: ccx is not installed (Debian: calculix-ccx)");
+        return;
+    }
+    let work = tempfile::tempdir().unwrap();
+    for entry in std::fs::read_dir(folder()).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|e| e == "inp" || e == "inc") {
+            std::fs::copy(&path, work.path().join(path.file_name().unwrap())).unwrap();
+        }
+    }
+    for case in &CASES {
+        let mut command = Command::new("ccx");
+        command.args(["-i", case.name]).current_dir(work.path());
+        let status = command
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .status()
+            .unwrap();
+        assert!(status.success(), "{}", case.name);
+        let text = std::fs::read_to_string(work.path().join(format!("{}.dat", case.name))).unwrap();
+        let (fresh, stored) = (parse(&text), stored(case.name));
+        for (time, table) in &stored {
+            let scale = largest(table).max(f64::MIN_POSITIVE);
+            for (node, u) in table {
+                for (a, b) in u.iter().zip(fresh[time][node]) {
+                    assert!(
+                        (a - b).abs() <= PRINTED * scale,
+                        "{} {time} {node}",
+                        case.name
+                    );
+                }
+            }
+        }
+    }
+}
