@@ -3,6 +3,7 @@
 //! Here names become indices and every inconsistency between scene and mesh is found. What comes
 //! after works with numbers only.
 
+mod body_forces;
 mod builder;
 mod contact_basis;
 mod ends;
@@ -233,7 +234,7 @@ fn build_mesh(scene: &Scene) -> Result<Mesh> {
         mesh::validate(&mesh)?;
         mesh = mesh::subdivided(mesh, times, &scene.contact)?;
         mesh::validate(&mesh).map_err(|e| {
-            e.within("the subdivided mesh (is a surface that is laid on its circle too far from it for the elements beside it?)")
+            e.within("the subdivided mesh (does a surface that is declared round sag by more than the depth of the elements along it?)")
         })?;
     }
     let (key, solid) = match (&scene.mesh.extrude, &scene.mesh.revolve) {
