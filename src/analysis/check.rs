@@ -80,7 +80,10 @@ fn solves(model: &Model) -> f64 {
     };
     let mut yielding = model.materials.iter().zip(&model.may_yield);
     let soft = yielding.any(|(material, may)| {
-        let slope = material.hardening.as_ref().map(|h| h.slope(0.0));
+        let slope = material
+            .hardening
+            .as_ref()
+            .map(|h| h.slope(0.0) + material.kinematic_modulus);
         *may && slope.is_some_and(|slope| slope < SOFT * material.youngs_modulus)
     });
     let each = match soft {

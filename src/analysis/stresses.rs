@@ -98,8 +98,7 @@ impl Stresses {
                     }
                     out.plastic_points[body] += 1;
                     out.plastic_volume += weight;
-                    out.plastic_work +=
-                        weight * model.materials[body].plastic_work(past.equivalent);
+                    out.plastic_work += weight * model.materials[body].plastic_work(past);
                     out.plastic_strain = out.plastic_strain.max(past.equivalent);
                 }
             }

@@ -39,10 +39,12 @@
 mod facet;
 mod gradients;
 mod stiffness;
+mod volume;
 
 pub use facet::{FacetPoint, facet_points};
 pub use gradients::{Components, Gradients, Lanes};
 pub use stiffness::packed;
+pub use volume::{VolumePoint, volume_points};
 
 use crate::scene::Formulation;
 use crate::shape::{Rule, Shape};

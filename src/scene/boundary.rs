@@ -120,7 +120,7 @@ pub struct Load {
     /// Name, for messages.
     #[serde(default)]
     pub name: String,
-    /// Surface or node set that is loaded.
+    /// Surface or node set that is loaded; the body of an `acceleration` or a `rotation`.
     pub on: String,
     /// Total force (x, y; of a solid x, y, z), shared by the nodes like a uniform traction (surface) or equally (node set).
     pub force: Option<Components>,
@@ -134,6 +134,13 @@ pub struct Load {
     pub displacement: Option<Displacement>,
     /// A total force on a surface that is held plane: all its nodes share the displacement in `direction`.
     pub plane_force: Option<PlaneForce>,
+    /// Force per mass on all of a body (x, y; of a solid x, y, z), such as gravity: its material needs a `density`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub acceleration: Option<Components>,
+    /// Rotation of a body, whose material needs a `density`: the load factor multiplies the forces, which go with the square of
+    /// the speed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rotation: Option<Rotation>,
     /// How it depends on the load factor.
     #[serde(default)]
     pub history: History,
@@ -180,6 +187,20 @@ pub struct PlaneForce {
     pub direction: Direction,
     /// Total force along it.
     pub total: f64,
+}
+
+/// Rotation about an axis at a constant speed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Rotation {
+    /// Revolutions per minute, where the scene's density is for seconds (N, mm: t/mm^3).
+    pub rpm: f64,
+    /// A point of the axis; by default the origin. Axisymmetric models turn about their own axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub center: Option<Components>,
+    /// Direction of the axis, of a solid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axis: Option<[f64; 3]>,
 }
 
 /// How a load depends on the load factor alpha.

@@ -29,7 +29,8 @@ mod validate;
 
 pub use accuracy::AccuracyDemand;
 pub use boundary::{
-    Contact, Direction, Displacement, History, Kirsch, Load, PlaneForce, SlaveSide, Support,
+    Contact, Direction, Displacement, History, Kirsch, Load, PlaneForce, Rotation, SlaveSide,
+    Support,
 };
 pub use geometry::{
     Block, BrickPart, CurvedBodies, CylinderOnHalfPlane, Disc, DiscInPlate, Extrusion, Formulation,

@@ -1,5 +1,6 @@
 //! Published cases with known answers, run through the library: one case per file, its source at the head.
 
+mod body_forces;
 mod circular_punch;
 mod contact_patch;
 mod cyclic_element;

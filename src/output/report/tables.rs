@@ -92,6 +92,13 @@ fn bodies(model: &Model, units: &Units) -> Markup {
                 }
                 (_, None) => "table".to_string(),
             };
+            let hardening = match material
+                .kinematic_modulus
+                .filter(|c| *c != 0.0 && yields.is_some())
+            {
+                Some(c) => format!("{hardening}; kinematic, C = {}", with_unit(c, stress)),
+                None => hardening,
+            };
             Some(vec![
                 swatch(BODIES[index % BODIES.len()], name),
                 plain(&body.material),
@@ -176,7 +183,11 @@ fn describe(model: &Model, load: &Load, units: &Units) -> String {
             vector([kirsch.stress_x, kirsch.stress_y].into())
         )
     } else if let Some(d) = load.displacement {
-        let parts = [(d.x, Direction::X), (d.y, Direction::Y)];
+        let parts = [
+            (d.x, Direction::X),
+            (d.y, Direction::Y),
+            (d.z, Direction::Z),
+        ];
         let parts: Vec<String> = parts
             .into_iter()
             .filter_map(|(value, direction)| {
@@ -196,6 +207,10 @@ fn describe(model: &Model, load: &Load, units: &Units) -> String {
             short(plane.total),
             axis(model, plane.direction)
         )
+    } else if let Some(acceleration) = load.acceleration {
+        format!("acceleration {} of its mass", vector(acceleration))
+    } else if let Some(rotation) = load.rotation {
+        format!("rotation at {} rpm", short(rotation.rpm))
     } else {
         String::new()
     };
