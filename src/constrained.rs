@@ -215,11 +215,6 @@ impl ConstrainedStructure {
         &self.condensed_stiffness
     }
 
-    /// `T`, `n_rows x n_rows`, symmetric: forces of the rows per gap.
-    pub fn contact_matrix(&self) -> &DMatrix<f64> {
-        &self.contact_matrix
-    }
-
     /// Solves contact under the load `f` (all freedoms), from the statuses at hand.
     ///
     /// # Errors

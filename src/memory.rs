@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// Memory that this process may still take, in bytes: the least of what the machine has free, what
 /// its control group and its own limits (`ulimit -v`, `ulimit -d`) leave. `None` where the system
-/// does not tell.
+/// does not report it.
 pub fn available() -> Option<f64> {
     [machine(), group(), limits()]
         .into_iter()
@@ -15,7 +15,7 @@ pub fn available() -> Option<f64> {
 }
 
 /// The most memory that this process has held so far, in bytes (Linux: `VmHWM`). `None` where the
-/// system does not tell.
+/// system does not report it.
 pub(crate) fn peak() -> Option<u64> {
     kibibytes("/proc/self/status", "VmHWM:").map(|bytes| bytes as u64)
 }

@@ -29,7 +29,8 @@ pub(crate) fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error
 ///
 /// ```
 /// use brinell::results::Status;
-/// # use brinell::{analysis::Analysis, linalg::Backend, model::Model, progress::Silent, scene::Scene};
+/// # use brinell::{analysis::Analysis, linalg::Backend, model::Model};
+/// # use brinell::{progress::Silent, scene::Scene};
 ///
 /// # fn main() -> brinell::Result<()> {
 /// # let scene = Scene::load("data/scenes/contact_patch.toml")?;
@@ -77,7 +78,7 @@ pub struct Results {
     pub inaccurate: Vec<String>,
     /// What the factorisation cost.
     pub factor: Prediction,
-    /// Reference values beside computed ones, where they were compared (by `reference::compare`).
+    /// Reference values compared with computed ones, where they were compared (by `reference::compare`).
     pub reference: Vec<ReferenceRow>,
     /// How wrong each figure may be, where it was estimated (by `accuracy::estimate`).
     pub accuracy: Option<Accuracy>,
@@ -297,7 +298,7 @@ pub struct Counts {
     pub contact_changes: usize,
 }
 
-/// A published or exact value beside the computed one.
+/// A published or exact value compared with the computed one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ReferenceRow {
     /// What: a path in `summary.json`.

@@ -103,7 +103,9 @@ fn modules_import_from_above_only() {
     let order: Vec<String> = code(&root().join("src/lib.rs"))
         .lines()
         .filter_map(|l| {
-            let declared = l.trim().trim_start_matches("pub ");
+            let line = l.trim();
+            let declared = line.trim_start_matches("pub ");
+            let declared = declared.trim_start_matches("pub(crate) ");
             let name = declared.strip_prefix("mod ")?.strip_suffix(';')?;
             Some(name.to_string())
         })

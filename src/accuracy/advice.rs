@@ -1,9 +1,9 @@
-//! What a study says of a quantity in words: what accuracies cost, what limits, what would do.
+//! What a study states about a quantity in words: what accuracies cost, what limits, what would do.
 
 use super::knobs::Knob;
 use super::record::StudyRun;
 use super::verdict::{Price, StudyReference, is_own, path_correction, value};
-use super::words::{duration, percent};
+use crate::number::{duration, percent};
 use std::cmp::Ordering;
 
 /// A looser setting would do where its error is this small a share of the mesh's.

@@ -9,19 +9,19 @@
 //! are the values of the last mesh that was run to its end.
 
 use super::companions::{Level, member};
-use super::estimate::{Judged, judge};
+use super::estimate::{Judged, assess};
 use super::extrapolation::LEAST_ORDER;
 use super::meter::work;
 use super::outcome::{Outcome, PATH};
 use super::path::{increments_taken, with_steps};
 use super::quantities::quantities;
 use super::runs::{Extent, Runs, analyse};
-use super::words::duration;
 use crate::analysis::Analysis;
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::Backend;
 use crate::mesh::generate::Family;
 use crate::model::Model;
+use crate::number::duration;
 use crate::progress::Observer;
 use crate::results::{Demand, Incomplete, Results};
 use crate::scene::{AccuracyDemand, Scene};
@@ -216,7 +216,7 @@ impl Pursuit {
             results,
             extent: self.extent,
         };
-        let found = judge(&judged, levels, &mut self.runs, observer);
+        let found = assess(&judged, levels, &mut self.runs, observer);
         self.work += found.work;
         let outcome = Outcome::of(&self.demand, results, &found);
         if outcome.is_of_nothing {

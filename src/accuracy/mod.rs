@@ -7,7 +7,7 @@
 //! | `extrapolation` | the uncertainty of a value from those on other meshes |
 //! | `path` | the error of increments and tolerances |
 //! | `runs`, `estimate` | runs, each made once; discretisation, path and algebraic error of every quantity |
-//! | `demand`, `outcome` | finer and finer meshes until a demanded accuracy is reached; what a mesh says of it |
+//! | `demand`, `outcome` | finer and finer meshes until a demanded accuracy is reached; what a mesh states about it |
 //! | `knobs`, `meter`, `record`, `study` | a study: what to turn, what a run takes, the runs |
 //! | `verdict`, `advice` | what the runs of a study show, and the same in words |
 //!
@@ -41,7 +41,6 @@ mod record;
 mod runs;
 mod study;
 mod verdict;
-mod words;
 
 pub use crate::memory::available as available_memory;
 pub use companions::{Level, companions, member};
@@ -54,4 +53,4 @@ pub use quantities::{Quantity, quantities, value_of};
 pub use record::StudyRun;
 pub use runs::Extent;
 pub use study::{Plan, Study, study};
-pub use verdict::{Price, QuantityStudy, StudyReference, foremost, judge};
+pub use verdict::{Price, QuantityStudy, StudyReference, assess, foremost};

@@ -310,7 +310,7 @@ mod tests {
         close(at_first, [0.0, between(&model, 0, 5)]);
     }
 
-    /// Without a symmetry plane at its surface's nearer end an arc is told from its own middle.
+    /// Without a symmetry plane at its surface's nearer end an arc is measured from its own middle.
     #[test]
     fn an_arc_without_a_symmetry_plane_is_told_from_its_middle() {
         let mut model = disc(&["mesh.disc_in_plate.resolution=24"]);

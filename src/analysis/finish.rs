@@ -37,7 +37,7 @@ impl Run<'_, '_> {
         if floor > 0.0 {
             let text = format!(
                 "forces balance to their round-off, {:.1e} of the largest force, and not to analysis.tolerance = {:.1e}: displacements are \
-                 large beside the strains of this mesh",
+                 large compared with the strains of this mesh",
                 floor, model.scene.analysis.tolerance
             );
             self.observer.warning(&text);
@@ -58,13 +58,13 @@ impl Run<'_, '_> {
             || !results.inaccurate.is_empty()
             || results.condition > DOUBTFUL
         {
-            // A figure beside the results: a solve that fails leaves it out.
+            // A figure besides the results: a solve that fails leaves it out.
             let structure = &self.solver.structure;
             let estimate = structure.sub.condition_estimate(model, structure.system);
             results.condition_estimate = estimate.ok();
         }
         let qualities = judged.iter().map(|(_, q)| q);
-        results.quality = qualities.fold(Quality::default(), |w, q| w.worse(q));
+        results.quality = qualities.fold(Quality::default(), |w, q| w.merge_worst(q));
         for (name, seconds) in [
             ("factorisation and condensation", seconds.condensation),
             ("yield load", seconds.yield_load),

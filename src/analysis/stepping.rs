@@ -98,7 +98,7 @@ impl<'s, 'm> Stepper<'s, 'm> {
                         return Err(self.not_found(&goal, &attempt));
                     }
                     most *= CUT;
-                    // The points flow as in the state that failed: its tangent, often singular,
+                    // The points yield as in the state that failed: its tangent, often singular,
                     // must not predict the next.
                     self.solver.assume_elastic();
                 }

@@ -40,7 +40,7 @@ impl Solver<'_> {
     ///
     /// The search directions carry their gaps, forces and eliminated loads along, and the last
     /// preconditioned residual `z = S^-1 r` is taken as a step of the plain iteration on top:
-    /// beside the iteration's trailing solves the direction costs half a solve. In the iteration
+    /// besides the iteration's trailing solves the direction costs half a solve. In the iteration
     /// the second halves go through the part of the zone that counts.
     pub fn solve_tangent(&mut self, residual: &Trailing, tolerance: f64, keep: f64) -> Equilibrium {
         let mut softened = self.structure.sub.zeros();
@@ -72,7 +72,7 @@ impl Solver<'_> {
             self.take_what_closed_pairs_carry(&mut z.initial.load, &mut carried);
             self.respond_homogeneous(&mut z, &part);
             let next = z.initial.load.dot(&z.u);
-            p.turn(next / rz, &z);
+            p.scale_and_add(next / rz, &z);
             rz = next;
         }
         total.add(1.0, &z);
@@ -94,7 +94,7 @@ impl Solver<'_> {
         rows.take_carried(&mut load.contact, carried, self.tableau.open());
     }
 
-    /// Where the displacements of search directions enter a tangent solve: where the material flows
+    /// Where the displacements of search directions enter a tangent solve: where the material yields
     /// and where the residual acts.
     fn part_that_counts(&self, residual: &Trailing) -> ZonePart {
         let mut marks: Vec<bool> = residual.zone.iter().map(|r| *r != 0.0).collect();

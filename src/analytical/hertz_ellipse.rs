@@ -1,9 +1,9 @@
 //! Hertz's contact of bodies of any curvature: the contact is an ellipse.
 
-use super::bracketing::{maximum, root};
 use super::domain::positive;
 use super::elliptic::{elliptic_d, elliptic_k};
 use crate::error::{Error, Result};
+use crate::root::{self, maximum};
 use std::f64::consts::PI;
 
 /// Frictionless contact of elastic bodies whose gap before loading is `x^2/(2 R_x) + y^2/(2 R_y)`.
@@ -56,7 +56,7 @@ impl HertzEllipse {
             ratio: if large == small {
                 1.0
             } else {
-                root(off, 1e-8, 1.0)
+                root::of(off, 1e-8, 1.0)
             },
         })
     }

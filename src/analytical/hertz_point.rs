@@ -1,15 +1,15 @@
 //! Hertz's point contact: two balls, or a ball on a half space.
 
-use super::bracketing::maximum;
 use super::domain::positive;
 use super::von_mises;
 use crate::error::Result;
+use crate::root::maximum;
 use std::f64::consts::PI;
 
 /// Frictionless contact of elastic spheres.
 ///
 /// Contact radius `a = (3 P R/(4 E*))^(1/3)`, pressure `p(r) = p0 sqrt(1 - r^2/a^2)` with
-/// `p0 = 3 P/(2 pi a^2)`, approach of distant points `a^2/R`. Valid for `a` small beside the radii.
+/// `p0 = 3 P/(2 pi a^2)`, approach of distant points `a^2/R`. Valid for `a` small compared with the radii.
 ///
 /// Units are consistent, any. Stresses are positive in tension, pressures in compression.
 ///

@@ -1,8 +1,8 @@
 //! Persson's pin in a hole: conforming contact of like materials.
 
-use super::bracketing::root;
 use super::domain::{finite, positive};
 use crate::error::{Error, Result};
+use crate::root;
 use std::f64::consts::PI;
 
 /// Frictionless pin loaded at its centre in the hole of an infinite plate of the same material.
@@ -58,7 +58,7 @@ impl PinInHole {
 
     /// Half angle of the contact of a neat fit, 84.828 degrees (in radians), whatever the load.
     pub fn neat_half_angle() -> f64 {
-        root(Self::clearance_ratio, 1.0, 2.0)
+        root::of(Self::clearance_ratio, 1.0, 2.0)
     }
 
     /// Load per thickness at which the half angle of the contact is `half_angle`.
@@ -88,7 +88,7 @@ impl PinInHole {
         if target <= -1.0 / PI {
             return Ok(PI);
         }
-        Ok(root(|e| Self::clearance_ratio(e) - target, 0.0, PI))
+        Ok(root::of(|e| Self::clearance_ratio(e) - target, 0.0, PI))
     }
 
     /// Contact pressure at the angle `from_load` (radians from the line of the load) under `load`.

@@ -113,7 +113,7 @@ pub struct brinell_program {
     pub stepping: i32,
     /// Increments for each target.
     pub steps: usize,
-    /// Relative tolerance with which a change of contact is hit.
+    /// Relative tolerance with which a change of contact is landed on.
     pub gamma: f64,
     /// Yield load along the exact path (0) or by the paper's secant (1).
     pub yield_load: i32,

@@ -206,7 +206,12 @@ pub(super) struct CommonArguments {
     /// of refusing them
     #[arg(long)]
     pub small_strain: bool,
-    #[arg(long = "set", value_name = "KEY=VALUE", help = "Put a value over the scene's (see --help)", long_help = SET_HELP)]
+    #[arg(
+        long = "set",
+        value_name = "KEY=VALUE",
+        help = "Put a value over the scene's (see --help)",
+        long_help = SET_HELP
+    )]
     pub overrides: Vec<String>,
 }
 

@@ -25,7 +25,8 @@ pub enum Triangle {
 /// use brinell::linalg::Backend;
 ///
 /// # fn main() -> brinell::Result<()> {
-/// // Two unit springs in a row, the first tied to the ground; a wall at distance 1 before the second end.
+/// // Two unit springs in a row, the first tied to the ground; a wall at distance 1 before the
+/// // second end.
 /// let k = stiffness_from_csc(2, &[0, 1, 3], &[0, 0, 1], &[2.0, -1.0, 1.0], Triangle::Upper)?;
 /// let wall = rows_from_csr(2, &[0, 1], &[1], &[1.0])?;
 /// let mut structure = ConstrainedStructure::new(Backend::default(), &k, &wall, &[1.0])?;

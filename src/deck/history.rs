@@ -12,7 +12,7 @@ use super::series::{Series, interpolate};
 use super::sets::What;
 use super::source::Place;
 use crate::error::Result;
-use crate::text::exact;
+use crate::number::exact;
 use std::collections::BTreeMap;
 
 /// A value that begins farther from where the last step ended, as a share of the two, jumps.

@@ -91,7 +91,8 @@ impl Deck {
     /// use brinell::deck::Deck;
     ///
     /// let error = Deck::parse(b"*NODE\n1, 0., zero", "block.inp").err().unwrap();
-    /// assert_eq!(error.to_string(), "block.inp, line 2: *NODE: y is `zero`; give a finite number");
+    /// let expected = "block.inp, line 2: *NODE: y is `zero`; give a finite number";
+    /// assert_eq!(error.to_string(), expected);
     /// ```
     ///
     /// # Errors

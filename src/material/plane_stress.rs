@@ -13,6 +13,7 @@
 //! Simo and Hughes (1998), section 3.4, box 3.3; J. C. Simo, R. L. Taylor (1986), doi:10.1002/nme.1620220310.
 
 use super::{Hardening, Lame, Material, PlasticState, Softening, Update};
+use crate::root::{self, Accuracy};
 
 pub(super) fn integrate<const S: usize>(
     material: &Material,
@@ -81,12 +82,12 @@ pub(super) fn integrate<const S: usize>(
             along: 1.0 / (p_xi_p + resistance),
             normal,
         },
-        flows: true,
+        yields: true,
     }
 }
 
-/// Solves `q(c) = sigma_y(strain + 2/3 c q(c))`: the left side falls, the right side does not, so a bracket
-/// with regula falsi (Illinois) always converges.
+/// Solves `q(c) = sigma_y(strain + 2/3 c q(c))`: the left side falls, the right side does not, so
+/// that there is a bracket.
 fn solve_multiplier(
     hardening: &Hardening,
     strain: f64,
@@ -106,24 +107,9 @@ fn solve_multiplier(
         high *= 2.0;
         f_high = excess(high);
     }
-    for _ in 0..100 {
-        let c = (low * f_high - high * f_low) / (f_high - f_low);
-        let c = if c > low && c < high {
-            c
-        } else {
-            0.5 * (low + high)
-        };
-        let f = excess(c);
-        if f.abs() <= 4.0 * f64::EPSILON * scale || high - low <= f64::EPSILON * high {
-            return c;
-        }
-        if f > 0.0 {
-            (low, f_low) = (c, f);
-            f_high *= 0.5;
-        } else {
-            (high, f_high) = (c, f);
-            f_low *= 0.5;
-        }
-    }
-    0.5 * (low + high)
+    let accuracy = Accuracy {
+        value: 4.0 * f64::EPSILON * scale,
+        place: f64::EPSILON,
+    };
+    root::between([(low, f_low), (high, f_high)], accuracy, excess)
 }

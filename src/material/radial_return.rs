@@ -28,12 +28,16 @@ pub(super) fn integrate<const S: usize>(
     let norm = (normal + 2.0 * shear).sqrt();
     let q = 1.5f64.sqrt() * norm;
     let (d, slope) = hardening.solve(q, 3.0 * g, old.equivalent);
-    let flow = 1.5 * d / q;
+    let multiplier = 1.5 * d / q;
     let mut state = *old;
     state.equivalent += d;
     for (i, (strain, s)) in state.strain.iter_mut().zip(&s).enumerate() {
         // Shear strains are engineering strains.
-        *strain += if i < 3 { flow * s } else { 2.0 * flow * s };
+        *strain += if i < 3 {
+            multiplier * s
+        } else {
+            2.0 * multiplier * s
+        };
     }
     let shrink = 3.0 * g * d / q;
     Update {
@@ -43,6 +47,6 @@ pub(super) fn integrate<const S: usize>(
             along: 2.0 * g * (1.0 / (1.0 + slope / (3.0 * g)) - shrink),
             normal: s.map(|s| s / norm),
         },
-        flows: true,
+        yields: true,
     }
 }

@@ -57,7 +57,7 @@ fn check_orientation(mesh: &Mesh, surface: &Surface) -> Result<()> {
 ///
 /// # Errors
 /// An input error if the surface is empty, branches, or has several pieces; it names nodes.
-pub fn ordered_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
+pub(crate) fn ordered_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
     let ends = |facet: Facet| {
         let mut nodes = mesh.facet_nodes(facet);
         (nodes.next(), nodes.next())
@@ -157,7 +157,7 @@ fn add_areas(mesh: &Mesh, facet: Facet, sums: &mut BTreeMap<usize, Vector>) {
 
 /// The index of the node of `candidates` on the line through `x` along the unit vector `normal`,
 /// off it by `tolerance` at most; the nearest if there are several.
-pub fn facing(
+pub(crate) fn facing(
     mesh: &Mesh,
     x: Vector,
     normal: Vector,
@@ -177,7 +177,7 @@ pub fn facing(
 }
 
 /// Length of the longest facet of a surface, in space of the longest edge of one.
-pub fn longest_facet(mesh: &Mesh, surface: &Surface) -> f64 {
+pub(crate) fn longest_facet(mesh: &Mesh, surface: &Surface) -> f64 {
     let longest_edge = |&facet: &Facet| {
         let n = mesh.facet_corners(facet);
         let corners: Vec<Vector> = (mesh.facet_nodes(facet).take(n))

@@ -152,7 +152,7 @@ struct Drawn {
     nodes: Vec<(usize, usize)>,
     /// The facet that each edge became; none where it lies on the axis.
     facets: Vec<Option<usize>>,
-    /// The facets at the begin and the end of the layer.
+    /// The facets at the start and the end of the layer.
     ends: [usize; 2],
 }
 

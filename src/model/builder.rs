@@ -8,8 +8,7 @@ use crate::error::{Error, Result};
 use crate::index::Index;
 use crate::mesh::Mesh;
 use crate::scene::{
-    Body, Contact, History, KeyPlaces, Load, Material, MeshSource, Program, Scene, Settings,
-    Support, Target,
+    Body, Contact, History, Load, Material, Program, Scene, Settings, Support, Target,
 };
 use crate::space::{Components, Space, Vector, in_words, length};
 use std::collections::BTreeMap;
@@ -39,7 +38,9 @@ use std::collections::BTreeMap;
 ///     .surface_of_nodes("opposite", &[4, 5])?
 ///     .surface_of_nodes("top", &[6, 7])?
 ///     .node_set("left", &[0, 3, 4, 7])?
-///     .material("steel", Material { youngs_modulus: 210e3, poissons_ratio: 0.3, ..Material::default() })?
+///     .material("steel", Material {
+///         youngs_modulus: 210e3, poissons_ratio: 0.3, ..Material::default()
+///     })?
 ///     .body("lower", Body { material: "steel".into(), ..Body::default() })?
 ///     .body("upper", Body { material: "steel".into(), ..Body::default() })?
 ///     .contact(Contact { first: "opposite".into(), second: "face".into(), ..Contact::default() })
@@ -62,25 +63,7 @@ impl ModelBuilder {
     /// An empty model: the whole of it is meshed, one target at load factor 1.
     pub fn new(kind: Space) -> Self {
         ModelBuilder {
-            scene: Scene {
-                title: String::new(),
-                kind,
-                units: None,
-                symmetry: 1,
-                mesh: MeshSource::default(),
-                materials: BTreeMap::new(),
-                bodies: BTreeMap::new(),
-                contact: Vec::new(),
-                support: Vec::new(),
-                load: Vec::new(),
-                program: Program::default(),
-                analysis: Settings::default(),
-                accuracy: None,
-                reference: Vec::new(),
-                file: None,
-                places: KeyPlaces::default(),
-                warnings: Vec::new(),
-            },
+            scene: Scene::of(kind),
             mesh: Mesh {
                 dimension: kind.dimension(),
                 ..Mesh::default()

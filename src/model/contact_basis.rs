@@ -64,7 +64,7 @@ impl Blend {
     }
 
     /// The same for the rows of a matrix with `per` rows for each node.
-    pub fn share_rows(&self, per: usize, n: usize, matrix: &mut [f64]) {
+    pub(crate) fn share_rows(&self, per: usize, n: usize, matrix: &mut [f64]) {
         for d in 0..per {
             let row = |node: u8| per * usize::from(node) + d;
             for k in 0..n {
@@ -143,7 +143,7 @@ impl ContactBasis {
 
     /// A vector at a node, from those at control points.
     #[inline]
-    pub fn at_node(&self, node: usize, control: impl Fn(usize) -> Vector) -> Vector {
+    pub(crate) fn at_node(&self, node: usize, control: impl Fn(usize) -> Vector) -> Vector {
         match self.ends(node) {
             None => control(node),
             Some([a, b]) => {
@@ -154,7 +154,7 @@ impl ContactBasis {
     }
 
     /// A vector at a control point, from those at nodes.
-    pub fn at_control(&self, node: usize, value: impl Fn(usize) -> Vector) -> Vector {
+    pub(crate) fn at_control(&self, node: usize, value: impl Fn(usize) -> Vector) -> Vector {
         match self.ends(node) {
             None => value(node),
             Some([a, b]) => {

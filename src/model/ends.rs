@@ -150,7 +150,7 @@ impl<'m> Boundary<'m> {
     }
 
     /// How the boundary goes on at `node` on the side that the `inner` node of the surface is not on; `None` where the
-    /// node has no two boundary facets, or no inner node tells which.
+    /// node has no two boundary facets, or no inner node shows which.
     fn beyond(&self, node: usize, inner: Option<usize>) -> Option<Beyond> {
         let [a, b] = self.at.get(&node)?[..] else {
             return None;

@@ -16,7 +16,7 @@ use super::{Freedoms, LoadCase, RigidMotion, Slot};
 use nalgebra::{DMatrix, SymmetricEigen};
 use std::collections::BTreeMap;
 
-/// Smallest eigenvalue of `G`, scaled to a unit diagonal, at which the motions count as told apart by the
+/// Smallest eigenvalue of `G`, scaled to a unit diagonal, at which the motions count as distinct by the
 /// nodes: half of the digits are left.
 const TOLD_APART: f64 = 1e-8;
 
@@ -77,7 +77,7 @@ fn on_freedoms(
     out
 }
 
-/// The rows of `G^-1 R' W`; `None` where these freedoms do not tell the motions apart.
+/// The rows of `G^-1 R' W`; `None` where these freedoms do not distinguish the motions.
 fn fit(motions: &[&[(u32, f64)]], weights: &BTreeMap<u32, f64>) -> Option<Vec<Vec<(u32, f64)>>> {
     let m = motions.len();
     let freedoms: Vec<(u32, f64)> = weights.iter().map(|(&f, &w)| (f, w)).collect();

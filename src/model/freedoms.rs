@@ -330,7 +330,7 @@ impl Freedoms {
     }
 
     /// A vector at a node, given in global axes, in the local ones.
-    pub fn to_local(&self, node: usize, vector: Vector) -> Vector {
+    pub(crate) fn to_local(&self, node: usize, vector: Vector) -> Vector {
         if !self.is_turned(node) {
             return vector;
         }
@@ -338,7 +338,7 @@ impl Freedoms {
     }
 
     /// Which local axis lies along a global direction (either sense), if one does.
-    pub fn local_axis(&self, node: usize, direction: usize) -> Option<usize> {
+    pub(crate) fn local_axis(&self, node: usize, direction: usize) -> Option<usize> {
         let axes = self.local(node);
         (0..self.per_node).find(|&i| dot(axes[i], unit(direction)).abs() > 1.0 - ALIGNED)
     }
@@ -384,7 +384,7 @@ impl Freedoms {
     }
 
     /// Names a freedom for messages: body, node and direction.
-    pub fn describe(&self, mesh: &Mesh, freedom: usize) -> String {
+    pub(crate) fn describe(&self, mesh: &Mesh, freedom: usize) -> String {
         let Some(&(node, local)) = self.owners.get(freedom) else {
             return format!("freedom {freedom}");
         };

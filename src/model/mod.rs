@@ -229,7 +229,7 @@ fn build_mesh(scene: &Scene) -> Result<Mesh> {
     }
     let times = scene.mesh.subdivisions;
     if times > 0 {
-        // What is wrong with the file is told by its own numbers.
+        // What is wrong with the file is stated by its own numbers.
         mesh::validate(&mesh)?;
         mesh = mesh::subdivided(mesh, times, &scene.contact)?;
         mesh::validate(&mesh).map_err(|e| {

@@ -41,7 +41,7 @@ pub struct Pair {
 
 impl Pair {
     /// The only node of the other surface, where one faces the slave.
-    pub fn faced(&self) -> Option<usize> {
+    pub(crate) fn faced(&self) -> Option<usize> {
         match self.masters[..] {
             [(node, 1.0)] => Some(node),
             _ => None,
@@ -56,7 +56,7 @@ impl Pair {
 
     /// Whether the slave, and the node that faces it, are held along the surface, as on a plane of
     /// symmetry of a plane model.
-    pub fn is_held_along(&self, freedoms: &Freedoms) -> bool {
+    pub(crate) fn is_held_along(&self, freedoms: &Freedoms) -> bool {
         let held = |node: usize| freedoms.slots[node][1] == Slot::Fixed;
         held(self.slave) && self.faced().is_none_or(held)
     }

@@ -1,7 +1,7 @@
 //! The table of states as a reader sees it, on the terminal and in the report: a column for each
 //! quantity that says something in this run.
 
-use super::number::number;
+use crate::number::number;
 use crate::results::{QUANTITIES, Quantity, State, Unit};
 use crate::space::Space;
 

@@ -52,7 +52,7 @@ pub struct Tolerances {
 
 impl Quality {
     /// Figure by figure the worse of two; what is not a number is the worst.
-    pub fn worse(&self, other: &Quality) -> Quality {
+    pub(crate) fn merge_worst(&self, other: &Quality) -> Quality {
         let worse = |a: f64, b: f64| if a.is_nan() || a > b { a } else { b };
         let either = |a: Option<f64>, b: Option<f64>| a.into_iter().chain(b).reduce(worse);
         Quality {
@@ -68,7 +68,7 @@ impl Quality {
 
     /// The largest figure of forces that is beyond its tolerance and passes because round-off alone
     /// may leave as much.
-    pub fn excused(&self, tolerances: &Tolerances) -> Option<f64> {
+    pub(crate) fn excused(&self, tolerances: &Tolerances) -> Option<f64> {
         let round_off = self.round_off.unwrap_or(0.0).min(tolerances.loosest);
         [
             (self.equilibrium, tolerances.equilibrium),

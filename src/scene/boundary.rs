@@ -44,7 +44,7 @@ pub enum SlaveSide {
 
 impl SlaveSide {
     /// Whether it is left open.
-    pub fn is_auto(&self) -> bool {
+    pub(crate) fn is_auto(&self) -> bool {
         *self == SlaveSide::Auto
     }
 }

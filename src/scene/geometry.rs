@@ -64,7 +64,7 @@ pub enum Formulation {
 
 impl Formulation {
     /// Whether it is the usual one.
-    pub fn is_mean(&self) -> bool {
+    pub(crate) fn is_mean(&self) -> bool {
         *self == Formulation::Mean
     }
 }
@@ -279,7 +279,7 @@ impl MeshSource {
 
 impl CurvedBodies {
     /// Whether x = 0 and y = 0 bound the model.
-    pub fn halved(&self) -> [bool; 2] {
+    pub(crate) fn halved(&self) -> [bool; 2] {
         match self.model {
             Meshed::Quarter => [true, true],
             Meshed::Half => [true, false],

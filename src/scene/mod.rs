@@ -96,7 +96,7 @@ pub struct Scene {
     /// that the scene describes.
     #[serde(default)]
     pub accuracy: Option<AccuracyDemand>,
-    /// Published or exact values to put beside the computed ones.
+    /// Published or exact values to compare with the computed ones.
     #[serde(default)]
     pub reference: Vec<Reference>,
     /// The file the scene was read from, and what relative paths in it are relative to.
@@ -108,4 +108,29 @@ pub struct Scene {
     /// What the user should know of how it was read.
     #[serde(skip)]
     pub warnings: Vec<String>,
+}
+
+impl Scene {
+    /// A scene of a kind with nothing in it: the whole of it is meshed, one target at load factor 1.
+    pub(crate) fn of(kind: Space) -> Self {
+        Scene {
+            title: String::new(),
+            kind,
+            units: None,
+            symmetry: 1,
+            mesh: MeshSource::default(),
+            materials: BTreeMap::new(),
+            bodies: BTreeMap::new(),
+            contact: Vec::new(),
+            support: Vec::new(),
+            load: Vec::new(),
+            program: Program::default(),
+            analysis: Settings::default(),
+            accuracy: None,
+            reference: Vec::new(),
+            file: None,
+            places: KeyPlaces::default(),
+            warnings: Vec::new(),
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! The load program and how it is computed.
 
 use super::Direction;
-use crate::text::exact;
+use crate::number::exact;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -19,7 +19,7 @@ pub struct Program {
     /// Increments from one target to the next with `stepping = "steps"`.
     #[serde(default = "super::defaults::steps")]
     pub steps: usize,
-    /// Relative tolerance with which events are hit: a change of contact (paper 4.18, 4.23), and the maximum of the stress at first yield.
+    /// Relative tolerance with which events are landed on: a change of contact (paper 4.18, 4.23), and the maximum of the stress at first yield.
     #[serde(default = "super::defaults::gamma")]
     pub gamma: f64,
     /// The targets, reached one after the other; each leaves a state.

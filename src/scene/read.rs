@@ -55,9 +55,11 @@ impl Scene {
     /// ```
     /// use brinell::{ErrorKind, scene::Scene};
     ///
-    /// let error = Scene::parse("kind = \"plane_strain\"\nmaterial = {}", "press.toml").unwrap_err();
+    /// let text = "kind = \"plane_strain\"\nmaterial = {}";
+    /// let error = Scene::parse(text, "press.toml").unwrap_err();
     /// assert_eq!(error.kind(), ErrorKind::Input);
-    /// assert!(error.to_string().starts_with("press.toml:2:1: unknown key `material`, did you mean `materials`?"));
+    /// let expected = "press.toml:2:1: unknown key `material`, did you mean `materials`?";
+    /// assert!(error.to_string().starts_with(expected));
     /// ```
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! Published or exact values to put beside the computed ones.
+//! Published or exact values to compare with the computed ones.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

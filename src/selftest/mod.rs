@@ -81,7 +81,7 @@ impl Cases {
     }
 }
 
-/// Runs all families; `observer` is told each one's name as a phase, and may stop.
+/// Runs all families; `observer` gets each one's name as a phase, and may stop.
 pub fn run(observer: &mut dyn Observer) -> Vec<Row> {
     let families = contact::FAMILIES
         .iter()

@@ -34,7 +34,7 @@ pub(super) const FAMILIES: &[Family] = &[
         name: "contact at nu 0.4999 to 0.499999",
         figure: "out-of-balance force over the round-off that the state reports, or over 1e-7",
         bound: 1.0,
-        source: "2 eps abs(K) abs(u), the round-off of forces; events are hit to 10 gamma = 1e-7",
+        source: "2 eps abs(K) abs(u), the round-off of forces; events are landed on to 10 gamma = 1e-7",
         cases: incompressible_contact,
     },
     Family {

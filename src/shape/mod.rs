@@ -146,7 +146,7 @@ impl Shape {
     }
 
     /// The shape with a number of Gmsh.
-    pub fn of_gmsh(number: u64) -> Option<Shape> {
+    pub(crate) fn of_gmsh(number: u64) -> Option<Shape> {
         Self::ALL
             .into_iter()
             .find(|shape| shape.reference().gmsh == number)
@@ -168,18 +168,18 @@ impl Shape {
     }
 
     /// Number of facets.
-    pub fn n_facets(self) -> usize {
+    pub(crate) fn n_facets(self) -> usize {
         self.reference().facets.len()
     }
 
     /// Number of Gauss points.
-    pub fn n_gauss_points(self) -> usize {
+    pub(crate) fn n_gauss_points(self) -> usize {
         self.reference().gauss.len()
     }
 
     /// True where the strain is the same all over an element: such elements lock in isochoric
     /// plastic flow, and have no points of superconvergent stress.
-    pub fn has_constant_strain(self) -> bool {
+    pub(crate) fn has_constant_strain(self) -> bool {
         let row = self.reference();
         row.nodes.len() == row.dimension + 1
     }
@@ -195,12 +195,12 @@ impl Shape {
     }
 
     /// What a facet is as an element of its own.
-    pub fn facet_reference(self, local: usize) -> &'static FacetReference {
+    pub(crate) fn facet_reference(self, local: usize) -> &'static FacetReference {
         FacetReference::with_nodes(self.dimension() - 1, self.facet(local).len())
     }
 
     /// Whether an element has one corner more than dimensions.
-    pub fn is_simplex(self) -> bool {
+    pub(crate) fn is_simplex(self) -> bool {
         self.n_corners() == self.dimension() + 1
     }
 

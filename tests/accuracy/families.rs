@@ -402,7 +402,8 @@ kind = "plane_strain"
 symmetry = 2
 [[mesh.parts]]
 body = "layer"
-block = {{ x = [0.0, 8.0], y = [0.0, 1.0], elements = [{along}, {across}], pieces = [{{ name = "strip", side = "top", from = 0.0, to = 0.5 }}] }}
+block = {{ x = [0.0, 8.0], y = [0.0, 1.0], elements = [{along}, {across}], pieces = [
+    {{ name = "strip", side = "top", from = 0.0, to = 0.5 }}] }}
 [[mesh.parts]]
 body = "base"
 block = {{ x = [0.0, 8.0], y = [-4.0, 0.0], elements = [{along}, {below}], bias = [1.0, 0.25] }}

@@ -330,7 +330,8 @@ fn compare(quick: bool) -> Result<(), Failure> {
                 100.0 * dent
             )?;
             rows.push(json!({
-                "elements_over_half_width": size, "program": program, "processor_seconds": o.seconds, "iterations": o.iterations,
+                "elements_over_half_width": size, "program": program,
+                "processor_seconds": o.seconds, "iterations": o.iterations,
                 "pressure_elastic": o.elastic, "pressure_twice": o.twice, "dent": o.dent,
                 "error_elastic": elastic, "error_twice": twice, "error_dent": dent,
             }));
@@ -346,7 +347,8 @@ fn compare(quick: bool) -> Result<(), Failure> {
     std::fs::create_dir_all(&results)?;
     std::fs::write(results.join("peers.md"), &table)?;
     let document = json!({
-        "reference": { "pressure_elastic": reference.elastic, "pressure_twice": reference.twice, "dent": reference.dent,
+        "reference": { "pressure_elastic": reference.elastic, "pressure_twice": reference.twice,
+            "dent": reference.dent,
             "extrapolated_from": FINEST },
         "runs": rows,
     });

@@ -184,7 +184,8 @@ fn starting() -> Result<Value, Failure> {
 /// The cylinder of the paper with fields of one state, as a user with a large model would ask for, and of all ten.
 fn output() -> Result<Value, Failure> {
     println!(
-        "\n| freedoms | states with fields | run, s | states, s | stresses, s | files, s | report, s | stresses and files |\n|---|---|---|---|---|---|---|---|"
+        "\n| freedoms | states with fields | run, s | states, s | stresses, s | files, s | report,
+        s | stresses and files |\n|---|---|---|---|---|---|---|---|"
     );
     let mut out = Vec::new();
     for one in [true, false] {
@@ -219,7 +220,8 @@ fn output() -> Result<Value, Failure> {
             100.0 * share
         );
         out.push(json!({
-            "freedoms": results.sizes.freedoms, "states_with_fields": with, "run": total, "states": states, "stresses": stresses, "files": files,
+            "freedoms": results.sizes.freedoms, "states_with_fields": with, "run": total,
+            "states": states, "stresses": stresses, "files": files,
             "report": report, "share": share,
         }));
     }

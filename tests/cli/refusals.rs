@@ -376,7 +376,8 @@ fn targets_that_are_never_reached() {
         &[
             "mesh.parts.0.ring.elements=[2,2]",
             "materials.steel.plastic_modulus=1000.0",
-            "program.targets=[{name=\"far\",displacement={on=\"tube.inner\",direction=\"x\",value=-5.0}}]",
+            "program.targets=[{name=\"far\",\
+             displacement={on=\"tube.inner\",direction=\"x\",value=-5.0}}]",
         ],
         &[],
         5,

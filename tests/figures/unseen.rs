@@ -266,7 +266,8 @@ fix = ["x"]
 on = "tube.inner"
 pressure = 1.0
 [program]
-targets = [{{ yield = true }}, {{ load_factor = 60.0 }}, {{ load_factor = 150.0 }}, {{ name = "off", load_factor = 0.0 }}]
+targets = [{{ yield = true }}, {{ load_factor = 60.0 }}, {{ load_factor = 150.0 }}, 
+    {{ name = "off", load_factor = 0.0 }}]
 "#
     ))
 }
@@ -280,7 +281,8 @@ title = "strip of pressure"
 kind = "plane_stress"
 [[mesh.parts]]
 body = "block"
-block = {{ x = [0.0, 6.0], y = [0.0, 2.0], elements = [{along}, {across}], pieces = [{{ name = "strip", side = "top", from = 0.0, to = 1.5 }}] }}
+block = {{ x = [0.0, 6.0], y = [0.0, 2.0], elements = [{along}, {across}], pieces = [
+    {{ name = "strip", side = "top", from = 0.0, to = 1.5 }}] }}
 [[mesh.parts]]
 body = "base"
 block = {{ x = [0.0, 6.0], y = [-4.0, 0.0], elements = [{along}, {below}], bias = [1.0, 0.5] }}
@@ -311,7 +313,8 @@ fix = ["y"]
 on = "block.strip"
 pressure = 1.0
 [program]
-targets = [{{ yield = true }}, {{ load_factor = 120.0 }}, {{ load_factor = 150.0 }}, {{ name = "off", load_factor = 0.0 }}]
+targets = [{{ yield = true }}, {{ load_factor = 120.0 }}, {{ load_factor = 150.0 }}, 
+    {{ name = "off", load_factor = 0.0 }}]
 "#
     ))
 }
@@ -358,7 +361,8 @@ on = "ball.end"
 pressure = 1.0
 [program]
 unit = "yield"
-targets = [{{ yield = true }}, {{ load_factor = 1.5 }}, {{ load_factor = 2.0 }}, {{ name = "off", load_factor = 0.0 }}]
+targets = [{{ yield = true }}, {{ load_factor = 1.5 }}, {{ load_factor = 2.0 }}, 
+    {{ name = "off", load_factor = 0.0 }}]
 "#
     ))
 }

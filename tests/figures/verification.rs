@@ -22,8 +22,10 @@ const VARIANTS: [(&str, &str); 2] = [
 const HEAD: &str = "\
 # What was verified, against what
 
-Computed by `cargo run --release --example paper_figures -- verification`, which writes this file; each number also stands in
-the report of the command beside it. *Ratio* is computed over reference. The sources of the reference values are in
+Computed by `cargo run --release --example paper_figures -- verification`, which writes this file; \
+each number also stands in
+the report of the command beside it. *Ratio* is computed over reference. \
+The sources of the reference values are in
 [`data/reference`](reference/README.md).
 ";
 

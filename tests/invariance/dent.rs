@@ -173,10 +173,15 @@ fn a_load_beside_does_not_move_the_reference() {
         super::running::parse(&format!(
             "kind = \"plane_stress\"
             mesh.parts = [
-                {{ body = \"lower\", block = {{ x = [0.0, 2.0], y = [0.0, 1.0], elements = [4, 2] }} }},
-                {{ body = \"upper\", block = {{ x = [0.0, 2.0], y = [1.0, 2.0], elements = [4, 2] }} }},
+                {{ body = \"lower\", block = {{ x = [0.0,
+                    2.0], y = [0.0, 1.0], elements = [4, 2] }} }},
+                {{ body = \"upper\", block = {{ x = [0.0,
+                    2.0], y = [1.0, 2.0], elements = [4, 2] }} }},
             ]
-            materials.s = {{ youngs_modulus = 2e5, poissons_ratio = 0.3, yield_stress = 500.0, plastic_modulus = 1000.0 }}
+            materials.s.youngs_modulus = 2e5
+            materials.s.poissons_ratio = 0.3
+            materials.s.yield_stress = 500.0
+            materials.s.plastic_modulus = 1000.0
             bodies = {{ lower = {{ material = \"s\" }}, upper = {{ material = \"s\" }} }}
             contact = [{{ first = \"upper.bottom\", second = \"lower.top\" }}]
             support = [

@@ -103,7 +103,10 @@ proptest! {
 
     /// Any start leads to the same forces.
     #[test]
-    fn the_start_does_not_matter((t, q, expected) in problem(), start in prop::collection::vec(any::<bool>(), 10)) {
+    fn the_start_does_not_matter(
+        (t, q, expected) in problem(),
+        start in prop::collection::vec(any::<bool>(), 10),
+    ) {
         let n = q.len();
         let mut tableau = Tableau::new(t.clone());
         tableau.reset(&start[..n]);

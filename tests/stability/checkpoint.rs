@@ -172,7 +172,8 @@ fn every_kind_of_way_goes_on() {
             cylinder,
             &[
                 coarse,
-                "program.targets=[{ displacement = { on = \"cylinder.top\", direction = \"y\", value = -0.03 } }]",
+                "program.targets=[\
+                 { displacement = { on = \"cylinder.top\", direction = \"y\", value = -0.03 } }]",
             ],
             2,
         ),

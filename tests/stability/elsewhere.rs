@@ -17,7 +17,8 @@ fn block(press: f64, bump: f64, history: &str, targets: &str) -> Results {
         x = [0.0, 60.0]
         y = [-6.0, 0.0]
         elements = [240, 16]
-        pieces = [{{ name = "far", side = "top", from = 50.0, to = 52.0 }}, {{ name = "near", side = "top", from = 0.0, to = 2.0 }}]
+        pieces = [{{ name = "far", side = "top", from = 50.0, to = 52.0 }}, 
+            {{ name = "near", side = "top", from = 0.0, to = 2.0 }}]
         [[mesh.parts]]
         body = "up"
         [mesh.parts.block]

@@ -33,7 +33,8 @@ fn a_ball_at_fifty_times_first_yield_is_right() {
         "ball_on_half_space",
         &[
             "mesh.cylinder_on_half_plane.resolution=8",
-            "program.targets=[{yield=true},{name=\"pressed\",load_factor=50.0},{name=\"unloaded\",load_factor=0.0}]",
+            "program.targets=[{yield=true},{name=\"pressed\",load_factor=50.0},\
+             {name=\"unloaded\",load_factor=0.0}]",
         ],
     );
     let results = within_candidates(&scene);

@@ -4,9 +4,9 @@ use super::super::data::{Account, ContactPair};
 use super::super::facets::Face;
 use super::Draft;
 use crate::error::Result;
+use crate::number::exact;
 use crate::scene::Contact;
 use crate::space::{difference, length};
-use crate::text::exact;
 
 impl Draft<'_> {
     /// The slave surface is the first one. A clearance is a gap, or an interference where it is negative.

@@ -13,11 +13,9 @@ use super::bodies::{Bodies, unsupported};
 use super::data::{Account, Note, Section};
 use super::series::are_alike;
 use crate::error::{Error, ErrorKind, Result};
-use crate::scene::{
-    Body, History, KeyPlaces, Material, MeshSource, Program, Scene, Settings, Stepping, Target,
-};
+use crate::number::exact;
+use crate::scene::{Body, History, Material, Scene, Stepping, Target};
 use crate::space::Space;
-use crate::text::exact;
 use draft::Draft;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -143,28 +141,10 @@ impl Deck {
             true => name.to_string_lossy().into_owned(),
             false => self.title.clone(),
         };
-        Scene {
-            title,
-            kind: space,
-            units: None,
-            symmetry: 1,
-            mesh: MeshSource {
-                file: Some(name.into()),
-                ..MeshSource::default()
-            },
-            materials: BTreeMap::new(),
-            bodies: BTreeMap::new(),
-            contact: Vec::new(),
-            support: Vec::new(),
-            load: Vec::new(),
-            program: Program::default(),
-            analysis: Settings::default(),
-            accuracy: None,
-            reference: Vec::new(),
-            file: None,
-            places: KeyPlaces::default(),
-            warnings: Vec::new(),
-        }
+        let mut scene = Scene::of(space);
+        scene.title = title;
+        scene.mesh.file = Some(name.into());
+        scene
     }
 
     fn add_bodies(

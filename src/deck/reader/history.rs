@@ -7,7 +7,7 @@ use crate::deck::fields::Fields;
 use crate::deck::keyword::Keyword;
 use crate::deck::source::Line;
 use crate::error::Result;
-use crate::text::exact;
+use crate::number::exact;
 
 /// Most increments of a step that are taken over.
 const MOST_INCREMENTS: f64 = 1000.0;

@@ -5,7 +5,7 @@ use super::{Reader, fields};
 use crate::deck::data::{Clearance, ContactPair, Equation, MaterialData, Section, Transform};
 use crate::deck::keyword::Keyword;
 use crate::error::Result;
-use crate::text::exact;
+use crate::number::exact;
 
 /// Most terms of an equation.
 const MOST_TERMS: u64 = 100_000;

@@ -206,7 +206,7 @@ fn prescribed(displacement: Option<&Displacement>) -> f64 {
     displacement.and_then(|d| d.y).map_or(0.0, f64::abs)
 }
 
-/// Total force along y of a load on the whole cylinder or ball, where its kind and place tell: the mesh is that of half a
+/// Total force along y of a load on the whole cylinder or ball, where its kind and place state it: the mesh is that of half a
 /// cylinder, or a sector of a ball, forces that are given as totals are those of `symmetry` such models.
 fn normal_force(scene: &Scene, load: &Load, size: f64) -> f64 {
     // How many such models make the ball, or a unit of the cylinder's length.

@@ -1,7 +1,7 @@
 //! What a generator accepts: finite sizes of the right sign, and a mesh that fits in memory.
 
 use crate::mesh::Shape;
-use crate::text::exact;
+use crate::number::exact;
 use crate::{Error, Result};
 
 /// Most elements a generator makes.

@@ -227,7 +227,7 @@ pub(super) fn dent_profile(
     })
 }
 
-/// Hertz' pressure beside that of a state in which nothing has yielded, of a half model with one
+/// Hertz' pressure compared with that of a state in which nothing has yielded, of a half model with one
 /// contact.
 fn elastic_pressure(model: &Model, state: &State) -> Option<Vec<[f64; 2]>> {
     let is_alone = model.contacts.len() == 1 && model.materials.len() == 2;

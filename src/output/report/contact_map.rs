@@ -12,7 +12,7 @@ use super::units::Units;
 use super::window::{Window, negligible};
 use crate::error::Result;
 use crate::model::Model;
-use crate::output::number::significant;
+use crate::number::significant;
 use crate::results::{ContactPatch, State};
 use crate::space::{Vector, along, cross, dot};
 

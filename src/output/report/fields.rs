@@ -11,7 +11,7 @@ use super::units::Units;
 use super::window::Window;
 use crate::error::Result;
 use crate::mesh::Mesh;
-use crate::output::number::significant;
+use crate::number::significant;
 use crate::results::{Fields, State};
 use plotters::style::RGBColor;
 use rayon::prelude::*;

@@ -10,7 +10,7 @@ use super::units::Units;
 use super::window::{self, mirrors, negligible};
 use crate::error::Result;
 use crate::model::Model;
-use crate::output::number::significant;
+use crate::number::significant;
 use crate::results::{Fields, Results, State};
 use crate::space::unit;
 

@@ -1,8 +1,8 @@
 //! How far the numbers can be trusted: the stated errors and the quality of the solves.
 
 use super::tables::{numbers, plain, table, text};
+use crate::number::significant;
 use crate::output::ending::in_words;
-use crate::output::number::significant;
 use crate::output::stated_errors::StatedErrors;
 use crate::results::Results;
 use maud::{Markup, PreEscaped, html};
@@ -18,7 +18,10 @@ pub(super) fn errors(results: &Results) -> Markup {
     }
     html! {
         @if let Some(stated) = &stated {
-            p.quiet { "In per cent of the largest size that the quantity has in this run. " (stated.method) }
+            p.quiet {
+                "In per cent of the largest size that the quantity has in this run. "
+                (stated.method)
+            }
             (stated_errors(stated))
         }
         @if let Some(demand) = &accuracy.demand {
@@ -98,7 +101,9 @@ pub(super) fn quality(results: &Results) -> Markup {
         @if results.condition > 0.0 {
             p.quiet {
                 "Condition of the factored matrix: at least " (significant(results.condition, 2))
-                @if let Some(estimate) = results.condition_estimate { ", about " (significant(estimate, 2)) }
+                @if let Some(estimate) = results.condition_estimate {
+                    ", about " (significant(estimate, 2))
+                }
                 "."
             }
         }

@@ -1,9 +1,9 @@
 //! Contact, supports and loads.
 
 use super::Checks;
+use crate::number::exact;
 use crate::scene::{Contact, Direction, History, Load, Scene, Support};
 use crate::space::{Components, Space};
-use crate::text::exact;
 use std::collections::BTreeSet;
 
 impl Checks {

@@ -1,9 +1,9 @@
 //! Materials and bodies.
 
 use super::Checks;
+use crate::number::exact;
 use crate::scene::read::closest;
 use crate::scene::{Material, Plastic, Scene};
-use crate::text::exact;
 
 impl Checks {
     pub(super) fn materials(&mut self, scene: &Scene) {

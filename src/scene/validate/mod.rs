@@ -8,8 +8,8 @@ mod program;
 
 use super::{History, Scene};
 use crate::error::{Error, Result};
+use crate::number::exact;
 use crate::space::Space;
-use crate::text::exact;
 use std::fmt;
 
 impl Scene {
@@ -113,7 +113,7 @@ impl Space {
     ///
     /// # Errors
     /// `Input` naming the value and those that are possible.
-    pub fn check_symmetry(self, copies: usize) -> Result<()> {
+    pub(crate) fn check_symmetry(self, copies: usize) -> Result<()> {
         match symmetry_problem(self, copies) {
             Some(message) => Err(Error::input(format!("symmetry: {message}"))),
             None => Ok(()),

@@ -1,8 +1,8 @@
 //! The load program, the settings and the reference values.
 
 use super::Checks;
+use crate::number::exact;
 use crate::scene::{History, Scene, Target, Unit};
-use crate::text::exact;
 use std::collections::BTreeSet;
 
 /// Each increment leaves a row of the history, and each target a state with all its contact pairs.

@@ -16,8 +16,9 @@ const RESOLUTIONS: [f64; 6] = [8.0, 16.0, 32.0, 56.0, 80.0, 112.0];
 const THREADS: [usize; 2] = [1, 2];
 
 fn changes(resolution: f64) -> String {
+    const MESH: &str = "mesh.cylinder_on_half_plane";
     format!(
-        "{LINE};mesh.cylinder_on_half_plane.resolution={resolution};mesh.cylinder_on_half_plane.growth={}",
+        "{LINE};{MESH}.resolution={resolution};{MESH}.growth={}",
         1.0 + 2.0 / resolution
     )
 }

@@ -179,7 +179,8 @@ pub fn compare() -> Result<(), Failure> {
         seconds: 0.0,
     };
     let mut table = String::from(
-        "| elements over a | shape | program | processor seconds, history | elastic load | pressure at 0.8 P* | at 5 P* | dent |\n|---|---|---|---|---|---|---|---|\n",
+        "| elements over a | shape | program | processor seconds,
+        history | elastic load | pressure at 0.8 P* | at 5 P* | dent |\n|---|---|---|---|---|---|---|---|\n",
     );
     let mut rows = Vec::new();
     for case in CASES {
@@ -204,7 +205,8 @@ pub fn compare() -> Result<(), Failure> {
             println!("{row}");
             writeln!(table, "{row}")?;
             rows.push(json!({
-                "elements": case.0, "shape": case.1, "program": program, "history_seconds": history.seconds,
+                "elements": case.0, "shape": case.1, "program": program,
+                "history_seconds": history.seconds,
                 "elastic_seconds": elastic.seconds, "errors_percent": [a, b, c],
             }));
             both.push((history.seconds, elastic.seconds));
