@@ -27,8 +27,9 @@ pub(crate) fn peak() -> Option<u64> {
 pub(crate) fn require(what: &str, bytes: f64) -> Result<()> {
     match available() {
         Some(free) if bytes > free => Err(Error::analysis(format!(
-            "out of memory: the {what} needs about {:.0} MB and {:.0} MB are available: use a coarser mesh, a smaller \
-             zone or a machine with more memory, or raise the limit of this process (ulimit -v)",
+            "out of memory: the {what} needs about {:.0} MB and {:.0} MB are available: use a \
+             coarser mesh, a smaller zone or a machine with more memory, or raise the limit of \
+             this process (ulimit -v)",
             (bytes / 1e6).ceil(),
             (free / 1e6).floor()
         ))),

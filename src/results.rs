@@ -78,7 +78,8 @@ pub struct Results {
     pub inaccurate: Vec<String>,
     /// What the factorisation cost.
     pub factor: Prediction,
-    /// Reference values compared with computed ones, where they were compared (by `reference::compare`).
+    /// Reference values compared with computed ones, where they were compared (by
+    /// `reference::compare`).
     pub reference: Vec<ReferenceRow>,
     /// How wrong each figure may be, where it was estimated (by `accuracy::estimate`).
     pub accuracy: Option<Accuracy>,
@@ -233,8 +234,8 @@ pub struct State {
     /// equivalent plastic strain `p` of each Gauss point; in the plane per unit thickness.
     #[serde(default)]
     pub plastic_work: f64,
-    /// Largest distance of a Gauss point with plastic strain from a contact surface, along the normal
-    /// there; 0 without contact.
+    /// Largest distance of a Gauss point with plastic strain from a contact surface, along the
+    /// normal there; 0 without contact.
     #[serde(default)]
     pub plastic_depth: f64,
     /// Estimated energy norm of the stress error over that of the stress (Zienkiewicz-Zhu); known
@@ -261,8 +262,8 @@ pub struct State {
 pub struct Fields {
     /// `n_nodes x dimension` displacements in global axes.
     pub displacement: Vec<f64>,
-    /// `n_elements x 4` element means of stress: xx, yy, zz, xy (axisymmetric: rr, zz, tt, rz); of a
-    /// solid `n_elements x 6`: xx, yy, zz, xy, yz, zx.
+    /// `n_elements x 4` element means of stress: xx, yy, zz, xy (axisymmetric: rr, zz, tt, rz); of
+    /// a solid `n_elements x 6`: xx, yy, zz, xy, yz, zx.
     pub stress: Vec<f64>,
     /// `n_elements` von Mises stress: the largest over the element's Gauss points.
     pub von_mises: Vec<f64>,

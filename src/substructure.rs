@@ -1,8 +1,8 @@
 //! The structure as contact and plasticity see it: the only door from sparse to dense.
 //!
-//! The stiffness is factored in the order `[ interior | zone | contact ]` and condensed. Contact rows
-//! `s = B u_c <= delta` act on the contact freedoms; on the normal displacements `(u^1, u^2)` of nodes
-//! that face each other they suggest `v = u^1` and the relative displacement
+//! The stiffness is factored in the order `[ interior | zone | contact ]` and condensed. Contact
+//! rows `s = B u_c <= delta` act on the contact freedoms; on the normal displacements `(u^1, u^2)`
+//! of nodes that face each other they suggest `v = u^1` and the relative displacement
 //! `s = u^2 - u^1 <= delta`, the paper's u_c^1 and (2.4). In these
 //!
 //! ```text
@@ -416,7 +416,8 @@ impl ContactCost {
     }
 }
 
-/// The stiffness's own diagonal on the contact freedoms of bodies that supports do not hold, zero elsewhere.
+/// The stiffness's own diagonal on the contact freedoms of bodies that supports do not hold, zero
+/// elsewhere.
 fn shift(model: &Model, system: &System, partition: &Partition) -> Vec<f64> {
     let diagonal = |&freedom: &usize| system.stiffness.get(freedom, freedom).copied();
     let of = |(freedom, floats): (&usize, &bool)| match floats {
@@ -440,7 +441,10 @@ fn name_freedom(error: Error, model: &Model) -> Error {
             let place = model.freedoms.describe(&model.mesh, freedom);
             Error::new(
                 crate::ErrorKind::Unheld,
-                format!("the stiffness is singular at {place}: a part of the model is not held, or an element there is degenerate"),
+                format!(
+                    "the stiffness is singular at {place}: a part of the model is not held, or an \
+                     element there is degenerate"
+                ),
             )
             .because(error)
         }

@@ -29,9 +29,9 @@ pub(crate) fn shown_json(text: &str) -> Cow<'_, str> {
     })
 }
 
-/// `text` with each number that was written out to its last of many digits, as others than
-/// brinell do in their messages, in the form of [`crate::number::exact`]. What only looks like such a number (a
-/// file's name) stays: its digits are not those of a floating-point number.
+/// `text` with each number that was written out to its last of many digits, as others than brinell
+/// do in their messages, in the form of [`crate::number::exact`]. What only looks like such a
+/// number (a file's name) stays: its digits are not those of a floating-point number.
 pub(crate) fn short(text: &str) -> Cow<'_, str> {
     let belongs = |b: u8| b.is_ascii_alphanumeric() || b == b'.' || b == b'_';
     let mut out = String::new();

@@ -1,4 +1,5 @@
-//! `accuracy = "1 %"`: the scene on finer and finer meshes of its family until the stated errors are within the demand.
+//! `accuracy = "1 %"`: the scene on finer and finer meshes of its family until the stated errors
+//! are within the demand.
 //!
 //! The sequence begins with elements [`COARSEST`] times as large as the scene's. Each mesh is
 //! judged by those before it, the last [`MESHES`] of them, as any run is judged by its companions
@@ -64,9 +65,9 @@ pub struct Reached {
 /// Runs a scene to its demanded accuracy, or as near as seconds of `budget` allow.
 ///
 /// # Errors
-/// `Input` where the scene demands none, where its mesh cannot be refined or where it has no quantity that is named; those of the runs
-/// where no mesh can be run to its end. A demand that was not reached is no error:
-/// [`Demand::reason`] says why.
+/// `Input` where the scene demands none, where its mesh cannot be refined or where it has no
+/// quantity that is named; those of the runs where no mesh can be run to its end. A demand that was
+/// not reached is no error: [`Demand::reason`] says why.
 pub fn reach(
     scene: &Scene,
     backend: Backend,
@@ -292,8 +293,9 @@ impl Pursuit {
         }
         if let Some(path) = self.without_limit(outcome, ratio, is_judged) {
             return Next::Never(format!(
-                "{path} has no limit under refinement, or comes to it so slowly that no mesh will do; name the quantities that you \
-                 need, as in accuracy = \"load = 1 %\", or round the corner, spread the force that makes it"
+                "{path} has no limit under refinement, or comes to it so slowly that no mesh will \
+                 do; name the quantities that you need, as in accuracy = \"load = 1 %\", or round \
+                 the corner, spread the force that makes it"
             ));
         }
         if is_judged && outcome.algebra > 1.0 {

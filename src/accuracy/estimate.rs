@@ -263,8 +263,9 @@ fn said_by_width(scene: &Scene, quantities: &[QuantityError]) -> Option<String> 
         .collect();
     (!names.is_empty()).then(|| {
         format!(
-            "a half width as target is reached at another load on each mesh: the error of that load ({}) is in the other figures of the \
-             state and of those after it, the dent among them; a load factor as target leaves it out",
+            "a half width as target is reached at another load on each mesh: the error of that \
+             load ({}) is in the other figures of the state and of those after it, the dent among \
+             them; a load factor as target leaves it out",
             names.join(", ")
         )
     })

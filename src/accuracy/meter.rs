@@ -113,9 +113,9 @@ pub fn forecast(scene: &Scene, backend: Backend) -> Result<Forecast> {
     })
 }
 
-/// How long runs take compared with their forecasts: `time = a forecast^b`, fitted to the finished ones.
-/// The power differs from 1 where increments, which grow in number with the resolution too, cost
-/// more than the factorisation.
+/// How long runs take compared with their forecasts: `time = a forecast^b`, fitted to the finished
+/// ones. The power differs from 1 where increments, which grow in number with the resolution too,
+/// cost more than the factorisation.
 #[derive(Debug, Clone, Default)]
 pub struct Pace {
     finished: Vec<(f64, f64)>,

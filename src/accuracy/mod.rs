@@ -13,19 +13,23 @@
 //!
 //! The stated error is the sum of three:
 //!
-//! - **discretisation**: the scene is run again on two other meshes of its family, with elements 3/2 and twice as large where
-//!   the run resolves its contacts well enough for that, else finer ones; the uncertainty follows from how each quantity changes
-//!   (L. Eca, M. Hoekstra 2014, see [`extrapolate`]). The difference is that of the quantity itself: contact edges, yielding and
-//!   the way there are in it. A half width has the error of its reading besides, measured on each run by reading the same
-//!   pressures in another way ([`crate::results::EdgeReading`]). The energy norm of the recovered stress error
-//!   ([`crate::results::State::energy_error`], per element in the VTU files) says *where* the mesh is too coarse.
-//! - **path**: the coarsest mesh that yields as the run does is run with twice the increments, and with other tolerances.
-//! - **algebraic**: backward error, equilibrium and complementarity of the state, relative to the largest size of the
-//!   quantity; at first yield what `gamma` leaves of the largest stress, too.
+//! - **discretisation**: the scene is run again on two other meshes of its family, with elements
+//!   3/2 and twice as large where the run resolves its contacts well enough for that, else finer
+//!   ones; the uncertainty follows from how each quantity changes (L. Eca, M. Hoekstra 2014, see
+//!   [`extrapolate`]). The difference is that of the quantity itself: contact edges, yielding and
+//!   the way there are in it. A half width has the error of its reading besides, measured on each
+//!   run by reading the same pressures in another way ([`crate::results::EdgeReading`]). The energy
+//!   norm of the recovered stress error ([`crate::results::State::energy_error`], per element in
+//!   the VTU files) says *where* the mesh is too coarse.
+//! - **path**: the coarsest mesh that yields as the run does is run with twice the increments, and
+//!   with other tolerances.
+//! - **algebraic**: backward error, equilibrium and complementarity of the state, relative to the
+//!   largest size of the quantity; at first yield what `gamma` leaves of the largest stress, too.
 //!
-//! Nothing here knows a generator, a closed form or a benchmark: a mesh from a file is judged by its subdivisions in the same way.
-//! A goal-oriented estimate (dual-weighted residuals) was built and measured before: pressure and stress at a point are so local
-//! that its products cancel, and the reading of a contact's edge is in none of them.
+//! Nothing here knows a generator, a closed form or a benchmark: a mesh from a file is judged by
+//! its subdivisions in the same way. A goal-oriented estimate (dual-weighted residuals) was built
+//! and measured before: pressure and stress at a point are so local that its products cancel, and
+//! the reading of a contact's edge is in none of them.
 
 mod advice;
 mod companions;

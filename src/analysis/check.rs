@@ -169,7 +169,11 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
     let plastic = !choice.elements.is_empty();
     let mut notes = model.warnings.clone();
     if model.scene.accuracy.is_some() {
-        notes.push("the scene demands an accuracy: a run chooses its meshes itself, the figures here are of the scene's own".to_string());
+        notes.push(
+            "the scene demands an accuracy: a run chooses its meshes itself, the figures here are \
+             of the scene's own"
+                .to_string(),
+        );
     }
     let of_contact = contact.flops / TYPICAL_FLOPS;
     let speed = match backend {
@@ -191,8 +195,9 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
     }
     if run > LONG {
         notes.push(format!(
-            "the run may take about {:.0} min, and the estimate of its errors once or twice that: fewer elements (resolution) or a \
-             smaller largest load make it shorter, `--no-estimate` leaves the estimate out",
+            "the run may take about {:.0} min, and the estimate of its errors once or twice that: \
+             fewer elements (resolution) or a smaller largest load make it shorter, \
+             `--no-estimate` leaves the estimate out",
             (run / 60.0).ceil()
         ));
     }

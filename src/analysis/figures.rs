@@ -186,8 +186,8 @@ fn fields<const D: usize, const S: usize, const P: usize, const N: usize>(
     out
 }
 
-/// Pressure and gap of the pairs on the slaves and on nodes that face them; on other masters the mean
-/// of the pressures that act on them.
+/// Pressure and gap of the pairs on the slaves and on nodes that face them; on other masters the
+/// mean of the pressures that act on them.
 fn on_nodes(model: &Model, pairs: &[PairState], fields: &mut Fields) {
     let n = model.mesh.n_nodes();
     fields.contact_pressure = vec![0.0; n];

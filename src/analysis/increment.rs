@@ -323,7 +323,8 @@ impl Stepper<'_, '_> {
         if let Some(pace) = pace {
             initial.add(self.solver.at.distance(end), pace);
         }
-        // `now` may have been in equilibrium with other statuses, or off by gamma: its own statuses decide.
+        // `now` may have been in equilibrium with other statuses, or off by gamma: its own statuses
+        // decide.
         let mut rates = self.solver.respond(end, initial);
         rates.add(-1.0, &self.solver.now);
         if needs_tangent {
@@ -395,7 +396,8 @@ impl Stepper<'_, '_> {
     /// Length along a Newton direction. The energy of the increment is convex and the
     /// out-of-balance force times the direction is the negative of its slope: while that has not
     /// turned, the energy has fallen all the way. A length that overshoots is cut by the secant.
-    /// `None` where the direction leads nowhere; else `trial` holds the state there and the force out of balance.
+    /// `None` where the direction leads nowhere; else `trial` holds the state there and the force
+    /// out of balance.
     fn line_search(
         &mut self,
         state: &Equilibrium,

@@ -34,7 +34,8 @@ const DETERMINED: f64 = 1e-7;
 
 /// Energy of the estimated stress error and of the stress itself, element by element.
 pub(super) struct Indicator {
-    /// `eta_e`, relative to the energy norm of the whole: the sum of their squares is the square of [`Indicator::total`].
+    /// `eta_e`, relative to the energy norm of the whole: the sum of their squares is the square of
+    /// [`Indicator::total`].
     pub by_element: Vec<f64>,
     /// `eta`: estimated energy norm of the error over that of the solution, 0 to 1.
     pub total: f64,

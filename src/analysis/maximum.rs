@@ -1,10 +1,10 @@
 //! The highest point of a smooth function on a square or cube, from few values.
 //!
-//! Three values along each axis, on a stencil of points `spacing` apart, lead, by least squares, to a quadratic whose
-//! highest point on the stencil is tried, too. The place then is right to the square of the
-//! spacing, so that the next spacing may be the square of this one; the value is right to the
-//! square of the place's error. Stencils lie on a lattice: where a function that differs little is
-//! searched again it is asked for at the same points.
+//! Three values along each axis, on a stencil of points `spacing` apart, lead, by least squares, to
+//! a quadratic whose highest point on the stencil is tried, too. The place then is right to the
+//! square of the spacing, so that the next spacing may be the square of this one; the value is
+//! right to the square of the place's error. Stencils lie on a lattice: where a function that
+//! differs little is searched again it is asked for at the same points.
 
 /// Spacings of one search after the other, on a square of side 2: the whole square first.
 pub const SPACINGS: [f64; 4] = [1.0, 1.0 / 4.0, 1.0 / 16.0, 1.0 / 256.0];

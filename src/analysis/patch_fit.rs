@@ -231,8 +231,8 @@ const fn products(exponents: &[[usize; 3]; MOMENTS]) -> [[usize; N]; N] {
 mod tests {
     use super::*;
 
-    /// A polynomial of its own degree is found from its values, whatever their weights; fewer values
-    /// than terms determine nothing.
+    /// A polynomial of its own degree is found from its values, whatever their weights; fewer
+    /// values than terms determine nothing.
     #[test]
     fn a_polynomial_is_its_own_fit() {
         check::<2, 2>();

@@ -45,7 +45,8 @@ pub struct Solver<'m> {
 /// decides how fast it is found.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Predictor {
-    /// Change of the load point over the piece of the last increment: distinguishes loading from unloading.
+    /// Change of the load point over the piece of the last increment: distinguishes loading from
+    /// unloading.
     pub last_step: Vec<f64>,
     /// Change of the initial loads over the last increment, for a load factor that changes by 1:
     /// the next one's are much the same.

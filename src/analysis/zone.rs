@@ -4,9 +4,9 @@
 //! eps = B u,   J = sum_g w_g B' D eps_p(eps),   dJ = sum_g w_g B' (D - D_ep) B du
 //! ```
 //!
-//! `J` are the paper's initial loads (4.1); the plastic strains depend on the committed history and on the
-//! total strain at the end of the increment only, so within an increment they are a function of
-//! `u`.
+//! `J` are the paper's initial loads (4.1); the plastic strains depend on the committed history and
+//! on the total strain at the end of the increment only, so within an increment they are a function
+//! of `u`.
 
 mod points;
 mod yielding;

@@ -38,9 +38,9 @@ use std::sync::OnceLock;
 /// Stresses positive in tension, pressures in compression; units consistent, any.
 ///
 /// # Source
-/// The problem: N. Endahl, section 5.2; M. Stippes, Proc. 4th U.S. Nat. Congr. Appl. Mech. (1962) 799. The
-/// solution is derived here as above from N. I. Muskhelishvili, *Some Basic Problems of the
-/// Mathematical Theory of Elasticity*, 1953, par. 54-56.
+/// The problem: N. Endahl, section 5.2; M. Stippes, Proc. 4th U.S. Nat. Congr. Appl. Mech. (1962)
+/// 799. The solution is derived here as above from N. I. Muskhelishvili, *Some Basic Problems of
+/// the Mathematical Theory of Elasticity*, 1953, par. 54-56.
 ///
 /// ```
 /// use brinell::analytical::{DiscInPlate, Plane};

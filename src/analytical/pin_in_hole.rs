@@ -171,9 +171,9 @@ mod tests {
 
     #[test]
     fn gap_is_closed_over_the_contact() {
-        // sum_{n>=2} n/(n^2-1) cos n x = -cos x ln|2 sin(x/2)| - 1/2 - cos(x)/4 and the terms of n = 0;
-        // what is left of E* g/(2 R) after the rigid shift (cos f) must vanish: three angles fit
-        // two terms.
+        // sum_{n>=2} n/(n^2-1) cos n x = -cos x ln|2 sin(x/2)| - 1/2 - cos(x)/4 and the terms of n
+        // = 0; what is left of E* g/(2 R) after the rigid shift (cos f) must vanish: three angles
+        // fit two terms.
         let e = 1.2;
         let q0 = integrate(|f| unit_pressure(f, e), 0.0, e) / PI;
         let residual = |f: f64| {

@@ -44,7 +44,8 @@ pub(super) fn refuse_reverse_yield(body: &str, pressure: f64, first_yield: f64) 
     let limit = 2.0 * first_yield;
     if pressure > limit {
         return Err(Error::input(format!(
-            "{body}: after the pressure {pressure} unloading yields again; the closed form ends at {limit}"
+            "{body}: after the pressure {pressure} unloading yields again; the closed form ends at \
+             {limit}"
         )));
     }
     Ok(())

@@ -28,7 +28,8 @@ pub(super) struct NewArguments {
 pub(super) enum Problem {
     /// A ball is pressed on a flat and let go (axisymmetric)
     #[command(
-        after_help = "Example: brinell new ball-on-flat --radius 5 --load 20 --out ball.toml && brinell run ball.toml"
+        after_help = "Example: brinell new ball-on-flat --radius 5 --load 20 --out ball.toml && \
+                      brinell run ball.toml"
     )]
     BallOnFlat(Ball),
     /// A ball is pressed into the groove of a race and let go (three dimensions)
@@ -37,7 +38,8 @@ pub(super) enum Problem {
     CrossedCylinders(solid::Crossed),
     /// A roller is pressed on a flat and let go (plane strain; the load is per mm of length)
     #[command(
-        after_help = "Example: brinell new roller-on-flat --radius 5 --load 400 --out roller.toml && brinell run roller.toml"
+        after_help = "Example: brinell new roller-on-flat --radius 5 --load 400 --out roller.toml \
+                      && brinell run roller.toml"
     )]
     RollerOnFlat(Pressed),
     /// A shaft that is too thick for its bore: an interference fit (plane stress)
@@ -126,7 +128,8 @@ pub(super) struct Pressed {
 /// A shaft in a bore.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: brinell new shaft-in-bore --radius 25 --outer-radius 60 --interference 0.04"
+    after_help = "Example: brinell new shaft-in-bore --radius 25 --outer-radius 60 --interference \
+                  0.04"
 )]
 pub(super) struct Fit {
     /// Radius of the shaft and the bore [mm]
@@ -259,7 +262,8 @@ plastic_modulus = {}          # slope of yield stress over plastic strain; or ta
     );
     for body in bodies {
         text.push_str(&format!(
-            "\n[bodies.{body}]\nmaterial = \"steel\"           # plastic = false keeps a body elastic\n"
+            "\n[bodies.{body}]\nmaterial = \"steel\"           # plastic = false keeps a body \
+             elastic\n"
         ));
     }
     text
@@ -301,7 +305,8 @@ fn pressed_scene(pressed: &Pressed, ball: bool) -> Result<String> {
     let times = load / yield_load;
     let patience = match times > FAR {
         true => {
-            "# So far beyond it a run may take minutes, and the estimate of its errors more: `--no-estimate` leaves that out.\n"
+            "# So far beyond it a run may take minutes, and the estimate of its errors more: \
+             `--no-estimate` leaves that out.\n"
         }
         false => "",
     };
@@ -311,7 +316,9 @@ fn pressed_scene(pressed: &Pressed, ball: bool) -> Result<String> {
     };
     let symmetry = match ball {
         true => "".to_string(),
-        false => "symmetry = 2                 # half model, x >= 0: loads and results are those of the whole\n".to_string(),
+        false => "symmetry = 2                 # half model, x >= 0: loads and results are those \
+                  of the whole\n"
+            .to_string(),
     };
     // Stress under a point fades with the square of the distance: 200 contact radii are enough.
     let far = if ball {

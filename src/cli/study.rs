@@ -36,7 +36,8 @@ pub(super) struct StudyArguments {
         value_parser = clap::value_parser!(u16).range(2..=12)
     )]
     pub levels: u16,
-    /// What to turn, separated by commas: resolution, element, stepping, tolerance, gamma, algorithm, backend; default all
+    /// What to turn, separated by commas: resolution, element, stepping, tolerance, gamma,
+    /// algorithm, backend; default all
     #[arg(long, value_name = "KNOBS", value_delimiter = ',')]
     pub knobs: Vec<String>,
     /// No progress, only results and errors

@@ -79,8 +79,8 @@ pub struct Path {
 impl Path {
     /// Starts at `t = 0` with `q(t) = start + t rate` and the gaps and forces that hold there
     /// (statuses are those in the tableau). `gap_scale` is the size of gaps that matter (such as
-    /// the largest initial gap),
-    /// `terms` that of the terms of which `start` is a sum: they may cancel, their round-off does not.
+    /// the largest initial gap), `terms` that of the terms of which `start` is a sum: they may
+    /// cancel, their round-off does not.
     ///
     /// # Errors
     /// [`Unbounded`] where the load pushes pairs apart for ever.

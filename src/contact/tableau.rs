@@ -105,8 +105,8 @@ impl Tableau {
     /// Whether opening pair `k` now would free a rigid motion.
     ///
     /// What is left of `T_kk` is `T_kk - T_ko w` with `w = T_oo^-1 T_ok`: the round-off of that is
-    /// a share of
-    /// `|T_kk| + 2 |T_ko| |w| + |w|' |T_oo| |w| <= (sqrt T_kk + sum |w_o| sqrt T_oo)^2`, since `|T_ij| <= sqrt(T_ii T_jj)`.
+    /// a share of `|T_kk| + 2 |T_ko| |w| + |w|' |T_oo| |w| <= (sqrt T_kk + sum |w_o| sqrt T_oo)^2`,
+    /// since `|T_ij| <= sqrt(T_ii T_jj)`.
     pub(crate) fn would_free(&self, k: usize) -> bool {
         let (block, own) = self.matrix.place(k);
         let (left, whole) = (self.swept[block].get(own, own), self.matrix.diagonal(k));
@@ -205,9 +205,9 @@ impl Tableau {
         self.swept[block].pivot(own, sign);
     }
 
-    /// Gaps of the open pairs and forces of the closed ones for the given statuses: `r_o = 0`, `g_c
-    /// = 0`,
-    /// `r = q + T g`. The gaps are refined once against `T`, so that errors of many pivots do not stay.
+    /// Gaps of the open pairs and forces of the closed ones for the given statuses: `r_o = 0`,
+    /// `g_c = 0`, `r = q + T g`. The gaps are refined once against `T`, so that errors of many
+    /// pivots do not stay.
     pub fn solve(&mut self, q: &[f64], gap: &mut [f64], force: &mut [f64]) {
         self.solve_with_residual(q, gap, force);
     }

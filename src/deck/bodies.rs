@@ -133,8 +133,8 @@ impl Deck {
             .collect()
     }
 
-    /// Names of the bodies, of which `sections` are given: of the section's set where it is all of it,
-    /// else of a set that is the body, else with a number.
+    /// Names of the bodies, of which `sections` are given: of the section's set where it is all of
+    /// it, else of a set that is the body, else with a number.
     fn body_names(&self, sections: &[u32], of_element: &[u32]) -> Result<Vec<String>> {
         let of_section = |section: u32| match self.properties.sections.get(section as usize) {
             Some(section) => section.elements.as_str(),

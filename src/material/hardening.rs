@@ -12,7 +12,8 @@ pub struct Hardening {
 }
 
 impl Hardening {
-    /// Linear hardening `sigma_y = yield_stress + plastic_modulus * eps_p`; modulus 0 is perfect plasticity.
+    /// Linear hardening `sigma_y = yield_stress + plastic_modulus * eps_p`; modulus 0 is perfect
+    /// plasticity.
     pub fn linear(yield_stress: f64, plastic_modulus: f64) -> Self {
         Hardening {
             points: vec![[0.0, yield_stress]],

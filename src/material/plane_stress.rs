@@ -1,7 +1,7 @@
 //! Return mapping that keeps the stress in the plane.
 //!
-//! With `P = [[2, -1, 0], [-1, 2, 0], [0, 0, 6]]/3`, `q^2 = 3/2 sigma' P sigma` and `eps_p += c P sigma`,
-//! the trial stress decouples in the eigenvectors that `D` and `P` share:
+//! With `P = [[2, -1, 0], [-1, 2, 0], [0, 0, 6]]/3`, `q^2 = 3/2 sigma' P sigma` and
+//! `eps_p += c P sigma`, the trial stress decouples in the eigenvectors that `D` and `P` share:
 //!
 //! ```text
 //! q(c)^2 = a^2/(2 (1 + c E/(3 (1 - nu)))^2) + (3/2 b^2 + 3 t^2)/(1 + 2 G c)^2
@@ -10,7 +10,8 @@
 //! ```
 //!
 //! # Source
-//! Simo and Hughes (1998), section 3.4, box 3.3; J. C. Simo, R. L. Taylor (1986), doi:10.1002/nme.1620220310.
+//! Simo and Hughes (1998), section 3.4, box 3.3; J. C. Simo, R. L. Taylor (1986),
+//! doi:10.1002/nme.1620220310.
 
 use super::{Hardening, Lame, Material, PlasticState, Softening, Update};
 use crate::root::{self, Accuracy};

@@ -156,8 +156,8 @@ fn softening_is_the_derivative_of_the_stress() {
 }
 
 /// The tangent of plane stress against central differences over many states: strains from just
-/// beyond yield to fifty times that, histories of either sign, all curves. Unloading points are elastic and
-/// lose nothing; points whose differences straddle the knee of a table are left out.
+/// beyond yield to fifty times that, histories of either sign, all curves. Unloading points are
+/// elastic and lose nothing; points whose differences straddle the knee of a table are left out.
 #[test]
 fn the_tangent_of_plane_stress_is_consistent_in_states_of_all_kinds() {
     let mut seed = 1u64;
@@ -219,7 +219,8 @@ fn the_tangent_of_plane_stress_is_consistent_in_states_of_all_kinds() {
     assert!(yielding > 1000 && elastic > 100, "{yielding} {elastic}");
 }
 
-/// One-element cyclic test, uniaxial stress in plane stress: the yield stress grows with the path length.
+/// One-element cyclic test, uniaxial stress in plane stress: the yield stress grows with the path
+/// length.
 #[test]
 fn cyclic_uniaxial_stress_follows_the_hardening_curve() {
     let (e, h, y) = (200.0, 20.0, 1.0);

@@ -25,8 +25,8 @@ pub(super) fn check(mesh: &Mesh) -> Result<()> {
         if classes.first(first) != classes.first(node) {
             let place = |node: usize| format!("{} at {}", mesh.node_label(node), mesh.place(node));
             return Err(Error::input(format!(
-                "body `{}` is in several pieces: its elements do not join node {} and node {}; make \
-                 each piece a body of its own",
+                "body `{}` is in several pieces: its elements do not join node {} and node {}; \
+                 make each piece a body of its own",
                 mesh.bodies[body],
                 place(first),
                 place(node)

@@ -45,7 +45,8 @@ pub fn subdivided(mesh: Mesh, times: usize, contacts: &[Contact]) -> Result<Mesh
     let elements = factor.and_then(|f| f.checked_mul(mesh.n_elements()));
     if elements.is_none_or(|n| n > MOST_ELEMENTS) {
         return Err(Error::input(format!(
-            "mesh.subdivisions = {times}: {} elements, each cut in four {times} times, are more than {MOST_ELEMENTS}; give a smaller number",
+            "mesh.subdivisions = {times}: {} elements, each cut in four {times} times, are more \
+             than {MOST_ELEMENTS}; give a smaller number",
             mesh.n_elements()
         )));
     }
@@ -341,8 +342,10 @@ fn check_node_sets(mesh: &Mesh) -> Result<()> {
                 let ends: Vec<usize> = mesh.facet_nodes(Facet { element, local }).take(2).collect();
                 if ends.iter().all(|&n| marked[n]) {
                     return Err(Error::input(format!(
-                        "the mesh cannot be subdivided: node set `{name}` holds both ends of the side from node {} to node {} of element {}, \
-                         and does not say whether a node between belongs to it; make that side a surface (in Gmsh a physical curve)",
+                        "the mesh cannot be subdivided: node set `{name}` holds both ends of the \
+                         side from node {} to node {} of element {}, and does not say whether a \
+                         node between belongs to it; make that side a surface (in Gmsh a physical \
+                         curve)",
                         mesh.node_label(ends[0]),
                         mesh.node_label(ends[1]),
                         mesh.element_label(element)

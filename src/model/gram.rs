@@ -33,8 +33,8 @@ impl Gram {
         (0..self.rows.len()).fold(0.0, |m, i| m.max(self.get(i, i)))
     }
 
-    /// The rows of groups (of `per` rows each) that nothing couples with others, ascending. Within a block groups with few
-    /// neighbours come first, which keeps the envelope of its factor small.
+    /// The rows of groups (of `per` rows each) that nothing couples with others, ascending. Within
+    /// a block groups with few neighbours come first, which keeps the envelope of its factor small.
     pub(super) fn uncoupled(&self, per: usize) -> Vec<Vec<usize>> {
         let n = self.rows.len() / per;
         let mut classes = Classes::new(n);
@@ -57,7 +57,8 @@ impl Gram {
         blocks.collect()
     }
 
-    /// Whether a block less `shift` times the identity has a Cholesky factor, which is kept from the first nonzero of each row on.
+    /// Whether a block less `shift` times the identity has a Cholesky factor, which is kept from
+    /// the first nonzero of each row on.
     pub(super) fn is_definite(&self, block: &[usize], shift: f64) -> bool {
         let mut place = BTreeMap::new();
         place.extend(block.iter().enumerate().map(|(k, &row)| (row, k)));

@@ -11,8 +11,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Singular values below this, relative to the largest, are free motions.
 const FREE: f64 = 1e-7;
-/// A block of the motions that is definite by this much of its largest entry has none that is free: well above the square of
-/// [`FREE`] and the round-off of a factorisation of some thousand rows.
+/// A block of the motions that is definite by this much of its largest entry has none that is free:
+/// well above the square of [`FREE`] and the round-off of a factorisation of some thousand rows.
 const HELD: f64 = 1e-11;
 
 /// Groups of bodies that share nodes move together: rigid motions are counted per group.
@@ -226,7 +226,8 @@ impl<'a> Motions<'a> {
         groups
     }
 
-    /// The part of the model that each group belongs to: groups that a free motion moves together are one.
+    /// The part of the model that each group belongs to: groups that a free motion moves together
+    /// are one.
     pub(super) fn parts(&self, modes: &[Mode]) -> Vec<usize> {
         let mut classes = Classes::new(self.names.len());
         for mode in modes {
@@ -422,8 +423,8 @@ struct Plain {
     mode: Mode,
 }
 
-/// The same motions by a basis that can be described in words: rotations are taken out of all vectors but as many as it takes, then
-/// motions along y, then along x (reduced echelon form).
+/// The same motions by a basis that can be described in words: rotations are taken out of all
+/// vectors but as many as it takes, then motions along y, then along x (reduced echelon form).
 fn plain(rows: &[usize], mut motions: Vec<DVector<f64>>, per: usize) -> Vec<Plain> {
     let mut pivots = Vec::new();
     for kind in (0..per).rev() {

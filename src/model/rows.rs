@@ -39,7 +39,8 @@ impl ContactRows {
     pub(super) fn of(mesh: &Mesh, freedoms: &Freedoms, pairs: &[Pair]) -> Result<Self> {
         let held = |node: usize| {
             Error::input(format!(
-                "node {} belongs to a contact pair but its normal displacement is held by a support or load",
+                "node {} belongs to a contact pair but its normal displacement is held by a \
+                 support or load",
                 mesh.node_label(node)
             ))
         };

@@ -80,7 +80,8 @@ mod tests {
         assert_eq!(error.kind(), ErrorKind::Inaccurate);
         assert_eq!(
             error.message(),
-            "state `pressed`\nDemanded accuracy 1 %: NOT reached: time; the stated error is 2.0 % (yield.load)"
+            "state `pressed`\nDemanded accuracy 1 %: NOT reached: time; the stated error is 2.0 % \
+             (yield.load)"
         );
         results.incomplete = Some(Incomplete {
             kind: ErrorKind::Stopped,

@@ -81,10 +81,12 @@ fn method(accuracy: &Accuracy) -> String {
     let ratios = accuracy.companions.iter().map(|c| significant(c.ratio, 3));
     match accuracy.method {
         EstimateMethod::CoarserMeshes => format!(
-            "The mesh's part follows from runs with elements {} times as large, factor of safety included.",
+            "The mesh's part follows from runs with elements {} times as large, factor of safety \
+             included.",
             ratios.collect::<Vec<_>>().join(" and "),
         ),
-        _ => "The mesh's part is the energy norm of the stress error, a rough figure: no other mesh could be run."
+        _ => "The mesh's part is the energy norm of the stress error, a rough figure: no other \
+              mesh could be run."
             .to_string(),
     }
 }

@@ -17,11 +17,11 @@ pub struct Quality {
     /// none in results of versions that did not have it. It has no tolerance of its own: what it
     /// shows beside the normwise one are freedoms on which next to nothing acts.
     pub componentwise_error: Option<f64>,
-    /// What round-off alone may leave out of balance, over the largest applied or contact force: `2
-    /// eps |K| |u|`, the largest of a row, with
-    /// `u` free of rigid motions: storing `u` and summing up the forces of its elements costs as much, whatever solved for it. Forces that
-    /// are out of balance by no more are as good as the mesh allows. Where plastic strains stay,
-    /// `u` counts as the largest of the run. None in results of versions that did not have it.
+    /// What round-off alone may leave out of balance, over the largest applied or contact force:
+    /// `2 eps |K| |u|`, the largest of a row, with `u` free of rigid motions: storing `u` and
+    /// summing up the forces of its elements costs as much, whatever solved for it. Forces that are
+    /// out of balance by no more are as good as the mesh allows. Where plastic strains stay, `u`
+    /// counts as the largest of the run. None in results of versions that did not have it.
     pub round_off: Option<f64>,
     /// Out-of-balance force of the stresses over the largest applied or contact force.
     #[serde(deserialize_with = "number")]

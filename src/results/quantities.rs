@@ -235,8 +235,8 @@ enum Place<'r> {
     State(&'r State),
 }
 
-/// The number at a path of `summary.json`: `yield.KEY` or `states.NAME.KEY`, where the number of the
-/// state, from 0, may stand for its name. `None` where the run has none such.
+/// The number at a path of `summary.json`: `yield.KEY` or `states.NAME.KEY`, where the number of
+/// the state, from 0, may stand for its name. `None` where the run has none such.
 pub fn value(results: &Results, path: &str) -> Option<f64> {
     let (head, rest) = path.split_once('.')?;
     if head == "yield" {

@@ -69,7 +69,8 @@ impl JsonSchema for Plastic {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({
-            "description": "May a body yield? `\"auto\"` (the default): if its material can and the loads make it.",
+            "description": "May a body yield? `\"auto\"` (the default): if its material can and \
+                            the loads make it.",
             "enum": [true, false, "auto"],
         })
     }

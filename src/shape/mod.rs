@@ -20,8 +20,8 @@ pub const MAX_FACET_NODES: usize = 8;
 
 /// The shape of an element. In the plane nodes run counter-clockwise, corners first, then mid-side
 /// nodes starting with the one between corners 0 and 1. In space they are in the order of VTK: a
-/// hexahedron's or prism's base counter-clockwise seen from inside, then its top, then the middles of
-/// the edges of base, top, and between them.
+/// hexahedron's or prism's base counter-clockwise seen from inside, then its top, then the middles
+/// of the edges of base, top, and between them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Shape {

@@ -344,7 +344,8 @@ fn followers(b: &DMatrix<f64>, diagonal: impl Fn(usize) -> f64) -> Result<Vec<us
 
 fn dependent() -> Error {
     Error::input(
-        "the contact rows depend on each other: each must restrict a motion that the others leave free",
+        "the contact rows depend on each other: each must restrict a motion that the others leave \
+         free",
     )
 }
 

@@ -182,7 +182,8 @@ fn sets_that_are_missing_or_empty() {
         ),
         (
             "program.targets=[{displacement={on=\"upper.lop\",direction=\"y\",value=-1e-3}}]",
-            "target 1 displacement on `upper.lop`: the mesh has no such set, did you mean `upper.top`?",
+            "target 1 displacement on `upper.lop`: the mesh has no such set, did you mean \
+             `upper.top`?",
         ),
     ] {
         let place = format!("error: --set {set}: {words}");

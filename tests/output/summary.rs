@@ -161,8 +161,8 @@ fn numbers_that_are_not_finite_are_null() {
     assert_eq!(value["timings"]["assembly"], Value::Null);
 }
 
-/// Every quantity of the table stands in the schema of a state (of first yield, where it is known there), required and
-/// described, and nothing else that is a number does.
+/// Every quantity of the table stands in the schema of a state (of first yield, where it is known
+/// there), required and described, and nothing else that is a number does.
 #[test]
 fn the_schema_has_the_quantities_of_the_table() {
     let schema: Value = serde_json::from_str(SUMMARY_SCHEMA).unwrap();
@@ -209,7 +209,8 @@ fn the_schema_has_the_quantities_of_the_table() {
     }
 }
 
-/// The schema has to refuse what is wrong: each required key taken away, each key misspelt, wrong types.
+/// The schema has to refuse what is wrong: each required key taken away, each key misspelt, wrong
+/// types.
 #[test]
 fn the_schema_refuses_missing_and_unknown_keys() {
     let mesh = fixture::mesh();
@@ -225,8 +226,8 @@ fn the_schema_refuses_missing_and_unknown_keys() {
         "/residual_depth_by_body",
     ];
     objects.retain(|path| !open.iter().any(|end| path.ends_with(end)));
-    // The root, an effect, counts, factor, quality, yield with its location, three states with quality
-    // (two with an arc), a reference, accuracy with a mesh, a quantity and a demand.
+    // The root, an effect, counts, factor, quality, yield with its location, three states with
+    // quality (two with an arc), a reference, accuracy with a mesh, a quantity and a demand.
     assert_eq!(objects.len(), 1 + 1 + 1 + 1 + 1 + 2 + 3 + 3 + 2 + 1 + 4);
     for path in objects {
         let object = valid.pointer(&path).unwrap().as_object().unwrap();

@@ -1,5 +1,5 @@
-//! The generator of two curved bodies against Hertz' theory, against its own halves, and against the
-//! axisymmetric model.
+//! The generator of two curved bodies against Hertz' theory, against its own halves, and against
+//! the axisymmetric model.
 
 use brinell::analysis::Analysis;
 use brinell::analytical::{HertzEllipse, contact_modulus};

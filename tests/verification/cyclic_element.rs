@@ -1,6 +1,8 @@
-//! One element pulled and pushed: uniaxial stress follows the isotropic hardening curve through the whole program.
+//! One element pulled and pushed: uniaxial stress follows the isotropic hardening curve through the
+//! whole program.
 //!
-//! Source: the flow rule in one dimension; J. C. Simo and T. J. R. Hughes, Computational Inelasticity (1998), section 1.4.
+//! Source: the flow rule in one dimension; J. C. Simo and T. J. R. Hughes, Computational
+//! Inelasticity (1998), section 1.4.
 
 use crate::run::{close, run};
 use brinell::scene::Scene;
@@ -63,7 +65,8 @@ targets = [{}]
         let results = run(&Scene::parse(&text, "bar").unwrap());
         for (state, exact) in results.states.iter().zip(bar(&strains)) {
             let stress = &state.fields.as_ref().unwrap().stress;
-            // Equilibrium is found to 1e-10 of the force; the worst stress is a tenth of the largest.
+            // Equilibrium is found to 1e-10 of the force; the worst stress is a tenth of the
+            // largest.
             assert!(
                 (stress[1] - exact).abs() <= 1e-8 * 200.0,
                 "{kind} {}: {} {exact}",

@@ -15,8 +15,8 @@ const CORNERS: [[f64; 3]; 8] = [
     [-1.0, 1.0, 1.0],
 ];
 
-/// An element, or the part of a triangle, prism or tetrahedron round one of its corners, as the image of
-/// `[-1, 1]^D`.
+/// An element, or the part of a triangle, prism or tetrahedron round one of its corners, as the
+/// image of `[-1, 1]^D`.
 pub(super) struct Cell<const D: usize, const N: usize> {
     pub(super) element: u32,
     shape: Shape,

@@ -158,8 +158,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         result
     }
 
-    /// `out = sum_g w_g B' (D - D_ep) B v` at the last evaluated state, for a `v` that vanishes where displacements are
-    /// prescribed.
+    /// `out = sum_g w_g B' (D - D_ep) B v` at the last evaluated state, for a `v` that vanishes
+    /// where displacements are prescribed.
     pub fn softening_times(&mut self, v: &Trailing, out: &mut Trailing) {
         let nodal = self.nodal.variation(v);
         let (elements, gradients) = (&self.elements, &self.gradients);

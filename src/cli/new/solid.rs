@@ -25,7 +25,8 @@ pub(in crate::cli) struct Common {
 /// A ball in the groove of a race.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: brinell new ball-in-groove --radius 5 --groove 5.2 --race 20 --out groove.toml && brinell run groove.toml"
+    after_help = "Example: brinell new ball-in-groove --radius 5 --groove 5.2 --race 20 --out \
+                  groove.toml && brinell run groove.toml"
 )]
 pub(in crate::cli) struct Groove {
     /// Radius of the ball [mm]
@@ -46,7 +47,8 @@ pub(in crate::cli) struct Groove {
         allow_negative_numbers = true
     )]
     pub groove: f64,
-    /// Radius of the race along the groove [mm]: positive for an inner race, negative for an outer one
+    /// Radius of the race along the groove [mm]: positive for an inner race, negative for an outer
+    /// one
     #[arg(
         long,
         value_name = "R",
@@ -62,7 +64,8 @@ pub(in crate::cli) struct Groove {
 /// Two cylinders at right angles.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: brinell new crossed-cylinders --upper 4 --lower 12 --out crossed.toml && brinell run crossed.toml"
+    after_help = "Example: brinell new crossed-cylinders --upper 4 --lower 12 --out crossed.toml \
+                  && brinell run crossed.toml"
 )]
 pub(in crate::cli) struct Crossed {
     /// Radius of the upper cylinder, whose axis is x [mm]
@@ -114,7 +117,8 @@ pub(super) fn ball_in_groove(groove: &Groove) -> Result<String> {
         upper: ([groove.radius; 2], "ball"),
         lower: (
             [-groove.groove, groove.race],
-            "the groove is hollow across; along it the race is convex (positive) or hollow (negative)",
+            "the groove is hollow across; along it the race is convex (positive) or hollow \
+             (negative)",
         ),
     };
     let Common {

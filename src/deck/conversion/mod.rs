@@ -43,8 +43,8 @@ impl Deck {
     /// The scene that the deck describes.
     ///
     /// # Errors
-    /// `Unsupported` with all lines that ask for what brinell does not have; `Input` by file, line and
-    /// keyword for what does not fit together.
+    /// `Unsupported` with all lines that ask for what brinell does not have; `Input` by file, line
+    /// and keyword for what does not fit together.
     pub fn convert(&self, options: Options) -> Result<Conversion> {
         let mut account = self.account.clone();
         self.judge_nlgeom(options, &mut account);
@@ -91,7 +91,8 @@ impl Deck {
             ),
             false => (
                 &mut account.refused,
-                "NLGEOM: strains and displacements are small here; take it out, or compute with --small-strain",
+                "NLGEOM: strains and displacements are small here; take it out, or compute with \
+                 --small-strain",
             ),
         };
         Account::add(list, &self.files, place, "STEP", text);
@@ -187,8 +188,8 @@ impl Deck {
         Ok(())
     }
 
-    /// Without contact there is no event to step to: steps then take equal increments, at least as many
-    /// as the deck's first ones would be.
+    /// Without contact there is no event to step to: steps then take equal increments, at least as
+    /// many as the deck's first ones would be.
     fn choose_stepping(&self, draft: &Draft, scene: &mut Scene) {
         let can_yield = scene.materials.values().any(|m| m.yield_stress.is_some());
         if draft.contacts.is_empty() && can_yield {
@@ -199,8 +200,9 @@ impl Deck {
         }
     }
 
-    /// Loads with their histories, and a target for each step. Where everything that changes does so in
-    /// proportion and from step to step, load factors are multiples of the loads; otherwise times.
+    /// Loads with their histories, and a target for each step. Where everything that changes does
+    /// so in proportion and from step to step, load factors are multiples of the loads; otherwise
+    /// times.
     fn add_loads(&self, draft: &mut Draft, scene: &mut Scene) {
         let ends = self.step_ends();
         let shapes: Vec<_> = draft

@@ -48,7 +48,8 @@ pub(super) struct Ordering {
 /// How the order is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
-    /// The candidate with the fewest floating point operations; the expensive one only where it may pay.
+    /// The candidate with the fewest floating point operations; the expensive one only where it may
+    /// pay.
     #[default]
     Automatic,
     /// Constrained approximate minimum degree.

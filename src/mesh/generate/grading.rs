@@ -234,8 +234,8 @@ fn with_midpoints(key: &str, corners: Vec<f64>) -> Result<Vec<f64>> {
     positions.extend(corners.last());
     if let Some(pair) = positions.windows(2).find(|pair| pair[0] >= pair[1]) {
         return Err(Error::input(format!(
-            "{key}: neighbouring nodes coincide at {}: the elements are too small to be told apart; \
-             ask for fewer elements or a weaker bias",
+            "{key}: neighbouring nodes coincide at {}: the elements are too small to be told \
+             apart; ask for fewer elements or a weaker bias",
             pair[0]
         )));
     }

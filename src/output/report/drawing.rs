@@ -89,8 +89,8 @@ impl Drawing {
     }
 }
 
-/// The library's text without what it repeats: the font, which is the whole drawing's, full opacity,
-/// empty lines.
+/// The library's text without what it repeats: the font, which is the whole drawing's, full
+/// opacity, empty lines.
 fn compact(text: &str) -> String {
     text.replace(&font(), "")
         .replace(" opacity=\"1\"", "")

@@ -1,5 +1,5 @@
-//! A mesh as triangles of a plane: plane elements, cuts through solid ones, faces of a contact; with
-//! their mirror images.
+//! A mesh as triangles of a plane: plane elements, cuts through solid ones, faces of a contact;
+//! with their mirror images.
 
 use super::contours::{Sheet, border};
 use super::window::Window;

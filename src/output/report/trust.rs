@@ -94,7 +94,8 @@ pub(super) fn quality(results: &Results) -> Markup {
              of the whole and of the worst row; out-of-balance force of the stresses over the \
              forces that act, and what round-off alone may leave of it on this mesh; gap times \
              force of a pair; penetration over the largest displacement; tension of a pair over \
-             the largest force. These say how well the equations were solved, not how fine the mesh is."
+             the largest force. These say how well the equations were solved, not how fine the \
+             mesh is."
         }
         @for text in &results.inaccurate { div.note.bad { b { "Not to be trusted: " } (text) } }
         (table(&head, &rows))

@@ -129,7 +129,8 @@ impl Checks {
                 stress1 >= stress0,
                 key.as_str(),
                 format!(
-                    "yield stress {} is less than {} of the row before: softening has no unique solution",
+                    "yield stress {} is less than {} of the row before: softening has no unique \
+                     solution",
                     exact(stress1),
                     exact(stress0)
                 ),

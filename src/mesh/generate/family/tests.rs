@@ -5,9 +5,9 @@ use crate::scene::Scene;
 
 fn scene(mesh: &str) -> Scene {
     let text = format!(
-        "kind = \"plane_strain\"\n{mesh}\n[materials.m]\nyoungs_modulus = 1.0\npoissons_ratio = 0.3\n\
-         [bodies]\nb = {{ material = \"m\" }}\n[[load]]\non = \"b.top\"\npressure = 1.0\n\
-         [program]\ntargets = [{{ load_factor = 1.0 }}]\n"
+        "kind = \"plane_strain\"\n{mesh}\n[materials.m]\nyoungs_modulus = 1.0\npoissons_ratio = \
+         0.3\n[bodies]\nb = {{ material = \"m\" }}\n[[load]]\non = \"b.top\"\npressure = \
+         1.0\n[program]\ntargets = [{{ load_factor = 1.0 }}]\n"
     );
     Scene::parse(&text, "test.toml").unwrap()
 }
