@@ -41,7 +41,7 @@ const TYPICAL_FLOPS_OF_FAER: f64 = 1.1e10;
 /// Nonzeros of the factor that ordering and analysis handle per second.
 const TYPICAL_ANALYSIS: f64 = 2.7e7;
 
-/// What a run takes beside its factorisation, measured over the scenes of `data/scenes` and finer
+/// What a run takes besides its factorisation, measured over the scenes of `data/scenes` and finer
 /// meshes of the paper's two: seconds to start; for each freedom of making the mesh, the assembly
 /// and the files; for each freedom of the zone of finding first yield; for each freedom and state.
 const START: f64 = 1.5e-3;
@@ -57,7 +57,7 @@ const SOLVE: [f64; 2] = [2e-5, 5.5e-10];
 /// way: where gaps differ (the contact grows pair by pair), and where all are alike.
 const CHANGES: [f64; 2] = [0.7, 0.17];
 /// Trailing solves of an elastoplastic increment: where the material hardens; where it has next to
-/// no stiffness left, in a contact that grows; and where all of it may flow.
+/// no stiffness left, in a contact that grows; and where all of it may yield.
 const SOLVES: [f64; 3] = [6.0, 12.0, 30.0];
 /// Plastic modulus over Youngs modulus below which material counts as soft in that sense.
 const SOFT: f64 = 0.1;
@@ -115,7 +115,7 @@ fn ways(program: &Program) -> f64 {
         let displaced = target.displacement.as_ref().map(|d| d.value.abs());
         let to = match (target.load_factor, target.half_width) {
             (Some(factor), _) => factor,
-            // The load of a line contact goes with the square of its width.
+            // The load of a line contact depends on the square of its width.
             (_, Some(width)) => width * width,
             _ => displaced.unwrap_or(1.0),
         };
@@ -172,7 +172,11 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
     let plastic = !choice.elements.is_empty();
     let mut notes = model.warnings.clone();
     if model.scene.accuracy.is_some() {
-        notes.push("the scene demands an accuracy: a run chooses its meshes itself, the figures here are of the scene's own".to_string());
+        notes.push(
+            "the scene demands an accuracy: a run chooses its meshes itself, the figures here are \
+             of the scene's own"
+                .to_string(),
+        );
     }
     let of_contact = contact.flops / TYPICAL_FLOPS;
     let speed = match backend {
@@ -194,8 +198,9 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
     }
     if run > LONG {
         notes.push(format!(
-            "the run may take about {:.0} min, and the estimate of its errors once or twice that: fewer elements (resolution) or a \
-             smaller largest load make it shorter, `--no-estimate` leaves the estimate out",
+            "the run may take about {:.0} min, and the estimate of its errors once or twice that: \
+             fewer elements (resolution) or a smaller largest load make it shorter, \
+             `--no-estimate` leaves the estimate out",
             (run / 60.0).ceil()
         ));
     }

@@ -1,4 +1,4 @@
-//! What is read off the current state beside contact pressures: approach, dent, quality.
+//! What is read off the current state besides contact pressures: approach, dent, quality.
 
 use super::solver::Solver;
 use super::stress_field::{OfStresses, StressField};

@@ -85,8 +85,8 @@ impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
         Some(first + place)
     }
 
-    /// The elements of the zone that have flowed, ascending, with their history.
-    pub(super) fn flowed(&self) -> impl Iterator<Item = (usize, &'a [PlasticState<S>])> {
+    /// The elements of the zone that have yielded, ascending, with their history.
+    pub(super) fn yielded(&self) -> impl Iterator<Item = (usize, &'a [PlasticState<S>])> {
         let zone = self.zone;
         let elements = self.in_zone.iter().enumerate();
         elements

@@ -23,9 +23,9 @@ pub(super) struct Stresses {
     pub(super) reactions: Vec<f64>,
     /// Elements that may yield, are not in the zone and carry more than the yield stress.
     pub(super) beyond_yield_outside: Vec<usize>,
-    /// Gauss points that have flowed, by body.
+    /// Gauss points that have yielded, by body.
     pub(super) plastic_points: Vec<usize>,
-    /// Volume of the Gauss points that have flowed.
+    /// Volume of the Gauss points that have yielded.
     pub(super) plastic_volume: f64,
     /// Work on their plastic strains.
     pub(super) plastic_work: f64,
@@ -84,7 +84,7 @@ impl Stresses {
                 }
             }
         }
-        for (e, history) in field.flowed() {
+        for (e, history) in field.yielded() {
             let gradients = field.model.gradients(&field.kernel, e);
             let body = model.mesh.element_body[e] as usize;
             let surface = nearest_pair(model, e);

@@ -2,7 +2,7 @@
 //!
 //! A first guess from geometry (near the contact surfaces) lets the yield load be found. The
 //! elastic stress at the program's extreme loads then predicts how far yielding spreads; a guard
-//! layer round the prediction watches, and when it flows the zone grows.
+//! layer round the prediction watches, and when it yields the zone grows.
 
 use super::region::{Reach, Region};
 use super::solver::Solver;
@@ -268,7 +268,7 @@ mod tests {
     }
 
     /// Under a point contact stress falls with the cube root of the load: at an eighth of it an
-    /// element is predicted to flow whose ratio at the whole load is twice the limit, in line
+    /// element is predicted to yield whose ratio at the whole load is twice the limit, in line
     /// contact with its square root at a quarter.
     #[test]
     fn a_stage_of_the_load_takes_the_elements_that_flow_by_then() {

@@ -152,7 +152,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Kernel<D, S
     }
 
     /// An element at its sampling points, for the coordinates of its nodes.
-    pub fn sampling(&self, shape: Shape, nodes: &[[f64; D]; N]) -> Sampling<D, S, P, N> {
+    pub(crate) fn sampling(&self, shape: Shape, nodes: &[[f64; D]; N]) -> Sampling<D, S, P, N> {
         Sampling {
             at: self.at(self.sampling, shape, nodes),
             mean: self

@@ -61,7 +61,7 @@ impl<const S: usize> Default for PlasticState<S> {
 
 impl<const S: usize> PlasticState<S> {
     /// The same with another number of components: zeros for those it has not.
-    pub fn resized<const T: usize>(&self) -> PlasticState<T> {
+    pub(crate) fn resized<const T: usize>(&self) -> PlasticState<T> {
         PlasticState {
             strain: resized(&self.strain),
             equivalent: self.equivalent,
@@ -82,7 +82,7 @@ pub struct Update<const S: usize> {
     /// `D - D_ep`: what plastic flow takes off the elastic stiffness. Zero where elastic.
     pub softening: Softening<S>,
     /// Whether plastic flow took place.
-    pub flows: bool,
+    pub yields: bool,
 }
 
 impl Material {
@@ -99,13 +99,8 @@ impl Material {
     }
 
     /// Shear modulus `G = E / (2 (1 + nu))`.
-    pub fn shear_modulus(&self) -> f64 {
+    pub(crate) fn shear_modulus(&self) -> f64 {
         self.youngs_modulus / (2.0 * (1.0 + self.poissons_ratio))
-    }
-
-    /// Bulk modulus `K = E / (3 (1 - 2 nu))`.
-    pub fn bulk_modulus(&self) -> f64 {
-        self.youngs_modulus / (3.0 * (1.0 - 2.0 * self.poissons_ratio))
     }
 
     /// Work on plastic strains per volume, 0 for an elastic material: `int sigma_y deps_p` on the
@@ -118,8 +113,8 @@ impl Material {
         self.hardening.as_ref().map_or(0.0, worked) + stored
     }
 
-    /// The stress of a total strain, less the back stress `2/3 C eps_p`: what the yield condition is
-    /// of.
+    /// The stress of a total strain, less the back stress `2/3 C eps_p`: what the yield condition
+    /// is of.
     #[inline]
     fn relative_stress<const S: usize>(
         &self,
@@ -175,7 +170,7 @@ impl Material {
     /// Whether a total strain lies within the yield surface of a history: [`Material::integrate`]
     /// then changes nothing.
     #[inline]
-    pub fn stays_elastic<const S: usize>(
+    pub(crate) fn stays_elastic<const S: usize>(
         &self,
         law: &Lame,
         strain: &[f64; S],
@@ -192,7 +187,7 @@ impl Material {
     ///
     /// # Source
     /// J. C. Simo, T. J. R. Hughes, *Computational Inelasticity* (1998), boxes 3.1 to 3.3.
-    pub fn integrate<const S: usize>(
+    pub(crate) fn integrate<const S: usize>(
         &self,
         law: &Lame,
         strain: &[f64; S],
@@ -201,7 +196,7 @@ impl Material {
         let idle = Update {
             state: *old,
             softening: Softening::NONE,
-            flows: false,
+            yields: false,
         };
         let Some(hardening) = &self.hardening else {
             return idle;

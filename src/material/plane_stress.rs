@@ -1,9 +1,9 @@
 //! Return mapping that keeps the stress in the plane.
 //!
-//! With `P = [[2, -1, 0], [-1, 2, 0], [0, 0, 6]]/3`, the stress `xi = sigma - alpha` relative to a back
-//! stress of the plane with `P alpha = 2/3 C eps_p`, `q^2 = 3/2 xi' P xi`, `eps_p += c P xi` and
-//! `alpha += 2/3 C c xi`, the trial stress decouples in the eigenvectors that `D` and `P` share. With
-//! `h = 1 + 2/3 C c`:
+//! With `P = [[2, -1, 0], [-1, 2, 0], [0, 0, 6]]/3`, the stress `xi = sigma - alpha` relative to a
+//! back stress of the plane with `P alpha = 2/3 C eps_p`, `q^2 = 3/2 xi' P xi`, `eps_p += c P xi`
+//! and `alpha += 2/3 C c xi`, the trial stress decouples in the eigenvectors that `D` and `P`
+//! share. With `h = 1 + 2/3 C c`:
 //!
 //! ```text
 //! q(c)^2 = a^2/(2 (h + c E/(3 (1 - nu)))^2) + (3/2 b^2 + 3 t^2)/(h + 2 G c)^2
@@ -12,9 +12,11 @@
 //! ```
 //!
 //! # Source
-//! Simo and Hughes (1998), section 3.4, box 3.3; J. C. Simo, R. L. Taylor (1986), doi:10.1002/nme.1620220310.
+//! Simo and Hughes (1998), section 3.4, box 3.3; J. C. Simo, R. L. Taylor (1986),
+//! doi:10.1002/nme.1620220310.
 
 use super::{Hardening, Lame, Material, PlasticState, Softening, Update};
+use crate::root::{self, Accuracy};
 
 pub(super) fn integrate<const S: usize>(
     material: &Material,
@@ -95,12 +97,12 @@ pub(super) fn integrate<const S: usize>(
             along: 1.0 / (p_xi_p + resistance),
             normal,
         },
-        flows: true,
+        yields: true,
     }
 }
 
-/// Solves `q(c) = sigma_y(strain + 2/3 c q(c))`: the left side falls, the right side does not, so a bracket
-/// with regula falsi (Illinois) always converges.
+/// Solves `q(c) = sigma_y(strain + 2/3 c q(c))`: the left side falls, the right side does not, so
+/// that there is a bracket.
 fn solve_multiplier(
     hardening: &Hardening,
     strain: f64,
@@ -120,24 +122,9 @@ fn solve_multiplier(
         high *= 2.0;
         f_high = excess(high);
     }
-    for _ in 0..100 {
-        let c = (low * f_high - high * f_low) / (f_high - f_low);
-        let c = if c > low && c < high {
-            c
-        } else {
-            0.5 * (low + high)
-        };
-        let f = excess(c);
-        if f.abs() <= 4.0 * f64::EPSILON * scale || high - low <= f64::EPSILON * high {
-            return c;
-        }
-        if f > 0.0 {
-            (low, f_low) = (c, f);
-            f_high *= 0.5;
-        } else {
-            (high, f_high) = (c, f);
-            f_low *= 0.5;
-        }
-    }
-    0.5 * (low + high)
+    let accuracy = Accuracy {
+        value: 4.0 * f64::EPSILON * scale,
+        place: f64::EPSILON,
+    };
+    root::between([(low, f_low), (high, f_high)], accuracy, excess)
 }

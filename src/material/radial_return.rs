@@ -29,12 +29,16 @@ pub(super) fn integrate<const S: usize>(
     let q = 1.5f64.sqrt() * norm;
     let kinematic = material.kinematic_modulus;
     let (d, slope) = hardening.solve(q, 3.0 * g + kinematic, old.equivalent);
-    let flow = 1.5 * d / q;
+    let multiplier = 1.5 * d / q;
     let mut state = *old;
     state.equivalent += d;
     for (i, (strain, s)) in state.strain.iter_mut().zip(&s).enumerate() {
         // Shear strains are engineering strains.
-        *strain += if i < 3 { flow * s } else { 2.0 * flow * s };
+        *strain += if i < 3 {
+            multiplier * s
+        } else {
+            2.0 * multiplier * s
+        };
     }
     let shrink = 3.0 * g * d / q;
     Update {
@@ -44,6 +48,6 @@ pub(super) fn integrate<const S: usize>(
             along: 2.0 * g * (1.0 / (1.0 + (slope + kinematic) / (3.0 * g)) - shrink),
             normal: s.map(|s| s / norm),
         },
-        flows: true,
+        yields: true,
     }
 }

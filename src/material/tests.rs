@@ -93,7 +93,7 @@ fn stress_after_flow_lies_on_the_yield_surface() {
                 equivalent: 0.0011,
             };
             let new = m.integrate(&d, &strain, &old);
-            assert!(new.flows);
+            assert!(new.yields);
             let q = von_mises(&m.relative_stress(&d, &strain, &new.state));
             let y = curve.yield_stress(new.state.equivalent);
             assert!(
@@ -167,8 +167,8 @@ fn softening_is_the_derivative_of_the_stress() {
 }
 
 /// The tangent of plane stress against central differences over many states: strains from just
-/// beyond yield to fifty times that, histories of either sign, all curves. Unloading points are elastic and
-/// lose nothing; points whose differences straddle the knee of a table are left out.
+/// beyond yield to fifty times that, histories of either sign, all curves. Unloading points are
+/// elastic and lose nothing; points whose differences straddle the knee of a table are left out.
 #[test]
 fn the_tangent_of_plane_stress_is_consistent_in_states_of_all_kinds() {
     let mut seed = 1u64;
@@ -178,7 +178,7 @@ fn the_tangent_of_plane_stress_is_consistent_in_states_of_all_kinds() {
             .wrapping_add(1442695040888963407);
         (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     };
-    let (mut flowing, mut elastic) = (0, 0);
+    let (mut yielding, mut elastic) = (0, 0);
     for round in 0..3000 {
         let curve = curves()[round % 3].clone();
         let knees: &[f64] = if round % 3 == 2 { &[0.004, 0.01] } else { &[] };
@@ -197,7 +197,7 @@ fn the_tangent_of_plane_stress_is_consistent_in_states_of_all_kinds() {
             equivalent: 0.3 * size * (1.0 + random()),
         };
         let update = m.integrate(&d, &strain, &old);
-        if !update.flows {
+        if !update.yields {
             assert_eq!(update.softening, Softening::NONE);
             elastic += 1;
             continue;
@@ -208,7 +208,7 @@ fn the_tangent_of_plane_stress_is_consistent_in_states_of_all_kinds() {
         if just_flows || knees.iter().any(near_knee) {
             continue;
         }
-        flowing += 1;
+        yielding += 1;
         let elastic = matrix::<4>(|e| d.times(e));
         let lost = matrix(|e| update.softening.times(e));
         for j in [0, 1, 3] {
@@ -228,10 +228,11 @@ fn the_tangent_of_plane_stress_is_consistent_in_states_of_all_kinds() {
             }
         }
     }
-    assert!(flowing > 1000 && elastic > 100, "{flowing} {elastic}");
+    assert!(yielding > 1000 && elastic > 100, "{yielding} {elastic}");
 }
 
-/// One-element cyclic test, uniaxial stress in plane stress: the yield stress grows with the path length.
+/// One-element cyclic test, uniaxial stress in plane stress: the yield stress grows with the path
+/// length.
 #[test]
 fn cyclic_uniaxial_stress_follows_the_hardening_curve() {
     let (e, h, y) = (200.0, 20.0, 1.0);
@@ -276,6 +277,6 @@ fn elastic_material_never_flows() {
     let d = m.lame();
     assert!(
         !m.integrate(&d, &[1.0, -2.0, 0.0, 3.0], &PlasticState::default())
-            .flows
+            .yields
     );
 }

@@ -4,8 +4,8 @@
 //! New nodes lie where the element's own map puts them (on the straight line or the parabola of a
 //! side), on a surface whose [`Curve`] is known on that curve. Where a surface faces another one in
 //! a contact, its new nodes are put where those of the other's face them, so that the nodes of the
-//! finer mesh pair as those of the mesh did, and their gaps are those of the surfaces. Old nodes keep
-//! their indices and labels.
+//! finer mesh pair as those of the mesh did, and their gaps are those of the surfaces. Old nodes
+//! keep their indices and labels.
 
 use super::surface::{PAIRING, facing, longest_facet, normals};
 use super::{Curve, Facet, Mesh, Surface};

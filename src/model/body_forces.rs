@@ -50,8 +50,8 @@ pub(super) fn on_body(
     }
 }
 
-/// The centripetal field `omega^2 (x - x_0)`, which points away from the axis. In the plane the axis
-/// is normal to it, of an axisymmetric model it is the axis of symmetry.
+/// The centripetal field `omega^2 (x - x_0)`, which points away from the axis. In the plane the
+/// axis is normal to it, of an axisymmetric model it is the axis of symmetry.
 pub(super) fn spinning(space: Space, rotation: &Rotation) -> impl Fn(Vector) -> Vector {
     let center = rotation.center.map_or([0.0; 3], |c| c.vector());
     let axis: Vector = match space {

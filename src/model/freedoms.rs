@@ -52,13 +52,13 @@ pub struct Freedoms {
     pub basis: ContactBasis,
 }
 
-/// A support within 30 degrees of a contact's tangent is meant to lie in it: the normal of the discretised surface
-/// is then turned into the symmetry plane.
+/// A support within 30 degrees of a contact's tangent is meant to lie in it: the normal of the
+/// discretised surface is then turned into the symmetry plane.
 const NEARLY_TANGENT: f64 = 0.5;
 
 impl Freedoms {
-    /// Numbers the freedoms of a scene. Contact normals on symmetry planes are turned into the plane
-    /// (`pairs` is updated). `master_normals` are those of masters that face no single node.
+    /// Numbers the freedoms of a scene. Contact normals on symmetry planes are turned into the
+    /// plane (`pairs` is updated). `master_normals` are those of masters that face no single node.
     ///
     /// # Errors
     /// Input errors: a support in the direction of a contact normal, turned supports that disagree,
@@ -137,8 +137,9 @@ impl Freedoms {
                 let alike = |end: &usize| held(*end, axis) == held(node, axis);
                 if !matches!(slot, Slot::Free(_)) && !ends.iter().all(alike) {
                     return Err(Error::input(format!(
-                        "node {} in the middle of an edge in contact is held along {}, but an end of \
-                         the edge (nodes {} and {}) is not held alike: hold or release the whole edge",
+                        "node {} in the middle of an edge in contact is held along {}, but an end \
+                         of the edge (nodes {} and {}) is not held alike: hold or release the \
+                         whole edge",
                         mesh.node_label(node),
                         in_words(axis, mesh.dimension),
                         mesh.node_label(ends[0]),
@@ -208,7 +209,8 @@ impl Freedoms {
         Ok(())
     }
 
-    /// Prescribed displacements become slots; surfaces held plane become ties (group of each node and direction).
+    /// Prescribed displacements become slots; surfaces held plane become ties (group of each node
+    /// and direction).
     fn apply_loads(&mut self, scene: &Scene, mesh: &Mesh, touches: &[bool]) -> Result<Ties> {
         let mut ties = Ties::new();
         for (index, load) in scene.load.iter().enumerate() {
@@ -330,7 +332,7 @@ impl Freedoms {
     }
 
     /// A vector at a node, given in global axes, in the local ones.
-    pub fn to_local(&self, node: usize, vector: Vector) -> Vector {
+    pub(crate) fn to_local(&self, node: usize, vector: Vector) -> Vector {
         if !self.is_turned(node) {
             return vector;
         }
@@ -338,7 +340,7 @@ impl Freedoms {
     }
 
     /// Which local axis lies along a global direction (either sense), if one does.
-    pub fn local_axis(&self, node: usize, direction: usize) -> Option<usize> {
+    pub(crate) fn local_axis(&self, node: usize, direction: usize) -> Option<usize> {
         let axes = self.local(node);
         (0..self.per_node).find(|&i| dot(axes[i], unit(direction)).abs() > 1.0 - ALIGNED)
     }
@@ -384,7 +386,7 @@ impl Freedoms {
     }
 
     /// Names a freedom for messages: body, node and direction.
-    pub fn describe(&self, mesh: &Mesh, freedom: usize) -> String {
+    pub(crate) fn describe(&self, mesh: &Mesh, freedom: usize) -> String {
         let Some(&(node, local)) = self.owners.get(freedom) else {
             return format!("freedom {freedom}");
         };
@@ -448,7 +450,8 @@ impl Supports {
             }
         }
         if scene.kind.is_axisymmetric() {
-            // On the axis of revolution the radial displacement vanishes whether or not the scene says so.
+            // On the axis of revolution the radial displacement vanishes whether or not the scene
+            // says so.
             let radius = (0..mesh.n_nodes())
                 .map(|i| mesh.point(i)[0])
                 .fold(0.0, f64::max);

@@ -39,8 +39,8 @@ pub struct LoadCase {
     pub measures: Magnitude,
     /// Nodes of the loaded set, for the approach.
     pub nodes: Vec<usize>,
-    /// Share of each of these nodes in the mean over the set: its part of a surface's area (the integral of its shape function), equal
-    /// parts of a node set. They add up to 1.
+    /// Share of each of these nodes in the mean over the set: its part of a surface's area (the
+    /// integral of its shape function), equal parts of a node set. They add up to 1.
     pub shares: Vec<f64>,
     /// Body of these nodes, for the approach.
     pub body: u32,
@@ -63,8 +63,8 @@ impl LoadCase {
         self.nodal.iter().map(|(_, f)| length(*f)).sum()
     }
 
-    /// The largest size that the load factor drives it to, for a load factor of 1 where it is proportional: a force on nodes, or a
-    /// displacement; zero for a constant load.
+    /// The largest size that the load factor drives it to, for a load factor of 1 where it is
+    /// proportional: a force on nodes, or a displacement; zero for a constant load.
     pub fn driven(&self, unit: f64) -> f64 {
         let factor = match &self.history {
             History::Proportional => unit.abs(),

@@ -39,7 +39,8 @@ impl ContactRows {
     pub(super) fn of(mesh: &Mesh, freedoms: &Freedoms, pairs: &[Pair]) -> Result<Self> {
         let held = |node: usize| {
             Error::input(format!(
-                "node {} belongs to a contact pair but its normal displacement is held by a support or load",
+                "node {} belongs to a contact pair but its normal displacement is held by a \
+                 support or load",
                 mesh.node_label(node)
             ))
         };
@@ -108,7 +109,7 @@ impl ContactRows {
     }
 
     /// Adds what forces of the rows, compressive positive, do to the contact freedoms: `-B' r`.
-    pub fn add_forces(&self, forces: &[f64], mut add: impl FnMut(usize, f64)) {
+    pub(crate) fn add_forces(&self, forces: &[f64], mut add: impl FnMut(usize, f64)) {
         for (row, force) in self.entries.iter().zip(forces) {
             for &(i, b) in row {
                 add(i, -b * force);
@@ -117,7 +118,7 @@ impl ContactRows {
     }
 
     /// Displacement along the normal of what faces the slave, and of the slave.
-    pub fn both_sides(&self, row: usize, contact: &[f64]) -> [f64; 2] {
+    pub(crate) fn both_sides(&self, row: usize, contact: &[f64]) -> [f64; 2] {
         let [masters @ .., slave] = self.entries[row].as_slice() else {
             return [0.0; 2];
         };
@@ -135,7 +136,7 @@ impl ContactRows {
     /// Takes the forces that rows alone carry off a load on the contact freedoms and adds them, as
     /// compressive forces of the rows, to `carried`: of a pair of nodes what is left is the same on
     /// both, else nothing is left on the slave. Open rows are passed over.
-    pub fn take_carried(&self, contact: &mut [f64], carried: &mut [f64], open: &[bool]) {
+    pub(crate) fn take_carried(&self, contact: &mut [f64], carried: &mut [f64], open: &[bool]) {
         if self.are_apart {
             let (first, second) = contact.split_at_mut(carried.len());
             let pairs = first.iter_mut().zip(second).zip(carried);

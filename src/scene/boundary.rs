@@ -19,9 +19,9 @@ pub struct Contact {
     pub normal: Option<Components>,
     /// Initial gap for all pairs instead of the geometric one.
     pub gap: Option<f64>,
-    /// Which surface has the slaves, at whose nodes gaps and pressures are: `"auto"` takes the finer
-    /// one (the coarser where its facets are linear and more than twice as long), the second where
-    /// nodes face each other.
+    /// Which surface has the slaves, at whose nodes gaps and pressures are: `"auto"` takes the
+    /// finer one (the coarser where its facets are linear and more than twice as long), the second
+    /// where nodes face each other.
     #[serde(default, skip_serializing_if = "SlaveSide::is_auto")]
     pub slave: SlaveSide,
     /// Interference: taken off every initial gap, applied gradually before the load program.
@@ -44,7 +44,7 @@ pub enum SlaveSide {
 
 impl SlaveSide {
     /// Whether it is left open.
-    pub fn is_auto(&self) -> bool {
+    pub(crate) fn is_auto(&self) -> bool {
         *self == SlaveSide::Auto
     }
 }
@@ -122,23 +122,27 @@ pub struct Load {
     pub name: String,
     /// Surface or node set that is loaded; the body of an `acceleration` or a `rotation`.
     pub on: String,
-    /// Total force (x, y; of a solid x, y, z), shared by the nodes like a uniform traction (surface) or equally (node set).
+    /// Total force (x, y; of a solid x, y, z), shared by the nodes like a uniform traction
+    /// (surface) or equally (node set).
     pub force: Option<Components>,
     /// Pressure on a surface, positive into the body.
     pub pressure: Option<f64>,
     /// Uniform traction (x, y; of a solid x, y, z) on a surface.
     pub traction: Option<Components>,
-    /// Traction of the Kirsch field: plate with a hole of `radius` at the origin under remote tensions.
+    /// Traction of the Kirsch field: plate with a hole of `radius` at the origin under remote
+    /// tensions.
     pub kirsch: Option<Kirsch>,
     /// Prescribed displacement: the given components, at load factor 1 of this load.
     pub displacement: Option<Displacement>,
-    /// A total force on a surface that is held plane: all its nodes share the displacement in `direction`.
+    /// A total force on a surface that is held plane: all its nodes share the displacement in
+    /// `direction`.
     pub plane_force: Option<PlaneForce>,
-    /// Force per mass on all of a body (x, y; of a solid x, y, z), such as gravity: its material needs a `density`.
+    /// Force per mass on all of a body (x, y; of a solid x, y, z), such as gravity: its material
+    /// needs a `density`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub acceleration: Option<Components>,
-    /// Rotation of a body, whose material needs a `density`: the load factor multiplies the forces, which go with the square of
-    /// the speed.
+    /// Rotation of a body, whose material needs a `density`: the load factor multiplies the forces,
+    /// which go with the square of the speed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rotation: Option<Rotation>,
     /// How it depends on the load factor.
@@ -211,7 +215,8 @@ pub enum History {
     Proportional,
     /// `"constant"`: a preload, applied gradually before the load program starts.
     Constant,
-    /// `[[alpha, factor], ...]`: piecewise linear in alpha, flat outside; the value at 0 is a preload.
+    /// `[[alpha, factor], ...]`: piecewise linear in alpha, flat outside; the value at 0 is a
+    /// preload.
     Table(Vec<[f64; 2]>),
 }
 
@@ -223,8 +228,9 @@ impl JsonSchema for History {
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let table = generator.subschema_for::<Vec<[f64; 2]>>();
         json_schema!({
-            "description": "How a load depends on the load factor: `\"proportional\"` (the default), `\"constant\"` (a preload), or \
-                            a table of [load factor, multiple], piecewise linear.",
+            "description": "How a load depends on the load factor: `\"proportional\"` (the \
+                            default), `\"constant\"` (a preload), or a table of [load factor, \
+                            multiple], piecewise linear.",
             "anyOf": [{ "enum": ["proportional", "constant"] }, table],
         })
     }

@@ -1,8 +1,8 @@
 //! Elements cut in smaller ones of their shape, half as large: four in the plane, eight in space.
 //!
 //! Each corner keeps a child that is the element at half its size. Between them lie, of a triangle,
-//! one child turned by half a turn; of a prism, two such; of a tetrahedron, an octahedron that is cut
-//! in four along one of its three diagonals. The shortest keeps the children's angles from
+//! one child turned by half a turn; of a prism, two such; of a tetrahedron, an octahedron that is
+//! cut in four along one of its three diagonals. The shortest keeps the children's angles from
 //! degenerating, however often they are cut (M. E. G. Ong, *SIAM J. Sci. Comput.* 15, 1994, 1134).
 
 use super::{Place, Shape};
@@ -14,8 +14,8 @@ use std::sync::OnceLock;
 pub struct Cut {
     /// Places of the nodes of all children, each once; those of the element's own nodes come first.
     pub places: Vec<Place>,
-    /// The corners between which each place lies, with the values of their linear functions there in
-    /// parts of [`WHOLE`]: the same from both elements at a facet.
+    /// The corners between which each place lies, with the values of their linear functions there
+    /// in parts of [`WHOLE`]: the same from both elements at a facet.
     pub between: Vec<Vec<(usize, u32)>>,
     /// Nodes of each child, as indices of `places`.
     pub children: Vec<Vec<usize>>,
@@ -24,14 +24,14 @@ pub struct Cut {
     /// The new places on each facet.
     pub on_facet: Vec<Vec<usize>>,
     /// How a place in the middle of a quadrilateral or of a hexahedron moves where the new nodes on
-    /// its sides do: a sum of their displacements (W. J. Gordon, C. A. Hall, *Int. J. Numer. Methods
-    /// Eng.* 7, 1973, 461). Those of quadrilaterals come first. Of linear elements only: places on
-    /// the sides of quadratic ones move by a higher order of the element size.
+    /// its sides do: a sum of their displacements (W. J. Gordon, C. A. Hall, *Int. J. Numer.
+    /// Methods Eng.* 7, 1973, 461). Those of quadrilaterals come first. Of linear elements only:
+    /// places on the sides of quadratic ones move by a higher order of the element size.
     pub follows: Vec<(usize, Vec<(f64, usize)>)>,
 }
 
-/// The value that a corner's linear function has at the corner itself, in [`Cut::between`]. Places at
-/// quarters of a side have products of up to three quarters.
+/// The value that a corner's linear function has at the corner itself, in [`Cut::between`]. Places
+/// at quarters of a side have products of up to three quarters.
 pub const WHOLE: u32 = 64;
 
 /// From the reference coordinates of a child to those of the element.
@@ -185,8 +185,8 @@ impl Cut {
         })
     }
 
-    /// [`Cut::follows`]: half the sum over the sides of a quadrilateral; half the sum over the faces
-    /// of a hexahedron less a quarter of that over its edges.
+    /// [`Cut::follows`]: half the sum over the sides of a quadrilateral; half the sum over the
+    /// faces of a hexahedron less a quarter of that over its edges.
     fn middles(&self) -> Vec<(usize, Vec<(f64, usize)>)> {
         let corners = |place: usize| self.between[place].iter().map(|(corner, _)| *corner);
         let mut out = Vec::new();

@@ -22,8 +22,8 @@ pub const MAX_FACET_NODES: usize = 8;
 
 /// The shape of an element. In the plane nodes run counter-clockwise, corners first, then mid-side
 /// nodes starting with the one between corners 0 and 1. In space they are in the order of VTK: a
-/// hexahedron's or prism's base counter-clockwise seen from inside, then its top, then the middles of
-/// the edges of base, top, and between them.
+/// hexahedron's or prism's base counter-clockwise seen from inside, then its top, then the middles
+/// of the edges of base, top, and between them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Shape {
@@ -129,7 +129,7 @@ impl Shape {
     }
 
     /// The shape with a number of Gmsh.
-    pub fn of_gmsh(number: u64) -> Option<Shape> {
+    pub(crate) fn of_gmsh(number: u64) -> Option<Shape> {
         Self::ALL
             .into_iter()
             .find(|shape| shape.reference().gmsh == number)
@@ -162,18 +162,18 @@ impl Shape {
     }
 
     /// Number of facets.
-    pub fn n_facets(self) -> usize {
+    pub(crate) fn n_facets(self) -> usize {
         self.reference().facets.len()
     }
 
     /// Number of Gauss points.
-    pub fn n_gauss_points(self) -> usize {
+    pub(crate) fn n_gauss_points(self) -> usize {
         self.reference().gauss.len()
     }
 
     /// True where the strain is the same all over an element: such elements lock in isochoric
     /// plastic flow, and have no points of superconvergent stress.
-    pub fn has_constant_strain(self) -> bool {
+    pub(crate) fn has_constant_strain(self) -> bool {
         let row = self.reference();
         row.nodes.len() == row.dimension + 1
     }
@@ -189,12 +189,12 @@ impl Shape {
     }
 
     /// What a facet is as an element of its own.
-    pub fn facet_reference(self, local: usize) -> &'static FacetReference {
+    pub(crate) fn facet_reference(self, local: usize) -> &'static FacetReference {
         FacetReference::with_nodes(self.dimension() - 1, self.facet(local).len())
     }
 
     /// Whether an element has one corner more than dimensions.
-    pub fn is_simplex(self) -> bool {
+    pub(crate) fn is_simplex(self) -> bool {
         self.n_corners() == self.dimension() + 1
     }
 

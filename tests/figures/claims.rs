@@ -1,5 +1,5 @@
-//! The page data/accuracy/claims.md: stated errors beside true ones over families of meshes, and what demands cost. Run with
-//! `cargo run --release --example claims`.
+//! The page data/accuracy/claims.md: stated errors beside true ones over families of meshes, and
+//! what demands cost. Run with `cargo run --release --example claims`.
 
 mod calibration;
 #[path = "../accuracy/families.rs"]
@@ -12,18 +12,26 @@ mod unseen;
 use families::{Claim, Family};
 use std::fmt::Write;
 
-const HEAD: &str = "# Stated errors beside true ones\n\n\
-    `cargo run --release --example claims` writes this page. Each family of meshes is run from coarse to fine; every reported quantity of every mesh is \
-    held against its closed form, or against a mesh several times finer with many more increments where there is none. Errors are relative to the \
-    largest size of the quantity in the run; those below 1e-6 are left out.\n\n\
-    The constants of `brinell::accuracy` come from L. Eca, M. Hoekstra 2014, P. Roache 1998 and from how an edge is read. `calibration` marks the families \
-    that were looked at while the procedure was put together. The second group was meant to be run once; two things were changed after it had been, both seen \
-    elsewhere first (finer meshes for comparison where a contact has fewer than nine pairs on a side; no floor beneath an order that is believed). Before them \
-    96.1 % of its 1524 figures were within and the median was 6.3. So a third group was written when the procedure was finished (`unseen`: other \
-    materials, geometries, elements and histories), and nothing of the estimate was changed after it was run. (One of its scenes, the tube into a sleeve with quad8, \
-    did not run at first: the solver was mended, the estimate was not.)\n";
+const HEAD: &str = "# Stated errors beside true ones\n\n`cargo run --release --example claims` \
+                    writes this page. Each family of meshes is run from coarse to fine; every \
+                    reported quantity of every mesh is held against its closed form, or against a \
+                    mesh several times finer with many more increments where there is none. Errors \
+                    are relative to the largest size of the quantity in the run; those below 1e-6 \
+                    are left out.\n\nThe constants of `brinell::accuracy` come from L. Eca, M. \
+                    Hoekstra 2014, P. Roache 1998 and from how an edge is read. `calibration` \
+                    marks the families that were looked at while the procedure was put together. \
+                    The second group was meant to be run once; two things were changed after it \
+                    had been, both seen elsewhere first (finer meshes for comparison where a \
+                    contact has fewer than nine pairs on a side; no floor beneath an order that is \
+                    believed). Before them 96.1 % of its 1524 figures were within and the median \
+                    was 6.3. So a third group was written when the procedure was finished \
+                    (`unseen`: other materials, geometries, elements and histories), and nothing \
+                    of the estimate was changed after it was run. (One of its scenes, the tube \
+                    into a sleeve with quad8, did not run at first: the solver was mended, the \
+                    estimate was not.)\n";
 
-const COLUMNS: &str = "| figures | within the stated error | median of stated over true | largest true over stated |\n|---|---|---|---|---|\n";
+const COLUMNS: &str = "| figures | within the stated error | median of stated over true | largest \
+                       true over stated |\n|---|---|---|---|---|\n";
 
 fn main() {
     let folder = tempfile::tempdir().unwrap();
@@ -77,7 +85,8 @@ fn by_quantity(group: &str, claims: &[Claim], page: &mut String) {
     writeln!(page, "| all | {} |", row(&all)).unwrap();
     let mut beyond: Vec<&Claim> = claims.iter().filter(|c| c.truth > c.stated).collect();
     beyond.sort_by(|a, b| (b.truth / b.stated).total_cmp(&(a.truth / a.stated)));
-    *page += "\nThe true errors that lie farthest beyond the stated ones:\n\n| family | mesh | quantity | true | stated | order seen |\n|---|---|---|---|---|---|\n";
+    *page += "\nThe true errors that lie farthest beyond the stated ones:\n\n| family | mesh | \
+              quantity | true | stated | order seen |\n|---|---|---|---|---|---|\n";
     for claim in beyond.iter().take(12) {
         let order = claim.order.map_or("-".to_string(), |p| format!("{p:.1}"));
         let Claim {

@@ -1,7 +1,8 @@
-//! Own weight and rotation against closed forms: a column, a rotating annulus (elastic, first yield, limit speed), a block that
-//! rests on another by its weight.
+//! Own weight and rotation against closed forms: a column, a rotating annulus (elastic, first
+//! yield, limit speed), a block that rests on another by its weight.
 //!
-//! Source: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, 3rd ed. (1970), sections 9 and 32 (rotating disks).
+//! Source: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, 3rd ed. (1970), sections 9 and 32
+//! (rotating disks).
 
 use crate::run::{close, run, yield_load};
 use brinell::scene::Scene;
@@ -12,7 +13,8 @@ fn parse(text: &str) -> Scene {
     Scene::parse(text, "test").unwrap()
 }
 
-/// A column that stands on its foot and carries its weight: `u(L) = rho g L^2/(2 E)`, exact in quadratic elements.
+/// A column that stands on its foot and carries its weight: `u(L) = rho g L^2/(2 E)`, exact in
+/// quadratic elements.
 #[test]
 fn a_column_settles_under_its_own_weight() {
     for (kind, part, fix, acceleration) in [
@@ -24,7 +26,9 @@ fn a_column_settles_under_its_own_weight() {
         ),
         (
             "solid",
-            "brick = { x = [0.0, 1.0], y = [0.0, 1.0], z = [0.0, 10.0], elements = [1, 1, 3] }\nelement = \"hex20\"",
+            "brick = \
+             { x = [0.0, 1.0], y = [0.0, 1.0], z = [0.0, 10.0], elements = [1, 1, 3] }\nelement \
+             = \"hex20\"",
             "[\"z\"]",
             "[0.0, 0.0, -9810.0]",
         ),
@@ -75,7 +79,8 @@ const OUTER: f64 = 100.0;
 const NU: f64 = 0.3;
 const YIELD: f64 = 300.0;
 
-/// A quarter of a thin annulus that turns at a speed at which the hoop stress at the bore is the yield stress.
+/// A quarter of a thin annulus that turns at a speed at which the hoop stress at the bore is the
+/// yield stress.
 fn annulus(elements: usize, targets: &str) -> Scene {
     parse(&annulus_text(elements, targets))
 }
@@ -91,7 +96,12 @@ kind = "plane_stress"
 [[mesh.parts]]
 body = "disc"
 element = "quad8"
-ring = {{ center = [0.0, 0.0], radius = [{INNER}, {OUTER}], angle = [0.0, 90.0], elements = [{elements}, {elements}], bias = 4.0 }}
+[mesh.parts.ring]
+center = [0.0, 0.0]
+radius = [{INNER}, {OUTER}]
+angle = [0.0, 90.0]
+elements = [{elements}, {elements}]
+bias = 4.0
 [materials.steel]
 youngs_modulus = 210000.0
 poissons_ratio = {NU}
@@ -120,7 +130,8 @@ fn a_rotating_annulus_yields_first_at_its_bore() {
         let found = yield_load(&annulus(n, "[{ yield = true }]"));
         (found.first_yield.unwrap().alpha - 1.0).abs()
     });
-    // Stresses of second order and better: a halved element has a quarter of the error; a third where the next order still counts.
+    // Stresses of second order and better: a halved element has a quarter of the error; a third
+    // where the next order still counts.
     assert!(
         errors[1] < errors[0] / 3.0 && errors[2] < errors[1] / 3.0,
         "{errors:?}"
@@ -128,8 +139,9 @@ fn a_rotating_annulus_yields_first_at_its_bore() {
     assert!(errors[2] < 2e-3, "{errors:?}");
 }
 
-/// The square of the limit speed over that of first yield: the annulus flows all over, `d(r s_r)/dr = s_t - rho omega^2 r^2` with von Mises'
-/// `s_t = s_r/2 + sqrt(Y^2 - 3 s_r^2/4)`, and `s_r = 0` at both edges.
+/// The square of the limit speed over that of first yield: the annulus flows all over,
+/// `d(r s_r)/dr = s_t - rho omega^2 r^2` with von Mises' `s_t = s_r/2 + sqrt(Y^2 - 3 s_r^2/4)`, and
+/// `s_r = 0` at both edges.
 fn limit() -> f64 {
     let at_rim = |squared: f64| {
         let slope = |r: f64, t: f64| {
@@ -164,7 +176,8 @@ fn limit() -> f64 {
     low / first
 }
 
-/// A perfectly plastic annulus carries the limit speed and no more: the run ends where no equilibrium is found.
+/// A perfectly plastic annulus carries the limit speed and no more: the run ends where no
+/// equilibrium is found.
 #[test]
 fn a_rotating_annulus_ends_at_its_limit_speed() {
     let limit = limit();

@@ -1,11 +1,14 @@
-//! One element pulled and pushed: uniaxial stress follows isotropic and kinematic hardening through the whole program.
+//! One element pulled and pushed: uniaxial stress follows isotropic and kinematic hardening through
+//! the whole program.
 //!
-//! Source: the flow rule in one dimension; J. C. Simo and T. J. R. Hughes, Computational Inelasticity (1998), section 1.4.
+//! Source: the flow rule in one dimension; J. C. Simo and T. J. R. Hughes, Computational
+//! Inelasticity (1998), section 1.4.
 
 use crate::run::{close, run};
 use brinell::scene::Scene;
 
-/// Stress of a bar with isotropic hardening `Y + H eps` about the back stress `C eps_p` at each total strain of a history.
+/// Stress of a bar with isotropic hardening `Y + H eps` about the back stress `C eps_p` at each
+/// total strain of a history.
 fn bar(strains: &[f64], c: f64) -> Vec<f64> {
     let (e, y, h) = (200000.0, 200.0, 20000.0);
     let (mut plastic, mut equivalent) = (0.0, 0.0);
@@ -36,13 +39,19 @@ support = [{ on = "bar.left", fix = ["x"] }, { on = "bar.bottom", fix = ["y"] }]
 load = [{ on = "bar.top", displacement = { y = 1.0 } }]
 "#;
 const SOLID: &str = r#"
-mesh.parts = [{ body = "bar", brick = { x = [0.0, 1.0], y = [0.0, 1.0], z = [0.0, 1.0], elements = [1, 1, 1] } }]
 support = [
     { on = "bar.left", fix = ["x"] },
     { on = "bar.front", fix = ["y"] },
     { on = "bar.bottom", fix = ["z"] },
 ]
 load = [{ on = "bar.top", displacement = { z = 1.0 } }]
+[[mesh.parts]]
+body = "bar"
+[mesh.parts.brick]
+x = [0.0, 1.0]
+y = [0.0, 1.0]
+z = [0.0, 1.0]
+elements = [1, 1, 1]
 "#;
 
 #[test]
@@ -75,7 +84,8 @@ targets = [{}]
             let axis = if kind == "solid" { 2 } else { 1 };
             for (state, exact) in results.states.iter().zip(bar(&strains, modulus)) {
                 let stress = &state.fields.as_ref().unwrap().stress;
-                // Equilibrium is found to 1e-10 of the force; the worst stress is a tenth of the largest.
+                // Equilibrium is found to 1e-10 of the force; the worst stress is a tenth of the
+                // largest.
                 assert!(
                     (stress[axis] - exact).abs() <= 1e-8 * 200.0,
                     "{kind} {modulus} {}: {} {exact}",
@@ -89,7 +99,8 @@ targets = [{}]
     }
 }
 
-/// Work on plastic strains, the area of the loops: `int sigma deps_p` of the bar along a path finely divided.
+/// Work on plastic strains, the area of the loops: `int sigma deps_p` of the bar along a path
+/// finely divided.
 #[test]
 fn plastic_work_is_the_area_of_the_loops() {
     let turns = [0.0, 0.004, -0.003, 0.005];

@@ -1,4 +1,5 @@
-//! Published cases with known answers, run through the library: one case per file, its source at the head.
+//! Published cases with known answers, run through the library: one case per file, its source at
+//! the head.
 
 mod body_forces;
 mod circular_punch;

@@ -5,7 +5,7 @@ use super::{Reader, fields};
 use crate::deck::data::{Clearance, ContactPair, Equation, MaterialData, Section, Transform};
 use crate::deck::keyword::Keyword;
 use crate::error::Result;
-use crate::text::exact;
+use crate::number::exact;
 
 /// Most terms of an equation.
 const MOST_TERMS: u64 = 100_000;
@@ -78,7 +78,8 @@ impl Reader<'_> {
         let laws = ["ISOTROPIC", "KINEMATIC", "COMBINED", "JOHNSON COOK", "USER"];
         let law = keyword.choice(&self.source.files, "HARDENING", &laws)?;
         if law != "ISOTROPIC" || keyword.has("RATE") {
-            let why = "hardening is isotropic and independent of rate here: there is no kinematic hardening yet";
+            let why = "hardening is isotropic and independent of rate here: there is no kinematic \
+                       hardening yet";
             self.refuse(keyword, keyword.place, why);
             return self.skip();
         }
@@ -98,7 +99,8 @@ impl Reader<'_> {
             let last = rows.last().map_or(-1.0, |row| row[0]);
             if (rows.is_empty() && strain != 0.0) || strain <= last {
                 return Err(row.place.error(format!(
-                    "the plastic strain is {}; the first must be 0, and each greater than the one before",
+                    "the plastic strain is {}; the first must be 0, and each greater than the one \
+                     before",
                     exact(strain)
                 )));
             }
@@ -182,7 +184,8 @@ impl Reader<'_> {
             );
         } else if law != "HARD" {
             let how = format!(
-                "PRESSURE-OVERCLOSURE={law} is taken as hard contact: the surfaces do not overlap, and no stiffness is needed"
+                "PRESSURE-OVERCLOSURE={law} is taken as hard contact: the surfaces do not overlap, \
+                 and no stiffness is needed"
             );
             self.take(keyword, keyword.place, &how);
         }
@@ -224,7 +227,8 @@ impl Reader<'_> {
                 Ok(distance) if distance >= 0.0 && distance.is_finite() => Some(distance),
                 _ => {
                     let why = format!(
-                        "ADJUST={text}: only a distance, 0 or more, is read; give one or take it out"
+                        "ADJUST={text}: only a distance, 0 or more, is read; give one or take it \
+                         out"
                     );
                     return Err(keyword.error(files, why));
                 }

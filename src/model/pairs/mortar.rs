@@ -1,7 +1,7 @@
 //! Surfaces whose nodes do not face each other: dual mortar coupling, small sliding.
 //!
-//! With the trace basis `phi_j` of the slave, functions `psi_j` dual to it on each of its facets and
-//! the shape functions `N_k` of the master,
+//! With the trace basis `phi_j` of the slave, functions `psi_j` dual to it on each of its facets
+//! and the shape functions `N_k` of the master,
 //!
 //! ```text
 //!     int psi_j phi_l = delta_jl int phi_j,    D_j = int psi_j,    M_jk = int psi_j N_k
@@ -12,9 +12,9 @@
 //! [`crate::model::ContactBasis`], whose weights are positive.
 //!
 //! # Source
-//! B. Wohlmuth, *A mortar finite element method using dual spaces for the Lagrange multiplier*, SIAM
-//! J. Numer. Anal. 38 (2000) 989; A. Popp, B. Wohlmuth, M. Gee, W. Wall, SIAM J. Sci. Comput. 34
-//! (2012) B421; partly covered facets: A. Popp, A. Seitz, M. Gee, W. Wall, Comput. Methods Appl.
+//! B. Wohlmuth, *A mortar finite element method using dual spaces for the Lagrange multiplier*,
+//! SIAM J. Numer. Anal. 38 (2000) 989; A. Popp, B. Wohlmuth, M. Gee, W. Wall, SIAM J. Sci. Comput.
+//! 34 (2012) B421; partly covered facets: A. Popp, A. Seitz, M. Gee, W. Wall, Comput. Methods Appl.
 //! Mech. Engrg. 264 (2013) 67.
 
 mod dual;
@@ -113,8 +113,8 @@ pub(super) fn pairs(entries: &Entries, notes: &mut Vec<String>) -> Result<Found>
     }
     if pairs.is_empty() {
         return Err(Error::input(format!(
-            "no part of `{}` lies opposite `{}`, seen along its normal: check the names of the surfaces and where the bodies \
-             are, or give `normal`",
+            "no part of `{}` lies opposite `{}`, seen along its normal: check the names of the \
+             surfaces and where the bodies are, or give `normal`",
             [&contact.first, &contact.second][slave],
             [&contact.first, &contact.second][1 - slave],
         )));
@@ -122,7 +122,8 @@ pub(super) fn pairs(entries: &Entries, notes: &mut Vec<String>) -> Result<Found>
     sides.check(&pairs, facet_length, slave)?;
     if !left_out.is_empty() {
         notes.push(format!(
-            "contact {}: {} of `{}` face the other surface by less than a part in 1e8 of their share and stay free",
+            "contact {}: {} of `{}` face the other surface by less than a part in 1e8 of their \
+             share and stay free",
             entries.index + 1,
             super::list(mesh, &left_out),
             [&contact.first, &contact.second][slave],
@@ -246,12 +247,13 @@ impl Sides<'_> {
         let facets = self.depth_of_facets();
         Err(Error::input(match -deepest.gap <= facets {
             true => format!(
-                "{place}: no more than flat facets deviate from a curved surface ({facets:.1e}), which is not what \
-                 the bodies do; say what the surface is (`mesh.circles`, `spheres`, `cylinders`, `tori`), \
-                 give `gap`, or use quadratic elements"
+                "{place}: no more than flat facets deviate from a curved surface ({facets:.1e}), \
+                 which is not what the bodies do; say what the surface is (`mesh.circles`, \
+                 `spheres`, `cylinders`, `tori`), give `gap`, or use quadratic elements"
             ),
             false => format!(
-                "{place}; move the bodies apart, or state the overlap as `interference` with `gap = 0`"
+                "{place}; move the bodies apart, or state the overlap as `interference` with `gap \
+                 = 0`"
             ),
         }))
     }

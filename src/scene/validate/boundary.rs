@@ -1,9 +1,9 @@
 //! Contact, supports and loads.
 
 use super::Checks;
+use crate::number::exact;
 use crate::scene::{Contact, Direction, History, Load, Rotation, Scene, Support};
 use crate::space::{Components, Space};
-use crate::text::exact;
 use std::collections::BTreeSet;
 
 impl Checks {
@@ -200,7 +200,8 @@ impl Checks {
             Some([x, y, z]) if space.is_solid() => self.is_direction(&axis, [x, y, z].into()),
             Some(_) => self.problem(
                 axis,
-                "is for solids; plane models turn in their plane, axisymmetric ones about their axis",
+                "is for solids; plane models turn in their plane, axisymmetric ones about their \
+                 axis",
             ),
             None => self.require(
                 !space.is_solid(),

@@ -1,9 +1,9 @@
 //! Materials and bodies.
 
 use super::Checks;
+use crate::number::exact;
 use crate::scene::read::closest;
 use crate::scene::{Material, Plastic, Scene};
-use crate::text::exact;
 
 impl Checks {
     pub(super) fn materials(&mut self, scene: &Scene) {
@@ -142,7 +142,8 @@ impl Checks {
                 stress1 >= stress0,
                 key.as_str(),
                 format!(
-                    "yield stress {} is less than {} of the row before: softening has no unique solution",
+                    "yield stress {} is less than {} of the row before: softening has no unique \
+                     solution",
                     exact(stress1),
                     exact(stress0)
                 ),

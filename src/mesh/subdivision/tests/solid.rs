@@ -127,8 +127,8 @@ fn tetrahedra_keep_their_angles() {
     );
 }
 
-/// New nodes lie on both cylinders of a tube, and the volume goes to that of the tube with the order
-/// of its facets. Those between follow: the facets of the thin tube sag by its thickness.
+/// New nodes lie on both cylinders of a tube, and the volume goes to that of the tube with the
+/// order of its facets. Those between follow: the facets of the thin tube sag by its thickness.
 #[test]
 fn new_nodes_lie_on_cylinders_and_those_between_follow() {
     for (shape, outer) in [
