@@ -126,8 +126,7 @@ impl Reflection {
 pub fn loaded_nodes(model: &Model) -> Vec<bool> {
     let mut out = vec![false; model.mesh.n_nodes()];
     let held = |l: &crate::scene::Load| {
-        let on_body = l.acceleration.is_some() || l.rotation.is_some();
-        on_body || l.displacement.is_some() || l.plane_force.is_some()
+        l.acts_on_volume() || l.displacement.is_some() || l.plane_force.is_some()
     };
     for load in model.scene.load.iter().filter(|l| !held(l)) {
         for node in model.mesh.set_nodes(&load.on).into_iter().flatten() {

@@ -203,6 +203,11 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Sampling<D,
         self.at.positions(nodes)
     }
 
+    /// A field with these values at the nodes at the points.
+    pub fn at_points(&self, nodal: &[f64; N]) -> Lanes<P> {
+        self.at.at_points(nodal)
+    }
+
     /// Strains at the points, their dilatation treated as in [`Gradients::strains`].
     pub fn strains(&self, u: &[[f64; D]; N]) -> Components<S, P> {
         let mut out = self.at.local_strains(u);

@@ -1,9 +1,8 @@
 //! Load vectors on the free freedoms.
 
-use super::body_forces;
 use super::given::Given;
 use super::names::Entry;
-use super::{Freedoms, Slot};
+use super::{Freedoms, Slot, volume_loads};
 use crate::analytical::KirschField;
 use crate::element::facet_points;
 use crate::error::{Error, Result};
@@ -20,6 +19,8 @@ pub enum Magnitude {
     Stress,
     /// A displacement.
     Displacement,
+    /// A change of temperature.
+    Temperature,
 }
 
 /// A load: nodal forces per unit of its factor, and how the factor depends on the load factor.
@@ -28,7 +29,7 @@ pub struct LoadCase {
     /// Name for messages.
     pub name: String,
     /// Nodal forces at factor 1, node by node in global axes (sparse).
-    nodal: Vec<(usize, Vector)>,
+    pub(super) nodal: Vec<(usize, Vector)>,
     /// Forces on the free freedoms at factor 1 (sparse, ascending).
     pub forces: Vec<(usize, f64)>,
     /// How it depends on the load factor.
@@ -46,6 +47,9 @@ pub struct LoadCase {
     pub body: u32,
     /// Unit direction of the load, for the approach.
     pub direction: Vector,
+    /// Of a load by temperature: the free strain `alpha dT` at factor 1 at each node of the mesh,
+    /// which counts in the elements of its body.
+    pub free_strain: Option<Vec<f64>>,
 }
 
 impl LoadCase {
@@ -146,8 +150,8 @@ fn body_of(mesh: &Mesh, nodes: &[usize]) -> u32 {
 
 fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) -> Result<LoadCase> {
     let entry = Entry::of_list(scene, "load", index);
-    if load.acceleration.is_some() || load.rotation.is_some() {
-        return resolve_body_load(index, load, scene, mesh);
+    if load.acts_on_volume() {
+        return volume_loads::resolve(index, load, scene, mesh);
     }
     let nodes = entry.nodes(mesh, &load.on)?;
     let symmetry = scene.symmetry as f64;
@@ -162,6 +166,7 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
         body: body_of(mesh, &nodes),
         nodes,
         direction: [0.0; 3],
+        free_strain: None,
     };
     let surface = |key: &str| {
         mesh.surfaces.get(&load.on).ok_or_else(|| {
@@ -235,74 +240,15 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
     Ok(case)
 }
 
-fn name(index: usize, load: &scene::Load) -> String {
+pub(super) fn name(index: usize, load: &scene::Load) -> String {
     match load.name.is_empty() {
         true => format!("load {}", index + 1),
         false => load.name.clone(),
     }
 }
 
-/// A load on the volume of a body.
-fn resolve_body_load(
-    index: usize,
-    load: &scene::Load,
-    scene: &Scene,
-    mesh: &Mesh,
-) -> Result<LoadCase> {
-    let refused = |text: String| {
-        let text = format!("load {} on `{}`: {text}", index + 1, load.on);
-        Entry::of_list(scene, "load", index).refused(Error::input(text))
-    };
-    let Some(body) = mesh.bodies.iter().position(|name| *name == load.on) else {
-        let bodies = mesh.bodies.join("`, `");
-        return Err(refused(format!(
-            "acts on the volume of a body, and there is no such body; there are `{bodies}`"
-        )));
-    };
-    let material = scene.bodies.get(&load.on).map(|b| b.material.as_str());
-    let material = material.unwrap_or_default();
-    let Some(density) = scene.materials.get(material).and_then(|m| m.density) else {
-        return Err(refused(format!(
-            "needs the mass of the body; give materials.{material}.density"
-        )));
-    };
-    let acceleration = load.acceleration.map(|a| a.vector());
-    let forces = match (acceleration, &load.rotation) {
-        (None, Some(rotation)) => {
-            let field = body_forces::spinning(scene.kind, rotation);
-            body_forces::on_body(scene.kind, mesh, body, density, field)
-        }
-        (given, _) => {
-            let given = given.unwrap_or_default();
-            body_forces::on_body(scene.kind, mesh, body, density, |_| given)
-        }
-    };
-    let volume: f64 = forces.volumes.iter().sum();
-    let mut case = LoadCase {
-        name: name(index, load),
-        nodes: forces.nodal.iter().map(|(node, _)| *node).collect(),
-        shares: forces.volumes.iter().map(|v| v / volume).collect(),
-        nodal: forces.nodal,
-        forces: Vec::new(),
-        history: load.history.clone(),
-        magnitude: 0.0,
-        measures: Magnitude::Force,
-        body: body as u32,
-        direction: [0.0; 3],
-    };
-    match acceleration {
-        Some(a) => {
-            let mass = scene.symmetry as f64 * density * volume;
-            case.set_size(a.map(|a| mass * a), Magnitude::Force);
-        }
-        // Its forces have no direction as a whole: their sizes are added up.
-        None => case.magnitude = scene.symmetry as f64 * case.size(),
-    }
-    Ok(case)
-}
-
 impl LoadCase {
-    fn set_size(&mut self, vector: Vector, measures: Magnitude) {
+    pub(super) fn set_size(&mut self, vector: Vector, measures: Magnitude) {
         let size = length(vector);
         self.magnitude = size;
         self.measures = measures;

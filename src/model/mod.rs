@@ -12,6 +12,7 @@ mod frame;
 mod freedoms;
 mod given;
 mod gram;
+mod heat;
 mod held;
 mod loads;
 mod motions;
@@ -19,6 +20,7 @@ mod names;
 mod pairs;
 mod recipe;
 mod rows;
+mod volume_loads;
 
 pub use builder::ModelBuilder;
 pub use contact_basis::{Blend, ContactBasis};

@@ -1,5 +1,6 @@
 //! Contact, supports and loads.
 
+use super::Field;
 use crate::space::{Components, Vector, unit};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserializer, SeqAccess, Visitor};
@@ -120,7 +121,8 @@ pub struct Load {
     /// Name, for messages.
     #[serde(default)]
     pub name: String,
-    /// Surface or node set that is loaded; the body of an `acceleration` or a `rotation`.
+    /// Surface or node set that is loaded; the body of an `acceleration`, a `rotation` or a
+    /// `temperature`.
     pub on: String,
     /// Total force (x, y; of a solid x, y, z), shared by the nodes like a uniform traction
     /// (surface) or equally (node set).
@@ -145,9 +147,20 @@ pub struct Load {
     /// which go with the square of the speed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rotation: Option<Rotation>,
+    /// Change of temperature of a body, a number or a formula of the position: its material needs
+    /// `thermal_expansion`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<Field>,
     /// How it depends on the load factor.
     #[serde(default)]
     pub history: History,
+}
+
+impl Load {
+    /// Whether it acts on the volume of a body, which `on` then names.
+    pub fn acts_on_volume(&self) -> bool {
+        self.acceleration.is_some() || self.rotation.is_some() || self.temperature.is_some()
+    }
 }
 
 /// Remote tensions of a plate with a hole at the origin.

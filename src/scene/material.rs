@@ -17,6 +17,9 @@ pub struct Material {
     /// squared per length to the fourth (N, mm, s: t/mm^3, steel 7.85e-9).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub density: Option<f64>,
+    /// Strain per change of temperature, of which loads by `temperature` are made.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thermal_expansion: Option<f64>,
     /// Tensile yield stress; without it the material is elastic.
     pub yield_stress: Option<f64>,
     /// d(yield stress)/d(equivalent plastic strain) of linear hardening.

@@ -8,6 +8,7 @@ mod cyclic_element;
 mod disc_in_plate;
 mod figures;
 mod flat_punch;
+mod heat;
 mod hertz_line;
 mod hertz_line_history;
 mod hertz_point;

@@ -9,7 +9,7 @@ use crate::number::{bytes, number, seconds, trimmed, with_unit};
 use crate::output::RunHeader;
 use crate::output::columns::of_states;
 use crate::results::Results;
-use crate::scene::{Direction, History, Load};
+use crate::scene::{Direction, Field, History, Load};
 use crate::space::Components;
 use maud::{Markup, PreEscaped, html};
 use plotters::style::RGBColor;
@@ -214,6 +214,11 @@ fn describe(model: &Model, load: &Load, units: &Units) -> String {
         format!("acceleration {} of its mass", vector(acceleration))
     } else if let Some(rotation) = load.rotation {
         format!("rotation at {} rpm", given(rotation.rpm))
+    } else if let Some(temperature) = &load.temperature {
+        match temperature {
+            Field::Uniform(change) => format!("temperature changed by {}", given(*change)),
+            Field::Formula(text) => format!("temperature changed by {text}"),
+        }
     } else {
         String::new()
     };

@@ -140,6 +140,7 @@ impl Checks {
                 ("plane_force", load.plane_force.is_some()),
                 ("acceleration", load.acceleration.is_some()),
                 ("rotation", load.rotation.is_some()),
+                ("temperature", load.temperature.is_some()),
             ],
         );
         if let Some(displacement) = load.displacement {
@@ -158,6 +159,10 @@ impl Checks {
         }
         if let Some(rotation) = load.rotation {
             self.rotation(&format!("{key}.rotation"), &rotation, kind);
+        }
+        let temperature = load.temperature.as_ref();
+        if let Some(Err(wrong)) = temperature.map(|t| t.function(kind).map(drop)) {
+            self.problem(format!("{key}.temperature"), wrong);
         }
         if let (Some(given), Space::Axisymmetric) = (load.acceleration, kind) {
             self.require(
