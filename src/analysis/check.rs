@@ -4,7 +4,7 @@ use super::zone_choice;
 use crate::assembly::assemble;
 use crate::error::Result;
 use crate::linalg::{self, Backend, Partition, Prediction};
-use crate::model::{Model, Pair};
+use crate::model::{Magnitude, Model, Pair};
 use crate::results::{Effect, Sizes};
 use crate::scene::{Program, Stepping};
 use crate::substructure::ContactCost;
@@ -80,7 +80,10 @@ fn solves(model: &Model) -> f64 {
     };
     let mut yielding = model.materials.iter().zip(&model.may_yield);
     let soft = yielding.any(|(material, may)| {
-        let slope = material.hardening.as_ref().map(|h| h.slope(0.0));
+        let slope = material
+            .hardening
+            .as_ref()
+            .map(|h| h.slope(0.0) + material.kinematic_modulus);
         *may && slope.is_some_and(|slope| slope < SOFT * material.youngs_modulus)
     });
     let each = match soft {
@@ -213,16 +216,68 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
     })
 }
 
-/// The ledger: each effect on or off, and why. `yields` says whether the loads reach (or may reach)
-/// yield.
-pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
-    let effect = |name: &str, on: bool, why: String| Effect {
+fn effect(name: &str, on: bool, why: String) -> Effect {
+    Effect {
         name: name.into(),
         on,
         why,
         seconds: 0.0,
         memory_bytes: 0,
+    }
+}
+
+fn kinematic_hardening(model: &Model, yields: bool) -> Effect {
+    let materials = model.materials.iter().zip(&model.may_yield);
+    let asked = materials.filter(|(m, may)| **may && m.kinematic_modulus != 0.0);
+    let names: std::collections::BTreeSet<&str> = asked.map(|(m, _)| m.name.as_str()).collect();
+    let names: Vec<&str> = names.into_iter().collect();
+    let why = match (names.is_empty(), yields) {
+        (true, _) => "no material that may yield has a kinematic modulus".to_string(),
+        (false, true) => format!(
+            "{} hardens so; its back stress is stored nowhere",
+            names.join(", ")
+        ),
+        (false, false) => format!(
+            "{} would, but stays elastic under these loads",
+            names.join(", ")
+        ),
     };
+    effect("kinematic hardening", !names.is_empty() && yields, why)
+}
+
+fn volume_forces(model: &Model) -> Effect {
+    let loads = model.scene.load.iter().zip(&model.loads);
+    let asked = loads.filter(|(load, _)| load.acceleration.is_some() || load.rotation.is_some());
+    let (asked, acting) = asked.fold((0, 0), |(n, acting), (_, case)| {
+        (n + 1, acting + usize::from(case.magnitude != 0.0))
+    });
+    let why = match (asked, acting) {
+        (0, _) => "no load by acceleration or rotation".to_string(),
+        (_, 0) => "the accelerations and speeds are zero".to_string(),
+        (_, 1) => "a load acts on the volume of a body".to_string(),
+        (_, n) => format!("{n} loads act on the volumes of bodies"),
+    };
+    effect("forces on volumes", acting > 0, why)
+}
+
+fn temperature(model: &Model) -> Effect {
+    let loads = model.loads.iter();
+    let asked = loads.filter(|load| load.measures == Magnitude::Temperature);
+    let (asked, acting) = asked.fold((0, 0), |(n, acting), load| {
+        (n + 1, acting + usize::from(load.free_strain.is_some()))
+    });
+    let why = match (asked, acting) {
+        (0, _) => "no load by temperature".to_string(),
+        (_, 0) => "no temperature changes, or nothing expands by it".to_string(),
+        (_, 1) => "a load changes the temperature of a body".to_string(),
+        (_, n) => format!("{n} loads change the temperatures of bodies"),
+    };
+    effect("temperature", acting > 0, why)
+}
+
+/// The ledger: each effect on or off, and why. `yields` says whether the loads reach (or may reach)
+/// yield.
+pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
     let bodies = &model.mesh.bodies;
     let able: Vec<&str> = bodies
         .iter()
@@ -270,6 +325,9 @@ pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
     vec![
         contact,
         plasticity,
+        kinematic_hardening(model, yields),
+        volume_forces(model),
+        temperature(model),
         effect(
             "interference",
             interference,

@@ -33,6 +33,7 @@ mod figures;
 mod finish;
 mod first_yield;
 mod fitted;
+mod free_strain;
 mod gather;
 mod increment;
 mod indicator;

@@ -25,7 +25,8 @@ impl Reading<'_, '_> {
     pub(super) fn of_stresses<T>(&self, u: &[f64], ask: impl OfStresses<Answer = T>) -> T {
         let (solver, structure) = (&self.solver, &self.solver.structure);
         let (model, elements) = (structure.model, &structure.elements);
-        let nodal = model.nodal(u, &solver.at.factors);
+        let factors = &solver.at.factors;
+        let nodal = (model.nodal(u, factors), factors.clone());
         let formulation = model.scene.mesh.formulation;
         match &solver.zone {
             Zone::Plane(zone) => {

@@ -15,6 +15,7 @@
 mod cell;
 
 use super::fitted::FittedStrains;
+use super::free_strain::FreeStrains;
 use super::gather::{GatheredElements, Nodal, Places};
 use super::maximum::{Maximum, SPACINGS};
 use super::mirror::{self, Mirror, Reflection, mirrors};
@@ -133,6 +134,8 @@ pub struct RecoveryOf<const D: usize, const S: usize, const P: usize, const N: u
     nodal: Nodal,
     /// Strains of the linear triangles and tetrahedra.
     fitted: FittedStrains<D>,
+    /// What loads by temperature strain freely.
+    free: FreeStrains<P>,
     neighbours: Neighbours,
     patches: BTreeMap<u32, Patch<D>>,
     /// Nodes on which forces act.
@@ -158,6 +161,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
             first.push(first[i] + sampling[i].n_points());
         }
         let mut out = RecoveryOf {
+            free: FreeStrains::new(model, elements, |i, nodal| sampling[i].at_points(nodal)),
             elements: packed,
             sampling,
             first,
@@ -183,14 +187,18 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
         self.nodal.set_factors(factors);
         let nodal = self.nodal.displacements(u);
         let moved = self.fitted.displacements(nodal);
-        let fitted = &self.fitted;
+        let (fitted, free) = (&self.fitted, &self.free);
         let (elements, sampling) = (&self.elements, &self.sampling);
         let strains: Vec<_> = (0..elements.list.len())
             .into_par_iter()
             .with_min_len(GRAIN)
-            .map(|i| match fitted.strain(i, &moved) {
-                Some(strain) => strain.map(|e| [e; P]),
-                None => sampling[i].strains(&elements.displacements(i, nodal)),
+            .map(|i| {
+                let mut strains = match fitted.strain(i, &moved) {
+                    Some(strain) => strain.map(|e| [e; P]),
+                    None => sampling[i].strains(&elements.displacements(i, nodal)),
+                };
+                free.take_off(i, factors, &mut strains);
+                strains
             })
             .collect();
         let mut out = Vec::with_capacity(S * self.positions.len());

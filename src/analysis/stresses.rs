@@ -84,6 +84,14 @@ impl Stresses {
                 }
             }
         }
+        // What free strains would take to be held enters with the loads: the same forces here.
+        for (load, factor) in model.loads.iter().zip(&field.factors) {
+            if load.free_strain.is_some() {
+                for &(freedom, force) in &load.forces {
+                    out.internal[freedom] += factor * force;
+                }
+            }
+        }
         for (e, history) in field.yielded() {
             let gradients = field.model.gradients(&field.kernel, e);
             let body = model.mesh.element_body[e] as usize;
@@ -98,8 +106,7 @@ impl Stresses {
                     }
                     out.plastic_points[body] += 1;
                     out.plastic_volume += weight;
-                    out.plastic_work +=
-                        weight * model.materials[body].plastic_work(past.equivalent);
+                    out.plastic_work += weight * model.materials[body].plastic_work(past);
                     out.plastic_strain = out.plastic_strain.max(past.equivalent);
                 }
             }

@@ -150,8 +150,8 @@ pub unsafe extern "C" fn brinell_model_material(
                 poissons_ratio: given.poissons_ratio,
                 yield_stress: nonzero(given.yield_stress),
                 plastic_modulus: nonzero(given.plastic_modulus),
-                tangent_modulus: None,
                 hardening_table: (!table.is_empty()).then_some(table),
+                ..Material::default()
             };
             m.builder.material(text(name, "the name")?, material)?;
             Ok(())

@@ -3,6 +3,7 @@
 //! Here names become indices and every inconsistency between scene and mesh is found. What comes
 //! after works with numbers only.
 
+mod body_forces;
 mod builder;
 mod contact_basis;
 mod ends;
@@ -11,6 +12,7 @@ mod frame;
 mod freedoms;
 mod given;
 mod gram;
+mod heat;
 mod held;
 mod loads;
 mod motions;
@@ -18,6 +20,7 @@ mod names;
 mod pairs;
 mod recipe;
 mod rows;
+mod volume_loads;
 
 pub use builder::ModelBuilder;
 pub use contact_basis::{Blend, ContactBasis};
@@ -235,8 +238,8 @@ fn build_mesh(scene: &Scene) -> Result<Mesh> {
         mesh = mesh::subdivided(mesh, times, &scene.contact)?;
         mesh::validate(&mesh).map_err(|e| {
             e.within(
-                "the subdivided mesh (is a surface that is laid on its circle too far from it for \
-                 the elements beside it?)",
+                "the subdivided mesh (does a surface that is declared round sag by more than \
+                      the depth of the elements along it?)",
             )
         })?;
     }

@@ -1,5 +1,6 @@
 //! Contact, supports and loads.
 
+use super::Field;
 use crate::space::{Components, Vector, unit};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserializer, SeqAccess, Visitor};
@@ -120,7 +121,8 @@ pub struct Load {
     /// Name, for messages.
     #[serde(default)]
     pub name: String,
-    /// Surface or node set that is loaded.
+    /// Surface or node set that is loaded; the body of an `acceleration`, a `rotation` or a
+    /// `temperature`.
     pub on: String,
     /// Total force (x, y; of a solid x, y, z), shared by the nodes like a uniform traction
     /// (surface) or equally (node set).
@@ -137,9 +139,28 @@ pub struct Load {
     /// A total force on a surface that is held plane: all its nodes share the displacement in
     /// `direction`.
     pub plane_force: Option<PlaneForce>,
+    /// Force per mass on all of a body (x, y; of a solid x, y, z), such as gravity: its material
+    /// needs a `density`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub acceleration: Option<Components>,
+    /// Rotation of a body, whose material needs a `density`: the load factor multiplies the forces,
+    /// which go with the square of the speed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rotation: Option<Rotation>,
+    /// Change of temperature of a body, a number or a formula of the position: its material needs
+    /// `thermal_expansion`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<Field>,
     /// How it depends on the load factor.
     #[serde(default)]
     pub history: History,
+}
+
+impl Load {
+    /// Whether it acts on the volume of a body, which `on` then names.
+    pub fn acts_on_volume(&self) -> bool {
+        self.acceleration.is_some() || self.rotation.is_some() || self.temperature.is_some()
+    }
 }
 
 /// Remote tensions of a plate with a hole at the origin.
@@ -183,6 +204,20 @@ pub struct PlaneForce {
     pub direction: Direction,
     /// Total force along it.
     pub total: f64,
+}
+
+/// Rotation about an axis at a constant speed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Rotation {
+    /// Revolutions per minute, where the scene's density is for seconds (N, mm: t/mm^3).
+    pub rpm: f64,
+    /// A point of the axis; by default the origin. Axisymmetric models turn about their own axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub center: Option<Components>,
+    /// Direction of the axis, of a solid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axis: Option<[f64; 3]>,
 }
 
 /// How a load depends on the load factor alpha.

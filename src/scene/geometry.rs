@@ -27,8 +27,8 @@ pub struct MeshSource {
     /// Surfaces of the file that lie on circles.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub circles: Vec<SurfaceCircle>,
-    /// How many times each element of the file is cut in four. New nodes on the surfaces in
-    /// `circles` lie on these.
+    /// How many times each element of the file is cut in four, of a solid in eight. New nodes on
+    /// the surfaces in `circles`, `spheres`, `cylinders` and `tori` lie on these.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub subdivisions: usize,
     /// Surfaces of the file that lie on spheres.

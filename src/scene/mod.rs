@@ -15,6 +15,7 @@ mod boundary;
 mod complete;
 mod defaults;
 mod document;
+mod field;
 mod geometry;
 mod key_places;
 mod material;
@@ -29,8 +30,10 @@ mod validate;
 
 pub use accuracy::AccuracyDemand;
 pub use boundary::{
-    Contact, Direction, Displacement, History, Kirsch, Load, PlaneForce, SlaveSide, Support,
+    Contact, Direction, Displacement, History, Kirsch, Load, PlaneForce, Rotation, SlaveSide,
+    Support,
 };
+pub use field::Field;
 pub use geometry::{
     Block, BrickPart, CurvedBodies, CylinderOnHalfPlane, Disc, DiscInPlate, Extrusion, Formulation,
     MeshSource, Meshed, Part, Piece, Revolution, Ring, SurfaceCircle, SurfaceCylinder,

@@ -3,10 +3,12 @@
 //! Whatever depends on a shape (readers, writers, facets, subdivision, quadrature, checks) reads
 //! its row ([`Shape::reference`]); a further element is a further row.
 
+mod cut;
 mod facets;
 mod functions;
 mod rows;
 
+pub use cut::{Cut, WHOLE, cut_of, cuts};
 pub use facets::FacetReference;
 pub use functions::Functions;
 
@@ -85,31 +87,12 @@ pub struct Reference {
     pub facets: &'static [&'static [usize]],
     /// Local node numbers of the corners that edges join.
     pub edges: &'static [[usize; 2]],
-    /// The element cut in smaller ones of its shape; plane elements only.
-    pub refinement: Option<&'static Refinement>,
     /// VTK's cell type; the node order is VTK's own.
     pub vtk: u8,
     /// Gmsh's element type.
     pub gmsh: u64,
     /// Place of each node in Gmsh's order.
     pub gmsh_order: &'static [usize],
-}
-
-/// How an element is cut in smaller ones of its shape.
-///
-/// The nodes of the finer mesh in an element are numbered in three groups: its own, then those
-/// that are new on each facet (in the direction of the facet), then those inside.
-#[derive(Debug)]
-pub struct Refinement {
-    /// New nodes on a facet.
-    pub on_facet: usize,
-    /// New nodes inside: weights of the nodes of the first two groups.
-    pub inside: &'static [&'static [(f64, usize)]],
-    /// Nodes of each child.
-    pub children: &'static [&'static [usize]],
-    /// The children's facets of which each facet consists: child and local facet, in the direction
-    /// of the facet.
-    pub of_facet: &'static [&'static [[usize; 2]]],
 }
 
 impl Shape {
@@ -150,6 +133,17 @@ impl Shape {
         Self::ALL
             .into_iter()
             .find(|shape| shape.reference().gmsh == number)
+    }
+
+    /// The linear shape with the same corners.
+    pub fn linear(self) -> Shape {
+        match self {
+            Shape::Tri3 | Shape::Tri6 => Shape::Tri3,
+            Shape::Quad4 | Shape::Quad8 => Shape::Quad4,
+            Shape::Tet4 | Shape::Tet10 => Shape::Tet4,
+            Shape::Hex8 | Shape::Hex20 => Shape::Hex8,
+            Shape::Prism6 | Shape::Prism15 => Shape::Prism6,
+        }
     }
 
     /// Number of reference coordinates.

@@ -1,6 +1,7 @@
 //! The elements of the zone and the points at which they may yield.
 
 use super::{Evaluation, History};
+use crate::analysis::free_strain::FreeStrains;
 use crate::analysis::gather::{GatheredElements, Nodal, Places};
 use crate::element::{Components, Gradients, Kernel};
 use crate::material::{Lame, Material, PlasticState, Softening};
@@ -32,6 +33,10 @@ pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize
     /// Elements with a yielding point, ascending.
     pub(super) active: Vec<u32>,
     forces: Vec<[[f64; D]; N]>,
+    /// What loads by temperature strain freely.
+    free: FreeStrains<P>,
+    /// Factor of each load.
+    factors: Vec<f64>,
     /// Initial loads of the committed plastic strains: what yields adds to them.
     base: Trailing,
     nodal: Nodal,
@@ -48,9 +53,10 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         guard: &[bool],
         places: &Places,
     ) -> Self {
-        let gradients = (elements.iter())
+        let gradients: Vec<Gradients<D, S, P, N>> = (elements.iter())
             .map(|&e| model.gradients(kernel, e))
             .collect();
+        let free = FreeStrains::new(model, elements, |i, nodal| gradients[i].at_points(nodal));
         let elements = GatheredElements::new(model, elements, places);
         let n = elements.list.len();
         // That of the mesh, not of these elements: histories pass from zone to zone.
@@ -59,6 +65,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         let (n_zone, n_contact) = places.sizes();
         ZoneOf {
             forces: vec![[[0.0; D]; N]; n],
+            free,
+            factors: vec![0.0; model.loads.len()],
             elements,
             gradients,
             guard: guard.to_vec(),
@@ -83,15 +91,17 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
     /// Bytes held.
     pub fn bytes(&self) -> u64 {
         (self.elements.bytes()
+            + self.free.bytes()
             + self.gradients.capacity() * size_of::<Gradients<D, S, P, N>>()
             + self.forces.capacity() * size_of::<[[f64; D]; N]>()
             + self.committed.capacity() * 2 * size_of::<PlasticState<S>>()
             + self.softening.capacity() * size_of::<Softening<S>>()) as u64
     }
 
-    /// Load factors that scale the prescribed displacements from now on.
+    /// Load factors that scale prescribed displacements and free strains from now on.
     pub fn set_factors(&mut self, factors: &[f64]) {
         self.nodal.set_factors(factors);
+        self.factors.copy_from_slice(factors);
     }
 
     /// Integrates the flow rule for displacements `u` and adds up the initial loads: those of the
@@ -99,6 +109,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
     pub fn evaluate(&mut self, u: &Trailing, initial_load: &mut Trailing) -> Evaluation {
         let nodal = self.nodal.displacements(u);
         let (elements, materials, stride) = (&self.elements, &self.materials, self.stride);
+        let (free, factors) = (&self.free, &self.factors);
         (
             &self.gradients,
             &mut self.yielding,
@@ -115,7 +126,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
                 |(i, (gradients, yielding, force, trial, softening, yields, committed))| {
                     let packed = &elements.list[i];
                     let (material, law) = &materials[packed.body as usize];
-                    let strains = gradients.strains(&elements.displacements(i, nodal));
+                    let mut strains = gradients.strains(&elements.displacements(i, nodal));
+                    free.take_off(i, factors, &mut strains);
                     let mut added = [[0.0; P]; S];
                     *yielding = 0;
                     for g in 0..gradients.n_points() {

@@ -9,7 +9,7 @@ use crate::number::{bytes, number, seconds, trimmed, with_unit};
 use crate::output::RunHeader;
 use crate::output::columns::of_states;
 use crate::results::Results;
-use crate::scene::{Direction, History, Load};
+use crate::scene::{Direction, Field, History, Load};
 use crate::space::Components;
 use maud::{Markup, PreEscaped, html};
 use plotters::style::RGBColor;
@@ -98,6 +98,16 @@ fn bodies(model: &Model, units: &Units) -> Markup {
                 }
                 (_, None) => "table".to_string(),
             };
+            let hardening = match material
+                .kinematic_modulus
+                .filter(|c| *c != 0.0 && yields.is_some())
+            {
+                Some(c) => format!(
+                    "{hardening}; kinematic, C = {}",
+                    with_unit(&given(c), stress)
+                ),
+                None => hardening,
+            };
             Some(vec![
                 swatch(BODIES[index % BODIES.len()], name),
                 plain(&body.material),
@@ -176,7 +186,11 @@ fn describe(model: &Model, load: &Load, units: &Units) -> String {
             vector([kirsch.stress_x, kirsch.stress_y].into())
         )
     } else if let Some(d) = load.displacement {
-        let parts = [(d.x, Direction::X), (d.y, Direction::Y)];
+        let parts = [
+            (d.x, Direction::X),
+            (d.y, Direction::Y),
+            (d.z, Direction::Z),
+        ];
         let parts: Vec<String> = parts
             .into_iter()
             .filter_map(|(value, direction)| {
@@ -196,6 +210,15 @@ fn describe(model: &Model, load: &Load, units: &Units) -> String {
             given(plane.total),
             axis(model, plane.direction)
         )
+    } else if let Some(acceleration) = load.acceleration {
+        format!("acceleration {} of its mass", vector(acceleration))
+    } else if let Some(rotation) = load.rotation {
+        format!("rotation at {} rpm", given(rotation.rpm))
+    } else if let Some(temperature) = &load.temperature {
+        match temperature {
+            Field::Uniform(change) => format!("temperature changed by {}", given(*change)),
+            Field::Formula(text) => format!("temperature changed by {text}"),
+        }
     } else {
         String::new()
     };

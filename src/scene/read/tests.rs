@@ -402,9 +402,8 @@ fn the_plastic_modulus_follows_from_the_tangent_modulus() {
         youngs_modulus: 200.0,
         poissons_ratio: 0.3,
         yield_stress: Some(1.0),
-        plastic_modulus: None,
         tangent_modulus: Some(40.0),
-        hardening_table: None,
+        ..Material::default()
     };
     // 1/Et = 1/E + 1/H: 1/40 = 1/200 + 1/50.
     assert_eq!(material.plastic_modulus_resolved(), Some(50.0));

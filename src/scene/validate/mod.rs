@@ -111,6 +111,7 @@ fn symmetry_problem(kind: Space, copies: usize) -> Option<String> {
     (!allowed.contains(&copies)).then(|| format!("{copies} must be {words}"))
 }
 
+#[cfg(feature = "capi")]
 impl Space {
     /// Whether so many copies of a model of this kind can make the whole.
     ///
