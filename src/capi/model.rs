@@ -105,6 +105,29 @@ pub unsafe extern "C" fn brinell_model_free(model: *mut brinell_model) {
     unsafe { free(model) }
 }
 
+/// Adds tables of a scene (TOML text): materials, bodies, [[contact]], [[support]], [[load]],
+/// [program], [analysis], [units], title; whatever a scene file may say but for `kind`, `symmetry` and
+/// `mesh`. Materials, bodies, contacts, supports and loads come to those that are there, the others
+/// take their place.
+///
+/// # Safety
+/// `model` is a living handle, `tables` ends with a zero.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn brinell_model_tables(
+    model: *mut brinell_model,
+    tables: *const c_char,
+) -> i32 {
+    // SAFETY: the caller vouches for every pointer.
+    unsafe {
+        change(model, |m| {
+            m.builder.program(m.program.clone());
+            m.builder.tables(text(tables, "the scene text")?)?;
+            m.program = m.builder.load_program().clone();
+            Ok(())
+        })
+    }
+}
+
 /// Adds nodes: n x 2 coordinates, of a solid n x 3, node by node. Nodes are numbered from 0 in the
 /// order in which they were added.
 ///

@@ -2,6 +2,7 @@
 //! memory.
 
 mod geometry;
+mod tables;
 
 use super::given::Given;
 use super::{Model, NodePair, Origin};
@@ -224,6 +225,11 @@ impl ModelBuilder {
     pub fn program(&mut self, program: Program) -> &mut Self {
         self.scene.program = program;
         self
+    }
+
+    /// The load program so far.
+    pub fn load_program(&self) -> &Program {
+        &self.scene.program
     }
 
     /// How to compute.

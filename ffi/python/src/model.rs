@@ -190,6 +190,16 @@ impl Model {
         self.change(py, |b| b.curve(surface, circle).map(drop))
     }
 
+    /// Adds tables of a scene (TOML text): materials, bodies, [[contact]], [[support]], [[load]],
+    /// [program], [analysis], [units], title; whatever a scene file may say but for kind, symmetry
+    /// and mesh.
+    fn tables(&mut self, py: Python<'_>, text: &str) -> PyResult<()> {
+        let program = self.program.clone();
+        self.change(py, |b| b.program(program).tables(text).map(drop))?;
+        self.program = self.builder.load_program().clone();
+        Ok(())
+    }
+
     /// Names a material: youngs_modulus, poissons_ratio, and where it can yield yield_stress with
     /// plastic_modulus, tangent_modulus or hardening_table (n, 2).
     #[pyo3(signature = (name, **values))]
