@@ -26,10 +26,10 @@ pub(crate) struct Accuracy {
 }
 
 impl Accuracy {
-    /// To the last digit of the place.
+    /// Until no double lies within the bracket: the same place on whatever way it is found.
     pub(crate) const ROUND_OFF: Accuracy = Accuracy {
-        value: 0.0,
-        place: f64::EPSILON,
+        value: f64::NEG_INFINITY,
+        place: 0.0,
     };
 
     /// The same for the value and the place.
@@ -58,8 +58,9 @@ pub(crate) fn between(ends: [(f64, f64); 2], accuracy: Accuracy, f: impl Fn(f64)
 
 /// The root of `f` between two places, each with the value there, of opposite signs.
 ///
-/// What it returns is the last place where it evaluated `f`; where the signs are not opposite, the
-/// end nearer to a change of sign. A value that is not a number counts as positive.
+/// What it returns is the last place where it evaluated `f`, but for [`Accuracy::ROUND_OFF`]; where
+/// the signs are not opposite, the end nearer to a change of sign. A value that is not a number
+/// counts as positive.
 ///
 /// # Errors
 /// The first of the function's own.
@@ -85,6 +86,10 @@ pub(crate) fn try_between<E>(
     let mut x = b;
     for _ in 0..MOST {
         let (low, high) = (a.min(b), a.max(b));
+        let middle = low + 0.5 * (high - low);
+        if middle <= low || middle >= high {
+            return Ok(middle);
+        }
         x = if fc != fa && fc != fb {
             a * fb / (fa - fb) * fc / (fa - fc)
                 + b * fa / (fb - fa) * fc / (fb - fc)
@@ -93,11 +98,16 @@ pub(crate) fn try_between<E>(
             b - fb * (b - a) / (fb - fa)
         };
         if slow == PATIENCE || !(x > low && x < high) {
-            x = low + 0.5 * (high - low);
+            x = middle;
         }
         // A step shorter than the accuracy would leave the other end where it is.
-        let width = accuracy.place * low.abs().max(high.abs());
-        x = x.max(low + 0.5 * width).min(high - 0.5 * width);
+        let size = low.abs().max(high.abs());
+        let least = 0.5 * size * accuracy.place.max(f64::EPSILON);
+        x = x.max(low + least).min(high - least);
+        if !(x > low && x < high) {
+            x = middle;
+        }
+        let width = accuracy.place * size;
         let y = f(x)?;
         if y.abs() <= accuracy.value || high - low <= width {
             break;

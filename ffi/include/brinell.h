@@ -549,9 +549,9 @@ int32_t brinell_model_new(int32_t kind, size_t symmetry, struct brinell_model **
 void brinell_model_free(struct brinell_model *model);
 
 // Adds tables of a scene (TOML text): materials, bodies, [[contact]], [[support]], [[load]],
-// [program], [analysis], [units], title; whatever a scene file may say but for `kind`, `symmetry` and
-// `mesh`. Materials, bodies, contacts, supports and loads come to those that are there, the others
-// take their place.
+// [program], [analysis], [units], title; whatever a scene file may say but for `kind`, `symmetry`
+// and `mesh`. Materials, bodies, contacts, supports and loads come to those that are there, the
+// others take their place.
 int32_t brinell_model_tables(struct brinell_model *model, const char *tables);
 
 // Adds nodes: n x 2 coordinates, of a solid n x 3, node by node. Nodes are numbered from 0 in the

@@ -18,8 +18,8 @@ pub(super) fn take_off<const S: usize, const P: usize>(
     }
 }
 
-/// Free strains at factor 1 at the points of some elements, kept load by load: nothing where no load
-/// changes a temperature.
+/// Free strains at factor 1 at the points of some elements, kept load by load: nothing where no
+/// load changes a temperature.
 pub(super) struct FreeStrains<const P: usize> {
     of_loads: Vec<(usize, Vec<Lanes<P>>)>,
 }

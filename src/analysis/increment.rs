@@ -41,7 +41,7 @@ pub struct Increment {
     /// Out-of-balance force over the force scale.
     pub residual: f64,
     /// Guard elements that yield: the zone is too small.
-    pub guard_flows: usize,
+    pub guard_yields: usize,
 }
 
 /// Why no increment was found.
@@ -230,7 +230,7 @@ impl Stepper<'_, '_> {
                     changes,
                     iterations,
                     residual,
-                    guard_flows: evaluation.guard_flows,
+                    guard_yields: evaluation.guard_yields,
                 });
             }
             if !stalled {

@@ -249,7 +249,7 @@ mod tests {
         }
         // Kronecker's sequence spreads evenly.
         let place = |i: usize| -> [f64; D] {
-            let irrational = [0.754_877_666_2, 0.569_840_291, 0.430_159_709];
+            let irrational = [0.819_172_513_4, 0.671_043_606_7, 0.549_700_477_9];
             std::array::from_fn(|d| 2.0 * (irrational[d] * i as f64).fract() - 1.0)
         };
         let weight = |i: usize| 1.0 + (i % 3) as f64;

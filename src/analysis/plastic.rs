@@ -158,7 +158,7 @@ impl PlasticDrive {
             (false, true) => 2.0 * self.trust,
             (false, false) => f64::INFINITY,
         };
-        if increment.guard_flows > 0 {
+        if increment.guard_yields > 0 {
             solver.restore_statuses(&open, &border);
             return Ok(Step::arrived(Arrival::ZoneTooSmall));
         }

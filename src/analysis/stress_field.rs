@@ -53,8 +53,8 @@ pub(super) struct ElementStress<'a, const D: usize, const S: usize, const P: usi
 impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
     StressField<'a, D, S, P, N>
 {
-    /// The stresses for nodal displacements in global axes, with the loads' factors, and the committed
-    /// history of the zone, whose elements are `in_zone` (ascending).
+    /// The stresses for nodal displacements in global axes, with the loads' factors, and the
+    /// committed history of the zone, whose elements are `in_zone` (ascending).
     pub(super) fn new(
         kernel: Kernel<D, S, P, N>,
         model: &'a Model,

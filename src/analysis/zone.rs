@@ -29,7 +29,7 @@ pub struct Evaluation {
     /// Gauss points that yield in this increment.
     pub yielding: usize,
     /// Guard elements in which a point yields.
-    pub guard_flows: usize,
+    pub guard_yields: usize,
 }
 
 /// The plastic zone of a model with its history.

@@ -106,9 +106,9 @@ pub unsafe extern "C" fn brinell_model_free(model: *mut brinell_model) {
 }
 
 /// Adds tables of a scene (TOML text): materials, bodies, [[contact]], [[support]], [[load]],
-/// [program], [analysis], [units], title; whatever a scene file may say but for `kind`, `symmetry` and
-/// `mesh`. Materials, bodies, contacts, supports and loads come to those that are there, the others
-/// take their place.
+/// [program], [analysis], [units], title; whatever a scene file may say but for `kind`, `symmetry`
+/// and `mesh`. Materials, bodies, contacts, supports and loads come to those that are there, the
+/// others take their place.
 ///
 /// # Safety
 /// `model` is a living handle, `tables` ends with a zero.

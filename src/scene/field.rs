@@ -23,9 +23,9 @@ impl JsonSchema for Field {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({
-            "description": "A number, or a formula of the position such as `\"20 * log(r / 50)\"`: x, \
-                            y, of a solid z, and r = sqrt(x^2 + y^2); of an axisymmetric model r and z. \
-                            exp, log (natural), sqrt, sin, cos, abs, ^ and the like.",
+            "description": "A number, or a formula of the position such as `\"20 * log(r / 50)\"`: \
+                            x, y, of a solid z, and r = sqrt(x^2 + y^2); of an axisymmetric model \
+                            r and z. exp, log (natural), sqrt, sin, cos, abs, ^ and the like.",
             "anyOf": [{ "type": "number" }, { "type": "string" }],
         })
     }

@@ -1,5 +1,5 @@
-//! Families of solids, written when the procedure of `brinell::accuracy` for solids was finished and
-//! run once.
+//! Families of solids, written when the procedure of `brinell::accuracy` for solids was finished
+//! and run once.
 
 use super::families::{Family, Truth, named};
 use super::running;
@@ -140,7 +140,8 @@ targets = [{{ yield = true }}, {{ load_factor = 200.0 }}, {{ load_factor = 260.0
     ))
 }
 
-/// A hard barrel of radii 8 and 20 on aluminium with a table of hardening, to four times first yield.
+/// A hard barrel of radii 8 and 20 on aluminium with a table of hardening, to four times first
+/// yield.
 fn barrel(n: usize) -> Scene {
     running::parse(&format!(
         r#"

@@ -1,5 +1,5 @@
-//! Loads by temperature: free expansion, a clamped bar that yields, fits by heat, a disc with a radial
-//! temperature.
+//! Loads by temperature: free expansion, a clamped bar that yields, fits by heat, a disc with a
+//! radial temperature.
 //!
 //! Source: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, 3rd ed. (1970), section 150.
 
@@ -45,7 +45,8 @@ targets = [{targets}]
 }
 
 const SIDES: &str = r#"{ on = "bar.left", fix = ["x"] }, { on = "bar.bottom", fix = ["y"] }"#;
-const FACES: &str = r#"{ on = "bar.left", fix = ["x"] }, { on = "bar.front", fix = ["y"] }, { on = "bar.bottom", fix = ["z"] }"#;
+const FACES: &str = r#"{ on = "bar.left", fix = ["x"] }, { on = "bar.front", fix = ["y"] },
+    { on = "bar.bottom", fix = ["z"] }"#;
 const CORNERS: &str =
     r#"{ on = "bar.bottom_left", fix = ["x", "y"] }, { on = "bar.bottom_right", fix = ["y"] }"#;
 
@@ -54,8 +55,8 @@ fn largest_stress(results: &Results, state: usize) -> f64 {
     stress.iter().fold(0.0, |m, s| m.max(s.abs()))
 }
 
-/// Where nothing holds a body it expands without stress; quadratic elements by a temperature that is
-/// linear in the position too, which bends the sides.
+/// Where nothing holds a body it expands without stress; quadratic elements by a temperature that
+/// is linear in the position too, which bends the sides.
 #[test]
 fn what_expands_freely_has_no_stress() {
     let linear = "\"20 + 30*x - 10*y\"";
@@ -100,8 +101,8 @@ fn a_free_section_of_plane_strain_is_pressed_across() {
     }
 }
 
-/// A bar between two walls that is heated beyond yield, cooled, and heated again: uniaxial stress at
-/// the mechanical strain `-alpha dT`, with isotropic hardening.
+/// A bar between two walls that is heated beyond yield, cooled, and heated again: uniaxial stress
+/// at the mechanical strain `-alpha dT`, with isotropic hardening.
 #[test]
 fn a_clamped_bar_yields_by_heat() {
     let (y, h) = (200.0, 20000.0);
@@ -139,8 +140,8 @@ fn a_clamped_bar_yields_by_heat() {
     }
 }
 
-/// A shaft that is heated in its ring until it fits, and beyond: what an interference of `alpha dT a`
-/// less the gap does. The elements expand exactly, so both differ by round-off.
+/// A shaft that is heated in its ring until it fits, and beyond: what an interference of
+/// `alpha dT a` less the gap does. The elements expand exactly, so both differ by round-off.
 #[test]
 fn a_fit_by_heat_is_a_fit_by_interference() {
     let (gap, change, radius) = (0.01, 100.0, 50.0);
@@ -175,8 +176,8 @@ fn a_fit_by_heat_is_a_fit_by_interference() {
 const INNER: f64 = 20.0;
 const OUTER: f64 = 60.0;
 
-/// A thin disc with a hole that is hotter inside, `dT = log(b/r)`: the first yield is at the bore, where
-/// `sigma_t = alpha E (2/(b^2 - a^2) int_a^b T r dr - T(a))`.
+/// A thin disc with a hole that is hotter inside, `dT = log(b/r)`: the first yield is at the bore,
+/// where `sigma_t = alpha E (2/(b^2 - a^2) int_a^b T r dr - T(a))`.
 #[test]
 fn a_disc_with_a_radial_temperature_yields_first_at_its_bore() {
     let (a, b) = (INNER, OUTER);

@@ -162,7 +162,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             if yielding > 0 {
                 result.yielding += yielding as usize;
                 self.active.push(i as u32);
-                result.guard_flows += usize::from(self.guard[i]);
+                result.guard_yields += usize::from(self.guard[i]);
                 self.elements.scatter(i, &self.forces[i], sums);
             }
         }

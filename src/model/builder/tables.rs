@@ -23,8 +23,8 @@ struct Tables {
 
 impl ModelBuilder {
     /// Adds tables of a scene (TOML): materials, bodies, `[[contact]]`, `[[support]]`, `[[load]]`,
-    /// `[program]`, `[analysis]`, `[units]`, `title`. Materials, bodies, contacts, supports and loads
-    /// come to those that are there, the others take their place.
+    /// `[program]`, `[analysis]`, `[units]`, `title`. Materials, bodies, contacts, supports and
+    /// loads come to those that are there, the others take their place.
     ///
     /// ```
     /// # use brinell::model::ModelBuilder;
@@ -42,8 +42,8 @@ impl ModelBuilder {
     /// ```
     ///
     /// # Errors
-    /// By line and column: no TOML, an unknown key, a value of another type; a material or body that
-    /// is there already.
+    /// By line and column: no TOML, an unknown key, a value of another type; a material or body
+    /// that is there already.
     pub fn tables(&mut self, text: &str) -> Result<&mut Self> {
         let tables: Tables =
             toml::from_str(text).map_err(|e| Error::input(format!("scene text: {e}")))?;
