@@ -77,11 +77,11 @@ impl Stresses {
         for (node, force) in forces.into_iter().enumerate() {
             let force = model.freedoms.to_local(node, force);
             for (slot, force) in model.freedoms.slots[node].iter().zip(force) {
-                match slot {
-                    Slot::Free(f) => out.internal[*f as usize] += force,
-                    Slot::Prescribed(p) => out.reactions[*p as usize] += force,
-                    Slot::Fixed => {}
-                }
+                model.freedoms.each(*slot, |slot, c| match slot {
+                    Slot::Free(f) => out.internal[f as usize] += c * force,
+                    Slot::Prescribed(p) => out.reactions[p as usize] += c * force,
+                    Slot::Fixed | Slot::Tied(_) => {}
+                });
             }
         }
         for (e, history) in field.flowed() {

@@ -9,7 +9,7 @@ use crate::index::Index;
 use crate::mesh::Mesh;
 use crate::scene::{
     Body, Contact, History, KeyPlaces, Load, Material, MeshSource, Program, Scene, Settings,
-    Support, Target,
+    Support, Target, Tie,
 };
 use crate::space::{Components, Space, Vector, in_words, length};
 use std::collections::BTreeMap;
@@ -71,6 +71,7 @@ impl ModelBuilder {
                 materials: BTreeMap::new(),
                 bodies: BTreeMap::new(),
                 contact: Vec::new(),
+                tie: Vec::new(),
                 support: Vec::new(),
                 load: Vec::new(),
                 program: Program::default(),
@@ -130,6 +131,12 @@ impl ModelBuilder {
     /// Lets two surfaces touch; their nodes are paired by geometry.
     pub fn contact(&mut self, contact: Contact) -> &mut Self {
         self.scene.contact.push(contact);
+        self
+    }
+
+    /// Holds two surfaces together.
+    pub fn tie(&mut self, tie: Tie) -> &mut Self {
+        self.scene.tie.push(tie);
         self
     }
 

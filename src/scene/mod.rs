@@ -29,7 +29,7 @@ mod validate;
 
 pub use accuracy::AccuracyDemand;
 pub use boundary::{
-    Contact, Direction, Displacement, History, Kirsch, Load, PlaneForce, SlaveSide, Support,
+    Contact, Direction, Displacement, History, Kirsch, Load, PlaneForce, SlaveSide, Support, Tie,
 };
 pub use geometry::{
     Block, BrickPart, CurvedBodies, CylinderOnHalfPlane, Disc, DiscInPlate, Extrusion, Formulation,
@@ -80,6 +80,9 @@ pub struct Scene {
     /// Pairs of surfaces that may touch.
     #[serde(default)]
     pub contact: Vec<Contact>,
+    /// Pairs of surfaces that stay together.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tie: Vec<Tie>,
     /// Supports.
     #[serde(default)]
     pub support: Vec<Support>,

@@ -65,7 +65,7 @@ fn the_program_tells_what_it_made_of_a_deck() {
     for fragment in [
         "30 nodes, 16 elements",
         "*CONTACT PAIR 1",
-        "line 85: *SURFACE BEHAVIOR: PRESSURE-OVERCLOSURE=LINEAR is",
+        "line 85: *SURFACE BEHAVIOR: PRESSURE-OVERCLOSURE=LINEAR: soft contact of pressure",
         "line 78: *DENSITY: loads are applied slowly: mass has no effect",
         "5 contact pairs",
     ] {

@@ -12,3 +12,6 @@ mod hertz;
 mod patch;
 mod published;
 mod sheet;
+mod soft;
+mod tie;
+mod tied_bodies;

@@ -85,7 +85,8 @@ pub(super) fn integrate(sides: &Sides, face: &Face) -> Result<Vec<(usize, Integr
     let pieces = face.pieces(&plane);
     let mut samples = Vec::new();
     let mut faced = Vec::new();
-    for (number, master) in sides.masters.iter().enumerate() {
+    for number in sides.near.near(face.center, face.normal, face.radius) {
+        let master = &sides.masters[number];
         if !face.may_face(master) {
             continue;
         }
