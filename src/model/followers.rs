@@ -193,14 +193,13 @@ impl Freedoms {
             })
             .collect();
         let moved = self.place(mesh, followers, &expanded);
-        self.followers = (expanded.into_iter())
-            .map(|terms| {
-                let slots = terms
-                    .into_iter()
-                    .map(|((node, i), c)| (self.slots[node][i], c));
-                slots.filter(|(slot, _)| *slot != Slot::Fixed).collect()
-            })
-            .collect();
+        let axes = |terms: Vec<(Axis, f64)>| {
+            let terms = terms.into_iter();
+            terms
+                .map(|((node, i), c)| (node as u32, i as u8, c))
+                .collect()
+        };
+        self.followers = expanded.into_iter().map(axes).collect();
         Ok(moved)
     }
 
@@ -244,11 +243,21 @@ impl Freedoms {
     #[inline]
     pub fn each(&self, slot: Slot, mut of: impl FnMut(Slot, f64)) {
         match slot {
-            Slot::Tied(k) => self.followers[k as usize]
-                .iter()
-                .for_each(|&(s, c)| of(s, c)),
+            Slot::Tied(k) => {
+                for &(node, i, c) in self.followed_axes(k) {
+                    match self.slots[node as usize][usize::from(i)] {
+                        Slot::Fixed => {}
+                        slot => of(slot, c),
+                    }
+                }
+            }
             slot => of(slot, 1.0),
         }
+    }
+
+    /// The nodes, axes and coefficients that a tied slot is the sum of.
+    pub fn followed_axes(&self, tied: u32) -> &[(u32, u8, f64)] {
+        &self.followers[tied as usize]
     }
 
     /// What the axes of some nodes follow, if they do: the place of each among all of theirs, and what

@@ -58,8 +58,8 @@ pub struct Freedoms {
     pub basis: ContactBasis,
     /// What gives way in soft contact: the last of the free freedoms.
     pub springs: Vec<Spring>,
-    /// What tied slots stand for.
-    pub(super) followers: Vec<Vec<(Slot, f64)>>,
+    /// What tied slots stand for: nodes, axes and coefficients.
+    pub(super) followers: Vec<Vec<(u32, u8, f64)>>,
 }
 
 impl Freedoms {
@@ -135,6 +135,11 @@ impl Freedoms {
     fn check_edges(&self, mesh: &Mesh) -> Result<()> {
         let held = |node: usize, direction: Vector| {
             let axes = self.local(node);
+            // Planes at any angle hold what they span.
+            let fixed = (0..3).filter(|&i| self.slots[node][i] == Slot::Fixed);
+            if fixed.map(|i| dot(axes[i], direction).powi(2)).sum::<f64>() > 1.0 - ALIGNED {
+                return Some((usize::MAX, 0.0));
+            }
             let at = (0..3).find(|&i| dot(axes[i], direction).abs() > 1.0 - ALIGNED)?;
             let sign = dot(axes[at], direction).signum();
             match self.slots[node][at] {
@@ -311,9 +316,7 @@ impl Freedoms {
 
     /// Holds a freedom at zero and renumbers.
     pub(super) fn pin(&mut self, freedom: usize) {
-        let slots = self.slots.iter_mut().flatten();
-        let followed = self.followers.iter_mut().flatten().map(|(slot, _)| slot);
-        for slot in slots.chain(followed) {
+        for slot in self.slots.iter_mut().flatten() {
             if let Slot::Free(f) = *slot {
                 *slot = match (f as usize).cmp(&freedom) {
                     std::cmp::Ordering::Less => continue,
@@ -387,11 +390,10 @@ impl Freedoms {
                 let p = self.prescribed[p as usize];
                 factors[p.load] * p.value
             }
-            Slot::Tied(k) => {
-                let terms = self.followers[k as usize].iter();
-                terms
-                    .map(|&(slot, c)| c * self.value(slot, u, factors))
-                    .sum()
+            Slot::Tied(_) => {
+                let mut sum = 0.0;
+                self.each(slot, |slot, c| sum += c * self.value(slot, u, factors));
+                sum
             }
         }
     }

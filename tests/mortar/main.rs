@@ -9,6 +9,7 @@ mod blocks;
 mod conforming;
 mod edges;
 mod hertz;
+mod hertz_in_space;
 mod patch;
 mod published;
 mod sheet;

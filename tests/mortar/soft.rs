@@ -132,6 +132,9 @@ fn hard_contact_is_the_limit() {
         let mut overrides = vec![
             "mesh.cylinder_on_half_plane.resolution=8".to_string(),
             "mesh.cylinder_on_half_plane.contact_width=12".to_string(),
+            "bodies.half_plane.plastic=false".to_string(),
+            "bodies.cylinder.plastic=false".to_string(),
+            "program.unit=load".to_string(),
             "program.targets=[{load_factor=1}]".to_string(),
         ];
         overrides.extend(stiffness.map(|k| format!("contact.0.stiffness={k:e}")));
