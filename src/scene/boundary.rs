@@ -20,7 +20,8 @@ pub struct Contact {
     /// Initial gap for all pairs instead of the geometric one.
     pub gap: Option<f64>,
     /// Which surface has the slaves, at whose nodes gaps and pressures are: `"auto"` takes the finer
-    /// one (the coarser where its facets are linear and more than twice as long), the second where
+    /// one (the coarser where its facets are linear and more than twice as long, or longer at all where
+    /// they are of a curved surface whose shape is not known), the second where
     /// nodes face each other.
     #[serde(default, skip_serializing_if = "SlaveSide::is_auto")]
     pub slave: SlaveSide,

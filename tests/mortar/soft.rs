@@ -132,8 +132,11 @@ fn hard_contact_is_the_limit() {
         let mut overrides = vec![
             "mesh.cylinder_on_half_plane.resolution=8".to_string(),
             "mesh.cylinder_on_half_plane.contact_width=12".to_string(),
+            "mesh.cylinder_on_half_plane.half_width=0.155".to_string(),
             "bodies.half_plane.plastic=false".to_string(),
             "bodies.cylinder.plastic=false".to_string(),
+            "reference=[]".to_string(),
+            "load.0.plane_force.total=-217".to_string(),
             "program.unit=load".to_string(),
             "program.targets=[{load_factor=1}]".to_string(),
         ];

@@ -41,6 +41,8 @@ const COVERED: f64 = 1e-8;
 /// Distance of surfaces that are tied, as a share of a facet's length: more than the tolerances of a
 /// mesher, less than an element.
 const NEAR: f64 = 0.05;
+/// Share of a facet's length by which facets of a flat surface may be off it.
+const FLAT: f64 = 1e-6;
 /// Overlap of the meshes, as a share of a facet's length, that is round-off.
 const TOUCHING: f64 = 1e-9;
 /// Share of a facet's weight up to which a master counts nothing.
@@ -145,11 +147,15 @@ pub(super) fn tied(entries: &Entries, distance: Option<f64>) -> Result<(Found, V
 /// Surfaces that are not one curve or do not face each other.
 fn coupled<'a>(entries: &'a Entries<'a>) -> Result<Coupled<'a>> {
     let (mesh, contact) = (entries.mesh, entries.contact);
+    let curves = entries
+        .surfaces
+        .map(|s| s.curve.or_else(|| roundness::find(mesh, s)));
     let slave = match contact.slave {
         SlaveSide::First => 0,
         SlaveSide::Second => 1,
-        SlaveSide::Auto => finer(mesh, entries.surfaces),
+        SlaveSide::Auto => finer(mesh, entries.surfaces, [0, 1].map(|k| curves[k].is_some())),
     };
+    let curves = [curves[slave], curves[1 - slave]];
     let [slave_surface, master_surface] = [entries.surfaces[slave], entries.surfaces[1 - slave]];
     let slave_nodes = nodes(mesh, slave_surface)?;
     nodes(mesh, master_surface)?;
@@ -160,8 +166,6 @@ fn coupled<'a>(entries: &'a Entries<'a>) -> Result<Coupled<'a>> {
             .map(|&facet| Face::new(mesh, facet))
             .collect()
     };
-    let curves =
-        [slave_surface, master_surface].map(|s| s.curve.or_else(|| roundness::find(mesh, s)));
     let shaped = Surface {
         facets: slave_surface.facets.clone(),
         curve: curves[0],
@@ -233,10 +237,12 @@ fn sum(facets: Vec<Result<Vec<(usize, Integrals)>>>) -> Result<BTreeMap<usize, I
 /// How much longer than those of the slave linear facets of a master may be. They stay straight:
 /// beyond that the kinks between them, not the contact, would shape the pressure.
 const LONGER: f64 = 2.0;
+/// The same where gaps have these kinks too: of curved surfaces whose true shape is not known.
+const LONGER_KINKED: f64 = 1.1;
 
 /// The surface with the smaller facets where the two may face each other, the second if alike; the
-/// other one where its facets are linear and longer by more than [`LONGER`].
-fn finer(mesh: &Mesh, surfaces: [&Surface; 2]) -> usize {
+/// other one where its facets are linear and longer by more than [`LONGER`], or [`LONGER_KINKED`].
+fn finer(mesh: &Mesh, surfaces: [&Surface; 2], is_known: [bool; 2]) -> usize {
     let faces = surfaces.map(|surface| -> Vec<Face> {
         surface
             .facets
@@ -262,7 +268,13 @@ fn finer(mesh: &Mesh, surfaces: [&Surface; 2]) -> usize {
     } else {
         first / second
     };
-    match ratio > LONGER * (1.0 + 1e-6) && faces[1 - finer].iter().all(is_linear) {
+    let coarser = &faces[1 - finer];
+    let size = coarser.iter().map(|face| face.radius).fold(0.0, f64::max);
+    let longer = match is_known[1 - finer] || depth(coarser) <= FLAT * size {
+        true => LONGER,
+        false => LONGER_KINKED,
+    };
+    match ratio > longer * (1.0 + 1e-6) && coarser.iter().all(is_linear) {
         true => 1 - finer,
         false => finer,
     }
@@ -360,21 +372,24 @@ impl Sides<'_> {
         ]
         .into_iter()
         .filter(|(_, curve)| curve.is_none())
-        .map(|(faces, _)| {
-            let mut at: BTreeMap<usize, &Face> = BTreeMap::new();
-            let mut largest = 0.0f64;
-            for face in faces {
-                for &node in &face.nodes {
-                    if let Some(other) = at.insert(node, face) {
-                        let turn = dot(face.normal, other.normal).clamp(-1.0, 1.0).acos();
-                        largest = largest.max(2.0 * face.radius.max(other.radius) * turn / 8.0);
-                    }
-                }
-            }
-            largest
-        })
+        .map(|(faces, _)| depth(faces))
         .sum()
     }
+}
+
+/// How far facets may be off a surface through their nodes.
+fn depth(faces: &[Face]) -> f64 {
+    let mut at: BTreeMap<usize, &Face> = BTreeMap::new();
+    let mut largest = 0.0f64;
+    for face in faces {
+        for &node in &face.nodes {
+            if let Some(other) = at.insert(node, face) {
+                let turn = dot(face.normal, other.normal).clamp(-1.0, 1.0).acos();
+                largest = largest.max(2.0 * face.radius.max(other.radius) * turn / 8.0);
+            }
+        }
+    }
+    largest
 }
 
 /// The normals of masters that face no single node, for axes of their own.
