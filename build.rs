@@ -1,8 +1,9 @@
 //! Finds what CHOLMOD needs and writes the bindings that `suitesparse_sys` does not have: the
-//! configuration functions of OpenBLAS (`ffi/openblas.h`) and of the OpenMP runtime (`ffi/openmp.h`).
+//! configuration functions of OpenBLAS (`ffi/openblas.h`) and of the OpenMP runtime
+//! (`ffi/openmp.h`).
 //!
-//! `OPENBLAS_LIBRARY_DIR` names another place for it than the usual ones. SuiteSparse itself is found by
-//! `suitesparse_sys`, whose build comes before this one.
+//! `OPENBLAS_LIBRARY_DIR` names another place for it than the usual ones. SuiteSparse itself is
+//! found by `suitesparse_sys`, whose build comes before this one.
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");
@@ -24,9 +25,10 @@ mod native {
     use std::process::Command;
 
     /// What to install, in the words of the reader's package manager.
-    const REMEDY: &str = "install SuiteSparse, OpenBLAS and libclang (Debian, Ubuntu: `apt-get install \
-        libsuitesparse-dev libopenblas-dev libclang-dev`), or build without CHOLMOD, in Rust \
-        alone: `cargo build --release --no-default-features --features faer,cli`";
+    const REMEDY: &str = "install SuiteSparse, OpenBLAS and libclang (Debian, Ubuntu: `apt-get \
+                          install libsuitesparse-dev libopenblas-dev libclang-dev`), or build \
+                          without CHOLMOD, in Rust alone: `cargo build --release \
+                          --no-default-features --features faer,cli`";
 
     pub fn configure() -> Result<(), String> {
         println!("cargo:rerun-if-env-changed=OPENBLAS_LIBRARY_DIR");

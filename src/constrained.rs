@@ -114,9 +114,9 @@ impl ConstrainedStructure {
     /// is that without load.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Input`] where sizes, freedoms or values do not fit, or where rows depend on
-    /// each other; [`crate::ErrorKind::Unheld`] naming the freedom where the structure is not held even
-    /// with all rows closed; backend limits.
+    /// [`crate::ErrorKind::Input`] where sizes, freedoms or values do not fit, or where rows depend
+    /// on each other; [`crate::ErrorKind::Unheld`] naming the freedom where the structure is not
+    /// held even with all rows closed; backend limits.
     pub fn new(
         backend: Backend,
         stiffness: &SymmetricCsc,
@@ -215,17 +215,12 @@ impl ConstrainedStructure {
         &self.condensed_stiffness
     }
 
-    /// `T`, `n_rows x n_rows`, symmetric: forces of the rows per gap.
-    pub fn contact_matrix(&self) -> &DMatrix<f64> {
-        &self.contact_matrix
-    }
-
     /// Solves contact under the load `f` (all freedoms), from the statuses at hand.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Input`] where the load has the wrong length or holds a number that is not
-    /// finite; [`crate::ErrorKind::Unheld`] naming the row where the load pushes a body away from every
-    /// contact.
+    /// [`crate::ErrorKind::Input`] where the load has the wrong length or holds a number that is
+    /// not finite; [`crate::ErrorKind::Unheld`] naming the row where the load pushes a body away
+    /// from every contact.
     pub fn solve(&mut self, load: &[f64]) -> Result<()> {
         self.check_load(load)?;
         let condensed = self.condense(load)?;

@@ -120,7 +120,7 @@ impl Error {
     }
 
     /// The message with its causes behind it, in one line.
-    pub fn in_full(&self) -> String {
+    pub(crate) fn in_full(&self) -> String {
         self.causes().fold(self.message.clone(), |text, cause| {
             format!("{text}: {cause}")
         })

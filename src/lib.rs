@@ -8,9 +8,10 @@
 //!
 //! ```text
 //!  scene ─▶ mesh ─▶ model ─▶ assembly ─▶ substructure ─▶ contact ─▶ analysis ─▶ results ─▶ output
-//!  (what    (nodes,  (freedoms, (K, loads)  (condense:       (pairs,    (yield load,  (states,  (files)
-//!   is       elements, pairs,               K → S_cc)         events)    increments)   history)
-//!   asked)   sets)     loads)
+//!  (what   (nodes,  (free-   (K, loads) (condense:      (pairs,   (yield load, (states,  (files)
+//!   is      ele-     doms,               K → S_cc)       events)   increments)  history)
+//!   asked)  ments,   pairs,
+//!           sets)    loads)
 //! ```
 //!
 //! A module imports only from modules declared above it; a test holds that.
@@ -18,7 +19,8 @@
 //! # Use
 //!
 //! ```
-//! use brinell::{analysis::Analysis, linalg::Backend, model::Model, progress::Silent, scene::Scene};
+//! use brinell::{analysis::Analysis, linalg::Backend, model::Model};
+//! use brinell::{progress::Silent, scene::Scene};
 //!
 //! # fn main() -> brinell::Result<()> {
 //! let scene = Scene::load("data/scenes/contact_patch.toml")?;
@@ -70,9 +72,15 @@
 // Blank lines keep the order of the data: rustfmt sorts neighbouring lines.
 mod text;
 
+mod number;
+
+mod root;
+
+mod classes;
+
 pub mod error;
 
-pub mod memory;
+pub(crate) mod memory;
 
 mod files;
 
@@ -87,7 +95,7 @@ pub mod analytical;
 
 pub mod space;
 
-pub mod shape;
+pub(crate) mod shape;
 
 pub mod results;
 
@@ -97,7 +105,7 @@ pub mod deck;
 
 pub mod mesh;
 
-pub mod material;
+pub(crate) mod material;
 
 pub mod element;
 

@@ -52,7 +52,8 @@ fn out_of_memory(bytes: usize) -> ! {
         let mut rest = &mut text[..];
         let _ = writeln!(
             rest,
-            "error: out of memory: {bytes} bytes were asked for: use a coarser mesh, or raise the limit of this process (ulimit -v)"
+            "error: out of memory: {bytes} bytes were asked for: use a coarser mesh, or raise the \
+             limit of this process (ulimit -v)"
         );
         let length = 160 - rest.len();
         let _ = std::io::stderr().write_all(&text[..length]);

@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// Memory that this process may still take, in bytes: the least of what the machine has free, what
 /// its control group and its own limits (`ulimit -v`, `ulimit -d`) leave. `None` where the system
-/// does not tell.
+/// does not report it.
 pub fn available() -> Option<f64> {
     [machine(), group(), limits()]
         .into_iter()
@@ -15,7 +15,7 @@ pub fn available() -> Option<f64> {
 }
 
 /// The most memory that this process has held so far, in bytes (Linux: `VmHWM`). `None` where the
-/// system does not tell.
+/// system does not report it.
 pub(crate) fn peak() -> Option<u64> {
     kibibytes("/proc/self/status", "VmHWM:").map(|bytes| bytes as u64)
 }
@@ -27,8 +27,9 @@ pub(crate) fn peak() -> Option<u64> {
 pub(crate) fn require(what: &str, bytes: f64) -> Result<()> {
     match available() {
         Some(free) if bytes > free => Err(Error::analysis(format!(
-            "out of memory: the {what} needs about {:.0} MB and {:.0} MB are available: use a coarser mesh, a smaller \
-             zone or a machine with more memory, or raise the limit of this process (ulimit -v)",
+            "out of memory: the {what} needs about {:.0} MB and {:.0} MB are available: use a \
+             coarser mesh, a smaller zone or a machine with more memory, or raise the limit of \
+             this process (ulimit -v)",
             (bytes / 1e6).ceil(),
             (free / 1e6).floor()
         ))),

@@ -1,4 +1,5 @@
-//! What a run tells its caller while it works. The library never prints: it calls an [`Observer`].
+//! What a run reports to its caller while it works. The library never prints: it calls an
+//! [`Observer`].
 
 /// Whether the run goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

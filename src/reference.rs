@@ -1,5 +1,5 @@
-//! Published and exact values beside the computed ones: what a scene's `[[reference]]` asks for.
-//! Nothing that computes, estimates or chooses knows of them.
+//! Published and exact values compared with the computed ones: what a scene's `[[reference]]` asks
+//! for. Nothing that computes, estimates or chooses knows of them.
 
 mod pressure;
 

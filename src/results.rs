@@ -29,7 +29,8 @@ pub(crate) fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error
 ///
 /// ```
 /// use brinell::results::Status;
-/// # use brinell::{analysis::Analysis, linalg::Backend, model::Model, progress::Silent, scene::Scene};
+/// # use brinell::{analysis::Analysis, linalg::Backend, model::Model};
+/// # use brinell::{progress::Silent, scene::Scene};
 ///
 /// # fn main() -> brinell::Result<()> {
 /// # let scene = Scene::load("data/scenes/contact_patch.toml")?;
@@ -77,7 +78,8 @@ pub struct Results {
     pub inaccurate: Vec<String>,
     /// What the factorisation cost.
     pub factor: Prediction,
-    /// Reference values beside computed ones, where they were compared (by `reference::compare`).
+    /// Reference values compared with computed ones, where they were compared (by
+    /// `reference::compare`).
     pub reference: Vec<ReferenceRow>,
     /// How wrong each figure may be, where it was estimated (by `accuracy::estimate`).
     pub accuracy: Option<Accuracy>,
@@ -232,8 +234,8 @@ pub struct State {
     /// equivalent plastic strain `p` of each Gauss point; in the plane per unit thickness.
     #[serde(default)]
     pub plastic_work: f64,
-    /// Largest distance of a Gauss point with plastic strain from a contact surface, along the normal
-    /// there; 0 without contact.
+    /// Largest distance of a Gauss point with plastic strain from a contact surface, along the
+    /// normal there; 0 without contact.
     #[serde(default)]
     pub plastic_depth: f64,
     /// Estimated energy norm of the stress error over that of the stress (Zienkiewicz-Zhu); known
@@ -260,8 +262,8 @@ pub struct State {
 pub struct Fields {
     /// `n_nodes x dimension` displacements in global axes.
     pub displacement: Vec<f64>,
-    /// `n_elements x 4` element means of stress: xx, yy, zz, xy (axisymmetric: rr, zz, tt, rz); of a
-    /// solid `n_elements x 6`: xx, yy, zz, xy, yz, zx.
+    /// `n_elements x 4` element means of stress: xx, yy, zz, xy (axisymmetric: rr, zz, tt, rz); of
+    /// a solid `n_elements x 6`: xx, yy, zz, xy, yz, zx.
     pub stress: Vec<f64>,
     /// `n_elements` von Mises stress: the largest over the element's Gauss points.
     pub von_mises: Vec<f64>,
@@ -279,8 +281,8 @@ pub struct Fields {
     /// `n_nodes` gap; NaN of nodes that are in no pair.
     #[serde(default)]
     pub gap: Vec<f64>,
-    /// `n_nodes x dimension` forces that act from outside: loads and reactions. Not part of a result
-    /// directory.
+    /// `n_nodes x dimension` forces that act from outside: loads and reactions. Not part of a
+    /// result directory.
     #[serde(default)]
     pub force: Vec<f64>,
 }
@@ -301,7 +303,7 @@ pub struct Counts {
     pub contact_changes: usize,
 }
 
-/// A published or exact value beside the computed one.
+/// A published or exact value compared with the computed one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ReferenceRow {
     /// What: a path in `summary.json`.

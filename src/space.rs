@@ -121,7 +121,7 @@ impl Space {
     }
 
     /// Whether coordinates are radius and height.
-    pub fn is_axisymmetric(self) -> bool {
+    pub(crate) fn is_axisymmetric(self) -> bool {
         self == Space::Axisymmetric
     }
 
@@ -160,7 +160,7 @@ impl Space {
     }
 
     /// The rigid motions that the idealisation leaves a body.
-    pub fn rigid_motions(self) -> &'static [RigidMotion] {
+    pub(crate) fn rigid_motions(self) -> &'static [RigidMotion] {
         use RigidMotion::{About, Along};
         match self {
             Space::PlaneStrain | Space::PlaneStress => &[Along(0), Along(1), About(2)],
@@ -224,7 +224,7 @@ pub fn along(a: Vector, t: f64, b: Vector) -> Vector {
 }
 
 /// The first components of a vector: `(x, y)` or `(x, y, z)`.
-pub fn in_words(vector: Vector, dimension: usize) -> String {
+pub(crate) fn in_words(vector: Vector, dimension: usize) -> String {
     let words: Vec<String> = vector.iter().take(dimension).map(f64::to_string).collect();
     format!("({})", words.join(", "))
 }

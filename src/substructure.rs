@@ -1,12 +1,13 @@
 //! The structure as contact and plasticity see it: the only door from sparse to dense.
 //!
-//! The stiffness is factored in the order `[ interior | zone | contact ]` and condensed. Contact rows
-//! `s = B u_c <= delta` act on the contact freedoms; on the normal displacements `(u^1, u^2)` of nodes
-//! that face each other they suggest `v = u^1` and the relative displacement
+//! The stiffness is factored in the order `[ interior | zone | contact ]` and condensed. Contact
+//! rows `s = B u_c <= delta` act on the contact freedoms; on the normal displacements `(u^1, u^2)`
+//! of nodes that face each other they suggest `v = u^1` and the relative displacement
 //! `s = u^2 - u^1 <= delta`, the paper's u_c^1 and (2.4). In these
 //!
 //! ```text
-//!     [ S_vv  S_vs ] [ v ]   [ f_1 + f_2 ]       S_vv = sum of the bodies' condensed stiffness  (paper 3.8)
+//!     [ S_vv  S_vs ] [ v ]   [ f_1 + f_2 ]       S_vv = sum of the bodies'
+//!                                                condensed stiffness  (paper 3.8)
 //!     [ S_sv  S_ss ] [ s ] = [ f_2 - r   ]
 //! ```
 //!
@@ -88,7 +89,7 @@ impl Trailing {
     }
 
     /// Takes over the values of another vector of the same size.
-    pub fn copy_from(&mut self, other: &Trailing) {
+    pub(crate) fn copy_from(&mut self, other: &Trailing) {
         self.zone.copy_from_slice(&other.zone);
         self.contact.copy_from_slice(&other.contact);
     }
@@ -156,7 +157,7 @@ impl Substructure {
     ///
     /// # Errors
     /// Those of [`Substructure::new`].
-    pub fn set_zone(
+    pub(crate) fn set_zone(
         &mut self,
         model: &Model,
         system: &System,
@@ -190,7 +191,7 @@ impl Substructure {
     }
 
     /// Forces `T s` of relative displacements `s` of the pairs.
-    pub fn slip_forces(&self, slip: &[f64]) -> Vec<f64> {
+    pub(crate) fn slip_forces(&self, slip: &[f64]) -> Vec<f64> {
         match &self.tied {
             Some(tied) => {
                 let mut forces = vec![0.0; self.n_pairs];
@@ -207,7 +208,7 @@ impl Substructure {
     /// bodies contribute to it, and the amplitude of each of these motions. Gaps that a body falls
     /// through are taken off before the difference is formed: what deforms the bodies keeps its
     /// digits beside them.
-    pub fn split_slip(&self, delta: &[f64], gap: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    pub(crate) fn split_slip(&self, delta: &[f64], gap: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let Some(tied) = &self.tied else {
             return (Vec::new(), Vec::new());
         };
@@ -315,7 +316,7 @@ impl Substructure {
     ///
     /// # Errors
     /// Failure of the backend's solve.
-    pub fn recover_deformation(
+    pub(crate) fn recover_deformation(
         &self,
         system: &System,
         load: &[f64],
@@ -415,7 +416,8 @@ impl ContactCost {
     }
 }
 
-/// The stiffness's own diagonal on the contact freedoms of bodies that supports do not hold, zero elsewhere.
+/// The stiffness's own diagonal on the contact freedoms of bodies that supports do not hold, zero
+/// elsewhere.
 fn shift(model: &Model, system: &System, partition: &Partition) -> Vec<f64> {
     let diagonal = |&freedom: &usize| system.stiffness.get(freedom, freedom).copied();
     let of = |(freedom, floats): (&usize, &bool)| match floats {
@@ -439,7 +441,10 @@ fn name_freedom(error: Error, model: &Model) -> Error {
             let place = model.freedoms.describe(&model.mesh, freedom);
             Error::new(
                 crate::ErrorKind::Unheld,
-                format!("the stiffness is singular at {place}: a part of the model is not held, or an element there is degenerate"),
+                format!(
+                    "the stiffness is singular at {place}: a part of the model is not held, or an \
+                     element there is degenerate"
+                ),
             )
             .because(error)
         }

@@ -29,9 +29,9 @@ pub(crate) fn shown_json(text: &str) -> Cow<'_, str> {
     })
 }
 
-/// `text` with each number that was written out to its last of many digits, as others than
-/// brinell do in their messages, in the form of [`exact`]. What only looks like such a number (a
-/// file's name) stays: its digits are not those of a floating-point number.
+/// `text` with each number that was written out to its last of many digits, as others than brinell
+/// do in their messages, in the form of [`crate::number::exact`]. What only looks like such a
+/// number (a file's name) stays: its digits are not those of a floating-point number.
 pub(crate) fn short(text: &str) -> Cow<'_, str> {
     let belongs = |b: u8| b.is_ascii_alphanumeric() || b == b'.' || b == b'_';
     let mut out = String::new();
@@ -79,21 +79,6 @@ fn whole_part(digits: &str) -> &str {
 /// Characters of the longest number between 1e-4 and 1e16 with all its digits: longer ones are
 /// zeros or digits that no floating-point number has.
 const MOST_DIGITS: usize = 22;
-
-/// A number as it was given, to the last digit, but with an exponent where that is shorter: `1e300`
-/// has no 300 zeros.
-pub(crate) fn exact(value: f64) -> String {
-    let plain = value.to_string();
-    let scientific = format!("{value:e}");
-    if plain.len() > scientific.len().max(LONGEST_PLAIN) {
-        scientific
-    } else {
-        plain
-    }
-}
-
-/// Digits that read well without an exponent.
-const LONGEST_PLAIN: usize = 12;
 
 fn escape(c: char, out: &mut String) {
     let _ = write!(out, "{}", c.escape_unicode());
@@ -159,21 +144,6 @@ mod tests {
             ),
         ] {
             assert_eq!(shown(text), expected);
-        }
-    }
-
-    #[test]
-    fn numbers_are_exact_and_short() {
-        for (value, text) in [
-            (0.0, "0"),
-            (210_000.0, "210000"),
-            (-0.25, "-0.25"),
-            (1e300, "1e300"),
-            (-1.5e-300, "-1.5e-300"),
-            (0.1 + 0.2, "0.30000000000000004"),
-            (f64::NAN, "NaN"),
-        ] {
-            assert_eq!(exact(value), text);
         }
     }
 

@@ -1,4 +1,5 @@
-//! The structure that the project means to keep: module order, where `unsafe` lives, sizes, schema, scenes.
+//! The structure that the project means to keep: module order, where `unsafe` lives, sizes, schema,
+//! scenes.
 
 use brinell::scene::Scene;
 use serde_json::Value;
@@ -34,7 +35,8 @@ fn name(path: &Path) -> String {
     below.to_string_lossy().replace('\\', "/")
 }
 
-/// The code of a file without comments (a `//` inside a string ends the line too: that hides code, it adds none).
+/// The code of a file without comments (a `//` inside a string ends the line too: that hides code,
+/// it adds none).
 fn code(path: &Path) -> String {
     let text = std::fs::read_to_string(path).unwrap();
     let lines = text.lines().map(|l| l.split("//").next().unwrap_or(""));
@@ -103,7 +105,9 @@ fn modules_import_from_above_only() {
     let order: Vec<String> = code(&root().join("src/lib.rs"))
         .lines()
         .filter_map(|l| {
-            let declared = l.trim().trim_start_matches("pub ");
+            let line = l.trim();
+            let declared = line.trim_start_matches("pub ");
+            let declared = declared.trim_start_matches("pub(crate) ");
             let name = declared.strip_prefix("mod ")?.strip_suffix(';')?;
             Some(name.to_string())
         })
@@ -129,8 +133,8 @@ fn modules_import_from_above_only() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// Closed forms give sizes to generated meshes and to new scenes, a load, and what a scene is compared with. What computes,
-/// estimates or reports knows none.
+/// Closed forms give sizes to generated meshes and to new scenes, a load, and what a scene is
+/// compared with. What computes, estimates or reports knows none.
 #[test]
 fn closed_forms_stay_out_of_what_computes() {
     let allowed = |name: &str| {
@@ -207,6 +211,26 @@ fn files_have_at_most_500_lines() {
         .filter(|(_, lines)| *lines > 500)
         .map(|(name, lines)| format!("{name}: {lines}"))
         .collect();
+    assert!(long.is_empty(), "{long:#?}");
+}
+
+/// Rows of tables, which Markdown has in one line, and addresses are as long as they are.
+#[test]
+fn lines_have_at_most_100_columns() {
+    let excused = |line: &str| {
+        let text = line.trim_start().trim_start_matches(['/', '!']);
+        text.trim_start().starts_with('|') || line.contains("://")
+    };
+    let mut long = Vec::new();
+    let paths = ["src", "tests", "ffi/examples"].map(|folder| files(folder, "rs"));
+    for path in paths.concat() {
+        let text = std::fs::read_to_string(&path).unwrap();
+        for (number, line) in text.lines().enumerate() {
+            if line.chars().count() > 100 && !excused(line) {
+                long.push(format!("{}:{}", name(&path), number + 1));
+            }
+        }
+    }
     assert!(long.is_empty(), "{long:#?}");
 }
 

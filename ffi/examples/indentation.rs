@@ -54,7 +54,8 @@ fn analyse(path: &str) -> brinell::Result<String> {
     ))
 }
 
-/// Half of two blocks from arrays: pairs with gaps that grow from the middle, pressed together until they flow, and let go.
+/// Half of two blocks from arrays: pairs with gaps that grow from the middle, pressed together
+/// until they flow, and let go.
 fn blocks() -> brinell::Result<()> {
     const NX: usize = 4;
     const NY: usize = 2;

@@ -3,9 +3,10 @@
  * Generated from src/capi by cbindgen; do not edit. To write it anew:
  *     BRINELL_WRITE_HEADER=1 cargo test --test capi header
  *
- * Every function returns BRINELL_OK or a status; brinell_last_error() then says why, in the thread that called.
- * Handles are opaque and freed by their own function. Set the size of a structure (sizeof) before handing it over.
- * Handles may be used in different threads at once, one handle by one thread at a time. See ffi/README.md.
+ * Every function returns BRINELL_OK or a status; brinell_last_error() then states why, in the
+ * thread that called. Handles are opaque and freed by their own function. Set the size of a
+ * structure (sizeof) before handing it over. Handles may be used in different threads at once,
+ * one handle by one thread at a time. See ffi/README.md.
  */
 
 #ifndef BRINELL_H
@@ -35,7 +36,8 @@
 // The load passed the limit load.
 #define BRINELL_COLLAPSE 6
 
-// The run is complete, but a state's quality misses its tolerance, or an accuracy that the scene demands was not reached.
+// The run is complete, but a state's quality misses its tolerance, or an accuracy that the scene
+// demands was not reached.
 #define BRINELL_INACCURATE 7
 
 // Contact reached the end of its candidates although the bodies go on there.
@@ -119,13 +121,15 @@
 // Uniform traction (x, y) on a surface.
 #define BRINELL_LOAD_TRACTION 2
 
-// Traction of a plate with a hole at the origin under remote stress along x and y: values are both stresses and the radius.
+// Traction of a plate with a hole at the origin under remote stress along x and y: values are both
+// stresses and the radius.
 #define BRINELL_LOAD_KIRSCH 3
 
 // Prescribed displacement (x, y) in the given directions.
 #define BRINELL_LOAD_DISPLACEMENT 4
 
-// Total force (the first of `values`) along the one given direction, on a surface that is held plane.
+// Total force (the first of `values`) along the one given direction, on a surface that is held
+// plane.
 #define BRINELL_LOAD_PLANE_FORCE 5
 
 // A force of its own (x, y) on each of `nodes`; `name` is needed, `on` is not.
@@ -179,7 +183,8 @@
 // n_nodes x 2 displacements, of a solid x 3, node by node.
 #define BRINELL_FIELD_DISPLACEMENT 0
 
-// n_elements x 4 mean stresses: xx, yy, zz, xy (axisymmetric rr, zz, tt, rz); of a solid x 6, yz and zx after them.
+// n_elements x 4 mean stresses: xx, yy, zz, xy (axisymmetric rr, zz, tt, rz); of a solid x 6, yz
+// and zx after them.
 #define BRINELL_FIELD_STRESS 1
 
 // n_elements von Mises stresses.
@@ -281,14 +286,15 @@ typedef struct brinell_material {
   double yield_stress;
   // Slope of the yield stress over the plastic strain; 0 for perfect plasticity.
   double plastic_modulus;
-  // n_table rows of (plastic strain, yield stress) in place of the modulus, the first one (0, yield_stress).
+  // n_table rows of (plastic strain, yield stress) in place of the modulus, the first one (0,
+  // yield_stress).
   const double *hardening_table;
   // Rows of the table.
   size_t n_table;
 } brinell_material;
 
-// How two surfaces touch. NULL stands for the defaults, which are all zeros: nodes that face each other are paired, other
-// surfaces are coupled by the integrals of their shape functions.
+// How two surfaces touch. NULL stands for the defaults, which are all zeros: nodes that face each
+// other are paired, other surfaces are coupled by the integrals of their shape functions.
 typedef struct brinell_contact {
   // sizeof(brinell_contact).
   size_t size;
@@ -296,8 +302,8 @@ typedef struct brinell_contact {
   double interference;
   // Gap of all pairs in place of the geometric one; NULL if not given.
   const double *gap;
-  // Direction from the second body to the first of all pairs (2 values), for the pairing by geometry; NULL for the second surface's
-  // outward normals.
+  // Direction from the second body to the first of all pairs (2 values), for the pairing by
+  // geometry; NULL for the second surface's outward normals.
   const double *normal;
   // Number of pairs that are given; 0: by geometry.
   size_t n_pairs;
@@ -305,12 +311,13 @@ typedef struct brinell_contact {
   const int64_t *first_nodes;
   // n_pairs nodes of the second surface.
   const int64_t *second_nodes;
-  // n_pairs x 2, of a solid x 3: direction from the second body to the first; NULL for the second surface's outward normals.
+  // n_pairs x 2, of a solid x 3: direction from the second body to the first; NULL for the
+  // second surface's outward normals.
   const double *normals;
   // n_pairs gaps >= 0; NULL for the geometric ones.
   const double *gaps;
-  // Which surface has the slaves, at whose nodes gaps and pressures are: 1 the first, 2 the second; 0: the finer one, the second
-  // where nodes face each other.
+  // Which surface has the slaves, at whose nodes gaps and pressures are: 1 the first, 2 the
+  // second; 0: the finer one, the second where nodes face each other.
   int32_t slave;
 } brinell_contact;
 
@@ -366,11 +373,12 @@ typedef struct brinell_program {
   size_t size;
   // What a load factor of 1 means: the loads as given (0), the yield load (1).
   int32_t unit;
-  // Increments end at the next change of contact (0), or there are `steps` of them for each target (1).
+  // Increments end at the next change of contact (0), or there are `steps` of them for each
+  // target (1).
   int32_t stepping;
   // Increments for each target.
   size_t steps;
-  // Relative tolerance with which a change of contact is hit.
+  // Relative tolerance with which a change of contact is landed on.
   double gamma;
   // Yield load along the exact path (0) or by the paper's secant (1).
   int32_t yield_load;
@@ -508,7 +516,8 @@ typedef struct brinell_rows {
 extern "C" {
 #endif // __cplusplus
 
-// The reason of the last failure in this thread, UTF-8; empty before the first one. Valid until the next failure in this thread.
+// The reason of the last failure in this thread, UTF-8; empty before the first one. Valid until
+// the next failure in this thread.
 const char *brinell_last_error(void);
 
 // The version of the library, such as "0.1.0". Static.
@@ -530,21 +539,27 @@ int32_t brinell_scene_parse(const char *toml, struct brinell_scene **out);
 // Frees a scene.
 void brinell_scene_free(struct brinell_scene *scene);
 
-// An empty model: one of BRINELL_PLANE_STRAIN, BRINELL_PLANE_STRESS, BRINELL_AXISYMMETRIC, BRINELL_SOLID. `symmetry` copies of it make the whole: 1
-// where all of it is meshed, 2 for a half model, 4 for a quarter of a plane or solid one, 8 for an eighth of a solid one (loads and results are those of the whole).
-int32_t brinell_model_new(int32_t kind,
-                          size_t symmetry,
-                          struct brinell_model **out);
+// An empty model: one of BRINELL_PLANE_STRAIN, BRINELL_PLANE_STRESS, BRINELL_AXISYMMETRIC,
+// BRINELL_SOLID. `symmetry` copies of it make the whole: 1 where all of it is meshed, 2 for a half
+// model, 4 for a quarter of a plane or solid one, 8 for an eighth of a solid one (loads and
+// results are those of the whole).
+int32_t brinell_model_new(int32_t kind, size_t symmetry, struct brinell_model **out);
 
 // Frees a model.
 void brinell_model_free(struct brinell_model *model);
 
-// Adds nodes: n x 2 coordinates, of a solid n x 3, node by node. Nodes are numbered from 0 in the order in which they were added.
-int32_t brinell_model_nodes(struct brinell_model *model,
-                            const double *coordinates,
-                            size_t n);
+// Adds tables of a scene (TOML text): materials, bodies, [[contact]], [[support]], [[load]],
+// [program], [analysis], [units], title; whatever a scene file may say but for `kind`, `symmetry` and
+// `mesh`. Materials, bodies, contacts, supports and loads come to those that are there, the others
+// take their place.
+int32_t brinell_model_tables(struct brinell_model *model, const char *tables);
 
-// Adds `n` elements of one shape (BRINELL_SHAPE_...) to a body: the nodes of one after the other, in the order of its shape.
+// Adds nodes: n x 2 coordinates, of a solid n x 3, node by node. Nodes are numbered from 0 in the
+// order in which they were added.
+int32_t brinell_model_nodes(struct brinell_model *model, const double *coordinates, size_t n);
+
+// Adds `n` elements of one shape (BRINELL_SHAPE_...) to a body: the nodes of one after the other,
+// in the order of its shape.
 int32_t brinell_model_elements(struct brinell_model *model,
                                const char *body,
                                int32_t shape,
@@ -554,21 +569,23 @@ int32_t brinell_model_elements(struct brinell_model *model,
 // Names some nodes.
 int32_t brinell_model_node_set(struct brinell_model *model, const char *name, const int64_t *nodes, size_t n);
 
-// Names a surface of n facets, each by its element and its number there: facet k lies between corners k and k + 1.
+// Names a surface of n facets, each by its element and its number there: facet k lies between
+// corners k and k + 1.
 int32_t brinell_model_surface(struct brinell_model *model,
                               const char *name,
                               const int64_t *elements,
                               const int64_t *facets,
                               size_t n);
 
-// Names a surface by its nodes, mid-side nodes included: the facets of the boundary all whose nodes are among them.
+// Names a surface by its nodes, mid-side nodes included: the facets of the boundary all whose
+// nodes are among them.
 int32_t brinell_model_surface_of_nodes(struct brinell_model *model,
                                        const char *name,
                                        const int64_t *nodes,
                                        size_t n);
 
-// States that a surface is a circle about (x, y): the body lies inside (`outward` 1) or outside of it (0, a hole). Normals are then
-// exact.
+// States that a surface is a circle about (x, y): the body lies inside (`outward` 1) or outside of
+// it (0, a hole). Normals are then exact.
 int32_t brinell_model_circle(struct brinell_model *model,
                              const char *surface,
                              double x,
@@ -576,7 +593,8 @@ int32_t brinell_model_circle(struct brinell_model *model,
                              double radius,
                              int32_t outward);
 
-// Runs the load program of a model; all else as brinell_run. The model may be changed and run again.
+// Runs the load program of a model; all else as brinell_run. The model may be changed and run
+// again.
 int32_t brinell_model_run(const struct brinell_model *model,
                           const struct brinell_options *options,
                           brinell_callback callback,
@@ -605,9 +623,7 @@ int32_t brinell_model_contact(struct brinell_model *model,
 int32_t brinell_model_support(struct brinell_model *model, const char *on, int32_t fix, double angle);
 
 // Holds a node set or surface along any one direction: two components, of a solid three.
-int32_t brinell_model_support_along(struct brinell_model *model,
-                                    const char *on,
-                                    const double *direction);
+int32_t brinell_model_support_along(struct brinell_model *model, const char *on, const double *direction);
 
 // Adds a load.
 int32_t brinell_model_load(struct brinell_model *model, const struct brinell_load *load);
@@ -618,16 +634,19 @@ int32_t brinell_model_target(struct brinell_model *model, const struct brinell_t
 // States how the load program is computed; the targets stay.
 int32_t brinell_model_program(struct brinell_model *model, const struct brinell_program *program);
 
-// Runs a scene's load program. `callback` (NULL for none) is called after each increment with `user`.
+// Runs a scene's load program. `callback` (NULL for none) is called after each increment with
+// `user`.
 //
-// A run that was stopped, collapsed or failed after increments were accepted returns BRINELL_STOPPED, BRINELL_COLLAPSE or
-// BRINELL_ANALYSIS *and* results: what was computed before; a complete one with a state whose quality misses its tolerance,
-// or that does not reach the accuracy its scene demands, returns BRINELL_INACCURATE and results. After any other failure
+// A run that was stopped, collapsed or failed after increments were accepted returns
+// BRINELL_STOPPED, BRINELL_COLLAPSE or BRINELL_ANALYSIS *and* results: what was computed before; a
+// complete one with a state whose quality misses its tolerance, or that does not reach the
+// accuracy its scene demands, returns BRINELL_INACCURATE and results. After any other failure
 // `*out` is NULL.
 //
-// A scene with the key `accuracy` is run on finer and finer meshes until their stated errors are within it: the callback sees
-// the increments of each, counted from 1 anew, and the results are those of the last (`accuracy` of the summary says what is
-// stated of each figure, and why a demand was not reached).
+// A scene with the key `accuracy` is run on finer and finer meshes until their stated errors are
+// within it: the callback sees the increments of each, counted from 1 anew, and the results are
+// those of the last (`accuracy` of the summary says what is stated of each figure, and why a
+// demand was not reached).
 int32_t brinell_run(const struct brinell_scene *scene,
                     const struct brinell_options *options,
                     brinell_callback callback,
@@ -649,7 +668,8 @@ int32_t brinell_results_state(const struct brinell_results *results, size_t inde
 // The name of state `index`; NULL where there is no such state. Valid as long as the results.
 const char *brinell_results_state_name(const struct brinell_results *results, size_t index);
 
-// An array of the contact pairs of state `index`: one of BRINELL_PAIR_... Valid as long as the results.
+// An array of the contact pairs of state `index`: one of BRINELL_PAIR_... Valid as long as the
+// results.
 int32_t brinell_results_pairs(const struct brinell_results *results,
                               size_t index,
                               int32_t which,
@@ -663,7 +683,8 @@ int32_t brinell_results_field(const struct brinell_results *results,
                               const double **data,
                               size_t *n);
 
-// A column of the history, a value for each accepted increment: one of BRINELL_HISTORY_... Valid as long as the results.
+// A column of the history, a value for each accepted increment: one of BRINELL_HISTORY_... Valid
+// as long as the results.
 int32_t brinell_results_history(const struct brinell_results *results,
                                 int32_t which,
                                 const double **data,
@@ -678,16 +699,15 @@ int32_t brinell_results_write(const struct brinell_results *results, const char 
 // Number of the quantities that a state has.
 size_t brinell_n_quantities(void);
 
-// The key of quantity `index`, from 0, as in summary.json: "load", "half_width", "residual_depth" and so on; NULL where there
-// is none such. Static.
+// The key of quantity `index`, from 0, as in summary.json: "load", "half_width", "residual_depth"
+// and so on; NULL where there is none such. Static.
 const char *brinell_quantity_key(size_t index);
 
-// A number of the results by its path in summary.json: "yield.KEY" at first yield, or "states.NAME.KEY" of a state, where
-// the number of the state, from 0, may stand for its name. Counts are numbers too; not a number where it is not known.
-// BRINELL_INPUT where the results have none such.
-int32_t brinell_results_value(const struct brinell_results *results,
-                              const char *path,
-                              double *value);
+// A number of the results by its path in summary.json: "yield.KEY" at first yield, or
+// "states.NAME.KEY" of a state, where the number of the state, from 0, may stand for its name.
+// Counts are numbers too; not a number where it is not known. BRINELL_INPUT where the results have
+// none such.
+int32_t brinell_results_value(const struct brinell_results *results, const char *path, double *value);
 
 // Number of patches of contact of state `index` of a solid; 0 where there is no such state.
 size_t brinell_results_n_patches(const struct brinell_results *results, size_t index);
@@ -698,8 +718,8 @@ int32_t brinell_results_patch(const struct brinell_results *results,
                               size_t patch,
                               struct brinell_patch *out);
 
-// Factors and condenses a stiffness with contact rows (NULL for none). The arrays are not needed afterwards. The state is that
-// without load.
+// Factors and condenses a stiffness with contact rows (NULL for none). The arrays are not needed
+// afterwards. The state is that without load.
 int32_t brinell_structure_new(const struct brinell_matrix *matrix,
                               const struct brinell_rows *rows,
                               const struct brinell_options *options,
@@ -713,7 +733,8 @@ int32_t brinell_structure_contact_freedoms(const struct brinell_structure *struc
                                            const size_t **data,
                                            size_t *n);
 
-// The stiffness condensed on the contact freedoms, n x n, column by column. Valid as long as the structure.
+// The stiffness condensed on the contact freedoms, n x n, column by column. Valid as long as the
+// structure.
 int32_t brinell_structure_condensed(const struct brinell_structure *structure,
                                     const double **data,
                                     size_t *n);
@@ -721,14 +742,13 @@ int32_t brinell_structure_condensed(const struct brinell_structure *structure,
 // Solves contact under a load on all freedoms (plastic loads among them).
 int32_t brinell_structure_solve(struct brinell_structure *structure, const double *load, size_t n);
 
-// Starts a piece of the load path: from the state at hand the load goes on as load + t rate, t from 0.
+// Starts a piece of the load path: from the state at hand the load goes on as load + t rate, t
+// from 0.
 int32_t brinell_structure_start(struct brinell_structure *structure, const double *rate, size_t n);
 
-// Goes on to `end` or to the next change of contact: `t` is where, `n_changes` how many rows change there, 0 at the end.
-int32_t brinell_structure_step(struct brinell_structure *structure,
-                               double end,
-                               double *t,
-                               size_t *n_changes);
+// Goes on to `end` or to the next change of contact: `t` is where, `n_changes` how many rows
+// change there, 0 at the end.
+int32_t brinell_structure_step(struct brinell_structure *structure, double end, double *t, size_t *n_changes);
 
 // Change `index` of the last event: its row, and whether it closes (1) or opens (0).
 int32_t brinell_structure_change(const struct brinell_structure *structure,
@@ -745,7 +765,8 @@ int32_t brinell_structure_forces(const struct brinell_structure *structure, cons
 // Statuses of the rows: 1 closed, 0 open.
 int32_t brinell_structure_statuses(const struct brinell_structure *structure, int32_t *closed, size_t n);
 
-// Displacements of all freedoms. Costs one full solve. `backward_error` (NULL if not wanted) is that of this solve.
+// Displacements of all freedoms. Costs one full solve. `backward_error` (NULL if not wanted) is
+// that of this solve.
 int32_t brinell_structure_displacements(const struct brinell_structure *structure,
                                         double *u,
                                         size_t n,

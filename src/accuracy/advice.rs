@@ -1,9 +1,9 @@
-//! What a study says of a quantity in words: what accuracies cost, what limits, what would do.
+//! What a study states about a quantity in words: what accuracies cost, what limits, what would do.
 
 use super::knobs::Knob;
 use super::record::StudyRun;
 use super::verdict::{Price, StudyReference, is_own, path_correction, value};
-use super::words::{duration, percent};
+use crate::number::{duration, percent};
 use std::cmp::Ordering;
 
 /// A looser setting would do where its error is this small a share of the mesh's.
@@ -23,7 +23,8 @@ pub(super) fn words(
     if let Some(limit) = reference.limit {
         let off = percent((limit / reference.value - 1.0).abs());
         out.push(format!(
-            "the meshes converge to a value that is {off} off the closed form: finer ones gain nothing below that"
+            "the meshes converge to a value that is {off} off the closed form: finer ones gain \
+             nothing below that"
         ));
     }
     if let Some(own) = runs.iter().find(|run| is_own(run))
@@ -59,12 +60,14 @@ fn limits(runs: &[StudyRun], path: &str, reference: f64, own: f64) -> Vec<String
     let share = |error: f64| percent((error / reference).abs());
     let first = match many {
         Some(error) if error.abs() > mesh => format!(
-            "the increments limit the scene as it stands: {}, its mesh {}; more steps gain more than a finer mesh",
+            "the increments limit the scene as it stands: {}, its mesh {}; more steps gain more \
+             than a finer mesh",
             share(error),
             share(mesh)
         ),
         Some(error) => format!(
-            "the mesh limits the scene as it stands: {}, its increments {}; a finer mesh gains more than more steps",
+            "the mesh limits the scene as it stands: {}, its increments {}; a finer mesh gains \
+             more than more steps",
             share(mesh),
             share(error)
         ),

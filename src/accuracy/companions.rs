@@ -21,10 +21,11 @@ const READABLE: usize = 6;
 const READABLE_PATCH: usize = 4;
 /// The nearest coarser mesh of solids, where others cannot be read: five elements instead of six.
 const NEARER: f64 = 1.2;
-/// Share of a half width below which two readings of it are the same: the edge is that of a surface.
+/// Share of a half width below which two readings of it are the same: the edge is that of a
+/// surface.
 const ROUND_OFF: f64 = 1e-9;
 /// Elements up to which a plane run is compared with meshes of sixteen times as many, where coarser
-/// ones do not tell; beyond, four times.
+/// ones do not suffice; beyond, four times.
 const SMALL: usize = 1000;
 /// Most elements of a mesh that a run of solids is compared with: in space the time grows with the
 /// sixth power of the fineness.

@@ -1,4 +1,5 @@
-//! `accuracy = "1 %"`: the scene on finer and finer meshes of its family until the stated errors are within the demand.
+//! `accuracy = "1 %"`: the scene on finer and finer meshes of its family until the stated errors
+//! are within the demand.
 //!
 //! The sequence begins with elements [`COARSEST`] times as large as the scene's. Each mesh is
 //! judged by those before it, the last [`MESHES`] of them, as any run is judged by its companions
@@ -9,19 +10,19 @@
 //! are the values of the last mesh that was run to its end.
 
 use super::companions::{Level, member};
-use super::estimate::{Judged, judge};
+use super::estimate::{Judged, assess};
 use super::extrapolation::LEAST_ORDER;
 use super::meter::work;
 use super::outcome::{Outcome, PATH};
 use super::path::{increments_taken, with_steps};
 use super::quantities::quantities;
 use super::runs::{Extent, Runs, analyse};
-use super::words::duration;
 use crate::analysis::Analysis;
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::Backend;
 use crate::mesh::generate::Family;
 use crate::model::Model;
+use crate::number::duration;
 use crate::progress::Observer;
 use crate::results::{Demand, Incomplete, Results};
 use crate::scene::{AccuracyDemand, Scene};
@@ -64,9 +65,9 @@ pub struct Reached {
 /// Runs a scene to its demanded accuracy, or as near as seconds of `budget` allow.
 ///
 /// # Errors
-/// `Input` where the scene demands none, where its mesh cannot be refined or where it has no quantity that is named; those of the runs
-/// where no mesh can be run to its end. A demand that was not reached is no error:
-/// [`Demand::reason`] says why.
+/// `Input` where the scene demands none, where its mesh cannot be refined or where it has no
+/// quantity that is named; those of the runs where no mesh can be run to its end. A demand that was
+/// not reached is no error: [`Demand::reason`] says why.
 pub fn reach(
     scene: &Scene,
     backend: Backend,
@@ -216,7 +217,7 @@ impl Pursuit {
             results,
             extent: self.extent,
         };
-        let found = judge(&judged, levels, &mut self.runs, observer);
+        let found = assess(&judged, levels, &mut self.runs, observer);
         self.work += found.work;
         let outcome = Outcome::of(&self.demand, results, &found);
         if outcome.is_of_nothing {
@@ -292,8 +293,9 @@ impl Pursuit {
         }
         if let Some(path) = self.without_limit(outcome, ratio, is_judged) {
             return Next::Never(format!(
-                "{path} has no limit under refinement, or comes to it so slowly that no mesh will do; name the quantities that you \
-                 need, as in accuracy = \"load = 1 %\", or round the corner, spread the force that makes it"
+                "{path} has no limit under refinement, or comes to it so slowly that no mesh will \
+                 do; name the quantities that you need, as in accuracy = \"load = 1 %\", or round \
+                 the corner, spread the force that makes it"
             ));
         }
         if is_judged && outcome.algebra > 1.0 {

@@ -6,9 +6,9 @@ use super::meter::work;
 use super::path::{self, PathErrors};
 use super::quantities::{Quantity, formal_order, quantities, value_of};
 use super::runs::{Extent, Finished, Runs};
-use super::words::percent;
 use crate::analysis::left_of_search;
 use crate::linalg::{Backend, smallest_pivot_ratio};
+use crate::number::percent;
 use crate::progress::Observer;
 use crate::results::{Accuracy, Companion, EstimateMethod, QuantityError, Results, State};
 use crate::scene::Scene;
@@ -42,11 +42,11 @@ pub fn estimate(
         extent,
     };
     runs.keep(scene, results, 0.0);
-    judge(&run, levels, &mut runs, observer)
+    assess(&run, levels, &mut runs, observer)
 }
 
 /// The errors of a run by those on other meshes of its family.
-pub(super) fn judge(
+pub(super) fn assess(
     run: &Judged,
     levels: Vec<Level>,
     runs: &mut Runs,
@@ -263,8 +263,9 @@ fn said_by_width(scene: &Scene, quantities: &[QuantityError]) -> Option<String> 
         .collect();
     (!names.is_empty()).then(|| {
         format!(
-            "a half width as target is reached at another load on each mesh: the error of that load ({}) is in the other figures of the \
-             state and of those after it, the dent among them; a load factor as target leaves it out",
+            "a half width as target is reached at another load on each mesh: the error of that \
+             load ({}) is in the other figures of the state and of those after it, the dent among \
+             them; a load factor as target leaves it out",
             names.join(", ")
         )
     })

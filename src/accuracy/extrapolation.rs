@@ -22,6 +22,8 @@
 //! doi:10.1016/j.jcp.2014.01.006. The factors: P. J. Roache,
 //! *Verification and Validation in Computational Science and Engineering*, Hermosa 1998, chapter 5.
 
+use crate::root;
+
 /// Lowest order that is believed (Eca and Hoekstra, section 3).
 pub(super) const LEAST_ORDER: f64 = 0.5;
 /// What an order may exceed the formal one by and still have the small factor of safety (the same).
@@ -30,7 +32,7 @@ const ABOVE_FORMAL: f64 = 0.1;
 const SAFETY: f64 = 1.25;
 /// The same where they do not (Roache).
 const SAFETY_WITHOUT_ORDER: f64 = 3.0;
-/// Orders among which the best is sought, and steps between them: beyond, meshes tell nothing of
+/// Orders among which the best is sought, and steps between them: beyond, meshes show nothing of
 /// the order.
 const SOUGHT: [f64; 2] = [-2.0, 8.0];
 const STEPS: usize = 200;
@@ -157,17 +159,8 @@ fn best(values: &[(f64, f64)], orders: &[f64]) -> Fit {
     let Some((before, after)) = neighbours.filter(|_| orders.len() > 2) else {
         return all[least];
     };
-    // Halving the interval around the least deviation: twenty times to a millionth of a step.
-    let (mut low, mut high) = (all[before].order, after.order);
-    for _ in 0..40 {
-        let third = (high - low) / 3.0;
-        if of(low + third).square < of(high - third).square {
-            high -= third;
-        } else {
-            low += third;
-        }
-    }
-    of(0.5 * (low + high))
+    let deviation = |order: f64| -of(order).square;
+    of(root::maximum(deviation, all[before].order, after.order, 1).0)
 }
 
 /// Weighted least squares with a given order.

@@ -74,7 +74,7 @@ fn processor_seconds() -> Option<f64> {
     None
 }
 
-/// Operations of assembly, ordering and analysis per nonzero of the factor: what they take beside
+/// Operations of assembly, ordering and analysis per nonzero of the factor: what they take besides
 /// those of the factorisation (the speeds that [`crate::analysis::check`] assumes). In small meshes
 /// they are most of the time.
 const PER_NONZERO: f64 = 250.0;
@@ -113,9 +113,9 @@ pub fn forecast(scene: &Scene, backend: Backend) -> Result<Forecast> {
     })
 }
 
-/// How long runs take beside their forecasts: `time = a forecast^b`, fitted to the finished ones.
-/// The power differs from 1 where increments, which grow in number with the resolution too, cost
-/// more than the factorisation.
+/// How long runs take compared with their forecasts: `time = a forecast^b`, fitted to the finished
+/// ones. The power differs from 1 where increments, which grow in number with the resolution too,
+/// cost more than the factorisation.
 #[derive(Debug, Clone, Default)]
 pub struct Pace {
     finished: Vec<(f64, f64)>,

@@ -7,25 +7,29 @@
 //! | `extrapolation` | the uncertainty of a value from those on other meshes |
 //! | `path` | the error of increments and tolerances |
 //! | `runs`, `estimate` | runs, each made once; discretisation, path and algebraic error of every quantity |
-//! | `demand`, `outcome` | finer and finer meshes until a demanded accuracy is reached; what a mesh says of it |
+//! | `demand`, `outcome` | finer and finer meshes until a demanded accuracy is reached; what a mesh states about it |
 //! | `knobs`, `meter`, `record`, `study` | a study: what to turn, what a run takes, the runs |
 //! | `verdict`, `advice` | what the runs of a study show, and the same in words |
 //!
 //! The stated error is the sum of three:
 //!
-//! - **discretisation**: the scene is run again on two other meshes of its family, with elements 3/2 and twice as large where
-//!   the run resolves its contacts well enough for that, else finer ones; the uncertainty follows from how each quantity changes
-//!   (L. Eca, M. Hoekstra 2014, see [`extrapolate`]). The difference is that of the quantity itself: contact edges, yielding and
-//!   the way there are in it. A half width has the error of its reading besides, measured on each run by reading the same
-//!   pressures in another way ([`crate::results::EdgeReading`]). The energy norm of the recovered stress error
-//!   ([`crate::results::State::energy_error`], per element in the VTU files) says *where* the mesh is too coarse.
-//! - **path**: the coarsest mesh that yields as the run does is run with twice the increments, and with other tolerances.
-//! - **algebraic**: backward error, equilibrium and complementarity of the state, relative to the largest size of the
-//!   quantity; at first yield what `gamma` leaves of the largest stress, too.
+//! - **discretisation**: the scene is run again on two other meshes of its family, with elements
+//!   3/2 and twice as large where the run resolves its contacts well enough for that, else finer
+//!   ones; the uncertainty follows from how each quantity changes (L. Eca, M. Hoekstra 2014, see
+//!   [`extrapolate`]). The difference is that of the quantity itself: contact edges, yielding and
+//!   the way there are in it. A half width has the error of its reading besides, measured on each
+//!   run by reading the same pressures in another way ([`crate::results::EdgeReading`]). The energy
+//!   norm of the recovered stress error ([`crate::results::State::energy_error`], per element in
+//!   the VTU files) says *where* the mesh is too coarse.
+//! - **path**: the coarsest mesh that yields as the run does is run with twice the increments, and
+//!   with other tolerances.
+//! - **algebraic**: backward error, equilibrium and complementarity of the state, relative to the
+//!   largest size of the quantity; at first yield what `gamma` leaves of the largest stress, too.
 //!
-//! Nothing here knows a generator, a closed form or a benchmark: a mesh from a file is judged by its subdivisions in the same way.
-//! A goal-oriented estimate (dual-weighted residuals) was built and measured before: pressure and stress at a point are so local
-//! that its products cancel, and the reading of a contact's edge is in none of them.
+//! Nothing here knows a generator, a closed form or a benchmark: a mesh from a file is judged by
+//! its subdivisions in the same way. A goal-oriented estimate (dual-weighted residuals) was built
+//! and measured before: pressure and stress at a point are so local that its products cancel, and
+//! the reading of a contact's edge is in none of them.
 
 mod advice;
 mod companions;
@@ -41,7 +45,6 @@ mod record;
 mod runs;
 mod study;
 mod verdict;
-mod words;
 
 pub use crate::memory::available as available_memory;
 pub use companions::{Level, companions, member};
@@ -54,4 +57,4 @@ pub use quantities::{Quantity, quantities, value_of};
 pub use record::StudyRun;
 pub use runs::Extent;
 pub use study::{Plan, Study, study};
-pub use verdict::{Price, QuantityStudy, StudyReference, foremost, judge};
+pub use verdict::{Price, QuantityStudy, StudyReference, assess, foremost};

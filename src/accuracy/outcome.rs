@@ -2,7 +2,7 @@
 
 use super::extrapolation::LEAST_ORDER;
 use super::quantities::{formal_order, is_demanded_with_all, quantities};
-use super::words::percent;
+use crate::number::percent;
 use crate::results::{Accuracy, QuantityError, Results};
 use crate::scene::AccuracyDemand;
 

@@ -88,7 +88,8 @@ pub(super) fn errors(
             }
             Err(error) => {
                 notes.push(format!(
-                    "the run with other {what} failed, so that the error of the path lacks them: {error}"
+                    "the run with other {what} failed, so that the error of the path lacks them: \
+                     {error}"
                 ));
                 continue;
             }

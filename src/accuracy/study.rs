@@ -4,7 +4,7 @@ use super::knobs::{Knob, Setting, settings};
 use super::meter::{Forecast, Meter, Pace, forecast};
 use super::record::StudyRun;
 use super::runs::{Extent, Quiet, run};
-use super::verdict::{QuantityStudy, judge};
+use super::verdict::{QuantityStudy, assess};
 use crate::error::{ErrorKind, Result};
 use crate::linalg::Backend;
 use crate::progress::Observer;
@@ -13,7 +13,7 @@ use crate::scene::Scene;
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
-/// Runs after which the remaining time is told: fewer say little of the machine and the scene.
+/// Runs after which the remaining time is reported: fewer say little of the machine and the scene.
 const TRUSTED: usize = 4;
 
 /// What to study.
@@ -124,7 +124,7 @@ pub fn study(
         }
         out.runs.push(StudyRun::of(setting, cost, usage, found));
     }
-    out.quantities = judge(&out.runs, &references);
+    out.quantities = assess(&out.runs, &references);
     out.seconds = start.elapsed().as_secs_f64();
     Ok(out)
 }

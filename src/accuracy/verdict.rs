@@ -62,7 +62,7 @@ pub struct QuantityStudy {
 }
 
 /// Judges the runs of a scene.
-pub fn judge(runs: &[StudyRun], references: &[ReferenceRow]) -> Vec<QuantityStudy> {
+pub fn assess(runs: &[StudyRun], references: &[ReferenceRow]) -> Vec<QuantityStudy> {
     let mut paths: Vec<&str> = Vec::new();
     for (path, _) in runs.iter().flat_map(|r| &r.values) {
         if !paths.contains(&path.as_str()) {

@@ -4,7 +4,7 @@ use super::zone_choice;
 use crate::assembly::assemble;
 use crate::error::Result;
 use crate::linalg::{self, Backend, Partition, Prediction};
-use crate::model::{Model, Pair};
+use crate::model::{Magnitude, Model, Pair};
 use crate::results::{Effect, Sizes};
 use crate::scene::{Program, Stepping};
 use crate::substructure::ContactCost;
@@ -41,7 +41,7 @@ const TYPICAL_FLOPS_OF_FAER: f64 = 1.1e10;
 /// Nonzeros of the factor that ordering and analysis handle per second.
 const TYPICAL_ANALYSIS: f64 = 2.7e7;
 
-/// What a run takes beside its factorisation, measured over the scenes of `data/scenes` and finer
+/// What a run takes besides its factorisation, measured over the scenes of `data/scenes` and finer
 /// meshes of the paper's two: seconds to start; for each freedom of making the mesh, the assembly
 /// and the files; for each freedom of the zone of finding first yield; for each freedom and state.
 const START: f64 = 1.5e-3;
@@ -57,7 +57,7 @@ const SOLVE: [f64; 2] = [2e-5, 5.5e-10];
 /// way: where gaps differ (the contact grows pair by pair), and where all are alike.
 const CHANGES: [f64; 2] = [0.7, 0.17];
 /// Trailing solves of an elastoplastic increment: where the material hardens; where it has next to
-/// no stiffness left, in a contact that grows; and where all of it may flow.
+/// no stiffness left, in a contact that grows; and where all of it may yield.
 const SOLVES: [f64; 3] = [6.0, 12.0, 30.0];
 /// Plastic modulus over Youngs modulus below which material counts as soft in that sense.
 const SOFT: f64 = 0.1;
@@ -80,7 +80,10 @@ fn solves(model: &Model) -> f64 {
     };
     let mut yielding = model.materials.iter().zip(&model.may_yield);
     let soft = yielding.any(|(material, may)| {
-        let slope = material.hardening.as_ref().map(|h| h.slope(0.0));
+        let slope = material
+            .hardening
+            .as_ref()
+            .map(|h| h.slope(0.0) + material.kinematic_modulus);
         *may && slope.is_some_and(|slope| slope < SOFT * material.youngs_modulus)
     });
     let each = match soft {
@@ -112,7 +115,7 @@ fn ways(program: &Program) -> f64 {
         let displaced = target.displacement.as_ref().map(|d| d.value.abs());
         let to = match (target.load_factor, target.half_width) {
             (Some(factor), _) => factor,
-            // The load of a line contact goes with the square of its width.
+            // The load of a line contact depends on the square of its width.
             (_, Some(width)) => width * width,
             _ => displaced.unwrap_or(1.0),
         };
@@ -169,7 +172,11 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
     let plastic = !choice.elements.is_empty();
     let mut notes = model.warnings.clone();
     if model.scene.accuracy.is_some() {
-        notes.push("the scene demands an accuracy: a run chooses its meshes itself, the figures here are of the scene's own".to_string());
+        notes.push(
+            "the scene demands an accuracy: a run chooses its meshes itself, the figures here are \
+             of the scene's own"
+                .to_string(),
+        );
     }
     let of_contact = contact.flops / TYPICAL_FLOPS;
     let speed = match backend {
@@ -191,8 +198,9 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
     }
     if run > LONG {
         notes.push(format!(
-            "the run may take about {:.0} min, and the estimate of its errors once or twice that: fewer elements (resolution) or a \
-             smaller largest load make it shorter, `--no-estimate` leaves the estimate out",
+            "the run may take about {:.0} min, and the estimate of its errors once or twice that: \
+             fewer elements (resolution) or a smaller largest load make it shorter, \
+             `--no-estimate` leaves the estimate out",
             (run / 60.0).ceil()
         ));
     }
@@ -208,16 +216,68 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
     })
 }
 
-/// The ledger: each effect on or off, and why. `yields` says whether the loads reach (or may reach)
-/// yield.
-pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
-    let effect = |name: &str, on: bool, why: String| Effect {
+fn effect(name: &str, on: bool, why: String) -> Effect {
+    Effect {
         name: name.into(),
         on,
         why,
         seconds: 0.0,
         memory_bytes: 0,
+    }
+}
+
+fn kinematic_hardening(model: &Model, yields: bool) -> Effect {
+    let materials = model.materials.iter().zip(&model.may_yield);
+    let asked = materials.filter(|(m, may)| **may && m.kinematic_modulus != 0.0);
+    let names: std::collections::BTreeSet<&str> = asked.map(|(m, _)| m.name.as_str()).collect();
+    let names: Vec<&str> = names.into_iter().collect();
+    let why = match (names.is_empty(), yields) {
+        (true, _) => "no material that may yield has a kinematic modulus".to_string(),
+        (false, true) => format!(
+            "{} hardens so; its back stress is stored nowhere",
+            names.join(", ")
+        ),
+        (false, false) => format!(
+            "{} would, but stays elastic under these loads",
+            names.join(", ")
+        ),
     };
+    effect("kinematic hardening", !names.is_empty() && yields, why)
+}
+
+fn volume_forces(model: &Model) -> Effect {
+    let loads = model.scene.load.iter().zip(&model.loads);
+    let asked = loads.filter(|(load, _)| load.acceleration.is_some() || load.rotation.is_some());
+    let (asked, acting) = asked.fold((0, 0), |(n, acting), (_, case)| {
+        (n + 1, acting + usize::from(case.magnitude != 0.0))
+    });
+    let why = match (asked, acting) {
+        (0, _) => "no load by acceleration or rotation".to_string(),
+        (_, 0) => "the accelerations and speeds are zero".to_string(),
+        (_, 1) => "a load acts on the volume of a body".to_string(),
+        (_, n) => format!("{n} loads act on the volumes of bodies"),
+    };
+    effect("forces on volumes", acting > 0, why)
+}
+
+fn temperature(model: &Model) -> Effect {
+    let loads = model.loads.iter();
+    let asked = loads.filter(|load| load.measures == Magnitude::Temperature);
+    let (asked, acting) = asked.fold((0, 0), |(n, acting), load| {
+        (n + 1, acting + usize::from(load.free_strain.is_some()))
+    });
+    let why = match (asked, acting) {
+        (0, _) => "no load by temperature".to_string(),
+        (_, 0) => "no temperature changes, or nothing expands by it".to_string(),
+        (_, 1) => "a load changes the temperature of a body".to_string(),
+        (_, n) => format!("{n} loads change the temperatures of bodies"),
+    };
+    effect("temperature", acting > 0, why)
+}
+
+/// The ledger: each effect on or off, and why. `yields` says whether the loads reach (or may reach)
+/// yield.
+pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
     let bodies = &model.mesh.bodies;
     let able: Vec<&str> = bodies
         .iter()
@@ -265,6 +325,9 @@ pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
     vec![
         contact,
         plasticity,
+        kinematic_hardening(model, yields),
+        volume_forces(model),
+        temperature(model),
         effect(
             "interference",
             interference,

@@ -1,22 +1,23 @@
 //! Patches of contact between solids: area, centroid, half axes.
 //!
-//! Where bodies touch smoothly the square of the pressure falls to zero linearly at the edge. At the
-//! last pairs that touch it is not believed (how they share their force depends on where in the face
-//! the contact ends): there, and at the first open ones, it is what a polynomial through the pairs
-//! further inside goes on to. The patch is where that is positive, cut out of the faces by straight
-//! lines; half axes are those of the ellipse with the same moments of area
+//! Where bodies touch smoothly the square of the pressure falls to zero linearly at the edge. At
+//! the last pairs that touch it is not believed (how they share their force depends on where in the
+//! face the contact ends): there, and at the first open ones, it is what a polynomial through the
+//! pairs further inside goes on to. The patch is where that is positive, cut out of the faces by
+//! straight lines; half axes are those of the ellipse with the same moments of area
 //!
 //! ```text
 //! A = int dA,   c = int x dA/A,   M = int (x - c)(x - c)' dA/A = Q diag(a^2, b^2)/4 Q'
 //! ```
 //!
 //! Beyond a plane of symmetry the patch goes on as its mirror image. A patch between two parallel
-//! planes of symmetry is a strip without end: its larger half axis is infinite, the smaller one half
-//! its width. A patch that closes round a body, as in a press fit, has no mean normal: its area is
-//! that of its surface, and its half axes are those of what is seen of it from one side.
+//! planes of symmetry is a strip without end: its larger half axis is infinite, the smaller one
+//! half its width. A patch that closes round a body, as in a press fit, has no mean normal: its
+//! area is that of its surface, and its half axes are those of what is seen of it from one side.
 //!
-//! All of this is done in coordinates along the patch's principal axes, each over the spacing of the
-//! pairs along it: oblong faces are squares there, and as many of them lie near along both axes.
+//! All of this is done in coordinates along the patch's principal axes, each over the spacing of
+//! the pairs along it: oblong faces are squares there, and as many of them lie near along both
+//! axes.
 
 mod fit;
 mod moments;
@@ -36,9 +37,10 @@ const CORRECTED: usize = 3;
 /// Mean normal, as a share of the area's, below which a patch closes round a body: round-off.
 const CLOSED: f64 = 1e-6;
 
-/// Share of the difference between readings that do not believe [`SKIPPED`] layers and one more that
-/// is the error of the former. The pressures' square goes on by a quadratic over so many spacings and
-/// a half, and what that leaves out grows with the cube of the way: `1.5^3/(2.5^3 - 1.5^3)`.
+/// Share of the difference between readings that do not believe [`SKIPPED`] layers and one more
+/// that is the error of the former. The pressures' square goes on by a quadratic over so many
+/// spacings and a half, and what that leaves out grows with the cube of the way:
+/// `1.5^3/(2.5^3 - 1.5^3)`.
 const REMAINDER: f64 = 3.375 / (15.625 - 3.375);
 
 /// A patch with how it was read.
@@ -307,9 +309,10 @@ impl<'a> Shape<'a> {
     /// The square of the pressure at the pairs that are believed, and at their mirror images: those
     /// inside the `skipped` outer layers.
     ///
-    /// A pair's pressure is a mean over the faces round it: along each axis it exceeds `p = sqrt(s)` by
-    /// `h^2/12 p''` (the mean of `x^2` by a hat function is `h^2/6`), `p'' = s''/(2 p) - s'^2/(4 p^3)`,
-    /// so that `s = p^2 + h^2 (s'^2/(24 p^2) - s''/12)`; `h^2` is the pair's area.
+    /// A pair's pressure is a mean over the faces round it: along each axis it exceeds
+    /// `p = sqrt(s)` by `h^2/12 p''` (the mean of `x^2` by a hat function is `h^2/6`),
+    /// `p'' = s''/(2 p) - s'^2/(4 p^3)`, so that `s = p^2 + h^2 (s'^2/(24 p^2) - s''/12)`; `h^2` is
+    /// the pair's area.
     fn believed(&self, layers: &BTreeMap<usize, usize>, skipped: usize) -> Vec<Known> {
         let inner = layers.iter().filter(|(_, layer)| **layer > skipped);
         let known = |value: &dyn Fn(usize) -> f64| -> Vec<Known> {
@@ -374,8 +377,8 @@ impl<'a> Shape<'a> {
             let center = [mean(0), mean(1)];
             match Fit::new(&believed, center) {
                 Some(fit) => {
-                    // A pair that is open has no pressure: where the polynomial gives it some, it is
-                    // made to vanish there.
+                    // A pair that is open has no pressure: where the polynomial gives it some, it
+                    // is made to vanish there.
                     let wrong = corners
                         .iter()
                         .filter(|k| !self.members.contains(k) && fit.value(self.place(**k)) > 0.0);

@@ -6,7 +6,8 @@ use crate::scene::Kind;
 
 /// Pairs at the edge, the last closed one included, whose pressures are not believed one by one,
 /// only their force together: how they share it depends on where in the facet the contact ends (on
-/// Hertz' line contact the last two put the edge off by 0.08 and -0.06 elements, those before by 0.01).
+/// Hertz' line contact the last two put the edge off by 0.08 and -0.06 elements, those before by
+/// 0.01).
 const EDGE_SKIP: isize = 2;
 /// Pairs before those from which the pressure near the edge is fitted.
 const EDGE_POINTS: isize = 4;

@@ -127,7 +127,7 @@ impl Drive {
     }
 }
 
-/// Accuracy with which a monitored quantity (of order 1) is hit, and relative accuracy of the
+/// Accuracy with which a monitored quantity (of order 1) is landed on, and relative accuracy of the
 /// place.
 pub(super) const MONITOR_ACCURACY: f64 = 1e-10;
 /// Share of a piece of the load path below which increments are not cut: the load has passed the
@@ -151,7 +151,7 @@ pub fn stopped() -> Error {
 }
 
 impl Solver<'_> {
-    /// Goes to `end` elastically, or to first yield with `recovery`; nobody is told of the
+    /// Goes to `end` elastically, or to first yield with `recovery`; nobody is notified of the
     /// increments.
     ///
     /// # Errors

@@ -4,9 +4,10 @@ use super::drive::{Arrival, MONITOR_ACCURACY, Monitor, Step, crosses, is_hit};
 use super::load_point::LoadPoint;
 use super::recovery::{Recovery, Samples};
 use super::solver::Solver;
-use super::yield_load::{bracketed_root, yield_share};
+use super::yield_load::yield_share;
 use crate::contact::{self, Change, Path, PathEnd};
 use crate::error::Result;
+use crate::root::{self, Accuracy};
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
@@ -87,11 +88,10 @@ impl ElasticPath {
         accuracy: f64,
         monitor: &Monitor,
     ) -> Result<()> {
-        let sign = if is > was { 1.0 } else { -1.0 };
-        let ends = [(from, sign * was), (self.t(), sign * is)];
-        let t = bracketed_root(ends[0], ends[1], accuracy, |t| {
+        let ends = [(from, was), (self.t(), is)];
+        let t = root::try_between(ends, Accuracy::both(accuracy), |t| {
             self.go_back(solver, t);
-            monitor(solver).map(|value| sign * value)
+            monitor(solver)
         })?;
         self.go_back(solver, t);
         solver.refresh();

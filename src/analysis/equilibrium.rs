@@ -105,26 +105,26 @@ impl Equilibrium {
 
     /// Takes over the values of another one of the same sizes.
     pub fn copy_from(&mut self, other: &Equilibrium) {
-        self.become_of(other, |_, b| b);
+        self.combine_with(other, |_, b| b);
     }
 
     /// `self += factor * other`.
     pub fn add(&mut self, factor: f64, other: &Equilibrium) {
-        self.become_of(other, |a, b| a + factor * b);
+        self.combine_with(other, |a, b| a + factor * b);
     }
 
     /// `self = other + factor * self`.
-    pub fn turn(&mut self, factor: f64, other: &Equilibrium) {
-        self.become_of(other, |a, b| b + factor * a);
+    pub fn scale_and_add(&mut self, factor: f64, other: &Equilibrium) {
+        self.combine_with(other, |a, b| b + factor * a);
     }
 
     /// `self = from + share * (self - from)`.
     pub fn rescale(&mut self, from: &Equilibrium, share: f64) {
-        self.become_of(from, |a, b| b + share * (a - b));
+        self.combine_with(from, |a, b| b + share * (a - b));
     }
 
     /// Every value becomes what `of` makes of it and of the other's.
-    fn become_of(&mut self, other: &Equilibrium, of: impl Fn(f64, f64) -> f64 + Copy) {
+    fn combine_with(&mut self, other: &Equilibrium, of: impl Fn(f64, f64) -> f64 + Copy) {
         let loads = self.initial.parts_mut().into_iter();
         for (own, other) in loads.zip(other.initial.parts()) {
             combine(own, other, of);

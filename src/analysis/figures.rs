@@ -191,8 +191,8 @@ fn fields<const D: usize, const S: usize, const P: usize, const N: usize>(
     out
 }
 
-/// Pressure and gap of the pairs on the slaves and on nodes that face them; on other masters the mean
-/// of the pressures that act on them.
+/// Pressure and gap of the pairs on the slaves and on nodes that face them; on other masters the
+/// mean of the pressures that act on them.
 fn on_nodes(model: &Model, pairs: &[PairState], fields: &mut Fields) {
     let n = model.mesh.n_nodes();
     fields.contact_pressure = vec![0.0; n];
@@ -315,7 +315,7 @@ mod tests {
         close(at_first, [0.0, between(&model, 0, 5)]);
     }
 
-    /// Without a symmetry plane at its surface's nearer end an arc is told from its own middle.
+    /// Without a symmetry plane at its surface's nearer end an arc is measured from its own middle.
     #[test]
     fn an_arc_without_a_symmetry_plane_is_told_from_its_middle() {
         let mut model = disc(&["mesh.disc_in_plate.resolution=24"]);

@@ -36,8 +36,9 @@ impl Run<'_, '_> {
         let floor = excused.fold(self.solver.scales.round_off, f64::max);
         if floor > 0.0 {
             let text = format!(
-                "forces balance to their round-off, {:.1e} of the largest force, and not to analysis.tolerance = {:.1e}: displacements are \
-                 large beside the strains of this mesh",
+                "forces balance to their round-off, {:.1e} of the largest force, and not to \
+                 analysis.tolerance = {:.1e}: displacements are large compared with the strains of \
+                 this mesh",
                 floor, model.scene.analysis.tolerance
             );
             self.observer.warning(&text);
@@ -46,7 +47,8 @@ impl Run<'_, '_> {
         for (name, quality) in &judged {
             for (figure, value, most) in quality.misses(&tolerances) {
                 let text = format!(
-                    "state `{name}` is inaccurate: {figure} {value:.1e}, allowed {most:.1e} (condition at least {:.0e})",
+                    "state `{name}` is inaccurate: {figure} {value:.1e}, allowed {most:.1e} \
+                     (condition at least {:.0e})",
                     results.condition
                 );
                 self.observer.warning(&text);
@@ -58,13 +60,13 @@ impl Run<'_, '_> {
             || !results.inaccurate.is_empty()
             || results.condition > DOUBTFUL
         {
-            // A figure beside the results: a solve that fails leaves it out.
+            // A figure besides the results: a solve that fails leaves it out.
             let structure = &self.solver.structure;
             let estimate = structure.sub.condition_estimate(model, structure.system);
             results.condition_estimate = estimate.ok();
         }
         let qualities = judged.iter().map(|(_, q)| q);
-        results.quality = qualities.fold(Quality::default(), |w, q| w.worse(q));
+        results.quality = qualities.fold(Quality::default(), |w, q| w.merge_worst(q));
         for (name, seconds) in [
             ("factorisation and condensation", seconds.condensation),
             ("yield load", seconds.yield_load),

@@ -27,7 +27,8 @@ impl Run<'_, '_> {
         if self.position.first_yield.is_behind {
             return if unit_is_yield {
                 Err(Error::analysis(
-                    "`unit = \"yield\"`: the preload alone makes the material yield, so there is no yield load to count in; use `unit = \"load\"`",
+                    "`unit = \"yield\"`: the preload alone makes the material yield, so there is \
+                     no yield load to count in; use `unit = \"load\"`",
                 ))
             } else {
                 Ok(false)
@@ -79,7 +80,8 @@ impl Run<'_, '_> {
             }
         }
         Err(Error::analysis(
-            "no yield load: the place of first yield keeps moving out of the zone that was searched",
+            "no yield load: the place of first yield keeps moving out of the zone that was \
+             searched",
         ))
     }
 
@@ -128,7 +130,8 @@ impl Run<'_, '_> {
             }
         }
         Err(Error::analysis(format!(
-            "no yield load: the stress stays below yield up to load factor {end:.3e}; do the proportional loads press the bodies?"
+            "no yield load: the stress stays below yield up to load factor {end:.3e}; do the \
+             proportional loads press the bodies?"
         )))
     }
 

@@ -12,10 +12,9 @@
 //! recovery).
 
 use super::gather::{NodalPlaces, Places};
+use super::patch_fit::{Frame, PatchFit};
 use crate::model::Model;
-use crate::shape::MAX_NODES;
 use crate::space::Vector;
-use nalgebra::{SMatrix, SVector};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -74,12 +73,7 @@ impl<const D: usize> FittedStrains<D> {
                 let mut nodes: Vec<u32> = members.iter().flat_map(corners).copied().collect();
                 nodes.sort_unstable();
                 nodes.dedup();
-                // Terms of a quadratic.
-                let fit = match D {
-                    2 => terms::<D, 6>(model, elements[i], nodes),
-                    _ => terms::<D, 10>(model, elements[i], nodes),
-                };
-                if let Some(terms) = fit {
+                if let Some(terms) = terms(model, elements[i], nodes) {
                     return terms;
                 }
             }
@@ -148,55 +142,34 @@ impl<const D: usize> FittedStrains<D> {
 
 /// What the displacements of nodes count in the quadratic fit at the centroid of a triangle; `None`
 /// where they do not determine it.
-fn terms<const D: usize, const N: usize>(
-    model: &Model,
-    element: usize,
-    nodes: Vec<u32>,
-) -> Option<Vec<Term<D>>> {
-    let own = model.element_coordinates::<D, MAX_NODES>(element);
-    let own = &own[..=D];
-    let mean = |d: usize| own.iter().map(|x| x[d]).sum::<f64>() / own.len() as f64;
-    let extent = |d: usize| {
-        let along = own.iter().map(|x| x[d]);
-        along.clone().fold(f64::NEG_INFINITY, f64::max) - along.fold(f64::INFINITY, f64::min)
+fn terms<const D: usize>(model: &Model, element: usize, nodes: Vec<u32>) -> Option<Vec<Term<D>>> {
+    let mesh = &model.mesh;
+    let own = mesh.nodes(element);
+    let mean = |d: usize| {
+        let sum: f64 = own.iter().map(|&k| mesh.point(k as usize)[d]).sum();
+        sum / own.len() as f64
     };
-    let centroid: [f64; D] = std::array::from_fn(mean);
-    let size: [f64; D] = std::array::from_fn(extent);
-    let monomials = |node: u32| {
-        let at = model.mesh.point(node as usize);
-        let x: [f64; D] = std::array::from_fn(|d| (at[d] - centroid[d]) / size[d]);
-        let mut terms = SVector::<f64, N>::zeros();
-        terms[0] = 1.0;
-        let mut next = D + 1;
-        for a in 0..D {
-            terms[a + 1] = x[a];
-            for b in a..D {
-                terms[next] = x[a] * x[b];
-                next += 1;
-            }
-        }
-        terms
+    let frame = Frame {
+        center: std::array::from_fn(mean),
+        ..Frame::<D>::about(mesh, element)
     };
-    let mut normal = SMatrix::<f64, N, N>::zeros();
-    for &node in &nodes {
-        let p = monomials(node);
-        normal += p * p.transpose();
-    }
-    let scaling = normal.diagonal().map(|entry| 1.0 / entry.sqrt());
-    let scaled = normal.component_mul(&(scaling * scaling.transpose()));
-    let factor = scaled.cholesky()?;
-    if factor.l_dirty().diagonal().min() < LEAST_PIVOT {
-        return None;
-    }
+    let place = |node: &u32| frame.relative(mesh.point(*node as usize));
+    let points = nodes.iter().map(|node| (1.0, place(node)));
+    let fit = PatchFit::<D, 2>::to(points, LEAST_PIVOT)?;
+    let (value, slopes) = (
+        fit.coefficient(0),
+        std::array::from_fn::<_, D, _>(|d| fit.coefficient(d + 1)),
+    );
     let is_axisymmetric = model.kind.is_axisymmetric();
     let term = |node: u32| {
-        let share = factor.solve(&monomials(node).component_mul(&scaling));
-        let share = share.component_mul(&scaling);
+        let x = place(&node);
         Term {
             node,
-            gradient: std::array::from_fn(|d| share[d + 1] / size[d]),
+            gradient: std::array::from_fn(|d| {
+                PatchFit::<D, 2>::value(&slopes[d], 1.0, &x) / frame.scale[d]
+            }),
             hoop: if is_axisymmetric {
-                share[0] / centroid[0]
+                PatchFit::<D, 2>::value(&value, 1.0, &x) / frame.center[0]
             } else {
                 0.0
             },

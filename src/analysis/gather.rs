@@ -31,7 +31,8 @@ impl Places {
     }
 }
 
-/// `[ zone | contact | prescribed | 0 ]`: every element freedom has a place, so that nothing is decided in a loop.
+/// `[ zone | contact | prescribed | 0 ]`: every element freedom has a place, so that nothing is
+/// decided in a loop.
 pub struct Nodal {
     values: Vec<f64>,
     n_zone: usize,

@@ -40,7 +40,7 @@ pub struct Increment {
     pub iterations: usize,
     /// Out-of-balance force over the force scale.
     pub residual: f64,
-    /// Guard elements that flow: the zone is too small.
+    /// Guard elements that yield: the zone is too small.
     pub guard_flows: usize,
 }
 
@@ -54,7 +54,7 @@ pub enum NoIncrement {
     WrongStatus(Vec<usize>),
     /// The iteration did not converge.
     NotConverged(Box<Attempt>),
-    /// These pairs, at the border of their condition at the begin, end beyond it.
+    /// These pairs, at the border of their condition at the start, end beyond it.
     Crossed(Vec<usize>),
     /// The caller asked to stop.
     Stopped,
@@ -63,13 +63,13 @@ pub enum NoIncrement {
 /// Accuracy (energy norm) of the tangent that predicts an increment: what yields anew on the way
 /// changes more than that.
 const PREDICTION: f64 = 0.02;
-/// Accuracy (energy norm) of every Newton direction. Where points begin or cease to flow
+/// Accuracy (energy norm) of every Newton direction. Where points begin or cease to yield
 /// convergence is linear, however exact the directions are: forcing terms that follow the residual
 /// cost a tenth more trailing solves for 4 % fewer material evaluations.
 const FORCING: f64 = 0.05;
 /// Cuts of a line search.
 const BACKTRACKS: usize = 12;
-/// Share of the slope at the begin to which the slope beyond a minimum may grow: nearly the
+/// Share of the slope at the start to which the slope beyond a minimum may grow: nearly the
 /// minimum.
 const OVERSHOOT: f64 = 0.1;
 /// Iterations of the unaccelerated or Anderson iteration count for this many of Newton's limit.
@@ -313,17 +313,18 @@ impl Stepper<'_, '_> {
         }
     }
 
-    /// Rates of everything with the share of the piece: elastic, plus plastic where points flow.
+    /// Rates of everything with the share of the piece: elastic, plus plastic where points yield.
     /// The plastic part goes on as in the last increment; after none it is that of the tangent.
     fn rates(&mut self, end: &LoadPoint, tangent: bool) -> Equilibrium {
-        let flows = tangent && !self.solver.zone.is_idle();
-        let pace = self.solver.predictor.pace.as_ref().filter(|_| flows);
-        let needs_tangent = flows && pace.is_none();
+        let yields = tangent && !self.solver.zone.is_idle();
+        let pace = self.solver.predictor.pace.as_ref().filter(|_| yields);
+        let needs_tangent = yields && pace.is_none();
         let mut initial = self.solver.now.initial.clone();
         if let Some(pace) = pace {
             initial.add(self.solver.at.distance(end), pace);
         }
-        // `now` may have been in equilibrium with other statuses, or off by gamma: its own statuses decide.
+        // `now` may have been in equilibrium with other statuses, or off by gamma: its own statuses
+        // decide.
         let mut rates = self.solver.respond(end, initial);
         rates.add(-1.0, &self.solver.now);
         if needs_tangent {
@@ -355,7 +356,7 @@ impl Stepper<'_, '_> {
     }
 
     /// Pairs that began at the border of their condition and end beyond it: their rate was right at
-    /// the begin and turned within the increment, where no step limit watches it.
+    /// the start and turned within the increment, where no step limit watches it.
     fn crosses_border(&self, state: &Equilibrium, tolerance: f64, force_scale: f64) -> Vec<usize> {
         let largest_gap = state.gap.iter().fold(0.0f64, |m, g| m.max(*g));
         let crosses = |k: usize| {
@@ -395,7 +396,8 @@ impl Stepper<'_, '_> {
     /// Length along a Newton direction. The energy of the increment is convex and the
     /// out-of-balance force times the direction is the negative of its slope: while that has not
     /// turned, the energy has fallen all the way. A length that overshoots is cut by the secant.
-    /// `None` where the direction leads nowhere; else `trial` holds the state there and the force out of balance.
+    /// `None` where the direction leads nowhere; else `trial` holds the state there and the force
+    /// out of balance.
     fn line_search(
         &mut self,
         state: &Equilibrium,

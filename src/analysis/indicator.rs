@@ -19,23 +19,23 @@
 
 mod rules;
 
+use super::neighbours::Neighbours;
+use super::patch_fit::{Frame, PatchFit, Terms};
 use super::stress_field::{ElementStress, StressField};
 use crate::material::Material;
 use crate::model::Model;
 use crate::space::{cross, dot, unit};
-use nalgebra::SMatrix;
 use rayon::prelude::*;
 use rules::COMPARED;
 
-/// Terms of a polynomial of degree 2 in three variables.
-const MOST_TERMS: usize = 10;
 /// Smallest pivot of the scaled normal equations that counts as determined: the square root of what
 /// round-off leaves.
 const DETERMINED: f64 = 1e-7;
 
 /// Energy of the estimated stress error and of the stress itself, element by element.
 pub(super) struct Indicator {
-    /// `eta_e`, relative to the energy norm of the whole: the sum of their squares is the square of [`Indicator::total`].
+    /// `eta_e`, relative to the energy norm of the whole: the sum of their squares is the square of
+    /// [`Indicator::total`].
     pub by_element: Vec<f64>,
     /// `eta`: estimated energy norm of the error over that of the solution, 0 to 1.
     pub total: f64,
@@ -46,13 +46,13 @@ pub(super) fn indicator<const D: usize, const S: usize, const P: usize, const N:
     field: &StressField<D, S, P, N>,
 ) -> Indicator {
     let model = field.model;
-    let neighbours = Neighbours::new(model);
+    let neighbours = Neighbours::new(&model.mesh, 0..model.mesh.n_elements());
     let samples = Samples::new(field);
     let energies: Vec<[f64; 2]> = (0..model.mesh.n_elements())
         .into_par_iter()
         .with_min_len(64)
         .map_init(Vec::new, |patch, e| {
-            neighbours.patch(model, e, patch);
+            neighbours.at(model.mesh.nodes(e), patch);
             energies(model, e, &field.at(e), patch, &samples)
         })
         .collect();
@@ -68,45 +68,6 @@ pub(super) fn indicator<const D: usize, const S: usize, const P: usize, const N:
     Indicator {
         by_element: energies.iter().map(|e| share(e[0])).collect(),
         total: share(error),
-    }
-}
-
-/// Elements at each node.
-struct Neighbours {
-    first: Vec<usize>,
-    elements: Vec<u32>,
-}
-
-impl Neighbours {
-    fn new(model: &Model) -> Self {
-        let mesh = &model.mesh;
-        let mut first = vec![0; mesh.n_nodes() + 1];
-        for &node in &mesh.connectivity {
-            first[node as usize + 1] += 1;
-        }
-        for node in 0..mesh.n_nodes() {
-            first[node + 1] += first[node];
-        }
-        let mut next = first.clone();
-        let mut elements = vec![0; mesh.connectivity.len()];
-        for e in 0..mesh.n_elements() {
-            for &node in mesh.nodes(e) {
-                elements[next[node as usize]] = e as u32;
-                next[node as usize] += 1;
-            }
-        }
-        Neighbours { first, elements }
-    }
-
-    /// The elements that share a node with `e`, itself included, ascending.
-    fn patch(&self, model: &Model, e: usize, patch: &mut Vec<u32>) {
-        patch.clear();
-        for &node in model.mesh.nodes(e) {
-            let node = node as usize;
-            patch.extend_from_slice(&self.elements[self.first[node]..self.first[node + 1]]);
-        }
-        patch.sort_unstable();
-        patch.dedup();
     }
 }
 
@@ -251,30 +212,19 @@ fn energies<const D: usize, const S: usize, const P: usize, const N: usize>(
     samples: &Samples<D, S>,
 ) -> [f64; 2] {
     let material = &model.materials[model.mesh.element_body[e] as usize];
-    let frame = Frame::new(model, e);
+    let frame = Frame::about(&model.mesh, e);
     // A patch that does not determine the polynomial (a single element, a row of them) takes a
     // lower degree.
-    let quadratic = || match D {
-        2 => fit_of::<6, D, S>(&frame, patch, samples),
-        _ => fit_of::<10, D, S>(&frame, patch, samples),
-    };
-    let linear = || match D {
-        2 => fit_of::<3, D, S>(&frame, patch, samples),
-        _ => fit_of::<4, D, S>(&frame, patch, samples),
-    };
     let fit = Some(degree(model, e))
         .filter(|degree| *degree > 1)
-        .and_then(|_| quadratic())
-        .or_else(linear)
-        .or_else(|| fit_of::<1, D, S>(&frame, patch, samples));
+        .and_then(|_| fit::<2, D, S>(&frame, patch, samples))
+        .or_else(|| fit::<1, D, S>(&frame, patch, samples))
+        .or_else(|| fit::<0, D, S>(&frame, patch, samples));
     let mut out = [0.0; 2];
     quadrature(model, e, element, |(position, weight, computed)| {
+        let x = frame.relative(position);
         let recovered = match &fit {
-            Some(fit) => {
-                let terms = frame.terms(position);
-                let pairs = || terms.iter().zip(&fit.coefficients[..fit.n]);
-                std::array::from_fn(|c| pairs().map(|(term, a)| term * a[c]).sum())
-            }
+            Some(fit) => fit.each_ref().map(|c| PatchFit::<D, 2>::value(c, 1.0, &x)),
             None => computed,
         };
         let difference: [f64; S] = std::array::from_fn(|c| recovered[c] - computed[c]);
@@ -294,45 +244,6 @@ fn compliance_energy<const S: usize>(material: &Material, stress: &[f64; S]) -> 
     ((1.0 + nu) * square - nu * trace * trace) / material.youngs_modulus
 }
 
-/// Coordinates about an element, of order 1 in its patch.
-struct Frame<const D: usize> {
-    center: [f64; D],
-    scale: [f64; D],
-}
-
-impl<const D: usize> Frame<D> {
-    fn new(model: &Model, e: usize) -> Self {
-        let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
-        for &node in model.mesh.nodes(e) {
-            let x = model.mesh.point(node as usize);
-            for d in 0..D {
-                low[d] = low[d].min(x[d]);
-                high[d] = high[d].max(x[d]);
-            }
-        }
-        Frame {
-            center: std::array::from_fn(|d| 0.5 * (low[d] + high[d])),
-            scale: std::array::from_fn(|d| high[d] - low[d]),
-        }
-    }
-
-    /// The monomials of degree 0, 1, 2.
-    fn terms(&self, at: [f64; D]) -> [f64; MOST_TERMS] {
-        let x: [f64; D] = std::array::from_fn(|d| (at[d] - self.center[d]) / self.scale[d]);
-        let mut out = [0.0; MOST_TERMS];
-        out[0] = 1.0;
-        let mut next = D + 1;
-        for a in 0..D {
-            out[a + 1] = x[a];
-            for b in a..D {
-                out[next] = x[a] * x[b];
-                next += 1;
-            }
-        }
-        out
-    }
-}
-
 /// Weight of a sample by its place in element sizes from the centre: the nearer ones count more,
 /// else a field that turns within the patch (stresses round a hole) is smoothed away.
 fn weight(x: &[f64]) -> f64 {
@@ -340,55 +251,33 @@ fn weight(x: &[f64]) -> f64 {
     1.0 / (1.0 + square * square)
 }
 
-/// A polynomial with `n` terms for each component.
-struct Fit<const S: usize> {
-    n: usize,
-    coefficients: [[f64; S]; MOST_TERMS],
-}
-
-/// The weighted least-squares polynomial with `N` terms; `None` where the samples do not determine
-/// it.
-fn fit_of<const N: usize, const D: usize, const S: usize>(
+/// The coefficients of the weighted least-squares polynomial of each component; `None` where the
+/// samples do not determine it.
+fn fit<const DEGREE: usize, const D: usize, const S: usize>(
     frame: &Frame<D>,
     patch: &[u32],
     samples: &Samples<D, S>,
-) -> Option<Fit<S>> {
-    let mut gram = SMatrix::<f64, N, N>::zeros();
-    let mut right = SMatrix::<f64, N, S>::zeros();
-    let mut used = 0;
-    for &member in patch {
-        for sample in samples.of(member) {
-            used += 1;
-            let terms = frame.terms(sample.position);
-            let weight = weight(&terms[1..=D]);
-            for a in 0..N {
-                for b in 0..=a {
-                    gram[(a, b)] += weight * terms[a] * terms[b];
-                }
-                for c in 0..S {
-                    right[(a, c)] += weight * terms[a] * sample.stress[c];
-                }
+) -> Option<[Terms; S]> {
+    let within = || patch.iter().flat_map(|&member| samples.of(member));
+    // As many samples as terms would be interpolated, noise and all.
+    let n = PatchFit::<D, DEGREE>::N_TERMS;
+    if n > 1 && within().count() <= n {
+        return None;
+    }
+    let weighted = |sample: &Sample<D, S>| {
+        let x = frame.relative(sample.position);
+        (weight(&x), x)
+    };
+    let fit = PatchFit::<D, DEGREE>::to(within().map(weighted), DETERMINED)?;
+    let mut right = [Terms::default(); S];
+    for sample in within() {
+        let (weight, x) = weighted(sample);
+        let terms = PatchFit::<D, DEGREE>::terms(weight, &x);
+        for (right, stress) in right.iter_mut().zip(sample.stress) {
+            for (right, term) in right.iter_mut().zip(&terms[..n]) {
+                *right += term * stress;
             }
         }
     }
-    // As many samples as terms would be interpolated, noise and all.
-    if used <= N && N > 1 {
-        return None;
-    }
-    let scaling: [f64; N] = std::array::from_fn(|i| 1.0 / gram[(i, i)].sqrt());
-    // Of the matrix Cholesky reads the lower triangle.
-    let scaled = SMatrix::<f64, N, N>::from_fn(|i, j| gram[(i, j)] * scaling[i] * scaling[j]);
-    let factor = scaled.cholesky()?;
-    if (0..N).any(|i| factor.l_dirty()[(i, i)] < DETERMINED) {
-        return None;
-    }
-    for (i, mut row) in right.row_iter_mut().enumerate() {
-        row *= scaling[i];
-    }
-    factor.solve_mut(&mut right);
-    let mut coefficients = [[0.0; S]; MOST_TERMS];
-    for i in 0..N {
-        coefficients[i] = std::array::from_fn(|c| right[(i, c)] * scaling[i]);
-    }
-    Some(Fit { n: N, coefficients })
+    Some(right.each_ref().map(|right| fit.solve(right)))
 }

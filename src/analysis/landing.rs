@@ -5,8 +5,8 @@ use super::equilibrium::Equilibrium;
 use super::load_point::LoadPoint;
 use super::state::State;
 use super::stepping::Stepper;
-use super::yield_load::bracketed_root;
 use crate::error::Result;
+use crate::root::{self, Accuracy};
 use std::cell::Cell;
 
 impl Stepper<'_, '_> {
@@ -21,7 +21,6 @@ impl Stepper<'_, '_> {
         reported: &mut IncrementReport,
     ) -> Result<()> {
         let reached = from.at.share_of(&self.solver.at, end);
-        let sign = if was < 0.0 { 1.0 } else { -1.0 };
         let last = Cell::new(-1.0);
         // Trials lie close together: each is predicted from those before.
         let mut known = vec![(0.0, from.equilibrium.clone())];
@@ -46,12 +45,12 @@ impl Stepper<'_, '_> {
                         known.push((t, self.solver.now.clone()));
                     }
                     last.set(t);
-                    return monitor(self.solver).map(|value| sign * value);
+                    return monitor(self.solver);
                 }
             }
         };
-        let ends = [(0.0, sign * was), (reached, sign * is)];
-        let t = bracketed_root(ends[0], ends[1], MONITOR_ACCURACY, &mut value_at)?;
+        let accuracy = Accuracy::both(MONITOR_ACCURACY);
+        let t = root::try_between([(0.0, was), (reached, is)], accuracy, &mut value_at)?;
         if t != last.get() {
             value_at(t)?;
         }

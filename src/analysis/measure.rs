@@ -245,7 +245,7 @@ impl Solver<'_> {
         Cow::Borrowed(force)
     }
 
-    /// The load that the results are told by: the first that varies, else the first.
+    /// The load that the results are reported by: the first that varies, else the first.
     pub fn leading_load(&self) -> Option<usize> {
         let varies =
             |l: &crate::model::LoadCase| !matches!(l.history, crate::scene::History::Constant);

@@ -125,7 +125,9 @@ impl Reflection {
 /// Nodes on which forces, pressures or tractions act: a tangential one is no mirror's.
 pub fn loaded_nodes(model: &Model) -> Vec<bool> {
     let mut out = vec![false; model.mesh.n_nodes()];
-    let held = |l: &crate::scene::Load| l.displacement.is_some() || l.plane_force.is_some();
+    let held = |l: &crate::scene::Load| {
+        l.acts_on_volume() || l.displacement.is_some() || l.plane_force.is_some()
+    };
     for load in model.scene.load.iter().filter(|l| !held(l)) {
         for node in model.mesh.set_nodes(&load.on).into_iter().flatten() {
             out[node] = true;

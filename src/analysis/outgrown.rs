@@ -79,8 +79,9 @@ impl Solver<'_> {
         Error::new(
             ErrorKind::Outgrown,
             format!(
-                "the contact of `{}` on `{}` reaches the end of its candidates at ({place}) from load factor {:.6} on: both \
-                 bodies go on there, but what lies beyond was not allowed to touch; {remedy}.{how_far}",
+                "the contact of `{}` on `{}` reaches the end of its candidates at ({place}) from \
+                 load factor {:.6} on: both bodies go on there, but what lies beyond was not \
+                 allowed to touch; {remedy}.{how_far}",
                 names[0], names[1], reached,
             ),
         )

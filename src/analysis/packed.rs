@@ -169,7 +169,9 @@ mod tests {
 
     proptest! {
         #[test]
-        fn sets_and_vectors_come_back_as_they_were(marks in prop::collection::vec(any::<bool>(), 0..200)) {
+        fn sets_and_vectors_come_back_as_they_were(
+            marks in prop::collection::vec(any::<bool>(), 0..200),
+        ) {
             let numbers: Vec<usize> = (0..marks.len()).filter(|&i| marks[i]).collect();
             let packed = Ascending::new(numbers.iter().copied());
             prop_assert_eq!(packed.to_vec(), numbers.clone());

@@ -4,15 +4,9 @@
 //! P. Lancaster, K. Salkauskas, moving least squares (1981), doi:10.1090/S0025-5718-1981-0616367-1.
 
 use super::mirror::Reflection;
+use super::patch_fit::{CUBIC, Frame, PatchFit};
 use std::collections::HashMap;
 
-/// Highest degree of the polynomials: cubic, and then quadratic, linear, constant where the samples
-/// do not determine it.
-const CUBIC: usize = 3;
-/// Terms of a cubic in space.
-const N: usize = n_terms(3, CUBIC);
-/// Monomials of twice its degree.
-const MOMENTS: usize = n_terms(3, 2 * CUBIC);
 /// Least pivot of the scaled normal equations.
 const LEAST_PIVOT: f64 = 1e-2;
 /// Reach of the weights in distances between samples.
@@ -32,16 +26,14 @@ pub fn reach(dimension: usize, n: usize) -> f64 {
     }
 }
 
-/// Places that are kept of a patch: those of one search and those beside.
+/// Places that are kept of a patch: those of one search and some more.
 const MOST_KEPT: usize = 300;
 
 /// Samples around an element, in coordinates relative to it and scaled by its size.
 #[derive(Debug, Clone)]
 pub struct Patch<const D: usize> {
-    /// Middle of the element.
-    center: [f64; D],
-    /// Its extents.
-    scale: [f64; D],
+    /// Coordinates about the middle of the element.
+    frame: Frame<D>,
     /// Reach of the weights in element sizes.
     reach: f64,
     /// First those within reach of a point of the element.
@@ -69,13 +61,8 @@ pub struct Sample<const D: usize> {
 }
 
 impl<const D: usize> Patch<D> {
-    /// The exponents of the variables in the monomials, by degree.
-    const EXPONENTS: [[usize; 3]; MOMENTS] = exponents(D);
-    /// Which monomial the product of two terms is.
-    const PRODUCTS: [[usize; N]; N] = products(&Self::EXPONENTS);
-
     /// A patch round an element.
-    pub fn new(center: [f64; D], scale: [f64; D], reach: f64, samples: Vec<Sample<D>>) -> Self {
+    pub fn new(frame: Frame<D>, reach: f64, samples: Vec<Sample<D>>) -> Self {
         let is_near = |sample: &Sample<D>| {
             let beyond = sample.position.map(|x| (x.abs() - HALF).max(0.0));
             square(beyond) < reach * reach
@@ -84,8 +71,7 @@ impl<const D: usize> Patch<D> {
         let n_near = samples.len();
         samples.extend(far);
         Patch {
-            center,
-            scale,
+            frame,
             reach,
             samples,
             n_near,
@@ -108,7 +94,7 @@ impl<const D: usize> Patch<D> {
         if let Some(shares) = self.kept.get(&place) {
             return self.sum(shares, samples);
         }
-        let x = std::array::from_fn(|d| (at[d] - self.center[d]) / self.scale[d]);
+        let x = self.frame.relative(at);
         self.weigh(x);
         // Degrees as constants: the loops over the terms are unrolled.
         if !(self.fit::<CUBIC>() || self.fit::<2>() || self.fit::<1>()) {
@@ -142,38 +128,24 @@ impl<const D: usize> Patch<D> {
         out
     }
 
-    /// The share that each weighted sample has in the value of the fit of a degree, by the normal
-    /// equations; terms are centred at the point, so that the value is the constant term. `false`,
-    /// and no shares, where the samples do not determine it.
-    ///
-    /// The matrix of the normal equations holds the moments of the weights, `G_ab = sum w p_a p_b`,
-    /// which are monomials of twice the degree; a sample's share is `w (c . p)` with `G c = e_0`.
+    /// The share that each weighted sample has in the value of the fit of a degree; terms are
+    /// centred at the point, so that the value is the constant term. `false`, and no shares, where
+    /// the samples do not determine it.
     fn fit<const DEGREE: usize>(&mut self) -> bool {
         self.shares.clear();
-        let n = const { n_terms(D, DEGREE) };
+        let n = PatchFit::<D, DEGREE>::N_TERMS;
         if self.weighted.len() < n + n / 2 {
             return false;
         }
-        let n_moments = const { n_terms(D, 2 * DEGREE) };
-        let mut moments = [0.0; MOMENTS];
-        for (_, weight, x) in &self.weighted {
-            let powers = powers(*weight, x);
-            for (moment, exponents) in moments.iter_mut().zip(&Self::EXPONENTS).take(n_moments) {
-                *moment += monomial(&powers, exponents);
-            }
-        }
-        let Some(coefficients) = constant_term(&moments, &Self::PRODUCTS, n) else {
+        let points = self.weighted.iter().map(|(_, weight, x)| (*weight, *x));
+        let Some(fit) = PatchFit::<D, DEGREE>::to(points, LEAST_PIVOT) else {
             return false;
         };
-        let shares = self.weighted.iter().map(|(i, weight, x)| {
-            let powers = powers(*weight, x);
-            let terms = coefficients.iter().zip(&Self::EXPONENTS).take(n);
-            let share: f64 = terms
-                .map(|(c, exponents)| c * monomial(&powers, exponents))
-                .sum();
-            (*i, share)
-        });
-        self.shares.extend(shares);
+        let value = fit.coefficient(0);
+        let share = |(i, weight, x): &(u32, f64, [f64; D])| {
+            (*i, PatchFit::<D, DEGREE>::value(&value, *weight, x))
+        };
+        self.shares.extend(self.weighted.iter().map(share));
         true
     }
 
@@ -207,119 +179,4 @@ impl<const D: usize> Patch<D> {
 #[inline(always)]
 fn square<const D: usize>(x: [f64; D]) -> f64 {
     (1..D).fold(x[0] * x[0], |sum, d| sum + x[d] * x[d])
-}
-
-/// Terms of a polynomial of a degree in so many variables.
-const fn n_terms(variables: usize, degree: usize) -> usize {
-    match variables {
-        2 => (degree + 1) * (degree + 2) / 2,
-        _ => (degree + 1) * (degree + 2) * (degree + 3) / 6,
-    }
-}
-
-/// Powers of a number up to twice the highest degree.
-type Powers = [f64; 2 * CUBIC + 1];
-
-/// Powers of each coordinate, those of the first times `first`.
-#[inline(always)]
-fn powers<const D: usize>(first: f64, x: &[f64; D]) -> [Powers; D] {
-    std::array::from_fn(|d| {
-        let mut out = [if d == 0 { first } else { 1.0 }; 2 * CUBIC + 1];
-        for i in 1..out.len() {
-            out[i] = out[i - 1] * x[d];
-        }
-        out
-    })
-}
-
-#[inline(always)]
-fn monomial<const D: usize>(powers: &[Powers; D], exponents: &[usize; 3]) -> f64 {
-    (1..D).fold(powers[0][exponents[0]], |product, d| {
-        product * powers[d][exponents[d]]
-    })
-}
-
-/// The exponents of the variables in the monomials: by degree, then by the powers of the last
-/// ones.
-const fn exponents(variables: usize) -> [[usize; 3]; MOMENTS] {
-    let mut out = [[0; 3]; MOMENTS];
-    let (mut k, mut degree) = (0, 0);
-    while degree <= 2 * CUBIC {
-        let mut of_z = 0;
-        while of_z <= if variables == 2 { 0 } else { degree } {
-            let mut of_y = 0;
-            while of_y <= degree - of_z {
-                out[k] = [degree - of_z - of_y, of_y, of_z];
-                k += 1;
-                of_y += 1;
-            }
-            of_z += 1;
-        }
-        degree += 1;
-    }
-    out
-}
-
-/// Which monomial the product of two terms is; 0 where there are no such terms.
-const fn products(exponents: &[[usize; 3]; MOMENTS]) -> [[usize; N]; N] {
-    let mut out = [[0; N]; N];
-    let mut a = 0;
-    while a < N {
-        let mut b = 0;
-        while b < N {
-            let (p, q) = (exponents[a], exponents[b]);
-            let mut k = 0;
-            while k < MOMENTS {
-                let r = exponents[k];
-                if r[0] == p[0] + q[0] && r[1] == p[1] + q[1] && r[2] == p[2] + q[2] {
-                    out[a][b] = k;
-                    break;
-                }
-                k += 1;
-            }
-            b += 1;
-        }
-        a += 1;
-    }
-    out
-}
-
-/// `c` of `G c = e_0`, by Cholesky's factor of `G` scaled to a unit diagonal; `None` where it has none, or hardly.
-#[inline(always)]
-fn constant_term(
-    moments: &[f64; MOMENTS],
-    products: &[[usize; N]; N],
-    n: usize,
-) -> Option<[f64; N]> {
-    let mut scaling = [0.0; N];
-    for (i, scaling) in scaling.iter_mut().enumerate().take(n) {
-        *scaling = 1.0 / moments[products[i][i]].max(f64::MIN_POSITIVE).sqrt();
-    }
-    let mut l = [[0.0; N]; N];
-    for i in 0..n {
-        for j in 0..=i {
-            let scaled = moments[products[i][j]] * scaling[i] * scaling[j];
-            let known: f64 = (0..j).map(|k| l[i][k] * l[j][k]).sum();
-            let rest = scaled - known;
-            l[i][j] = if i == j { rest.sqrt() } else { rest / l[j][j] };
-        }
-        // Also what is no number.
-        if l[i][i].is_nan() || l[i][i] < LEAST_PIVOT {
-            return None;
-        }
-    }
-    let mut c = [0.0; N];
-    c[0] = scaling[0];
-    for i in 0..n {
-        let known: f64 = (0..i).map(|k| l[i][k] * c[k]).sum();
-        c[i] = (c[i] - known) / l[i][i];
-    }
-    for i in (0..n).rev() {
-        let known: f64 = (i + 1..n).map(|k| l[k][i] * c[k]).sum();
-        c[i] = (c[i] - known) / l[i][i];
-    }
-    for (c, scaling) in c.iter_mut().zip(scaling) {
-        *c *= scaling;
-    }
-    Some(c)
 }

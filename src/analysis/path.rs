@@ -1,6 +1,6 @@
 //! The path between two rows of the history, where its figures bend.
 //!
-//! From one change of contact to the next forces change evenly where nothing flows, and nearly so
+//! From one change of contact to the next forces change evenly where nothing yields, and nearly so
 //! elsewhere. Maximum pressure and half width follow from the forces, but not evenly: where the
 //! largest force passes from one pair to another, or the edge of the contact moves within an
 //! element. What they are between two rows costs no solve.

@@ -395,7 +395,8 @@ impl<'m, 'o> Run<'m, 'o> {
             return match self.position.first_yield.point {
                 Some(_) => Ok(()),
                 None => Err(Error::analysis(
-                    "no yield load: no body that may yield (material with a yield stress, plastic not false) yields",
+                    "no yield load: no body that may yield (material with a yield stress, plastic \
+                     not false) yields",
                 )),
             };
         }

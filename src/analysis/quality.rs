@@ -187,8 +187,8 @@ impl Reading<'_, '_> {
         quality
     }
 
-    /// `|K| |u|` of the current state; where plastic strains stay, of a state as large as the largest of the run: they were
-    /// balanced to the round-off of displacements that may be gone.
+    /// `|K| |u|` of the current state; where plastic strains stay, of a state as large as the
+    /// largest of the run: they were balanced to the round-off of displacements that may be gone.
     fn terms_of_run(&self, u: &Displacements) -> f64 {
         let here = largest(u.deformation());
         if here > 0.0 && self.solver.now.initial.load.largest() > 0.0 {
@@ -221,7 +221,8 @@ impl Reading<'_, '_> {
         forces
     }
 
-    /// `|f - K u| / (|K| |u| + |f|)` in infinity norms, `u` and `f` the run's largest deformation and force.
+    /// `|f - K u| / (|K| |u| + |f|)` in infinity norms, `u` and `f` the run's largest deformation
+    /// and force.
     fn backward_error(&self, u: &Displacements) -> f64 {
         let scale = self.solver.structure.system.norm * self.solver.scales.deformation
             + u.load.max(self.solver.scales.force);

@@ -10,8 +10,8 @@
 use crate::model::{Model, Slot};
 use crate::space::{Vector, along, dot};
 
-/// Forces on all nodes in global axes, from the internal ones on control points and the forces of the
-/// pairs.
+/// Forces on all nodes in global axes, from the internal ones on control points and the forces of
+/// the pairs.
 pub(super) fn on_nodes(model: &Model, mut forces: Vec<Vector>, of_pairs: &[f64]) -> Vec<f64> {
     for (pair, &r) in model.pairs.iter().zip(of_pairs) {
         forces[pair.slave] = along(forces[pair.slave], r, pair.normal);

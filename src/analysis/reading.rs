@@ -1,4 +1,4 @@
-//! What is read off the current state beside contact pressures: approach, dent, quality.
+//! What is read off the current state besides contact pressures: approach, dent, quality.
 
 use super::solver::Solver;
 use super::stress_field::{OfStresses, StressField};
@@ -25,7 +25,8 @@ impl Reading<'_, '_> {
     pub(super) fn of_stresses<T>(&self, u: &[f64], ask: impl OfStresses<Answer = T>) -> T {
         let (solver, structure) = (&self.solver, &self.solver.structure);
         let (model, elements) = (structure.model, &structure.elements);
-        let nodal = model.nodal(u, &solver.at.factors);
+        let factors = &solver.at.factors;
+        let nodal = (model.nodal(u, factors), factors.clone());
         let formulation = model.scene.mesh.formulation;
         match &solver.zone {
             Zone::Plane(zone) => {

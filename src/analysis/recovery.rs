@@ -15,11 +15,14 @@
 mod cell;
 
 use super::fitted::FittedStrains;
+use super::free_strain::FreeStrains;
 use super::gather::{GatheredElements, Nodal, Places};
+use super::maximum::{Maximum, SPACINGS};
 use super::mirror::{self, Mirror, Reflection, mirrors};
+use super::neighbours::Neighbours;
 use super::patch::{Patch, Sample, reach};
+use super::patch_fit::Frame;
 use super::solver::Solver;
-use super::summit::{SPACINGS, Summit};
 use crate::element::{Kernel, Sampling};
 use crate::material::{Lame, Material, von_mises};
 use crate::model::Model;
@@ -131,7 +134,9 @@ pub struct RecoveryOf<const D: usize, const S: usize, const P: usize, const N: u
     nodal: Nodal,
     /// Strains of the linear triangles and tetrahedra.
     fitted: FittedStrains<D>,
-    neighbours: BTreeMap<u32, Vec<u32>>,
+    /// What loads by temperature strain freely.
+    free: FreeStrains<P>,
+    neighbours: Neighbours,
     patches: BTreeMap<u32, Patch<D>>,
     /// Nodes on which forces act.
     loaded: Vec<bool>,
@@ -152,14 +157,11 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
         }
         let packed = GatheredElements::new(model, elements, places);
         let mut first = vec![0];
-        let mut neighbours: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-        for (i, element) in packed.list.iter().enumerate() {
+        for i in 0..packed.list.len() {
             first.push(first[i] + sampling[i].n_points());
-            for &node in model.mesh.nodes(element.element as usize) {
-                neighbours.entry(node).or_default().push(i as u32);
-            }
         }
         let mut out = RecoveryOf {
+            free: FreeStrains::new(model, elements, |i, nodal| sampling[i].at_points(nodal)),
             elements: packed,
             sampling,
             first,
@@ -171,7 +173,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
                 .map(|m| (m.clone(), m.lame()))
                 .collect(),
             nodal: Nodal::new(model, places),
-            neighbours,
+            neighbours: Neighbours::new(&model.mesh, elements.iter().copied()),
             patches: BTreeMap::new(),
             loaded: mirror::loaded_nodes(model),
             gamma: model.scene.program.gamma,
@@ -185,14 +187,18 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
         self.nodal.set_factors(factors);
         let nodal = self.nodal.displacements(u);
         let moved = self.fitted.displacements(nodal);
-        let fitted = &self.fitted;
+        let (fitted, free) = (&self.fitted, &self.free);
         let (elements, sampling) = (&self.elements, &self.sampling);
         let strains: Vec<_> = (0..elements.list.len())
             .into_par_iter()
             .with_min_len(GRAIN)
-            .map(|i| match fitted.strain(i, &moved) {
-                Some(strain) => strain.map(|e| [e; P]),
-                None => sampling[i].strains(&elements.displacements(i, nodal)),
+            .map(|i| {
+                let mut strains = match fitted.strain(i, &moved) {
+                    Some(strain) => strain.map(|e| [e; P]),
+                    None => sampling[i].strains(&elements.displacements(i, nodal)),
+                };
+                free.take_off(i, factors, &mut strains);
+                strains
             })
             .collect();
         let mut out = Vec::with_capacity(S * self.positions.len());
@@ -258,17 +264,11 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
 
     /// Elements of the same body that share a node with element `i`, itself included.
     fn neighbours_of(&self, model: &Model, i: usize) -> Vec<u32> {
-        let body = self.elements.list[i].body;
-        let mut around: Vec<u32> = model
-            .mesh
-            .nodes(self.elements.list[i].element as usize)
-            .iter()
-            .flat_map(|node| &self.neighbours[node])
-            .copied()
-            .filter(|&m| self.elements.list[m as usize].body == body)
-            .collect();
-        around.sort_unstable();
-        around.dedup();
+        let element = &self.elements.list[i];
+        let mut around = Vec::new();
+        let nodes = model.mesh.nodes(element.element as usize);
+        self.neighbours.at(nodes, &mut around);
+        around.retain(|&m| self.elements.list[m as usize].body == element.body);
         around
     }
 
@@ -276,15 +276,15 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
     /// following the best element of the first search alone would let round-off choose it.
     fn climb(&mut self, model: &Model, elements: &[u32], samples: &[[f64; S]]) -> Option<Peak> {
         let keep = elements.len() <= FEW;
-        let mut tops: Vec<(Cell<D, N>, Summit<D>)> = Vec::with_capacity(elements.len());
+        let mut tops: Vec<(Cell<D, N>, Maximum<D>)> = Vec::with_capacity(elements.len());
         for &i in elements {
             self.cache_patch(model, i);
             let element = self.elements.list[i as usize].element as usize;
             let nodes = model.element_coordinates(element);
             let cells = Cell::of(i, model.mesh.shapes[element], nodes).into_iter();
-            tops.extend(cells.map(|cell| (cell, Summit::unknown())));
+            tops.extend(cells.map(|cell| (cell, Maximum::unknown())));
         }
-        let highest = |tops: &[(Cell<D, N>, Summit<D>)]| {
+        let highest = |tops: &[(Cell<D, N>, Maximum<D>)]| {
             tops.iter().fold(f64::NEG_INFINITY, |m, t| m.max(t.1.value))
         };
         for spacing in SPACINGS {
@@ -338,18 +338,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
                 .collect();
             members.extend(around);
         }
-        let nodes = model.mesh.nodes(self.elements.list[i].element as usize);
-        let mut low = [f64::INFINITY; D];
-        let mut high = [f64::NEG_INFINITY; D];
-        for &node in nodes {
-            let x = model.mesh.point(node as usize);
-            for d in 0..D {
-                low[d] = low[d].min(x[d]);
-                high[d] = high[d].max(x[d]);
-            }
-        }
-        let center: [f64; D] = std::array::from_fn(|d| 0.5 * (low[d] + high[d]));
-        let scale: [f64; D] = std::array::from_fn(|d| high[d] - low[d]);
+        let element = self.elements.list[i].element as usize;
+        let frame = Frame::about(&model.mesh, element);
         let elements: Vec<usize> = members
             .iter()
             .map(|&m| self.elements.list[m as usize].element as usize)
@@ -384,7 +374,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
                 }
             }
             for (at, reflection, _) in images {
-                let position: [f64; D] = std::array::from_fn(|d| (at[d] - center[d]) / scale[d]);
+                let position: [f64; D] = frame.relative(at);
                 // Images are kept as far as a weight reaches from a point of the element.
                 let far = position.iter().map(|x| x * x).sum::<f64>().sqrt();
                 if reflection.is_none() || far < reach + 1.0 {
@@ -396,7 +386,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
                 }
             }
         }
-        Patch::new(center, scale, reach, samples)
+        Patch::new(frame, reach, samples)
     }
 }
 

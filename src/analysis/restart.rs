@@ -204,8 +204,9 @@ impl<'m, 'o> Run<'m, 'o> {
         results.path.extend(record.path);
         if !same {
             results.warnings.push(
-                "resumed with a factorisation that differs in its last digits (another BLAS or number of its threads): results agree \
-                 with those of an uninterrupted run to round-off, not bit for bit"
+                "resumed with a factorisation that differs in its last digits (another BLAS or \
+                 number of its threads): results agree with those of an uninterrupted run to \
+                 round-off, not bit for bit"
                     .to_string(),
             );
         }
@@ -236,7 +237,8 @@ impl<'m, 'o> Run<'m, 'o> {
                 .is_none_or(|start| solver.knows(&start.state));
         if !fits {
             return Err(Error::input(
-                "the checkpoint does not belong to the program's targets: run the scene again from its beginning",
+                "the checkpoint does not belong to the program's targets: run the scene again from \
+                 its beginning",
             ));
         }
         let mut run = Run::of(solver, zone, results, observer);

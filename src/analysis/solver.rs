@@ -41,11 +41,12 @@ pub struct Solver<'m> {
     pub cost: Cost,
 }
 
-/// What an increment is predicted from beside the state and the points that yielded last: it
+/// What an increment is predicted from besides the state and the points that yielded last: it
 /// decides how fast it is found.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Predictor {
-    /// Change of the load point over the piece of the last increment: tells loading from unloading.
+    /// Change of the load point over the piece of the last increment: distinguishes loading from
+    /// unloading.
     pub last_step: Vec<f64>,
     /// Change of the initial loads over the last increment, for a load factor that changes by 1:
     /// the next one's are much the same.

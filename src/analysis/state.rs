@@ -33,8 +33,8 @@ pub(super) struct State {
 }
 
 impl State {
-    /// Whether it is one of a structure with so many pairs, contact freedoms and loads, and its parts
-    /// fit each other.
+    /// Whether it is one of a structure with so many pairs, contact freedoms and loads, and its
+    /// parts fit each other.
     pub(super) fn fits(&self, [n_pairs, n_contact]: [usize; 2], n_loads: usize) -> bool {
         let now = &self.equilibrium;
         let trailing = [&now.initial.load, &now.initial.eliminated, &now.u];

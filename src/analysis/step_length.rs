@@ -1,10 +1,10 @@
 //! The step length: how much of an increment contact allows.
 //!
 //! For pair `k` let `v` be what must stay positive, the gap of an open pair or the force of a
-//! closed one. Over the increment it falls from `v` to `v + dv`; the paper's ratio is `psi = max_k |dv/v|` (4.16, 4.20), and the
-//! increment is scaled by `1/psi` (4.17, 4.22).
+//! closed one. Over the increment it falls from `v` to `v + dv`; the paper's ratio is
+//! `psi = max_k |dv/v|` (4.16, 4.20), and the increment is scaled by `1/psi` (4.17, 4.22).
 
-/// What contact says of an increment.
+/// What contact states about an increment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepLimit {
     /// `1/psi`: the share of the increment at which the first pair changes; infinite if none would.
@@ -41,13 +41,13 @@ pub fn step_limit(before: &[f64], after: &[f64], border: &[usize]) -> StepLimit 
     }
 }
 
-/// The search for the length of an increment: the iteration `t <- goal(t)` of the paper (4.17, 4.22), relaxed where it
-/// would swing about its end.
+/// The search for the length of an increment: the iteration `t <- goal(t)` of the paper (4.17,
+/// 4.22), relaxed where it would swing about its end.
 ///
-/// The goal is found as if the response were linear. Where flow spreads it is not: with the slope
-/// `s` of the goal the error of `t` is multiplied by `s` at each step, and `s` comes near -1 and beyond as the material loses its stiffness. The
-/// secant through the last two goals gives `s`; `1/(1 - s)` of the way leads to where `t =
-/// goal(t)`.
+/// The goal is found as if the response were linear. Where yielding spreads it is not: with the
+/// slope `s` of the goal the error of `t` is multiplied by `s` at each step, and `s` comes near -1
+/// and beyond as the material loses its stiffness. The secant through the last two goals gives `s`;
+/// `1/(1 - s)` of the way leads to where `t = goal(t)`.
 ///
 /// # Source
 /// B. M. Irons, R. C. Tuck (1969), A version of the Aitken accelerator for computer iteration,
@@ -57,7 +57,7 @@ pub struct LengthSearch {
     last: Option<[f64; 2]>,
 }
 
-/// Least share of the way that is gone: a goal that jumps tells no slope.
+/// Least share of the way that is gone: a goal that jumps shows no slope.
 const LEAST_RELAXATION: f64 = 0.1;
 
 impl LengthSearch {

@@ -98,7 +98,7 @@ impl<'s, 'm> Stepper<'s, 'm> {
                         return Err(self.not_found(&goal, &attempt));
                     }
                     most *= CUT;
-                    // The points flow as in the state that failed: its tangent, often singular,
+                    // The points yield as in the state that failed: its tangent, often singular,
                     // must not predict the next.
                     self.solver.assume_elastic();
                 }
@@ -181,7 +181,8 @@ impl<'s, 'm> Stepper<'s, 'm> {
 
     fn not_settled(&self, end: &LoadPoint, most: f64) -> Error {
         Error::analysis(format!(
-            "contact did not settle in the increment from load factor {:.6} to {:.6}: the statuses repeat",
+            "contact did not settle in the increment from load factor {:.6} to {:.6}: the statuses \
+             repeat",
             self.solver.at.alpha,
             self.solver.at.towards(end, most).alpha
         ))

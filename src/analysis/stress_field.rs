@@ -3,6 +3,7 @@
 //! Nothing is stored: an element is quickly evaluated again, while the stresses of all take a tenth
 //! of the factor's memory.
 
+use super::free_strain::take_off;
 use super::zone::ZoneOf;
 use crate::element::{Components, Gradients, Kernel};
 use crate::material::{Lame, PlasticState};
@@ -23,6 +24,8 @@ pub(super) struct StressField<'a, const D: usize, const S: usize, const P: usize
     first_of_group: Vec<u32>,
     /// Of the nodes, in global axes.
     displacements: Vec<Vector>,
+    /// Factor of each load.
+    pub(super) factors: Vec<f64>,
     elastic: Vec<Lame>,
 }
 
@@ -50,14 +53,14 @@ pub(super) struct ElementStress<'a, const D: usize, const S: usize, const P: usi
 impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
     StressField<'a, D, S, P, N>
 {
-    /// The stresses for nodal displacements in global axes and the committed history of the zone,
-    /// whose elements are `in_zone` (ascending).
+    /// The stresses for nodal displacements in global axes, with the loads' factors, and the committed
+    /// history of the zone, whose elements are `in_zone` (ascending).
     pub(super) fn new(
         kernel: Kernel<D, S, P, N>,
         model: &'a Model,
         zone: &'a ZoneOf<D, S, P, N>,
         in_zone: &'a [usize],
-        displacements: Vec<Vector>,
+        (displacements, factors): (Vec<Vector>, Vec<f64>),
     ) -> Self {
         let n_groups = model.mesh.n_elements().div_ceil(GROUP);
         let mut first_of_group = vec![0u32; n_groups + 1];
@@ -74,6 +77,7 @@ impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
             in_zone,
             first_of_group,
             displacements,
+            factors,
             elastic: model.materials.iter().map(|m| m.lame()).collect(),
         }
     }
@@ -85,8 +89,8 @@ impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
         Some(first + place)
     }
 
-    /// The elements of the zone that have flowed, ascending, with their history.
-    pub(super) fn flowed(&self) -> impl Iterator<Item = (usize, &'a [PlasticState<S>])> {
+    /// The elements of the zone that have yielded, ascending, with their history.
+    pub(super) fn yielded(&self) -> impl Iterator<Item = (usize, &'a [PlasticState<S>])> {
         let zone = self.zone;
         let elements = self.in_zone.iter().enumerate();
         elements
@@ -104,6 +108,13 @@ impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
             u.copy_from_slice(&self.displacements[node as usize][..D]);
         }
         let mut strain = gradients.strains(&u);
+        for (load, nodal) in self.model.free_strains(e) {
+            take_off(
+                &mut strain,
+                self.factors[load],
+                &gradients.at_points(&nodal),
+            );
+        }
         let history = self
             .place_in_zone(e)
             .map_or(&[][..], |i| self.zone.states(i));

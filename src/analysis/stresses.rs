@@ -25,9 +25,9 @@ pub(super) struct Stresses {
     pub(super) reactions: Vec<f64>,
     /// Elements that may yield, are not in the zone and carry more than the yield stress.
     pub(super) beyond_yield_outside: Vec<usize>,
-    /// Gauss points that have flowed, by body.
+    /// Gauss points that have yielded, by body.
     pub(super) plastic_points: Vec<usize>,
-    /// Volume of the Gauss points that have flowed.
+    /// Volume of the Gauss points that have yielded.
     pub(super) plastic_volume: f64,
     /// Work on their plastic strains.
     pub(super) plastic_work: f64,
@@ -88,7 +88,15 @@ impl Stresses {
             }
         }
         out.nodal = forces;
-        for (e, history) in field.flowed() {
+        // What free strains would take to be held enters with the loads: the same forces here.
+        for (load, factor) in model.loads.iter().zip(&field.factors) {
+            if load.free_strain.is_some() {
+                for &(freedom, force) in &load.forces {
+                    out.internal[freedom] += factor * force;
+                }
+            }
+        }
+        for (e, history) in field.yielded() {
             let gradients = field.model.gradients(&field.kernel, e);
             let body = model.mesh.element_body[e] as usize;
             let surface = nearest_pair(model, e);
@@ -102,8 +110,7 @@ impl Stresses {
                     }
                     out.plastic_points[body] += 1;
                     out.plastic_volume += weight;
-                    out.plastic_work +=
-                        weight * model.materials[body].plastic_work(past.equivalent);
+                    out.plastic_work += weight * model.materials[body].plastic_work(past);
                     out.plastic_strain = out.plastic_strain.max(past.equivalent);
                 }
             }

@@ -163,7 +163,7 @@ impl ElasticStretch {
         let mut balance = solver.structure.sub.zeros();
         let evaluation = solver.zone.evaluate(&u, &mut balance);
         solver.cost.counts.plastic_iterations += 1;
-        if evaluation.flowing > 0 {
+        if evaluation.yielding > 0 {
             return None;
         }
         solver.now.u = u;

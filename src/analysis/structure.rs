@@ -300,8 +300,9 @@ impl<'m> Structure<'m> {
         Error::new(
             ErrorKind::Unheld,
             format!(
-                "near load factor {alpha}: nothing stops pair {}{names} from opening; the load closes no contact that \
-                 could hold body `{floating}`: check its direction, or add a support",
+                "near load factor {alpha}: nothing stops pair {}{names} from opening; the load \
+                 closes no contact that could hold body `{floating}`: check its direction, or add \
+                 a support",
                 pair + 1
             ),
         )

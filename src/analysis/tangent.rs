@@ -5,10 +5,10 @@
 //! product with `S` is never needed because `S p` follows from the recurrence of the search
 //! directions.
 //!
-//! Closed pairs constrain the search to `B u = 0`: forces `B' c`, of a pair of nodes `(-c, c)`, do no
-//! work and move nothing. No step takes them from the residual, and each would multiply
-//! their round-off by its length, by orders in a few steps where little stiffness is left: they are
-//! taken off and kept apart.
+//! Closed pairs constrain the search to `B u = 0`: forces `B' c`, of a pair of nodes `(-c, c)`, do
+//! no work and move nothing. No step takes them from the residual, and each would multiply their
+//! round-off by its length, by orders in a few steps where little stiffness is left: they are taken
+//! off and kept apart.
 //!
 //! # Source
 //! N. I. M. Gould, M. E. Hribar, J. Nocedal, *On the solution of equality constrained quadratic
@@ -40,7 +40,7 @@ impl Solver<'_> {
     ///
     /// The search directions carry their gaps, forces and eliminated loads along, and the last
     /// preconditioned residual `z = S^-1 r` is taken as a step of the plain iteration on top:
-    /// beside the iteration's trailing solves the direction costs half a solve. In the iteration
+    /// besides the iteration's trailing solves the direction costs half a solve. In the iteration
     /// the second halves go through the part of the zone that counts.
     pub fn solve_tangent(&mut self, residual: &Trailing, tolerance: f64, keep: f64) -> Equilibrium {
         let mut softened = self.structure.sub.zeros();
@@ -72,7 +72,7 @@ impl Solver<'_> {
             self.take_what_closed_pairs_carry(&mut z.initial.load, &mut carried);
             self.respond_homogeneous(&mut z, &part);
             let next = z.initial.load.dot(&z.u);
-            p.turn(next / rz, &z);
+            p.scale_and_add(next / rz, &z);
             rz = next;
         }
         total.add(1.0, &z);
@@ -88,14 +88,15 @@ impl Solver<'_> {
         total
     }
 
-    /// Takes the forces `-B' c` that closed pairs carry alone off a load and adds them to `carried`.
+    /// Takes the forces `-B' c` that closed pairs carry alone off a load and adds them to
+    /// `carried`.
     fn take_what_closed_pairs_carry(&self, load: &mut Trailing, carried: &mut [f64]) {
         let rows = &self.structure.model.rows;
         rows.take_carried(&mut load.contact, carried, self.tableau.open());
     }
 
-    /// Where the displacements of search directions enter a tangent solve: where the material flows
-    /// and where the residual acts.
+    /// Where the displacements of search directions enter a tangent solve: where the material
+    /// yields and where the residual acts.
     fn part_that_counts(&self, residual: &Trailing) -> ZonePart {
         let mut marks: Vec<bool> = residual.zone.iter().map(|r| *r != 0.0).collect();
         self.zone.mark_active(&mut marks);

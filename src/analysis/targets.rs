@@ -29,7 +29,10 @@ impl<'m> Run<'m, '_> {
         let (target, label) = self.target();
         if target.first_yield {
             let alpha = self.position.first_yield.alpha.ok_or_else(|| {
-                Error::analysis(format!("target `{label}`: no yield load was found before the program's largest load factor"))
+                Error::analysis(format!(
+                    "target `{label}`: no yield load was found before the program's largest load \
+                     factor"
+                ))
             })?;
             self.position.stops = self.stops(alpha);
         } else if let Some(alpha) = target.load_factor {
@@ -268,7 +271,8 @@ impl<'m> Run<'m, '_> {
         };
         match off {
             Ok(off) => Error::analysis(format!(
-                "target `{}` was never reached: the load factor went to {:.6} and the target quantity is still off by {off:.6e}",
+                "target `{}` was never reached: the load factor went to {:.6} and the target \
+                 quantity is still off by {off:.6e}",
                 self.target().1,
                 self.solver.at.alpha
             )),

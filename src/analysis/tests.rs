@@ -132,7 +132,8 @@ fn yield_target_in_units_of_the_load() {
 fn tiny_displacement_targets_are_hit_as_accurately_as_large_ones() {
     for value in [1e-13, 1e-4] {
         let rest = format!(
-            "[program]\ntargets = [{{ displacement = {{ on = \"bar.right\", direction = \"x\", value = {value:e} }} }}]"
+            "[program]\ntargets = [{{ displacement = {{ on = \"bar.right\", direction = \"x\", \
+             value = {value:e} }} }}]"
         );
         let results = run(&bar("", "traction = [1.0, 0.0]", &rest));
         assert!(

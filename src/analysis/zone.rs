@@ -4,9 +4,9 @@
 //! eps = B u,   J = sum_g w_g B' D eps_p(eps),   dJ = sum_g w_g B' (D - D_ep) B du
 //! ```
 //!
-//! `J` are the paper's initial loads (4.1); the plastic strains depend on the committed history and on the
-//! total strain at the end of the increment only, so within an increment they are a function of
-//! `u`.
+//! `J` are the paper's initial loads (4.1); the plastic strains depend on the committed history and
+//! on the total strain at the end of the increment only, so within an increment they are a function
+//! of `u`.
 
 mod points;
 mod yielding;
@@ -26,9 +26,9 @@ pub type History = Vec<PlasticState<6>>;
 /// Result of evaluating the material over the zone.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Evaluation {
-    /// Gauss points that flow in this increment.
-    pub flowing: usize,
-    /// Guard elements in which a point flows.
+    /// Gauss points that yield in this increment.
+    pub yielding: usize,
+    /// Guard elements in which a point yields.
     pub guard_flows: usize,
 }
 
@@ -223,27 +223,27 @@ targets = [{ load_factor = 1.0 }]
         }
     }
 
-    /// What a zone goes back to knows nothing of what it went through since: what flows next is
-    /// what flows in a new one.
+    /// What a zone goes back to knows nothing of what it went through since: what yields next is
+    /// what yields in a new one.
     #[test]
     fn a_restored_history_is_all_there_is() {
         let case = Case::new();
         let mut zone = case.zone();
         let virgin = zone.history();
-        assert!(case.flow(&mut zone, 0.3).flowing > 0);
-        // Elastic from there: nothing flows any more, and the last flow is history.
-        assert_eq!(case.flow(&mut zone, 0.29).flowing, 0);
+        assert!(case.flow(&mut zone, 0.3).yielding > 0);
+        // Elastic from there: nothing yields any more, and the last yielding is history.
+        assert_eq!(case.flow(&mut zone, 0.29).yielding, 0);
         zone.restore(&virgin);
         assert_eq!(zone.extent(), (0, 0.0));
         let mut fresh = case.zone();
-        let flowing = case.flow(&mut zone, 0.03);
-        assert_eq!(flowing, case.flow(&mut fresh, 0.03));
+        let yielding = case.flow(&mut zone, 0.03);
+        assert_eq!(yielding, case.flow(&mut fresh, 0.03));
         // In a part of an element's points, so that the others show what they remember.
         let history = fresh.history();
         let points = history.chunks(4);
         let partly = |states: &[PlasticState<6>]| {
-            let flowed = states.iter().filter(|s| s.equivalent > 0.0).count();
-            flowed > 0 && flowed < states.len()
+            let yielded = states.iter().filter(|s| s.equivalent > 0.0).count();
+            yielded > 0 && yielded < states.len()
         };
         assert!(points.clone().any(partly));
         assert_eq!(zone.history(), fresh.history());

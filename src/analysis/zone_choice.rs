@@ -2,8 +2,9 @@
 //!
 //! A first guess from geometry (near the contact surfaces) lets the yield load be found. The
 //! elastic stress at the program's extreme loads then predicts how far yielding spreads; a guard
-//! layer round the prediction watches, and when it flows the zone grows.
+//! layer round the prediction watches, and when it yields the zone grows.
 
+use super::free_strain::take_off;
 use super::region::{Reach, Region};
 use super::solver::Solver;
 use super::stress_field::{largest_von_mises, stress};
@@ -193,13 +194,13 @@ fn widen(model: &Model, mut marked: Vec<bool>, layers: usize) -> Vec<bool> {
 /// yield (0 elsewhere), for displacements of the whole model.
 pub fn stress_ratios(model: &Model, u: &[f64], factors: &[f64]) -> Vec<f64> {
     let displacements = model.nodal(u, factors);
-    with_kernel!(model, kernel => ratios_of(&kernel, model, &displacements))
+    with_kernel!(model, kernel => ratios_of(&kernel, model, (&displacements, factors)))
 }
 
 fn ratios_of<const D: usize, const S: usize, const P: usize, const N: usize>(
     kernel: &Kernel<D, S, P, N>,
     model: &Model,
-    displacements: &[Vector],
+    (displacements, factors): (&[Vector], &[f64]),
 ) -> Vec<f64> {
     let elastic: Vec<_> = model.materials.iter().map(|m| m.lame()).collect();
     (0..model.mesh.n_elements())
@@ -216,10 +217,11 @@ fn ratios_of<const D: usize, const S: usize, const P: usize, const N: usize>(
             let nodes = model.element_coordinates(e);
             let sampling = kernel.sampling(model.mesh.shapes[e], &nodes);
             let body = model.mesh.element_body[e] as usize;
-            let largest = largest_von_mises(
-                &stress(&elastic[body], &sampling.strains(&u)),
-                sampling.n_points(),
-            );
+            let mut strains = sampling.strains(&u);
+            for (load, nodal) in model.free_strains(e) {
+                take_off(&mut strains, factors[load], &sampling.at_points(&nodal));
+            }
+            let largest = largest_von_mises(&stress(&elastic[body], &strains), sampling.n_points());
             largest / model.materials[body].yield_stress()
         })
         .collect()
@@ -270,7 +272,7 @@ mod tests {
     }
 
     /// Under a point contact stress falls with the cube root of the load: at an eighth of it an
-    /// element is predicted to flow whose ratio at the whole load is twice the limit, in line
+    /// element is predicted to yield whose ratio at the whole load is twice the limit, in line
     /// contact with its square root at a quarter.
     #[test]
     fn a_stage_of_the_load_takes_the_elements_that_flow_by_then() {

@@ -1,10 +1,10 @@
 //! A smooth disc that fills a hole in an infinite plate under tension: the paper's second example.
 
-use super::bracketing::root;
 use super::domain::{poisson as check_poisson, positive};
 use super::quadrature::integrate;
 use super::{KirschField, Plane, von_mises};
 use crate::error::Result;
+use crate::root;
 use nalgebra::Complex;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::OnceLock;
@@ -38,9 +38,9 @@ use std::sync::OnceLock;
 /// Stresses positive in tension, pressures in compression; units consistent, any.
 ///
 /// # Source
-/// The problem: N. Endahl, section 5.2; M. Stippes, Proc. 4th U.S. Nat. Congr. Appl. Mech. (1962) 799. The
-/// solution is derived here as above from N. I. Muskhelishvili, *Some Basic Problems of the
-/// Mathematical Theory of Elasticity*, 1953, par. 54-56.
+/// The problem: N. Endahl, section 5.2; M. Stippes, Proc. 4th U.S. Nat. Congr. Appl. Mech. (1962)
+/// 799. The solution is derived here as above from N. I. Muskhelishvili, *Some Basic Problems of
+/// the Mathematical Theory of Elasticity*, 1953, par. 54-56.
 ///
 /// ```
 /// use brinell::analytical::{DiscInPlate, Plane};
@@ -234,7 +234,7 @@ fn unit_pressure(t: f64, e: f64, q0: f64) -> f64 {
 fn half_angle() -> f64 {
     static FOUND: OnceLock<f64> = OnceLock::new();
     // The tension alone lifts the hole off the disc beyond 30 degrees from the pole.
-    *FOUND.get_or_init(|| root(pole_gap, 1e-3, PI / 6.0))
+    *FOUND.get_or_init(|| root::of(pole_gap, 1e-3, PI / 6.0))
 }
 
 /// `E* g/(2 a S)` at the pole, by the closed Fourier sums of `p`, as an integral of a smooth

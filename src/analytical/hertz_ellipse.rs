@@ -1,9 +1,9 @@
 //! Hertz's contact of bodies of any curvature: the contact is an ellipse.
 
-use super::bracketing::{maximum, root};
 use super::domain::positive;
 use super::elliptic::{elliptic_d, elliptic_k};
 use crate::error::{Error, Result};
+use crate::root::{self, maximum};
 use std::f64::consts::PI;
 
 /// Frictionless contact of elastic bodies whose gap before loading is `x^2/(2 R_x) + y^2/(2 R_y)`.
@@ -56,13 +56,13 @@ impl HertzEllipse {
             ratio: if large == small {
                 1.0
             } else {
-                root(off, 1e-8, 1.0)
+                root::of(off, 1e-8, 1.0)
             },
         })
     }
 
-    /// Relative radii along x and y of two bodies whose principal directions are these: `1/R = 1/R_1
-    /// + 1/R_2`, positive radii convex, negative ones hollow, 0 or infinity flat.
+    /// Relative radii along x and y of two bodies whose principal directions are these:
+    /// `1/R = 1/R_1 + 1/R_2`, positive radii convex, negative ones hollow, 0 or infinity flat.
     ///
     /// # Errors
     /// Where the bodies do not part along an axis: a hollow that is no wider than what lies in it,
@@ -77,8 +77,8 @@ impl HertzEllipse {
             let sum = curvature(first[d]) + curvature(second[d]);
             if !(sum.is_finite() && sum > 0.0) {
                 return Err(Error::input(format!(
-                    "the radii {} and {} along {axis} leave no gap: a hollow must be wider than what \
-                     lies in it, and one of two surfaces curved",
+                    "the radii {} and {} along {axis} leave no gap: a hollow must be wider than \
+                     what lies in it, and one of two surfaces curved",
                     first[d], second[d]
                 )));
             }
@@ -181,8 +181,8 @@ impl HertzEllipse {
 /// Johnson, eqs (3.19), p. 51 (Boussinesq).
 fn axis_stress(a: f64, z: f64, poisson: f64) -> [f64; 3] {
     let mut sums = [0.0; 3];
-    // With s = sin t along a ray, p dA = a cos^2 t sin t dt dphi: smooth, so that Gauss' rule in t and
-    // even steps in phi converge like powers.
+    // With s = sin t along a ray, p dA = a cos^2 t sin t dt dphi: smooth, so that Gauss' rule in t
+    // and even steps in phi converge like powers.
     for (t, weight) in gauss(0.0, 0.5 * PI) {
         let (s, c) = t.sin_cos();
         let share = weight * a * c * c * s * (0.5 * PI / RAYS as f64);
@@ -260,7 +260,8 @@ mod tests {
         assert!((nearly.axis_ratio() - 1.0).abs() < 1e-9);
     }
 
-    /// Johnson's integrals are satisfied: the displacement of the pressure is the gap that is closed.
+    /// Johnson's integrals are satisfied: the displacement of the pressure is the gap that is
+    /// closed.
     #[test]
     fn the_pressure_closes_the_gap() {
         let ellipse = HertzEllipse::new([30.0, 4.0], 1000.0).unwrap();

@@ -1,16 +1,16 @@
 //! Hertz's line contact: two parallel cylinders, or a cylinder on a half plane.
 
-use super::bracketing::maximum;
 use super::domain::positive;
 use super::von_mises;
 use crate::error::Result;
+use crate::root::maximum;
 
 /// Frictionless line contact of elastic cylinders with parallel axes in plane strain.
 ///
 /// Half width `b = sqrt(4 P R/(pi E*))`, pressure `p(x) = p0 sqrt(1 - x^2/b^2)` with
-/// `p0 = sqrt(P E*/(pi R))`, load `P = pi b p0/2` per length. Valid for `b` small beside the radii
-/// and the size of the bodies. The approach of the bodies is *not* given: in the plane it depends
-/// on their size.
+/// `p0 = sqrt(P E*/(pi R))`, load `P = pi b p0/2` per length. Valid for `b` small compared with the
+/// radii and the size of the bodies. The approach of the bodies is *not* given: in the plane it
+/// depends on their size.
 ///
 /// Units are consistent, any: `radius` a length, `contact_modulus` a stress, load a force per
 /// length. Stresses are positive in tension, pressures in compression.

@@ -1,15 +1,16 @@
 //! Hertz's point contact: two balls, or a ball on a half space.
 
-use super::bracketing::maximum;
 use super::domain::positive;
 use super::von_mises;
 use crate::error::Result;
+use crate::root::maximum;
 use std::f64::consts::PI;
 
 /// Frictionless contact of elastic spheres.
 ///
 /// Contact radius `a = (3 P R/(4 E*))^(1/3)`, pressure `p(r) = p0 sqrt(1 - r^2/a^2)` with
-/// `p0 = 3 P/(2 pi a^2)`, approach of distant points `a^2/R`. Valid for `a` small beside the radii.
+/// `p0 = 3 P/(2 pi a^2)`, approach of distant points `a^2/R`. Valid for `a` small compared with the
+/// radii.
 ///
 /// Units are consistent, any. Stresses are positive in tension, pressures in compression.
 ///
@@ -139,7 +140,8 @@ fn unit_stress(r: f64, z: f64, poisson: f64) -> [f64; 4] {
     let spread = u + c * c;
     // (1 - c^3)/r^2, with 1 - c^2 = r^2/(1 + u).
     let ring = (1.0 - 2.0 * poisson) / 3.0 * (1.0 + c + c * c) / ((1.0 + c) * inside);
-    // c^3 u/(u^2 + z^2) = c^3/spread; at the edge itself (u = c = 0) its limit along the surface is 0.
+    // c^3 u/(u^2 + z^2) = c^3/spread; at the edge itself (u = c = 0) its limit along the surface is
+    // 0.
     let axial = if spread > 0.0 {
         c * c * c / spread
     } else {

@@ -19,18 +19,15 @@
 //! | thick sphere, elastoplastic | `thick_sphere.rs`: [`ThickSphere`] | the same, for any `nu` | Hill ch. V |
 //! | shaft in a ring | `shrink_fit.rs`: [`ShrinkFit`] | pressure, stress, interference at first yield | Timoshenko |
 //! | flat punches | `flat_punch.rs`: [`FlatPunch`], [`CircularPunch`] | elastic pressure, limit load | Prandtl 1920; Shield 1955 |
-//! | ball beyond yield | `elastoplastic_sphere.rs`: [`ElastoplasticSphere`] | load and area against interference, cavity model | Kogut and Etsion 2002; Jackson and Green 2005; Johnson 1970 |
 //! | two bodies as one | `contact_pair.rs`: [`contact_modulus`], [`relative_radius`] | contact modulus, relative radius | Johnson pp. 85-92 |
 //!
 //! The published figures that these reproduce are in `data/reference`; a test compares them row by
 //! row.
 
-mod bracketing;
 mod contact_pair;
 mod disc_in_plate;
 mod domain;
 mod elastoplastic_cylinder;
-mod elastoplastic_sphere;
 mod elliptic;
 mod flat_punch;
 mod hertz_ellipse;
@@ -46,11 +43,9 @@ mod thick_cylinder;
 mod thick_sphere;
 mod von_mises;
 
-pub(crate) use bracketing::root;
 pub use contact_pair::{contact_modulus, relative_radius};
 pub use disc_in_plate::DiscInPlate;
 pub use elastoplastic_cylinder::ElastoplasticCylinder;
-pub use elastoplastic_sphere::{ElastoplasticSphere, SphereContact};
 pub use elliptic::{elliptic_d, elliptic_e, elliptic_k};
 pub use flat_punch::{CircularPunch, FlatPunch};
 pub use hertz_ellipse::HertzEllipse;

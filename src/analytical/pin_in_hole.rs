@@ -1,8 +1,8 @@
 //! Persson's pin in a hole: conforming contact of like materials.
 
-use super::bracketing::root;
 use super::domain::{finite, positive};
 use crate::error::{Error, Result};
+use crate::root;
 use std::f64::consts::PI;
 
 /// Frictionless pin loaded at its centre in the hole of an infinite plate of the same material.
@@ -58,7 +58,7 @@ impl PinInHole {
 
     /// Half angle of the contact of a neat fit, 84.828 degrees (in radians), whatever the load.
     pub fn neat_half_angle() -> f64 {
-        root(Self::clearance_ratio, 1.0, 2.0)
+        root::of(Self::clearance_ratio, 1.0, 2.0)
     }
 
     /// Load per thickness at which the half angle of the contact is `half_angle`.
@@ -88,7 +88,7 @@ impl PinInHole {
         if target <= -1.0 / PI {
             return Ok(PI);
         }
-        Ok(root(|e| Self::clearance_ratio(e) - target, 0.0, PI))
+        Ok(root::of(|e| Self::clearance_ratio(e) - target, 0.0, PI))
     }
 
     /// Contact pressure at the angle `from_load` (radians from the line of the load) under `load`.
@@ -171,9 +171,9 @@ mod tests {
 
     #[test]
     fn gap_is_closed_over_the_contact() {
-        // sum_{n>=2} n/(n^2-1) cos n x = -cos x ln|2 sin(x/2)| - 1/2 - cos(x)/4 and the terms of n = 0;
-        // what is left of E* g/(2 R) after the rigid shift (cos f) must vanish: three angles fit
-        // two terms.
+        // sum_{n>=2} n/(n^2-1) cos n x = -cos x ln|2 sin(x/2)| - 1/2 - cos(x)/4 and the terms of n
+        // = 0; what is left of E* g/(2 R) after the rigid shift (cos f) must vanish: three angles
+        // fit two terms.
         let e = 1.2;
         let q0 = integrate(|f| unit_pressure(f, e), 0.0, e) / PI;
         let residual = |f: f64| {

@@ -31,7 +31,7 @@ impl Plane {
         }
     }
 
-    /// Stress out of the plane that goes with the sum `s_x + s_y` of those in it.
+    /// Stress out of the plane that accompanies the sum `s_x + s_y` of those in it.
     pub fn out_of_plane(self, in_plane_sum: f64, poisson: f64) -> f64 {
         match self {
             Plane::Strain => poisson * in_plane_sum,

@@ -1,8 +1,8 @@
 //! A wall that is plastic up to a front, under internal pressure: what cylinder and sphere have in
 //! common.
 
-use super::bracketing::root;
 use crate::error::{Error, ErrorKind, Result};
+use crate::root;
 
 /// Radius of the plastic front of `body` under `pressure`, in the wall `[a, b]` (radii);
 /// `of_front(c)` is the pressure that holds the front at `c`, rising from first yield at `a` to
@@ -32,7 +32,7 @@ pub(super) fn plastic_front(
     if pressure <= of_front(a) {
         return Ok(a);
     }
-    Ok(root(|front| of_front(front) - pressure, a, b))
+    Ok(root::of(|front| of_front(front) - pressure, a, b))
 }
 
 /// Refuses a pressure after which unloading makes the bore yield again: that above twice the
@@ -44,7 +44,8 @@ pub(super) fn refuse_reverse_yield(body: &str, pressure: f64, first_yield: f64) 
     let limit = 2.0 * first_yield;
     if pressure > limit {
         return Err(Error::input(format!(
-            "{body}: after the pressure {pressure} unloading yields again; the closed form ends at {limit}"
+            "{body}: after the pressure {pressure} unloading yields again; the closed form ends at \
+             {limit}"
         )));
     }
     Ok(())

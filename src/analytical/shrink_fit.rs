@@ -44,7 +44,8 @@ impl ShrinkFit {
         let what = "shrink fit";
         if shaft_bore >= ring.inner_radius {
             return Err(Error::input(format!(
-                "{what}: the bore {shaft_bore} of the shaft must be less than the contact radius {}",
+                "{what}: the bore {shaft_bore} of the shaft must be less than the contact radius \
+                 {}",
                 ring.inner_radius
             )));
         }

@@ -3,8 +3,8 @@
 use crate::element::packed;
 use crate::model::Model;
 
-/// Puts an element's stiffness (packed lower triangle in global axes) in terms of the control points
-/// of its nodes ([`crate::model::ContactBasis`]): `K <- B' K B`.
+/// Puts an element's stiffness (packed lower triangle in global axes) in terms of the control
+/// points of its nodes ([`crate::model::ContactBasis`]): `K <- B' K B`.
 pub(super) fn share_stiffness(model: &Model, element: usize, stiffness: &mut [f64]) {
     let nodes = model.mesh.nodes(element);
     let blends = model.freedoms.basis.of_element(nodes);

@@ -8,7 +8,8 @@ const BLOCK: usize = 4096;
 /// Rows of a column that room is made for: those of bilinear elements.
 const ROWS_EXPECTED: usize = 10;
 
-/// Element freedoms, those of springs after them as elements of one freedom, and, for each freedom, the elements that hold it.
+/// Element freedoms, those of springs after them as elements of one freedom, and, for each freedom,
+/// the elements that hold it.
 #[derive(Debug, Clone)]
 pub struct Incidence {
     offsets: Vec<usize>,

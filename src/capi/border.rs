@@ -17,7 +17,8 @@ pub const BRINELL_UNHELD: i32 = 4;
 pub const BRINELL_ANALYSIS: i32 = 5;
 /// The load passed the limit load.
 pub const BRINELL_COLLAPSE: i32 = 6;
-/// The run is complete, but a state's quality misses its tolerance, or an accuracy that the scene demands was not reached.
+/// The run is complete, but a state's quality misses its tolerance, or an accuracy that the scene
+/// demands was not reached.
 pub const BRINELL_INACCURATE: i32 = 7;
 /// Contact reached the end of its candidates although the bodies go on there.
 pub const BRINELL_OUTGROWN: i32 = 8;
@@ -30,7 +31,8 @@ thread_local! {
     static LAST_ERROR: RefCell<CString> = RefCell::new(CString::default());
 }
 
-/// The reason of the last failure in this thread, UTF-8; empty before the first one. Valid until the next failure in this thread.
+/// The reason of the last failure in this thread, UTF-8; empty before the first one. Valid until
+/// the next failure in this thread.
 #[unsafe(no_mangle)]
 pub extern "C" fn brinell_last_error() -> *const c_char {
     LAST_ERROR.with_borrow(|text| text.as_ptr())
@@ -139,7 +141,8 @@ pub(super) unsafe fn shared<'a, T>(handle: *const T, what: &str) -> Result<&'a T
 /// What a pointer points to, to be changed.
 ///
 /// # Safety
-/// `handle` is NULL or points to a living value that nobody else uses as long as the reference lives.
+/// `handle` is NULL or points to a living value that nobody else uses as long as the reference
+/// lives.
 pub(super) unsafe fn exclusive<'a, T>(handle: *mut T, what: &str) -> Result<&'a mut T> {
     // SAFETY: as vouched for by the caller; NULL becomes None.
     unsafe { handle.as_mut() }.ok_or_else(|| Error::input(format!("{what} is NULL")))
@@ -161,7 +164,8 @@ pub(super) unsafe fn hand_out<T>(out: *mut *mut T, value: T) -> Result<()> {
 /// `handle` is NULL or came from [`hand_out`] and was not freed before.
 pub(super) unsafe fn free<T>(handle: *mut T) {
     if !handle.is_null() {
-        // SAFETY: made by Box::into_raw and given up by the caller. Dropping it must not unwind into C.
+        // SAFETY: made by Box::into_raw and given up by the caller. Dropping it must not unwind
+        // into C.
         let _ = contained(|| {
             drop(unsafe { Box::from_raw(handle) });
             Ok(())
@@ -191,15 +195,16 @@ fn known_bytes<T: SizePrefixed>(size: usize) -> Result<usize> {
     Ok(size.min(size_of::<T>()))
 }
 
-/// Takes a structure that may be older (shorter: the rest is as in `default`) or newer (longer: the rest is left) than this
-/// library; `default` for NULL.
+/// Takes a structure that may be older (shorter: the rest is as in `default`) or newer (longer: the
+/// rest is left) than this library; `default` for NULL.
 ///
 /// # Safety
 /// `from` is NULL or points to a structure as long as its first field says.
 pub(super) unsafe fn take<T: SizePrefixed>(from: *const T, default: T) -> Result<T> {
     let mut value = default;
     if !from.is_null() {
-        // SAFETY: every such structure begins with its size; only as many bytes as both sides know are copied.
+        // SAFETY: every such structure begins with its size; only as many bytes as both sides know
+        // are copied.
         unsafe {
             let bytes = known_bytes::<T>(from.cast::<usize>().read_unaligned())?;
             std::ptr::copy_nonoverlapping(from.cast::<u8>(), (&raw mut value).cast::<u8>(), bytes);

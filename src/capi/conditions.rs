@@ -22,7 +22,8 @@ pub struct brinell_material {
     pub yield_stress: f64,
     /// Slope of the yield stress over the plastic strain; 0 for perfect plasticity.
     pub plastic_modulus: f64,
-    /// n_table rows of (plastic strain, yield stress) in place of the modulus, the first one (0, yield_stress).
+    /// n_table rows of (plastic strain, yield stress) in place of the modulus, the first one (0,
+    /// yield_stress).
     pub hardening_table: *const f64,
     /// Rows of the table.
     pub n_table: usize,
@@ -33,8 +34,8 @@ unsafe impl SizePrefixed for brinell_material {
     const NAME: &'static str = "brinell_material";
 }
 
-/// How two surfaces touch. NULL stands for the defaults, which are all zeros: nodes that face each other are paired, other
-/// surfaces are coupled by the integrals of their shape functions.
+/// How two surfaces touch. NULL stands for the defaults, which are all zeros: nodes that face each
+/// other are paired, other surfaces are coupled by the integrals of their shape functions.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct brinell_contact {
@@ -44,8 +45,8 @@ pub struct brinell_contact {
     pub interference: f64,
     /// Gap of all pairs in place of the geometric one; NULL if not given.
     pub gap: *const f64,
-    /// Direction from the second body to the first of all pairs (2 values), for the pairing by geometry; NULL for the second surface's
-    /// outward normals.
+    /// Direction from the second body to the first of all pairs (2 values), for the pairing by
+    /// geometry; NULL for the second surface's outward normals.
     pub normal: *const f64,
     /// Number of pairs that are given; 0: by geometry.
     pub n_pairs: usize,
@@ -53,12 +54,13 @@ pub struct brinell_contact {
     pub first_nodes: *const i64,
     /// n_pairs nodes of the second surface.
     pub second_nodes: *const i64,
-    /// n_pairs x 2, of a solid x 3: direction from the second body to the first; NULL for the second surface's outward normals.
+    /// n_pairs x 2, of a solid x 3: direction from the second body to the first; NULL for the
+    /// second surface's outward normals.
     pub normals: *const f64,
     /// n_pairs gaps >= 0; NULL for the geometric ones.
     pub gaps: *const f64,
-    /// Which surface has the slaves, at whose nodes gaps and pressures are: 1 the first, 2 the second; 0: the finer one, the second
-    /// where nodes face each other.
+    /// Which surface has the slaves, at whose nodes gaps and pressures are: 1 the first, 2 the
+    /// second; 0: the finer one, the second where nodes face each other.
     pub slave: i32,
 }
 
@@ -128,7 +130,8 @@ pub(super) fn directions(mask: i32, what: &str) -> Result<Vec<Direction>> {
 /// Names a material.
 ///
 /// # Safety
-/// `model` is a living handle, `name` a text that ends with a zero byte, `material` as long as it says and so is its table.
+/// `model` is a living handle, `name` a text that ends with a zero byte, `material` as long as it
+/// says and so is its table.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn brinell_model_material(
     model: *mut brinell_model,
@@ -147,8 +150,8 @@ pub unsafe extern "C" fn brinell_model_material(
                 poissons_ratio: given.poissons_ratio,
                 yield_stress: nonzero(given.yield_stress),
                 plastic_modulus: nonzero(given.plastic_modulus),
-                tangent_modulus: None,
                 hardening_table: (!table.is_empty()).then_some(table),
+                ..Material::default()
             };
             m.builder.material(text(name, "the name")?, material)?;
             Ok(())
@@ -184,8 +187,8 @@ pub unsafe extern "C" fn brinell_model_body(
 /// Lets two surfaces touch.
 ///
 /// # Safety
-/// `model` is a living handle, `first` and `second` are texts that end with a zero byte, `contact` is NULL or as long as it says and
-/// so are its arrays.
+/// `model` is a living handle, `first` and `second` are texts that end with a zero byte, `contact`
+/// is NULL or as long as it says and so are its arrays.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn brinell_model_contact(
     model: *mut brinell_model,
@@ -213,7 +216,8 @@ pub unsafe extern "C" fn brinell_model_contact(
                     2 => SlaveSide::Second,
                     other => {
                         return Err(Error::input(format!(
-                            "slave is {other}; give 1 for the first surface, 2 for the second, 0 to have it chosen"
+                            "slave is {other}; give 1 for the first surface, 2 for the second, 0 \
+                             to have it chosen"
                         )));
                     }
                 },
@@ -274,7 +278,8 @@ pub unsafe extern "C" fn brinell_model_support(
 /// Holds a node set or surface along any one direction: two components, of a solid three.
 ///
 /// # Safety
-/// `model` is a living handle, `on` a text that ends with a zero byte, `direction` has as many values as the model has directions.
+/// `model` is a living handle, `on` a text that ends with a zero byte, `direction` has as many
+/// values as the model has directions.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn brinell_model_support_along(
     model: *mut brinell_model,

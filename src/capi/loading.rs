@@ -16,11 +16,13 @@ pub const BRINELL_LOAD_FORCE: i32 = 0;
 pub const BRINELL_LOAD_PRESSURE: i32 = 1;
 /// Uniform traction (x, y) on a surface.
 pub const BRINELL_LOAD_TRACTION: i32 = 2;
-/// Traction of a plate with a hole at the origin under remote stress along x and y: values are both stresses and the radius.
+/// Traction of a plate with a hole at the origin under remote stress along x and y: values are both
+/// stresses and the radius.
 pub const BRINELL_LOAD_KIRSCH: i32 = 3;
 /// Prescribed displacement (x, y) in the given directions.
 pub const BRINELL_LOAD_DISPLACEMENT: i32 = 4;
-/// Total force (the first of `values`) along the one given direction, on a surface that is held plane.
+/// Total force (the first of `values`) along the one given direction, on a surface that is held
+/// plane.
 pub const BRINELL_LOAD_PLANE_FORCE: i32 = 5;
 /// A force of its own (x, y) on each of `nodes`; `name` is needed, `on` is not.
 pub const BRINELL_LOAD_NODAL: i32 = 6;
@@ -109,11 +111,12 @@ pub struct brinell_program {
     pub size: usize,
     /// What a load factor of 1 means: the loads as given (0), the yield load (1).
     pub unit: i32,
-    /// Increments end at the next change of contact (0), or there are `steps` of them for each target (1).
+    /// Increments end at the next change of contact (0), or there are `steps` of them for each
+    /// target (1).
     pub stepping: i32,
     /// Increments for each target.
     pub steps: usize,
-    /// Relative tolerance with which a change of contact is hit.
+    /// Relative tolerance with which a change of contact is landed on.
     pub gamma: f64,
     /// Yield load along the exact path (0) or by the paper's secant (1).
     pub yield_load: i32,

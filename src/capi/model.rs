@@ -68,8 +68,10 @@ pub(super) unsafe fn change(
     guarded(|| act(unsafe { exclusive(model, "the model") }?))
 }
 
-/// An empty model: one of BRINELL_PLANE_STRAIN, BRINELL_PLANE_STRESS, BRINELL_AXISYMMETRIC, BRINELL_SOLID. `symmetry` copies of it make the whole: 1
-/// where all of it is meshed, 2 for a half model, 4 for a quarter of a plane or solid one, 8 for an eighth of a solid one (loads and results are those of the whole).
+/// An empty model: one of BRINELL_PLANE_STRAIN, BRINELL_PLANE_STRESS, BRINELL_AXISYMMETRIC,
+/// BRINELL_SOLID. `symmetry` copies of it make the whole: 1 where all of it is meshed, 2 for a half
+/// model, 4 for a quarter of a plane or solid one, 8 for an eighth of a solid one (loads and
+/// results are those of the whole).
 ///
 /// # Safety
 /// `out` may be written to.
@@ -103,7 +105,31 @@ pub unsafe extern "C" fn brinell_model_free(model: *mut brinell_model) {
     unsafe { free(model) }
 }
 
-/// Adds nodes: n x 2 coordinates, of a solid n x 3, node by node. Nodes are numbered from 0 in the order in which they were added.
+/// Adds tables of a scene (TOML text): materials, bodies, [[contact]], [[support]], [[load]],
+/// [program], [analysis], [units], title; whatever a scene file may say but for `kind`, `symmetry` and
+/// `mesh`. Materials, bodies, contacts, supports and loads come to those that are there, the others
+/// take their place.
+///
+/// # Safety
+/// `model` is a living handle, `tables` ends with a zero.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn brinell_model_tables(
+    model: *mut brinell_model,
+    tables: *const c_char,
+) -> i32 {
+    // SAFETY: the caller vouches for every pointer.
+    unsafe {
+        change(model, |m| {
+            m.builder.program(m.program.clone());
+            m.builder.tables(text(tables, "the scene text")?)?;
+            m.program = m.builder.load_program().clone();
+            Ok(())
+        })
+    }
+}
+
+/// Adds nodes: n x 2 coordinates, of a solid n x 3, node by node. Nodes are numbered from 0 in the
+/// order in which they were added.
 ///
 /// # Safety
 /// `model` is a living handle, `coordinates` has 2 n, of a solid 3 n values.
@@ -123,10 +149,12 @@ pub unsafe extern "C" fn brinell_model_nodes(
     }
 }
 
-/// Adds `n` elements of one shape (BRINELL_SHAPE_...) to a body: the nodes of one after the other, in the order of its shape.
+/// Adds `n` elements of one shape (BRINELL_SHAPE_...) to a body: the nodes of one after the other,
+/// in the order of its shape.
 ///
 /// # Safety
-/// `model` is a living handle, `body` a text that ends with a zero byte, `nodes` has n values for each node of the shape.
+/// `model` is a living handle, `body` a text that ends with a zero byte, `nodes` has n values for
+/// each node of the shape.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn brinell_model_elements(
     model: *mut brinell_model,
@@ -168,10 +196,12 @@ pub unsafe extern "C" fn brinell_model_node_set(
     }
 }
 
-/// Names a surface of n facets, each by its element and its number there: facet k lies between corners k and k + 1.
+/// Names a surface of n facets, each by its element and its number there: facet k lies between
+/// corners k and k + 1.
 ///
 /// # Safety
-/// `model` is a living handle, `name` a text that ends with a zero byte, `elements` and `facets` have n values each.
+/// `model` is a living handle, `name` a text that ends with a zero byte, `elements` and `facets`
+/// have n values each.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn brinell_model_surface(
     model: *mut brinell_model,
@@ -192,7 +222,8 @@ pub unsafe extern "C" fn brinell_model_surface(
     }
 }
 
-/// Names a surface by its nodes, mid-side nodes included: the facets of the boundary all whose nodes are among them.
+/// Names a surface by its nodes, mid-side nodes included: the facets of the boundary all whose
+/// nodes are among them.
 ///
 /// # Safety
 /// `model` is a living handle, `name` a text that ends with a zero byte, `nodes` has n values.
@@ -213,8 +244,8 @@ pub unsafe extern "C" fn brinell_model_surface_of_nodes(
     }
 }
 
-/// States that a surface is a circle about (x, y): the body lies inside (`outward` 1) or outside of it (0, a hole). Normals are then
-/// exact.
+/// States that a surface is a circle about (x, y): the body lies inside (`outward` 1) or outside of
+/// it (0, a hole). Normals are then exact.
 ///
 /// # Safety
 /// `model` is a living handle, `surface` a text that ends with a zero byte.
@@ -241,10 +272,12 @@ pub unsafe extern "C" fn brinell_model_circle(
     }
 }
 
-/// Runs the load program of a model; all else as brinell_run. The model may be changed and run again.
+/// Runs the load program of a model; all else as brinell_run. The model may be changed and run
+/// again.
 ///
 /// # Safety
-/// `model` is a living model, `options` NULL or as long as it says, `out` may be written to; `callback` does not unwind.
+/// `model` is a living model, `options` NULL or as long as it says, `out` may be written to;
+/// `callback` does not unwind.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn brinell_model_run(
     model: *const brinell_model,

@@ -13,8 +13,8 @@ pub extern "C" fn brinell_n_quantities() -> usize {
     QUANTITIES.len()
 }
 
-/// The key of quantity `index`, from 0, as in summary.json: "load", "half_width", "residual_depth" and so on; NULL where there
-/// is none such. Static.
+/// The key of quantity `index`, from 0, as in summary.json: "load", "half_width", "residual_depth"
+/// and so on; NULL where there is none such. Static.
 #[unsafe(no_mangle)]
 pub extern "C" fn brinell_quantity_key(index: usize) -> *const c_char {
     static KEYS: LazyLock<Vec<CString>> = LazyLock::new(|| {
@@ -24,12 +24,14 @@ pub extern "C" fn brinell_quantity_key(index: usize) -> *const c_char {
     KEYS.get(index).map_or(std::ptr::null(), |key| key.as_ptr())
 }
 
-/// A number of the results by its path in summary.json: "yield.KEY" at first yield, or "states.NAME.KEY" of a state, where
-/// the number of the state, from 0, may stand for its name. Counts are numbers too; not a number where it is not known.
-/// BRINELL_INPUT where the results have none such.
+/// A number of the results by its path in summary.json: "yield.KEY" at first yield, or
+/// "states.NAME.KEY" of a state, where the number of the state, from 0, may stand for its name.
+/// Counts are numbers too; not a number where it is not known. BRINELL_INPUT where the results have
+/// none such.
 ///
 /// # Safety
-/// `results` is a living handle; `path` is a text that ends with a zero byte; `value` may be written to.
+/// `results` is a living handle; `path` is a text that ends with a zero byte; `value` may be
+/// written to.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn brinell_results_value(
     results: *const brinell_results,

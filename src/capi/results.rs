@@ -40,7 +40,8 @@ pub const BRINELL_PAIR_Z: i32 = 7;
 
 /// n_nodes x 2 displacements, of a solid x 3, node by node.
 pub const BRINELL_FIELD_DISPLACEMENT: i32 = 0;
-/// n_elements x 4 mean stresses: xx, yy, zz, xy (axisymmetric rr, zz, tt, rz); of a solid x 6, yz and zx after them.
+/// n_elements x 4 mean stresses: xx, yy, zz, xy (axisymmetric rr, zz, tt, rz); of a solid x 6, yz
+/// and zx after them.
 pub const BRINELL_FIELD_STRESS: i32 = 1;
 /// n_elements von Mises stresses.
 pub const BRINELL_FIELD_VON_MISES: i32 = 2;
@@ -325,7 +326,8 @@ pub unsafe extern "C" fn brinell_results_state_name(
     name.map_or(std::ptr::null(), |name| name.as_ptr())
 }
 
-/// An array of the contact pairs of state `index`: one of BRINELL_PAIR_... Valid as long as the results.
+/// An array of the contact pairs of state `index`: one of BRINELL_PAIR_... Valid as long as the
+/// results.
 ///
 /// # Safety
 /// `results` is a living handle; `data` and `n` may be written to.
@@ -385,7 +387,8 @@ pub unsafe extern "C" fn brinell_results_field(
     })
 }
 
-/// A column of the history, a value for each accepted increment: one of BRINELL_HISTORY_... Valid as long as the results.
+/// A column of the history, a value for each accepted increment: one of BRINELL_HISTORY_... Valid
+/// as long as the results.
 ///
 /// # Safety
 /// `results` is a living handle; `data` and `n` may be written to.

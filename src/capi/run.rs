@@ -63,7 +63,8 @@ struct Caller {
     user: *mut c_void,
 }
 
-// SAFETY: an analysis calls its observer in the thread that runs it, which is the one that gave the pointer.
+// SAFETY: an analysis calls its observer in the thread that runs it, which is the one that gave the
+// pointer.
 unsafe impl Send for Caller {}
 
 impl Observer for Caller {
@@ -86,7 +87,8 @@ impl Observer for Caller {
             fraction,
             event: event.as_ptr(),
         };
-        // SAFETY: the callback and its pointer are the caller's; the structure lives during the call.
+        // SAFETY: the callback and its pointer are the caller's; the structure lives during the
+        // call.
         match outside(|| unsafe { callback(&raw const increment, self.user) }) {
             0 => Flow::Continue,
             _ => Flow::Stop,
@@ -94,19 +96,23 @@ impl Observer for Caller {
     }
 }
 
-/// Runs a scene's load program. `callback` (NULL for none) is called after each increment with `user`.
+/// Runs a scene's load program. `callback` (NULL for none) is called after each increment with
+/// `user`.
 ///
-/// A run that was stopped, collapsed or failed after increments were accepted returns BRINELL_STOPPED, BRINELL_COLLAPSE or
-/// BRINELL_ANALYSIS *and* results: what was computed before; a complete one with a state whose quality misses its tolerance,
-/// or that does not reach the accuracy its scene demands, returns BRINELL_INACCURATE and results. After any other failure
+/// A run that was stopped, collapsed or failed after increments were accepted returns
+/// BRINELL_STOPPED, BRINELL_COLLAPSE or BRINELL_ANALYSIS *and* results: what was computed before; a
+/// complete one with a state whose quality misses its tolerance, or that does not reach the
+/// accuracy its scene demands, returns BRINELL_INACCURATE and results. After any other failure
 /// `*out` is NULL.
 ///
-/// A scene with the key `accuracy` is run on finer and finer meshes until their stated errors are within it: the callback sees
-/// the increments of each, counted from 1 anew, and the results are those of the last (`accuracy` of the summary says what is
-/// stated of each figure, and why a demand was not reached).
+/// A scene with the key `accuracy` is run on finer and finer meshes until their stated errors are
+/// within it: the callback sees the increments of each, counted from 1 anew, and the results are
+/// those of the last (`accuracy` of the summary says what is stated of each figure, and why a
+/// demand was not reached).
 ///
 /// # Safety
-/// `scene` is a living scene, `options` NULL or as long as it says, `out` may be written to; `callback` does not unwind.
+/// `scene` is a living scene, `options` NULL or as long as it says, `out` may be written to;
+/// `callback` does not unwind.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn brinell_run(
     scene: *const brinell_scene,

@@ -122,8 +122,8 @@ unsafe fn read_rows(rows: &brinell_rows, n: usize) -> Result<Rows> {
     Ok((list, gaps.to_vec()))
 }
 
-/// Factors and condenses a stiffness with contact rows (NULL for none). The arrays are not needed afterwards. The state is that
-/// without load.
+/// Factors and condenses a stiffness with contact rows (NULL for none). The arrays are not needed
+/// afterwards. The state is that without load.
 ///
 /// # Safety
 /// The structures are as long as they say and so are their arrays; `out` may be written to.
@@ -203,7 +203,8 @@ pub unsafe extern "C" fn brinell_structure_contact_freedoms(
     })
 }
 
-/// The stiffness condensed on the contact freedoms, n x n, column by column. Valid as long as the structure.
+/// The stiffness condensed on the contact freedoms, n x n, column by column. Valid as long as the
+/// structure.
 ///
 /// # Safety
 /// `structure` is a living handle; `data` and `n` may be written to.
@@ -264,7 +265,8 @@ pub unsafe extern "C" fn brinell_structure_solve(
     unsafe { under(structure, load, n, "load", ConstrainedStructure::solve) }
 }
 
-/// Starts a piece of the load path: from the state at hand the load goes on as load + t rate, t from 0.
+/// Starts a piece of the load path: from the state at hand the load goes on as load + t rate, t
+/// from 0.
 ///
 /// # Safety
 /// `structure` is a living handle, `rate` has `n` values.
@@ -278,7 +280,8 @@ pub unsafe extern "C" fn brinell_structure_start(
     unsafe { under(structure, rate, n, "rate", ConstrainedStructure::start) }
 }
 
-/// Goes on to `end` or to the next change of contact: `t` is where, `n_changes` how many rows change there, 0 at the end.
+/// Goes on to `end` or to the next change of contact: `t` is where, `n_changes` how many rows
+/// change there, 0 at the end.
 ///
 /// # Safety
 /// `structure` is a living handle; `t` and `n_changes` may be written to.
@@ -417,7 +420,8 @@ pub unsafe extern "C" fn brinell_structure_statuses(
     })
 }
 
-/// Displacements of all freedoms. Costs one full solve. `backward_error` (NULL if not wanted) is that of this solve.
+/// Displacements of all freedoms. Costs one full solve. `backward_error` (NULL if not wanted) is
+/// that of this solve.
 ///
 /// # Safety
 /// `structure` is a living handle; `u` has room for `n` values.

@@ -1,4 +1,5 @@
-//! Misuse from the other side: a status and a message, never worse. What works is shown by the programs in `ffi/examples`.
+//! Misuse from the other side: a status and a message, never worse. What works is shown by the
+//! programs in `ffi/examples`.
 
 mod arrival;
 mod quantities;
@@ -86,7 +87,8 @@ fn lost_accuracy_has_a_status() {
     assert!(message().contains("equilibrium"), "{}", message());
 }
 
-/// A scene with `accuracy` is run to it: finer than it stands, and with the status of a demand where it is not reached.
+/// A scene with `accuracy` is run to it: finer than it stands, and with the status of a demand
+/// where it is not reached.
 #[test]
 fn a_demanded_accuracy_is_kept_or_has_a_status() {
     let scenes = [
@@ -173,7 +175,8 @@ fn a_damaged_matrix_is_refused() {
     };
     let new = |matrix: brinell_matrix| {
         let mut structure = null_mut();
-        // SAFETY: arrays as long as the matrix says, but for those that the test sets to be refused before they are read.
+        // SAFETY: arrays as long as the matrix says, but for those that the test sets to be refused
+        // before they are read.
         let status =
             unsafe { brinell_structure_new(&raw const matrix, null(), null(), &raw mut structure) };
         // SAFETY: handed out or NULL.

@@ -63,7 +63,8 @@ pub(super) fn read<T: DeserializeOwned>(path: &Path) -> Result<(T, u64, u128)> {
         let found = String::from_utf8_lossy(&bytes[..end]);
         return Err(refused(if found.starts_with("brinell checkpoint") {
             format!(
-                "written by another version (`{found}`, this is `{}`): run the scene again from its beginning, or with that version",
+                "written by another version (`{found}`, this is `{}`): run the scene again from \
+                 its beginning, or with that version",
                 line.trim_end()
             )
         } else {
@@ -72,7 +73,8 @@ pub(super) fn read<T: DeserializeOwned>(path: &Path) -> Result<(T, u64, u128)> {
     };
     let damaged = |what: &str| {
         refused(format!(
-            "the checkpoint is damaged ({what}): delete it and run the scene again from its beginning"
+            "the checkpoint is damaged ({what}): delete it and run the scene again from its \
+             beginning"
         ))
     };
     let Some((guard, content)) = rest.split_at_checked(GUARD) else {

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! DIR/checkpoint      the last accepted increment, and which parts belong to it
-//!     part-NNNNNN     what does not change any more: states that were reached, where the way to a target began
+//!     part-NNNNNN     what does not change any more: states that were reached,
+//!                     where the way to a target began
 //!     lock            held by the run that writes here
 //! ```
 //!
@@ -57,7 +58,7 @@ impl Checkpoints {
     }
 
     /// Accepted increments from one checkpoint to the next.
-    pub fn interval(&self) -> usize {
+    pub(crate) fn interval(&self) -> usize {
         self.every
     }
 

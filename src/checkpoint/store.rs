@@ -49,7 +49,8 @@ impl Store {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => {
                 return Err(Error::input(format!(
-                    "{}: another run is writing checkpoints there: wait for its end, or choose another directory for the results (--out)",
+                    "{}: another run is writing checkpoints there: wait for its end, or choose \
+                     another directory for the results (--out)",
                     dir.display()
                 )));
             }
@@ -79,7 +80,8 @@ impl Store {
         let ((identity, content), ..): ((Identity, Vec<u8>), u64, u128) = file::read(&path)?;
         if let Some(difference) = identity.difference(&self.identity) {
             return Err(Error::input(format!(
-                "{}: the checkpoint is of another run: {difference}; undo the change, or run without --resume to begin anew",
+                "{}: the checkpoint is of another run: {difference}; undo the change, or run \
+                 without --resume to begin anew",
                 path.display()
             )));
         }
@@ -111,7 +113,8 @@ impl Store {
         let (value, length, hash) = file::read(&path)?;
         if (length, hash) != (id.length, id.hash) {
             return Err(Error::input(format!(
-                "{}: the checkpoint is damaged (this part belongs to another): delete it and run the scene again from its beginning",
+                "{}: the checkpoint is damaged (this part belongs to another): delete it and run \
+                 the scene again from its beginning",
                 path.display()
             )));
         }
@@ -157,7 +160,8 @@ impl Serialize for Bytes<'_> {
 fn decode<T: DeserializeOwned>(path: &Path, content: &[u8]) -> Result<T> {
     postcard::from_bytes(content).map_err(|cause| {
         Error::input(format!(
-            "{}: the checkpoint was written by another build of the same version: run the scene again from its beginning",
+            "{}: the checkpoint was written by another build of the same version: run the scene \
+             again from its beginning",
             path.display()
         ))
         .because(cause)

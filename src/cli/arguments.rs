@@ -71,8 +71,8 @@ pub(super) enum Command {
     ///
     /// Elastic, hence fast: no plastic increment is computed. Writes files only with --out.
     #[command(
-        after_help = "Example: brinell yield data/scenes/cylinder_on_half_plane.toml \
-                            --set mesh.cylinder_on_half_plane.resolution=32"
+        after_help = "Example: brinell yield data/scenes/cylinder_on_half_plane.toml --set \
+                      mesh.cylinder_on_half_plane.resolution=32"
     )]
     Yield(RunArguments),
     /// Check the scene and predict what a run will cost, without running it
@@ -118,9 +118,8 @@ pub(super) enum Command {
     /// prints where the report is. Serves nothing and opens nothing.
     View(super::view::ViewArguments),
     /// Print completions for a shell
-    #[command(
-        after_help = "Example: brinell completions bash > ~/.local/share/bash-completion/completions/brinell"
-    )]
+    #[command(after_help = "Example: brinell completions bash > \
+                            ~/.local/share/bash-completion/completions/brinell")]
     Completions(super::completions::CompletionsArguments),
     /// Print the manual page (roff)
     #[command(after_help = "Example: brinell man | man -l -")]
@@ -153,8 +152,8 @@ pub(super) struct RunArguments {
     /// Directory for the results; `run` takes SCENE with the ending .out if it is not given
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Run finer and finer meshes until the stated errors are within this: 1% for all quantities, load=0.5%,dent=2% for
-    /// those that are named; like the scene's key `accuracy`
+    /// Run finer and finer meshes until the stated errors are within this: 1% for all quantities,
+    /// load=0.5%,dent=2% for those that are named; like the scene's key `accuracy`
     #[arg(long, value_name = "DEMAND")]
     pub accuracy: Option<String>,
     /// Time for that, such as 60s or 10min: a mesh that would not fit is not begun
@@ -205,11 +204,16 @@ pub(super) struct CommonArguments {
     /// Print one JSON object (the content of summary.json) instead of tables
     #[arg(long)]
     pub json: bool,
-    /// Compute the steps of a deck that ask for NLGEOM with small strains and displacements, instead
-    /// of refusing them
+    /// Compute the steps of a deck that ask for NLGEOM with small strains and displacements,
+    /// instead of refusing them
     #[arg(long)]
     pub small_strain: bool,
-    #[arg(long = "set", value_name = "KEY=VALUE", help = "Put a value over the scene's (see --help)", long_help = SET_HELP)]
+    #[arg(
+        long = "set",
+        value_name = "KEY=VALUE",
+        help = "Put a value over the scene's (see --help)",
+        long_help = SET_HELP
+    )]
     pub overrides: Vec<String>,
 }
 

@@ -43,7 +43,7 @@ pub(super) fn name() -> Option<&'static str> {
     }
 }
 
-/// Starts listening. What is heard is told on standard error: as a line for a reader, or where
+/// Starts listening. What is heard is reported on standard error: as a line for a reader, or where
 /// progress goes there as JSON since `json` as an event of its own. `at_once` is done before a
 /// second signal ends the program.
 ///

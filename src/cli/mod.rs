@@ -24,7 +24,6 @@ mod table;
 mod view;
 
 use crate::error::{Error, ErrorKind, Result};
-use crate::output::number;
 use crate::text;
 use arguments::Arguments;
 use clap::Parser;

@@ -1,13 +1,14 @@
 //! `brinell new`: a commented scene for a common problem from a few numbers. What a scene needs
 //! beyond them (how far the fine mesh reaches, which states to write) is set from the closed forms.
 
+mod punch;
 mod solid;
 
 use super::convert::{self, ConvertArguments};
-use super::number::significant;
 use super::print;
 use crate::analytical::{HertzLine, HertzPoint, Plane, ShrinkFit, ThickCylinder, contact_modulus};
 use crate::error::{Error, ErrorKind, Result};
+use crate::number::significant;
 use crate::scene::Scene;
 use clap::{Args, Subcommand};
 use std::io::Write;
@@ -18,8 +19,8 @@ use std::path::{Path, PathBuf};
 pub(super) struct NewArguments {
     #[command(subcommand)]
     pub problem: Option<Problem>,
-    /// A deck of Abaqus or CalculiX (.inp) to start from, in place of a problem: scene and mesh as of
-    /// `brinell convert`
+    /// A deck of Abaqus or CalculiX (.inp) to start from, in place of a problem: scene and mesh as
+    /// of `brinell convert`
     #[arg(long, value_name = "DECK")]
     pub from: Option<PathBuf>,
     /// File for the scene; without it the scene is printed
@@ -32,7 +33,8 @@ pub(super) struct NewArguments {
 pub(super) enum Problem {
     /// A ball is pressed on a flat and let go (axisymmetric)
     #[command(
-        after_help = "Example: brinell new ball-on-flat --radius 5 --load 20 --out ball.toml && brinell run ball.toml"
+        after_help = "Example: brinell new ball-on-flat --radius 5 --load 20 --out ball.toml && \
+                      brinell run ball.toml"
     )]
     BallOnFlat(Ball),
     /// A ball is pressed into the groove of a race and let go (three dimensions)
@@ -41,13 +43,14 @@ pub(super) enum Problem {
     CrossedCylinders(solid::Crossed),
     /// A roller is pressed on a flat and let go (plane strain; the load is per mm of length)
     #[command(
-        after_help = "Example: brinell new roller-on-flat --radius 5 --load 400 --out roller.toml && brinell run roller.toml"
+        after_help = "Example: brinell new roller-on-flat --radius 5 --load 400 --out roller.toml \
+                      && brinell run roller.toml"
     )]
     RollerOnFlat(Pressed),
     /// A shaft that is too thick for its bore: an interference fit (plane stress)
     ShaftInBore(Fit),
     /// A flat rigid punch goes into a block (plane strain)
-    Punch(Punch),
+    Punch(punch::Punch),
 }
 
 /// Loads so many times that of first yield may take minutes: more and more of the material flows.
@@ -57,16 +60,40 @@ const FAR: f64 = 6.0;
 #[derive(Debug, Args)]
 pub(super) struct Steel {
     /// Young's modulus [MPa]
-    #[arg(long, value_name = "E", default_value_t = 210_000.0, value_parser = positive, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "E",
+        default_value_t = 210_000.0,
+        value_parser = positive,
+        allow_negative_numbers = true
+    )]
     pub youngs_modulus: f64,
     /// Poisson's ratio
-    #[arg(long, value_name = "NU", default_value_t = 0.3, value_parser = poissons_ratio, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "NU",
+        default_value_t = 0.3,
+        value_parser = poissons_ratio,
+        allow_negative_numbers = true
+    )]
     pub poissons_ratio: f64,
     /// Yield stress [MPa]
-    #[arg(long, value_name = "Y", default_value_t = 500.0, value_parser = positive, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "Y",
+        default_value_t = 500.0,
+        value_parser = positive,
+        allow_negative_numbers = true
+    )]
     pub yield_stress: f64,
     /// Plastic modulus, d(yield stress)/d(plastic strain) [MPa]; 0 is perfectly plastic
-    #[arg(long, value_name = "H", default_value_t = 2000.0, value_parser = not_negative, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "H",
+        default_value_t = 2000.0,
+        value_parser = not_negative,
+        allow_negative_numbers = true
+    )]
     pub plastic_modulus: f64,
 }
 
@@ -84,7 +111,13 @@ pub(super) struct Ball {
 #[derive(Debug, Args)]
 pub(super) struct Pressed {
     /// Radius [mm]
-    #[arg(long, value_name = "R", default_value_t = 10.0, value_parser = positive, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "R",
+        default_value_t = 10.0,
+        value_parser = positive,
+        allow_negative_numbers = true
+    )]
     pub radius: f64,
     /// Largest load [N; roller: N/mm]; by default three times the load at first yield
     #[arg(long, value_name = "P", value_parser = positive, allow_negative_numbers = true)]
@@ -100,37 +133,33 @@ pub(super) struct Pressed {
 /// A shaft in a bore.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: brinell new shaft-in-bore --radius 25 --outer-radius 60 --interference 0.04"
+    after_help = "Example: brinell new shaft-in-bore --radius 25 --outer-radius 60 --interference \
+                  0.04"
 )]
 pub(super) struct Fit {
     /// Radius of the shaft and the bore [mm]
-    #[arg(long, value_name = "A", default_value_t = 50.0, value_parser = positive, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "A",
+        default_value_t = 50.0,
+        value_parser = positive,
+        allow_negative_numbers = true
+    )]
     pub radius: f64,
     /// Outer radius of the ring [mm]; by default twice the bore's
     #[arg(long, value_name = "B", value_parser = positive, allow_negative_numbers = true)]
     pub outer_radius: Option<f64>,
     /// How much thicker the shaft's radius is [mm]
-    #[arg(long, value_name = "D", default_value_t = 0.05, value_parser = positive, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "D",
+        default_value_t = 0.05,
+        value_parser = positive,
+        allow_negative_numbers = true
+    )]
     pub interference: f64,
     /// Elements over a quarter circle (even)
     #[arg(long, value_name = "N", default_value_t = 24)]
-    pub resolution: usize,
-    #[command(flatten)]
-    pub steel: Steel,
-}
-
-/// A punch.
-#[derive(Debug, Args)]
-#[command(after_help = "Example: brinell new punch --half-width 2 --depth 0.05")]
-pub(super) struct Punch {
-    /// Half width of the punch [mm]
-    #[arg(long, value_name = "A", default_value_t = 1.0, value_parser = positive, allow_negative_numbers = true)]
-    pub half_width: f64,
-    /// How deep it is pressed [mm]; by default a fiftieth of its half width
-    #[arg(long, value_name = "D", value_parser = positive, allow_negative_numbers = true)]
-    pub depth: Option<f64>,
-    /// Elements over the half width
-    #[arg(long, value_name = "N", default_value_t = 8)]
     pub resolution: usize,
     #[command(flatten)]
     pub steel: Steel,
@@ -190,7 +219,7 @@ pub(super) fn run(arguments: &NewArguments) -> Result<()> {
         Problem::CrossedCylinders(crossed) => solid::crossed_cylinders(crossed)?,
         Problem::RollerOnFlat(pressed) => pressed_scene(pressed, false)?,
         Problem::ShaftInBore(fit) => fit_scene(fit)?,
-        Problem::Punch(punch) => punch_scene(punch),
+        Problem::Punch(given) => punch::scene(given),
     };
     // What the flags say wrong is said before anything is written.
     Scene::parse(&text, "the new scene")?;
@@ -250,7 +279,7 @@ fn material(steel: &Steel, bodies: &[&str]) -> String {
 youngs_modulus = {}
 poissons_ratio = {}
 yield_stress = {}             # without it the material is elastic
-plastic_modulus = {}          # slope of yield stress over plastic strain; or tangent_modulus, or hardening_table
+plastic_modulus = {}          # slope of yield stress over plastic strain; or tangent_modulus
 ",
         toml(steel.youngs_modulus),
         toml(steel.poissons_ratio),
@@ -259,13 +288,15 @@ plastic_modulus = {}          # slope of yield stress over plastic strain; or ta
     );
     for body in bodies {
         text.push_str(&format!(
-            "\n[bodies.{body}]\nmaterial = \"steel\"           # plastic = false keeps a body elastic\n"
+            "\n[bodies.{body}]\nmaterial = \"steel\"           # plastic = false keeps a body \
+             elastic\n"
         ));
     }
     text
 }
 
-const HEAD: &str = "# Made by `brinell new`; every value may be changed. Check it with `brinell check`, run it with `brinell run`.
+const HEAD: &str = "# Made by `brinell new`; every value may be changed.
+# Check it with `brinell check`, run it with `brinell run`.
 # Units N, mm, MPa: brinell converts nothing, any consistent ones will do.
 ";
 const UNITS: &str =
@@ -300,7 +331,8 @@ fn pressed_scene(pressed: &Pressed, ball: bool) -> Result<String> {
     let times = load / yield_load;
     let patience = match times > FAR {
         true => {
-            "# So far beyond it a run may take minutes, and the estimate of its errors more: `--no-estimate` leaves that out.\n"
+            "# So far beyond it a run may take minutes, and the estimate of its errors more: \
+             `--no-estimate` leaves that out.\n"
         }
         false => "",
     };
@@ -310,12 +342,14 @@ fn pressed_scene(pressed: &Pressed, ball: bool) -> Result<String> {
     };
     let symmetry = match ball {
         true => "".to_string(),
-        false => "symmetry = 2                 # half model, x >= 0: loads and results are those of the whole\n".to_string(),
+        false => "symmetry = 2                 # half model, x >= 0: loads and results are those \
+                  of the whole\n"
+            .to_string(),
     };
     // Stress under a point fades with the square of the distance: 200 contact radii are enough.
     let far = if ball {
         format!(
-            "far_size = {:?}            # size of the bodies, in half widths at first yield: they stand for infinite ones\n",
+            "far_size = {:?}            # size of the bodies, in half widths at first yield\n",
             (200.0 * reach.max(1.0)).ceil()
         )
     } else {
@@ -324,15 +358,17 @@ fn pressed_scene(pressed: &Pressed, ball: bool) -> Result<String> {
     let material = material(steel, &["cylinder", "half_plane"]);
     Ok(format!(
         "{HEAD}#
-# By Hertz the material first yields at a load of {yields} {per}; the largest load is {times} times that.
+# By Hertz the material first yields at a load of {yields} {per};
+# the largest load is {times} times that.
 {patience}title = \"{shape} on a flat\"
 kind = \"{kind}\"
 {UNITS}
 {symmetry}
-# The generator's names are `cylinder` for the upper body and `half_plane` for the lower one, whatever they stand for.
+# The generator's names are `cylinder` for the upper body and `half_plane` for the lower one,
+# whatever they stand for.
 [mesh.cylinder_on_half_plane]
 radius = {radius}
-resolution = {resolution}              # elements over the contact half width, at first yield and later: 8 coarse, 32 fine
+resolution = {resolution}              # elements over the contact half width: 8 coarse, 32 fine
 {far}
 {material}
 [[contact]]
@@ -385,7 +421,8 @@ title = \"Shaft in a bore, interference fit\"
 kind = \"plane_stress\"
 {UNITS}
 
-# Quarter model. The disc has `elements` over its quarter circle, the ring as many along its angle: nodes face each other.
+# Quarter model. The disc has `elements` over its quarter circle, the ring as many along its
+# angle: nodes face each other.
 [[mesh.parts]]
 body = \"shaft\"
 disc = {{ radius = {radius}, elements = {n} }}
@@ -398,7 +435,7 @@ ring = {{ radius = [{radius}, {outer}], elements = [{n}, {n}] }}
 [[contact]]
 first = \"shaft.outer\"
 second = \"ring.inner\"
-interference = {interference}          # how much thicker the shaft's radius is: applied before the load program
+interference = {interference}          # of radii: applied before the load program
 
 # Symmetry: nothing crosses the lines x = 0 and y = 0.
 [[support]]
@@ -428,63 +465,4 @@ targets = [{{ name = \"fitted\", load_factor = 0.0 }}]
         n = fit.resolution,
         interference = toml(fit.interference),
     ))
-}
-
-fn punch_scene(punch: &Punch) -> String {
-    let a = punch.half_width;
-    let depth = punch.depth.unwrap_or(0.02 * a);
-    let limit = (2.0 + std::f64::consts::PI) * punch.steel.yield_stress / 3f64.sqrt() * 2.0 * a;
-    let n = 5 * punch.resolution;
-    let material = material(&punch.steel, &["block"]);
-    format!(
-        "{HEAD}#
-# A perfectly plastic block carries 2a (2 + pi) Y/sqrt(3) = {limit} N per mm (Prandtl 1920); elements give a little more.
-title = \"Flat punch on a block\"
-kind = \"plane_strain\"
-{UNITS}
-symmetry = 2                 # half model, x >= 0: loads and results are those of the whole
-
-# The punch itself needs no mesh: it is a prescribed displacement of a piece of the block's top, free to slide.
-[[mesh.parts]]
-body = \"block\"
-
-[mesh.parts.block]
-x = [0.0, {far}]
-y = [-{far}, 0.0]
-elements = [{n}, {n}]
-pieces = [{{ name = \"punch\", side = \"top\", from = 0.0, to = {a} }}]
-
-{material}
-[[support]]
-on = \"block.left\"            # symmetry
-fix = [\"x\"]
-
-[[support]]
-on = \"block.right\"           # held in: a free side gives way
-fix = [\"x\"]
-
-[[support]]
-on = \"block.bottom\"
-fix = [\"x\", \"y\"]
-
-[[load]]
-name = \"punch\"
-on = \"block.punch\"
-displacement = {{ y = {depth} }}
-
-# Fixed steps: without contact there is no event to step to.
-[program]
-stepping = \"steps\"
-steps = 10
-targets = [
-    {{ load_factor = 0.25 }},
-    {{ load_factor = 0.5 }},
-    {{ name = \"pressed\", load_factor = 1.0 }},   # not back to 0: a prescribed displacement would pull
-]
-",
-        limit = significant(limit, 4),
-        far = toml(5.0 * a),
-        a = toml(a),
-        depth = toml(-depth),
-    )
 }

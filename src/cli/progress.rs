@@ -14,8 +14,8 @@
 use super::arguments::Shown as Wish;
 use super::forecast::Forecast;
 use super::interrupt;
-use super::number::significant;
 use super::remaining::Remaining;
+use crate::number::{duration, significant};
 use crate::progress::{Flow, Observer};
 use crate::results::HistoryRow;
 use crate::scene::Scene;
@@ -288,7 +288,7 @@ impl Shown {
 }
 
 /// The bar of a phase: name, what is done, time, time that is left. What is done is the share of
-/// the load program where increments tell it, else the share of the predicted time, of which the
+/// the load program where increments report it, else the share of the predicted time, of which the
 /// last bit is only filled by the end.
 fn new_bar(phase: &str, predicted: f64, clock: Clock) -> ProgressBar {
     let done = move |state: &ProgressState| match (state.is_finished(), state.pos()) {
@@ -314,14 +314,9 @@ fn new_bar(phase: &str, predicted: f64, clock: Clock) -> ProgressBar {
     bar.with_prefix(phase.to_string())
 }
 
-/// Seconds as far as a prediction is worth saying.
+/// A predicted time, as far as it is worth stating.
 fn rough(seconds: f64) -> String {
-    match seconds {
-        s if s < 0.5 => "0.5 s".to_string(),
-        s if s < 99.5 => format!("{:.0} s", s.ceil()),
-        s if s < 5940.0 => format!("{:.0} min", s / 60.0),
-        s => format!("{:.1} h", s / 3600.0),
-    }
+    duration(seconds.max(0.5))
 }
 
 fn describe(row: &HistoryRow) -> String {
@@ -353,19 +348,6 @@ mod tests {
             describe(&row),
             "increment 7, load factor 1.2500, 12 pairs closed, 90 plastic points, closes: pair 12"
         );
-    }
-
-    #[test]
-    fn predictions_are_rounded() {
-        for (seconds, text) in [
-            (0.2, "0.5 s"),
-            (0.7, "1 s"),
-            (59.0, "59 s"),
-            (150.0, "2 min"),
-            (9000.0, "2.5 h"),
-        ] {
-            assert_eq!(rough(seconds), text);
-        }
     }
 
     /// A terminal that keeps what is written to it.
@@ -439,7 +421,7 @@ mod tests {
         // Predicted by size, corrected by the assembly: 0.3 of 2060 s.
         assert!(line("factorisation", "about 10 min left"), "{text}");
         assert!(line("load program", "============            "), "{text}");
-        assert!(line("load program", "about 0.5 s left"), "{text}");
+        assert!(line("load program", "about 0.50 s left"), "{text}");
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! The printed summaries.
 
-use super::number::{bytes, number, ratio, seconds, significant};
 use super::table::{Column::*, Table, WIDTH, wrap};
 use crate::analysis::Check;
 use crate::linalg::Prediction;
+use crate::number::{bytes, number, seconds, significant};
 use crate::output::columns::{cell, of_states};
 use crate::results::{
     Effect, QUANTITIES, Quality, ReferenceRow, Results, Sizes, State, YieldPoint,
@@ -268,7 +268,7 @@ impl Report {
         self.section("First yield", &table);
     }
 
-    /// The states, with the columns that tell something in this scene.
+    /// The states, with the columns that carry information in this scene.
     fn states(&mut self, states: &[State], unit: Unit, contact: bool) {
         if states.is_empty() {
             return;
@@ -303,7 +303,7 @@ impl Report {
                 row.quantity.clone(),
                 number(row.reference),
                 number(row.computed),
-                ratio(row.ratio),
+                number(row.ratio),
             ];
             if published {
                 let ratio = row.published_ratio.map(|ratio| ratio.to_string());

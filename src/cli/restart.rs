@@ -68,8 +68,9 @@ impl RestartArguments {
 /// Why a scene that demands an accuracy leaves no checkpoints.
 pub(super) fn not_with_accuracy() -> Error {
     Error::input(
-        "--checkpoint and --resume are of one run on one mesh, but `accuracy` asks for runs on several: leave `accuracy` out, and give \
-         the mesh and tolerances (scene_as_run.toml of a run with `accuracy` has those that it chose)",
+        "--checkpoint and --resume are of one run on one mesh, but `accuracy` asks for runs on \
+         several: leave `accuracy` out, and give the mesh and tolerances (scene_as_run.toml of a \
+         run with `accuracy` has those that it chose)",
     )
 }
 

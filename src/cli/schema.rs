@@ -6,7 +6,8 @@ use crate::{output, scene};
 use clap::Args;
 
 const AFTER_HELP: &str = "\
-An editor with a TOML language server (taplo, Even Better TOML) takes it from the first line of a scene:
+An editor with a TOML language server (taplo, Even Better TOML) takes it from the first line \
+of a scene:
   #:schema ./scene.schema.json
 Example: brinell schema > scene.schema.json";
 

@@ -2,13 +2,13 @@
 
 use super::arguments::{CommonArguments, Shown};
 use super::commands::{at_once, header, json, prepare};
-use super::number::{bytes, seconds, significant};
 use super::progress::Progress;
 use super::table::{Column::*, Table, WIDTH, wrap};
 use super::{interrupt, print};
 use crate::accuracy::{Knob, Plan, QuantityStudy, Study, foremost, study};
 use crate::error::{Error, ErrorKind, Result};
 use crate::model::Model;
+use crate::number::{bytes, seconds, significant};
 use crate::output::{self, Claim};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -29,9 +29,15 @@ pub(super) struct StudyArguments {
     pub budget: Option<f64>,
     /// Meshes in a series: the finest has twice as many elements along a line as the scene, the
     /// next each 1/sqrt(2) of that
-    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u16).range(2..=12))]
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 6,
+        value_parser = clap::value_parser!(u16).range(2..=12)
+    )]
     pub levels: u16,
-    /// What to turn, separated by commas: resolution, element, stepping, tolerance, gamma, algorithm, backend; default all
+    /// What to turn, separated by commas: resolution, element, stepping, tolerance, gamma,
+    /// algorithm, backend; default all
     #[arg(long, value_name = "KNOBS", value_delimiter = ',')]
     pub knobs: Vec<String>,
     /// No progress, only results and errors

@@ -1,9 +1,9 @@
 //! `brinell view`: the report of a result directory made anew, or its main figures in the terminal.
 
-use super::number::{number, significant};
 use super::report::states_table;
 use super::{print, warn};
 use crate::error::Result;
+use crate::number::{number, significant};
 use crate::output::{self, rows};
 use crate::results::{HistoryRow, QUANTITIES, Results};
 use crate::space::Space;
@@ -23,7 +23,13 @@ pub(super) struct ViewArguments {
     #[arg(long)]
     pub terminal: bool,
     /// Columns of the plots
-    #[arg(long, value_name = "N", requires = "terminal", default_value_t = 72, value_parser = clap::value_parser!(u16).range(20..=400))]
+    #[arg(
+        long,
+        value_name = "N",
+        requires = "terminal",
+        default_value_t = 72,
+        value_parser = clap::value_parser!(u16).range(20..=400)
+    )]
     pub width: u16,
 }
 

@@ -25,7 +25,8 @@ pub enum Triangle {
 /// use brinell::linalg::Backend;
 ///
 /// # fn main() -> brinell::Result<()> {
-/// // Two unit springs in a row, the first tied to the ground; a wall at distance 1 before the second end.
+/// // Two unit springs in a row, the first tied to the ground; a wall at distance 1 before the
+/// // second end.
 /// let k = stiffness_from_csc(2, &[0, 1, 3], &[0, 0, 1], &[2.0, -1.0, 1.0], Triangle::Upper)?;
 /// let wall = rows_from_csr(2, &[0, 1], &[1], &[1.0])?;
 /// let mut structure = ConstrainedStructure::new(Backend::default(), &k, &wall, &[1.0])?;
@@ -189,8 +190,9 @@ fn check_starts<I: Index>(
     {
         let say = |begin: Option<&I>| begin.map_or("none".to_string(), I::to_string);
         return Err(Error::input(format!(
-            "the begins of {n} {what}s must be one number more, begin with 0, not fall and end with the number of entries: {} were \
-             given, {}from {} to {}, for {indices} indices and {values} values",
+            "the begins of {n} {what}s must be one number more, begin with 0, not fall and end \
+             with the number of entries: {} were given, {}from {} to {}, for {indices} indices and \
+             {values} values",
             starts.len(),
             if rising { "" } else { "not rising " },
             say(starts.first()),

@@ -76,7 +76,8 @@ impl ConstrainedStructure {
         let held = Cholesky::new(stiffness).ok_or_else(|| {
             Error::new(
                 ErrorKind::Unheld,
-                "the closed contact rows do not hold the structure: its displacements are not unique",
+                "the closed contact rows do not hold the structure: its displacements are not \
+                 unique",
             )
         })?;
         let residual = |u: &[f64]| {

@@ -35,7 +35,10 @@ fn named(error: Error, freedom: impl Fn(&Error) -> Option<usize>) -> Error {
     match freedom(&error) {
         Some(freedom) => Error::new(
             ErrorKind::Unheld,
-            format!("the stiffness is not positive definite at freedom {freedom}: a part of the structure is not held"),
+            format!(
+                "the stiffness is not positive definite at freedom {freedom}: a part of the \
+                 structure is not held"
+            ),
         )
         .because(error),
         None => error,
@@ -47,7 +50,8 @@ pub(super) fn pushed_away(cause: Unbounded) -> Error {
     Error::new(
         ErrorKind::Unheld,
         format!(
-            "the load pushes a part of the structure away from every contact: nothing stops row {} from opening",
+            "the load pushes a part of the structure away from every contact: nothing stops row {} \
+             from opening",
             cause.pair
         ),
     )

@@ -79,7 +79,7 @@ impl PairMatrix {
     }
 
     /// `y += A x`, where few entries of `x` may be other than zero.
-    pub fn add_product(&self, x: &[f64], y: &mut [f64]) {
+    pub(crate) fn add_product(&self, x: &[f64], y: &mut [f64]) {
         let blocks = self.blocks.iter();
         add_products(
             blocks.map(|block| (block.pairs.as_slice(), &*block.matrix)),

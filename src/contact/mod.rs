@@ -7,15 +7,16 @@
 //!     r = q + T g,     g >= 0,  r >= 0,  g . r = 0
 //! ```
 //!
-//! `T` (`n_pairs x n_pairs`, symmetric, positive semidefinite) is the stiffness of the structure against opening the
-//! pairs; `q` holds the forces the pairs would carry if all were closed. This module knows neither
-//! meshes nor bodies. Groups of pairs that do not feel one another are blocks of `T`
-//! ([`PairMatrix`]).
+//! `T` (`n_pairs x n_pairs`, symmetric, positive semidefinite) is the stiffness of the structure
+//! against opening the pairs; `q` holds the forces the pairs would carry if all were closed. This
+//! module knows neither meshes nor bodies. Groups of pairs that do not feel one another are blocks
+//! of `T` ([`PairMatrix`]).
 //!
 //! * [`Tableau`]: the matrix with a set of pairs opened, updated by principal pivots in O(n^2), n
 //!   the pairs of the group;
 //! * [`solve`]: statuses for a given `q` (paper 3.7 to 3.10), finite for every semidefinite `T`;
-//! * [`Path`]: statuses for `q` moving along a line, from one change of contact to the next (paper 4.10 to 4.23).
+//! * [`Path`]: statuses for `q` moving along a line, from one change of contact to the next (paper
+//!   4.10 to 4.23).
 
 mod complementarity;
 mod matrix;

@@ -51,7 +51,7 @@ const NEVER: usize = usize::MAX;
 /// Share of a tie by which a pair may be beyond its condition at the end of a piece: round-off of
 /// an event that is due there.
 const AT_END: f64 = 1e-2;
-/// The same for the last pair that holds a body, as a share of its force at the begin.
+/// The same for the last pair that holds a body, as a share of its force at the start.
 const LAST: f64 = 1e-7;
 
 /// Gaps and forces on a piece of the load path.
@@ -79,8 +79,8 @@ pub struct Path {
 impl Path {
     /// Starts at `t = 0` with `q(t) = start + t rate` and the gaps and forces that hold there
     /// (statuses are those in the tableau). `gap_scale` is the size of gaps that matter (such as
-    /// the largest initial gap),
-    /// `terms` that of the terms of which `start` is a sum: they may cancel, their round-off does not.
+    /// the largest initial gap), `terms` that of the terms of which `start` is a sum: they may
+    /// cancel, their round-off does not.
     ///
     /// # Errors
     /// [`Unbounded`] where the load pushes pairs apart for ever.
@@ -287,7 +287,7 @@ impl Path {
     }
 
     /// Goes to `t` with the current statuses, which must hold there.
-    pub fn state_at(&mut self, tableau: &mut Tableau, t: f64) {
+    pub(crate) fn state_at(&mut self, tableau: &mut Tableau, t: f64) {
         self.t = t;
         let q: Vec<f64> = self
             .start

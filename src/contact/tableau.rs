@@ -105,9 +105,9 @@ impl Tableau {
     /// Whether opening pair `k` now would free a rigid motion.
     ///
     /// What is left of `T_kk` is `T_kk - T_ko w` with `w = T_oo^-1 T_ok`: the round-off of that is
-    /// a share of
-    /// `|T_kk| + 2 |T_ko| |w| + |w|' |T_oo| |w| <= (sqrt T_kk + sum |w_o| sqrt T_oo)^2`, since `|T_ij| <= sqrt(T_ii T_jj)`.
-    pub fn would_free(&self, k: usize) -> bool {
+    /// a share of `|T_kk| + 2 |T_ko| |w| + |w|' |T_oo| |w| <= (sqrt T_kk + sum |w_o| sqrt T_oo)^2`,
+    /// since `|T_ij| <= sqrt(T_ii T_jj)`.
+    pub(crate) fn would_free(&self, k: usize) -> bool {
         let (block, own) = self.matrix.place(k);
         let (left, whole) = (self.swept[block].get(own, own), self.matrix.diagonal(k));
         if self.open[k] || left > NOT_SINGULAR * whole {
@@ -141,7 +141,7 @@ impl Tableau {
 
     /// As [`Tableau::flip`]; keeps `gap` and `force` what [`Tableau::solve`] gives for their
     /// right-hand side, for the new statuses: one column instead of the whole matrix.
-    pub fn flip_with(&mut self, k: usize, gap: &mut [f64], force: &mut [f64]) -> bool {
+    pub(crate) fn flip_with(&mut self, k: usize, gap: &mut [f64], force: &mut [f64]) -> bool {
         if self.would_free(k) {
             return false;
         }
@@ -187,7 +187,7 @@ impl Tableau {
 
     /// Repeats what a tableau of the same matrix went through; false (and the tableau of no use)
     /// where the record is of another one.
-    pub fn replay(&mut self, record: &TableauRecord) -> bool {
+    pub(crate) fn replay(&mut self, record: &TableauRecord) -> bool {
         if record.base.len() != self.len() || record.flips.len() >= REBUILD {
             return false;
         }
@@ -205,9 +205,9 @@ impl Tableau {
         self.swept[block].pivot(own, sign);
     }
 
-    /// Gaps of the open pairs and forces of the closed ones for the given statuses: `r_o = 0`, `g_c
-    /// = 0`,
-    /// `r = q + T g`. The gaps are refined once against `T`, so that errors of many pivots do not stay.
+    /// Gaps of the open pairs and forces of the closed ones for the given statuses: `r_o = 0`,
+    /// `g_c = 0`, `r = q + T g`. The gaps are refined once against `T`, so that errors of many
+    /// pivots do not stay.
     pub fn solve(&mut self, q: &[f64], gap: &mut [f64], force: &mut [f64]) {
         self.solve_with_residual(q, gap, force);
     }
@@ -215,7 +215,7 @@ impl Tableau {
     /// As [`Tableau::solve`], starting again from the original matrix where pivots have lost the
     /// digits (a pivot that was hardly more than round-off): pairs that then turn out to hold a
     /// rigid motion are closed.
-    pub fn solve_safely(&mut self, q: &[f64], gap: &mut [f64], force: &mut [f64]) {
+    pub(crate) fn solve_safely(&mut self, q: &[f64], gap: &mut [f64], force: &mut [f64]) {
         let residual = self.solve_with_residual(q, gap, force);
         if residual > LOST * self.force_tolerance(q, gap) {
             let open = self.open.clone();
@@ -261,7 +261,7 @@ impl Tableau {
     }
 
     /// Round-off to be expected in the forces of a solution with these right-hand side and gaps.
-    pub fn force_tolerance(&self, q: &[f64], gap: &[f64]) -> f64 {
+    pub(crate) fn force_tolerance(&self, q: &[f64], gap: &[f64]) -> f64 {
         let largest_q = q.iter().fold(0.0f64, |m, v| m.max(v.abs()));
         let largest_t = (0..self.len()).fold(0.0f64, |m, k| m.max(self.matrix.diagonal(k)));
         let largest_g = gap.iter().fold(0.0f64, |m, v| m.max(v.abs()));
@@ -271,7 +271,7 @@ impl Tableau {
     }
 
     /// The gap that a force tolerance corresponds to.
-    pub fn gap_tolerance(&self, force_tolerance: f64) -> f64 {
+    pub(crate) fn gap_tolerance(&self, force_tolerance: f64) -> f64 {
         let largest_t = (0..self.len()).fold(0.0f64, |m, k| m.max(self.matrix.diagonal(k)));
         if largest_t > 0.0 {
             force_tolerance / largest_t

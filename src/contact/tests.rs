@@ -39,7 +39,8 @@ proptest! {
     /// no energy.
     #[test]
     fn complementarity_terminates(n in 1usize..14, rank in 1usize..16,
-            entries in proptest::collection::vec(-1.0f64..1.0, 224), q in proptest::collection::vec(-1.0f64..1.0, 14)) {
+            entries in proptest::collection::vec(-1.0f64..1.0, 224),
+            q in proptest::collection::vec(-1.0f64..1.0, 14)) {
         let t = semidefinite(n, rank, &entries);
         let q = &q[..n];
         let mut tableau = Tableau::new(t.clone());
@@ -57,13 +58,18 @@ proptest! {
 
     /// The path's end is the direct solution there, whatever happened on the way.
     #[test]
-    fn path_ends_where_the_direct_solve_does(n in 1usize..12, entries in proptest::collection::vec(-1.0f64..1.0, 168),
-            q0 in proptest::collection::vec(0.0f64..1.0, 12), q1 in proptest::collection::vec(-3.0f64..1.0, 12)) {
+    fn path_ends_where_the_direct_solve_does(
+            n in 1usize..12,
+            entries in proptest::collection::vec(-1.0f64..1.0, 168),
+            q0 in proptest::collection::vec(0.0f64..1.0, 12),
+            q1 in proptest::collection::vec(-3.0f64..1.0, 12)) {
         let t = semidefinite(n, n + 2, &entries) + DMatrix::identity(n, n) * 0.05;
         let mut tableau = Tableau::new(t.clone());
         let (mut g, mut r) = (vec![0.0; n], vec![0.0; n]);
         prop_assert!(solve(&mut tableau, &q0[..n], &mut g, &mut r).is_ok());
-        let mut path = Path::new(&mut tableau, q0[..n].to_vec(), q1[..n].to_vec(), g, r, 1.0, 0.0).unwrap();
+        let ends = [&q0, &q1].map(|q| q[..n].to_vec());
+        let [from, to] = ends;
+        let mut path = Path::new(&mut tableau, from, to, g, r, 1.0, 0.0).unwrap();
         let mut events = 0;
         while let PathEnd::Event(changes) = path.advance(&mut tableau, 1.0) {
             prop_assert!(!changes.is_empty());

@@ -3,6 +3,7 @@
 use super::Deck;
 use super::data::Target;
 use super::sets::What;
+use crate::classes::Classes;
 use crate::error::{Error, Result};
 use crate::space::Space;
 use std::collections::{BTreeMap, HashMap};
@@ -108,7 +109,7 @@ impl Deck {
 
     /// A number for each element that those of its section share to which it is connected by nodes.
     fn parts(&self, section_of: &[u32]) -> Vec<u32> {
-        let mut parent: Vec<u32> = (0..section_of.len() as u32).collect();
+        let mut classes = Classes::new(section_of.len());
         // Of each node its first section, and an element of it; nodes of several sections are few.
         let mut first = vec![(NONE, NONE); self.n_nodes()];
         let mut others: HashMap<(u32, u32), u32> = HashMap::new();
@@ -124,17 +125,16 @@ impl Deck {
                     true => *other,
                     false => *others.entry((node, section)).or_insert(element),
                 };
-                let (a, b) = (root(&mut parent, other), root(&mut parent, element));
-                parent[a.max(b) as usize] = a.min(b);
+                classes.join(other as usize, element as usize);
             }
         }
-        (0..section_of.len() as u32)
-            .map(|element| root(&mut parent, element))
+        (classes.firsts().into_iter())
+            .map(|first| first as u32)
             .collect()
     }
 
-    /// Names of the bodies, of which `sections` are given: of the section's set where it is all of it,
-    /// else of a set that is the body, else with a number.
+    /// Names of the bodies, of which `sections` are given: of the section's set where it is all of
+    /// it, else of a set that is the body, else with a number.
     fn body_names(&self, sections: &[u32], of_element: &[u32]) -> Result<Vec<String>> {
         let of_section = |section: u32| match self.properties.sections.get(section as usize) {
             Some(section) => section.elements.as_str(),
@@ -191,15 +191,6 @@ impl Deck {
         }
         Ok(out)
     }
-}
-
-fn root(parent: &mut [u32], mut element: u32) -> u32 {
-    while parent[element as usize] != element {
-        let above = parent[parent[element as usize] as usize];
-        parent[element as usize] = above;
-        element = above;
-    }
-    element
 }
 
 /// Makes an error one of an effect that brinell does not have.

@@ -1,4 +1,5 @@
-//! What a deck says, keyword by keyword: names and numbers as they are written, each with its place.
+//! What a deck says, keyword by keyword: names and numbers as they are written, each with its
+//! place.
 
 use super::element_type::ElementType;
 use super::source::{Files, Place};

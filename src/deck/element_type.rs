@@ -49,8 +49,8 @@ impl ElementType {
                 _ => "it is not",
             };
             format!(
-                "TYPE={name}: {why} among the elements of brinell, which are CPE, CPS and CAX with 3, 4, 6 and 8 nodes \
-                 and C3D4, C3D6, C3D8, C3D10, C3D15, C3D20"
+                "TYPE={name}: {why} among the elements of brinell, which are CPE, CPS and CAX with \
+                 3, 4, 6 and 8 nodes and C3D4, C3D6, C3D8, C3D10, C3D15, C3D20"
             )
         })?;
         Ok(ElementType { shape, space, note })

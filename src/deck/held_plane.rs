@@ -47,8 +47,8 @@ impl Deck {
     /// The node that is followed along an axis, and those that follow.
     fn follows(&self, equation: &Equation) -> Result<(Key, Vec<u32>)> {
         let refused = || {
-            let message = "only equations u_i - u_k = 0 between the same degree of freedom of two nodes are there, \
-                           which hold a surface plane";
+            let message = "only equations u_i - u_k = 0 between the same degree of freedom of two \
+                           nodes are there, which hold a surface plane";
             unsupported(self.error(equation.place, "EQUATION", message))
         };
         let [(of, freedom, a), (to, other, b)] = &equation.terms[..] else {
@@ -88,8 +88,8 @@ impl Deck {
     }
 }
 
-/// The axes at a point: along the first vector, in the plane of both, and at right angles; or outward
-/// from the axis through both points, around it, and along it.
+/// The axes at a point: along the first vector, in the plane of both, and at right angles; or
+/// outward from the axis through both points, around it, and along it.
 fn axes_at(transform: &Transform, x: Vector) -> Option<[Vector; 3]> {
     let [a, b] = transform.points;
     let (first, third) = match transform.is_cylindrical {

@@ -1,8 +1,8 @@
 //! What each degree of freedom, node and face goes through over all steps.
 //!
 //! A value that a step gives is reached linearly from the one before over the time of the step, or
-//! follows an amplitude; one that it does not give stays, or with `OP=NEW` goes back to zero. Values
-//! for the same node or face in one step add up, those of supports replace one another.
+//! follows an amplitude; one that it does not give stays, or with `OP=NEW` goes back to zero.
+//! Values for the same node or face in one step add up, those of supports replace one another.
 
 use super::Deck;
 use super::bodies::unsupported;
@@ -12,7 +12,7 @@ use super::series::{Series, interpolate};
 use super::sets::What;
 use super::source::Place;
 use crate::error::Result;
-use crate::text::exact;
+use crate::number::exact;
 use std::collections::BTreeMap;
 
 /// A value that begins farther from where the last step ended, as a share of the two, jumps.
@@ -72,7 +72,8 @@ impl Deck {
     /// The values of all keys of a kind.
     ///
     /// # Errors
-    /// Names and numbers that there are not; supports that come or go between steps, values that jump.
+    /// Names and numbers that there are not; supports that come or go between steps, values that
+    /// jump.
     pub(super) fn histories(&self, kind: Kind) -> Result<Map> {
         let mut map = Map::new();
         let initial = self.program.initial.iter();
@@ -127,8 +128,8 @@ impl Deck {
             if number > 0 && kind == Kind::Boundary {
                 let node = self.nodes.labels[key.0 as usize];
                 let message = format!(
-                    "node {node} is held along {} only from step {} on: supports are the same in all steps; hold it from \
-                     the first step on, or press with a force",
+                    "node {node} is held along {} only from step {} on: supports are the same in \
+                     all steps; hold it from the first step on, or press with a force",
                     key.1 + 1,
                     number + 1
                 );
@@ -155,8 +156,8 @@ impl Deck {
     fn released(&self, key: Key, number: usize, place: Place) -> crate::Error {
         let node = self.nodes.labels[key.0 as usize];
         let message = format!(
-            "OP=NEW releases node {node} along {} in step {}: supports are the same in all steps; repeat them, or press \
-             with a force where it is to come free",
+            "OP=NEW releases node {node} along {} in step {}: supports are the same in all steps; \
+             repeat them, or press with a force where it is to come free",
             key.1 + 1,
             number + 1
         );
@@ -255,7 +256,8 @@ impl Deck {
             entry.series = Series::starting(start);
         } else if (start - last).abs() > JUMP * start.abs().max(last.abs()) {
             let message = format!(
-                "the value jumps from {} to {} at the start of step {}: begin the amplitude where the step before ends",
+                "the value jumps from {} to {} at the start of step {}: begin the amplitude where \
+                 the step before ends",
                 exact(last),
                 exact(start),
                 number + 1

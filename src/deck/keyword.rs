@@ -29,8 +29,8 @@ const CONSTRAINTS: Use =
 const INERTIA: Use = Use::Refused("loads are applied slowly: there is no inertia and no time");
 const HEAT: Use = Use::Refused("there is no heat transfer");
 const PARTS: Use = Use::Refused(
-    "decks are flat: write it without parts and assemblies (in Abaqus/CAE: model attributes, \"Do not use parts and \
-     assemblies in input files\")",
+    "decks are flat: write it without parts and assemblies (in Abaqus/CAE: model attributes, \"Do \
+     not use parts and assemblies in input files\")",
 );
 const LAWS: Use = Use::Refused(
     "materials are isotropic and linear elastic, with von Mises plasticity and isotropic hardening",

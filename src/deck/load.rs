@@ -36,8 +36,8 @@ pub fn load_with(path: impl AsRef<Path>, overrides: &[String], options: Options)
 }
 
 impl super::Conversion {
-    /// The scene as it would be read from a file: validated, with overrides put over it, and with the
-    /// places of the deck.
+    /// The scene as it would be read from a file: validated, with overrides put over it, and with
+    /// the places of the deck.
     ///
     /// # Errors
     /// Those of [`Scene::parse_with`], at the lines of the deck.

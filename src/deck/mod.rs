@@ -15,8 +15,8 @@
 //! that changes changes in proportion, step by step; otherwise they are the time.
 //!
 //! # Source
-//! G. Dhondt, *CalculiX CrunchiX User's Manual* 2.20, chapters 6 (elements, loads) and 7 (keywords);
-//! *Abaqus Keywords Reference Guide*.
+//! G. Dhondt, *CalculiX CrunchiX User's Manual* 2.20, chapters 6 (elements, loads) and 7
+//! (keywords); *Abaqus Keywords Reference Guide*.
 
 mod bodies;
 mod conversion;
@@ -76,8 +76,9 @@ impl Deck {
     /// Reads a deck, and the files that it includes, which are relative to its folder.
     ///
     /// # Errors
-    /// `Io` where a file cannot be read; `Input` by file, line and keyword where the deck is damaged
-    /// or has a keyword that is not known; `Unsupported` for elements that brinell does not have.
+    /// `Io` where a file cannot be read; `Input` by file, line and keyword where the deck is
+    /// damaged or has a keyword that is not known; `Unsupported` for elements that brinell does not
+    /// have.
     pub fn read(path: &Path) -> Result<Deck> {
         let text = files::read("read the deck", path, None)?;
         let name = path.display().to_string();
@@ -91,7 +92,8 @@ impl Deck {
     /// use brinell::deck::Deck;
     ///
     /// let error = Deck::parse(b"*NODE\n1, 0., zero", "block.inp").err().unwrap();
-    /// assert_eq!(error.to_string(), "block.inp, line 2: *NODE: y is `zero`; give a finite number");
+    /// let expected = "block.inp, line 2: *NODE: y is `zero`; give a finite number";
+    /// assert_eq!(error.to_string(), expected);
     /// ```
     ///
     /// # Errors

@@ -45,7 +45,8 @@ impl<'t> Reader<'t> {
         if let Some(line) = self.source.next_data()? {
             let place = self.source.files.show(line.place);
             return Err(crate::Error::input(format!(
-                "{place}: this is not a deck of Abaqus or CalculiX: it should begin with a keyword such as *HEADING or *NODE"
+                "{place}: this is not a deck of Abaqus or CalculiX: it should begin with a keyword \
+                 such as *HEADING or *NODE"
             )));
         }
         while let Some(line) = self.source.next()? {

@@ -111,7 +111,8 @@ impl Deck {
         let thing = what.words()[0];
         if (last - first) / step >= labels.len() as u64 {
             let message = format!(
-                "GENERATE from {first} to {last} by {step} names more {thing}s than the {} there are",
+                "GENERATE from {first} to {last} by {step} names more {thing}s than the {} there \
+                 are",
                 labels.len()
             );
             return Err(self.error(at.0, at.1, message));

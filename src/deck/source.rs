@@ -158,7 +158,8 @@ impl<'t> Source<'t> {
     /// Goes on in the file that an `*INCLUDE` names.
     ///
     /// # Errors
-    /// `Input` where it names none, one that is being read, or too many are named; those of reading it.
+    /// `Input` where it names none, one that is being read, or too many are named; those of reading
+    /// it.
     fn include(&mut self, line: Line) -> Result<()> {
         let place = self.files.show(line.place);
         let refused = |why: String| Err(Error::input(format!("{place}: *INCLUDE: {why}")));

@@ -188,6 +188,12 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D
         std::array::from_fn(|d| self.table.interpolated(|k| nodes[k][d]))
     }
 
+    /// A field with these values at the nodes at the points.
+    #[inline]
+    pub fn at_points(&self, nodal: &[f64; N]) -> Lanes<P> {
+        self.table.interpolated(|k| nodal[k])
+    }
+
     /// Mean over the element.
     #[inline]
     pub fn mean<const C: usize>(&self, values: &[Lanes<P>; C]) -> [f64; C] {

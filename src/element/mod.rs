@@ -39,10 +39,12 @@
 mod facet;
 mod gradients;
 mod stiffness;
+mod volume;
 
 pub use facet::{FacetPoint, facet_points};
 pub use gradients::{Components, Gradients, Lanes};
 pub use stiffness::packed;
+pub use volume::{VolumePoint, volume_points};
 
 use crate::scene::Formulation;
 use crate::shape::{Rule, Shape};
@@ -150,7 +152,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Kernel<D, S
     }
 
     /// An element at its sampling points, for the coordinates of its nodes.
-    pub fn sampling(&self, shape: Shape, nodes: &[[f64; D]; N]) -> Sampling<D, S, P, N> {
+    pub(crate) fn sampling(&self, shape: Shape, nodes: &[[f64; D]; N]) -> Sampling<D, S, P, N> {
         Sampling {
             at: self.at(self.sampling, shape, nodes),
             mean: self
@@ -199,6 +201,11 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Sampling<D,
     /// Coordinates of the points, axis by axis, for those of the nodes.
     pub fn positions(&self, nodes: &[[f64; D]; N]) -> [Lanes<P>; D] {
         self.at.positions(nodes)
+    }
+
+    /// A field with these values at the nodes at the points.
+    pub fn at_points(&self, nodal: &[f64; N]) -> Lanes<P> {
+        self.at.at_points(nodal)
     }
 
     /// Strains at the points, their dilatation treated as in [`Gradients::strains`].

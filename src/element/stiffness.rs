@@ -16,7 +16,7 @@ use crate::material::Lame;
 
 impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D, S, P, N> {
     /// `K_e` for an elastic law, packed lower triangle ([`packed`]), into `out`.
-    pub fn stiffness_into(&self, law: &Lame, out: &mut [f64]) {
+    pub(crate) fn stiffness_into(&self, law: &Lame, out: &mut [f64]) {
         of_nodes!(self.n_nodes(), self, stiffness_of, law, out);
     }
 

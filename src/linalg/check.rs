@@ -15,7 +15,8 @@ pub(super) fn arguments(matrix: &SymmetricCsc, partition: &Partition, shift: &[f
     }
     if matrix.rows() != n || matrix.cols() != n || !matrix.is_csc() {
         return Err(Error::internal(format!(
-            "the matrix is {} x {}{}, the partition has {n} freedoms: hand over the upper triangle by columns",
+            "the matrix is {} x {}{}, the partition has {n} freedoms: hand over the upper triangle \
+             by columns",
             matrix.rows(),
             matrix.cols(),
             if matrix.is_csc() { "" } else { " by rows" },
@@ -30,7 +31,8 @@ pub(super) fn arguments(matrix: &SymmetricCsc, partition: &Partition, shift: &[f
     for (j, column) in matrix.outer_iterator().enumerate() {
         if column.indices().last() != Some(&(j as i64)) {
             return Err(Error::internal(format!(
-                "column {j} of the matrix must end with its diagonal entry (upper triangle, rows ascending)"
+                "column {j} of the matrix must end with its diagonal entry (upper triangle, rows \
+                 ascending)"
             )));
         }
         if let Some((i, value)) = column.iter().find(|(_, value)| !value.is_finite()) {

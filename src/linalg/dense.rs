@@ -218,8 +218,8 @@ fn refuse_large(n: usize) -> Result<()> {
     }
     Err(Error::input(format!(
         "{n} freedoms are too many for the dense solver, which takes at most {LARGEST}: use \
-         `--solver cholmod` or `--solver faer` (a build with the feature of that name) or a coarser \
-         mesh"
+         `--solver cholmod` or `--solver faer` (a build with the feature of that name) or a \
+         coarser mesh"
     )))
 }
 

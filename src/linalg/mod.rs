@@ -163,7 +163,7 @@ pub struct Pivot {
 /// # Source
 /// N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., SIAM 2002, theorem
 /// 10.3, doi:10.1137/1.9780898718027.
-pub fn smallest_pivot_ratio(n: usize) -> f64 {
+pub(crate) fn smallest_pivot_ratio(n: usize) -> f64 {
     n as f64 * f64::EPSILON
 }
 
@@ -204,7 +204,7 @@ impl Backend {
     }
 
     /// Whether this build has it.
-    pub fn is_built_in(self) -> bool {
+    pub(crate) fn is_built_in(self) -> bool {
         match self {
             Backend::Cholmod => cfg!(feature = "cholmod"),
             Backend::Faer => cfg!(feature = "faer"),

@@ -79,7 +79,7 @@ fn largest_of(n: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
     parts.reduce(|| 0.0, |a, b| if a > b || a.is_nan() { a } else { b })
 }
 
-/// What one pass over `K` tells of a solution `u` of `K u = f`.
+/// What one pass over `K` states about a solution `u` of `K u = f`.
 pub(super) struct Rows {
     /// `f - K u`.
     pub residual: Vec<f64>,

@@ -5,7 +5,7 @@ use crate::error::Result;
 use nalgebra::{Cholesky, DVector, Dyn};
 
 /// Solves `(K + D) u = x` in place. `held` is the factor of `C + D`, the contact stiffness with
-/// whatever acts on the contact freedoms beside `K`; `None` where there are no contact freedoms.
+/// whatever acts on the contact freedoms besides `K`; `None` where there are no contact freedoms.
 /// `partition` holds the zone as it is chosen. Costs a full solve.
 ///
 /// # Errors

@@ -12,7 +12,8 @@ pub struct Hardening {
 }
 
 impl Hardening {
-    /// Linear hardening `sigma_y = yield_stress + plastic_modulus * eps_p`; modulus 0 is perfect plasticity.
+    /// Linear hardening `sigma_y = yield_stress + plastic_modulus * eps_p`; modulus 0 is perfect
+    /// plasticity.
     pub fn linear(yield_stress: f64, plastic_modulus: f64) -> Self {
         Hardening {
             points: vec![[0.0, yield_stress]],
@@ -29,7 +30,7 @@ impl Hardening {
     }
 
     /// The curve of a scene's (validated) material; `None` where it has no yield stress.
-    pub fn from_scene(data: &scene::Material) -> Option<Self> {
+    pub(crate) fn from_scene(data: &scene::Material) -> Option<Self> {
         let yield_stress = data.yield_stress?;
         if let Some(table) = data.hardening_table.as_ref().filter(|t| !t.is_empty()) {
             return Some(Self::table(table));
@@ -58,11 +59,6 @@ impl Hardening {
             0.5 * (start[1] + self.yield_stress(end)) * (end - start[0])
         });
         pieces.sum()
-    }
-
-    /// Smallest slope anywhere: 0 for a curve with a flat piece.
-    pub fn is_perfect(&self) -> bool {
-        self.slope == 0.0 && self.points.len() == 1
     }
 
     /// Solves `q - c d = sigma_y(strain + d)` for `d >= 0`: exact, segment by segment. `c > 0`;

@@ -28,7 +28,7 @@ impl Lame {
     };
 
     /// `a I_dev`: a times the deviator of a strain.
-    pub fn of_deviator(a: f64) -> Self {
+    pub(crate) fn of_deviator(a: f64) -> Self {
         Lame {
             lambda: -a / 3.0,
             mu: 0.5 * a,
@@ -37,7 +37,7 @@ impl Lame {
     }
 
     /// The bulk modulus `lambda + 2/3 mu`.
-    pub fn bulk(&self) -> f64 {
+    pub(crate) fn bulk(&self) -> f64 {
         self.lambda + 2.0 / 3.0 * self.mu
     }
 
@@ -84,7 +84,7 @@ impl<const S: usize> Softening<S> {
     };
 
     /// The same with another number of components: zeros for those it has not.
-    pub fn resized<const T: usize>(&self) -> Softening<T> {
+    pub(crate) fn resized<const T: usize>(&self) -> Softening<T> {
         Softening {
             isotropic: self.isotropic,
             along: self.along,

@@ -3,7 +3,9 @@
 //! Stress and strain are vectors `[xx, yy, zz, xy | yz, zx]` (axisymmetric: `[rr, zz, tt, rz]`) of
 //! S = 4 components in the plane, 6 in space; shear strains are engineering strains `gamma`. The
 //! elastic law is `sigma = D (eps - eps_p)`, isotropic ([`Lame`]); plastic flow is associated with
-//! isotropic hardening, integrated by the implicit (closest point) rule.
+//! isotropic and linear kinematic hardening (W. Prager, *Proc. Inst. Mech. Eng.* 169, 1955, 41),
+//! integrated by the implicit (closest point) rule. The back stress `2/3 C eps_p` follows from the
+//! plastic strain: it is stored nowhere.
 
 mod hardening;
 mod lame;
@@ -28,6 +30,9 @@ pub struct Material {
     pub poissons_ratio: f64,
     /// Yield stress against equivalent plastic strain; `None` for an elastic material.
     pub hardening: Option<Hardening>,
+    /// Modulus C of linear kinematic hardening (Prager): the yield surface is centred at the back
+    /// stress `2/3 C eps_p`. 0 without.
+    pub kinematic_modulus: f64,
     /// The idealisation, which decides the elastic matrix and the return mapping.
     pub space: Space,
 }
@@ -56,7 +61,7 @@ impl<const S: usize> Default for PlasticState<S> {
 
 impl<const S: usize> PlasticState<S> {
     /// The same with another number of components: zeros for those it has not.
-    pub fn resized<const T: usize>(&self) -> PlasticState<T> {
+    pub(crate) fn resized<const T: usize>(&self) -> PlasticState<T> {
         PlasticState {
             strain: resized(&self.strain),
             equivalent: self.equivalent,
@@ -77,7 +82,7 @@ pub struct Update<const S: usize> {
     /// `D - D_ep`: what plastic flow takes off the elastic stiffness. Zero where elastic.
     pub softening: Softening<S>,
     /// Whether plastic flow took place.
-    pub flows: bool,
+    pub yields: bool,
 }
 
 impl Material {
@@ -88,24 +93,48 @@ impl Material {
             youngs_modulus: data.youngs_modulus,
             poissons_ratio: data.poissons_ratio,
             hardening: Hardening::from_scene(data),
+            kinematic_modulus: data.kinematic_modulus.unwrap_or(0.0),
             space,
         }
     }
 
     /// Shear modulus `G = E / (2 (1 + nu))`.
-    pub fn shear_modulus(&self) -> f64 {
+    pub(crate) fn shear_modulus(&self) -> f64 {
         self.youngs_modulus / (2.0 * (1.0 + self.poissons_ratio))
     }
 
-    /// Bulk modulus `K = E / (3 (1 - 2 nu))`.
-    pub fn bulk_modulus(&self) -> f64 {
-        self.youngs_modulus / (3.0 * (1.0 - 2.0 * self.poissons_ratio))
+    /// Work on plastic strains per volume, 0 for an elastic material: `int sigma_y deps_p` on the
+    /// equivalent one, and what the back stress stores, `C/3 eps_p : eps_p`.
+    pub fn plastic_work<const S: usize>(&self, past: &PlasticState<S>) -> f64 {
+        let worked = |h: &Hardening| h.work(past.equivalent);
+        let normal: f64 = past.strain[..3].iter().map(|e| e * e).sum();
+        let shear: f64 = past.strain[3..].iter().map(|e| e * e).sum();
+        let stored = self.kinematic_modulus / 3.0 * (normal + 0.5 * shear);
+        self.hardening.as_ref().map_or(0.0, worked) + stored
     }
 
-    /// Work on plastic strains per volume, up to an equivalent plastic strain; 0 for an elastic
-    /// material.
-    pub fn plastic_work(&self, strain: f64) -> f64 {
-        self.hardening.as_ref().map_or(0.0, |h| h.work(strain))
+    /// The stress of a total strain, less the back stress `2/3 C eps_p`: what the yield condition
+    /// is of.
+    #[inline]
+    fn relative_stress<const S: usize>(
+        &self,
+        law: &Lame,
+        strain: &[f64; S],
+        old: &PlasticState<S>,
+    ) -> [f64; S] {
+        let mut out = law.stress(strain, &old.strain);
+        if self.kinematic_modulus != 0.0 {
+            let c = 2.0 / 3.0 * self.kinematic_modulus;
+            for (k, (out, plastic)) in out.iter_mut().zip(&old.strain).enumerate() {
+                // Shear strains are engineering strains.
+                *out -= if k < 3 {
+                    c * plastic
+                } else {
+                    0.5 * c * plastic
+                };
+            }
+        }
+        out
     }
 
     /// Initial yield stress, infinite for an elastic material.
@@ -141,14 +170,14 @@ impl Material {
     /// Whether a total strain lies within the yield surface of a history: [`Material::integrate`]
     /// then changes nothing.
     #[inline]
-    pub fn stays_elastic<const S: usize>(
+    pub(crate) fn stays_elastic<const S: usize>(
         &self,
         law: &Lame,
         strain: &[f64; S],
         old: &PlasticState<S>,
     ) -> bool {
         self.hardening.as_ref().is_none_or(|hardening| {
-            let trial = law.stress(strain, &old.strain);
+            let trial = self.relative_stress(law, strain, old);
             von_mises(&trial) <= hardening.yield_stress(old.equivalent)
         })
     }
@@ -158,7 +187,7 @@ impl Material {
     ///
     /// # Source
     /// J. C. Simo, T. J. R. Hughes, *Computational Inelasticity* (1998), boxes 3.1 to 3.3.
-    pub fn integrate<const S: usize>(
+    pub(crate) fn integrate<const S: usize>(
         &self,
         law: &Lame,
         strain: &[f64; S],
@@ -167,12 +196,12 @@ impl Material {
         let idle = Update {
             state: *old,
             softening: Softening::NONE,
-            flows: false,
+            yields: false,
         };
         let Some(hardening) = &self.hardening else {
             return idle;
         };
-        let trial = law.stress(strain, &old.strain);
+        let trial = self.relative_stress(law, strain, old);
         if von_mises(&trial) <= hardening.yield_stress(old.equivalent) {
             return idle;
         }

@@ -18,8 +18,9 @@ struct Side {
 /// Most corners of a facet.
 const MOST_CORNERS: usize = 4;
 
-/// Checks that each facet belongs to one element, or to two on opposite sides with the same mid-side
-/// nodes, and that no corner of a body's boundary lies inside another boundary edge of that body.
+/// Checks that each facet belongs to one element, or to two on opposite sides with the same
+/// mid-side nodes, and that no corner of a body's boundary lies inside another boundary edge of
+/// that body.
 ///
 /// # Errors
 /// Input errors name elements, nodes and body.
@@ -123,7 +124,8 @@ fn check_pair(mesh: &Mesh, first: Facet, second: Facet) -> Result<()> {
     let differing = m.iter().find(|node| !n.contains(node));
     match (differing, n.iter().find(|node| !m.contains(node))) {
         (Some(m), Some(n)) => Err(Error::input(format!(
-            "{one} and {two} share {edge} but have different mid-side nodes {} and {} there: merge them",
+            "{one} and {two} share {edge} but have different mid-side nodes {} and {} there: merge \
+             them",
             mesh.node_label(*m as usize),
             mesh.node_label(*n as usize)
         ))),

@@ -67,7 +67,7 @@ pub enum Curve {
 impl Curve {
     /// The nearest point to `x` of what the surface has its radius from: the centre, the axis, the
     /// ring; with the radius and the side of the body. `None` of lines and planes.
-    pub fn spine(&self, x: Vector) -> Option<(Vector, f64, bool)> {
+    pub(crate) fn spine(&self, x: Vector) -> Option<(Vector, f64, bool)> {
         match *self {
             Curve::Line { .. } | Curve::Plane { .. } => None,
             Curve::Circle {
@@ -129,7 +129,7 @@ impl Curve {
     }
 
     /// The surface with the body on one side of it.
-    pub fn facing(self, outward: bool) -> Curve {
+    pub(crate) fn facing(self, outward: bool) -> Curve {
         let mut out = self;
         match &mut out {
             Curve::Line { .. } | Curve::Plane { .. } => {}

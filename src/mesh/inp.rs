@@ -13,9 +13,9 @@ pub fn read(path: &Path) -> Result<Mesh> {
     mesh(&Deck::read(path)?)
 }
 
-/// The mesh of a deck: sections, or their connected parts, are its bodies; node sets and surfaces keep
-/// their names, and those that loads and supports are on are there too. Nodes of no element are
-/// dropped. What a deck asks for that brinell does not have is no matter here.
+/// The mesh of a deck: sections, or their connected parts, are its bodies; node sets and surfaces
+/// keep their names, and those that loads and supports are on are there too. Nodes of no element
+/// are dropped. What a deck asks for that brinell does not have is no matter here.
 ///
 /// # Errors
 /// Names and numbers that there are not; elements in no section or of several kinds; nodes out of

@@ -20,7 +20,6 @@ use crate::shape::FacetReference;
 pub use crate::shape::Shape;
 use crate::space::{Vector, in_words};
 pub use curve::Curve;
-pub(crate) use pieces::root;
 pub use round::{declared, lay_on};
 pub use subdivision::subdivided;
 pub use sweep::{extruded, revolved};
@@ -125,12 +124,12 @@ impl Mesh {
     }
 
     /// What a facet is as an element of its own.
-    pub fn facet_reference(&self, facet: Facet) -> &'static FacetReference {
+    pub(crate) fn facet_reference(&self, facet: Facet) -> &'static FacetReference {
         self.shapes[facet.element].facet_reference(facet.local)
     }
 
     /// Number of corners of a facet.
-    pub fn facet_corners(&self, facet: Facet) -> usize {
+    pub(crate) fn facet_corners(&self, facet: Facet) -> usize {
         self.facet_reference(facet).n_corners
     }
 
@@ -183,7 +182,7 @@ impl Mesh {
     }
 
     /// The number a user knows an element by.
-    pub fn element_label(&self, element: usize) -> u64 {
+    pub(crate) fn element_label(&self, element: usize) -> u64 {
         self.element_labels
             .get(element)
             .copied()

@@ -1,16 +1,8 @@
 //! Does each body hang together?
 
 use super::Mesh;
+use crate::classes::Classes;
 use crate::{Error, Result};
-
-/// The root of a member of a forest in which each has a parent; paths are halved on the way.
-pub(crate) fn root(parent: &mut [usize], mut i: usize) -> usize {
-    while parent[i] != i {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    i
-}
 
 /// Checks that the elements of a body are joined by nodes, its own or those that it shares with
 /// other bodies: rigid motions are those of bodies, and what holds one piece does not hold another.
@@ -18,15 +10,11 @@ pub(crate) fn root(parent: &mut [usize], mut i: usize) -> usize {
 /// # Errors
 /// An input error names the body and a node of two of its pieces.
 pub(super) fn check(mesh: &Mesh) -> Result<()> {
-    let mut parent: Vec<usize> = (0..mesh.n_nodes()).collect();
+    let mut classes = Classes::new(mesh.n_nodes());
     for element in 0..mesh.n_elements() {
         let nodes = mesh.nodes(element);
         for pair in nodes.windows(2) {
-            let (a, b) = (
-                root(&mut parent, pair[0] as usize),
-                root(&mut parent, pair[1] as usize),
-            );
-            parent[a.max(b)] = a.min(b);
+            classes.join(pair[0] as usize, pair[1] as usize);
         }
     }
     let mut seen: Vec<Option<usize>> = vec![None; mesh.bodies.len()];
@@ -34,11 +22,11 @@ pub(super) fn check(mesh: &Mesh) -> Result<()> {
         let body = mesh.element_body[element] as usize;
         let node = mesh.nodes(element)[0] as usize;
         let first = *seen[body].get_or_insert(node);
-        if root(&mut parent, first) != root(&mut parent, node) {
+        if classes.first(first) != classes.first(node) {
             let place = |node: usize| format!("{} at {}", mesh.node_label(node), mesh.place(node));
             return Err(Error::input(format!(
-                "body `{}` is in several pieces: its elements do not join node {} and node {}; make \
-                 each piece a body of its own",
+                "body `{}` is in several pieces: its elements do not join node {} and node {}; \
+                 make each piece a body of its own",
                 mesh.bodies[body],
                 place(first),
                 place(node)

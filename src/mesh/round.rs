@@ -54,9 +54,9 @@ pub fn declared(source: &MeshSource) -> Vec<(String, &str, Curve)> {
     out
 }
 
-/// Gives a surface its exact shape, a round one: its nodes are moved onto it (what the digits of the
-/// file left out), normals become exact, and subdivision puts new nodes on a circle. Which side the
-/// body is on follows from the facets.
+/// Gives a surface its exact shape, a round one: its nodes are moved onto it (what the digits of
+/// the file left out), normals become exact, and subdivision puts new nodes on a circle. Which side
+/// the body is on follows from the facets.
 ///
 /// # Errors
 /// Input errors: an unknown surface, a shape of another dimension, a node that does not lie on the
@@ -91,8 +91,8 @@ pub fn lay_on(mesh: &mut Mesh, on: &str, curve: Curve) -> Result<()> {
         let away = dot(reference.area(&at, &points), difference(middle, from)) > 0.0;
         if *outward.get_or_insert(away) != away {
             return Err(Error::input(format!(
-                "the body lies inside the {what} along one part of the surface and outside along another (element {}); \
-                 check where it is, or make two surfaces of it",
+                "the body lies inside the {what} along one part of the surface and outside along \
+                 another (element {}); check where it is, or make two surfaces of it",
                 mesh.element_label(facet.element)
             )));
         }

@@ -39,7 +39,8 @@ fn check_orientation(mesh: &Mesh, surface: &Surface) -> Result<()> {
             if let Some(other) = seen.insert([from, to], facet) {
                 return Err(Error::input(format!(
                     "the faces of elements {} and {} look to different sides of the surface beside \
-                     the edge from node {} to node {}: all faces of a surface must look out of one side",
+                     the edge from node {} to node {}: all faces of a surface must look out of one \
+                     side",
                     mesh.element_label(other.element),
                     mesh.element_label(facet.element),
                     mesh.node_label(from),
@@ -51,13 +52,13 @@ fn check_orientation(mesh: &Mesh, surface: &Surface) -> Result<()> {
     Ok(())
 }
 
-/// The nodes of a surface of a plane mesh along its arc, mid-side nodes included, with the body on the left (a hole
-/// is run through clockwise). A closed surface begins at its smallest node index and does not
-/// repeat it.
+/// The nodes of a surface of a plane mesh along its arc, mid-side nodes included, with the body on
+/// the left (a hole is run through clockwise). A closed surface begins at its smallest node index
+/// and does not repeat it.
 ///
 /// # Errors
 /// An input error if the surface is empty, branches, or has several pieces; it names nodes.
-pub fn ordered_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
+pub(crate) fn ordered_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
     let ends = |facet: Facet| {
         let mut nodes = mesh.facet_nodes(facet);
         (nodes.next(), nodes.next())
@@ -105,8 +106,8 @@ pub fn ordered_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
     match leaving.keys().next() {
         None => Ok(nodes),
         Some(&rest) => Err(Error::input(format!(
-            "the surface has several pieces ({} of {} edges belong to the one that begins at node {}, \
-             another holds node {}): make each piece a surface of its own",
+            "the surface has several pieces ({} of {} edges belong to the one that begins at node \
+             {}, another holds node {}): make each piece a surface of its own",
             surface.facets.len() - leaving.len(),
             surface.facets.len(),
             mesh.node_label(start),
@@ -123,9 +124,9 @@ pub fn ordered_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
 
 /// Outward unit normals of a surface at some of its nodes.
 ///
-/// Exact where the surface's [`Curve`](super::Curve) is known. Otherwise the mean of the normals of the facets
-/// that meet at the node, weighted with their areas; the normal of a curved facet is that at the
-/// node. A node that is not on the surface gets zeros.
+/// Exact where the surface's [`Curve`](super::Curve) is known. Otherwise the mean of the normals of
+/// the facets that meet at the node, weighted with their areas; the normal of a curved facet is
+/// that at the node. A node that is not on the surface gets zeros.
 pub fn normals(mesh: &Mesh, surface: &Surface, nodes: &[usize]) -> Vec<Vector> {
     match surface.curve {
         Some(curve) => (nodes.iter())
@@ -157,7 +158,7 @@ fn add_areas(mesh: &Mesh, facet: Facet, sums: &mut BTreeMap<usize, Vector>) {
 
 /// The index of the node of `candidates` on the line through `x` along the unit vector `normal`,
 /// off it by `tolerance` at most; the nearest if there are several.
-pub fn facing(
+pub(crate) fn facing(
     mesh: &Mesh,
     x: Vector,
     normal: Vector,
@@ -177,7 +178,7 @@ pub fn facing(
 }
 
 /// Length of the longest facet of a surface, in space of the longest edge of one.
-pub fn longest_facet(mesh: &Mesh, surface: &Surface) -> f64 {
+pub(crate) fn longest_facet(mesh: &Mesh, surface: &Surface) -> f64 {
     let longest_edge = |&facet: &Facet| {
         let n = mesh.facet_corners(facet);
         let corners: Vec<Vector> = (mesh.facet_nodes(facet).take(n))

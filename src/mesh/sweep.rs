@@ -152,7 +152,7 @@ struct Drawn {
     nodes: Vec<(usize, usize)>,
     /// The facet that each edge became; none where it lies on the axis.
     facets: Vec<Option<usize>>,
-    /// The facets at the begin and the end of the layer.
+    /// The facets at the start and the end of the layer.
     ends: [usize; 2],
 }
 
@@ -247,7 +247,8 @@ impl<'a> Sweep<'a> {
             [a, b] if a == 0 && b == n - 1 => b,
             _ => {
                 return Err(Error::input(format!(
-                    "element {} ({}) touches the axis of revolution at a corner: give it an edge there, or none",
+                    "element {} ({}) touches the axis of revolution at a corner: give it an edge \
+                     there, or none",
                     self.plane.element_label(element),
                     shape.name()
                 )));
@@ -359,7 +360,8 @@ impl<'a> Sweep<'a> {
                 let taken = out.node_sets.contains_key(&name);
                 if out.surfaces.insert(name.clone(), surface).is_some() || taken {
                     return Err(Error::input(format!(
-                        "the mesh has a set `{name}` already; what is drawn from it needs the name: rename the set"
+                        "the mesh has a set `{name}` already; what is drawn from it needs the \
+                         name: rename the set"
                     )));
                 }
             }

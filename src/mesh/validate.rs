@@ -187,8 +187,8 @@ fn check_sets(mesh: &Mesh) -> Result<()> {
         if let Some(pair) = facets.windows(2).find(both_sides) {
             let [one, two] = [pair[0], pair[1]].map(|f| mesh.element_label(f.element));
             return Err(Error::input(format!(
-                "surface `{name}` looks both ways between elements {one} and {two}: take the facet of \
-                 one of them"
+                "surface `{name}` looks both ways between elements {one} and {two}: take the facet \
+                 of one of them"
             )));
         }
     }
@@ -240,8 +240,8 @@ fn check_elements(mesh: &Mesh) -> Result<()> {
             "is degenerate, inverted or too strongly distorted"
         };
         Some(format!(
-            "{reason}: its smallest Jacobian is {worst:.3e} of (longest side)^{}, allowed is {FLATTEST:.1e} \
-             and more; near node {} at {}",
+            "{reason}: its smallest Jacobian is {worst:.3e} of (longest side)^{}, allowed is \
+             {FLATTEST:.1e} and more; near node {} at {}",
             row.dimension,
             mesh.node_label(nodes[0] as usize),
             mesh.place(nodes[0] as usize)

@@ -1,6 +1,8 @@
-//! A model from arrays: what a scene says in words and a mesh file in tables, handed over in memory.
+//! A model from arrays: what a scene says in words and a mesh file in tables, handed over in
+//! memory.
 
 mod geometry;
+mod tables;
 
 use super::given::Given;
 use super::{Model, NodePair, Origin};
@@ -8,15 +10,15 @@ use crate::error::{Error, Result};
 use crate::index::Index;
 use crate::mesh::Mesh;
 use crate::scene::{
-    Body, Contact, History, KeyPlaces, Load, Material, MeshSource, Program, Scene, Settings,
-    Support, Target, Tie,
+    Body, Contact, History, Load, Material, Program, Scene, Settings, Support, Target, Tie,
 };
 use crate::space::{Components, Space, Vector, in_words, length};
 use std::collections::BTreeMap;
 
-/// Builds a [`Model`] from arrays, without a scene file or a mesh file. Nodes and elements are numbered from 0 in the order
-/// in which they were given, and messages name them by these numbers; what stands in a scene's tables is given by the same types
-/// ([`crate::scene`]). A refused call leaves the builder as it was.
+/// Builds a [`Model`] from arrays, without a scene file or a mesh file. Nodes and elements are
+/// numbered from 0 in the order in which they were given, and messages name them by these numbers;
+/// what stands in a scene's tables is given by the same types ([`crate::scene`]). A refused call
+/// leaves the builder as it was.
 ///
 /// ```
 /// use brinell::analysis::Analysis;
@@ -39,7 +41,9 @@ use std::collections::BTreeMap;
 ///     .surface_of_nodes("opposite", &[4, 5])?
 ///     .surface_of_nodes("top", &[6, 7])?
 ///     .node_set("left", &[0, 3, 4, 7])?
-///     .material("steel", Material { youngs_modulus: 210e3, poissons_ratio: 0.3, ..Material::default() })?
+///     .material("steel", Material {
+///         youngs_modulus: 210e3, poissons_ratio: 0.3, ..Material::default()
+///     })?
 ///     .body("lower", Body { material: "steel".into(), ..Body::default() })?
 ///     .body("upper", Body { material: "steel".into(), ..Body::default() })?
 ///     .contact(Contact { first: "opposite".into(), second: "face".into(), ..Contact::default() })
@@ -62,26 +66,7 @@ impl ModelBuilder {
     /// An empty model: the whole of it is meshed, one target at load factor 1.
     pub fn new(kind: Space) -> Self {
         ModelBuilder {
-            scene: Scene {
-                title: String::new(),
-                kind,
-                units: None,
-                symmetry: 1,
-                mesh: MeshSource::default(),
-                materials: BTreeMap::new(),
-                bodies: BTreeMap::new(),
-                contact: Vec::new(),
-                tie: Vec::new(),
-                support: Vec::new(),
-                load: Vec::new(),
-                program: Program::default(),
-                analysis: Settings::default(),
-                accuracy: None,
-                reference: Vec::new(),
-                file: None,
-                places: KeyPlaces::default(),
-                warnings: Vec::new(),
-            },
+            scene: Scene::of(kind),
             mesh: Mesh {
                 dimension: kind.dimension(),
                 ..Mesh::default()
@@ -140,11 +125,12 @@ impl ModelBuilder {
         self
     }
 
-    /// Lets two surfaces touch at the given pairs of nodes. Nodes of the surfaces without a pair do not touch; `contact.normal` is not
-    /// used, `contact.gap` is that of pairs without their own.
+    /// Lets two surfaces touch at the given pairs of nodes. Nodes of the surfaces without a pair do
+    /// not touch; `contact.normal` is not used, `contact.gap` is that of pairs without their own.
     ///
     /// # Errors
-    /// By pair: an index of no node, a node in two pairs, a normal without direction, a gap that is negative or not finite.
+    /// By pair: an index of no node, a node in two pairs, a normal without direction, a gap that is
+    /// negative or not finite.
     pub fn contact_pairs(&mut self, contact: Contact, pairs: &[NodePair]) -> Result<&mut Self> {
         let mut pair_of = BTreeMap::new();
         for (k, pair) in pairs.iter().enumerate() {
@@ -152,13 +138,15 @@ impl ModelBuilder {
                 self.node(|| format!("pair {k}: one"), node)?;
                 if let Some(other) = pair_of.insert(node, k) {
                     return Err(Error::input(format!(
-                        "pair {k}: node {node} is in pair {other} already; a node may belong to one pair"
+                        "pair {k}: node {node} is in pair {other} already; a node may belong to \
+                         one pair"
                     )));
                 }
             }
             if let Some(gap) = pair.gap.filter(|g| !(g.is_finite() && *g >= 0.0)) {
                 return Err(Error::input(format!(
-                    "pair {k}: the gap is {gap}; give a finite one that is not negative, and an overlap as `interference`"
+                    "pair {k}: the gap is {gap}; give a finite one that is not negative, and an \
+                     overlap as `interference`"
                 )));
             }
             if let Some(n) = pair.normal
@@ -188,11 +176,13 @@ impl ModelBuilder {
         self
     }
 
-    /// Loads nodes with forces of their own at factor 1, in global axes (z = 0 in the plane); they act on the model itself, not on the whole of a
-    /// symmetric one. `name` also becomes the name of the set of these nodes.
+    /// Loads nodes with forces of their own at factor 1, in global axes (z = 0 in the plane); they
+    /// act on the model itself, not on the whole of a symmetric one. `name` also becomes the name
+    /// of the set of these nodes.
     ///
     /// # Errors
-    /// Numbers of nodes and forces that differ, an index of no node, a force that is not finite, a name that is taken.
+    /// Numbers of nodes and forces that differ, an index of no node, a force that is not finite, a
+    /// name that is taken.
     pub fn nodal_load<I: Index>(
         &mut self,
         name: &str,
@@ -243,6 +233,11 @@ impl ModelBuilder {
         self
     }
 
+    /// The load program so far.
+    pub fn load_program(&self) -> &Program {
+        &self.scene.program
+    }
+
     /// How to compute.
     pub fn settings(&mut self, settings: Settings) -> &mut Self {
         self.scene.analysis = settings;
@@ -260,8 +255,8 @@ impl ModelBuilder {
     /// The model.
     ///
     /// # Errors
-    /// Input errors naming the entry, node, element or pair; [`crate::ErrorKind::Unheld`] where a body can move freely and the
-    /// loads do work on that motion.
+    /// Input errors naming the entry, node, element or pair; [`crate::ErrorKind::Unheld`] where a
+    /// body can move freely and the loads do work on that motion.
     pub fn build(&self) -> Result<Model> {
         let mut scene = self.scene.clone();
         for (&index, forces) in &self.given.forces {

@@ -14,8 +14,8 @@
 //! sum of the coefficients is 1, so a rigid motion moves them as it moves points.
 //!
 //! # Source
-//! A. Popp, B. Wohlmuth, M. Gee, W. Wall, *Dual quadratic mortar finite element methods for 3D finite
-//! deformation contact*, SIAM J. Sci. Comput. 34 (2012) B421, doi:10.1137/110848190.
+//! A. Popp, B. Wohlmuth, M. Gee, W. Wall, *Dual quadratic mortar finite element methods for 3D
+//! finite deformation contact*, SIAM J. Sci. Comput. 34 (2012) B421, doi:10.1137/110848190.
 
 use super::pairs::ties::Tied;
 use super::pairs::{ContactSurface, Pair};
@@ -65,7 +65,7 @@ impl Blend {
     }
 
     /// The same for the rows of a matrix with `per` rows for each node.
-    pub fn share_rows(&self, per: usize, n: usize, matrix: &mut [f64]) {
+    pub(crate) fn share_rows(&self, per: usize, n: usize, matrix: &mut [f64]) {
         for d in 0..per {
             let row = |node: u8| per * usize::from(node) + d;
             for k in 0..n {
@@ -156,7 +156,7 @@ impl ContactBasis {
 
     /// A vector at a node, from those at control points.
     #[inline]
-    pub fn at_node(&self, node: usize, control: impl Fn(usize) -> Vector) -> Vector {
+    pub(crate) fn at_node(&self, node: usize, control: impl Fn(usize) -> Vector) -> Vector {
         match self.ends(node) {
             None => control(node),
             Some([a, b]) => {
@@ -167,7 +167,7 @@ impl ContactBasis {
     }
 
     /// A vector at a control point, from those at nodes.
-    pub fn at_control(&self, node: usize, value: impl Fn(usize) -> Vector) -> Vector {
+    pub(crate) fn at_control(&self, node: usize, value: impl Fn(usize) -> Vector) -> Vector {
         match self.ends(node) {
             None => value(node),
             Some([a, b]) => {
@@ -290,8 +290,8 @@ fn differ(mesh: &Mesh, contact: &ContactSurface, nodes: [usize; 2]) -> Error {
     let [first, second] = &contact.names;
     let [a, b] = nodes.map(|node| mesh.node_label(node));
     Error::input(format!(
-        "contact of `{first}` and `{second}`: nodes {a} and {b} face each other, but one is the middle \
-         of an edge and the other is not that of the edge opposite; mesh both surfaces with the same \
-         faces"
+        "contact of `{first}` and `{second}`: nodes {a} and {b} face each other, but one is the \
+         middle of an edge and the other is not that of the edge opposite; mesh both surfaces with \
+         the same faces"
     ))
 }

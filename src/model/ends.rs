@@ -1,8 +1,9 @@
 //! Where contact candidates end although the bodies go on.
 //!
-//! A surface is named by the user or a generator; it may end in the middle of a smooth boundary. What lies beyond
-//! is not checked for contact, so a contact that reaches such an end is not to be believed. At a corner of one
-//! of the bodies, on a symmetry plane and on the axis of revolution nothing more could touch.
+//! A surface is named by the user or a generator; it may end in the middle of a smooth boundary.
+//! What lies beyond is not checked for contact, so a contact that reaches such an end is not to be
+//! believed. At a corner of one of the bodies, on a symmetry plane and on the axis of revolution
+//! nothing more could touch.
 
 mod solid;
 
@@ -10,8 +11,8 @@ use super::{ContactSurface, Freedoms, Pair};
 use crate::mesh::{Facet, Mesh};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Angle in degrees by which the two boundaries must part for an end to be a corner: the feature angle that is usual for
-/// telling edges of a body from facets of a curved surface.
+/// Angle in degrees by which the two boundaries must part for an end to be a corner: the feature
+/// angle that is usual for telling edges of a body from facets of a curved surface.
 const FEATURE_ANGLE: f64 = 30.0;
 
 /// An end of a run of pairs: its last pair and the one before it.
@@ -149,8 +150,8 @@ impl<'m> Boundary<'m> {
         Boundary { mesh, at }
     }
 
-    /// How the boundary goes on at `node` on the side that the `inner` node of the surface is not on; `None` where the
-    /// node has no two boundary facets, or no inner node tells which.
+    /// How the boundary goes on at `node` on the side that the `inner` node of the surface is not
+    /// on; `None` where the node has no two boundary facets, or no inner node shows which.
     fn beyond(&self, node: usize, inner: Option<usize>) -> Option<Beyond> {
         let [a, b] = self.at.get(&node)?[..] else {
             return None;

@@ -1,23 +1,25 @@
 //! How far a floating body has moved as a whole, as the boundary shows that is far from contact.
 //!
-//! The dent of a body is measured from where its undeformed surface would be. Supports say where that is; a
-//! body that only contact holds has none, and the surface through which it is loaded takes their place. The
-//! rigid motion `sum a_j R_j` that fits the displacement `u` of its nodes best,
+//! The dent of a body is measured from where its undeformed surface would be. Supports say where
+//! that is; a body that only contact holds has none, and the surface through which it is loaded
+//! takes their place. The rigid motion `sum a_j R_j` that fits the displacement `u` of its nodes
+//! best,
 //!
 //! ```text
 //!     a = G^-1 b,    G_ij = sum_f w_f R_if R_jf,    b_i = sum_f w_f R_if u_f
 //! ```
 //!
-//! is linear in `u`: each `a_j` is a row of weights on the freedoms `f` of these nodes. `w_f` is the node's
-//! share in a loaded surface times the work of that load on the motions: a load that presses elsewhere, or hardly at
-//! all, does not move the reference. A body on which no load works is measured from the mean of all its nodes.
+//! is linear in `u`: each `a_j` is a row of weights on the freedoms `f` of these nodes. `w_f` is
+//! the node's share in a loaded surface times the work of that load on the motions: a load that
+//! presses elsewhere, or hardly at all, does not move the reference. A body on which no load works
+//! is measured from the mean of all its nodes.
 
 use super::{Freedoms, LoadCase, RigidMotion, Slot};
 use nalgebra::{DMatrix, SymmetricEigen};
 use std::collections::BTreeMap;
 
-/// Smallest eigenvalue of `G`, scaled to a unit diagonal, at which the motions count as told apart by the
-/// nodes: half of the digits are left.
+/// Smallest eigenvalue of `G`, scaled to a unit diagonal, at which the motions count as distinct by
+/// the nodes: half of the digits are left.
 const TOLD_APART: f64 = 1e-8;
 
 /// Finds the weights of each motion ([`RigidMotion::in_far_boundary`]); `work(motion)` is the work
@@ -77,7 +79,7 @@ fn on_freedoms(
     out
 }
 
-/// The rows of `G^-1 R' W`; `None` where these freedoms do not tell the motions apart.
+/// The rows of `G^-1 R' W`; `None` where these freedoms do not distinguish the motions.
 fn fit(motions: &[&[(u32, f64)]], weights: &BTreeMap<u32, f64>) -> Option<Vec<Vec<(u32, f64)>>> {
     let m = motions.len();
     let freedoms: Vec<(u32, f64)> = weights.iter().map(|(&f, &w)| (f, w)).collect();

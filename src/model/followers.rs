@@ -1,9 +1,10 @@
 //! Displacements that follow others: those of the nodes of tied surfaces.
 //!
 //! A row `j` of a tie says `R_j = D_j u_j - sum_k M_jk u_k = 0` of all directions; with it the
-//! displacement of a slave along each of its axes is a sum of others, which assembly eliminates. Where
-//! something else stands in a direction `n` of a slave `h` (a support, a prescribed displacement, a
-//! contact normal), that stays, and `n . R_h` is added to the rows of its neighbours:
+//! displacement of a slave along each of its axes is a sum of others, which assembly eliminates.
+//! Where something else stands in a direction `n` of a slave `h` (a support, a prescribed
+//! displacement, a contact normal), that stays, and `n . R_h` is added to the rows of its
+//! neighbours:
 //!
 //! ```text
 //!     R_j + sum_h c_jh n n' R_h = 0,    c_jh = D_j / sum_j D_j
@@ -133,8 +134,8 @@ impl Freedoms {
             return match masters.into_iter().all(|(node, v)| !self.moves(node, v)) {
                 true => Ok(()),
                 false => Err(Error::input(format!(
-                    "{}: node {} of `{}` and those beside it are held along {}, by supports, loads or \
-                     a contact, but what they would follow is not: let the other surface follow \
+                    "{}: node {} of `{}` and those beside it are held along {}, by supports, loads \
+                     or a contact, but what they would follow is not: let the other surface follow \
                      (`slave`)",
                     tie.what,
                     mesh.node_label(row.slave),
@@ -167,9 +168,9 @@ impl Freedoms {
             .any(|(slot, _)| matches!(slot, Slot::Free(_) | Slot::Tied(_)))
     }
 
-    /// Puts followers in terms of numbered freedoms, and moves their nodes to where they follow without
-    /// strain: `x_j = sum w_jk x_k`, so that a rigid motion stays one. Returns whether any moved by more
-    /// than round-off.
+    /// Puts followers in terms of numbered freedoms, and moves their nodes to where they follow
+    /// without strain: `x_j = sum w_jk x_k`, so that a rigid motion stays one. Returns whether any
+    /// moved by more than round-off.
     ///
     /// # Errors
     /// Ties that go in a circle.
@@ -260,8 +261,8 @@ impl Freedoms {
         &self.followers[tied as usize]
     }
 
-    /// What the axes of some nodes follow, if they do: the place of each among all of theirs, and what
-    /// it is the sum of.
+    /// What the axes of some nodes follow, if they do: the place of each among all of theirs, and
+    /// what it is the sum of.
     pub fn followed(&self, nodes: &[u32]) -> Vec<(usize, Slot, f64)> {
         let mut out = Vec::new();
         if self.followers.is_empty() {
@@ -345,8 +346,8 @@ impl Expansion<'_> {
             Expanded::InProgress => {
                 let at = self.followers.terms[k].first().map_or(0, |term| term.0);
                 return Err(Error::input(format!(
-                    "the ties at node {} go in a circle: let the other surface of one of them follow \
-                     (`slave`)",
+                    "the ties at node {} go in a circle: let the other surface of one of them \
+                     follow (`slave`)",
                     self.mesh.node_label(at)
                 )));
             }

@@ -63,8 +63,8 @@ pub struct Freedoms {
 }
 
 impl Freedoms {
-    /// Numbers the freedoms of a scene. Contact normals on symmetry planes are turned into the plane
-    /// (`pairs` is updated). `master_normals` are those of masters that face no single node.
+    /// Numbers the freedoms of a scene. Contact normals on symmetry planes are turned into the
+    /// plane (`pairs` is updated). `master_normals` are those of masters that face no single node.
     ///
     /// # Errors
     /// Input errors: a support in the direction of a contact normal, turned supports that disagree,
@@ -156,8 +156,9 @@ impl Freedoms {
                 let alike = |end: &usize| held(*end, axis) == held(node, axis);
                 if !matches!(slot, Slot::Free(_)) && !ends.iter().all(alike) {
                     return Err(Error::input(format!(
-                        "node {} in the middle of an edge in contact is held along {}, but an end of \
-                         the edge (nodes {} and {}) is not held alike: hold or release the whole edge",
+                        "node {} in the middle of an edge in contact is held along {}, but an end \
+                         of the edge (nodes {} and {}) is not held alike: hold or release the \
+                         whole edge",
                         mesh.node_label(node),
                         in_words(axis, mesh.dimension),
                         mesh.node_label(ends[0]),
@@ -348,7 +349,7 @@ impl Freedoms {
     }
 
     /// A vector at a node, given in global axes, in the local ones.
-    pub fn to_local(&self, node: usize, vector: Vector) -> Vector {
+    pub(crate) fn to_local(&self, node: usize, vector: Vector) -> Vector {
         if !self.is_turned(node) {
             return vector;
         }
@@ -356,7 +357,7 @@ impl Freedoms {
     }
 
     /// Which local axis lies along a global direction (either sense), if one does.
-    pub fn local_axis(&self, node: usize, direction: usize) -> Option<usize> {
+    pub(crate) fn local_axis(&self, node: usize, direction: usize) -> Option<usize> {
         let axes = self.local(node);
         (0..self.per_node).find(|&i| dot(axes[i], unit(direction)).abs() > 1.0 - ALIGNED)
     }
@@ -407,7 +408,7 @@ impl Freedoms {
     }
 
     /// Names a freedom for messages: body, node and direction.
-    pub fn describe(&self, mesh: &Mesh, freedom: usize) -> String {
+    pub(crate) fn describe(&self, mesh: &Mesh, freedom: usize) -> String {
         let Some(&(node, local)) = self.owners.get(freedom) else {
             return format!("freedom {freedom}");
         };

@@ -13,8 +13,8 @@ pub struct NodePair {
     pub first: usize,
     /// Node of the second surface.
     pub second: usize,
-    /// Direction from the second body to the first (the paper's i_1), of any length; `None` for the outward normal of the
-    /// second surface.
+    /// Direction from the second body to the first (the paper's i_1), of any length; `None` for the
+    /// outward normal of the second surface.
     pub normal: Option<Vector>,
     /// Initial gap, >= 0; `None` for the distance of the nodes along the normal.
     pub gap: Option<f64>,
@@ -29,7 +29,8 @@ pub(crate) struct Given {
 }
 
 impl Given {
-    /// Checks that forces act on nodes that there are; those of pairs are looked up on their surfaces.
+    /// Checks that forces act on nodes that there are; those of pairs are looked up on their
+    /// surfaces.
     ///
     /// # Errors
     /// A node that there is not.
@@ -54,10 +55,12 @@ pub(super) struct Partner {
     pub(super) gap: Option<f64>,
 }
 
-/// A vector whose length is one to round-off is one: normalising it again would change its last digit.
+/// A vector whose length is one to round-off is one: normalising it again would change its last
+/// digit.
 const UNIT: f64 = 4.0 * f64::EPSILON;
 
-/// For each node of the second surface its partner. `normals` are the outward normals of the second surface.
+/// For each node of the second surface its partner. `normals` are the outward normals of the second
+/// surface.
 ///
 /// # Errors
 /// A pair whose nodes are not on the two surfaces, or whose normal points into the second body.
@@ -91,8 +94,9 @@ pub(super) fn partners(
             Some(n) => {
                 if dot(n, outward) <= 0.0 {
                     return Err(Error::input(format!(
-                        "pair {k} (nodes {} and {}): the normal {} points into the second body, whose outward normal there is \
-                         {}; give the direction from the second body to the first",
+                        "pair {k} (nodes {} and {}): the normal {} points into the second body, \
+                         whose outward normal there is {}; give the direction from the second body \
+                         to the first",
                         mesh.node_label(pair.first),
                         mesh.node_label(pair.second),
                         in_words(n, mesh.dimension),

@@ -1,6 +1,6 @@
 //! The product of the rows that hold rigid motions with themselves, and its free motions.
 
-use crate::mesh::root;
+use crate::classes::Classes;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use std::collections::BTreeMap;
 
@@ -33,25 +33,21 @@ impl Gram {
         (0..self.rows.len()).fold(0.0, |m, i| m.max(self.get(i, i)))
     }
 
-    /// The rows of groups (of `per` rows each) that nothing couples with others, ascending. Within a block groups with few
-    /// neighbours come first, which keeps the envelope of its factor small.
+    /// The rows of groups (of `per` rows each) that nothing couples with others, ascending. Within
+    /// a block groups with few neighbours come first, which keeps the envelope of its factor small.
     pub(super) fn uncoupled(&self, per: usize) -> Vec<Vec<usize>> {
         let n = self.rows.len() / per;
-        let mut parent: Vec<usize> = (0..n).collect();
+        let mut classes = Classes::new(n);
         let mut neighbours = vec![0; n];
         for (i, row) in self.rows.iter().enumerate() {
             for &j in row.keys() {
-                let (a, b) = (root(&mut parent, i / per), root(&mut parent, j / per));
-                parent[a.max(b)] = a.min(b);
+                classes.join(i / per, j / per);
             }
             neighbours[i / per] += row.len();
         }
         let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        for group in 0..n {
-            groups
-                .entry(root(&mut parent, group))
-                .or_default()
-                .push(group);
+        for (group, first) in classes.firsts().into_iter().enumerate() {
+            groups.entry(first).or_default().push(group);
         }
         let blocks = groups.into_values().map(|mut block| {
             block.sort_by_key(|&group| neighbours[group]);
@@ -61,7 +57,8 @@ impl Gram {
         blocks.collect()
     }
 
-    /// Whether a block less `shift` times the identity has a Cholesky factor, which is kept from the first nonzero of each row on.
+    /// Whether a block less `shift` times the identity has a Cholesky factor, which is kept from
+    /// the first nonzero of each row on.
     pub(super) fn is_definite(&self, block: &[usize], shift: f64) -> bool {
         let mut place = BTreeMap::new();
         place.extend(block.iter().enumerate().map(|(k, &row)| (row, k)));

@@ -1,8 +1,9 @@
 //! Which bodies are held, and by what: supports, contact alone, or nothing.
 //!
-//! Rigid motions of all bodies together are tested against the supports and, bilaterally, the contact
-//! pairs. A motion that both leave free is an error that names the body and the motion, unless
-//! no load does work on it: then one freedom is pinned, which changes nothing but the free motion.
+//! Rigid motions of all bodies together are tested against the supports and, bilaterally, the
+//! contact pairs. A motion that both leave free is an error that names the body and the motion,
+//! unless no load does work on it: then one freedom is pinned, which changes nothing but the free
+//! motion.
 
 use super::motions::{self, Motions};
 use super::{ContactRows, ContactSurface, Freedoms, LoadCase, Pair, far_boundary};
@@ -22,20 +23,22 @@ pub struct FloatingBodies {
     pub pins: Vec<Pin>,
     /// Rigid motions that supports and pins leave free: a basis.
     pub motions: Vec<RigidMotion>,
-    /// For each contact freedom: the part of the model (bodies that share nodes or free motions) that it belongs to.
+    /// For each contact freedom: the part of the model (bodies that share nodes or free motions)
+    /// that it belongs to.
     pub part_of_contact: Vec<usize>,
 }
 
-/// A rigid motion that supports leave free: a null vector of the stiffness, known exactly where a factorisation would find
-/// it to round-off of the body's stiffness only.
+/// A rigid motion that supports leave free: a null vector of the stiffness, known exactly where a
+/// factorisation would find it to round-off of the body's stiffness only.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigidMotion {
     /// The part of the model that moves.
     pub part: usize,
-    /// Displacement of the freedoms that move (free freedom, value), ascending. Turns are scaled to the body's size: values are of
-    /// order 1.
+    /// Displacement of the freedoms that move (free freedom, value), ascending. Turns are scaled to
+    /// the body's size: values are of order 1.
     pub values: Vec<(u32, f64)>,
-    /// Share of the motion in any displacement `u`, as the part's far boundary shows it: `sum weight u[freedom]`.
+    /// Share of the motion in any displacement `u`, as the part's far boundary shows it:
+    /// `sum weight u[freedom]`.
     pub in_far_boundary: Vec<(u32, f64)>,
 }
 

@@ -2,7 +2,7 @@
 
 use super::given::Given;
 use super::names::Entry;
-use super::{Freedoms, Slot};
+use super::{Freedoms, Slot, volume_loads};
 use crate::analytical::KirschField;
 use crate::element::facet_points;
 use crate::error::{Error, Result};
@@ -19,6 +19,8 @@ pub enum Magnitude {
     Stress,
     /// A displacement.
     Displacement,
+    /// A change of temperature.
+    Temperature,
 }
 
 /// A load: nodal forces per unit of its factor, and how the factor depends on the load factor.
@@ -27,7 +29,7 @@ pub struct LoadCase {
     /// Name for messages.
     pub name: String,
     /// Nodal forces at factor 1, node by node in global axes (sparse).
-    nodal: Vec<(usize, Vector)>,
+    pub(super) nodal: Vec<(usize, Vector)>,
     /// Forces on the free freedoms at factor 1 (sparse, ascending).
     pub forces: Vec<(usize, f64)>,
     /// How it depends on the load factor.
@@ -38,13 +40,16 @@ pub struct LoadCase {
     pub measures: Magnitude,
     /// Nodes of the loaded set, for the approach.
     pub nodes: Vec<usize>,
-    /// Share of each of these nodes in the mean over the set: its part of a surface's area (the integral of its shape function), equal
-    /// parts of a node set. They add up to 1.
+    /// Share of each of these nodes in the mean over the set: its part of a surface's area (the
+    /// integral of its shape function), equal parts of a node set. They add up to 1.
     pub shares: Vec<f64>,
     /// Body of these nodes, for the approach.
     pub body: u32,
     /// Unit direction of the load, for the approach.
     pub direction: Vector,
+    /// Of a load by temperature: the free strain `alpha dT` at factor 1 at each node of the mesh,
+    /// which counts in the elements of its body.
+    pub free_strain: Option<Vec<f64>>,
 }
 
 impl LoadCase {
@@ -62,8 +67,8 @@ impl LoadCase {
         self.nodal.iter().map(|(_, f)| length(*f)).sum()
     }
 
-    /// The largest size that the load factor drives it to, for a load factor of 1 where it is proportional: a force on nodes, or a
-    /// displacement; zero for a constant load.
+    /// The largest size that the load factor drives it to, for a load factor of 1 where it is
+    /// proportional: a force on nodes, or a displacement; zero for a constant load.
     pub fn driven(&self, unit: f64) -> f64 {
         let factor = match &self.history {
             History::Proportional => unit.abs(),
@@ -145,14 +150,13 @@ fn body_of(mesh: &Mesh, nodes: &[usize]) -> u32 {
 
 fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) -> Result<LoadCase> {
     let entry = Entry::of_list(scene, "load", index);
+    if load.acts_on_volume() {
+        return volume_loads::resolve(index, load, scene, mesh);
+    }
     let nodes = entry.nodes(mesh, &load.on)?;
     let symmetry = scene.symmetry as f64;
     let mut case = LoadCase {
-        name: if load.name.is_empty() {
-            format!("load {}", index + 1)
-        } else {
-            load.name.clone()
-        },
+        name: name(index, load),
         nodal: Vec::new(),
         forces: Vec::new(),
         history: load.history.clone(),
@@ -162,6 +166,7 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
         body: body_of(mesh, &nodes),
         nodes,
         direction: [0.0; 3],
+        free_strain: None,
     };
     let surface = |key: &str| {
         mesh.surfaces.get(&load.on).ok_or_else(|| {
@@ -235,8 +240,15 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
     Ok(case)
 }
 
+pub(super) fn name(index: usize, load: &scene::Load) -> String {
+    match load.name.is_empty() {
+        true => format!("load {}", index + 1),
+        false => load.name.clone(),
+    }
+}
+
 impl LoadCase {
-    fn set_size(&mut self, vector: Vector, measures: Magnitude) {
+    pub(super) fn set_size(&mut self, vector: Vector, measures: Magnitude) {
         let size = length(vector);
         self.magnitude = size;
         self.measures = measures;

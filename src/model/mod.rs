@@ -3,6 +3,7 @@
 //! Here names become indices and every inconsistency between scene and mesh is found. What comes
 //! after works with numbers only.
 
+mod body_forces;
 mod builder;
 mod contact_basis;
 mod ends;
@@ -12,6 +13,7 @@ mod frame;
 mod freedoms;
 mod given;
 mod gram;
+mod heat;
 mod held;
 mod loads;
 mod motions;
@@ -21,6 +23,7 @@ mod recipe;
 mod rows;
 mod springs;
 mod supports;
+mod volume_loads;
 
 pub use builder::ModelBuilder;
 pub use contact_basis::{Blend, ContactBasis};
@@ -70,7 +73,8 @@ pub struct Model {
     pub loads: Vec<LoadCase>,
     /// Which bodies are held by contact alone.
     pub floating: FloatingBodies,
-    /// How many copies of the model make the whole (loads and results named `load` are the whole's).
+    /// How many copies of the model make the whole (loads and results named `load` are the
+    /// whole's).
     pub symmetry: f64,
     /// Things the user should know.
     pub warnings: Vec<String>,
@@ -90,8 +94,8 @@ impl Model {
     /// Builds the model of a scene: makes or reads its mesh, resolves names, pairs surfaces.
     ///
     /// # Errors
-    /// Input errors naming the scene entry and the node, body or set; [`crate::ErrorKind::Unheld`] where a body can move
-    /// freely and the loads do work on that motion.
+    /// Input errors naming the scene entry and the node, body or set; [`crate::ErrorKind::Unheld`]
+    /// where a body can move freely and the loads do work on that motion.
     pub fn new(scene: &Scene) -> Result<Self> {
         let mesh = build_mesh(scene)?;
         Self::resolve(scene, mesh, Origin::Scene)
@@ -252,11 +256,14 @@ fn build_mesh(scene: &Scene) -> Result<Mesh> {
     }
     let times = scene.mesh.subdivisions;
     if times > 0 {
-        // What is wrong with the file is told by its own numbers.
+        // What is wrong with the file is stated by its own numbers.
         mesh::validate(&mesh)?;
         mesh = mesh::subdivided(mesh, times, &scene.contact)?;
         mesh::validate(&mesh).map_err(|e| {
-            e.within("the subdivided mesh (is a surface that is laid on its circle too far from it for the elements beside it?)")
+            e.within(
+                "the subdivided mesh (does a surface that is declared round sag by more than \
+                      the depth of the elements along it?)",
+            )
         })?;
     }
     let (key, solid) = match (&scene.mesh.extrude, &scene.mesh.revolve) {
@@ -318,10 +325,14 @@ fn warn_of_locking(mesh: &Mesh, may_yield: &[bool], warnings: &mut Vec<String>) 
         .count();
     if locks > 0 {
         warnings.push(format!(
-            "{locks} {} elements belong to bodies that may yield: they lock in isochoric plastic flow, limit loads come \
-             out too high; use {}",
+            "{locks} {} elements belong to bodies that may yield: they lock in isochoric plastic \
+             flow, limit loads come out too high; use {}",
             if mesh.is_solid() { "tet4" } else { "tri3" },
-            if mesh.is_solid() { "hex8, hex20 or tet10" } else { "quad4, quad8 or tri6" },
+            if mesh.is_solid() {
+                "hex8, hex20 or tet10"
+            } else {
+                "quad4, quad8 or tri6"
+            },
         ));
     }
 }

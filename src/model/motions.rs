@@ -3,15 +3,16 @@
 use super::contact_basis::ContactBasis;
 use super::gram::Gram;
 use super::{Freedoms, LoadCase, Pair, Slot};
-use crate::mesh::{Mesh, root};
+use crate::classes::Classes;
+use crate::mesh::Mesh;
 use crate::space::{self, RigidMotion, Space, Vector, unit};
 use nalgebra::DVector;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Singular values below this, relative to the largest, are free motions.
 const FREE: f64 = 1e-7;
-/// A block of the motions that is definite by this much of its largest entry has none that is free: well above the square of
-/// [`FREE`] and the round-off of a factorisation of some thousand rows.
+/// A block of the motions that is definite by this much of its largest entry has none that is free:
+/// well above the square of [`FREE`] and the round-off of a factorisation of some thousand rows.
 const HELD: f64 = 1e-11;
 
 /// Groups of bodies that share nodes move together: rigid motions are counted per group.
@@ -61,7 +62,7 @@ pub(super) struct Forces {
 impl<'a> Motions<'a> {
     pub(super) fn new(space: Space, mesh: &'a Mesh, basis: ContactBasis) -> Self {
         let n_bodies = mesh.bodies.len();
-        let mut parent: Vec<usize> = (0..n_bodies).collect();
+        let mut classes = Classes::new(n_bodies);
         let mut body_of_node = vec![usize::MAX; mesh.n_nodes()];
         for e in 0..mesh.n_elements() {
             let body = mesh.element_body[e] as usize;
@@ -70,12 +71,11 @@ impl<'a> Motions<'a> {
                 if other == usize::MAX {
                     body_of_node[node as usize] = body;
                 } else if other != body {
-                    let (a, b) = (root(&mut parent, other), root(&mut parent, body));
-                    parent[a.max(b)] = a.min(b);
+                    classes.join(other, body);
                 }
             }
         }
-        let roots: Vec<usize> = (0..n_bodies).map(|b| root(&mut parent, b)).collect();
+        let roots = classes.firsts();
         let mut index = vec![usize::MAX; n_bodies];
         let mut names: Vec<Vec<String>> = Vec::new();
         for body in 0..n_bodies {
@@ -240,16 +240,16 @@ impl<'a> Motions<'a> {
         groups
     }
 
-    /// The part of the model that each group belongs to: groups that a free motion moves together are one.
+    /// The part of the model that each group belongs to: groups that a free motion moves together
+    /// are one.
     pub(super) fn parts(&self, modes: &[Mode]) -> Vec<usize> {
-        let mut parent: Vec<usize> = (0..self.names.len()).collect();
+        let mut classes = Classes::new(self.names.len());
         for mode in modes {
             for pair in self.moved(mode).windows(2) {
-                let (a, b) = (root(&mut parent, pair[0]), root(&mut parent, pair[1]));
-                parent[a.max(b)] = a.min(b);
+                classes.join(pair[0], pair[1]);
             }
         }
-        (0..parent.len()).map(|g| root(&mut parent, g)).collect()
+        classes.firsts()
     }
 
     /// Share of a mode in the displacement along `axis` of a node, with shares up to `round_off`
@@ -430,15 +430,15 @@ fn tidy(coordinate: f64, size: f64) -> f64 {
     }
 }
 
-/// A motion of a basis that can be told in words.
+/// A motion of a basis that can be described in words.
 struct Plain {
     /// The entry that is its own: 0 in all others.
     pivot: usize,
     mode: Mode,
 }
 
-/// The same motions by a basis that can be told in words: rotations are taken out of all vectors but as many as it takes, then
-/// motions along y, then along x (reduced echelon form).
+/// The same motions by a basis that can be described in words: rotations are taken out of all
+/// vectors but as many as it takes, then motions along y, then along x (reduced echelon form).
 fn plain(rows: &[usize], mut motions: Vec<DVector<f64>>, per: usize) -> Vec<Plain> {
     let mut pivots = Vec::new();
     for kind in (0..per).rev() {

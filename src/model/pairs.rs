@@ -43,7 +43,7 @@ pub struct Pair {
 
 impl Pair {
     /// The only node of the other surface, where one faces the slave.
-    pub fn faced(&self) -> Option<usize> {
+    pub(crate) fn faced(&self) -> Option<usize> {
         match self.masters[..] {
             [(node, 1.0)] => Some(node),
             _ => None,
@@ -58,7 +58,7 @@ impl Pair {
 
     /// Whether the slave, and the node that faces it, are held along the surface, as on a plane of
     /// symmetry of a plane model.
-    pub fn is_held_along(&self, freedoms: &Freedoms) -> bool {
+    pub(crate) fn is_held_along(&self, freedoms: &Freedoms) -> bool {
         let held = |node: usize| freedoms.slots[node][1] == Slot::Fixed;
         held(self.slave) && self.faced().is_none_or(held)
     }
@@ -81,16 +81,17 @@ pub struct ContactSurface {
     pub facet_length: f64,
     /// The nodes on the axis of revolution that carry no force.
     pub axis: Option<AxisPoint>,
-    /// Pairs at which the candidates end although both bodies go on there: material beyond could touch too.
+    /// Pairs at which the candidates end although both bodies go on there: material beyond could
+    /// touch too.
     pub goes_on: Vec<usize>,
     /// In a solid model the pairs at the corners of each piece of a face of the slave surface, in
     /// order.
     pub faces: Vec<Vec<usize>>,
 }
 
-/// A pair on the axis of revolution whose slave belongs to a quadratic element. Its consistent force is zero whatever the
-/// pressure, so the condition that they keep apart has no weight: it is none of the model's pairs, and the pressure there
-/// is the even continuation of that beside it.
+/// A pair on the axis of revolution whose slave belongs to a quadratic element. Its consistent
+/// force is zero whatever the pressure, so the condition that they keep apart has no weight: it is
+/// none of the model's pairs, and the pressure there is the even continuation of that beside it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxisPoint {
     /// The slave, what it faces, and how far that is.
@@ -99,8 +100,8 @@ pub struct AxisPoint {
     pub begins: bool,
 }
 
-/// Share of its neighbour's area below which a node on the axis carries no force: 0 for quadratic elements but for curvature, 1/6 for
-/// linear ones.
+/// Share of its neighbour's area below which a node on the axis carries no force: 0 for quadratic
+/// elements but for curvature, 1/6 for linear ones.
 const NO_AREA: f64 = 0.02;
 
 /// What a contact is resolved from.
@@ -160,8 +161,9 @@ pub(super) fn resolve(
         for pair in &found.pairs {
             if let Some(other) = slave_of.insert(pair.slave, index) {
                 return Err(entry.refused(Error::input(format!(
-                    "node {} is the slave of two contacts, {} and {} (`{}` on `{}`); a node may be that of one: take it \
-                     out of a surface, or let the other surface have the slaves (`slave = \"{}\"`)",
+                    "node {} is the slave of two contacts, {} and {} (`{}` on `{}`); a node may be \
+                     that of one: take it out of a surface, or let the other surface have the \
+                     slaves (`slave = \"{}\"`)",
                     mesh.node_label(pair.slave),
                     other + 1,
                     index + 1,
@@ -215,7 +217,8 @@ fn surface_of(
 }
 
 /// The pairs at the corners of each piece of a face of a surface of a solid; `start` is the first
-/// one's number. A linear face is one piece; of a quadratic one the nodes are the corners of several.
+/// one's number. A linear face is one piece; of a quadratic one the nodes are the corners of
+/// several.
 fn faces_of(mesh: &Mesh, surface: &Surface, pairs: &[Pair], start: usize) -> Vec<Vec<usize>> {
     if !mesh.is_solid() {
         return Vec::new();

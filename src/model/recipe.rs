@@ -8,7 +8,7 @@ use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
-/// Scene, mesh, and what arrays stated beside them.
+/// Scene, mesh, and what arrays state besides them.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Recipe<'a> {

@@ -20,8 +20,8 @@ const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
 /// The rows of all pairs.
 #[derive(Debug, Clone, Default)]
 pub struct ContactRows {
-    /// The free freedoms that rows act on: those of masters in the order of the pairs, overlaps of soft
-    /// contact, then the slaves' normal ones.
+    /// The free freedoms that rows act on: those of masters in the order of the pairs, overlaps of
+    /// soft contact, then the slaves' normal ones.
     pub freedoms: Vec<usize>,
     /// Of each pair places in `freedoms` and coefficients `b`; the last is the slave's, 1.
     pub entries: Vec<Vec<(usize, f64)>>,
@@ -41,7 +41,8 @@ impl ContactRows {
     pub(super) fn of(mesh: &Mesh, freedoms: &Freedoms, pairs: &[Pair]) -> Result<Self> {
         let held = |node: usize| {
             Error::input(format!(
-                "node {} belongs to a contact pair but its normal displacement is held by a support or load",
+                "node {} belongs to a contact pair but its normal displacement is held by a \
+                 support or load",
                 mesh.node_label(node)
             ))
         };
@@ -118,7 +119,7 @@ impl ContactRows {
     }
 
     /// Adds what forces of the rows, compressive positive, do to the contact freedoms: `-B' r`.
-    pub fn add_forces(&self, forces: &[f64], mut add: impl FnMut(usize, f64)) {
+    pub(crate) fn add_forces(&self, forces: &[f64], mut add: impl FnMut(usize, f64)) {
         for (row, force) in self.entries.iter().zip(forces) {
             for &(i, b) in row {
                 add(i, -b * force);
@@ -127,7 +128,7 @@ impl ContactRows {
     }
 
     /// Displacement along the normal of what faces the slave, and of the slave.
-    pub fn both_sides(&self, row: usize, contact: &[f64]) -> [f64; 2] {
+    pub(crate) fn both_sides(&self, row: usize, contact: &[f64]) -> [f64; 2] {
         let [masters @ .., slave] = self.entries[row].as_slice() else {
             return [0.0; 2];
         };
@@ -146,7 +147,7 @@ impl ContactRows {
     /// Takes the forces that rows alone carry off a load on the contact freedoms and adds them, as
     /// compressive forces of the rows, to `carried`: of a pair of nodes what is left is the same on
     /// both, else nothing is left on the slave. Open rows are passed over.
-    pub fn take_carried(&self, contact: &mut [f64], carried: &mut [f64], open: &[bool]) {
+    pub(crate) fn take_carried(&self, contact: &mut [f64], carried: &mut [f64], open: &[bool]) {
         if self.are_apart {
             let (first, second) = contact.split_at_mut(carried.len());
             let pairs = first.iter_mut().zip(second).zip(carried);

@@ -4,9 +4,9 @@
 //!     s_j = u_slave . n - sum_k w_k u_k . n - e_j <= delta_j,     e_j = r_j / (k A_j)
 //! ```
 //!
-//! With `e_j` the condition on gap and force is `g_j + r_j / (k A_j) >= 0`. The freedom belongs to no
-//! node and has the stiffness `k A_j` alone, so that for all that comes after soft contact is hard
-//! contact on springs.
+//! With `e_j` the condition on gap and force is `g_j + r_j / (k A_j) >= 0`. The freedom belongs to
+//! no node and has the stiffness `k A_j` alone, so that for all that comes after soft contact is
+//! hard contact on springs.
 
 use super::freedoms::Freedoms;
 use super::pairs::{ContactSurface, Pair};

@@ -8,8 +8,8 @@ use crate::scene::Scene;
 use crate::space::{Vector, along, direction, dot, unit};
 use std::collections::BTreeMap;
 
-/// A support within 30 degrees of a contact's tangent is meant to lie in it: the normal of the discretised surface
-/// is then turned into the symmetry plane.
+/// A support within 30 degrees of a contact's tangent is meant to lie in it: the normal of the
+/// discretised surface is then turned into the symmetry plane.
 const NEARLY_TANGENT: f64 = 0.5;
 
 /// A direction in which a node is held.
@@ -55,7 +55,8 @@ impl Supports {
             }
         }
         if scene.kind.is_axisymmetric() {
-            // On the axis of revolution the radial displacement vanishes whether or not the scene says so.
+            // On the axis of revolution the radial displacement vanishes whether or not the scene
+            // says so.
             let radius = (0..mesh.n_nodes())
                 .map(|i| mesh.point(i)[0])
                 .fold(0.0, f64::max);

@@ -305,7 +305,8 @@ fn resolve(dir: &Path) -> Result<PathBuf> {
         Ok(path) => Ok(path),
         Err(e) if e.kind() != io::ErrorKind::NotFound => Err(failed(e)),
         Err(_) if dir.is_symlink() => Err(Error::input(format!(
-            "the output directory {} is a symbolic link to nothing: remove the link or choose another directory",
+            "the output directory {} is a symbolic link to nothing: remove the link or choose \
+             another directory",
             dir.display()
         ))),
         Err(_) => std::path::absolute(dir).map_err(failed),
@@ -337,8 +338,8 @@ fn check_replaceable(target: &Path) -> Result<()> {
         return Ok(());
     }
     Err(Error::input(format!(
-        "the output directory {} exists and holds something other than a result of brinell (it has no {SUMMARY_FILE} with the key `brinell`): \
-         it is left untouched; choose another directory",
+        "the output directory {} exists and holds something other than a result of brinell (it has \
+         no {SUMMARY_FILE} with the key `brinell`): it is left untouched; choose another directory",
         target.display()
     )))
 }

@@ -1,7 +1,7 @@
 //! The table of states as a reader sees it, on the terminal and in the report: a column for each
 //! quantity that says something in this run.
 
-use super::number::number;
+use crate::number::number;
 use crate::results::{QUANTITIES, Quantity, State, Unit};
 use crate::space::Space;
 
@@ -27,8 +27,8 @@ pub(crate) fn cell(quantity: &Quantity, value: f64) -> String {
     }
 }
 
-/// The columns of states; a narrow table leaves out what is a detail, and the width and the approach
-/// where arcs or pressures at the pole stand beside them.
+/// The columns of states; a narrow table leaves out what is a detail, and the width and the
+/// approach where arcs or pressures at the pole stand beside them.
 pub(crate) fn of_states(
     states: &[State],
     space: Space,

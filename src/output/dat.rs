@@ -1,9 +1,10 @@
-//! Tables of displacements, forces and stresses as `*NODE PRINT` and `*EL PRINT` of CalculiX write them.
+//! Tables of displacements, forces and stresses as `*NODE PRINT` and `*EL PRINT` of CalculiX write
+//! them.
 //!
-//! For each state with fields and each set: displacements and forces of its nodes with their sum, of
-//! node sets and surfaces; mean stresses of its elements (integration point 0), of bodies. The time of
-//! a state is its load factor. Forces are what acts from outside: loads and reactions; of an
-//! axisymmetric model those on the whole circle.
+//! For each state with fields and each set: displacements and forces of its nodes with their sum,
+//! of node sets and surfaces; mean stresses of its elements (integration point 0), of bodies. The
+//! time of a state is its load factor. Forces are what acts from outside: loads and reactions; of
+//! an axisymmetric model those on the whole circle.
 
 use crate::error::{Error, Result};
 use crate::model::Model;

@@ -1,7 +1,7 @@
 //! How a run ended, as the command line, C and Python say it.
 
-use super::number::significant;
 use crate::error::{Error, ErrorKind, Result};
+use crate::number::percent;
 use crate::results::{Demand, Ending, Results};
 
 /// Whether a run kept what was asked of it: the program done to its end, the quality of every state
@@ -26,8 +26,7 @@ pub fn ending(results: &Results) -> Result<()> {
 /// A demanded accuracy in a sentence.
 pub(crate) fn in_words(demand: &Demand) -> String {
     let stated = if demand.stated.is_finite() {
-        let percent = significant(100.0 * demand.stated, 2);
-        format!("the stated error is {percent} %")
+        format!("the stated error is {}", percent(demand.stated))
     } else {
         "no error was stated".to_string()
     };
@@ -81,7 +80,8 @@ mod tests {
         assert_eq!(error.kind(), ErrorKind::Inaccurate);
         assert_eq!(
             error.message(),
-            "state `pressed`\nDemanded accuracy 1 %: NOT reached: time; the stated error is 2.0 % (yield.load)"
+            "state `pressed`\nDemanded accuracy 1 %: NOT reached: time; the stated error is 2.0 % \
+             (yield.load)"
         );
         results.incomplete = Some(Incomplete {
             kind: ErrorKind::Stopped,

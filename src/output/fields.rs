@@ -131,7 +131,8 @@ pub(super) fn check(mesh: &Mesh, fields: &Fields) -> Result<()> {
     for (what, found, expected) in lengths {
         if found != expected {
             return Err(Error::internal(format!(
-                "the {what} array has {found} values where the mesh of {nodes} nodes and {elements} elements needs {expected}"
+                "the {what} array has {found} values where the mesh of {nodes} nodes and \
+                 {elements} elements needs {expected}"
             )));
         }
     }

@@ -1,18 +1,18 @@
 //! What a run leaves behind: one directory, written whole or not at all.
 //!
 //! ```text
-//! DIR/summary.json          figures of the run and of each state      (summary; schema: SUMMARY_SCHEMA)
-//!     history.csv           a row per accepted increment              (history)
-//!     path.csv              points of the path between increments       (history)
-//!     contact.csv           a row per state and contact pair          (contact)
-//!     fields.pvd            the states with fields, as a time series  (fields)
-//!     state_01_NAME.vtu     mesh and fields of one state              (fields, vtu)
-//!     report.html           the run to look at                        (report)
+//! DIR/summary.json          figures of the run and of each state (SUMMARY_SCHEMA)  (summary)
+//!     history.csv           a row per accepted increment                           (history)
+//!     path.csv              points of the path between increments                  (history)
+//!     contact.csv           a row per state and contact pair                       (contact)
+//!     fields.pvd            the states with fields, as a time series               (fields)
+//!     state_01_NAME.vtu     mesh and fields of one state                           (fields, vtu)
+//!     report.html           the run to look at                                     (report)
 //!     report_NAME.svg       its figures
-//!     scene_as_run.toml     the scene with all that was put over it   (record)
+//!     scene_as_run.toml     the scene with all that was put over it                (record)
 //!     mesh_as_run.msh       its mesh, where the scene does not make it
 //!     model_as_run.json     in place of both: a model that was handed over in arrays
-//!     stale.txt             only where a later run failed: these results are of an earlier one    (claim)
+//!     stale.txt             where a later run failed: results of an earlier one    (claim)
 //! ```
 //!
 //! [`read()`] takes a directory back, [`write_report`] makes its report anew.
@@ -20,9 +20,9 @@
 //! A study ([`write_study`]) leaves a directory of its own:
 //!
 //! ```text
-//! DIR/accuracy.json         every run with time, memory and errors; references, orders, prices   (study)
-//!     accuracy.csv          a row per run and quantity                                           (study)
-//!     QUANTITY.svg          error over time, both logarithmic                                    (work_precision)
+//! DIR/accuracy.json      every run with time, memory, errors; references, orders, prices  (study)
+//!     accuracy.csv       a row per run and quantity                             (study)
+//!     QUANTITY.svg       error over time, both logarithmic                      (work_precision)
 //! ```
 //!
 //! [`write()`] first writes a temporary directory beside DIR and then renames it into place
@@ -38,7 +38,6 @@ pub(crate) mod ending;
 mod fields;
 mod history;
 mod named;
-pub(crate) mod number;
 mod read;
 mod record;
 #[cfg(feature = "report")]
@@ -97,7 +96,7 @@ const REPORT_FILE: &str = "report.html";
 const FIGURE_PREFIX: &str = "report_";
 const FIGURE_SUFFIX: &str = ".svg";
 
-/// What the output says about a run beside its results.
+/// What the output states of a run besides its results.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RunHeader {
     /// Title of the scene.

@@ -15,7 +15,7 @@ use std::path::Path;
 /// A run read back from its directory.
 #[derive(Debug, Clone)]
 pub struct Recorded {
-    /// What the output says about the run beside its results.
+    /// What the output states of the run besides its results.
     pub header: RunHeader,
     /// The model, built again from the scene (or the arrays) as it was run.
     pub model: Model,
@@ -27,7 +27,8 @@ pub struct Recorded {
 ///
 /// ```
 /// use brinell::output::{RunHeader, read, write_without_report};
-/// # use brinell::{analysis::Analysis, linalg::Backend, model::Model, progress::Silent, scene::Scene};
+/// # use brinell::{analysis::Analysis, linalg::Backend, model::Model};
+/// # use brinell::{progress::Silent, scene::Scene};
 ///
 /// # fn main() -> Result<(), Box<dyn std::error::Error>> {
 /// # let folder = tempfile::tempdir()?;
@@ -35,7 +36,8 @@ pub struct Recorded {
 /// # let scene = Scene::load("data/scenes/contact_patch.toml")?;
 /// # let mut analysis = Analysis::new(Model::new(&scene)?, Backend::default())?;
 /// # let results = analysis.run(&mut Silent)?;
-/// # let header = RunHeader { bodies: analysis.model().mesh.bodies.clone(), ..RunHeader::default() };
+/// # let bodies = analysis.model().mesh.bodies.clone();
+/// # let header = RunHeader { bodies, ..RunHeader::default() };
 /// write_without_report(&dir, &header, analysis.model(), &results)?;
 /// let recorded = read(&dir)?;
 /// assert_eq!(recorded.results.states[0].max_pressure, results.states[0].max_pressure);

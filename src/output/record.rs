@@ -64,8 +64,8 @@ pub(super) fn read(dir: &Path) -> Result<(PathBuf, Model)> {
     let path = dir.join(MODEL_FILE);
     if !path.exists() {
         return Err(Error::input(format!(
-            "{}: the results were written without their scene ({SCENE_FILE} or {MODEL_FILE}), run the scene again; \
-             `brinell view --terminal` shows what there is",
+            "{}: the results were written without their scene ({SCENE_FILE} or {MODEL_FILE}), run \
+             the scene again; `brinell view --terminal` shows what there is",
             dir.display()
         )));
     }

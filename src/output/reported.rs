@@ -8,7 +8,8 @@ use crate::results::Results;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// As [`super::write_without_report`], with `report.html` and the figures of the report as SVG files.
+/// As [`super::write_without_report`], with `report.html` and the figures of the report as SVG
+/// files.
 ///
 /// # Errors
 /// As [`super::write()`]; `Internal` where a figure cannot be drawn.

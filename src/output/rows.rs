@@ -25,8 +25,8 @@ pub(crate) fn summary(path: &Path) -> Result<Summary> {
     }
 }
 
-/// The rows of a CSV file whose columns are the fields of a type, and maybe others. An empty cell is
-/// not a number.
+/// The rows of a CSV file whose columns are the fields of a type, and maybe others. An empty cell
+/// is not a number.
 ///
 /// # Errors
 /// `Io` where it cannot be read; `Input` with the row, counted from 1, that is damaged or lacks a

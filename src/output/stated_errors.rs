@@ -1,7 +1,7 @@
 //! The stated errors as rows and columns, for terminal and report alike: a row per state, a column
 //! per quantity.
 
-use super::number::significant;
+use crate::number::{percentage, significant};
 use crate::results::{Accuracy, EstimateMethod, QUANTITIES, Quantity, QuantityError};
 use std::collections::BTreeMap;
 
@@ -47,7 +47,7 @@ impl StatedErrors {
             let errors = keys
                 .iter()
                 .map(|quantity| find(prefix, quantity.key).and_then(|q| q.relative_error))
-                .map(percent);
+                .map(figure);
             (name.to_string(), errors.collect())
         });
         type Part = fn(&QuantityError) -> Option<f64>;
@@ -64,7 +64,7 @@ impl StatedErrors {
                     let scale = quantity.error? / quantity.relative_error?;
                     Some(part(quantity)? / scale)
                 });
-                percent(relative.filter(|r| r.is_finite()).reduce(f64::max))
+                figure(relative.filter(|r| r.is_finite()).reduce(f64::max))
             });
             (name, largest.collect())
         });
@@ -81,19 +81,16 @@ fn method(accuracy: &Accuracy) -> String {
     let ratios = accuracy.companions.iter().map(|c| significant(c.ratio, 3));
     match accuracy.method {
         EstimateMethod::CoarserMeshes => format!(
-            "The mesh's part follows from runs with elements {} times as large, factor of safety included.",
+            "The mesh's part follows from runs with elements {} times as large, factor of safety \
+             included.",
             ratios.collect::<Vec<_>>().join(" and "),
         ),
-        _ => "The mesh's part is the energy norm of the stress error, a rough figure: no other mesh could be run."
+        _ => "The mesh's part is the energy norm of the stress error, a rough figure: no other \
+              mesh could be run."
             .to_string(),
     }
 }
 
-/// A share in per cent, two digits.
-fn percent(share: Option<f64>) -> String {
-    match share {
-        Some(0.0) => "0".to_string(),
-        Some(share) => significant(100.0 * share, 2),
-        None => "-".to_string(),
-    }
+fn figure(share: Option<f64>) -> String {
+    share.map_or_else(|| "-".to_string(), percentage)
 }

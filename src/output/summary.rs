@@ -18,7 +18,7 @@ use std::path::Path;
 ///
 /// `timings` are the phases of [`Results::timings`] (a phase that ran more than once is summed) and
 /// `total`, the wall time of the run; `peak_memory_bytes` is that of this process, null where the
-/// system does not tell.
+/// system does not report it.
 pub fn summary(header: &RunHeader, results: &Results) -> Value {
     // Numbers, texts and keys that are texts: nothing that JSON cannot hold.
     serde_json::to_value(Summary::new(header, results)).unwrap_or_default()
@@ -195,7 +195,7 @@ impl Summary {
         }
     }
 
-    /// What the output says about the run beside its results, but for the scene's title.
+    /// What the output states of the run besides its results, but for the scene's title.
     pub(super) fn header(&self, bodies: &[String]) -> RunHeader {
         let total = self.timings.get("total").copied().flatten();
         RunHeader {

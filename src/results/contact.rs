@@ -4,8 +4,8 @@ use super::number;
 use crate::space::Vector;
 use serde::{Deserialize, Deserializer, Serialize};
 
-/// A patch of contact of a solid model: pairs that touch, joined by faces of the second surface. It is
-/// that of the whole where it reaches planes of symmetry.
+/// A patch of contact of a solid model: pairs that touch, joined by faces of the second surface. It
+/// is that of the whole where it reaches planes of symmetry.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ContactPatch {
     /// Contact (scene entry) index, from 0; `summary.json` counts from 1.
@@ -91,8 +91,8 @@ pub struct PairState {
     pub contact: usize,
     /// Position (on the second surface, undeformed).
     pub position: Vector,
-    /// Gap, >= 0; negative where the surfaces overlap: in soft contact, and on the axis of revolution,
-    /// where quadratic elements have no pair.
+    /// Gap, >= 0; negative where the surfaces overlap: in soft contact, and on the axis of
+    /// revolution, where quadratic elements have no pair.
     pub gap: f64,
     /// Force, compressive positive.
     pub force: f64,

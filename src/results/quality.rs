@@ -17,11 +17,11 @@ pub struct Quality {
     /// none in results of versions that did not have it. It has no tolerance of its own: what it
     /// shows beside the normwise one are freedoms on which next to nothing acts.
     pub componentwise_error: Option<f64>,
-    /// What round-off alone may leave out of balance, over the largest applied or contact force: `2
-    /// eps |K| |u|`, the largest of a row, with
-    /// `u` free of rigid motions: storing `u` and summing up the forces of its elements costs as much, whatever solved for it. Forces that
-    /// are out of balance by no more are as good as the mesh allows. Where plastic strains stay,
-    /// `u` counts as the largest of the run. None in results of versions that did not have it.
+    /// What round-off alone may leave out of balance, over the largest applied or contact force:
+    /// `2 eps |K| |u|`, the largest of a row, with `u` free of rigid motions: storing `u` and
+    /// summing up the forces of its elements costs as much, whatever solved for it. Forces that are
+    /// out of balance by no more are as good as the mesh allows. Where plastic strains stay, `u`
+    /// counts as the largest of the run. None in results of versions that did not have it.
     pub round_off: Option<f64>,
     /// Out-of-balance force of the stresses over the largest applied or contact force.
     #[serde(deserialize_with = "number")]
@@ -52,7 +52,7 @@ pub struct Tolerances {
 
 impl Quality {
     /// Figure by figure the worse of two; what is not a number is the worst.
-    pub fn worse(&self, other: &Quality) -> Quality {
+    pub(crate) fn merge_worst(&self, other: &Quality) -> Quality {
         let worse = |a: f64, b: f64| if a.is_nan() || a > b { a } else { b };
         let either = |a: Option<f64>, b: Option<f64>| a.into_iter().chain(b).reduce(worse);
         Quality {
@@ -68,7 +68,7 @@ impl Quality {
 
     /// The largest figure of forces that is beyond its tolerance and passes because round-off alone
     /// may leave as much.
-    pub fn excused(&self, tolerances: &Tolerances) -> Option<f64> {
+    pub(crate) fn excused(&self, tolerances: &Tolerances) -> Option<f64> {
         let round_off = self.round_off.unwrap_or(0.0).min(tolerances.loosest);
         [
             (self.equilibrium, tolerances.equilibrium),

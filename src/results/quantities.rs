@@ -161,7 +161,10 @@ macro_rules! entry {
     ($name:ident, $unit:ident, $scope:ident, [$($place:ident)*] $(, $more:ident: $value:expr)*) => {
         entry!(field!($name), $name, $unit, $scope, [$($place)*] $(, $more: $value)*)
     };
-    ($field:expr, $name:ident, $unit:ident, $scope:ident, [$($place:ident)*] $(, $more:ident: $value:expr)*) => {
+    (
+        $field:expr, $name:ident, $unit:ident, $scope:ident,
+        [$($place:ident)*] $(, $more:ident: $value:expr)*
+    ) => {
         Quantity {
             $($place: Some(field!($name)),)*
             $($more: $value,)*
@@ -183,19 +186,23 @@ const fn error(short: &'static str, is_of_points: bool, in_all: bool) -> Option<
 #[rustfmt::skip] // a row for each
 pub static QUANTITIES: [Quantity; 16] = [
     entry!(alpha, One, Always, [at_yield in_history on_path], heading: "load\nfactor"),
-    entry!(load, Load, Always, [at_yield in_history on_path], heading: "load", estimated: error("load", false, true)),
-    entry!(contact_force, Load, Contact, [in_history], heading: "contact\nforce", twin: Some("load")),
+    entry!(load, Load, Always, [at_yield in_history on_path],
+        heading: "load", estimated: error("load", false, true)),
+    entry!(contact_force, Load, Contact, [in_history],
+        heading: "contact\nforce", twin: Some("load")),
     entry!(CLOSED_PAIRS, closed_pairs, One, Contact, [in_history], is_count: true),
     entry!(max_pressure, Stress, Contact, [at_yield in_history on_path],
         heading: "max\npressure", estimated: error("pressure", false, true)),
     entry!(pole_pressure, Stress, Contact, [],
-        heading: "pole\npressure", twin: Some("max_pressure"), estimated: error("pole", false, false)),
+        heading: "pole\npressure", twin: Some("max_pressure"),
+        estimated: error("pole", false, false)),
     entry!(half_width, Length, Contact, [at_yield in_history on_path],
         heading: "half\nwidth", estimated: error("width", false, true)),
     entry!(residual_depth, Length, YieldingContact, [],
         heading: "residual\ndepth", estimated: error("dent", false, true)),
     entry!(rim_height, Length, YieldingContact, []),
-    entry!(approach, Length, Always, [], heading: "approach", estimated: error("approach", false, true)),
+    entry!(approach, Length, Always, [],
+        heading: "approach", estimated: error("approach", false, true)),
     entry!(plastic_points, One, Yielding, [in_history], heading: "plastic\npoints", is_count: true),
     entry!(max_equivalent_plastic_strain, One, Yielding, [in_history],
         heading: "plastic\nstrain", estimated: error("strain", true, false)),
@@ -228,8 +235,8 @@ enum Place<'r> {
     State(&'r State),
 }
 
-/// The number at a path of `summary.json`: `yield.KEY` or `states.NAME.KEY`, where the number of the
-/// state, from 0, may stand for its name. `None` where the run has none such.
+/// The number at a path of `summary.json`: `yield.KEY` or `states.NAME.KEY`, where the number of
+/// the state, from 0, may stand for its name. `None` where the run has none such.
 pub fn value(results: &Results, path: &str) -> Option<f64> {
     let (head, rest) = path.split_once('.')?;
     if head == "yield" {

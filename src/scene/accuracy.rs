@@ -13,8 +13,8 @@ fn demanded() -> impl Iterator<Item = (&'static str, &'static str)> {
 }
 
 /// A demanded relative accuracy: of every quantity (`"1 %"` or `0.01`), or of those that are named
-/// (`"load = 0.5 %, dent = 2 %"` or a table). A name is a key of `summary.json`, its short name or a whole path such as
-/// `states.pressed.load`.
+/// (`"load = 0.5 %, dent = 2 %"` or a table). A name is a key of `summary.json`, its short name or
+/// a whole path such as `states.pressed.load`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Written", into = "String")]
 pub struct AccuracyDemand {
@@ -39,7 +39,8 @@ impl AccuracyDemand {
         })
     }
 
-    /// The demand on a quantity that is named, by its path (`yield.KEY`, `states.NAME.KEY`) or its key.
+    /// The demand on a quantity that is named, by its path (`yield.KEY`, `states.NAME.KEY`) or its
+    /// key.
     pub fn named(&self, path: &str) -> Option<f64> {
         let key = path.rsplit('.').next().unwrap_or(path);
         self.named
@@ -81,7 +82,8 @@ fn checked(accuracy: f64) -> Result<f64, String> {
         Ok(accuracy)
     } else {
         Err(format!(
-            "an accuracy of {accuracy:?} makes no sense; give one above 0 and below 100 %, such as \"1 %\""
+            "an accuracy of {accuracy:?} makes no sense; give one above 0 and below 100 %, such \
+             as \"1 %\""
         ))
     }
 }
@@ -105,8 +107,8 @@ fn key(name: &str) -> Result<String, String> {
             });
             let all: Vec<String> = all.collect();
             Err(format!(
-                "`{name}` is no quantity whose accuracy can be demanded; there are {}, also of one state as yield.load or \
-                 states.NAME.load",
+                "`{name}` is no quantity whose accuracy can be demanded; there are {}, also of one \
+                 state as yield.load or states.NAME.load",
                 all.join(", ")
             ))
         }
@@ -125,8 +127,9 @@ impl JsonSchema for AccuracyDemand {
             "exclusiveMaximum": Self::LARGEST,
         });
         json_schema!({
-            "description": "Largest stated error of each quantity relative to its size, above 0 and below 100 %: \"1 %\" or 0.01 for \
-                            all; \"load = 0.5 %, dent = 2 %\" or a table for those that are named.",
+            "description": "Largest stated error of each quantity relative to its size, above 0 \
+                            and below 100 %: \"1 %\" or 0.01 for all; \"load = 0.5 %, dent = 2 %\" \
+                            or a table for those that are named.",
             "type": ["string", "number", "object"],
             "exclusiveMinimum": 0,
             "exclusiveMaximum": Self::LARGEST,

@@ -1,5 +1,6 @@
 //! Contact, supports and loads.
 
+use super::Field;
 use crate::space::{Components, Vector, unit};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserializer, SeqAccess, Visitor};
@@ -19,14 +20,14 @@ pub struct Contact {
     pub normal: Option<Components>,
     /// Initial gap for all pairs instead of the geometric one.
     pub gap: Option<f64>,
-    /// Which surface has the slaves, at whose nodes gaps and pressures are: `"auto"` takes the finer
-    /// one (the coarser where its facets are linear and more than twice as long, or longer at all where
-    /// they are of a curved surface whose shape is not known), the second where
-    /// nodes face each other.
+    /// Which surface has the slaves, at whose nodes gaps and pressures are: `"auto"` takes the
+    /// finer one (the coarser where its facets are linear and more than twice as long, or longer at
+    /// all where they are of a curved surface whose shape is not known), the second where nodes
+    /// face each other.
     #[serde(default, skip_serializing_if = "SlaveSide::is_auto")]
     pub slave: SlaveSide,
-    /// Pressure over overlap of soft contact: `g + p / stiffness >= 0` in place of `g >= 0`. By default
-    /// contact is hard.
+    /// Pressure over overlap of soft contact: `g + p / stiffness >= 0` in place of `g >= 0`. By
+    /// default contact is hard.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<f64>,
     /// Interference: taken off every initial gap, applied gradually before the load program.
@@ -34,9 +35,9 @@ pub struct Contact {
     pub interference: f64,
 }
 
-/// Two surfaces that stay together, across and along: whether their nodes face each other or not, the
-/// displacement of one follows that of the other (dual mortar). Nodes that do not lie on the other
-/// surface are moved onto it.
+/// Two surfaces that stay together, across and along: whether their nodes face each other or not,
+/// the displacement of one follows that of the other (dual mortar). Nodes that do not lie on the
+/// other surface are moved onto it.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tie {
@@ -47,8 +48,8 @@ pub struct Tie {
     /// Which surface follows: `"auto"` takes the finer one.
     #[serde(default, skip_serializing_if = "SlaveSide::is_auto")]
     pub slave: SlaveSide,
-    /// Largest distance of the surfaces. By default a twentieth of the longest facet, beyond what flat
-    /// facets are off a curved surface.
+    /// Largest distance of the surfaces. By default a twentieth of the longest facet, beyond what
+    /// flat facets are off a curved surface.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub distance: Option<f64>,
 }
@@ -68,7 +69,7 @@ pub enum SlaveSide {
 
 impl SlaveSide {
     /// Whether it is left open.
-    pub fn is_auto(&self) -> bool {
+    pub(crate) fn is_auto(&self) -> bool {
         *self == SlaveSide::Auto
     }
 }
@@ -144,23 +145,46 @@ pub struct Load {
     /// Name, for messages.
     #[serde(default)]
     pub name: String,
-    /// Surface or node set that is loaded.
+    /// Surface or node set that is loaded; the body of an `acceleration`, a `rotation` or a
+    /// `temperature`.
     pub on: String,
-    /// Total force (x, y; of a solid x, y, z), shared by the nodes like a uniform traction (surface) or equally (node set).
+    /// Total force (x, y; of a solid x, y, z), shared by the nodes like a uniform traction
+    /// (surface) or equally (node set).
     pub force: Option<Components>,
     /// Pressure on a surface, positive into the body.
     pub pressure: Option<f64>,
     /// Uniform traction (x, y; of a solid x, y, z) on a surface.
     pub traction: Option<Components>,
-    /// Traction of the Kirsch field: plate with a hole of `radius` at the origin under remote tensions.
+    /// Traction of the Kirsch field: plate with a hole of `radius` at the origin under remote
+    /// tensions.
     pub kirsch: Option<Kirsch>,
     /// Prescribed displacement: the given components, at load factor 1 of this load.
     pub displacement: Option<Displacement>,
-    /// A total force on a surface that is held plane: all its nodes share the displacement in `direction`.
+    /// A total force on a surface that is held plane: all its nodes share the displacement in
+    /// `direction`.
     pub plane_force: Option<PlaneForce>,
+    /// Force per mass on all of a body (x, y; of a solid x, y, z), such as gravity: its material
+    /// needs a `density`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub acceleration: Option<Components>,
+    /// Rotation of a body, whose material needs a `density`: the load factor multiplies the forces,
+    /// which go with the square of the speed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rotation: Option<Rotation>,
+    /// Change of temperature of a body, a number or a formula of the position: its material needs
+    /// `thermal_expansion`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<Field>,
     /// How it depends on the load factor.
     #[serde(default)]
     pub history: History,
+}
+
+impl Load {
+    /// Whether it acts on the volume of a body, which `on` then names.
+    pub fn acts_on_volume(&self) -> bool {
+        self.acceleration.is_some() || self.rotation.is_some() || self.temperature.is_some()
+    }
 }
 
 /// Remote tensions of a plate with a hole at the origin.
@@ -206,6 +230,20 @@ pub struct PlaneForce {
     pub total: f64,
 }
 
+/// Rotation about an axis at a constant speed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Rotation {
+    /// Revolutions per minute, where the scene's density is for seconds (N, mm: t/mm^3).
+    pub rpm: f64,
+    /// A point of the axis; by default the origin. Axisymmetric models turn about their own axis.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub center: Option<Components>,
+    /// Direction of the axis, of a solid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axis: Option<[f64; 3]>,
+}
+
 /// How a load depends on the load factor alpha.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum History {
@@ -214,7 +252,8 @@ pub enum History {
     Proportional,
     /// `"constant"`: a preload, applied gradually before the load program starts.
     Constant,
-    /// `[[alpha, factor], ...]`: piecewise linear in alpha, flat outside; the value at 0 is a preload.
+    /// `[[alpha, factor], ...]`: piecewise linear in alpha, flat outside; the value at 0 is a
+    /// preload.
     Table(Vec<[f64; 2]>),
 }
 
@@ -226,8 +265,9 @@ impl JsonSchema for History {
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         let table = generator.subschema_for::<Vec<[f64; 2]>>();
         json_schema!({
-            "description": "How a load depends on the load factor: `\"proportional\"` (the default), `\"constant\"` (a preload), or \
-                            a table of [load factor, multiple], piecewise linear.",
+            "description": "How a load depends on the load factor: `\"proportional\"` (the \
+                            default), `\"constant\"` (a preload), or a table of [load factor, \
+                            multiple], piecewise linear.",
             "anyOf": [{ "enum": ["proportional", "constant"] }, table],
         })
     }

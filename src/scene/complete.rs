@@ -1,8 +1,9 @@
 //! Nothing that the user wrote may be lost in reading.
 //!
 //! serde's derived code takes an array for a table (by position) and drops what is too much at the
-//! end of an array of fixed length, without a word. So the scene is written out again and held against the document:
-//! every array must come back as an array of the same length, every table as a table.
+//! end of an array of fixed length, without a word. So the scene is written out again and held
+//! against the document: every array must come back as an array of the same length, every table as
+//! a table.
 
 use super::document::join;
 use super::{KeyPlaces, Scene};

@@ -1,8 +1,8 @@
 //! A TOML document in which every key and value has a number, so that an error found anywhere later
 //! (by serde, by validation) is traced back to its key path and its place in the file or override.
 //!
-//! serde knows places as byte spans. Before the document is handed to it, each span is replaced by the
-//! number of its node: the span of an error then names the node exactly, also for values that
+//! serde knows places as byte spans. Before the document is handed to it, each span is replaced by
+//! the number of its node: the span of an error then names the node exactly, also for values that
 //! came from an override and stand in no file.
 
 use super::KeyPlaces;

@@ -19,14 +19,16 @@ pub struct MeshSource {
     pub curved_bodies: Option<CurvedBodies>,
     /// Blocks, rings and bricks, put together.
     pub parts: Option<Vec<Part>>,
-    /// A Gmsh file (.msh 2.2 or 4.1, ASCII) or the mesh of a deck of Abaqus or CalculiX (.inp), relative to the scene file. Physical surfaces are
-    /// bodies, physical curves surfaces, physical points node sets; of a solid mesh physical volumes
-    /// are bodies, physical surfaces surfaces, physical curves and points node sets.
+    /// A Gmsh file (.msh 2.2 or 4.1, ASCII) or the mesh of a deck of Abaqus or CalculiX (.inp),
+    /// relative to the scene file. Physical surfaces are bodies, physical curves surfaces, physical
+    /// points node sets; of a solid mesh physical volumes are bodies, physical surfaces surfaces,
+    /// physical curves and points node sets.
     pub file: Option<PathBuf>,
     /// Surfaces of the file that lie on circles.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub circles: Vec<SurfaceCircle>,
-    /// How many times each element of the file is cut in four. New nodes on the surfaces in `circles` lie on these.
+    /// How many times each element of the file is cut in four, of a solid in eight. New nodes on
+    /// the surfaces in `circles`, `spheres`, `cylinders` and `tori` lie on these.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub subdivisions: usize,
     /// Surfaces of the file that lie on spheres.
@@ -57,14 +59,14 @@ pub enum Formulation {
     /// stays the same.
     #[default]
     Mean,
-    /// At all points alike, as CalculiX does for `C3D8`, `CPE4` and `CAX4`: to compare with it. Locks
-    /// where the volume stays the same, as it does where the material yields.
+    /// At all points alike, as CalculiX does for `C3D8`, `CPE4` and `CAX4`: to compare with it.
+    /// Locks where the volume stays the same, as it does where the material yields.
     Full,
 }
 
 impl Formulation {
     /// Whether it is the usual one.
-    pub fn is_mean(&self) -> bool {
+    pub(crate) fn is_mean(&self) -> bool {
         *self == Formulation::Mean
     }
 }
@@ -80,8 +82,8 @@ pub struct Extrusion {
 }
 
 /// A plane mesh of coordinates (r, y), turned about the y axis from the x axis towards z:
-/// `BODY.front` is the section in the x-y plane, `BODY.back` that at `angle`; a full turn is closed.
-/// A surface on the axis becomes a node set.
+/// `BODY.front` is the section in the x-y plane, `BODY.back` that at `angle`; a full turn is
+/// closed. A surface on the axis becomes a node set.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Revolution {
@@ -141,8 +143,9 @@ fn is_zero(n: &usize) -> bool {
     *n == 0
 }
 
-/// The circle that a surface of a mesh file lies on. A file holds nodes only: with the circle their normals and gaps are exact, and
-/// a finer mesh comes nearer to the body, not to the polygon of the file.
+/// The circle that a surface of a mesh file lies on. A file holds nodes only: with the circle their
+/// normals and gaps are exact, and a finer mesh comes nearer to the body, not to the polygon of the
+/// file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceCircle {
@@ -155,8 +158,8 @@ pub struct SurfaceCircle {
     pub radius: f64,
 }
 
-/// The half model (x >= 0) of a cylinder (ball) pressed on a half plane (half space), the first contact at
-/// the origin. Bodies `cylinder` (above) and `half_plane`.
+/// The half model (x >= 0) of a cylinder (ball) pressed on a half plane (half space), the first
+/// contact at the origin. Bodies `cylinder` (above) and `half_plane`.
 ///
 /// | set | where |
 /// |---|---|
@@ -167,44 +170,49 @@ pub struct SurfaceCircle {
 /// | `cylinder.top`, `half_plane.bottom` | the cuts, y = +-`far_size` half widths |
 /// | `cylinder.pole`, `half_plane.pole` | node sets: the node at the origin |
 ///
-/// The cylinder follows the circle over the candidates and levels off beyond: the model is that of Hertz, two half
-/// planes which differ from flat near the contact only. See [`crate::mesh::generate::cylinder_on_half_plane`].
+/// The cylinder follows the circle over the candidates and levels off beyond: the model is that of
+/// Hertz, two half planes which differ from flat near the contact only. See
+/// [`crate::mesh::generate::cylinder_on_half_plane`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CylinderOnHalfPlane {
     /// Radius of the cylinder or ball.
     pub radius: f64,
-    /// Elements over the contact half width (radius), at first yield and at any larger contact at least.
+    /// Elements over the contact half width (radius), at first yield and at any larger contact at
+    /// least.
     pub resolution: usize,
     /// Contact half width at first yield; by default computed from the materials (Hertz).
     pub half_width: Option<f64>,
     /// Width of the evenly meshed region, in half widths.
     #[serde(default = "super::defaults::fine_width")]
     pub fine_width: f64,
-    /// How far the contact may reach, in half widths. By default it follows from the largest load, displacement or
-    /// half width of the program; beyond `fine_width` elements grow by `1 + 1/resolution` up to there.
+    /// How far the contact may reach, in half widths. By default it follows from the largest load,
+    /// displacement or half width of the program; beyond `fine_width` elements grow by
+    /// `1 + 1/resolution` up to there.
     pub contact_width: Option<f64>,
     /// Depth of the evenly meshed region, in half widths.
     #[serde(default = "super::defaults::fine_depth")]
     pub fine_depth: f64,
-    /// Size of each body, in half widths. The bodies stand for infinite ones: a size W changes the stress under the contact by
-    /// the order b/W, so the default is large; elements that grow with the distance make it cheap.
+    /// Size of each body, in half widths. The bodies stand for infinite ones: a size W changes the
+    /// stress under the contact by the order b/W, so the default is large; elements that grow with
+    /// the distance make it cheap.
     #[serde(default = "super::defaults::far_size")]
     pub far_size: f64,
     /// Ratio of neighbouring element sizes outside the even region.
     #[serde(default = "super::defaults::growth")]
     pub growth: f64,
-    /// Ratio of neighbouring element sizes at the far end: from `growth` on, its logarithm rises to that of this one with a power of
-    /// the distance. What happens far away matters less to the contact, so that elements may grow ever faster; default as `growth`.
+    /// Ratio of neighbouring element sizes at the far end: from `growth` on, its logarithm rises to
+    /// that of this one with a power of the distance. What happens far away matters less to the
+    /// contact, so that elements may grow ever faster; default as `growth`.
     pub far_growth: Option<f64>,
     /// Element shape.
     #[serde(default = "super::defaults::shape")]
     pub element: Shape,
 }
 
-/// Two bodies whose surfaces have principal radii along x and y, pressed together along z: a ball in a
-/// groove, crossed cylinders, a crowned roller on a plate. Bodies `upper` and `lower`; the first contact
-/// is at the origin.
+/// Two bodies whose surfaces have principal radii along x and y, pressed together along z: a ball
+/// in a groove, crossed cylinders, a crowned roller on a plate. Bodies `upper` and `lower`; the
+/// first contact is at the origin.
 ///
 /// | set | where |
 /// |---|---|
@@ -219,23 +227,28 @@ pub struct CylinderOnHalfPlane {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CurvedBodies {
-    /// Principal radii of the upper body along x and y: positive convex, negative hollow, 0 or infinite flat.
+    /// Principal radii of the upper body along x and y: positive convex, negative hollow, 0 or
+    /// infinite flat.
     pub upper: [f64; 2],
     /// Those of the lower body.
     pub lower: [f64; 2],
-    /// Elements over the smaller half axis of the contact, at first yield and at any larger contact at least.
+    /// Elements over the smaller half axis of the contact, at first yield and at any larger contact
+    /// at least.
     pub resolution: usize,
-    /// Half axes of the contact along x and y at first yield; by default computed from the materials (Hertz).
+    /// Half axes of the contact along x and y at first yield; by default computed from the
+    /// materials (Hertz).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub semi_axes: Option<[f64; 2]>,
-    /// What of the bodies is meshed: `quarter` (x, y >= 0), `half` (x >= 0) or `full`. The scene's `symmetry` is then 4, 2 or 1.
+    /// What of the bodies is meshed: `quarter` (x, y >= 0), `half` (x >= 0) or `full`. The scene's
+    /// `symmetry` is then 4, 2 or 1.
     #[serde(default)]
     pub model: Meshed,
     /// Width of the evenly meshed region, in half axes.
     #[serde(default = "super::defaults::solid_fine_width")]
     pub fine_width: f64,
-    /// How far the contact may reach, in half axes at first yield. By default it follows from the largest load of the program;
-    /// beyond `fine_width` elements grow by `1 + 1/resolution` up to there.
+    /// How far the contact may reach, in half axes at first yield. By default it follows from the
+    /// largest load of the program; beyond `fine_width` elements grow by `1 + 1/resolution` up to
+    /// there.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_width: Option<f64>,
     /// Depth of the evenly meshed region, in smaller half axes.
@@ -279,7 +292,7 @@ impl MeshSource {
 
 impl CurvedBodies {
     /// Whether x = 0 and y = 0 bound the model.
-    pub fn halved(&self) -> [bool; 2] {
+    pub(crate) fn halved(&self) -> [bool; 2] {
         match self.model {
             Meshed::Quarter => [true, true],
             Meshed::Half => [true, false],
@@ -295,8 +308,9 @@ impl CurvedBodies {
 
 /// Quarter model (x, y >= 0) of a disc that fills the hole of a plate, tension along x. Bodies
 /// `disc` and `plate`; surfaces `disc.contact`, `plate.contact` (the hole), `plate.far`,
-/// `disc.symmetry_x`, `plate.symmetry_x` (on x = 0), `disc.symmetry_y`, `plate.symmetry_y` (on y = 0); node sets
-/// `disc.pole`, `plate.pole` (on the y axis, where the contact stays) and `disc.center`.
+/// `disc.symmetry_x`, `plate.symmetry_x` (on x = 0), `disc.symmetry_y`, `plate.symmetry_y` (on y =
+/// 0); node sets `disc.pole`, `plate.pole` (on the y axis, where the contact stays) and
+/// `disc.center`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DiscInPlate {
@@ -313,8 +327,9 @@ pub struct DiscInPlate {
     /// Ratio of neighbouring radial element sizes in the plate.
     #[serde(default = "super::defaults::disc_growth")]
     pub growth: f64,
-    /// Ratio of neighbouring element sizes at the far end: from `growth` on, its logarithm rises to that of this one with a power of
-    /// the distance. What happens far away matters less to the contact, so that elements may grow ever faster; default as `growth`.
+    /// Ratio of neighbouring element sizes at the far end: from `growth` on, its logarithm rises to
+    /// that of this one with a power of the distance. What happens far away matters less to the
+    /// contact, so that elements may grow ever faster; default as `growth`.
     pub far_growth: Option<f64>,
     /// Element shape.
     #[serde(default = "super::defaults::shape")]
@@ -322,8 +337,9 @@ pub struct DiscInPlate {
 }
 
 /// A block, ring sector or disc sector: one body. Surfaces are `BODY.left`, `.right`, `.bottom`,
-/// `.top` for a block; `.inner`, `.outer`, `.start`, `.end` for a ring sector; `.outer`, `.start`, `.end` for a disc sector.
-/// The corners of a block are node sets `BODY.bottom_left`, `BODY.bottom_right`, `BODY.top_left`, `BODY.top_right`.
+/// `.top` for a block; `.inner`, `.outer`, `.start`, `.end` for a ring sector; `.outer`, `.start`,
+/// `.end` for a disc sector. The corners of a block are node sets `BODY.bottom_left`,
+/// `BODY.bottom_right`, `BODY.top_left`, `BODY.top_right`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
@@ -331,8 +347,8 @@ pub struct Part {
     pub body: String,
     /// A rectangle.
     pub block: Option<Block>,
-    /// A box of a solid model: surfaces `BODY.left`, `.right` (x), `.front`, `.back` (y), `.bottom`,
-    /// `.top` (z).
+    /// A box of a solid model: surfaces `BODY.left`, `.right` (x), `.front`, `.back` (y),
+    /// `.bottom`, `.top` (z).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub brick: Option<BrickPart>,
     /// A sector of a ring.
@@ -357,7 +373,8 @@ pub struct Block {
     /// Size of the last element over that of the first, along x and y.
     #[serde(default = "super::defaults::no_bias")]
     pub bias: [f64; 2],
-    /// Named pieces of the sides: surface `BODY.NAME` = facets of `side` whose both ends lie in `from..to`.
+    /// Named pieces of the sides: surface `BODY.NAME` = facets of `side` whose both ends lie in
+    /// `from..to`.
     #[serde(default)]
     pub pieces: Vec<Piece>,
 }

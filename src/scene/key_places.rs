@@ -1,4 +1,5 @@
-//! Where the keys of a scene stand, for what is found wrong with them later: names of sets can be looked up only once there is a mesh.
+//! Where the keys of a scene stand, for what is found wrong with them later: names of sets can be
+//! looked up only once there is a mesh.
 
 use crate::error::Error;
 use std::collections::BTreeMap;
@@ -14,7 +15,8 @@ impl KeyPlaces {
         KeyPlaces(Arc::new(places))
     }
 
-    /// `FILE:LINE:COLUMN` or `--set KEY=VALUE` of a key path (`load.0.on`), or of the innermost table around it that is there.
+    /// `FILE:LINE:COLUMN` or `--set KEY=VALUE` of a key path (`load.0.on`), or of the innermost
+    /// table around it that is there.
     pub fn of(&self, path: &str) -> Option<&str> {
         let mut path = path;
         loop {
@@ -28,8 +30,8 @@ impl KeyPlaces {
         }
     }
 
-    /// Of keys of a text that was made from something else their places there; overrides keep theirs.
-    /// What has none is `file`'s.
+    /// Of keys of a text that was made from something else their places there; overrides keep
+    /// theirs. What has none is `file`'s.
     pub(super) fn elsewhere(&self, places: &BTreeMap<String, String>, file: &str) -> KeyPlaces {
         let there = KeyPlaces::new(places.clone());
         let place_of = |(key, place): (&String, &String)| {

@@ -13,12 +13,23 @@ pub struct Material {
     pub youngs_modulus: f64,
     /// -1 < nu < 0.5.
     pub poissons_ratio: f64,
+    /// Mass per volume, of which loads by acceleration and rotation are made: force times time
+    /// squared per length to the fourth (N, mm, s: t/mm^3, steel 7.85e-9).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub density: Option<f64>,
+    /// Strain per change of temperature, of which loads by `temperature` are made.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thermal_expansion: Option<f64>,
     /// Tensile yield stress; without it the material is elastic.
     pub yield_stress: Option<f64>,
     /// d(yield stress)/d(equivalent plastic strain) of linear hardening.
     pub plastic_modulus: Option<f64>,
     /// d(stress)/d(total strain) of a bar beyond yield; `H = E Et/(E - Et)`.
     pub tangent_modulus: Option<f64>,
+    /// Modulus C of linear kinematic hardening, alone or with any of the isotropic laws: a bar
+    /// hardens with `H + C`, and yields that much earlier the other way.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kinematic_modulus: Option<f64>,
     /// Table of (equivalent plastic strain, yield stress), first strain 0, flat after the last row.
     pub hardening_table: Option<Vec<[f64; 2]>>,
 }
@@ -69,7 +80,8 @@ impl JsonSchema for Plastic {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({
-            "description": "May a body yield? `\"auto\"` (the default): if its material can and the loads make it.",
+            "description": "May a body yield? `\"auto\"` (the default): if its material can and \
+                            the loads make it.",
             "enum": [true, false, "auto"],
         })
     }

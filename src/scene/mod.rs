@@ -15,6 +15,7 @@ mod boundary;
 mod complete;
 mod defaults;
 mod document;
+mod field;
 mod geometry;
 mod key_places;
 mod material;
@@ -29,8 +30,10 @@ mod validate;
 
 pub use accuracy::AccuracyDemand;
 pub use boundary::{
-    Contact, Direction, Displacement, History, Kirsch, Load, PlaneForce, SlaveSide, Support, Tie,
+    Contact, Direction, Displacement, History, Kirsch, Load, PlaneForce, Rotation, SlaveSide,
+    Support, Tie,
 };
+pub use field::Field;
 pub use geometry::{
     Block, BrickPart, CurvedBodies, CylinderOnHalfPlane, Disc, DiscInPlate, Extrusion, Formulation,
     MeshSource, Meshed, Part, Piece, Revolution, Ring, SurfaceCircle, SurfaceCylinder,
@@ -66,9 +69,10 @@ pub struct Scene {
     pub kind: Space,
     /// Names of the scene's units, for reports: nothing is converted.
     pub units: Option<Units>,
-    /// How many copies of the model make the whole: 1 (the default) where all of it is meshed, 2 for a half model, 4 for a
-    /// quarter of a plane model. Total forces (`force`, `plane_force`) in the scene, and loads and contact forces in the results, are those of the
-    /// whole; the model carries its share of them.
+    /// How many copies of the model make the whole: 1 (the default) where all of it is meshed, 2
+    /// for a half model, 4 for a quarter of a plane model. Total forces (`force`, `plane_force`) in
+    /// the scene, and loads and contact forces in the results, are those of the whole; the model
+    /// carries its share of them.
     #[serde(default = "defaults::single")]
     pub symmetry: usize,
     /// Where the mesh comes from.
@@ -94,12 +98,12 @@ pub struct Scene {
     /// How to compute: every value has a default that needs no thought.
     #[serde(default)]
     pub analysis: Settings,
-    /// How wrong the results may be, such as `"1 %"` or `"load = 0.5 %, dent = 2 %"`: the scene is then run on finer and finer meshes
-    /// of its family until the stated errors are within it. In Rust `accuracy::reach` does that; an `Analysis` runs on the mesh
-    /// that the scene describes.
+    /// How wrong the results may be, such as `"1 %"` or `"load = 0.5 %, dent = 2 %"`: the scene is
+    /// then run on finer and finer meshes of its family until the stated errors are within it. In
+    /// Rust `accuracy::reach` does that; an `Analysis` runs on the mesh that the scene describes.
     #[serde(default)]
     pub accuracy: Option<AccuracyDemand>,
-    /// Published or exact values to put beside the computed ones.
+    /// Published or exact values to compare with the computed ones.
     #[serde(default)]
     pub reference: Vec<Reference>,
     /// The file the scene was read from, and what relative paths in it are relative to.
@@ -111,4 +115,31 @@ pub struct Scene {
     /// What the user should know of how it was read.
     #[serde(skip)]
     pub warnings: Vec<String>,
+}
+
+impl Scene {
+    /// A scene of a kind with nothing in it: the whole of it is meshed, one target at load factor
+    /// 1.
+    pub(crate) fn of(kind: Space) -> Self {
+        Scene {
+            title: String::new(),
+            kind,
+            units: None,
+            symmetry: 1,
+            mesh: MeshSource::default(),
+            materials: BTreeMap::new(),
+            bodies: BTreeMap::new(),
+            contact: Vec::new(),
+            tie: Vec::new(),
+            support: Vec::new(),
+            load: Vec::new(),
+            program: Program::default(),
+            analysis: Settings::default(),
+            accuracy: None,
+            reference: Vec::new(),
+            file: None,
+            places: KeyPlaces::default(),
+            warnings: Vec::new(),
+        }
+    }
 }

@@ -1,5 +1,5 @@
-//! Overrides: `key.path=value` put over the document before it is read, so that a mistyped key meets the
-//! same checks as one in the file.
+//! Overrides: `key.path=value` put over the document before it is read, so that a mistyped key
+//! meets the same checks as one in the file.
 //!
 //! A table is merged with the one that is there, key by key; any other value takes the old one's
 //! place. `key.path=` without a value removes the key.
@@ -14,8 +14,8 @@ use toml::de::{DeArray, DeString, DeTable, DeValue};
 /// new list of tables no longer has.
 ///
 /// # Errors
-/// The override, by its text: no `=`, a key that is not a TOML key path, a value that looks like a TOML
-/// array, table or string but is none, a step into something that is not a table, an array
+/// The override, by its text: no `=`, a key that is not a TOML key path, a value that looks like a
+/// TOML array, table or string but is none, a step into something that is not a table, an array
 /// element that does not exist, a key to remove that does not exist.
 pub(super) fn apply<'i>(source: &Source<'i>, root: &mut DeTable<'i>) -> Result<Vec<String>> {
     let mut lost = Vec::new();
@@ -154,7 +154,8 @@ fn segments(key: &str) -> Result<Vec<String>> {
     let key = key.trim();
     let wrong = |reason: &str| {
         Error::input(format!(
-            "`{key}` is not a key path such as materials.steel.yield_stress or contact.0.gap: {reason}"
+            "`{key}` is not a key path such as materials.steel.yield_stress or contact.0.gap: \
+             {reason}"
         ))
     };
     if key.contains('\n') {
@@ -213,7 +214,8 @@ fn placed(value: DeValue<'_>, place: usize) -> DeValue<'_> {
     }
 }
 
-/// The value of `key`, created as an empty table where it is absent: if the key is unknown, reading says so.
+/// The value of `key`, created as an empty table where it is absent: if the key is unknown, reading
+/// says so.
 fn entry<'t, 'i>(table: &'t mut DeTable<'i>, key: &str, place: usize) -> &'t mut DeValue<'i> {
     table
         .entry(Spanned::new(place..place, Cow::Owned(key.to_string())))

@@ -1,7 +1,7 @@
 //! The load program and how it is computed.
 
 use super::Direction;
-use crate::text::exact;
+use crate::number::exact;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -19,7 +19,8 @@ pub struct Program {
     /// Increments from one target to the next with `stepping = "steps"`.
     #[serde(default = "super::defaults::steps")]
     pub steps: usize,
-    /// Relative tolerance with which events are hit: a change of contact (paper 4.18, 4.23), and the maximum of the stress at first yield.
+    /// Relative tolerance with which events are landed on: a change of contact (paper 4.18, 4.23),
+    /// and the maximum of the stress at first yield.
     #[serde(default = "super::defaults::gamma")]
     pub gamma: f64,
     /// The targets, reached one after the other; each leaves a state.
@@ -109,7 +110,8 @@ impl Target {
 
 impl Program {
     /// Names of the states of all targets, made unlike each other: a made-up name that was used
-    /// before gets a number, as in `alpha 1.25 (2)`. A scene that was read holds these names already.
+    /// before gets a number, as in `alpha 1.25 (2)`. A scene that was read holds these names
+    /// already.
     pub fn labels(&self) -> Vec<String> {
         let mut taken: BTreeSet<String> =
             self.targets.iter().filter_map(|t| t.name.clone()).collect();
@@ -160,8 +162,8 @@ pub struct Settings {
     pub tolerance: f64,
     /// Most plastic iterations per increment.
     pub max_iterations: usize,
-    /// Estimate the condition of the factored matrix, which takes about six full solves (done anyway where accuracy is in doubt; a lower
-    /// bound is in every summary).
+    /// Estimate the condition of the factored matrix, which takes about six full solves (done
+    /// anyway where accuracy is in doubt; a lower bound is in every summary).
     pub condition: bool,
 }
 
@@ -192,7 +194,8 @@ pub enum YieldMethod {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum PlasticIteration {
-    /// Newton with the consistent tangent, solved by conjugate gradients on the factored elastic stiffness.
+    /// Newton with the consistent tangent, solved by conjugate gradients on the factored elastic
+    /// stiffness.
     #[default]
     Newton,
     /// Anderson acceleration of the plain iteration.

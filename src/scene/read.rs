@@ -15,15 +15,16 @@ impl Scene {
     /// Reads and validates a scene file.
     ///
     /// # Errors
-    /// [`ErrorKind::Io`] where the file cannot be read; [`ErrorKind::Input`] as `FILE:LINE:COLUMN: ...`
-    /// for text that is not TOML, unknown or missing keys, wrong types, numbers that are not finite and
-    /// values out of range; [`ErrorKind::Unsupported`] for an effect that brinell does not have.
+    /// [`ErrorKind::Io`] where the file cannot be read; [`ErrorKind::Input`] as
+    /// `FILE:LINE:COLUMN: ...` for text that is not TOML, unknown or missing keys, wrong types,
+    /// numbers that are not finite and values out of range; [`ErrorKind::Unsupported`] for an
+    /// effect that brinell does not have.
     pub fn load(path: impl AsRef<Path>) -> Result<Scene> {
         Self::load_with(path, &[])
     }
 
-    /// Reads a scene file with `overrides` put over it, each `key.path=value`. A segment of the path is a key, the
-    /// index of an array entry or its name (`load.press.history=constant`); the
+    /// Reads a scene file with `overrides` put over it, each `key.path=value`. A segment of the
+    /// path is a key, the index of an array entry or its name (`load.press.history=constant`); the
     /// value is TOML, or else taken as a string. A table is merged with the one that is there, key
     /// by key; without a value (`materials.steel.yield_stress=`) the key is removed.
     ///
@@ -49,15 +50,17 @@ impl Scene {
         Ok(scene)
     }
 
-    /// Reads and validates a scene from a string; `name` stands for the file in messages. Relative paths in
-    /// the scene are relative to the working directory.
+    /// Reads and validates a scene from a string; `name` stands for the file in messages. Relative
+    /// paths in the scene are relative to the working directory.
     ///
     /// ```
     /// use brinell::{ErrorKind, scene::Scene};
     ///
-    /// let error = Scene::parse("kind = \"plane_strain\"\nmaterial = {}", "press.toml").unwrap_err();
+    /// let text = "kind = \"plane_strain\"\nmaterial = {}";
+    /// let error = Scene::parse(text, "press.toml").unwrap_err();
     /// assert_eq!(error.kind(), ErrorKind::Input);
-    /// assert!(error.to_string().starts_with("press.toml:2:1: unknown key `material`, did you mean `materials`?"));
+    /// let expected = "press.toml:2:1: unknown key `material`, did you mean `materials`?";
+    /// assert!(error.to_string().starts_with(expected));
     /// ```
     ///
     /// # Errors
@@ -91,7 +94,8 @@ impl Scene {
     /// The scene as TOML: [`Scene::parse`] reads it back.
     ///
     /// # Errors
-    /// [`ErrorKind::Internal`] where a value has no form in TOML, which no scene that was read or built of finite numbers has.
+    /// [`ErrorKind::Internal`] where a value has no form in TOML, which no scene that was read or
+    /// built of finite numbers has.
     pub fn to_toml(&self) -> Result<String> {
         let text = toml::to_string(self).map_err(|cause| {
             Error::internal("the scene cannot be written as TOML").because(cause)

@@ -1,4 +1,4 @@
-//! Published or exact values to put beside the computed ones.
+//! Published or exact values to compare with the computed ones.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -15,7 +15,8 @@ pub struct Reference {
     pub hertz_ellipse: Option<TwoBodies>,
     /// Disc in a plate with a hole (paper 5.2, Table II).
     pub disc_in_plate: Option<NoParameters>,
-    /// The quantity a single value is for: a path in `summary.json`, such as `yield.load` or `states.NAME.max_pressure`.
+    /// The quantity a single value is for: a path in `summary.json`, such as `yield.load` or
+    /// `states.NAME.max_pressure`.
     pub quantity: Option<String>,
     /// The single value.
     pub value: Option<f64>,

@@ -1,4 +1,5 @@
-//! Effects that other programs have and brinell has not: a scene that asks for one is told so.
+//! Effects that other programs have and brinell has not: a scene that asks for one is refused with
+//! that reason.
 
 /// Words of keys, and the effect that they ask for.
 const EFFECTS: &[(&str, &[&str])] = &[

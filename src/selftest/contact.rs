@@ -35,7 +35,8 @@ pub(super) const FAMILIES: &[Family] = &[
         name: "conforming surfaces",
         figure: "pressure over load from 1e-6 to 1e6",
         bound: CONFORMING,
-        source: "receding contact is proportional; two solves, each off by eps times the pairs (25) and the condition of their matrix (about as many)",
+        source: "receding contact is proportional; two solves, each off by eps times the pairs \
+                 (25) and the condition of their matrix (about as many)",
         cases: conforming,
     },
     Family {
@@ -56,7 +57,8 @@ pub(super) const FAMILIES: &[Family] = &[
         name: "contact that spreads",
         figure: "half width at 0.1 to 50 times first yield against Hertz",
         bound: 1.0 / 64.0,
-        source: "candidates follow from the load; the edge is read to an eighth of an element, of 16; circle for parabola, (b/R)^2/8",
+        source: "candidates follow from the load; the edge is read to an eighth of an element, of \
+                 16; circle for parabola, (b/R)^2/8",
         cases: spreading,
     },
     Family {

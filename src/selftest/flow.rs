@@ -21,9 +21,11 @@ pub(super) const FAMILIES: &[Family] = &[
     },
     Family {
         name: "slender elements",
-        figure: "plastic strain of two blocks, elements 75 times as high as wide and square ones, tolerances to 2e-15",
+        figure: "plastic strain of two blocks, elements 75 times as high as wide and square ones, \
+                 tolerances to 2e-15",
         bound: 1e-8 / 4e-3,
-        source: "forces balance to their round-off, 1e-8 at most; a tangent of 4e-3 of the elastic stiffness",
+        source: "forces balance to their round-off, 1e-8 at most; a tangent of 4e-3 of the elastic \
+                 stiffness",
         cases: slender,
     },
     Family {

@@ -81,7 +81,7 @@ impl Cases {
     }
 }
 
-/// Runs all families; `observer` is told each one's name as a phase, and may stop.
+/// Runs all families; `observer` gets each one's name as a phase, and may stop.
 pub fn run(observer: &mut dyn Observer) -> Vec<Row> {
     let families = contact::FAMILIES
         .iter()
@@ -118,9 +118,10 @@ pub fn run(observer: &mut dyn Observer) -> Vec<Row> {
 /// The rows as a page in Markdown, with the build that they were measured with.
 pub fn page(rows: &[Row]) -> String {
     let mut text = format!(
-        "# Hard cases, measured\n\nWritten by `brinell selftest --markdown`: brinell {}, BLAS: {}. The whole suite is `cargo test --test \
-         stability --test properties --test invariance`; its scenes are in [data/scenes/hard](scenes/hard).\n\n\
-         | family | figure | cases | worst | bound | where the bound comes from | |\n|---|---|---|---|---|---|---|\n",
+        "# Hard cases, measured\n\nWritten by `brinell selftest --markdown`: brinell {}, BLAS: {}. \
+         The whole suite is `cargo test --test stability --test properties --test invariance`; its \
+         scenes are in [data/scenes/hard](scenes/hard).\n\n| family | figure | cases | worst | \
+         bound | where the bound comes from | |\n|---|---|---|---|---|---|---|\n",
         env!("CARGO_PKG_VERSION"),
         linalg::blas_name()
     );

@@ -34,7 +34,8 @@ pub(super) const FAMILIES: &[Family] = &[
         name: "contact at nu 0.4999 to 0.499999",
         figure: "out-of-balance force over the round-off that the state reports, or over 1e-7",
         bound: 1.0,
-        source: "2 eps abs(K) abs(u), the round-off of forces; events are hit to 10 gamma = 1e-7",
+        source: "2 eps abs(K) abs(u), the round-off of forces; events are landed on to 10 gamma = \
+                 1e-7",
         cases: incompressible_contact,
     },
     Family {
@@ -48,7 +49,8 @@ pub(super) const FAMILIES: &[Family] = &[
         name: "units and scales",
         figure: "elastoplastic states under E, load by 1e+-12, lengths by 1e+-9",
         bound: 1e-11,
-        source: "equivariance; round-off times the condition (analysis.tolerance = 1e-12: forces must balance better than that)",
+        source: "equivariance; round-off times the condition (analysis.tolerance = 1e-12: forces \
+                 must balance better than that)",
         cases: scales,
     },
     Family {

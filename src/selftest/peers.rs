@@ -8,7 +8,8 @@ use crate::scene::{Scene, Stepping};
 
 pub(super) const FAMILIES: &[Family] = &[Family {
     name: "where peers fail silently",
-    figure: "pole pressure: one node touching, a node on the axis, a conforming disc; a load in one step against the path",
+    figure: "pole pressure: one node touching, a node on the axis, a conforming disc; a load in \
+             one step against the path",
     bound: 0.02,
     source: "Hertz, Ciavarella and Hills; 4 to 30 elements over the contact, of order h^2",
     cases: beside_peers,

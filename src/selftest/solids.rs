@@ -12,21 +12,24 @@ pub(super) const FAMILIES: &[Family] = &[
         name: "Hertz in three dimensions",
         figure: "pressure at first yield of a circle and a 2:1 ellipse",
         bound: 0.3 / 9.0,
-        source: "Johnson 4.2, the von Mises maximum by quadrature; 3 elements over the smaller half axis, 0.3 h^2",
+        source: "Johnson 4.2, the von Mises maximum by quadrature; 3 elements over the smaller \
+                 half axis, 0.3 h^2",
         cases: hertz,
     },
     Family {
         name: "plane strain drawn out",
         figure: "force, pressure, approach, dent and plastic strain of a solid against its section",
         bound: 1e-8,
-        source: "hex8 over a prism is quad4 over its section; forces balance to 1e-10, a hundred times that in displacements",
+        source: "hex8 over a prism is quad4 over its section; forces balance to 1e-10, a hundred \
+                 times that in displacements",
         cases: drawn_out,
     },
     Family {
         name: "solids far apart in stiffness and shape",
         figure: "uniform pressure: ratios 1e-8 to 1e8, elements 1:1000, nu 0.4999, hex8 and hex20",
         bound: 1e9 * f64::EPSILON,
-        source: "eps times the condition 1e6 (the square of the aspect ratio) times the elements in a row; it does not know the ratio",
+        source: "eps times the condition 1e6 (the square of the aspect ratio) times the elements \
+                 in a row; it does not know the ratio",
         cases: uniform,
     },
 ];

@@ -3,10 +3,12 @@
 //! Whatever depends on a shape (readers, writers, facets, subdivision, quadrature, checks) reads
 //! its row ([`Shape::reference`]); a further element is a further row.
 
+mod cut;
 mod facets;
 mod functions;
 mod rows;
 
+pub use cut::{Cut, WHOLE, cut_of, cuts};
 pub use facets::FacetReference;
 pub use functions::Functions;
 
@@ -20,8 +22,8 @@ pub const MAX_FACET_NODES: usize = 8;
 
 /// The shape of an element. In the plane nodes run counter-clockwise, corners first, then mid-side
 /// nodes starting with the one between corners 0 and 1. In space they are in the order of VTK: a
-/// hexahedron's or prism's base counter-clockwise seen from inside, then its top, then the middles of
-/// the edges of base, top, and between them.
+/// hexahedron's or prism's base counter-clockwise seen from inside, then its top, then the middles
+/// of the edges of base, top, and between them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Shape {
@@ -85,31 +87,12 @@ pub struct Reference {
     pub facets: &'static [&'static [usize]],
     /// Local node numbers of the corners that edges join.
     pub edges: &'static [[usize; 2]],
-    /// The element cut in smaller ones of its shape; plane elements only.
-    pub refinement: Option<&'static Refinement>,
     /// VTK's cell type; the node order is VTK's own.
     pub vtk: u8,
     /// Gmsh's element type.
     pub gmsh: u64,
     /// Place of each node in Gmsh's order.
     pub gmsh_order: &'static [usize],
-}
-
-/// How an element is cut in smaller ones of its shape.
-///
-/// The nodes of the finer mesh in an element are numbered in three groups: its own, then those
-/// that are new on each facet (in the direction of the facet), then those inside.
-#[derive(Debug)]
-pub struct Refinement {
-    /// New nodes on a facet.
-    pub on_facet: usize,
-    /// New nodes inside: weights of the nodes of the first two groups.
-    pub inside: &'static [&'static [(f64, usize)]],
-    /// Nodes of each child.
-    pub children: &'static [&'static [usize]],
-    /// The children's facets of which each facet consists: child and local facet, in the direction
-    /// of the facet.
-    pub of_facet: &'static [&'static [[usize; 2]]],
 }
 
 impl Shape {
@@ -146,10 +129,21 @@ impl Shape {
     }
 
     /// The shape with a number of Gmsh.
-    pub fn of_gmsh(number: u64) -> Option<Shape> {
+    pub(crate) fn of_gmsh(number: u64) -> Option<Shape> {
         Self::ALL
             .into_iter()
             .find(|shape| shape.reference().gmsh == number)
+    }
+
+    /// The linear shape with the same corners.
+    pub fn linear(self) -> Shape {
+        match self {
+            Shape::Tri3 | Shape::Tri6 => Shape::Tri3,
+            Shape::Quad4 | Shape::Quad8 => Shape::Quad4,
+            Shape::Tet4 | Shape::Tet10 => Shape::Tet4,
+            Shape::Hex8 | Shape::Hex20 => Shape::Hex8,
+            Shape::Prism6 | Shape::Prism15 => Shape::Prism6,
+        }
     }
 
     /// Number of reference coordinates.
@@ -168,18 +162,18 @@ impl Shape {
     }
 
     /// Number of facets.
-    pub fn n_facets(self) -> usize {
+    pub(crate) fn n_facets(self) -> usize {
         self.reference().facets.len()
     }
 
     /// Number of Gauss points.
-    pub fn n_gauss_points(self) -> usize {
+    pub(crate) fn n_gauss_points(self) -> usize {
         self.reference().gauss.len()
     }
 
     /// True where the strain is the same all over an element: such elements lock in isochoric
     /// plastic flow, and have no points of superconvergent stress.
-    pub fn has_constant_strain(self) -> bool {
+    pub(crate) fn has_constant_strain(self) -> bool {
         let row = self.reference();
         row.nodes.len() == row.dimension + 1
     }
@@ -195,12 +189,12 @@ impl Shape {
     }
 
     /// What a facet is as an element of its own.
-    pub fn facet_reference(self, local: usize) -> &'static FacetReference {
+    pub(crate) fn facet_reference(self, local: usize) -> &'static FacetReference {
         FacetReference::with_nodes(self.dimension() - 1, self.facet(local).len())
     }
 
     /// Whether an element has one corner more than dimensions.
-    pub fn is_simplex(self) -> bool {
+    pub(crate) fn is_simplex(self) -> bool {
         self.n_corners() == self.dimension() + 1
     }
 

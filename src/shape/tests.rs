@@ -1,4 +1,5 @@
 use super::*;
+use nalgebra::Matrix3;
 
 fn inside(shape: Shape) -> Vec<Place> {
     let z = if shape.dimension() == 3 { 0.17 } else { 0.0 };
@@ -187,60 +188,76 @@ fn rules_have_the_volume_of_the_reference_element() {
     }
 }
 
-/// Of the reference element the nodes of the finer mesh are placed as the table says: each child is
-/// the reference element at half its size (turned or not), and the parts of a facet lie on it.
+/// Each child is the reference element at half its size, and fills the element with the others; the
+/// parts of a facet are its own shape at half its size; the linear functions of the corners agree
+/// with the places.
 #[test]
-fn children_are_the_element_at_half_its_size() {
-    for shape in Shape::PLANE {
+fn children_are_elements_of_half_the_size_that_fill_it() {
+    for shape in Shape::ALL {
         let row = shape.reference();
-        let refinement = row.refinement.unwrap();
-        let mut places = row.nodes.to_vec();
-        for (local, facet) in row.facets.iter().enumerate() {
-            for k in 0..refinement.on_facet {
-                let s = if row.degree == 1 { 0.0 } else { k as f64 - 0.5 };
-                let at = (shape.facet_reference(local).functions)([s, 0.0, 0.0]);
-                let mut place = [0.0; 3];
-                for (value, &node) in at.values.iter().zip(*facet) {
-                    (0..3).for_each(|d| place[d] += value * row.nodes[node][d]);
-                }
-                places.push(place);
-            }
-        }
-        for terms in refinement.inside {
-            let mut place = [0.0; 3];
-            for &(weight, node) in *terms {
-                (0..3).for_each(|d| place[d] += weight * places[node][d]);
-            }
-            places.push(place);
-        }
-        let mut volume = 0.0;
-        for child in refinement.children {
-            assert_eq!(child.len(), row.nodes.len());
-            let nodes: Vec<Place> = child.iter().map(|&k| places[k]).collect();
-            for &(at, weight) in row.gauss {
-                let mut j = [[0.0f64; 2]; 2];
-                for (gradient, node) in shape.functions(at).gradients.iter().zip(&nodes) {
-                    for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                        j[a][b] += gradient[a] * node[b];
-                    }
-                }
-                let jacobian = j[0][0] * j[1][1] - j[0][1] * j[1][0];
-                assert!((jacobian - 0.25).abs() < 1e-15, "{shape:?} {child:?}");
-                volume += weight * jacobian;
-            }
-        }
         let whole: f64 = row.gauss.iter().map(|(_, weight)| weight).sum();
-        assert!((volume - whole).abs() < 1e-15);
-        for (parts, facet) in refinement.of_facet.iter().zip(row.facets) {
-            let ends = |[child, local]: [usize; 2]| {
-                let nodes = row.facets[local];
-                [nodes[0], nodes[1]].map(|k| refinement.children[child][k])
-            };
-            let [first, last] = [ends(parts[0]), ends(parts[1])];
-            assert_eq!([first[0], last[1]], [facet[0], facet[1]], "{shape:?}");
-            assert_eq!(first[1], last[0], "{shape:?}");
+        let parts = 1 << row.dimension;
+        for cut in cuts(shape) {
+            assert_eq!(cut.children.len(), parts, "{shape:?}");
+            assert_eq!(cut.places[..row.nodes.len()], *row.nodes);
+            let mut volume = 0.0;
+            for child in &cut.children {
+                let nodes: Vec<Place> = child.iter().map(|&k| cut.places[k]).collect();
+                for &(at, weight) in row.gauss {
+                    let jacobian = jacobian(shape, at, &nodes);
+                    let expected = 1.0 / parts as f64;
+                    assert!((jacobian - expected).abs() < 1e-15, "{shape:?} {child:?}");
+                    volume += weight * jacobian;
+                }
+            }
+            assert!((volume - whole).abs() < 1e-14, "{shape:?}");
+            for (parts, facet) in cut.of_facet.iter().zip(row.facets) {
+                assert_eq!(parts.len(), 1 << (row.dimension - 1), "{shape:?}");
+                let kind = |&&[child, local]: &&[usize; 2]| {
+                    cut.children[child].len() == row.nodes.len()
+                        && row.facets[local].len() == facet.len()
+                };
+                assert_eq!(parts.iter().filter(kind).count(), parts.len());
+            }
+            for (place, between) in cut.places.iter().zip(&cut.between) {
+                let sum: u32 = between.iter().map(|(_, part)| part).sum();
+                assert_eq!(sum, WHOLE);
+                for d in 0..3 {
+                    let terms = between.iter();
+                    let terms = terms.map(|&(k, part)| f64::from(part) * row.nodes[k][d]);
+                    assert_eq!(terms.sum::<f64>(), f64::from(WHOLE) * place[d]);
+                }
+            }
         }
     }
+}
+
+fn jacobian(shape: Shape, at: Place, nodes: &[Place]) -> f64 {
+    let mut j = Matrix3::identity();
+    let n = shape.dimension();
+    j.view_mut((0, 0), (n, n)).fill(0.0);
+    for (gradient, node) in shape.functions(at).gradients.iter().zip(nodes) {
+        for (a, b) in (0..n).flat_map(|a| (0..n).map(move |b| (a, b))) {
+            j[(a, b)] += gradient[a] * node[b];
+        }
+    }
+    j.determinant()
+}
+
+/// The shortest diagonal of a flat tetrahedron's octahedron is chosen, whatever the order of nodes.
+#[test]
+fn tetrahedra_are_cut_along_the_shortest_diagonal() {
+    // The edges between the first two and the last two corners lie close to each other.
+    let nodes = [
+        [-1.0, 0.0, 0.1],
+        [1.0, 0.0, 0.1],
+        [0.0, 1.0, 0.0],
+        [0.0, -1.0, 0.0],
+    ];
+    let order = |[a, b, c, d]: [usize; 4]| [nodes[a], nodes[b], nodes[c], nodes[d]];
+    assert_eq!(cut_of(Shape::Tet4, &order([0, 1, 2, 3])), 0);
+    assert_eq!(cut_of(Shape::Tet4, &order([0, 2, 1, 3])), 1);
+    assert_eq!(cut_of(Shape::Tet4, &order([0, 2, 3, 1])), 2);
 }
 
 #[test]

@@ -9,9 +9,9 @@
 use super::rows::{Entries, Rows};
 use super::tied::{SplitSlip, Tied, Trace};
 use super::{PairBlock, PairMatrix};
+use crate::classes::Classes;
 use crate::error::Result;
 use crate::linalg::ContactStiffness;
-use crate::mesh::root;
 use crate::model::RigidMotion;
 use nalgebra::DVector;
 use std::collections::BTreeMap;
@@ -214,35 +214,30 @@ pub(super) fn groups<'a>(
     coupled: impl Iterator<Item = &'a [usize]>,
 ) -> Vec<usize> {
     let n = rows.len();
-    let mut parent: Vec<usize> = (0..n).collect();
-    let mut join = |a: usize, b: usize| {
-        let (a, b) = (root(&mut parent, a), root(&mut parent, b));
-        parent[a.max(b)] = a.min(b);
-    };
+    let mut classes = Classes::new(n);
     let mut first_of_part = BTreeMap::new();
     let mut row_of = vec![0; part.len()];
     for (k, row) in rows.iter().enumerate() {
         for &(i, _) in row {
-            join(k, *first_of_part.entry(part[i]).or_insert(k));
+            classes.join(k, *first_of_part.entry(part[i]).or_insert(k));
             row_of[i] = k;
         }
     }
     for freedoms in coupled {
         for &freedom in freedoms {
-            join(row_of[freedom], row_of[freedoms[0]]);
+            classes.join(row_of[freedom], row_of[freedoms[0]]);
         }
     }
     let mut number = vec![usize::MAX; n];
     let mut count = 0;
     (0..n)
         .map(|k| {
-            // The root of a group is its first row.
-            let root = root(&mut parent, k);
-            if root == k {
+            let first = classes.first(k);
+            if first == k {
                 number[k] = count;
                 count += 1;
             }
-            number[root]
+            number[first]
         })
         .collect()
 }

@@ -59,7 +59,10 @@ impl Rows {
             let softer = |&(i, b): &(usize, f64)| diagonal(*slave) * b * b > STIFFER * diagonal(i);
             masters.iter().any(softer)
         };
-        let is_pair = |row: &Entries| matches!(row.as_slice(), [(i, _), (j, _)] if rows_at[*i] == 1 && rows_at[*j] == 1);
+        let is_pair = |row: &Entries| match row.as_slice() {
+            [(i, _), (j, _)] => rows_at[*i] == 1 && rows_at[*j] == 1,
+            _ => false,
+        };
         if n_contact == 2 * entries.len() && entries.iter().all(is_pair) {
             return Ok(Self::of_pairs(entries, leads));
         }
@@ -91,7 +94,7 @@ impl Rows {
         })
     }
 
-    /// Rows `u_j - u_i` that share no freedom; `leads` tells whether `j` leads.
+    /// Rows `u_j - u_i` that share no freedom; `leads` states whether `j` leads.
     fn of_pairs(entries: Vec<Entries>, leads: impl Fn(&Entries) -> bool) -> Self {
         let ends = |row: &Entries| {
             let [i, j] = [row[0].0, row[1].0];
@@ -341,7 +344,8 @@ fn followers(b: &DMatrix<f64>, diagonal: impl Fn(usize) -> f64) -> Result<Vec<us
 
 fn dependent() -> Error {
     Error::input(
-        "the contact rows depend on each other: each must restrict a motion that the others leave free",
+        "the contact rows depend on each other: each must restrict a motion that the others leave \
+         free",
     )
 }
 

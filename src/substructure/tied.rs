@@ -10,15 +10,16 @@
 //!     [ H'S P   H'S H  ] [ s ] = [ H' f - r     ]       r = t - T s
 //! ```
 //!
-//! A floating body that is stiff beside what it rests on hardly deforms. Its rigid motions cost the
-//! soft stiffness alone, which the round-off of its own stiffness swamps. Those motions are known
-//! exactly (`R`, from the geometry), so they are unknowns in their own right:
+//! A floating body that is stiff compared with what it rests on hardly deforms. Its rigid motions
+//! cost the soft stiffness alone, which the round-off of its own stiffness swamps. Those motions
+//! are known exactly (`R`, from the geometry), so they are unknowns in their own right:
 //!
 //! ```text
 //!     v = R a + Z w      Z: unit vectors of all leaders but as many as there are motions
 //!
 //!     [ Z'S Z  Z'S R ] [ w ]   [ Z' f ]
-//!     [ R'S Z  R'S R ] [ a ] = [ R' f ]      S_body r = 0 is put in exactly where r is a rigid motion of that body
+//!     [ R'S Z  R'S R ] [ a ] = [ R' f ]      S_body r = 0 is put in
+//!                                             exactly where r is a rigid motion of that body
 //! ```
 //!
 //! Cholesky's method does not care how rows are scaled: its error in each entry is a share of the
@@ -81,7 +82,8 @@ pub(crate) struct Tied {
     kept: Vec<usize>,
     /// `leaders x motions`.
     motions: DMatrix<f64>,
-    /// The motions on all contact freedoms, without what is rigid in each part (`n_contact x motions`).
+    /// The motions on all contact freedoms, without what is rigid in each part
+    /// (`n_contact x motions`).
     lifted: DMatrix<f64>,
     /// What is rigid in them: amplitude of each trace (`traces x motions`).
     rigid_share: DMatrix<f64>,
@@ -169,7 +171,8 @@ impl Tied {
         let factor = blocked::cholesky(tied).ok_or_else(|| {
             Error::new(
                 ErrorKind::Unheld,
-                "the structure is not held even with all contact rows closed: its condensed stiffness is not positive definite",
+                "the structure is not held even with all contact rows closed: its condensed \
+                 stiffness is not positive definite",
             )
         })?;
         blocked::solve_lower(&factor, &mut coupling);
@@ -247,10 +250,10 @@ impl Tied {
         self.rows.spread(&v, &apart, contact);
     }
 
-    /// Takes the rigid motions of floating bodies out of a displacement of the rows. They
-    /// cost nothing: forces and strains of a gap that is large beside the deformation are those of
-    /// the rest, and do not drown in its round-off. What is rigid to round-off leaves nothing, so
-    /// that a body which an interference lifts off another feels no force, rather than one whose
+    /// Takes the rigid motions of floating bodies out of a displacement of the rows. They cost
+    /// nothing: forces and strains of a gap that is large compared with the deformation are those
+    /// of the rest, and do not drown in its round-off. What is rigid to round-off leaves nothing,
+    /// so that a body which an interference lifts off another feels no force, rather than one whose
     /// sign is chance.
     pub(super) fn split_slip(&self, slip: &[f64]) -> SplitSlip {
         let mut rest = DVector::from_column_slice(slip);
@@ -273,7 +276,7 @@ impl Tied {
     }
 
     /// As [`Tied::recover`], with rigid motions apart: the deformation of a stiff body keeps its
-    /// digits beside a motion that is larger by orders.
+    /// digits compared with a motion that is larger by orders.
     pub(super) fn split(&self, contact: &[f64], slip: &[f64]) -> Split {
         let apart = self.rows.apart(slip);
         let unknowns = self.unknowns(contact, &apart);
@@ -379,7 +382,7 @@ fn rigid_slips(rigid: &[Trace], rows: &Rows) -> Vec<RigidSlip> {
 
 /// Motions of the leaders (`leaders x motions`, independent ones) and the leaders that remain
 /// unknowns beside them: Gaussian elimination with complete pivoting picks for each motion the
-/// leader that tells it best from the others.
+/// leader that distinguishes it best from the others.
 fn basis(rigid: &[Trace], rows: &Rows, part: &[usize]) -> (DMatrix<f64>, Vec<usize>) {
     let n = rows.lead.len();
     let mut all = DMatrix::zeros(n, rigid.len());

@@ -1,5 +1,6 @@
-//! The claim of the estimate: how often the true error lies below the stated one, and how far the two are apart. The page
-//! data/accuracy/claims.md has all families (`cargo run --release --example claims`); here those that take seconds.
+//! The claim of the estimate: how often the true error lies below the stated one, and how far the
+//! two are apart. The page data/accuracy/claims.md has all families
+//! (`cargo run --release --example claims`); here those that take seconds.
 
 use crate::families::{Claim, Family, judging_exactly};
 

@@ -68,7 +68,8 @@ fn the_true_error_is_within_the_demanded_one() {
     }
 }
 
-/// Perfectly plastic and without contact: nothing ends an increment but the targets, and what is asked for is above all that of the path.
+/// Perfectly plastic and without contact: nothing ends an increment but the targets, and what is
+/// asked for is above all that of the path.
 #[test]
 fn increments_follow_where_the_path_is_too_coarse() {
     let targets = "program.targets=[{ load_factor = 140.0 }, { load_factor = 170.0 }]";

@@ -1,4 +1,5 @@
-//! Each reported quantity has its three errors, and the error of the path is honest where a scene takes few increments.
+//! Each reported quantity has its three errors, and the error of the path is honest where a scene
+//! takes few increments.
 
 use crate::running;
 use brinell::accuracy::{Extent, estimate};
@@ -27,7 +28,8 @@ fn every_quantity_has_a_value_and_three_errors() {
         "cylinder_on_half_plane",
         &[
             "mesh.cylinder_on_half_plane.resolution=6",
-            "program.targets=[{ yield = true }, { name = \"pressed\", load_factor = 1.6 }, { name = \"unloaded\", load_factor = 0.0 }]",
+            "program.targets=[{ yield = true }, { name = \"pressed\", load_factor = 1.6 }, \
+             { name = \"unloaded\", load_factor = 0.0 }]",
         ],
     );
     let (results, accuracy) = estimated(&scene, Extent::Program);
@@ -96,8 +98,8 @@ fn an_elastic_path_is_exact_and_says_so() {
     assert!(accuracy.quantities.iter().all(|q| q.path == Some(0.0)));
 }
 
-/// Without contact `stepping = "events"` takes one increment from target to target. What the increments leave is known from a run with
-/// a hundred times as many.
+/// Without contact `stepping = "events"` takes one increment from target to target. What the
+/// increments leave is known from a run with a hundred times as many.
 #[test]
 fn few_increments_state_the_error_that_they_make() {
     let tube = |element: &str| -> Scene {
@@ -106,7 +108,8 @@ fn few_increments_state_the_error_that_they_make() {
             &[
                 &format!("mesh.parts.0.element={element}"),
                 "mesh.parts.0.ring.elements=[16,6]",
-                "program.targets=[{ name = \"pressed\", load_factor = 180.0 }, { name = \"unloaded\", load_factor = 0.0 }]",
+                "program.targets=[{ name = \"pressed\", load_factor = 180.0 }, \
+                 { name = \"unloaded\", load_factor = 0.0 }]",
             ],
         )
     };
@@ -133,7 +136,8 @@ fn few_increments_state_the_error_that_they_make() {
                 .unwrap();
             let (stated, made) = (row.path.unwrap(), (row.value - limit).abs());
             println!("{element} {path}: path {stated:.2e}, made {made:.2e}, of {limit:.2e}");
-            // Twice the change from n to 2n is the error of the first order; higher orders make it less.
+            // Twice the change from n to 2n is the error of the first order; higher orders make it
+            // less.
             assert!(
                 stated >= 0.5 * made,
                 "{element} {path}: {stated:e} {made:e}"
@@ -146,8 +150,8 @@ fn few_increments_state_the_error_that_they_make() {
     }
 }
 
-/// The dent after a half width as target carries the error of the load at which each mesh reaches that width, and the run says so; with
-/// the load as target there is nothing to say.
+/// The dent after a half width as target carries the error of the load at which each mesh reaches
+/// that width, and the run says so; with the load as target there is nothing to say.
 #[test]
 fn a_half_width_as_target_says_what_it_adds() {
     let estimated = |target: &str| {

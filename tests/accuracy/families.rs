@@ -1,7 +1,8 @@
-//! The problems on which stated errors are held against true ones: families of meshes, with values that are known from closed
-//! forms or from a much finer mesh with many more increments.
+//! The problems on which stated errors are held against true ones: families of meshes, with values
+//! that are known from closed forms or from a much finer mesh with many more increments.
 //!
-//! The constants of `brinell::accuracy` were looked at on the families of `calibration` alone; these judge them.
+//! The constants of `brinell::accuracy` were looked at on the families of `calibration` alone;
+//! these judge them.
 #![allow(dead_code)] // tests and the page each use a part of it
 
 use crate::running;
@@ -36,7 +37,8 @@ pub enum Truth {
     Finer(Box<Scene>),
 }
 
-/// A stated error beside the true one, both relative to the largest size of the quantity in the run.
+/// A stated error beside the true one, both relative to the largest size of the quantity in the
+/// run.
 #[derive(Debug, Clone)]
 pub struct Claim {
     pub family: String,
@@ -128,8 +130,10 @@ pub fn stepped(mut scene: Scene, steps: usize) -> Box<Scene> {
 }
 
 /// Loading far beyond yield, partly off, off.
-pub const HISTORY: &str = "program.targets=[{ yield = true }, { load_factor = 1.3 }, { load_factor = 2.0 }, \
-     { name = \"peak\", load_factor = 3.0 }, { name = \"back\", load_factor = 1.5 }, { name = \"off\", load_factor = 0.0 }]";
+pub const HISTORY: &str = "program.targets=[{ yield = true }, { load_factor = 1.3 }, \
+                           { load_factor = 2.0 }, { name = \"peak\", load_factor = 3.0 }, \
+                           { name = \"back\", load_factor = 1.5 }, \
+                           { name = \"off\", load_factor = 0.0 }]";
 
 /// A cylinder or ball on a flat with `n` elements over the contact at first yield.
 pub fn on_flat(name: &str, n: usize, more: &[&str]) -> Scene {
@@ -157,8 +161,10 @@ pub fn tube(element: &str, n: usize, targets: &str) -> Scene {
     )
 }
 
-pub const TUBE_HISTORY: &str = "program.targets=[{ name = \"pressed\", load_factor = 10.0 }, { yield = true }, \
-     { name = \"p130\", load_factor = 130.0 }, { name = \"p170\", load_factor = 170.0 }, { name = \"off\", load_factor = 0.0 }]";
+pub const TUBE_HISTORY: &str = "program.targets=[{ name = \"pressed\", load_factor = 10.0 }, \
+                                { yield = true }, { name = \"p130\", load_factor = 130.0 }, \
+                                { name = \"p170\", load_factor = 170.0 }, \
+                                { name = \"off\", load_factor = 0.0 }]";
 
 pub const SHAPES: [&str; 4] = ["quad4", "quad8", "tri3", "tri6"];
 
@@ -279,7 +285,8 @@ fn disc_at_yield() -> Family {
     }
 }
 
-/// Persson's pin, with a clearance on its radius: neat, and such that the contact is 59 and 29 degrees to either side.
+/// Persson's pin, with a clearance on its radius: neat, and such that the contact is 59 and 29
+/// degrees to either side.
 fn pin(clearance: f64) -> Family {
     let modulus = contact_modulus(210e3, 0.3, 210e3, 0.3);
     let exact = PinInHole::new(10.0, clearance, modulus).unwrap();
@@ -372,7 +379,8 @@ fn tube_from_file(shape: &str, folder: &Path) -> Family {
     }
 }
 
-/// Writes the mesh of a scene to a file, which knows nothing of its shapes, and gives the scene with that file.
+/// Writes the mesh of a scene to a file, which knows nothing of its shapes, and gives the scene
+/// with that file.
 pub fn from_file(mut scene: Scene, folder: &Path, circles: &[(&str, [f64; 2], f64)]) -> Scene {
     std::fs::create_dir_all(folder).unwrap();
     let file = folder.join("mesh.msh");
@@ -392,7 +400,8 @@ pub fn from_file(mut scene: Scene, folder: &Path, circles: &[(&str, [f64; 2], f6
     scene
 }
 
-/// An elastic layer on a stiffer base, pressed by a strip of pressure: away from it the layer lifts off.
+/// An elastic layer on a stiffer base, pressed by a strip of pressure: away from it the layer lifts
+/// off.
 fn layer(n: usize) -> Scene {
     let (along, across) = (16 * n, 2 * n);
     running::parse(&format!(
@@ -402,7 +411,8 @@ kind = "plane_strain"
 symmetry = 2
 [[mesh.parts]]
 body = "layer"
-block = {{ x = [0.0, 8.0], y = [0.0, 1.0], elements = [{along}, {across}], pieces = [{{ name = "strip", side = "top", from = 0.0, to = 0.5 }}] }}
+block = {{ x = [0.0, 8.0], y = [0.0, 1.0], elements = [{along}, {across}], pieces = [
+    {{ name = "strip", side = "top", from = 0.0, to = 0.5 }}] }}
 [[mesh.parts]]
 body = "base"
 block = {{ x = [0.0, 8.0], y = [-4.0, 0.0], elements = [{along}, {below}], bias = [1.0, 0.25] }}

@@ -1,4 +1,5 @@
-//! Meshes from files: subdivided, with new nodes on circles where the scene gives them, they converge as generated meshes do.
+//! Meshes from files: subdivided, with new nodes on circles where the scene gives them, they
+//! converge as generated meshes do.
 
 use crate::demand::reached;
 use crate::estimate::estimated;
@@ -86,7 +87,8 @@ fn a_ring_from_a_file_converges_with_the_order_of_its_elements() {
                 "{element} {i}: {observed} of {round:?}"
             );
         }
-        // Without the circles the body is the polygon of the file: refinement comes to rest at its error.
+        // Without the circles the body is the polygon of the file: refinement comes to rest at its
+        // error.
         let polygon = errors(&studied(&tube(element, folder.path(), &[])));
         println!("{element} {polygon:?}");
         let rests = polygon[0][0] > 0.5 * polygon[1][0];
@@ -114,7 +116,8 @@ fn a_run_on_a_mesh_from_a_file_states_its_errors() {
         .find(|q| q.quantity == "yield.load")
         .unwrap();
     let off = (results.first_yield.unwrap().load - exact).abs();
-    // Never below the true one; that of the law of the elements' order is 4/3 of the step to the next mesh, thrice that at most.
+    // Never below the true one; that of the law of the elements' order is 4/3 of the step to the
+    // next mesh, thrice that at most.
     let found = row.discretisation.unwrap() / off;
     println!("yield load of a file: {found:.2}");
     assert!((1.0..=4.0).contains(&found), "{found}");
@@ -137,15 +140,16 @@ fn a_demand_chooses_how_often_a_file_is_subdivided() {
         assert!(off.abs() <= accuracy, "{accuracy}: {load} {exact}");
         chosen.push(found.scene.mesh.subdivisions);
     }
-    // Judged by three meshes at least, and a hundred times less by second order: three or four halvings more.
+    // Judged by three meshes at least, and a hundred times less by second order: three or four
+    // halvings more.
     assert!(
         chosen[0] >= 2 && chosen[1] > chosen[0] && chosen[1] <= chosen[0] + 4,
         "{chosen:?}"
     );
 }
 
-/// A file that is too large for meshes of sixteen times as many elements is subdivided once, and states three times the error of the formal
-/// order; that of its path is known as elsewhere.
+/// A file that is too large for meshes of sixteen times as many elements is subdivided once, and
+/// states three times the error of the formal order; that of its path is known as elsewhere.
 #[test]
 fn a_large_file_is_judged_by_one_subdivision() {
     let folder = tempfile::tempdir().unwrap();
@@ -169,7 +173,8 @@ fn a_large_file_is_judged_by_one_subdivision() {
     assert!(row("states.opened.approach").path.unwrap() > 0.0);
 }
 
-/// The contact of the paper's cylinder from a file, subdivided, is that of the generator with as many elements.
+/// The contact of the paper's cylinder from a file, subdivided, is that of the generator with as
+/// many elements.
 #[test]
 fn a_contact_from_a_file_keeps_its_pairs_and_gaps() {
     let folder = tempfile::tempdir().unwrap();

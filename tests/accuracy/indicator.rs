@@ -1,4 +1,5 @@
-//! The energy norm of the recovered stress error against that of the exact one, on an elastic thick cylinder.
+//! The energy norm of the recovered stress error against that of the exact one, on an elastic thick
+//! cylinder.
 
 use crate::running;
 use brinell::analytical::{Plane, ThickCylinder};
@@ -53,11 +54,13 @@ targets = [{{ load_factor = 1.0 }}]
     ))
 }
 
-/// Cells along a side of a quadratic element in which the exact error is integrated by the midpoint rule.
+/// Cells along a side of a quadratic element in which the exact error is integrated by the midpoint
+/// rule.
 const CELLS: usize = 8;
 
-/// Points at which the stress of an element is compared with the exact one: position, weight, computed stress. Linear elements at
-/// their Gauss points; quadratic ones all over, where the stress is the polynomial through the Gauss points.
+/// Points at which the stress of an element is compared with the exact one: position, weight,
+/// computed stress. Linear elements at their Gauss points; quadratic ones all over, where the
+/// stress is the polynomial through the Gauss points.
 fn points(model: &Model, e: usize, displacement: &[f64]) -> Vec<([f64; 2], f64, [f64; 4])> {
     let elastic = model.materials[0].lame();
     let (shape, x) = (model.mesh.shapes[e], model.element_coordinates(e));
@@ -203,7 +206,8 @@ fn the_estimate_is_close_to_the_exact_error_and_falls_with_its_order() {
     ] {
         let name = format!("{shape:?}").to_lowercase();
         let mut estimates = Vec::new();
-        // With 4 elements over 90 degrees a quadratic fit over three of them is no match for stresses that turn twice as far.
+        // With 4 elements over 90 degrees a quadratic fit over three of them is no match for
+        // stresses that turn twice as far.
         for n in [8, 16, 32] {
             let scene = scene(&name, n);
             let (estimate, effectivity) = effectivity(&scene);

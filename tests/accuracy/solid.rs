@@ -9,8 +9,9 @@ use brinell::model::Model;
 use brinell::progress::Silent;
 
 /// Of a ball with six elements over the contact radius, and of crossed cylinders (oblong faces):
-/// companions are near ones, as coarser ones cannot be read, and what they state covers the change to
-/// elements two thirds as large. With errors in proportion to h^2 that is 5/9 of the error itself.
+/// companions are near ones, as coarser ones cannot be read, and what they state covers the change
+/// to elements two thirds as large. With errors in proportion to h^2 that is 5/9 of the error
+/// itself.
 #[test]
 fn stated_errors_of_solids_cover_the_way_to_a_finer_mesh() {
     for name in ["ball_on_flat_3d", "crossed_cylinders"] {

@@ -1,4 +1,5 @@
-//! A study finds what is known: order of convergence, references, prices; it keeps to its budget and what it has.
+//! A study finds what is known: order of convergence, references, prices; it keeps to its budget
+//! and what it has.
 
 use crate::running;
 use brinell::accuracy::{Knob, Plan, Study, study};
@@ -47,7 +48,8 @@ fn a_study_prices_accuracy_against_the_closed_form() {
         .unwrap();
     let reference = first.reference.as_ref().unwrap();
     assert_eq!((reference.value, reference.uncertainty), (103.750, 0.0));
-    // Stresses of a quadratic element, recovered at the bore: at least of the order of the energy norm, 2.
+    // Stresses of a quadratic element, recovered at the bore: at least of the order of the energy
+    // norm, 2.
     let order = first.orders.iter().find(|o| o.0 == "quad8").unwrap().1;
     assert!(order > 2.0, "{:?}", first.orders);
     for quantity in &found.quantities {
@@ -111,7 +113,8 @@ fn elements_converge_with_their_orders() {
     let tube = ThickCylinder::new(100.0, 200.0, 210e3, 0.3, Plane::Strain).unwrap();
     let exact = tube.displacement(100.0, 60.0, 0.0) * 8f64.sqrt() / std::f64::consts::PI;
     let reference = format!(
-        "reference=[{{ quantity = \"states.alpha 60.approach\", value = {exact:?}, source = \"Lame\" }}]"
+        "reference=[{{ quantity = \"states.alpha 60.approach\", value = {exact:?}, source \
+         = \"Lame\" }}]"
     );
     let scene = running::load(
         "thick_cylinder",

@@ -5,8 +5,9 @@ use brinell::linalg::Backend;
 use brinell::results::{HistoryRow, Results, State};
 use brinell::scene::Scene;
 
-/// Relative agreement asked for by the project: far above round-off times the condition of these models, far below any
-/// tolerance of the analysis except the plastic one, which both runs stop at in the same iteration.
+/// Relative agreement asked for by the project: far above round-off times the condition of these
+/// models, far below any tolerance of the analysis except the plastic one, which both runs stop at
+/// in the same iteration.
 pub const AGREEMENT: f64 = 1e-10;
 
 /// The sparse backends of this build.
@@ -16,8 +17,8 @@ pub fn sparse() -> Vec<Backend> {
     all
 }
 
-/// Runs the scene with every backend: all agree with the dense one or all refuse for the same reason. Returns the results of the
-/// default backend.
+/// Runs the scene with every backend: all agree with the dense one or all refuse for the same
+/// reason. Returns the results of the default backend.
 #[track_caller]
 pub fn all(scene: &Scene) -> Option<Results> {
     let reference = try_run(scene, Backend::Dense);
@@ -48,8 +49,9 @@ pub fn all(scene: &Scene) -> Option<Results> {
     results.into_iter().next().flatten()
 }
 
-/// An event lies where a force or gap crosses zero: its place, and all figures there, are off by their round-off over the slope, which may be small. (Once
-/// in 11,000 random scenes beyond 1e-10: 3e-10.) The states at the targets know nothing of it.
+/// An event lies where a force or gap crosses zero: its place, and all figures there, are off by
+/// their round-off over the slope, which may be small. (Once in 11,000 random scenes beyond 1e-10:
+/// 3e-10.) The states at the targets know nothing of it.
 const ON_THE_WAY: f64 = 1e-8;
 
 type Column = (&'static str, fn(&HistoryRow) -> f64);
@@ -72,8 +74,9 @@ const FIGURES: [Figure; 6] = [
     ("plastic strain", |s| s.max_equivalent_plastic_strain),
 ];
 
-/// The size of the forces that prescribed movements may call up, in bodies of a size of about 1: the sums from which they come hold
-/// terms of this size also where nothing is touched and the forces are zero.
+/// The size of the forces that prescribed movements may call up, in bodies of a size of about 1:
+/// the sums from which they come hold terms of this size also where nothing is touched and the
+/// forces are zero.
 fn of_movement(scene: &Scene) -> f64 {
     let stiffest = largest(scene.materials.values().map(|m| m.youngs_modulus));
     let moves = scene.load.iter().filter_map(|load| load.displacement);
@@ -112,7 +115,8 @@ fn agree_on_the_way(a: &Results, b: &Results, force: f64) {
         let scale = largest(a.history.iter().map(value)).max(floor);
         let most = largest(a.history.iter().map(|r| r.contact_force));
         for (row, other) in a.history.iter().zip(&b.history) {
-            // Under a vanishing force (a floating body that just touches) the extent of the contact is one of round-off.
+            // Under a vanishing force (a floating body that just touches) the extent of the contact
+            // is one of round-off.
             let untouched = row.contact_force <= (AGREEMENT * at_least).max(1e-6 * most);
             if name == "half_width" && untouched {
                 continue;
@@ -132,10 +136,11 @@ fn agree_on_the_way(a: &Results, b: &Results, force: f64) {
     }
 }
 
-/// Compares first yield and the states at the targets. A body that is moved against others with gaps between has no force to go by until
-/// all gaps are closed, and none again once they open: which of its pairs closes or opens first, in an instant, is for round-off to say, and so is where
-/// in its gaps it is left. What is determined is the same: all forces, all gaps wherever something presses, else the sum of the gaps
-/// above each other.
+/// Compares first yield and the states at the targets. A body that is moved against others with
+/// gaps between has no force to go by until all gaps are closed, and none again once they open:
+/// which of its pairs closes or opens first, in an instant, is for round-off to say, and so is
+/// where in its gaps it is left. What is determined is the same: all forces, all gaps wherever
+/// something presses, else the sum of the gaps above each other.
 #[track_caller]
 pub fn agree_at_targets(a: &Results, b: &Results, force: f64) {
     let at_least = force;
@@ -153,8 +158,9 @@ pub fn agree_at_targets(a: &Results, b: &Results, force: f64) {
     }
     assert_eq!(a.states.len(), b.states.len());
     for (name, value) in FIGURES {
-        // Over all states. Where a figure vanishes in exact arithmetic its size is that of what it is a difference of: gaps,
-        // movements, strains times the size of the model (about 1); for pressures the load.
+        // Over all states. Where a figure vanishes in exact arithmetic its size is that of what it
+        // is a difference of: gaps, movements, strains times the size of the model (about 1); for
+        // pressures the load.
         let gaps = a.states.iter().flat_map(|s| &s.pairs).map(|p| p.gap);
         let of = |f: fn(&State) -> f64| largest(a.states.iter().map(f));
         let floor = match name {
@@ -162,7 +168,8 @@ pub fn agree_at_targets(a: &Results, b: &Results, force: f64) {
                 .max(of(|s| s.approach))
                 .max(of(|s| s.max_equivalent_plastic_strain)),
             "max_pressure" | "load" => of(|s| s.load).max(at_least),
-            // What is left of all strain, which in bodies of a size of about 1 is as large as the displacements.
+            // What is left of all strain, which in bodies of a size of about 1 is as large as the
+            // displacements.
             "plastic strain" => of(|s| s.approach),
             _ => 0.0,
         };

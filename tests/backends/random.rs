@@ -1,4 +1,5 @@
-//! Random stacks of blocks: gaps, loads, movements, materials, hardening. `BRINELL_RANDOM_SCENES=2000` runs as many.
+//! Random stacks of blocks: gaps, loads, movements, materials, hardening.
+//! `BRINELL_RANDOM_SCENES=2000` runs as many.
 
 use crate::agreement::all;
 use crate::running::parse;
@@ -73,7 +74,8 @@ fn stack() -> impl Strategy<Value = Stack> {
         .prop_map(
             |(kind, shape, columns, layers, pad, pressure, targets, (steps, movement))| Stack {
                 kind,
-                // Axis nodes of quadratic elements carry no load: `hard/axis_of_quadratic_elements` is a case of its own.
+                // Axis nodes of quadratic elements carry no load: `hard/axis_of_quadratic_elements`
+                // is a case of its own.
                 shape: if kind == "axisymmetric" {
                     "quad4"
                 } else {
@@ -152,7 +154,8 @@ impl Stack {
                 self.pressure
             )),
         }
-        // Forces balance better than the agreement asked for: two roundings of an increment may stop at different iterates.
+        // Forces balance better than the agreement asked for: two roundings of an increment may
+        // stop at different iterates.
         say("[analysis]\ntolerance = 1e-12\n[program]\ngamma = 1e-12".into());
         if let Some(steps) = self.steps {
             say(format!("stepping = \"steps\"\nsteps = {steps}"));
@@ -179,7 +182,8 @@ fn elastic(height: f64, rows: usize, gap: f64, young: f64, poisson: f64) -> Laye
     }
 }
 
-/// A body between two others that nothing acts on stays where it is, whatever round-off says: the top moves by less than its gap.
+/// A body between two others that nothing acts on stays where it is, whatever round-off says: the
+/// top moves by less than its gap.
 #[test]
 fn a_body_on_which_nothing_acts_is_left_alone() {
     let stack = Stack {
@@ -201,8 +205,9 @@ fn a_body_on_which_nothing_acts_is_left_alone() {
     assert!(results.states[0].contact_force.abs() < 1e-9);
 }
 
-/// A body that lies on another between two that move: nothing acts on it, it stays. The rates of the forces that hold it are sums of terms that cancel
-/// to the round-off of a condition; taken at its word it was driven off (one backend refused).
+/// A body that lies on another between two that move: nothing acts on it, it stays. The rates of
+/// the forces that hold it are sums of terms that cancel to the round-off of a condition; taken at
+/// its word it was driven off (one backend refused).
 #[test]
 fn a_body_that_lies_loose_stays_where_the_other_turns_back() {
     let stack = Stack {
@@ -232,14 +237,16 @@ fn a_body_that_lies_loose_stays_where_the_other_turns_back() {
     }
 }
 
-/// Let go, the body between is held by forces of round-off, which hand it from pair to pair: each fall of the energy was of 1e-30, none the same,
-/// and the statuses never settled. `hard/loose_body` is this scene.
+/// Let go, the body between is held by forces of round-off, which hand it from pair to pair: each
+/// fall of the energy was of 1e-30, none the same, and the statuses never settled.
+/// `hard/loose_body` is this scene.
 #[test]
 fn a_body_let_go_between_two_others_settles() {
     assert!(all(&crate::running::load("hard/loose_body", &[])).is_some());
 }
 
-/// An interference lifts a body that nothing but contact holds: it costs nothing, and its forces are zero, not the round-off of a rigid motion.
+/// An interference lifts a body that nothing but contact holds: it costs nothing, and its forces
+/// are zero, not the round-off of a rigid motion.
 #[test]
 fn an_interference_lifts_a_floating_body() {
     let results = all(&crate::running::load("hard/lifted_by_interference", &[])).unwrap();
@@ -250,8 +257,9 @@ fn an_interference_lifts_a_floating_body() {
     crate::running::close("force", pressed.contact_force, 2.0, 2.0, 1e-12);
 }
 
-/// On a mesh as coarse as this the recovered stress is far from the sampled one, and its maximum jumps where a second place comes close enough to
-/// be searched: first yield is at the jump, in the body beyond it, whatever round-off says of the last step there.
+/// On a mesh as coarse as this the recovered stress is far from the sampled one, and its maximum
+/// jumps where a second place comes close enough to be searched: first yield is at the jump, in the
+/// body beyond it, whatever round-off says of the last step there.
 #[test]
 fn first_yield_at_a_jump_of_the_recovered_maximum_is_in_one_body() {
     let layer = |height, young, poisson, stress| Layer {
@@ -305,7 +313,8 @@ fn random_stacks_agree_or_are_refused_alike() {
     proptest!(config, |(stack in stack())| {
         if let Some(results) = all(&parse(&stack.scene())) {
             ran.set(ran.get() + 1);
-            flowed.set(flowed.get() + u32::from(results.history.iter().any(|r| r.plastic_points > 0)));
+            let yielded = results.history.iter().any(|r| r.plastic_points > 0);
+            flowed.set(flowed.get() + u32::from(yielded));
         }
     });
     let (ran, flowed) = (ran.get(), flowed.get());

@@ -1,5 +1,6 @@
-//! A stress that is the same all round a bore: which of equal samples is the largest is for round-off to say, what is recovered beside them is not the
-//! same everywhere. (Once first yield was looked for beside the largest alone, and was 3 % apart.)
+//! A stress that is the same all round a bore: which of equal samples is the largest is for
+//! round-off to say, what is recovered beside them is not the same everywhere. (Once first yield
+//! was looked for beside the largest alone, and was 3 % apart.)
 
 use crate::agreement::{AGREEMENT, sparse};
 use crate::running::{close, parse, try_run};

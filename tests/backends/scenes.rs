@@ -9,9 +9,11 @@ use brinell::scene::Scene;
 use brinell::substructure::Substructure;
 
 const CYLINDER: &str = "hard/unload_reload";
-const SHORT: &str = "program.targets=[{ yield = true }, { load_factor = 1.6 }, { half_width = 1.1 }, { load_factor = 0.0 }]";
+const SHORT: &str = "program.targets=[{ yield = true }, { load_factor = 1.6 }, \
+                     { half_width = 1.1 }, { load_factor = 0.0 }]";
 
-/// Changes of contact are hit within gamma and forces balance within the tolerance: both below the agreement asked for.
+/// Changes of contact are hit within gamma and forces balance within the tolerance: both below the
+/// agreement asked for.
 const SHARP: [&str; 2] = ["program.gamma=1e-12", "analysis.tolerance=1e-11"];
 
 fn runs(name: &str, overrides: &[&str]) {
@@ -141,7 +143,8 @@ fn shim_between_blocks() {
     runs(
         "three_bodies",
         &[
-            "program.targets=[{ name = \"clamped\", load_factor = 0.0 }, { yield = true }, { load_factor = 2.0 }, { load_factor = 0.0 }]",
+            "program.targets=[{ name = \"clamped\", load_factor = 0.0 }, { yield = true }, \
+             { load_factor = 2.0 }, { load_factor = 0.0 }]",
         ],
     );
 }
@@ -156,8 +159,9 @@ fn collapse() {
     }
 }
 
-/// Plain and Anderson-accelerated iteration reach the states of Newton's, to the plastic tolerance: an out-of-balance force of 1e-10 moves
-/// stresses by as much and plastic strains by (E + H) / H = 4.5 of it; events are hit within gamma. The backends agree for each.
+/// Plain and Anderson-accelerated iteration reach the states of Newton's, to the plastic tolerance:
+/// an out-of-balance force of 1e-10 moves stresses by as much and plastic strains by (E + H) / H =
+/// 4.5 of it; events are hit within gamma. The backends agree for each.
 #[test]
 fn iterations_agree() {
     let steel = "materials.steel.plastic_modulus=60000.0";

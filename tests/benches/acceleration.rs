@@ -1,10 +1,12 @@
-//! The plastic iterations on equal terms: the paper's plain one, Anderson's acceleration of it, and Newton's method with the tangent solved by
-//! conjugate gradients on the factored stiffness.
+//! The plastic iterations on equal terms: the paper's plain one, Anderson's acceleration of it, and
+//! Newton's method with the tangent solved by conjugate gradients on the factored stiffness.
 //!
-//! Both applications of the paper up to twice (the disc) or 1.6 times (the cylinder) the yield load, in increments given in advance so that all do the
-//! same. What counts is solves with the trailing factor: material evaluations are few beside them. Each case runs to a tolerance of 1e-3
+//! Both applications of the paper up to twice (the disc) or 1.6 times (the cylinder) the yield
+//! load, in increments given in advance so that all do the same. What counts is solves with the
+//! trailing factor: material evaluations are few beside them. Each case runs to a tolerance of 1e-3
 //! and of 1e-11: the difference is what eight decades of the residual cost.
-//! `cargo bench --bench acceleration` prints the table and writes `bench-results/acceleration.json`.
+//! `cargo bench --bench acceleration` prints the table and writes
+//! `bench-results/acceleration.json`.
 
 mod process;
 
@@ -40,7 +42,8 @@ fn main() -> Result<(), Failure> {
         .use_current_thread()
         .build_global()?;
     println!(
-        "case                              iteration  solves/increment (median, most)  per decade  iterations  seconds"
+        "case                              iteration  solves/increment (median, most)  per decade  \
+         iterations  seconds"
     );
     let mut rows = Vec::new();
     for (case, scene, changes) in CASES {
@@ -112,7 +115,8 @@ fn measure(case: &str, scene: &str, changes: &[&str], algorithm: &str) -> Result
     let (coarse, fine) = (&runs[0], &runs[1]);
     let sum = |run: &Run| run.solves.iter().sum::<usize>() as f64;
     let decades = (TOLERANCES[0] / TOLERANCES[1]).log10();
-    // Both run through the same increments, but where a residual of 1e-3 is met at once an increment does not count as flowing.
+    // Both run through the same increments, but where a residual of 1e-3 is met at once an
+    // increment does not count as flowing.
     let per_decade = (sum(fine) - sum(coarse)) / fine.solves.len() as f64 / decades;
     let mut sorted = fine.solves.clone();
     sorted.sort_unstable();

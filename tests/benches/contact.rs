@@ -1,9 +1,11 @@
 //! What contact costs: condensing on many pairs, and one change of contact among them.
 //!
-//! Two blocks, one node per pair, the upper one held by contact alone; gaps grow as the square of the distance from one end, so that
-//! pairs close one after the other. `cargo bench --bench contact` takes 50, 500 and 3,000 pairs, on blocks that are thin beside the contact
-//! (20 elements: next to nothing but contact is factored) and on solid ones; `-- 500` one of them, `-- 5000` a larger one. The table goes
-//! to the terminal, the figures to `bench-results/contact.json`.
+//! Two blocks, one node per pair, the upper one held by contact alone; gaps grow as the square of
+//! the distance from one end, so that pairs close one after the other.
+//! `cargo bench --bench contact` takes 50, 500 and 3,000 pairs, on blocks that are thin beside the
+//! contact (20 elements: next to nothing but contact is factored) and on solid ones; `-- 500` one
+//! of them, `-- 5000` a larger one. The table goes to the terminal, the figures to
+//! `bench-results/contact.json`.
 
 mod process;
 
@@ -26,7 +28,8 @@ const SCENE: &str = concat!(
 const PAIRS: [usize; 3] = [50, 500, 3000];
 /// Elements through the thickness of a thin block.
 const THIN: usize = 20;
-/// Elements through the thickness of a solid block: half as many as pairs, no more than fit into the memory.
+/// Elements through the thickness of a solid block: half as many as pairs, no more than fit into
+/// the memory.
 const SOLID: usize = 200;
 /// Gap of the last pair, in lengths of an element.
 const LARGEST_GAP: f64 = 1e-3;
@@ -41,7 +44,8 @@ fn main() -> Result<(), Failure> {
         .build_global()?;
     println!("CHOLMOD {}, {}\n", cholmod_version(), blas_name());
     println!(
-        "pairs  rows  freedoms  bare factor s  condensed s  C alone s  by solves s  contact s  events  ms/event  1000 events/factor  peak GB"
+        "pairs  rows  freedoms  bare factor s  condensed s  C alone s  by solves s  contact s  \
+         events  ms/event  1000 events/factor  peak GB"
     );
     let mut rows = Vec::new();
     let chosen = if given.is_empty() {
@@ -95,7 +99,8 @@ fn measure(pairs: usize, rows: usize) -> Result<Value, Failure> {
     let sub = Substructure::new(&model, &system, Default::default(), Backend::Cholmod)?;
     let partition: Partition = sub.partition.clone();
     drop(sub);
-    // The matrix that is factored: contact freedoms of the floating block are held by their own stiffness.
+    // The matrix that is factored: contact freedoms of the floating block are held by their own
+    // stiffness.
     let mut held = system.stiffness.clone();
     for &freedom in &partition.contact {
         if let Some(value) = held.get_mut(freedom, freedom) {
@@ -126,7 +131,8 @@ fn measure(pairs: usize, rows: usize) -> Result<Value, Failure> {
     let event = seconds / events as f64;
     let peak = peak_memory()?;
     println!(
-        "{pairs:5} {rows:5} {n:9} {bare_seconds:14.3} {all:12.3} {extraction:10.3} {by_solves:12.1} {seconds:10.3} {events:7} {:9.3} {:18.2} {:8.2}",
+        "{pairs:5} {rows:5} {n:9} {bare_seconds:14.3} {all:12.3} {extraction:10.3} \
+         {by_solves:12.1} {seconds:10.3} {events:7} {:9.3} {:18.2} {:8.2}",
         1e3 * event,
         1e3 * event / bare_seconds,
         peak / 1e9,
@@ -136,8 +142,10 @@ fn measure(pairs: usize, rows: usize) -> Result<Value, Failure> {
         "rows": rows,
         "freedoms": n,
         "contact_freedoms": partition.contact.len(),
-        "bare": {"analyse": bare.analyse_seconds, "factor": bare.factor_seconds, "solve": bare.solve_seconds,
-                 "flops": bare.prediction.flops, "factor_nonzeros": bare.prediction.factor_nonzeros},
+        "bare": {"analyse": bare.analyse_seconds, "factor": bare.factor_seconds,
+        "solve": bare.solve_seconds,
+                 "flops": bare.prediction.flops,
+                 "factor_nonzeros": bare.prediction.factor_nonzeros},
         "condensed": all,
         "contact_stiffness": extraction,
         "by_solves": by_solves,

@@ -1,13 +1,17 @@
-//! A whole history against bare CHOLMOD: the cylinder on the half plane, loaded to 1.5 b* and unloaded, beside what
-//! CHOLMOD alone needs to analyse (in the order it chooses by default), factor and solve the same matrix once.
+//! A whole history against bare CHOLMOD: the cylinder on the half plane, loaded to 1.5 b* and
+//! unloaded, beside what CHOLMOD alone needs to analyse (in the order it chooses by default),
+//! factor and solve the same matrix once.
 //!
-//! Every measurement has a process of its own, so that peaks of memory do not mix: `run` is brinell from scene to
-//! written results, `matrix` writes the assembled matrix to a file, `cholmod` reads that file and does nothing else.
+//! Every measurement has a process of its own, so that peaks of memory do not mix: `run` is brinell
+//! from scene to written results, `matrix` writes the assembled matrix to a file, `cholmod` reads
+//! that file and does nothing else.
 //!
-//! `cargo bench --bench history` takes the sizes of [`SIZES`]; `-- 10k` or `-- 100k` or `-- 1M` one of them. `-- solid` takes the ball of
-//! `data/peers/ball_contact.toml` in three dimensions, loaded to five times first yield and back, in [`SOLID`]. The table
-//! goes to the terminal, the figures to `bench-results/history.json`. `-- perfect` the same without hardening. `-- scaling` runs meshes from ten thousand to
-//! three million freedoms instead, on one thread and on two (`history/scaling.rs`). `--features faer` and `-- backends` put the sparse backends beside one
+//! `cargo bench --bench history` takes the sizes of [`SIZES`]; `-- 10k` or `-- 100k` or `-- 1M` one
+//! of them. `-- solid` takes the ball of `data/peers/ball_contact.toml` in three dimensions, loaded
+//! to five times first yield and back, in [`SOLID`]. The table goes to the terminal, the figures to
+//! `bench-results/history.json`. `-- perfect` the same without hardening. `-- scaling` runs meshes
+//! from ten thousand to three million freedoms instead, on one thread and on two
+//! (`history/scaling.rs`). `--features faer` and `-- backends` put the sparse backends beside one
 //! another (`history/backends.rs`).
 
 #[path = "history/backends.rs"]
@@ -33,8 +37,9 @@ const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/data/");
 const LINE: &str = "scenes/cylinder_on_half_plane.toml";
 const BALL: &str = "peers/ball_contact.toml";
 
-/// Name, and what is changed in the scene's mesh: elements over b* and growth of the element sizes outside the even
-/// region. The finer the contact, the more slowly sizes should grow: the discretisation errors stay balanced.
+/// Name, and what is changed in the scene's mesh: elements over b* and growth of the element sizes
+/// outside the even region. The finer the contact, the more slowly sizes should grow: the
+/// discretisation errors stay balanced.
 const SIZES: [(&str, &[&str]); 4] = [
     (
         "10k",
@@ -200,8 +205,8 @@ fn run(backend: Backend, changes: &str, directory: &Path) -> Result<Value, Failu
     }))
 }
 
-/// The matrix that is factored, `K + D` on the contact freedoms of the body that contact alone holds: `n`, the number of
-/// entries, column pointers, rows, values.
+/// The matrix that is factored, `K + D` on the contact freedoms of the body that contact alone
+/// holds: `n`, the number of entries, column pointers, rows, values.
 fn write_matrix(changes: &str, directory: &Path) -> Result<(), Failure> {
     let analysis = Analysis::new(Model::new(&scene(changes)?)?, Backend::Cholmod)?;
     let (model, matrix) = (analysis.model(), &analysis.system().stiffness);
@@ -366,7 +371,8 @@ fn report(name: &str, changes: &str, bare: &Value, run: &Value) {
         memory / bare_memory
     );
     println!(
-        "  {} increments to {} states; {} factorisations, {} full and {} trailing solves, {} plastic iterations\n",
+        "  {} increments to {} states; {} factorisations, {} full and {} trailing solves, {} \
+         plastic iterations\n",
         run["increments"],
         run["states"],
         count("counts", "factorizations"),

@@ -1,15 +1,19 @@
-//! brinell beside CalculiX on the same mesh and the same problem: line contact of a cylinder, loaded to twice the yield load and let go.
+//! brinell beside CalculiX on the same mesh and the same problem: line contact of a cylinder,
+//! loaded to twice the yield load and let go.
 //!
-//! `make bench-peers` (which installs CalculiX where it is absent) or `cargo bench --bench peers`. Both programs run in this one run, each
-//! in a process of its own with one thread; what is compared is processor seconds, medians, and errors:
+//! `make bench-peers` (which installs CalculiX where it is absent) or `cargo bench --bench peers`.
+//! Both programs run in this one run, each in a process of its own with one thread; what is
+//! compared is processor seconds, medians, and errors:
 //!
 //! - of the largest pressure at 0.8 of the yield load, where all is elastic, against Hertz;
-//! - of the largest pressure at twice the yield load and of the dent that stays, against brinell's values extrapolated from
-//!   its two finest meshes, finer than any mesh compared.
+//! - of the largest pressure at twice the yield load and of the dent that stays, against brinell's
+//!   values extrapolated from its two finest meshes, finer than any mesh compared.
 //!
-//! The table and the plot go to `bench-results/peers.md`, `.svg`, `.json`. `-- quick` runs CalculiX's long ones once; `-- decks DIR` only
-//! writes its decks; `-- solid` takes the ball of `data/peers/ball_contact.toml` in three dimensions, loaded to five times first yield and
-//! back, and one elastic load (`peers/solid.rs`); `-- hard DIR` runs three small cases on which contact codes fail silently (`data/peers/README.md`).
+//! The table and the plot go to `bench-results/peers.md`, `.svg`, `.json`. `-- quick` runs
+//! CalculiX's long ones once; `-- decks DIR` only writes its decks; `-- solid` takes the ball of
+//! `data/peers/ball_contact.toml` in three dimensions, loaded to five times first yield and back,
+//! and one elastic load (`peers/solid.rs`); `-- hard DIR` runs three small cases on which contact
+//! codes fail silently (`data/peers/README.md`).
 
 #[path = "peers/deck.rs"]
 mod deck;
@@ -124,7 +128,8 @@ fn hertz() -> Result<Hertz, Failure> {
     })
 }
 
-/// Processor seconds of a command: the median of several measurements, each over as many runs as the clock needs.
+/// Processor seconds of a command: the median of several measurements, each over as many runs as
+/// the clock needs.
 fn measure(quick: bool, mut command: impl FnMut() -> Command) -> Result<f64, Failure> {
     let mut run = || -> Result<f64, Failure> {
         let before = children_seconds()?;
@@ -246,7 +251,8 @@ fn calculix(size: usize, dir: &Path, quick: bool) -> Result<Outcome, Failure> {
     })
 }
 
-/// The dent as brinell takes it: the largest change of the gap without load, the outermost pair's taken off.
+/// The dent as brinell takes it: the largest change of the gap without load, the outermost pair's
+/// taken off.
 fn dent(frd: &Frd, size: usize) -> Result<f64, Failure> {
     let unloaded = frd.at(2.0).ok_or("the unloading was not finished")?;
     let model = model(size)?;
@@ -309,7 +315,8 @@ fn compare(quick: bool) -> Result<(), Failure> {
     };
     let error = |value: f64, exact: f64| (value / exact - 1.0).abs();
     let mut table = String::from(
-        "| elements over b* | program | processor seconds | iterations | pressure at 0.8 P* | pressure at 2 P* | dent |\n|---|---|---|---|---|---|---|\n",
+        "| elements over b* | program | processor seconds | iterations | pressure at 0.8 P* | \
+         pressure at 2 P* | dent |\n|---|---|---|---|---|---|---|\n",
     );
     let mut rows = Vec::new();
     for size in SIZES {
@@ -330,7 +337,8 @@ fn compare(quick: bool) -> Result<(), Failure> {
                 100.0 * dent
             )?;
             rows.push(json!({
-                "elements_over_half_width": size, "program": program, "processor_seconds": o.seconds, "iterations": o.iterations,
+                "elements_over_half_width": size, "program": program,
+                "processor_seconds": o.seconds, "iterations": o.iterations,
                 "pressure_elastic": o.elastic, "pressure_twice": o.twice, "dent": o.dent,
                 "error_elastic": elastic, "error_twice": twice, "error_dent": dent,
             }));
@@ -346,7 +354,8 @@ fn compare(quick: bool) -> Result<(), Failure> {
     std::fs::create_dir_all(&results)?;
     std::fs::write(results.join("peers.md"), &table)?;
     let document = json!({
-        "reference": { "pressure_elastic": reference.elastic, "pressure_twice": reference.twice, "dent": reference.dent,
+        "reference": { "pressure_elastic": reference.elastic, "pressure_twice": reference.twice,
+            "dent": reference.dent,
             "extrapolated_from": FINEST },
         "runs": rows,
     });

@@ -27,7 +27,8 @@ pub fn peak_memory() -> Result<f64, Failure> {
 /// Linux counts processor time in hundredths of a second.
 pub const TICK: f64 = 0.01;
 
-/// Processor time of this process in seconds, all threads together: what a busy machine does not change.
+/// Processor time of this process in seconds, all threads together: what a busy machine does not
+/// change.
 pub fn processor_seconds() -> Result<f64, Failure> {
     user_and_system(11)
 }
@@ -51,7 +52,8 @@ fn user_and_system(first: usize) -> Result<f64, Failure> {
     Ok(ticks.iter().sum::<f64>() * TICK)
 }
 
-/// What this program prints when it is called with the arguments, in a process of its own; `threads` for brinell's loops and for the BLAS.
+/// What this program prints when it is called with the arguments, in a process of its own;
+/// `threads` for brinell's loops and for the BLAS.
 pub fn child(arguments: &[&str], threads: Option<usize>) -> Result<String, Failure> {
     let mut command = Command::new(std::env::current_exe()?);
     command

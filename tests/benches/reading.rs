@@ -1,7 +1,9 @@
 //! Everything else is small: reading a mesh, starting the program, writing the results.
 //!
-//! `cargo bench --bench reading` prints the speed of reading an ASCII mesh of a million nodes in either version of the format and as a deck, the time
-//! of commands that compute nothing, the share of a factorisation that forming contact rows takes, and the share of a run that the stresses of its states and its files take. The figures go to
+//! `cargo bench --bench reading` prints the speed of reading an ASCII mesh of a million nodes in
+//! either version of the format and as a deck, the time of commands that compute nothing, the share
+//! of a factorisation that forming contact rows takes, and the share of a run that the stresses of
+//! its states and its files take. The figures go to
 //! `bench-results/reading.json`.
 
 use brinell::analysis::Analysis;
@@ -232,10 +234,12 @@ fn starting() -> Result<Value, Failure> {
     Ok(out.into())
 }
 
-/// The cylinder of the paper with fields of one state, as a user with a large model would ask for, and of all ten.
+/// The cylinder of the paper with fields of one state, as a user with a large model would ask for,
+/// and of all ten.
 fn output() -> Result<Value, Failure> {
     println!(
-        "\n| freedoms | states with fields | run, s | states, s | stresses, s | files, s | report, s | stresses and files |\n|---|---|---|---|---|---|---|---|"
+        "\n| freedoms | states with fields | run, s | states, s | stresses, s | files, s | report,
+        s | stresses and files |\n|---|---|---|---|---|---|---|---|"
     );
     let mut out = Vec::new();
     for one in [true, false] {
@@ -265,12 +269,14 @@ fn output() -> Result<Value, Failure> {
         let (files, with) = (total - computed, if one { 1 } else { results.states.len() });
         let share = (stresses + files) / total;
         println!(
-            "| {} | {with} | {total:.2} | {states:.2} | {stresses:.2} | {files:.2} | {report:.2} | {:.0} % |",
+            "| {} | {with} | {total:.2} | {states:.2} | {stresses:.2} | {files:.2} | {report:.2} | \
+             {:.0} % |",
             results.sizes.freedoms,
             100.0 * share
         );
         out.push(json!({
-            "freedoms": results.sizes.freedoms, "states_with_fields": with, "run": total, "states": states, "stresses": stresses, "files": files,
+            "freedoms": results.sizes.freedoms, "states_with_fields": with, "run": total,
+            "states": states, "stresses": stresses, "files": files,
             "report": report, "share": share,
         }));
     }

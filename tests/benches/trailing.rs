@@ -1,8 +1,8 @@
 //! What the constrained order costs and what the trailing solves gain, on elastic bodies on regular
 //! grids that are held at the bottom and pressed at the middle of the top.
 //!
-//! `cargo bench --bench trailing` takes plane bodies of 180 k and 980 k freedoms; `-- small` only the first, `-- solid`
-//! a solid one; `-- orders` compares the methods of ordering instead.
+//! `cargo bench --bench trailing` takes plane bodies of 180 k and 980 k freedoms; `-- small` only
+//! the first, `-- solid` a solid one; `-- orders` compares the methods of ordering instead.
 
 use brinell::linalg::cholmod::{
     Method, blas_name, cholmod_version, condense, condense_with_method, factor_unconstrained,
@@ -93,12 +93,14 @@ fn trailing(body: &Body) -> Result<(), brinell::Error> {
     let (bare, cost) = timed(2, || factor_unconstrained(&body.matrix));
     let cost = cost?;
     println!(
-        "\n{n} freedoms; CHOLMOD by itself: analysis and factor {bare:.2} s, {:.1} M nonzeros, {:.1} Gflop",
+        "\n{n} freedoms; CHOLMOD by itself: analysis and factor {bare:.2} s, {:.1} M nonzeros, \
+         {:.1} Gflop",
         cost.factor_nonzeros / 1e6,
         cost.flops / 1e9
     );
     println!(
-        "zone   n_z     n_c  order s  all s  C s    nnz(L) M  Gflop  trailing  half ms  trailing ms  GB/s"
+        "zone   n_z     n_c  order s  all s  C s    nnz(L) M  Gflop  trailing  half ms  trailing \
+         ms  GB/s"
     );
     for (share, partition) in &body.partitions {
         let (ordering, _) = timed(1, || {
@@ -126,7 +128,8 @@ fn trailing(body: &Body) -> Result<(), brinell::Error> {
         // Each solve runs through the zone's columns twice.
         let rate = 16.0 * (cost.trailing_nonzeros - 0.5 * (n_contact as f64).powi(2)) / solve / 1e9;
         println!(
-            "{share:3} % {n_zone:7} {n_contact:5} {ordering:7.2} {all:7.2} {stiffness:6.3} {:8.1} {:8.1} {:7.1} % {:8.1} {:10.2} {rate:8.1}",
+            "{share:3} % {n_zone:7} {n_contact:5} {ordering:7.2} {all:7.2} {stiffness:6.3} {:8.1} \
+             {:8.1} {:7.1} % {:8.1} {:10.2} {rate:8.1}",
             cost.factor_nonzeros / 1e6,
             cost.flops / 1e9,
             100.0 * cost.trailing_nonzeros / cost.factor_nonzeros,

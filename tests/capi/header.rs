@@ -12,9 +12,10 @@ const TOP: &str = "\
  * Generated from src/capi by cbindgen; do not edit. To write it anew:
  *     BRINELL_WRITE_HEADER=1 cargo test --test capi header
  *
- * Every function returns BRINELL_OK or a status; brinell_last_error() then says why, in the thread that called.
- * Handles are opaque and freed by their own function. Set the size of a structure (sizeof) before handing it over.
- * Handles may be used in different threads at once, one handle by one thread at a time. See ffi/README.md.
+ * Every function returns BRINELL_OK or a status; brinell_last_error() then states why, in the
+ * thread that called. Handles are opaque and freed by their own function. Set the size of a
+ * structure (sizeof) before handing it over. Handles may be used in different threads at once,
+ * one handle by one thread at a time. See ffi/README.md.
  */";
 
 fn generated() -> String {
@@ -77,7 +78,8 @@ fn the_header_is_the_one_that_the_source_says() {
     let kept = std::fs::read_to_string(&path).unwrap_or_default();
     assert!(
         kept == generated,
-        "{} is not what src/capi says; write it anew: BRINELL_WRITE_HEADER=1 cargo test --test capi header",
+        "{} is not what src/capi says; write it anew: BRINELL_WRITE_HEADER=1 cargo test --test \
+         capi header",
         Path::new("ffi/include/brinell.h").display()
     );
     // Every exported function of the source stands in it.

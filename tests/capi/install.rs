@@ -1,4 +1,5 @@
-//! Programs in C and C++ against the installed library print what the Rust program prints, also under valgrind.
+//! Programs in C and C++ against the installed library print what the Rust program prints, also
+//! under valgrind.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -42,7 +43,8 @@ fn features() -> &'static str {
     }
 }
 
-/// The Rust example on a scene. Asked for with the very features of this build, it is there already.
+/// The Rust example on a scene. Asked for with the very features of this build, it is there
+/// already.
 pub fn rust_example(scene: &Path) -> Command {
     let mut cargo = Command::new(env!("CARGO"));
     cargo
@@ -71,8 +73,10 @@ fn programs_against_the_installed_library_print_the_same_digits() {
     }
     let folder = tempfile::tempdir().unwrap();
     let prefix = folder.path().join("installed");
-    // brinell is compiled anew, as a library of another kind, for programs that take seconds: half the optimisation is half the time.
-    let quick = "--config profile.dev.package.brinell.opt-level=1 --config profile.dev.package.brinell.debug=false";
+    // brinell is compiled anew, as a library of another kind, for programs that take seconds: half
+    // the optimisation is half the time.
+    let quick = "--config profile.dev.package.brinell.opt-level=1 --config \
+                 profile.dev.package.brinell.debug=false";
     done(
         Command::new("make")
             .current_dir(root())

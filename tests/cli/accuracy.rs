@@ -1,10 +1,12 @@
-//! What accuracy costs, as the program says it: settings that buy nothing, whole programs to a demanded accuracy, what ends one.
+//! What accuracy costs, as the program says it: settings that buy nothing, whole programs to a
+//! demanded accuracy, what ends one.
 
 use super::{brinell, scene, stdout};
 use serde_json::Value;
 use std::path::Path;
 
-/// Runs `brinell` with a directory to write to; standard output with its lines joined, and a file of what was written.
+/// Runs `brinell` with a directory to write to; standard output with its lines joined, and a file
+/// of what was written.
 fn told(arguments: &[&str], out: &Path, file: &str) -> (String, Value) {
     ended(0, arguments, out, file)
 }
@@ -28,7 +30,8 @@ fn quantity<'j>(json: &'j Value, name: &str) -> &'j Value {
     found.unwrap_or_else(|| panic!("no {name} in {json}"))
 }
 
-/// With two increments to near collapse the path is further off than the mesh; the tightest tolerance is not to be seen beside the mesh.
+/// With two increments to near collapse the path is further off than the mesh; the tightest
+/// tolerance is not to be seen beside the mesh.
 #[test]
 fn what_limits_and_what_would_do_are_named() {
     let folder = tempfile::tempdir().unwrap();
@@ -76,7 +79,8 @@ const KEYS: [&str; 5] = [
     "residual_depth",
 ];
 
-/// Largest share by which the figures of two runs of one program differ, relative to the largest size of each figure.
+/// Largest share by which the figures of two runs of one program differ, relative to the largest
+/// size of each figure.
 fn difference(a: &Value, b: &Value) -> f64 {
     let states = |json: &Value| json["states"].as_array().unwrap().clone();
     let (a, b) = (states(a), states(b));
@@ -97,7 +101,8 @@ fn difference(a: &Value, b: &Value) -> f64 {
     most
 }
 
-/// A whole program to a demanded accuracy: reached, and as near as that to the run on a mesh that is finer by far.
+/// A whole program to a demanded accuracy: reached, and as near as that to the run on a mesh that
+/// is finer by far.
 fn to_accuracy(demanded: f64, name: &str, settings: &[&str], fine: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
     let file = scene(name);
@@ -131,7 +136,8 @@ fn the_papers_cylinder_to_ten_percent() {
     to_accuracy(10.0, "cylinder_on_half_plane", &[], &fine);
 }
 
-/// The states in the midst of unloading are left out: their largest pressure is a peak at the edge of the dent that grows with the mesh.
+/// The states in the midst of unloading are left out: their largest pressure is a peak at the edge
+/// of the dent that grows with the mesh.
 #[test]
 #[cfg_attr(
     not(any(feature = "cholmod", feature = "faer")),
@@ -141,9 +147,8 @@ fn the_papers_disc_to_ten_percent() {
     to_accuracy(
         10.0,
         "disc_in_plate",
-        &[
-            "program.targets=[{ yield = true }, { load_factor = 2.0 }, { name = \"unloaded\", load_factor = 0.0 }]",
-        ],
+        &["program.targets=[{ yield = true }, { load_factor = 2.0 }, \
+           { name = \"unloaded\", load_factor = 0.0 }]"],
         &[
             "mesh.disc_in_plate.resolution=120",
             "mesh.disc_in_plate.growth=1.035",
@@ -164,8 +169,8 @@ fn the_tube_to_one_percent_and_less() {
     }
 }
 
-/// A piece of a block must end on a node of every mesh on the way. The value is that of the last mesh, the one that the meshes lead to
-/// stands beside it under a name of its own.
+/// A piece of a block must end on a node of every mesh on the way. The value is that of the last
+/// mesh, the one that the meshes lead to stands beside it under a name of its own.
 #[test]
 #[cfg_attr(
     not(any(feature = "cholmod", feature = "faer")),

@@ -100,8 +100,8 @@ fn the_first_signal_ends_the_run_with_results_that_are_marked_incomplete() {
 
 #[test]
 fn a_second_signal_ends_the_program_at_once_and_leaves_nothing() {
-    // One huge increment: its factorisation and first iterations take far longer than the signals, be it the
-    // sparse one or the dense one, which takes at most 6,000 freedoms.
+    // One huge increment: its factorisation and first iterations take far longer than the signals,
+    // be it the sparse one or the dense one, which takes at most 6,000 freedoms.
     let elements = if cfg!(any(feature = "cholmod", feature = "faer")) {
         "elements = [160, 320]"
     } else {

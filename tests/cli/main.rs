@@ -195,7 +195,8 @@ fn an_unknown_key_is_exit_code_2_with_line_and_suggestion_and_leaves_nothing_beh
             &[command, path],
             2,
             &[&format!(
-                "error: {path}:{line}:1: unknown key `poisson_ratio`, did you mean `poissons_ratio`?"
+                "error: {path}:{line}:1: unknown key `poisson_ratio`, did you mean \
+                 `poissons_ratio`?"
             )],
         );
     }
@@ -221,7 +222,8 @@ fn a_wrong_override_is_exit_code_2_and_names_itself() {
         ("kind", "error: --set kind: an override is KEY=VALUE"),
         (
             "materials.steel.youngs_modulos=3",
-            "error: --set materials.steel.youngs_modulos=3: unknown key `youngs_modulos`, did you mean `youngs_modulus`?",
+            "error: --set materials.steel.youngs_modulos=3: unknown key `youngs_modulos`, did you \
+             mean `youngs_modulus`?",
         ),
         ("contact.7.gap=1", "`contact` has no entry `7`"),
         (
@@ -230,7 +232,8 @@ fn a_wrong_override_is_exit_code_2_and_names_itself() {
         ),
         (
             "materials.steel.poissons_ratio=0.5",
-            "error: --set materials.steel.poissons_ratio=0.5: materials.steel.poissons_ratio: 0.5 must lie",
+            "error: --set materials.steel.poissons_ratio=0.5: materials.steel.poissons_ratio: 0.5 \
+             must lie",
         ),
     ] {
         fails(&["check", &scene, "--set", text], 2, &[fragment]);

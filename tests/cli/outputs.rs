@@ -71,7 +71,8 @@ fn json_is_the_summary() {
             &[
                 ("elements = [16, 16]", "elements = [4, 4]"),
                 (
-                    "    { load_factor = 160.0 },\n    { load_factor = 180.0 },\n    { load_factor = 190.0 },\n",
+                    "    { load_factor = 160.0 },\n    { load_factor = 180.0 },\n    \
+                     { load_factor = 190.0 },\n",
                     "",
                 ),
             ],
@@ -88,7 +89,8 @@ fn json_is_the_summary() {
         assert_eq!(printed, written);
         assert_eq!(printed["yield"]["location"]["body"], "tube");
         let [x, y] = ["x", "y"].map(|k| printed["yield"]["location"][k].as_f64().unwrap());
-        // First yield is at the bore; the chord of a quad8 side leaves the circle by less than 1e-3 radii.
+        // First yield is at the bore; the chord of a quad8 side leaves the circle by less than 1e-3
+        // radii.
         assert!((x.hypot(y) / 100.0 - 1.0).abs() < 1e-3, "{x} {y}");
         assert_eq!(
             printed["states"].as_array().unwrap().is_empty(),
@@ -173,11 +175,15 @@ fn the_disc_scene_shows_the_contact_arc() {
                 "resolution = 16\nfar_radius = 4.0\ngrowth = 1.2",
             ),
             (
-                "    { load_factor = 1.25 },\n    { load_factor = 1.5 },\n    { load_factor = 1.75 },\n    { load_factor = 2.0 },\n",
+                "    { load_factor = 1.25 },\n    { load_factor = 1.5 },\n    \
+                 { load_factor = 1.75 },\n    { load_factor = 2.0 },\n",
                 "",
             ),
             (
-                "    { name = \"unloading 1.75\", load_factor = 1.75 },\n    { name = \"unloading 1.5\", load_factor = 1.5 },\n    { name = \"unloading 1.25\", load_factor = 1.25 },\n    { name = \"unloading 1\", load_factor = 1.0 },\n",
+                "    { name = \"unloading 1.75\", load_factor = 1.75 },\n    \
+                 { name = \"unloading 1.5\", load_factor = 1.5 },\n    \
+                 { name = \"unloading 1.25\", load_factor = 1.25 },\n    \
+                 { name = \"unloading 1\", load_factor = 1.0 },\n",
                 "",
             ),
         ],
@@ -195,7 +201,8 @@ fn the_disc_scene_shows_the_contact_arc() {
         assert!(text.contains(fragment), "no {fragment:?} in\n{text}");
     }
     let states = folder.summary()["states"].clone();
-    // One element spans 5.6 degrees; the exact half angle is 19.625 (integral equation of the receding contact).
+    // One element spans 5.6 degrees; the exact half angle is 19.625 (integral equation of the
+    // receding contact).
     let to = states[0]["contact_arc"]["to"].as_f64().unwrap();
     assert!((to - 19.625).abs() < 0.5 * 90.0 / 16.0, "{to}");
     assert_eq!(states[0]["contact_arc"]["from"], 0.0);
@@ -235,7 +242,8 @@ fn the_limit_load_is_reported_as_collapse_with_what_was_held() {
         &[
             ("elements = [16, 16]", "elements = [2, 2]"),
             (
-                "    { load_factor = 160.0 },\n    { load_factor = 180.0 },\n    { load_factor = 190.0 },\n",
+                "    { load_factor = 160.0 },\n    { load_factor = 180.0 },\n    \
+                 { load_factor = 190.0 },\n",
                 "    { load_factor = 300.0 },\n",
             ),
         ],
@@ -266,7 +274,8 @@ fn the_limit_load_is_reported_as_collapse_with_what_was_held() {
         .unwrap()
         .parse()
         .unwrap();
-    // Exact collapse of the wall is 2k ln(b/a) = 192.09 (Hill, chapter V); two elements through the wall are coarse.
+    // Exact collapse of the wall is 2k ln(b/a) = 192.09 (Hill, chapter V); two elements through the
+    // wall are coarse.
     assert!((held / 192.09 - 1.0).abs() < 0.02, "{held}");
 }
 
@@ -383,7 +392,8 @@ fn a_leftover_checkpoint_goes_with_the_next_run_that_ends() {
     assert_eq!(names, ["notes.txt"]);
 }
 
-/// The time that `check` predicts grows with the mesh: more than the elements, less than the cube of those along a line.
+/// The time that `check` predicts grows with the mesh: more than the elements, less than the cube
+/// of those along a line.
 #[test]
 #[cfg_attr(
     not(any(feature = "cholmod", feature = "faer")),

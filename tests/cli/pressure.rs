@@ -1,4 +1,5 @@
-//! Under pressure: little memory, endless files, characters that a terminal obeys, sizes without a bound.
+//! Under pressure: little memory, endless files, characters that a terminal obeys, sizes without a
+//! bound.
 
 use super::{Folder, brinell, fails, limit, scene, stdout};
 use std::process::{Command, Output};
@@ -24,7 +25,8 @@ fn limited(limits: &str, arguments: &[&str]) -> (Option<i32>, String) {
     (output.status.code(), stderr)
 }
 
-/// Whatever runs out first (mesh, ordering, work buffers of the BLAS, factor, results): the program says how much was asked for.
+/// Whatever runs out first (mesh, ordering, work buffers of the BLAS, factor, results): the program
+/// says how much was asked for.
 #[cfg(target_os = "linux")]
 #[test]
 #[cfg_attr(
@@ -226,7 +228,8 @@ fn a_title_of_a_megabyte_takes_no_time() {
     assert_eq!(soon(&arguments).status.code(), Some(0));
 }
 
-/// Blocks beside each other, each on supports of its own, and blocks on each other, held by contact.
+/// Blocks beside each other, each on supports of its own, and blocks on each other, held by
+/// contact.
 #[test]
 fn hundreds_of_bodies_take_no_longer_than_as_many_elements() {
     use std::fmt::Write;

@@ -182,7 +182,8 @@ fn sets_that_are_missing_or_empty() {
         ),
         (
             "program.targets=[{displacement={on=\"upper.lop\",direction=\"y\",value=-1e-3}}]",
-            "target 1 displacement on `upper.lop`: the mesh has no such set, did you mean `upper.top`?",
+            "target 1 displacement on `upper.lop`: the mesh has no such set, did you mean \
+             `upper.top`?",
         ),
     ] {
         let place = format!("error: --set {set}: {words}");
@@ -376,7 +377,8 @@ fn targets_that_are_never_reached() {
         &[
             "mesh.parts.0.ring.elements=[2,2]",
             "materials.steel.plastic_modulus=1000.0",
-            "program.targets=[{name=\"far\",displacement={on=\"tube.inner\",direction=\"x\",value=-5.0}}]",
+            "program.targets=[{name=\"far\",\
+             displacement={on=\"tube.inner\",direction=\"x\",value=-5.0}}]",
         ],
         &[],
         5,

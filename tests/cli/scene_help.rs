@@ -38,7 +38,8 @@ fn the_schema_in_the_repository_is_the_one_that_is_printed() {
     let printed = stdout(&brinell(&["schema"]));
     assert!(
         kept == printed,
-        "data/schema/scene.schema.json is not what the program says; write it anew: brinell schema > data/schema/scene.schema.json"
+        "data/schema/scene.schema.json is not what the program says; write it anew: brinell schema \
+         > data/schema/scene.schema.json"
     );
     assert_eq!(
         stdout(&brinell(&["schema", "--summary"])),

@@ -2,8 +2,8 @@
 
 use super::{Folder, stdout};
 
-/// A title and names that would move the cursor, hide or start a new line: written out wherever they
-/// are shown, one line each in the tables.
+/// A title and names that would move the cursor, hide or start a new line: written out wherever
+/// they are shown, one line each in the tables.
 #[test]
 fn hidden_and_control_characters_are_shown_as_what_they_are() {
     let folder = Folder::with_changes(
@@ -41,7 +41,8 @@ fn hidden_and_control_characters_are_shown_as_what_they_are() {
         let name = path.file_name().unwrap().to_str().unwrap().to_owned();
         let content = String::from_utf8_lossy(&std::fs::read(&path).unwrap()).into_owned();
         assert!(!hidden(&name), "{name:?}");
-        // The arrays of a VTU file are bytes; the scene as it was run keeps names in TOML's escapes.
+        // The arrays of a VTU file are bytes; the scene as it was run keeps names in TOML's
+        // escapes.
         if !name.ends_with(".vtu") {
             let found = content.find(['\u{1b}', '\u{7}']);
             assert!(found.is_none(), "{name} at {found:?}");

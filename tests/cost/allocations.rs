@@ -1,4 +1,5 @@
-//! Nothing is allocated where the time goes: in a solve with the trailing factor, and for elements, points or pairs, one by one.
+//! Nothing is allocated where the time goes: in a solve with the trailing factor, and for elements,
+//! points or pairs, one by one.
 
 use super::running::load;
 use allocation_counter::{AllocationInfo, measure};
@@ -86,8 +87,8 @@ fn plastic_iterations_allocate_as_often_on_any_mesh() {
 }
 
 fn assert_iterations_allocate_as_often(backend: Backend) {
-    // The paper's plain iteration to two tolerances: what the tighter one takes more, per iteration. A vector for each
-    // element, point or pair would show as many allocations.
+    // The paper's plain iteration to two tolerances: what the tighter one takes more, per
+    // iteration. A vector for each element, point or pair would show as many allocations.
     let per_iteration: Vec<f64> = [4, 8]
         .into_iter()
         .map(|resolution| {

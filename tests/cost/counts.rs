@@ -1,9 +1,11 @@
-//! Factorisations, solves, iterations, and the size of the factor, against those kept in `tests/cost/counts_*.json`, a file for each sparse
-//! backend.
+//! Factorisations, solves, iterations, and the size of the factor, against those kept in
+//! `tests/cost/counts_*.json`, a file for each sparse backend.
 //!
-//! A run that takes more than a tenth more of anything than it did fails: something has become dearer. So does one that takes a third less, so that
-//! the file stays worth comparing with. Orders and the last bit of a status depend on the libraries, hence the tenth.
-//! `BRINELL_WRITE_COUNTS=1 cargo test --test cost` writes the files anew; the difference belongs into the commit's message.
+//! A run that takes more than a tenth more of anything than it did fails: something has become
+//! dearer. So does one that takes a third less, so that the file stays worth comparing with. Orders
+//! and the last bit of a status depend on the libraries, hence the tenth.
+//! `BRINELL_WRITE_COUNTS=1 cargo test --test cost` writes the files anew; the difference belongs
+//! into the commit's message.
 
 use super::running::{load, try_run};
 use brinell::linalg::Backend;

@@ -42,7 +42,8 @@ fn a_deck_and_what_it_is_converted_to_give_the_same_results() {
                 .iter()
                 .zip(b)
                 .fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
-            // Facets of a surface may come in another order: sums of nodal forces are rounded otherwise.
+            // Facets of a surface may come in another order: sums of nodal forces are rounded
+            // otherwise.
             assert!(worst <= 1e-12 * scale, "{name}: {worst:e} of {scale:e}");
         }
         // What is there is not written over.

@@ -1,4 +1,5 @@
-//! Decks of Abaqus and CalculiX: what CalculiX computes for them and what brinell does, what is written again, what is refused.
+//! Decks of Abaqus and CalculiX: what CalculiX computes for them and what brinell does, what is
+//! written again, what is refused.
 
 mod calculix;
 mod converted;

@@ -375,7 +375,8 @@ fn what_brinell_does_not_have_is_told_by_line_and_reason() {
 fn what_changes_nothing_is_ignored_with_its_reason() {
     let text = DECK.replace(
         "*SOLID SECTION",
-        "*DENSITY\n7.8e-9\n*EXPANSION\n1e-5\n*FRICTION\n0.\n*CONTROLS, PARAMETERS=FIELD\n1\n*SOLID SECTION",
+        "*DENSITY\n7.8e-9\n*EXPANSION\n1e-5\n*FRICTION\n0.\n*CONTROLS, PARAMETERS=FIELD\n1\n*SOLID \
+         SECTION",
     );
     assert!(error(&text).is_none());
     let deck = Deck::parse(text.as_bytes(), "deck.inp").unwrap();

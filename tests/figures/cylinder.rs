@@ -6,7 +6,8 @@ use crate::{Outcome, zone};
 use brinell::results::State;
 use plotters::prelude::SeriesLabelPosition;
 
-/// Loading states of the paper's legend with the unloading state of (nearly) the same contact width.
+/// Loading states of the paper's legend with the unloading state of (nearly) the same contact
+/// width.
 const PAIRS: [(&str, Option<&str>); 4] = [
     ("1.0515", Some("0.8670")),
     ("1.3207", Some("1.1390")),

@@ -3,7 +3,7 @@
 //! ```text
 //! cargo run --release --example paper_figures              # everything
 //! cargo run --release --example paper_figures -- figures   # data/figures/*.svg alone
-//! cargo run --release --example paper_figures -- readings  # data/reference/endahl/hardening_readings.csv alone
+//! cargo run --release --example paper_figures -- readings  # hardening_readings.csv alone
 //! cargo run --release --example paper_figures -- verification  # data/verification.md alone
 //! ```
 

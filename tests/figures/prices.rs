@@ -10,11 +10,15 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::time::Instant;
 
-pub const HEAD: &str = "\n## What a demand costs\n\n\
-    All runs of a demand together, over the one run of the cheapest uniform mesh from which on every mesh is as accurate, found by trial with the true errors \
-    known, in floating point operations. The scene is the family's mesh of medium size; what is demanded are the quantities that are known and that a demand on all \
-    asks for. The true error is that of the demand's last mesh; `-`: no mesh down to 0.4 of the scene's element size is as accurate.\n\n\
-    | scene | demand | true error | outcome | seconds | operations over the cheapest |\n|---|---|---|---|---|---|\n";
+pub const HEAD: &str = "\n## What a demand costs\n\nAll runs of a demand together, over the one \
+                        run of the cheapest uniform mesh from which on every mesh is as accurate, \
+                        found by trial with the true errors known, in floating point operations. \
+                        The scene is the family's mesh of medium size; what is demanded are the \
+                        quantities that are known and that a demand on all asks for. The true \
+                        error is that of the demand's last mesh; `-`: no mesh down to 0.4 of the \
+                        scene's element size is as accurate.\n\n| scene | demand | true error | \
+                        outcome | seconds | operations over the cheapest \
+                        |\n|---|---|---|---|---|---|\n";
 
 /// Element sizes of the meshes among which the cheapest is sought, over the scene's.
 const SOUGHT: [f64; 2] = [4.0, 0.4];

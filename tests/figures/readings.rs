@@ -1,9 +1,11 @@
-//! Which meaning of "hardening coefficient equal to 0.6" (Fig 5.1) gives the load factors of Fig 5.3's legend.
+//! Which meaning of "hardening coefficient equal to 0.6" (Fig 5.1) gives the load factors of Fig
+//! 5.3's legend.
 //!
-//! The legend names four load factors on the way up and three on the way down, "at four contact widths". Read as the same
-//! widths up and down, 1.0515 belongs to 0.8670, 1.3207 to 1.1390, 1.5870 to 1.4351, and 2.0635 to 1.5 b*. For each reading
-//! the widths are measured on the way up; the load factors at which they come back on the way down from 2.0635, and the load
-//! factor at 1.5 b*, are compared with the legend: four numbers that no choice of ours enters.
+//! The legend names four load factors on the way up and three on the way down, "at four contact
+//! widths". Read as the same widths up and down, 1.0515 belongs to 0.8670, 1.3207 to 1.1390, 1.5870
+//! to 1.4351, and 2.0635 to 1.5 b*. For each reading the widths are measured on the way up; the
+//! load factors at which they come back on the way down from 2.0635, and the load factor at 1.5 b*,
+//! are compared with the legend: four numbers that no choice of ours enters.
 
 use crate::Outcome;
 use crate::runs::{self, Run, first_yield, half_width, load_factor};
@@ -26,7 +28,8 @@ const READINGS: [(&str, f64); 8] = [
     ("Et/E = H/(E+H) = 0.6", 1.5),
 ];
 
-/// What a reading gives: b/b* at the legend's loading factors, load factor at 1.5 b*, load factors on the way down.
+/// What a reading gives: b/b* at the legend's loading factors, load factor at 1.5 b*, load factors
+/// on the way down.
 struct Answer {
     widths: [f64; 3],
     at_top_width: f64,

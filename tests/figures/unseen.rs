@@ -1,5 +1,5 @@
-//! Families of other physics, written when the procedure of `brinell::accuracy` was finished and run once: what its stated
-//! errors are worth on scenes that nobody has looked at.
+//! Families of other physics, written when the procedure of `brinell::accuracy` was finished and
+//! run once: what its stated errors are worth on scenes that nobody has looked at.
 
 use super::families::{Family, Truth, from_file, named, on_flat, stepped};
 use super::running;
@@ -114,7 +114,8 @@ fn hard_ball() -> Family {
     }
 }
 
-/// A ring of three times its bore under pressure from within, free at its faces: at the bore `-p` and `p (b^2 + a^2)/(b^2 - a^2)`.
+/// A ring of three times its bore under pressure from within, free at its faces: at the bore `-p`
+/// and `p (b^2 + a^2)/(b^2 - a^2)`.
 fn plane_stress_tube(shape: &'static str) -> Family {
     let hoop = (9.0 + 1.0) / (9.0 - 1.0);
     let mises = f64::sqrt(hoop * hoop + hoop + 1.0);
@@ -135,7 +136,8 @@ fn plane_stress_tube(shape: &'static str) -> Family {
     }
 }
 
-/// A hole in a plate under tension, with Kirsch's stresses at the outer edge: three times the tension at the hole.
+/// A hole in a plate under tension, with Kirsch's stresses at the outer edge: three times the
+/// tension at the hole.
 fn hole_in_plate(shape: &'static str) -> Family {
     let scene = |n: usize| {
         let rings = 2 * n;
@@ -220,7 +222,8 @@ fn pin_from_file(shape: &'static str, folder: &Path) -> Family {
     }
 }
 
-/// A tube that yields under pressure from within, touches its sleeve and is held by it when the pressure is gone.
+/// A tube that yields under pressure from within, touches its sleeve and is held by it when the
+/// pressure is gone.
 fn sleeve(shape: &str, n: usize) -> Scene {
     running::parse(&format!(
         r#"
@@ -266,12 +269,14 @@ fix = ["x"]
 on = "tube.inner"
 pressure = 1.0
 [program]
-targets = [{{ yield = true }}, {{ load_factor = 60.0 }}, {{ load_factor = 150.0 }}, {{ name = "off", load_factor = 0.0 }}]
+targets = [{{ yield = true }}, {{ load_factor = 60.0 }}, {{ load_factor = 150.0 }}, 
+    {{ name = "off", load_factor = 0.0 }}]
 "#
     ))
 }
 
-/// A soft block on an elastic base, under a strip of pressure that makes it yield and its ends lift off.
+/// A soft block on an elastic base, under a strip of pressure that makes it yield and its ends lift
+/// off.
 fn strip(n: usize) -> Scene {
     let (along, across, below) = (12 * n, 4 * n, 4 * n);
     running::parse(&format!(
@@ -280,7 +285,8 @@ title = "strip of pressure"
 kind = "plane_stress"
 [[mesh.parts]]
 body = "block"
-block = {{ x = [0.0, 6.0], y = [0.0, 2.0], elements = [{along}, {across}], pieces = [{{ name = "strip", side = "top", from = 0.0, to = 1.5 }}] }}
+block = {{ x = [0.0, 6.0], y = [0.0, 2.0], elements = [{along}, {across}], pieces = [
+    {{ name = "strip", side = "top", from = 0.0, to = 1.5 }}] }}
 [[mesh.parts]]
 body = "base"
 block = {{ x = [0.0, 6.0], y = [-4.0, 0.0], elements = [{along}, {below}], bias = [1.0, 0.5] }}
@@ -311,12 +317,14 @@ fix = ["y"]
 on = "block.strip"
 pressure = 1.0
 [program]
-targets = [{{ yield = true }}, {{ load_factor = 120.0 }}, {{ load_factor = 150.0 }}, {{ name = "off", load_factor = 0.0 }}]
+targets = [{{ yield = true }}, {{ load_factor = 120.0 }}, {{ load_factor = 150.0 }}, 
+    {{ name = "off", load_factor = 0.0 }}]
 "#
     ))
 }
 
-/// Half a ball in a spherical seat that is a little too wide for it, pressed beyond yield and let go.
+/// Half a ball in a spherical seat that is a little too wide for it, pressed beyond yield and let
+/// go.
 fn socket(n: usize) -> Scene {
     let across = n;
     running::parse(&format!(
@@ -358,7 +366,8 @@ on = "ball.end"
 pressure = 1.0
 [program]
 unit = "yield"
-targets = [{{ yield = true }}, {{ load_factor = 1.5 }}, {{ load_factor = 2.0 }}, {{ name = "off", load_factor = 0.0 }}]
+targets = [{{ yield = true }}, {{ load_factor = 1.5 }}, {{ load_factor = 2.0 }}, 
+    {{ name = "off", load_factor = 0.0 }}]
 "#
     ))
 }
@@ -367,7 +376,8 @@ targets = [{{ yield = true }}, {{ load_factor = 1.5 }}, {{ load_factor = 2.0 }},
 fn bronze(n: usize) -> Scene {
     let mut all = vec![
         "mesh.cylinder_on_half_plane.far_size=2000.0",
-        "program.targets=[{ yield = true }, { load_factor = 2.0 }, { name = \"off\", load_factor = 0.0 }, { name = \"again\", load_factor = 2.5 }]",
+        "program.targets=[{ yield = true }, { load_factor = 2.0 }, \
+         { name = \"off\", load_factor = 0.0 }, { name = \"again\", load_factor = 2.5 }]",
     ];
     all.extend(BRONZE);
     on_flat("cylinder_on_half_plane", n, &all)
@@ -381,7 +391,8 @@ fn reversed_sphere(n: usize) -> Scene {
             "mesh.parts.0.element=\"quad4\"",
             &format!("mesh.parts.0.ring={{ radius = [50.0, 80.0], elements = [{n}, {n}] }}"),
             "materials.steel.tangent_modulus=5000.0",
-            "program.targets=[{ yield = true }, { name = \"in\", load_factor = 200.0 }, { name = \"out\", load_factor = -180.0 }, { name = \"off\", load_factor = 0.0 }]",
+            "program.targets=[{ yield = true }, { name = \"in\", load_factor = 200.0 }, \
+             { name = \"out\", load_factor = -180.0 }, { name = \"off\", load_factor = 0.0 }]",
         ],
     )
 }

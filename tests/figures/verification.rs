@@ -1,4 +1,5 @@
-//! `data/verification.md`: every reference value of every scene in `data/scenes` beside what is computed.
+//! `data/verification.md`: every reference value of every scene in `data/scenes` beside what is
+//! computed.
 
 use crate::{Outcome, runs};
 use brinell::analysis::Analysis;
@@ -22,8 +23,10 @@ const VARIANTS: [(&str, &str); 2] = [
 const HEAD: &str = "\
 # What was verified, against what
 
-Computed by `cargo run --release --example paper_figures -- verification`, which writes this file; each number also stands in
-the report of the command beside it. *Ratio* is computed over reference. The sources of the reference values are in
+Computed by `cargo run --release --example paper_figures -- verification`, which writes this file; \
+each number also stands in
+the report of the command beside it. *Ratio* is computed over reference. \
+The sources of the reference values are in
 [`data/reference`](reference/README.md).
 ";
 
@@ -32,11 +35,11 @@ pub fn write() -> Outcome<()> {
     table_1(&mut text)?;
     let mut quality = String::new();
     scenes(&mut text, &mut quality)?;
-    text += "\n## Quality of every state\n\n\
-             The worst over all states of a scene. Backward error: of the full solve. Equilibrium: out-of-balance force of the stresses \
-             over the largest nodal force. Complementarity: gap times force over their largest values. Penetration: over the largest \
-             displacement.\n\n\
-             | scene | states | backward error | equilibrium | complementarity | penetration |\n|---|---|---|---|---|---|\n";
+    text += "\n## Quality of every state\n\nThe worst over all states of a scene. Backward error: \
+             of the full solve. Equilibrium: out-of-balance force of the stresses over the largest \
+             nodal force. Complementarity: gap times force over their largest values. Penetration: \
+             over the largest displacement.\n\n| scene | states | backward error | equilibrium | \
+             complementarity | penetration |\n|---|---|---|---|---|---|\n";
     text += &quality;
     let path = runs::data("verification.md");
     std::fs::write(&path, text)?;
@@ -56,10 +59,11 @@ fn analysis(scene: &Scene) -> Outcome<Analysis> {
 }
 
 fn table_1(text: &mut String) -> Outcome<()> {
-    *text += "\n## Table I of the paper: first yield of the cylinder on the half plane\n\n\
-              Computed over exact (Hertz, von Mises, nu = 0.3), by the number of elements over the contact half width b* at first yield.\n\n\
-              | elements over b* | load P* | pressure p* | half width b* | depth z* |\n|---|---|---|---|---|\n\
-              | paper, 1984 | 0.87 | 0.94 | 0.98 | 0.94 |\n";
+    *text += "\n## Table I of the paper: first yield of the cylinder on the half plane\n\nComputed \
+              over exact (Hertz, von Mises, nu = 0.3), by the number of elements over the contact \
+              half width b* at first yield.\n\n| elements over b* | load P* | pressure p* | half \
+              width b* | depth z* |\n|---|---|---|---|---|\n| paper, 1984 | 0.87 | 0.94 | 0.98 | \
+              0.94 |\n";
     for resolution in RESOLUTIONS {
         let scene = load(
             CYLINDER,
@@ -86,7 +90,8 @@ fn table_1(text: &mut String) -> Outcome<()> {
     }
     writeln!(
         text,
-        "\n`brinell yield data/scenes/{CYLINDER} --set mesh.cylinder_on_half_plane.resolution=32`, and so on."
+        "\n`brinell yield data/scenes/{CYLINDER} --set mesh.cylinder_on_half_plane.resolution=32`, \
+         and so on."
     )?;
     Ok(())
 }
@@ -136,7 +141,8 @@ fn append(text: &mut String, title: &str, command: &str, rows: &str) -> Outcome<
     }
     write!(
         text,
-        "\n{command}\n\n| quantity | reference | computed | ratio | source |\n|---|---|---|---|---|\n{rows}"
+        "\n{command}\n\n| quantity | reference | computed | ratio | source \
+         |\n|---|---|---|---|---|\n{rows}"
     )?;
     Ok(())
 }

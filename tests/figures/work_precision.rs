@@ -1,5 +1,6 @@
-//! The page of data/accuracy: what each digit costs, for the paper's applications and cases with known answers. Run with
-//! `cargo run --release --example work_precision [-- SCENE]...` (names below; all without any).
+//! The page of data/accuracy: what each digit costs, for the paper's applications and cases with
+//! known answers. Run with `cargo run --release --example work_precision [-- SCENE]...` (names
+//! below; all without any).
 
 use brinell::accuracy::{Knob, Plan, QuantityStudy, Study, study};
 use brinell::linalg::Backend;
@@ -27,13 +28,16 @@ struct Case {
     remark: &'static str,
 }
 
-/// Twice the order of the energy norm, which is the degree of the elements or what the solution's smoothness allows: the displacements
-/// beside a contact's edge go with the power 3/2 of the distance.
-const EDGE: &str = "2 for linear elements; for quadratic ones 4 where all is smooth, 3 behind a contact edge (twice the order of the energy norm, which the \
-                    edge, where displacements go with r^(3/2), holds at 3/2 whatever the degree)";
+/// Twice the order of the energy norm, which is the degree of the elements or what the solution's
+/// smoothness allows: the displacements beside a contact's edge go with the power 3/2 of the
+/// distance.
+const EDGE: &str = "2 for linear elements; for quadratic ones 4 where all is smooth, 3 behind a \
+                    contact edge (twice the order of the energy norm, which the edge, where \
+                    displacements go with r^(3/2), holds at 3/2 whatever the degree)";
 /// The same beyond yield.
-const EDGE_AND_FRONT: &str = "2 for linear elements; for quadratic ones no more than 3 behind the contact edge and between 1 and 2 where the front of the plastic \
-                              zone passes through elements";
+const EDGE_AND_FRONT: &str = "2 for linear elements; for quadratic ones no more than 3 behind the \
+                              contact edge and between 1 and 2 where the front of the plastic zone \
+                              passes through elements";
 
 const PATH: &[Knob] = &[
     Knob::Resolution,
@@ -60,8 +64,9 @@ const CASES: [Case; 6] = [
             "states.unloaded.residual_depth",
         ],
         theory: EDGE_AND_FRONT,
-        remark: "Beyond yield the contact edge travels over yielding elements: the dent converges with an order between one and \
-                 two, whatever the element. A target read off the state (1.5 b*) can be missed with the loosest tolerances.",
+        remark: "Beyond yield the contact edge travels over yielding elements: the dent converges \
+                 with an order between one and two, whatever the element. A target read off the \
+                 state (1.5 b*) can be missed with the loosest tolerances.",
     },
     Case {
         name: "disc",
@@ -80,8 +85,10 @@ const CASES: [Case; 6] = [
             "states.alpha 2.max_pressure",
         ],
         theory: EDGE_AND_FRONT,
-        remark: "The half width is read off a contact that ends inside an element, so that its error is a share of one: first order. While it is \
-                 unloaded the pressure peaks at the edge of the dent, the higher the finer the mesh: those states have no limit under refinement.",
+        remark: "The half width is read off a contact that ends inside an element, so that its \
+                 error is a share of one: first order. While it is unloaded the pressure peaks at \
+                 the edge of the dent, the higher the finer the mesh: those states have no limit \
+                 under refinement.",
     },
     Case {
         name: "hertz_line",
@@ -96,8 +103,9 @@ const CASES: [Case; 6] = [
         budget: 120.0,
         quantities: &["yield.load", "yield.max_pressure", "yield.half_width"],
         theory: EDGE,
-        remark: "Second order in load and pressure down to 1e-4, where the finite size of the bodies shows. The singular slope of the \
-                 pressure at the contact edge (a square root) keeps quadratic elements from a higher one.",
+        remark: "Second order in load and pressure down to 1e-4, where the finite size of the \
+                 bodies shows. The singular slope of the pressure at the contact edge (a square \
+                 root) keeps quadratic elements from a higher one.",
     },
     Case {
         name: "hertz_point",
@@ -114,8 +122,9 @@ const CASES: [Case; 6] = [
         budget: 120.0,
         quantities: &["yield.load", "yield.max_pressure", "yield.half_width"],
         theory: EDGE,
-        remark: "With `quad4` load and pressure are right to a thousandth from six elements over the contact on, and no order is to be \
-                 read off what is left; the other elements converge with theirs.",
+        remark: "With `quad4` load and pressure are right to a thousandth from six elements over \
+                 the contact on, and no order is to be read off what is left; the other elements \
+                 converge with theirs.",
     },
     Case {
         name: "thick_cylinder",
@@ -126,8 +135,10 @@ const CASES: [Case; 6] = [
         levels: 6,
         budget: 120.0,
         quantities: &["yield.alpha", "states.alpha 190.approach"],
-        theory: "2 for linear and 4 for quadratic elements at first yield, where all is smooth; beyond it between 1 and 2, the front of the plastic zone being inside elements",
-        remark: "Quadratic elements win by a factor. The displacement near collapse is governed by increments as much as by the mesh.",
+        theory: "2 for linear and 4 for quadratic elements at first yield, where all is smooth; \
+                 beyond it between 1 and 2, the front of the plastic zone being inside elements",
+        remark: "Quadratic elements win by a factor. The displacement near collapse is governed by \
+                 increments as much as by the mesh.",
     },
     Case {
         name: "flat_punch",
@@ -138,8 +149,10 @@ const CASES: [Case; 6] = [
         levels: 5,
         budget: 120.0,
         quantities: &["states.flow.load"],
-        theory: "1: the velocity of the exact mechanism jumps, and continuous elements smear the jump over one of theirs",
-        remark: "The velocity jumps at the punch's edge: first order from above, whatever else is refined.",
+        theory: "1: the velocity of the exact mechanism jumps, and continuous elements smear the \
+                 jump over one of theirs",
+        remark: "The velocity jumps at the punch's edge: first order from above, whatever else is \
+                 refined.",
     },
 ];
 
@@ -161,7 +174,8 @@ fn data() -> PathBuf {
 fn main() -> Outcome<()> {
     let wanted: Vec<String> = std::env::args().skip(1).collect();
     if wanted.is_empty() {
-        // A process each: the memory of one study's large runs is not held against the next one's small ones.
+        // A process each: the memory of one study's large runs is not held against the next one's
+        // small ones.
         for case in &CASES {
             let status = std::process::Command::new(std::env::current_exe()?)
                 .arg(case.name)
@@ -234,7 +248,8 @@ fn section(case: &Case, study: &Study) -> Outcome<String> {
     if !turned(Knob::Tolerance) && !turned(Knob::Stepping) {
         writeln!(
             text,
-            "Up to first yield nothing yields and the path is followed exactly: there are no increments and no tolerances to turn, and none are wasted.\n"
+            "Up to first yield nothing yields and the path is followed exactly: there are no \
+             increments and no tolerances to turn, and none are wasted.\n"
         )?;
     }
     for name in case.quantities {
@@ -265,7 +280,8 @@ fn section(case: &Case, study: &Study) -> Outcome<String> {
         .collect();
     writeln!(
         text,
-        "## Runs\n\n| series | setting | freedoms | time [s] | memory [MB] | operations | factor [flops] | trailing solves | plastic iterations | {} |",
+        "## Runs\n\n| series | setting | freedoms | time [s] | memory [MB] | operations | factor \
+         [flops] | trailing solves | plastic iterations | {} |",
         heads
             .iter()
             .map(|h| format!("error of {h}"))

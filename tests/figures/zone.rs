@@ -1,4 +1,5 @@
-//! Fig 5.5 and the picture of the README: plastic zones and von Mises stress on the mesh near the contact.
+//! Fig 5.5 and the picture of the README: plastic zones and von Mises stress on the mesh near the
+//! contact.
 
 use crate::chart::{BLUE, FONT, GREEN, ORANGE, RED, save};
 use crate::cylinder::profile;
@@ -421,7 +422,8 @@ fn mixed(color: RGBColor, strength: f64) -> RGBColor {
     RGBColor(mix(color.0), mix(color.1), mix(color.2))
 }
 
-/// Without it renderers show hairlines between neighbouring elements. What is fully opaque need not say so.
+/// Without it renderers show hairlines between neighbouring elements. What is fully opaque need not
+/// say so.
 fn crisp(text: &str) -> String {
     text.replace(" opacity=\"1\"", "")
         .replace("<polygon ", "<polygon shape-rendering=\"crispEdges\" ")

@@ -1,4 +1,5 @@
-//! Damaged scenes, overrides, meshes and command lines, by the million: no panic, abort, hang or unbounded memory.
+//! Damaged scenes, overrides, meshes and command lines, by the million: no panic, abort, hang or
+//! unbounded memory.
 //!
 //! ```text
 //! cargo test --release --test fuzz                          # 100,000 inputs
@@ -7,7 +8,8 @@
 //! BRINELL_FUZZ_ONLY=4711 cargo test --test fuzz             # one, by its number
 //! ```
 //!
-//! An input is a function of its number. What once broke the program is kept in `regressions`: the file's ending says what it is.
+//! An input is a function of its number. What once broke the program is kept in `regressions`: the
+//! file's ending says what it is.
 
 mod mutation;
 mod targets;
@@ -23,7 +25,8 @@ use targets::{Seeds, Target};
 const INPUTS: u64 = 100_000;
 /// An input that takes this long hangs.
 const HANG: Duration = Duration::from_secs(60);
-/// Most memory, resident and reserved, in bytes: seeds are kilobytes, and so is all that may come of them.
+/// Most memory, resident and reserved, in bytes: seeds are kilobytes, and so is all that may come
+/// of them.
 const RESIDENT: u64 = 1 << 30;
 const RESERVED: u64 = 4 << 30;
 

@@ -16,7 +16,8 @@ impl Random {
     }
 }
 
-/// Values that break programs: ends of number ranges, no numbers, other types, names that stand elsewhere.
+/// Values that break programs: ends of number ranges, no numbers, other types, names that stand
+/// elsewhere.
 const VALUES: [&str; 44] = [
     "0",
     "-0.0",
@@ -163,7 +164,8 @@ fn replace_word(text: &mut Vec<u8>, random: &mut Random) {
     text.splice(begin..end, value);
 }
 
-/// What stands behind an equals sign becomes something else, to the end of the line or the next comma.
+/// What stands behind an equals sign becomes something else, to the end of the line or the next
+/// comma.
 fn replace_value(text: &mut Vec<u8>, random: &mut Random) {
     let at = random.below(text.len());
     let Some(equals) = (at..text.len()).find(|&i| text[i] == b'=') else {

@@ -345,8 +345,8 @@ fn run(scene: &Scene) -> bool {
     }
 }
 
-/// A hexahedron weighs as much as so many quadrilaterals: it has twice the nodes and three times the
-/// freedoms of one.
+/// A hexahedron weighs as much as so many quadrilaterals: it has twice the nodes and three times
+/// the freedoms of one.
 const OF_HEXAHEDRON: f64 = 6.0;
 
 /// Quadrilateral cells of a mesh made of parts; a lot for anything else, and where cells are drawn

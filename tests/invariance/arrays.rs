@@ -9,7 +9,8 @@ use brinell::progress::Silent;
 use brinell::results::Results;
 use brinell::scene::Scene;
 
-/// Hands the mesh and the entries of a scene over as arrays; `pairs` takes the place of the contacts' geometry.
+/// Hands the mesh and the entries of a scene over as arrays; `pairs` takes the place of the
+/// contacts' geometry.
 fn from_arrays(scene: &Scene, mesh: &Mesh, pairs: Option<&Model>) -> ModelBuilder {
     let mut builder = ModelBuilder::new(scene.kind);
     builder

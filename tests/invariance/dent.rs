@@ -1,5 +1,5 @@
-//! The dent is a shape of the bodies: it does not depend on how far the candidates reach, on the mesh, or on
-//! whether a force or a displacement led there.
+//! The dent is a shape of the bodies: it does not depend on how far the candidates reach, on the
+//! mesh, or on whether a force or a displacement led there.
 
 use super::running::{close, load, run, state};
 use brinell::accuracy::{Extent, estimate};
@@ -53,8 +53,9 @@ fn strip_and_resolution_change_it_by_less_than_is_stated() {
             }
         }
         println!("{name}: dents and stated errors {all:?}");
-        // Before, relative to the outermost candidate, the strip alone changed it by 9 %. With 8 and 12 elements up to 21 % are
-        // stated now (the meshes there show no order), so that only the finest is held to say more than that.
+        // Before, relative to the outermost candidate, the strip alone changed it by 9 %. With 8
+        // and 12 elements up to 21 % are stated now (the meshes there show no order), so that only
+        // the finest is held to say more than that.
         let [dent, stated] = all[4];
         assert!(
             stated < 0.09 * dent,
@@ -63,13 +64,15 @@ fn strip_and_resolution_change_it_by_less_than_is_stated() {
     }
 }
 
-/// The state that a displacement of the loaded surface leads to is the one that the force leads to. The
-/// displacement is a float and the increments end at other events: states are the same to the tolerance of the
-/// plastic iteration (1e-10 of the force), which a dent, a hundredth of the displacement, shows as 1e-7.
+/// The state that a displacement of the loaded surface leads to is the one that the force leads to.
+/// The displacement is a float and the increments end at other events: states are the same to the
+/// tolerance of the plastic iteration (1e-10 of the force), which a dent, a hundredth of the
+/// displacement, shows as 1e-7.
 #[test]
 fn force_and_displacement_lead_to_the_same_dent() {
     for name in SCENES {
-        // The same mesh for both: by itself its candidates reach as far as either may take the contact.
+        // The same mesh for both: by itself its candidates reach as far as either may take the
+        // contact.
         let mesh = [
             "mesh.cylinder_on_half_plane.resolution=8",
             "mesh.cylinder_on_half_plane.contact_width=2.0",
@@ -113,9 +116,10 @@ fn mean(model: &Model, results: &Results, set: &str) -> f64 {
     sum / nodes.len() as f64
 }
 
-/// Let go, the bodies are where the dent says: the displacements that are written for the whole mesh, which a full
-/// solve gives, have the same depth at the pole below bottom and top of the model. They are right to the
-/// tolerance of a state's equilibrium, 1e-8 of the largest displacement.
+/// Let go, the bodies are where the dent says: the displacements that are written for the whole
+/// mesh, which a full solve gives, have the same depth at the pole below bottom and top of the
+/// model. They are right to the tolerance of a state's equilibrium, 1e-8 of the largest
+/// displacement.
 #[test]
 fn it_is_what_the_displacements_show_after_unloading() {
     for name in SCENES {
@@ -165,18 +169,24 @@ fn a_body_that_stays_elastic_has_no_share() {
     );
 }
 
-/// Two blocks squeezed evenly, plane stress: each is left shorter by what its plastic strain makes of its height of 1,
-/// `(600 - 500) / H = 0.1`. A load that presses elsewhere and hardly at all does not move what it is measured from.
+/// Two blocks squeezed evenly, plane stress: each is left shorter by what its plastic strain makes
+/// of its height of 1, `(600 - 500) / H = 0.1`. A load that presses elsewhere and hardly at all
+/// does not move what it is measured from.
 #[test]
 fn a_load_beside_does_not_move_the_reference() {
     let scene = |beside: &str| {
         super::running::parse(&format!(
             "kind = \"plane_stress\"
             mesh.parts = [
-                {{ body = \"lower\", block = {{ x = [0.0, 2.0], y = [0.0, 1.0], elements = [4, 2] }} }},
-                {{ body = \"upper\", block = {{ x = [0.0, 2.0], y = [1.0, 2.0], elements = [4, 2] }} }},
+                {{ body = \"lower\", block = {{ x = [0.0,
+                    2.0], y = [0.0, 1.0], elements = [4, 2] }} }},
+                {{ body = \"upper\", block = {{ x = [0.0,
+                    2.0], y = [1.0, 2.0], elements = [4, 2] }} }},
             ]
-            materials.s = {{ youngs_modulus = 2e5, poissons_ratio = 0.3, yield_stress = 500.0, plastic_modulus = 1000.0 }}
+            materials.s.youngs_modulus = 2e5
+            materials.s.poissons_ratio = 0.3
+            materials.s.yield_stress = 500.0
+            materials.s.plastic_modulus = 1000.0
             bodies = {{ lower = {{ material = \"s\" }}, upper = {{ material = \"s\" }} }}
             contact = [{{ first = \"upper.bottom\", second = \"lower.top\" }}]
             support = [
@@ -198,8 +208,8 @@ fn a_load_beside_does_not_move_the_reference() {
     }
 }
 
-/// Two blocks that never touch, squeezed from their sides until they flow: their faces come towards each other. The depth
-/// is negative then, and the sum of the shares, as everywhere.
+/// Two blocks that never touch, squeezed from their sides until they flow: their faces come towards
+/// each other. The depth is negative then, and the sum of the shares, as everywhere.
 #[test]
 fn faces_that_grow_towards_each_other_have_a_negative_depth() {
     let set = [

@@ -2,8 +2,8 @@
 
 use super::running::{close, load, run};
 
-/// A load that is a millionth of the other, on the other body and before or after it: the approach is that of the press,
-/// to a millionth, in either order.
+/// A load that is a millionth of the other, on the other body and before or after it: the approach
+/// is that of the press, to a millionth, in either order.
 #[test]
 fn the_approach_does_not_follow_the_load_that_stands_first() {
     let approach = |loads: &str| {

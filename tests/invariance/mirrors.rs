@@ -63,7 +63,8 @@ fn mirrored(mesh: &Mesh) -> Mesh {
     out
 }
 
-/// A half mesh (x >= 0) and its mirror image in one, joined at x = 0; the nodes there are the set `axis`.
+/// A half mesh (x >= 0) and its mirror image in one, joined at x = 0; the nodes there are the set
+/// `axis`.
 fn doubled(half: &Mesh) -> Mesh {
     let reflection = mirrored(half);
     let mut out = half.clone();
@@ -151,7 +152,8 @@ fn at_right(pairs: &[PairState]) -> Vec<PairState> {
     out
 }
 
-/// The whole has the half's gaps and forces on its right side, and twice the force where the half was cut.
+/// The whole has the half's gaps and forces on its right side, and twice the force where the half
+/// was cut.
 fn half_of(whole: &Results, half: &Results, tolerance: f64) {
     assert_eq!(half.states.len(), whole.states.len());
     let all = |f: fn(&PairState) -> f64| largest(half.states.iter().flat_map(|s| &s.pairs).map(f));
@@ -259,8 +261,9 @@ fn half_a_stack_of_blocks_is_half_of_the_whole() {
     }
 }
 
-/// Every change of contact off the axis is a tie of left and right. (Elastic: the stress that decides on first yield is recovered from
-/// the elements on one side of the axis in the half and on both in the whole, so that yield loads differ by the mesh's error.)
+/// Every change of contact off the axis is a tie of left and right. (Elastic: the stress that
+/// decides on first yield is recovered from the elements on one side of the axis in the half and on
+/// both in the whole, so that yield loads differ by the mesh's error.)
 #[test]
 fn half_a_cylinder_is_half_of_the_whole() {
     let scene = load(

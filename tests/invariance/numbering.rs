@@ -66,7 +66,8 @@ fn turn(shape: Shape, k: usize) -> Vec<usize> {
     (0..shape.n_corners()).map(turned).collect()
 }
 
-/// The same mesh with other numbers of nodes and elements, and elements that begin at another corner.
+/// The same mesh with other numbers of nodes and elements, and elements that begin at another
+/// corner.
 pub fn renumbered(mesh: &Mesh) -> Mesh {
     let (nodes, elements) = (shuffle(mesh.n_nodes()), shuffle(mesh.n_elements()));
     let d = mesh.dimension;
@@ -128,7 +129,8 @@ fn sorted(results: &Results) -> Vec<State> {
     states
 }
 
-/// Both runs end in the same states. Elastic: `tolerance` is round-off; plastic: that of the plastic iteration and of gamma.
+/// Both runs end in the same states. Elastic: `tolerance` is round-off; plastic: that of the
+/// plastic iteration and of gamma.
 fn same(what: &str, a: &Results, b: &Results, tolerance: f64) {
     assert_eq!(a.states.len(), b.states.len(), "{what}");
     for (s, t) in sorted(a).iter().zip(&sorted(b)) {
@@ -141,7 +143,8 @@ fn same(what: &str, a: &Results, b: &Results, tolerance: f64) {
             strain,
             tolerance,
         );
-        // A dent is a difference of movements: of gaps, and of strain times the size of the model (about 1).
+        // A dent is a difference of movements: of gaps, and of strain times the size of the model
+        // (about 1).
         let depth = largest(a.states.iter().flat_map(|s| &s.pairs).map(|p| p.gap)).max(strain);
         close(what, s.residual_depth, t.residual_depth, depth, tolerance);
     }
@@ -238,7 +241,8 @@ fn the_order_in_the_scene_does_not_matter() {
     same("reversed", &a, &b, 1e-11);
 }
 
-/// First and second surface swapped: the normal turns round, gaps and forces stay. On straight surfaces.
+/// First and second surface swapped: the normal turns round, gaps and forces stay. On straight
+/// surfaces.
 #[test]
 fn first_and_second_may_be_swapped() {
     for (name, overrides, tolerance) in [

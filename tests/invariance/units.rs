@@ -1,11 +1,13 @@
-//! Units and scales: with lengths times L and stresses times S every length is times L, pressure times S, force per thickness times
-//! L S, that of a solid times L^2 S.
+//! Units and scales: with lengths times L and stresses times S every length is times L, pressure
+//! times S, force per thickness times L S, that of a solid times L^2 S.
 
 use crate::running::{SMALL_BALL, close, largest, load, run};
 use brinell::results::{QUANTITIES, Results, Unit};
 
-const ELASTIC: &str = "program.targets=[{ yield = true }, { load_factor = 0.5 }, { load_factor = 0.9 }, { load_factor = 0.0 }]";
-const PLASTIC: &str = "program.targets=[{ yield = true }, { load_factor = 1.8 }, { load_factor = 0.5 }, { load_factor = 0.0 }]";
+const ELASTIC: &str = "program.targets=[{ yield = true }, { load_factor = 0.5 }, \
+                       { load_factor = 0.9 }, { load_factor = 0.0 }]";
+const PLASTIC: &str = "program.targets=[{ yield = true }, { load_factor = 1.8 }, \
+                       { load_factor = 0.5 }, { load_factor = 0.0 }]";
 
 /// The coarse cylinder in units in which a length is `l` times, a stress `s` times its number.
 fn cylinder(l: f64, s: f64, targets: &str) -> Results {
@@ -86,8 +88,8 @@ fn equivariant_of(base: &Results, scaled: &Results, [l, s, f]: [f64; 3], toleran
                 Unit::Work => (l * f, 0.0),
             };
             let scale = largest(base.states.iter().map(quantity.in_state.get)).max(least);
-            // Without load a pair with neither gap nor force may be called either, and the error of the stresses is that of
-            // their round-off.
+            // Without load a pair with neither gap nor force may be called either, and the error of
+            // the stresses is that of their round-off.
             let of_round_off = ["closed_pairs", "energy_error"].contains(&quantity.key);
             if of_round_off && tolerance > 0.0 && a.load == 0.0 {
                 continue;
@@ -140,8 +142,9 @@ fn elastic_results_scale_with_the_units() {
     }
 }
 
-/// Elastoplastic: what the elastic results keep is kept, if forces balance better than that. With the default of 1e-10 two roundings of one
-/// increment may stop at iterates that differ by a share of it.
+/// Elastoplastic: what the elastic results keep is kept, if forces balance better than that. With
+/// the default of 1e-10 two roundings of one increment may stop at iterates that differ by a share
+/// of it.
 #[test]
 fn plastic_results_scale_with_the_units() {
     for (tolerance, allowed) in [(1e-12, 1e-11), (1e-10, 1e-9)] {
@@ -154,9 +157,9 @@ fn plastic_results_scale_with_the_units() {
     }
 }
 
-/// Solids: elastic and elastoplastic, mm and N to m and N, stresses and lengths over 12 orders. Elastic
-/// ones to what the plane model keeps. Where stresses of the size Y = 500 balance to t = 1e-12, plastic
-/// strains do to `t Y/H`, of the 1e-3 that they are measured by 236 t with H = 2121.
+/// Solids: elastic and elastoplastic, mm and N to m and N, stresses and lengths over 12 orders.
+/// Elastic ones to what the plane model keeps. Where stresses of the size Y = 500 balance to t =
+/// 1e-12, plastic strains do to `t Y/H`, of the 1e-3 that they are measured by 236 t with H = 2121.
 #[test]
 fn solids_scale_with_the_units() {
     for (targets, tolerance) in [(ELASTIC, 1e-11), (PLASTIC, 236e-12)] {
@@ -175,8 +178,8 @@ fn solids_scale_with_the_units() {
     }
 }
 
-/// A power of two in stresses or lengths changes no mantissa: the results are the same to the last bit, so that no absolute tolerance
-/// is left anywhere on the way.
+/// A power of two in stresses or lengths changes no mantissa: the results are the same to the last
+/// bit, so that no absolute tolerance is left anywhere on the way.
 #[test]
 fn powers_of_two_change_no_bit() {
     let base = cylinder(1.0, 1.0, PLASTIC);

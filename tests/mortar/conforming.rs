@@ -1,4 +1,5 @@
-//! Curved surfaces that fit each other, with different facets: the gap is that of the true surfaces.
+//! Curved surfaces that fit each other, with different facets: the gap is that of the true
+//! surfaces.
 
 use crate::blocks::{held, of_one_material, run};
 use crate::grid::{Grid, Point};

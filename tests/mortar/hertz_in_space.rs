@@ -38,8 +38,8 @@ fn ratios(name: &str, [upper, lower]: [[f64; 2]; 2], n: usize, cases: &[([usize;
     for &(cells, slave) in cases {
         let found = at(cells, slave);
         println!("{name} {cells:?} {slave}: {found:.4?}");
-        // A paraboloid is none of the surfaces that are recognised: fine slaves see the kinks between
-        // linear facets, and are left to who asks for them.
+        // A paraboloid is none of the surfaces that are recognised: fine slaves see the kinks
+        // between linear facets, and are left to who asks for them.
         let sees_kinks = cells[usize::from(slave == "second")] == 12 && slave != "auto";
         let (peak, scatter) = if sees_kinks {
             (0.025, 2.0)

@@ -95,8 +95,8 @@ fn bent([x, y, z]: Point) -> Point {
     ]
 }
 
-/// On distorted quadrilaterals the inverse map is rational: the error is that of the rules, of degree
-/// 5 (linear facets) and 8.
+/// On distorted quadrilaterals the inverse map is rational: the error is that of the rules, of
+/// degree 5 (linear facets) and 8.
 #[test]
 fn distorted_quadrilaterals() {
     for (lower, upper) in [

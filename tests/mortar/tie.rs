@@ -90,8 +90,8 @@ fn stressed(builder: &mut ModelBuilder, bodies: &[&str], stress: [f64; 6]) {
     }
 }
 
-/// Largest deviation of the stress of all nodes from a uniform one, over its largest component; what is
-/// out of a plane is left out.
+/// Largest deviation of the stress of all nodes from a uniform one, over its largest component;
+/// what is out of a plane is left out.
 fn off(results: &Results, stress: [f64; 6], solid: bool) -> f64 {
     let fields = results.states[0].fields.as_ref().unwrap();
     let scale = stress.iter().fold(0.0, |m: f64, s| m.max(s.abs()));
@@ -256,8 +256,8 @@ fn three_in_a_row() {
     }
 }
 
-/// A punch on the left half of a block that is tied to another on its right: the node at the corner is
-/// in contact and tied.
+/// A punch on the left half of a block that is tied to another on its right: the node at the corner
+/// is in contact and tied.
 #[test]
 fn a_node_in_contact_that_is_tied() {
     for shape in [Shape::Quad4, Shape::Quad8] {

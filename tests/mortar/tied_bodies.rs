@@ -89,8 +89,8 @@ fn a_rigid_motion_stays_one() {
     }
 }
 
-/// Surfaces that do not match, tied, in place of a mesh that goes over from fine to coarse: a bump pressed
-/// into a block.
+/// Surfaces that do not match, tied, in place of a mesh that goes over from fine to coarse: a bump
+/// pressed into a block.
 #[test]
 fn a_fine_part_in_a_coarse_body() {
     let pressed_into = |is_tied: bool| {

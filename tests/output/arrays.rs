@@ -10,8 +10,8 @@ use brinell::output::{RunHeader, read, write_report, write_with_report};
 use brinell::progress::Silent;
 use brinell::scene::{Body, Contact, Direction, History, Kind, Material, Support};
 
-/// Two blocks from arrays, with what no scene can say: pairs with gaps and normals of their own, forces node by node, names that no Gmsh
-/// file holds.
+/// Two blocks from arrays, with what no scene can say: pairs with gaps and normals of their own,
+/// forces node by node, names that no Gmsh file holds.
 fn blocks() -> brinell::Result<Model> {
     let mut builder = ModelBuilder::new(Kind::PlaneStrain);
     let n = 4_u32;

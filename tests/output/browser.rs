@@ -29,11 +29,15 @@ window.addEventListener('load', () => {
     const page = frame.contentDocument, root = page.documentElement;
     page.querySelectorAll('details').forEach(d => d.open = true);
     const wide = [...page.querySelectorAll('main *, header *, footer *')].filter(e =>
-      !e.parentElement.closest('.wide') && !(e.closest('svg') && e.tagName != 'svg') && e.getBoundingClientRect().right > frame.clientWidth + 0.5);
+      !e.parentElement.closest('.wide') && !(e.closest('svg') && e.tagName != 'svg') &&
+      e.getBoundingClientRect().right > frame.clientWidth + 0.5);
     const style = frame.contentWindow.getComputedStyle(page.body);
     found.push({
-      width: frame.clientWidth, scroll: root.scrollWidth, wide: wide.map(e => e.tagName + '.' + e.className),
-      height: root.scrollHeight, figures: [...page.querySelectorAll('svg')].filter(s => s.getBoundingClientRect().height > 100).length,
+      width: frame.clientWidth, scroll: root.scrollWidth,
+      wide: wide.map(e => e.tagName + '.' + e.className),
+      height: root.scrollHeight,
+      figures: [...page.querySelectorAll('svg')]
+        .filter(s => s.getBoundingClientRect().height > 100).length,
       ink: style.color, paper: style.backgroundColor,
     });
   }

@@ -188,7 +188,8 @@ fn parents_made_for_a_failed_run_are_removed() {
     assert_eq!(names(root.path()), Vec::<String>::new());
 }
 
-/// The second state's fields do not fit the mesh: by then tables and the first state have been written.
+/// The second state's fields do not fit the mesh: by then tables and the first state have been
+/// written.
 #[test]
 fn an_error_in_the_middle_leaves_nothing() {
     let mesh = fixture::mesh();

@@ -40,7 +40,8 @@ show("points", vtk_to_numpy(grid.GetPoints().GetData()), "<f8")
 names = {5: "triangle", 22: "triangle6", 9: "quad", 23: "quad8"}
 for i in range(grid.GetNumberOfCells()):
     cell = grid.GetCell(i)
-    show(names[cell.GetCellType()], [cell.GetPointId(j) for j in range(cell.GetNumberOfPoints())], "<i8")
+    show(names[cell.GetCellType()],
+    [cell.GetPointId(j) for j in range(cell.GetNumberOfPoints())], "<i8")
 show("displacement", vtk_to_numpy(grid.GetPointData().GetArray("displacement")), "<f8")
 data = grid.GetCellData()
 for name in ("stress", "von_mises", "equivalent_plastic_strain"):

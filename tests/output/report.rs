@@ -6,7 +6,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::process::Command;
 
-/// Scenes of every kind, small: contact, none, axisymmetric, elastic, interference, several bodies, quadratic elements.
+/// Scenes of every kind, small: contact, none, axisymmetric, elastic, interference, several bodies,
+/// quadratic elements.
 pub const SCENES: [(&str, &[&str]); 6] = [
     (
         "cylinder_on_half_plane",
@@ -105,7 +106,8 @@ fn every_kind_of_scene_has_a_self_contained_well_formed_report() {
             assert!(ids.contains(&anchor), "{scene}: #{anchor}");
         }
 
-        // As many figures in the page as files, all of them XML without images; each can be enlarged.
+        // As many figures in the page as files, all of them XML without images; each can be
+        // enlarged.
         let files = figures(&dir);
         let inline = drawings(&page);
         assert_eq!(files.len(), inline.len(), "{scene}");
@@ -196,8 +198,8 @@ fn every_kind_of_scene_has_a_self_contained_well_formed_report() {
     }
 }
 
-/// Bands of colour are closed, each on the one below; the scale of colours rises; the ring is at the
-/// element with the largest value and says it.
+/// Bands of colour are closed, each on the one below; the scale of colours rises; the ring is at
+/// the element with the largest value and says it.
 #[test]
 fn pictures_are_bands_in_order_with_the_largest_value_marked() {
     let temporary = tempfile::tempdir().unwrap();
@@ -318,7 +320,8 @@ fn a_report_can_be_left_out_and_goes_with_its_result() {
     assert!(dir.join("mine.svg").exists() && dir.join("summary.json").exists());
 }
 
-/// The report made anew from the directory is the one that the run wrote, whatever made the mesh, also where the run wrote none.
+/// The report made anew from the directory is the one that the run wrote, whatever made the mesh,
+/// also where the run wrote none.
 #[test]
 fn a_report_is_made_anew_from_its_directory_to_the_byte() {
     let temporary = tempfile::tempdir().unwrap();
@@ -373,7 +376,8 @@ fn a_report_is_made_anew_from_its_directory_to_the_byte() {
             assert!(after[name] == *bytes, "{scene}: {name} differs");
         }
     }
-    // What does not belong together, is damaged or is not there is refused by name, and the page stays.
+    // What does not belong together, is damaged or is not there is refused by name, and the page
+    // stays.
     let dir = temporary.path().join("shrink_fit");
     let page = std::fs::read(dir.join("report.html")).unwrap();
     let scene = std::fs::read_to_string(dir.join("scene_as_run.toml")).unwrap();

@@ -41,14 +41,16 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
         assert_eq!(peak, Value::Null);
     }
     let quality = json!({
-        "backward_error": 1e-16, "componentwise_error": 2e-16, "round_off": 3e-14, "equilibrium": 2e-12, "complementarity": 0.0,
+        "backward_error": 1e-16, "componentwise_error": 2e-16, "round_off": 3e-14,
+        "equilibrium": 2e-12, "complementarity": 0.0,
         "penetration": 3e-17, "adhesion": 4e-17
     });
     let pressed = json!({
         "name": "b = 1.5 b*", "alpha": 2.0635, "load": 123.456, "contact_force": 123.4,
         "closed_pairs": 1, "max_pressure": 300.0, "pole_pressure": 299.0, "half_width": 1.5,
         "contact_arc": {"from": -19.625, "to": 19.625}, "residual_depth": 0.01,
-        "residual_depth_by_body": {"cylinder": 0.006, "half_plane": 0.004}, "rim_height": 0.001, "approach": 0.3,
+        "residual_depth_by_body": {"cylinder": 0.006, "half_plane": 0.004}, "rim_height": 0.001,
+        "approach": 0.3,
         "plastic_points": 7, "plastic_points_by_body": {"cylinder": 3, "half_plane": 4},
         "max_equivalent_plastic_strain": 0.02, "plastic_zone_size": 0.004, "plastic_work": 0.7,
         "plastic_depth": 0.0123, "energy_error": 0.05,
@@ -71,7 +73,8 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
         "nodes": 15, "elements": 4, "freedoms": 27, "contact_pairs": 2,
         "zone_freedoms": 9, "zone_elements": 2,
         "effects": {
-            "contact": {"on": true, "why": "2 pairs may touch", "seconds": 0.5, "memory_bytes": 4096}
+            "contact": {"on": true, "why": "2 pairs may touch", "seconds": 0.5,
+                "memory_bytes": 4096}
         },
         "timings": {"assembly": 0.375, "factorisation": 0.5, "total": 1.25},
         "peak_memory_bytes": null,
@@ -101,10 +104,12 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
             "companions": [{"ratio": 2.0, "freedoms": 9, "seconds": 0.25}],
             "quantities": [{
                 "quantity": "yield.load", "value": 60.0, "error": 0.5, "relative_error": 0.005,
-                "discretisation": 0.4, "path": 0.09, "algebraic": 0.01, "order": null, "extrapolated": 60.2
+                "discretisation": 0.4, "path": 0.09, "algebraic": 0.01, "order": null,
+                "extrapolated": 60.2
             }],
             "demand": {
-                "accuracy": 0.01, "demanded": "1 %", "reached": false, "reason": "time", "unknown": ["states.s.load"],
+                "accuracy": 0.01, "demanded": "1 %", "reached": false, "reason": "time",
+                "unknown": ["states.s.load"],
                 "stated": 0.005, "worst": "yield.load", "choices": ["resolution 16"], "work": 3e9
             },
             "seconds": 0.5, "work": 1e9,
@@ -156,8 +161,8 @@ fn numbers_that_are_not_finite_are_null() {
     assert_eq!(value["timings"]["assembly"], Value::Null);
 }
 
-/// Every quantity of the table stands in the schema of a state (of first yield, where it is known there), required and
-/// described, and nothing else that is a number does.
+/// Every quantity of the table stands in the schema of a state (of first yield, where it is known
+/// there), required and described, and nothing else that is a number does.
 #[test]
 fn the_schema_has_the_quantities_of_the_table() {
     let schema: Value = serde_json::from_str(SUMMARY_SCHEMA).unwrap();
@@ -204,7 +209,8 @@ fn the_schema_has_the_quantities_of_the_table() {
     }
 }
 
-/// The schema has to refuse what is wrong: each required key taken away, each key misspelt, wrong types.
+/// The schema has to refuse what is wrong: each required key taken away, each key misspelt, wrong
+/// types.
 #[test]
 fn the_schema_refuses_missing_and_unknown_keys() {
     let mesh = fixture::mesh();
@@ -220,8 +226,8 @@ fn the_schema_refuses_missing_and_unknown_keys() {
         "/residual_depth_by_body",
     ];
     objects.retain(|path| !open.iter().any(|end| path.ends_with(end)));
-    // The root, an effect, counts, factor, quality, yield with its location, three states with quality
-    // (two with an arc), a reference, accuracy with a mesh, a quantity and a demand.
+    // The root, an effect, counts, factor, quality, yield with its location, three states with
+    // quality (two with an arc), a reference, accuracy with a mesh, a quantity and a demand.
     assert_eq!(objects.len(), 1 + 1 + 1 + 1 + 1 + 2 + 3 + 3 + 2 + 1 + 4);
     for path in objects {
         let object = valid.pointer(&path).unwrap().as_object().unwrap();

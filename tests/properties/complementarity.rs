@@ -4,15 +4,17 @@ use brinell::contact::{Certificate, Tableau, solve};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
-/// Solves and checks the conditions to round-off: `rank`-dependent cancellation is bounded by the condition of what is open.
+/// Solves and checks the conditions to round-off: `rank`-dependent cancellation is bounded by the
+/// condition of what is open.
 pub fn checked(t: &DMatrix<f64>, q: &[f64], slack: f64) -> (Vec<f64>, Vec<f64>, Certificate) {
     let n = q.len();
     let mut tableau = Tableau::new(t.clone());
     let (mut g, mut r) = (vec![0.0; n], vec![0.0; n]);
     let certificate = solve(&mut tableau, q, &mut g, &mut r).unwrap();
     check(t, q, &g, &r, slack);
-    // Block pivoting is given up after 8 rounds without fewer violations, of which there are at most n; the energy falls strictly from
-    // one set of open pairs to the next in the fallback, so none returns.
+    // Block pivoting is given up after 8 rounds without fewer violations, of which there are at
+    // most n; the energy falls strictly from one set of open pairs to the next in the fallback, so
+    // none returns.
     assert!(certificate.rounds <= 9 * (n + 1) + 1, "{certificate:?}");
     assert!(
         certificate.fallback_pivots <= n << n.min(40),
@@ -51,13 +53,15 @@ pub fn check_beside(terms: f64, t: &DMatrix<f64>, q: &[f64], g: &[f64], r: &[f64
     }
 }
 
-/// T = A A' of the given rank, A of small integers, so that singular matrices are exactly singular and ties are exact.
+/// T = A A' of the given rank, A of small integers, so that singular matrices are exactly singular
+/// and ties are exact.
 fn matrix(n: usize, rank: usize, entries: &[i8]) -> DMatrix<f64> {
     let a = DMatrix::from_fn(n, rank, |i, j| f64::from(entries[i * rank + j]));
     &a * a.transpose()
 }
 
-/// A problem with a known solution: complementary gaps and forces of small integers, some of them both zero.
+/// A problem with a known solution: complementary gaps and forces of small integers, some of them
+/// both zero.
 fn problem() -> impl Strategy<Value = (DMatrix<f64>, Vec<f64>, Vec<f64>)> {
     (1usize..10, 1usize..10).prop_flat_map(|(n, rank)| {
         let entries = prop::collection::vec(-3i8..=3, n * rank);
@@ -76,8 +80,9 @@ fn problem() -> impl Strategy<Value = (DMatrix<f64>, Vec<f64>, Vec<f64>)> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(10_000))]
 
-    /// Definite or singular, with ties: a solution is found, and its forces are the known ones. With T semidefinite the forces
-    /// of all solutions are the same (Cottle, Pang, Stone, theorem 3.1.7).
+    /// Definite or singular, with ties: a solution is found, and its forces are the known ones.
+    /// With T semidefinite the forces of all solutions are the same (Cottle, Pang, Stone, theorem
+    /// 3.1.7).
     #[test]
     fn forces_of_a_semidefinite_problem_are_found((t, q, expected) in problem()) {
         // Integers up to 9 * 9 * 10: the condition of what is open stays below 1e6.
@@ -88,7 +93,8 @@ proptest! {
         }
     }
 
-    /// Scaling T by a power of two and q by another scales the solution exactly: no tolerance is absolute.
+    /// Scaling T by a power of two and q by another scales the solution exactly: no tolerance is
+    /// absolute.
     #[test]
     fn scales_do_not_matter((t, q, _) in problem(), stiff in -40i32..40, load in -40i32..40) {
         let (s, l) = (2f64.powi(stiff), 2f64.powi(load));
@@ -103,7 +109,10 @@ proptest! {
 
     /// Any start leads to the same forces.
     #[test]
-    fn the_start_does_not_matter((t, q, expected) in problem(), start in prop::collection::vec(any::<bool>(), 10)) {
+    fn the_start_does_not_matter(
+        (t, q, expected) in problem(),
+        start in prop::collection::vec(any::<bool>(), 10),
+    ) {
         let n = q.len();
         let mut tableau = Tableau::new(t.clone());
         tableau.reset(&start[..n]);
@@ -117,7 +126,8 @@ proptest! {
     }
 }
 
-/// Fathi's matrices `L L'`, L with 1 on and 2 below the diagonal: principal pivoting by least index takes 2^n steps on them.
+/// Fathi's matrices `L L'`, L with 1 on and 2 below the diagonal: principal pivoting by least index
+/// takes 2^n steps on them.
 #[test]
 fn fathi_matrices_end() {
     for n in [2, 5, 10, 16] {
@@ -127,7 +137,8 @@ fn fathi_matrices_end() {
             std::cmp::Ordering::Less => 0.0,
         });
         let t = &l * l.transpose();
-        // Condition about 16^n for the largest, but the solution is g = e_1: q + T e_1 = (0, 1, 1, ...).
+        // Condition about 16^n for the largest, but the solution is g = e_1: q + T e_1 = (0, 1, 1,
+        // ...).
         let (g, _, certificate) = checked(&t, &vec![-1.0; n], 1e4);
         assert!((g[0] - 1.0).abs() < 1e-10, "{g:?}");
         assert!(g[1..].iter().all(|v| v.abs() < 1e-10), "{g:?}");
@@ -135,7 +146,8 @@ fn fathi_matrices_end() {
     }
 }
 
-/// Laplace's matrix with a load of alternating sign: half of the pairs change at once and back, a cycle for codes that flip them all.
+/// Laplace's matrix with a load of alternating sign: half of the pairs change at once and back, a
+/// cycle for codes that flip them all.
 #[test]
 fn alternating_loads_settle() {
     for n in [3usize, 8, 33, 120] {
@@ -152,7 +164,8 @@ fn alternating_loads_settle() {
     }
 }
 
-/// A rigid body on n springs' worth of pairs, nothing else: singular when all are open. Pressed it is held, pulled it leaves.
+/// A rigid body on n springs' worth of pairs, nothing else: singular when all are open. Pressed it
+/// is held, pulled it leaves.
 #[test]
 fn a_free_motion_is_held_or_named() {
     let n = 6;

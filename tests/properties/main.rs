@@ -1,4 +1,5 @@
-//! Properties: the complementarity solver on any problem, and states that do not depend on the steps.
+//! Properties: the complementarity solver on any problem, and states that do not depend on the
+//! steps.
 
 mod complementarity;
 mod path;

@@ -6,7 +6,8 @@ use brinell::results::Results;
 /// The coarse cylinder, to twice its yield load and down to half of it.
 fn cylinder(overrides: &[&str]) -> Results {
     let mut all = vec![
-        "program.targets=[{ yield = true }, { load_factor = 1.0 }, { load_factor = 2.0 }, { load_factor = 0.5 }]",
+        "program.targets=[{ yield = true }, { load_factor = 1.0 }, { load_factor = 2.0 }, \
+         { load_factor = 0.5 }]",
         "materials.steel.plastic_modulus=60000.0",
     ];
     all.extend(overrides);
@@ -47,9 +48,10 @@ fn elastic_states_do_not_depend_on_increments() {
     }
 }
 
-/// Increments over fifteen orders of magnitude on one path: codes that compare an increment's change with an absolute number, or divide by it, stall
-/// or lose statuses. Elastic: the state is that of the direct way. (At 3e-15 of the load the round-off of the gaps is 4 % of the forces, and the quality
-/// figures of that state say so; it leaves no trace.)
+/// Increments over fifteen orders of magnitude on one path: codes that compare an increment's
+/// change with an absolute number, or divide by it, stall or lose statuses. Elastic: the state is
+/// that of the direct way. (At 3e-15 of the load the round-off of the gaps is 4 % of the forces,
+/// and the quality figures of that state say so; it leaves no trace.)
 #[test]
 fn elastic_increments_over_fifteen_orders_of_magnitude() {
     let run_to = |targets: &str, stepping: &str| {
@@ -81,8 +83,9 @@ fn elastic_increments_over_fifteen_orders_of_magnitude() {
     }
 }
 
-/// The same beyond yield, from 1e-14 to 1e-1 of the yield load: the answer is that of the direct way, but for what the length of the increments makes
-/// (below 1e-3 where the whole way is one of 0.1).
+/// The same beyond yield, from 1e-14 to 1e-1 of the yield load: the answer is that of the direct
+/// way, but for what the length of the increments makes (below 1e-3 where the whole way is one of
+/// 0.1).
 #[test]
 fn elastoplastic_increments_over_fourteen_orders_of_magnitude() {
     let target = |factor: f64| format!("{{ load_factor = {factor:?} }}");
@@ -101,8 +104,8 @@ fn elastoplastic_increments_over_fourteen_orders_of_magnitude() {
     assert!((b.max_equivalent_plastic_strain / strain - 1.0).abs() < 1e-2);
 }
 
-/// Elastoplastic: radial return is a backward Euler rule, so states of coarse increments are off by O(increment) at most. Fixed steps and
-/// events converge to one answer.
+/// Elastoplastic: radial return is a backward Euler rule, so states of coarse increments are off by
+/// O(increment) at most. Fixed steps and events converge to one answer.
 #[test]
 fn elastoplastic_states_converge_to_one_answer() {
     let of = |steps: usize| {
@@ -112,12 +115,14 @@ fn elastoplastic_states_converge_to_one_answer() {
     };
     let [four, sixteen, finest] = [4, 16, 64].map(of);
     let (coarse, fine) = ((four - finest).abs(), (sixteen - finest).abs());
-    // Of first order: differences to the finest in the ratio (1/4 - 1/64) : (1/16 - 1/64) = 5; half of it is asked for.
+    // Of first order: differences to the finest in the ratio (1/4 - 1/64) : (1/16 - 1/64) = 5; half
+    // of it is asked for.
     assert!(fine < 0.4 * coarse, "{four:e} {sixteen:e} {finest:e}");
 
     let events = cylinder(&[]);
     healthy(&events);
-    // Events cut the load into about as many increments as pairs close: their error is that of steps of such a number.
+    // Events cut the load into about as many increments as pairs close: their error is that of
+    // steps of such a number.
     let closed = events
         .history
         .iter()
@@ -134,8 +139,9 @@ fn elastoplastic_states_converge_to_one_answer() {
     );
 }
 
-/// A pair that closes within a fixed increment has no gap at its end, wherever on the piece that lies. With 441 increments
-/// a pair closes just after the begin of one; interpolated along the piece it was in tension closed and overlapped open.
+/// A pair that closes within a fixed increment has no gap at its end, wherever on the piece that
+/// lies. With 441 increments a pair closes just after the begin of one; interpolated along the
+/// piece it was in tension closed and overlapped open.
 #[test]
 fn a_pair_may_close_anywhere_in_a_fixed_increment() {
     let results = cylinder(&["program.stepping=steps", "program.steps=441"]);
@@ -146,8 +152,8 @@ fn a_pair_may_close_anywhere_in_a_fixed_increment() {
     }
 }
 
-/// gamma only says how exactly a change of contact is hit. From 1e-10 to 1e-6 the states agree to gamma; a gamma of 0.3 is a coarse path,
-/// off by as much as a coarse step, yet in equilibrium.
+/// gamma only says how exactly a change of contact is hit. From 1e-10 to 1e-6 the states agree to
+/// gamma; a gamma of 0.3 is a coarse path, off by as much as a coarse step, yet in equilibrium.
 #[test]
 fn gamma_bounds_the_error_of_elastoplastic_states() {
     let reference = cylinder(&["program.gamma=1e-10"]);
@@ -162,8 +168,9 @@ fn gamma_bounds_the_error_of_elastoplastic_states() {
     }
 }
 
-/// A loose iteration leaves states that move by the tolerance when the zone is chosen anew. A target crossed by that alone is reached all
-/// the same; it was missed once, and the load driven up for ever.
+/// A loose iteration leaves states that move by the tolerance when the zone is chosen anew. A
+/// target crossed by that alone is reached all the same; it was missed once, and the load driven up
+/// for ever.
 #[test]
 fn a_loose_tolerance_does_not_miss_the_target() {
     for (tolerance, resolution) in [(1e-3, 16), (1e-4, 8)] {
@@ -178,7 +185,8 @@ fn a_loose_tolerance_does_not_miss_the_target() {
         let [at_yield, wide] = &results.states[..] else {
             panic!("{:?}", results.incomplete);
         };
-        // Where a pair closes the extrapolated edge jumps, by half an element at most: the target may lie in the jump.
+        // Where a pair closes the extrapolated edge jumps, by half an element at most: the target
+        // may lie in the jump.
         let ratio = wide.half_width / at_yield.half_width;
         let element = 1.0 / f64::from(resolution);
         assert!((ratio - 1.5).abs() <= 0.5 * element, "{ratio}");

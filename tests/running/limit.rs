@@ -7,12 +7,14 @@ use std::process::{Child, Command, ExitStatus, Output, Stdio};
 use std::sync::{Mutex, Once};
 use std::time::{Duration, Instant};
 
-/// The longest that a process of a test may take: ten times what the longest takes on a loaded machine.
+/// The longest that a process of a test may take: ten times what the longest takes on a loaded
+/// machine.
 pub const PROCESS: Duration = Duration::from_secs(600);
 /// The longest that a test may take.
 const TEST: Duration = Duration::from_secs(2400);
 
-/// Runs a process to its end, as [`Command::output`]; one that takes longer than [`PROCESS`] is killed and fails the test.
+/// Runs a process to its end, as [`Command::output`]; one that takes longer than [`PROCESS`] is
+/// killed and fails the test.
 #[track_caller]
 pub fn output(command: &mut Command) -> Output {
     output_within(command, PROCESS)
@@ -81,11 +83,12 @@ fn read_all(mut pipe: impl Read + Send + 'static) -> std::thread::JoinHandle<Vec
     })
 }
 
-/// Tests under way, by their threads, which have their names: what they are called and when they came here first.
+/// Tests under way, by their threads, which have their names: what they are called and when they
+/// came here first.
 static TESTS: Mutex<BTreeMap<u64, (String, Instant)>> = Mutex::new(BTreeMap::new());
 
-/// Ends the whole binary, as failed, if the test of this thread takes longer than [`TEST`]: a computation in this process
-/// cannot be stopped from outside.
+/// Ends the whole binary, as failed, if the test of this thread takes longer than [`TEST`]: a
+/// computation in this process cannot be stopped from outside.
 pub fn watch() {
     static WATCHDOG: Once = Once::new();
     WATCHDOG.call_once(|| {

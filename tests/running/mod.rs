@@ -102,7 +102,8 @@ pub fn close(what: &str, a: f64, b: f64, scale: f64, tolerance: f64) {
     );
 }
 
-/// Two states have the same statuses and, to `tolerance` of the largest of each kind, the same gaps and forces.
+/// Two states have the same statuses and, to `tolerance` of the largest of each kind, the same gaps
+/// and forces.
 #[track_caller]
 pub fn same_contact(what: &str, a: &State, b: &State, tolerance: f64) {
     assert_eq!(a.pairs.len(), b.pairs.len(), "{what}");
@@ -130,14 +131,15 @@ pub fn same_contact(what: &str, a: &State, b: &State, tolerance: f64) {
     }
 }
 
-/// A Cholesky solve with `n` unknowns has a normwise backward error of the order of `n` times the unit round-off at most (N. J.
-/// Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., theorem 10.4; its constants are never met).
+/// A Cholesky solve with `n` unknowns has a normwise backward error of the order of `n` times the
+/// unit round-off at most (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed.,
+/// theorem 10.4; its constants are never met).
 pub fn backward_error_bound(results: &Results) -> f64 {
     f64::EPSILON * results.sizes.freedoms as f64
 }
 
-/// Every state obeys equilibrium (`<= 1e-8` of the load), complementarity and non-penetration (round-off of `n`
-/// freedoms), with a small backward error.
+/// Every state obeys equilibrium (`<= 1e-8` of the load), complementarity and non-penetration
+/// (round-off of `n` freedoms), with a small backward error.
 #[track_caller]
 pub fn healthy(results: &Results) {
     for state in &results.states {
@@ -151,7 +153,8 @@ pub fn healthy(results: &Results) {
         // Forces are those that the stresses leave over: as good as equilibrium.
         assert!(q.complementarity <= 1e-8, "{name}: {q:?}");
         assert!(q.adhesion <= 1e-8, "{name}: {q:?}");
-        // Relative to the displacements, but the round-off is that of the gaps they are a small part of.
+        // Relative to the displacements, but the round-off is that of the gaps they are a small
+        // part of.
         let gap = largest(state.pairs.iter().map(|p| p.gap));
         let cancelled = if gap > 0.0 {
             gap / state.approach.abs()
@@ -159,7 +162,8 @@ pub fn healthy(results: &Results) {
             0.0
         };
         assert!(q.penetration <= 1e-12 * (1.0 + cancelled), "{name}: {q:?}");
-        // Points on the axis that are no pairs have no area: what they tell is what the pairs beside them make of them.
+        // Points on the axis that are no pairs have no area: what they tell is what the pairs
+        // beside them make of them.
         for pair in state.pairs.iter().filter(|pair| pair.area > 0.0) {
             assert!(pair.gap >= 0.0 && pair.force >= 0.0, "{name}: {pair:?}");
             match pair.status {

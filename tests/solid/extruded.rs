@@ -63,15 +63,19 @@ fn a_block_drawn_out_is_in_plane_strain() {
     let plane = scene(
         "plane_strain",
         "y",
-        r#"{ body = "punch", block = { x = [0, 2], y = [0, 2], elements = [4, 4], bias = [1.0, 2.0] } },
-           { body = "block", block = { x = [0, 6], y = [-6, 0], elements = [12, 10], bias = [1.0, 0.2] } }"#,
+        r#"{ body = "punch", block = { x = [0, 2], y = [0, 2], elements = [
+                   4, 4], bias = [1.0, 2.0] } },
+           { body = "block", block = { x = [0, 6], y = [-6, 0], elements = [
+                   12, 10], bias = [1.0, 0.2] } }"#,
         "",
     );
     let solid = scene(
         "solid",
         "z",
-        r#"{ body = "punch", brick = { x = [0, 2], y = [0, 1], z = [0, 2], elements = [4, 2, 4], bias = [1.0, 1.0, 2.0] } },
-           { body = "block", brick = { x = [0, 6], y = [0, 1], z = [-6, 0], elements = [12, 2, 10], bias = [1.0, 1.0, 0.2] } }"#,
+        r#"{ body = "punch", brick = { x = [0, 2], y = [0, 1], z = [0, 2], elements = [
+                   4, 2, 4], bias = [1.0, 1.0, 2.0] } },
+           { body = "block", brick = { x = [0, 6], y = [0, 1], z = [-6, 0], elements = [
+                   12, 2, 10], bias = [1.0, 1.0, 0.2] } }"#,
         r#"{ on = "punch.front", fix = ["y"] }, { on = "punch.back", fix = ["y"] },
     { on = "block.front", fix = ["y"] }, { on = "block.back", fix = ["y"] },"#,
     );

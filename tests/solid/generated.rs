@@ -1,5 +1,5 @@
-//! The generator of two curved bodies against Hertz' theory, against its own halves, and against the
-//! axisymmetric model.
+//! The generator of two curved bodies against Hertz' theory, against its own halves, and against
+//! the axisymmetric model.
 
 use brinell::analysis::Analysis;
 use brinell::analytical::{HertzEllipse, contact_modulus};
@@ -161,9 +161,8 @@ fn a_quarter_and_a_half_are_those_of_the_whole() {
     };
     let bottom = r#"{ on = "lower.bottom", fix = ["z"] }"#;
     let across = |axis: &str| {
-        format!(
-            r#"{{ on = "upper.symmetry_{axis}", fix = ["{axis}"] }}, {{ on = "lower.symmetry_{axis}", fix = ["{axis}"] }}"#
-        )
+        let of = |body| format!(r#"{{ on = "{body}.symmetry_{axis}", fix = ["{axis}"] }}"#);
+        ["upper", "lower"].map(of).join(", ")
     };
     let (x, y) = (across("x"), across("y"));
     let quarter = run_as("quarter", 4, &format!("[{bottom}, {x}, {y}]"));

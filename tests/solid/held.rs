@@ -188,7 +188,8 @@ fn a_body_that_no_support_holds_and_no_load_drives() {
 }
 
 /// A block askew in space, held on three of its sides: edges belong to two of them, a corner to
-/// three. One stress everywhere, under every element; and so in two blocks in contact, whose pairs lie on the edges.
+/// three. One stress everywhere, under every element; and so in two blocks in contact, whose pairs
+/// lie on the edges.
 #[test]
 fn a_block_askew_between_three_planes() {
     let turned = |[x, y, z]: Point| -> Point {

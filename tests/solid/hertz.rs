@@ -138,7 +138,8 @@ fn a_circular_contact() {
         let results = ball(fine, 3 * fine + 4, 30.0, radius, load);
         let state = &results.states[0];
         let patch = &state.patches[0];
-        // Pressure is of order h^2, C between 0.08 and 0.11; an edge lies within a part of an element.
+        // Pressure is of order h^2, C between 0.08 and 0.11; an edge lies within a part of an
+        // element.
         let (h, square) = (1.0 / fine as f64, 1.0 / (fine * fine) as f64);
         let near = |value: f64, off: f64| (value - 1.0).abs() < off;
         assert!(

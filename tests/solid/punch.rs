@@ -96,8 +96,8 @@ fn run(builder: &ModelBuilder) -> Results {
     results
 }
 
-/// A rigid smooth square of side 2 a on a half space sinks in by `P / (2 a E* 2 beta/sqrt(pi))` with
-/// beta = 1.012 (R. B. King, Int. J. Solids Struct. 23 (1987) 1657-1664, table 1).
+/// A rigid smooth square of side 2 a on a half space sinks in by `P / (2 a E* 2 beta/sqrt(pi))`
+/// with beta = 1.012 (R. B. King, Int. J. Solids Struct. 23 (1987) 1657-1664, table 1).
 #[test]
 fn a_square_punch_sinks_in_as_king_has_it() {
     let elastic = Material {

@@ -1,8 +1,9 @@
 //! Going on from checkpoints.
 //!
-//! Naive restarts keep what is easily named (displacements, plastic strains) and lose what the next increment is also made of: statuses at
-//! their border, the tangent that predicts, the pivots behind a dense factor, the rest of a search. Then "restart changes the answer".
-//! Passing means the same bits.
+//! Naive restarts keep what is easily named (displacements, plastic strains) and lose what the next
+//! increment is also made of: statuses at their border, the tangent that predicts, the pivots
+//! behind a dense factor, the rest of a search. Then "restart changes the answer". Passing means
+//! the same bits.
 
 use crate::running::{SMALL_BALL, SMALL_PUNCH, load};
 use brinell::analysis::Analysis;
@@ -46,7 +47,8 @@ fn analysis(scene: &Scene) -> Analysis {
     Analysis::new(Model::new(scene).unwrap(), Backend::default()).unwrap()
 }
 
-/// All numbers of a run, bit by bit: `Debug` writes the shortest text that only the same number reads as.
+/// All numbers of a run, bit by bit: `Debug` writes the shortest text that only the same number
+/// reads as.
 fn text(results: &Results) -> String {
     format!(
         "{:?} {:?} {:?} {:?} {:?} {:?}",
@@ -59,7 +61,8 @@ fn text(results: &Results) -> String {
     )
 }
 
-/// Runs the scene, then goes on from the checkpoint of every increment (`every`-th of them): all the same bits. Returns how many were tried.
+/// Runs the scene, then goes on from the checkpoint of every increment (`every`-th of them): all
+/// the same bits. Returns how many were tried.
 fn same_from_everywhere(scene: &Scene, every: usize) -> usize {
     let plain = text(&analysis(scene).run(&mut Silent).unwrap());
     let folder = tempfile::tempdir().unwrap();
@@ -112,21 +115,24 @@ fn same_from_everywhere(scene: &Scene, every: usize) -> usize {
     tried
 }
 
-/// Loading by events with a zone that follows the load, a search for a half width, unloading on elastic stretches, other targets after it.
+/// Loading by events with a zone that follows the load, a search for a half width, unloading on
+/// elastic stretches, other targets after it.
 #[test]
 fn the_paper_s_cylinder_goes_on_from_every_increment() {
     let scene = load(
         "cylinder_on_half_plane",
         &[
             "mesh.cylinder_on_half_plane.resolution=6",
-            "program.targets=[{ yield = true }, { load_factor = 1.3 }, { half_width = 1.3 }, { load_factor = 0.4 }, { load_factor = 1.8 }, { load_factor = 0.0 }]",
+            "program.targets=[{ yield = true }, { load_factor = 1.3 }, { half_width = 1.3 }, \
+             { load_factor = 0.4 }, { load_factor = 1.8 }, { load_factor = 0.0 }]",
         ],
     );
     assert!(same_from_everywhere(&scene, 2) >= 10);
 }
 
-/// Solids, interference (a preload that yields), fixed steps, the other iterations, separation and contact found again, cycles, collapse,
-/// bodies without contact, a target displacement: the number is every how many increments a run goes on from.
+/// Solids, interference (a preload that yields), fixed steps, the other iterations, separation and
+/// contact found again, cycles, collapse, bodies without contact, a target displacement: the number
+/// is every how many increments a run goes on from.
 #[test]
 fn every_kind_of_way_goes_on() {
     let mut tried = 0;
@@ -164,7 +170,8 @@ fn every_kind_of_way_goes_on() {
             &[
                 "materials.steel.yield_stress=200",
                 "materials.steel.plastic_modulus=20000",
-                "program.targets=[{ load_factor = 3.0 }, { load_factor = 10.0 }, { load_factor = 0.0 }]",
+                "program.targets=[{ load_factor = 3.0 }, { load_factor = 10.0 }, \
+                 { load_factor = 0.0 }]",
             ],
             1,
         ),
@@ -191,7 +198,8 @@ fn every_kind_of_way_goes_on() {
             cylinder,
             &[
                 coarse,
-                "program.targets=[{ displacement = { on = \"cylinder.top\", direction = \"y\", value = -0.03 } }]",
+                "program.targets=[\
+                 { displacement = { on = \"cylinder.top\", direction = \"y\", value = -0.03 } }]",
             ],
             2,
         ),

@@ -146,7 +146,8 @@ fn a_limit_load_is_one_however_it_is_reached() {
         let (kind, held, why) = end_of(&load("hard/limit_load", &overrides));
         assert_eq!(kind, Some(ErrorKind::Collapse), "{overrides:?}: {why}");
         assert!(why.contains("of the elastic stiffness is left"), "{why}");
-        // Increments are cut to a millionth of the load step; four times that is the last that was not.
+        // Increments are cut to a millionth of the load step; four times that is the last that was
+        // not.
         close(&format!("{overrides:?}"), held, limit, 1.0, 4e-6);
     }
 }

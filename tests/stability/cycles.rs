@@ -4,8 +4,9 @@ use crate::running::{close, healthy, load, run, same_contact};
 use brinell::results::State;
 use brinell::scene::{Scene, Target};
 
-/// Sums of increments drift: a thousand cycles of rounding, or of an equilibrium that is only nearly one, add up. Here displacements,
-/// gaps and forces are total, history is committed with an increment: after shakedown the states of each cycle repeat to round-off.
+/// Sums of increments drift: a thousand cycles of rounding, or of an equilibrium that is only
+/// nearly one, add up. Here displacements, gaps and forces are total, history is committed with an
+/// increment: after shakedown the states of each cycle repeat to round-off.
 #[test]
 fn a_thousand_cycles_do_not_drift() {
     let mut scene = load("hard/cyclic", &[]);
@@ -44,8 +45,9 @@ fn a_thousand_cycles_do_not_drift() {
     }
 }
 
-/// A constant stress `s` along y, the strain along x cycled by `+-e` (`E = 2e5`, `Y = 200`, `s = 100`, `e = 0.003`). At yield the stress along x is
-/// `s/2 +- q` with `q^2 = Y^2 - 3/4 s^2`, where it stays while a perfectly plastic material flows by `p = 2 e - 2 q / E` along x, and by
+/// A constant stress `s` along y, the strain along x cycled by `+-e` (`E = 2e5`, `Y = 200`,
+/// `s = 100`, `e = 0.003`). At yield the stress along x is `s/2 +- q` with `q^2 = Y^2 - 3/4 s^2`,
+/// where it stays while a perfectly plastic material flows by `p = 2 e - 2 q / E` along x, and by
 /// `(2 s - sx)/(2 sx - s)` of that along y: `3 s p / (2 q)` in each cycle, for ever.
 #[test]
 fn a_perfectly_plastic_sheet_ratchets_by_the_same_amount_in_each_of_a_thousand_cycles() {
@@ -69,14 +71,16 @@ fn a_perfectly_plastic_sheet_ratchets_by_the_same_amount_in_each_of_a_thousand_c
         let strain = pair[1].max_equivalent_plastic_strain - pair[0].max_equivalent_plastic_strain;
         worst = worst.max((strain / (2.0 * equivalent) - 1.0).abs());
     }
-    // Forces balance to 1e-10 of the largest; a strain without stiffness behind it is worth (E/H = infinite) more than that, but the total is
-    // measured against strains 1e3 times the elastic ones.
+    // Forces balance to 1e-10 of the largest; a strain without stiffness behind it is worth (E/H =
+    // infinite) more than that, but the total is measured against strains 1e3 times the elastic
+    // ones.
     assert!(worst <= 1e-7, "{worst:e}");
     assert!(drift <= 1e-8, "{drift:e}");
 }
 
-/// The same with isotropic hardening: the yield surface grows until the cycle is elastic, `q = E e`, and then nothing moves any more. What tells
-/// one from the other is the growth from cycle to cycle: the same for ever, or shrinking geometrically.
+/// The same with isotropic hardening: the yield surface grows until the cycle is elastic,
+/// `q = E e`, and then nothing moves any more. What tells one from the other is the growth from
+/// cycle to cycle: the same for ever, or shrinking geometrically.
 #[test]
 fn a_hardening_sheet_shakes_down() {
     let (modulus, y, s, e, h) = (2e5f64, 200.0f64, 100.0f64, 0.003f64, 5000.0);

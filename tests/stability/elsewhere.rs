@@ -1,4 +1,5 @@
-//! What yields far from the contact, where nobody looks for it at first: on meshes so large that the zone is a part of them.
+//! What yields far from the contact, where nobody looks for it at first: on meshes so large that
+//! the zone is a part of them.
 
 use crate::running::{close, healthy, parse, run};
 use brinell::results::Results;
@@ -6,7 +7,8 @@ use brinell::results::Results;
 const YIELD_STRESS: f64 = 300.0;
 const PLASTIC_MODULUS: f64 = 20_000.0;
 
-/// A stamp at one end of a long block, a pressure at the other: 3,840 elements may yield, those near the contact are the first guess.
+/// A stamp at one end of a long block, a pressure at the other: 3,840 elements may yield, those
+/// near the contact are the first guess.
 fn block(press: f64, bump: f64, history: &str, targets: &str) -> Results {
     let results = run(&parse(&format!(
         r#"
@@ -17,7 +19,8 @@ fn block(press: f64, bump: f64, history: &str, targets: &str) -> Results {
         x = [0.0, 60.0]
         y = [-6.0, 0.0]
         elements = [240, 16]
-        pieces = [{{ name = "far", side = "top", from = 50.0, to = 52.0 }}, {{ name = "near", side = "top", from = 0.0, to = 2.0 }}]
+        pieces = [{{ name = "far", side = "top", from = 50.0, to = 52.0 }}, 
+            {{ name = "near", side = "top", from = 0.0, to = 2.0 }}]
         [[mesh.parts]]
         body = "up"
         [mesh.parts.block]
@@ -61,9 +64,11 @@ fn block(press: f64, bump: f64, history: &str, targets: &str) -> Results {
         "#
     )));
     healthy(&results);
-    // At first yield itself the recovered stress has come to yield, which the mean of an element is not.
+    // At first yield itself the recovered stress has come to yield, which the mean of an element is
+    // not.
     for state in results.states.iter().filter(|s| s.name != "yield") {
-        // The mean stress of an element is no more than the largest of its points, which lie within the hardened yield surface.
+        // The mean stress of an element is no more than the largest of its points, which lie within
+        // the hardened yield surface.
         let limit = YIELD_STRESS + PLASTIC_MODULUS * state.max_equivalent_plastic_strain;
         let soft = &state.fields.as_ref().unwrap().von_mises[..3840];
         let largest = soft.iter().fold(0.0f64, |m, v| m.max(*v));
@@ -72,8 +77,8 @@ fn block(press: f64, bump: f64, history: &str, targets: &str) -> Results {
     results
 }
 
-/// Nothing yields under the stamp, so nothing did where first yield was looked for. (Once the far end then counted as elastic too: twice the
-/// yield stress, and no plastic strain.)
+/// Nothing yields under the stamp, so nothing did where first yield was looked for. (Once the far
+/// end then counted as elastic too: twice the yield stress, and no plastic strain.)
 #[test]
 fn a_load_far_from_a_contact_that_does_not_yield() {
     let at_once = block(1.0, 900.0, "\"proportional\"", "[{ load_factor = 1.0 }]");
@@ -84,7 +89,8 @@ fn a_load_far_from_a_contact_that_does_not_yield() {
     close("first yield", a, b, b, 1e-9);
 }
 
-/// A load that has come and gone before the target has left its dent. (Once only what the targets' own loads make yield was looked at.)
+/// A load that has come and gone before the target has left its dent. (Once only what the targets'
+/// own loads make yield was looked at.)
 #[test]
 fn a_load_that_comes_and_goes_on_the_way_to_a_target() {
     let history = "[[0.0, 0.0], [0.5, 1.0], [1.0, 0.0]]";
@@ -107,7 +113,8 @@ fn a_load_that_comes_and_goes_on_the_way_to_a_target() {
     close("first yield", a, b, b, 1e-9);
 }
 
-/// A preload that makes the far end yield: it is applied anew where that is seen, with its plastic strains.
+/// A preload that makes the far end yield: it is applied anew where that is seen, with its plastic
+/// strains.
 #[test]
 fn a_preload_far_from_the_contact() {
     let results = block(

@@ -17,8 +17,9 @@ fn as_far_as_it_goes(name: &str, overrides: &[&str]) -> (Mesh, Results) {
     (analysis.model().mesh.clone(), results)
 }
 
-/// Nothing elastic is left to confine the flow: the plain initial-load iteration contracts at 3G/(3G + H) only, and codes stop at their
-/// limit of iterations short of equilibrium. The bar's solution is exact for the elements.
+/// Nothing elastic is left to confine the flow: the plain initial-load iteration contracts at
+/// 3G/(3G + H) only, and codes stop at their limit of iterations short of equilibrium. The bar's
+/// solution is exact for the elements.
 #[test]
 fn uniform_flow_with_every_pair_closed_is_that_of_a_bar() {
     let results = run_file("hard/all_closed", &[]);
@@ -52,8 +53,9 @@ fn uniform_flow_with_every_pair_closed_is_that_of_a_bar() {
     );
 }
 
-/// Unloading is elastic if the flow rule sees the trial stress of the committed state, not of the last iterate, and contact is reversible
-/// if gaps are total, not summed up. Events are hit within gamma = 1e-8.
+/// Unloading is elastic if the flow rule sees the trial stress of the committed state, not of the
+/// last iterate, and contact is reversible if gaps are total, not summed up. Events are hit within
+/// gamma = 1e-8.
 #[test]
 fn unloading_and_reloading_comes_back_to_the_same_state() {
     let results = run_file("hard/unload_reload", &[]);
@@ -99,8 +101,8 @@ fn events_of_plastic_increments_say_what_happened() {
     assert!(closed.iter().any(|&n| n > closed[0]), "{closed:?}");
 }
 
-/// History that is committed in the middle of an iteration ratchets: plastic strain grows from cycle to cycle for ever. Here the
-/// loop closes, and the steps from cycle to cycle shrink to it.
+/// History that is committed in the middle of an iteration ratchets: plastic strain grows from
+/// cycle to cycle for ever. Here the loop closes, and the steps from cycle to cycle shrink to it.
 #[test]
 fn cyclic_load_closes_its_loop() {
     let results = run_file("hard/cyclic", &[]);
@@ -126,8 +128,9 @@ fn cyclic_load_closes_its_loop() {
     }
 }
 
-/// Beyond the limit load there is no equilibrium: codes cut back until they give up without a word, or return the last iterate. The
-/// column carries Y exactly; the drive gives up after 12 cuts by 4 of the step to 1.5.
+/// Beyond the limit load there is no equilibrium: codes cut back until they give up without a word,
+/// or return the last iterate. The column carries Y exactly; the drive gives up after 12 cuts by 4
+/// of the step to 1.5.
 #[test]
 fn the_limit_load_is_bracketed_and_reported_as_collapse() {
     let (_, results) = as_far_as_it_goes("hard/limit_load", &[]);
@@ -149,8 +152,9 @@ fn the_limit_load_is_bracketed_and_reported_as_collapse() {
     assert!(why.contains("load factor"), "{why}");
 }
 
-/// nu = 0.4999 and isochoric flow: fully integrated linear elements lock (no limit load at all), selectively reduced ones may
-/// leave a checkerboard of mean stress. All shapes that claim not to lock.
+/// nu = 0.4999 and isochoric flow: fully integrated linear elements lock (no limit load at all),
+/// selectively reduced ones may leave a checkerboard of mean stress. All shapes that claim not to
+/// lock.
 #[test]
 fn nearly_incompressible_flow_neither_locks_nor_checkers() {
     for shape in ["quad4", "quad8", "tri6"] {
@@ -195,7 +199,8 @@ fn flow_of(shape: &str) {
             .sum::<f64>()
             / nodes.len() as f64;
         let mean = stress[4 * e..4 * e + 3].iter().sum::<f64>() / 3.0;
-        // A checkerboard is of the size of k; linear elements of 1/12 of the wall leave about h^2 and the kink at c.
+        // A checkerboard is of the size of k; linear elements of 1/12 of the wall leave about h^2
+        // and the kink at c.
         close(
             &format!("{shape}: mean stress at {radius}"),
             mean,
@@ -209,7 +214,8 @@ fn flow_of(shape: &str) {
         // Triangles lie either way in a sector: no two alike.
         return;
     }
-    // The mesh is the same in every sector: so is the solution, to the tolerance of the plastic iteration.
+    // The mesh is the same in every sector: so is the solution, to the tolerance of the plastic
+    // iteration.
     by_radius.sort_by(|x, y| x.0.total_cmp(&y.0));
     for ring in by_radius.chunks(8) {
         assert!(ring[7].0 - ring[0].0 < 1e-9);
@@ -218,9 +224,10 @@ fn flow_of(shape: &str) {
     }
 }
 
-/// The axis pair of quadratic elements carries no force whatever the pressure: open and closed are both right, and a code that
-/// asks which flips it for ever (or, as CalculiX, leaves it out and doubles its neighbour's pressure). Here it is no pair, and the
-/// pressure is continued to the axis: that of linear elements, which need no such care, in the same state of uniform stress.
+/// The axis pair of quadratic elements carries no force whatever the pressure: open and closed are
+/// both right, and a code that asks which flips it for ever (or, as CalculiX, leaves it out and
+/// doubles its neighbour's pressure). Here it is no pair, and the pressure is continued to the
+/// axis: that of linear elements, which need no such care, in the same state of uniform stress.
 #[test]
 fn flow_under_contact_on_the_axis_of_quadratic_elements() {
     let (name, pressed) = (
@@ -277,8 +284,9 @@ fn flow_under_contact_on_the_axis_of_quadratic_elements() {
     assert_eq!(axis.status, brinell::results::Status::Closed);
 }
 
-/// A ball of quadratic elements that flows: the pole pressure, the contact radius and the plastic strain of a mesh of linear elements with
-/// as many nodes, to the error of that mesh (p and a converge with h^2; resolution 6 against Hertz is 2 % off).
+/// A ball of quadratic elements that flows: the pole pressure, the contact radius and the plastic
+/// strain of a mesh of linear elements with as many nodes, to the error of that mesh (p and a
+/// converge with h^2; resolution 6 against Hertz is 2 % off).
 #[test]
 fn a_ball_of_quadratic_elements_flows_like_one_of_linear_elements() {
     let targets =
@@ -308,8 +316,8 @@ fn a_ball_of_quadratic_elements_flows_like_one_of_linear_elements() {
     }
 }
 
-/// On the axis quadratic elements have no pair: nothing keeps the surfaces apart there, and what is told is how far they are, overlap
-/// included: by the displacements of the two nodes.
+/// On the axis quadratic elements have no pair: nothing keeps the surfaces apart there, and what is
+/// told is how far they are, overlap included: by the displacements of the two nodes.
 #[test]
 fn overlap_on_the_axis_of_quadratic_elements_is_told() {
     let results = run_file(
@@ -346,9 +354,9 @@ fn overlap_on_the_axis_of_quadratic_elements_is_told() {
     assert!(overlaps > 0);
 }
 
-/// Two blocks under a pressure beyond yield, plane stress and next to no hardening: the tangent's solve takes many steps. The nodes of
-/// closed pairs carry forces that no step sees, whose round-off each multiplied, until the contact passed on another force
-/// than was applied.
+/// Two blocks under a pressure beyond yield, plane stress and next to no hardening: the tangent's
+/// solve takes many steps. The nodes of closed pairs carry forces that no step sees, whose
+/// round-off each multiplied, until the contact passed on another force than was applied.
 #[test]
 fn newton_finds_what_the_plain_iteration_finds_across_closed_pairs() {
     let pressed = |iteration: &str| {
@@ -396,8 +404,9 @@ fn newton_finds_what_the_plain_iteration_finds_across_closed_pairs() {
     );
 }
 
-/// Far below a load of the program that takes the contact to a hundred times its area the zone still holds the place of first yield: stress
-/// near the surface falls as the pressure evens out, and what it is at the largest load does not tell.
+/// Far below a load of the program that takes the contact to a hundred times its area the zone
+/// still holds the place of first yield: stress near the surface falls as the pressure evens out,
+/// and what it is at the largest load does not tell.
 #[test]
 fn first_yield_lies_in_the_zone_whatever_load_follows() {
     struct UpTo(f64);

@@ -3,8 +3,8 @@
 use crate::running::{close, healthy, largest, run_file, same_contact, state};
 use brinell::results::Status;
 
-/// With every pair open the structure is singular: codes stop at a zero pivot, or add springs that carry part of the load.
-/// Here the contact carries all of it, uniformly: 10 MPa on 2 mm.
+/// With every pair open the structure is singular: codes stop at a zero pivot, or add springs that
+/// carry part of the load. Here the contact carries all of it, uniformly: 10 MPa on 2 mm.
 #[test]
 fn a_floating_body_falls_through_its_gap_and_is_held() {
     let results = run_file("hard/floating_body", &[]);
@@ -26,8 +26,9 @@ fn a_floating_body_falls_through_its_gap_and_is_held() {
     same_contact("reloaded", &results.states[0], &results.states[2], 1e-10);
 }
 
-/// Two floating bodies on top of each other: the middle one is held by two contacts, one of which opens in part. Each contact
-/// carries the whole load, and without gaps the state is proportional to it.
+/// Two floating bodies on top of each other: the middle one is held by two contacts, one of which
+/// opens in part. Each contact carries the whole load, and without gaps the state is proportional
+/// to it.
 #[test]
 fn three_bodies_in_a_row_pass_the_load_on() {
     let results = run_file("hard/three_in_a_row", &[]);
@@ -50,8 +51,9 @@ fn three_bodies_in_a_row_pass_the_load_on() {
     }
 }
 
-/// One pair holds the cylinder: the contact problem has one closed row, and the next pair closes only after a million times the load.
-/// Codes that want several active pairs, or compare forces with an absolute tolerance, lose it.
+/// One pair holds the cylinder: the contact problem has one closed row, and the next pair closes
+/// only after a million times the load. Codes that want several active pairs, or compare forces
+/// with an absolute tolerance, lose it.
 #[test]
 fn one_closed_pair_holds_a_body() {
     let results = run_file("hard/one_pair", &[]);
@@ -81,9 +83,10 @@ fn one_closed_pair_holds_a_body() {
     same_contact("back", touch, again, 1e-9);
 }
 
-/// A beam that contact holds at its end is a millionth as stiff without: whoever holds it by soft springs meanwhile, or takes its pivots for zero, gets
-/// another share of the load. Propped cantilever; shear adds (h/L)^2 = 1e-4 times a small number, and where on the edge's element the force
-/// acts (half an element, 0.5 % of the length) as much of it.
+/// A beam that contact holds at its end is a millionth as stiff without: whoever holds it by soft
+/// springs meanwhile, or takes its pivots for zero, gets another share of the load. Propped
+/// cantilever; shear adds (h/L)^2 = 1e-4 times a small number, and where on the edge's element the
+/// force acts (half an element, 0.5 % of the length) as much of it.
 #[test]
 fn a_nearly_floating_body_is_held_by_its_own_stiffness() {
     let results = run_file("hard/nearly_floating", &[]);

@@ -8,7 +8,8 @@ use brinell::model::Model;
 use brinell::progress::Silent;
 use brinell::results::Status;
 
-/// Limit pressure of the tube over Hill's, and the warnings; `None` where no collapse was found up to 200 (1.04 of the limit).
+/// Limit pressure of the tube over Hill's, and the warnings; `None` where no collapse was found up
+/// to 200 (1.04 of the limit).
 fn limit(shape: &str, nu: f64) -> (Option<f64>, Vec<String>) {
     let set = [
         format!("mesh.parts.0.element={shape}"),
@@ -26,8 +27,9 @@ fn limit(shape: &str, nu: f64) -> (Option<f64>, Vec<String>) {
     (collapsed.then_some(last / exact), results.warnings)
 }
 
-/// Flow is isochoric: elements with as many constraints as freedoms cannot flow, their limit load is too high or does not exist. Hill's is
-/// exact for nu = 1/2, and for any nu at the limit, where the elastic part has no say; linear elements, 12 over the wall, are off by h^2.
+/// Flow is isochoric: elements with as many constraints as freedoms cannot flow, their limit load
+/// is too high or does not exist. Hill's is exact for nu = 1/2, and for any nu at the limit, where
+/// the elastic part has no say; linear elements, 12 over the wall, are off by h^2.
 #[test]
 fn limit_loads_of_all_shapes_that_claim_not_to_lock() {
     for shape in ["quad4", "quad8", "tri6"] {
@@ -40,7 +42,8 @@ fn limit_loads_of_all_shapes_that_claim_not_to_lock() {
     }
 }
 
-/// The same in a sphere, axisymmetric: three constraints at a point instead of two, one of them the hoop strain. Hill's limit is exact for any nu.
+/// The same in a sphere, axisymmetric: three constraints at a point instead of two, one of them the
+/// hoop strain. Hill's limit is exact for any nu.
 #[test]
 fn limit_loads_of_a_sphere() {
     let exact = 2.0 * 240.0 * 2f64.ln();
@@ -67,8 +70,9 @@ fn limit_loads_of_a_sphere() {
     }
 }
 
-/// Near the limit the tangent is almost singular: iterations stall, and codes accept what they have. At 99.9 % of the mesh's own limit load
-/// the state is in balance to the tolerance of the iteration, 1e-10, with room for where it is measured.
+/// Near the limit the tangent is almost singular: iterations stall, and codes accept what they
+/// have. At 99.9 % of the mesh's own limit load the state is in balance to the tolerance of the
+/// iteration, 1e-10, with room for where it is measured.
 #[test]
 fn just_below_the_limit_load_forces_balance() {
     let own = limit("quad4", 0.4999).0.unwrap() * 2.0 * 240.0 / 3f64.sqrt() * 2f64.ln();
@@ -80,7 +84,8 @@ fn just_below_the_limit_load_forces_balance() {
     assert!(state.plastic_points > 0);
 }
 
-/// tri3 locks, and says so before the run: a warning that names it, and a limit load above that of quad4 on the same nodes.
+/// tri3 locks, and says so before the run: a warning that names it, and a limit load above that of
+/// quad4 on the same nodes.
 #[test]
 fn locking_is_reported() {
     let (tri3, warnings) = limit("tri3", 0.4999);
@@ -95,9 +100,10 @@ fn locking_is_reported() {
     assert!(tri3 > quad4 && tri3 > 1.0, "{tri3} {quad4}");
 }
 
-/// The nearer nu comes to 1/2, the fewer digits of a stress are left beside the stiffness against a change of volume: lambda / mu times
-/// round-off. The bound knows, and figures are right: linear in 1/2 - nu near the end (Hertz: 1 - nu^2), so that the last
-/// tenth of the way changes them by a tenth of what the nine tenths before did. Events are hit within gamma, 1e-8.
+/// The nearer nu comes to 1/2, the fewer digits of a stress are left beside the stiffness against a
+/// change of volume: lambda / mu times round-off. The bound knows, and figures are right: linear in
+/// 1/2 - nu near the end (Hertz: 1 - nu^2), so that the last tenth of the way changes them by a
+/// tenth of what the nine tenths before did. Events are hit within gamma, 1e-8.
 #[test]
 fn contact_near_incompressibility_is_as_good_as_its_round_off() {
     for scene in ["cylinder_on_half_plane", "ball_on_half_space"] {
@@ -139,8 +145,8 @@ fn contact_near_incompressibility_is_as_good_as_its_round_off() {
     }
 }
 
-/// Contact forces below what round-off leaves in them are none: parted bodies are apart, and where elastic states balance to no
-/// more than their round-off the run says to what.
+/// Contact forces below what round-off leaves in them are none: parted bodies are apart, and where
+/// elastic states balance to no more than their round-off the run says to what.
 #[test]
 fn parted_bodies_carry_nothing_and_round_off_is_told() {
     for nu in ["0.499999", "0.4999999"] {
@@ -163,7 +169,8 @@ fn parted_bodies_carry_nothing_and_round_off_is_told() {
     assert!(results.warnings.iter().any(told), "{:?}", results.warnings);
 }
 
-/// The last pair opens at a load that is less than what round-off leaves in its force: the program ends there all the same.
+/// The last pair opens at a load that is less than what round-off leaves in its force: the program
+/// ends there all the same.
 #[test]
 fn the_last_of_the_load_may_be_round_off() {
     for nu in ["0.4999", "0.499999"] {

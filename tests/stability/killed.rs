@@ -32,7 +32,8 @@ fn start((scene, sets): Case, out: &Path, more: &[&str]) -> Child {
         .unwrap()
 }
 
-/// Everything in `summary.json` but what a clock or the operating system says, and how often the run went on.
+/// Everything in `summary.json` but what a clock or the operating system says, and how often the
+/// run went on.
 fn summary(dir: &Path) -> serde_json::Value {
     let text = std::fs::read_to_string(dir.join("summary.json")).unwrap();
     let mut summary: serde_json::Value = serde_json::from_str(&text).unwrap();
@@ -46,8 +47,9 @@ fn summary(dir: &Path) -> serde_json::Value {
     summary
 }
 
-/// The same run again and again, killed at times of no pattern, until one of them comes to its end. A restart that loses a digit of the state, or a
-/// checkpoint that is half written, changes the results or ends the run: passing means that every number of the summary and every byte of every
+/// The same run again and again, killed at times of no pattern, until one of them comes to its end.
+/// A restart that loses a digit of the state, or a checkpoint that is half written, changes the
+/// results or ends the run: passing means that every number of the summary and every byte of every
 /// other file is that of the run that nobody disturbed.
 fn killed_again_and_again(case: Case) {
     let folder = tempfile::tempdir().unwrap();
@@ -71,7 +73,8 @@ fn killed_again_and_again(case: Case) {
         random ^= random << 13;
         random ^= random >> 7;
         random ^= random << 17;
-        // Now at any time of the run, now soon after it has written a checkpoint (it may be writing the next); in the end it is let be.
+        // Now at any time of the run, now soon after it has written a checkpoint (it may be writing
+        // the next); in the end it is let be.
         let chance = (random % 1000) as f64 / 1000.0;
         let written = || {
             std::fs::metadata(&checkpoint)
@@ -107,7 +110,8 @@ fn killed_again_and_again(case: Case) {
                 if with_checkpoint >= 2 || rounds == 5 {
                     break stderr;
                 }
-                // The machine was busier before: the run came to its end sooner than a kill. Again from the begin.
+                // The machine was busier before: the run came to its end sooner than a kill. Again
+                // from the begin.
                 std::fs::remove_dir_all(&killed).unwrap();
                 kills = 0;
             }
@@ -126,7 +130,8 @@ fn killed_again_and_again(case: Case) {
     assert!(!stderr.contains("last digits"), "{stderr}");
 
     same_results(&plain, &killed);
-    // Nothing is left but the results, and hidden beside them what a kill amid their writing leaves no time to delete.
+    // Nothing is left but the results, and hidden beside them what a kill amid their writing leaves
+    // no time to delete.
     let left: Vec<_> = std::fs::read_dir(folder.path())
         .unwrap()
         .map(|entry| entry.unwrap().file_name())
@@ -165,7 +170,8 @@ fn same_results(plain: &Path, other: &Path) {
     assert!(compared >= 5, "{compared} files");
 }
 
-/// Ctrl-C leaves results that are marked incomplete, and a checkpoint: the same line with `--resume` finishes the job.
+/// Ctrl-C leaves results that are marked incomplete, and a checkpoint: the same line with
+/// `--resume` finishes the job.
 #[test]
 fn a_run_stopped_by_the_user_goes_on() {
     let folder = tempfile::tempdir().unwrap();

@@ -3,10 +3,11 @@
 use crate::running::{close, healthy, largest, parse, run, run_file, state};
 use brinell::results::{Results, Status};
 
-/// A penalty scaled with the stiffer body swamps the softer one, and an absolute pivot tolerance drops it. A condensed stiffness
-/// in which the rigid motion of the stiff body has drowned in its round-off carries part of the load: 1e-12 times the ratio.
-/// Here equilibrium does not know the ratio: the bound is n eps = 1e-11 times the few digits that a graded mesh costs. The limit of
-/// a rigid cylinder is approached in proportion to the ratio: p(e) = p(0) + e p' + O(e^2).
+/// A penalty scaled with the stiffer body swamps the softer one, and an absolute pivot tolerance
+/// drops it. A condensed stiffness in which the rigid motion of the stiff body has drowned in its
+/// round-off carries part of the load: 1e-12 times the ratio. Here equilibrium does not know the
+/// ratio: the bound is n eps = 1e-11 times the few digits that a graded mesh costs. The limit of a
+/// rigid cylinder is approached in proportion to the ratio: p(e) = p(0) + e p' + O(e^2).
 #[test]
 fn a_stiffness_ratio_up_to_1e10_is_the_rigid_limit() {
     let forces = |modulus: &str| {
@@ -24,12 +25,14 @@ fn a_stiffness_ratio_up_to_1e10_is_the_rigid_limit() {
     let [coarse, fine, rigid] = ["2.1e9", "2.1e11", "2.1e13"].map(forces);
     let off = |v: &[f64]| largest(v.iter().zip(&rigid).map(|(a, b)| a - b));
     let expected = (1e-6 - 1e-8) / (1e-4 - 1e-8);
-    // The term of second order is 1e-4 of that of first order; round-off 1e-12 against a difference of 1e-6.
+    // The term of second order is 1e-4 of that of first order; round-off 1e-12 against a difference
+    // of 1e-6.
     close("rate", off(&fine) / off(&coarse), expected, expected, 1e-3);
 }
 
-/// Three bodies in a row, two of them floating, each stiffness in each place: the stiffer surface may be the first or the second one
-/// of a contact, and what floats may be the stiffest, the softest or in between. Each contact carries the whole load.
+/// Three bodies in a row, two of them floating, each stiffness in each place: the stiffer surface
+/// may be the first or the second one of a contact, and what floats may be the stiffest, the
+/// softest or in between. Each contact carries the whole load.
 #[test]
 fn stiffness_ratios_in_a_row_of_bodies_do_not_cost_equilibrium() {
     let moduli = [1.0, 1e8, 1e4];
@@ -55,15 +58,17 @@ fn stiffness_ratios_in_a_row_of_bodies_do_not_cost_equilibrium() {
     }
 }
 
-/// Blocks of 2 by 1 on top of each other with gaps of 1e-3, 10 MPa on the top one; `swap` exchanges the surfaces of both contacts.
+/// Blocks of 2 by 1 on top of each other with gaps of 1e-3, 10 MPa on the top one; `swap` exchanges
+/// the surfaces of both contacts.
 fn row_of_blocks(moduli: [f64; 3], swap: bool) -> String {
     let mut text = String::from("kind = \"plane_strain\"\n");
     for (i, modulus) in moduli.iter().enumerate() {
         let (low, elements) = (1.001 * i as f64, [6, 3 + i]);
         text += &format!(
-            "[[mesh.parts]]\nbody = \"b{i}\"\nblock = {{ x = [0.0, 2.0], y = [{low}, {}], elements = [{}, {}] }}\n\
-             [materials.m{i}]\nyoungs_modulus = {modulus:e}\npoissons_ratio = 0.3\n[bodies.b{i}]\nmaterial = \"m{i}\"\n\
-             [[support]]\non = \"b{i}.left\"\nfix = [\"x\"]\n",
+            "[[mesh.parts]]\nbody = \"b{i}\"\nblock = {{ x = [0.0, 2.0], y = [{low}, {}], elements \
+             = [{}, {}] }}\n[materials.m{i}]\nyoungs_modulus = {modulus:e}\npoissons_ratio = \
+             0.3\n[bodies.b{i}]\nmaterial = \"m{i}\"\n[[support]]\non = \"b{i}.left\"\nfix = \
+             [\"x\"]\n",
             low + 1.0,
             elements[0],
             elements[1],
@@ -74,13 +79,15 @@ fn row_of_blocks(moduli: [f64; 3], swap: bool) -> String {
         let (first, second) = if swap { (down, up) } else { (up, down) };
         text += &format!("[[contact]]\nfirst = \"{first}\"\nsecond = \"{second}\"\n");
     }
-    text + "[[support]]\non = \"b0.bottom\"\nfix = [\"y\"]\n[[load]]\non = \"b2.top\"\npressure = 10.0\n\
-            [program]\ntargets = [{ load_factor = 1.0 }]\n"
+    text + "[[support]]\non = \"b0.bottom\"\nfix = [\"y\"]\n[[load]]\non = \"b2.top\"\npressure = \
+            10.0\n[program]\ntargets = [{ load_factor = 1.0 }]\n"
 }
 
-/// Coordinates over nine orders of magnitude, areas over eighteen: absolute tolerances for "the same place", "touching" or "no force" fit
-/// at most one end. Closed form (Lame), for pin and plate alike and one 1e4 times as stiff; the bound is that of the mesh, quadratic elements an eighth
-/// of a right angle wide, whose pressure is of order h^2 (0.04) times a small constant. The fit is uniform to round-off.
+/// Coordinates over nine orders of magnitude, areas over eighteen: absolute tolerances for "the
+/// same place", "touching" or "no force" fit at most one end. Closed form (Lame), for pin and plate
+/// alike and one 1e4 times as stiff; the bound is that of the mesh, quadratic elements an eighth of
+/// a right angle wide, whose pressure is of order h^2 (0.04) times a small constant. The fit is
+/// uniform to round-off.
 #[test]
 fn bodies_a_millionth_and_a_thousand_long_in_one_scene() {
     let e = 210_000.0;
@@ -104,8 +111,9 @@ fn bodies_a_millionth_and_a_thousand_long_in_one_scene() {
     }
 }
 
-/// The condition of the stiffness grows with the square of the aspect, 1e10: iterative solvers stall and pivots look like zero. Uniform
-/// pressure is in the space of the elements: what is left is round-off times that condition.
+/// The condition of the stiffness grows with the square of the aspect, 1e10: iterative solvers
+/// stall and pivots look like zero. Uniform pressure is in the space of the elements: what is left
+/// is round-off times that condition.
 #[test]
 fn slivers_pass_the_patch_test_to_round_off() {
     let results = run_file("hard/slivers", &[]);
@@ -116,8 +124,9 @@ fn slivers_pass_the_patch_test_to_round_off() {
     }
 }
 
-/// Elements 1e6 times as wide as high, the condition grows to 1e12 and beyond: the solution is what it was, the figures say what was lost,
-/// and both stay within what condition times round-off allows.
+/// Elements 1e6 times as wide as high, the condition grows to 1e12 and beyond: the solution is what
+/// it was, the figures say what was lost, and both stay within what condition times round-off
+/// allows.
 #[test]
 fn slivers_of_aspect_1e6_report_the_loss_of_accuracy() {
     let height = 0.002;
@@ -136,8 +145,9 @@ fn slivers_of_aspect_1e6_report_the_loss_of_accuracy() {
     assert!(q.equilibrium <= f64::EPSILON * flatter.condition, "{q:?}");
 }
 
-/// A negative gap at no load: codes that start from "not penetrating" fail at once, others apply it in one step and bounce. Tension
-/// q on the rim takes just q off the pressure, for the elements too; the fit comes back.
+/// A negative gap at no load: codes that start from "not penetrating" fail at once, others apply it
+/// in one step and bounce. Tension q on the rim takes just q off the pressure, for the elements
+/// too; the fit comes back.
 #[test]
 fn interference_is_lost_under_tension_and_comes_back() {
     let results = run_file("hard/interference", &[]);

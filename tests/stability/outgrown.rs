@@ -1,5 +1,5 @@
-//! Contact that outgrows its candidates: generated meshes reach far enough, and where surfaces end although the
-//! bodies go on, the run says so instead of giving results.
+//! Contact that outgrows its candidates: generated meshes reach far enough, and where surfaces end
+//! although the bodies go on, the run says so instead of giving results.
 
 use super::running::{close, load, parse, run, run_file, state, try_run};
 use brinell::ErrorKind;
@@ -23,17 +23,19 @@ fn within_candidates(scene: &Scene) -> brinell::results::Results {
     results
 }
 
-/// Fifty times the load of first yield. Uniform meshes of 58 and 86 candidates, fine as at first yield all over the contact
-/// (`fine_width = 7.07`, `fine_depth = 5.3`, resolution 8 and 12), give a radius of 0.534, 1228.6 MPa and a dent of 0.00952;
-/// the radius is read to a fifth of an element, 0.062 wide there. Pressure and dent are of second order: with 8, 12, 16 and 24
-/// elements they are 1.6, 0.7, 0.5 and 0.2 % off; twice that is allowed.
+/// Fifty times the load of first yield. Uniform meshes of 58 and 86 candidates, fine as at first
+/// yield all over the contact (`fine_width = 7.07`, `fine_depth = 5.3`, resolution 8 and 12), give
+/// a radius of 0.534, 1228.6 MPa and a dent of 0.00952; the radius is read to a fifth of an
+/// element, 0.062 wide there. Pressure and dent are of second order: with 8, 12, 16 and 24 elements
+/// they are 1.6, 0.7, 0.5 and 0.2 % off; twice that is allowed.
 #[test]
 fn a_ball_at_fifty_times_first_yield_is_right() {
     let scene = load(
         "ball_on_half_space",
         &[
             "mesh.cylinder_on_half_plane.resolution=8",
-            "program.targets=[{yield=true},{name=\"pressed\",load_factor=50.0},{name=\"unloaded\",load_factor=0.0}]",
+            "program.targets=[{yield=true},{name=\"pressed\",load_factor=50.0},\
+             {name=\"unloaded\",load_factor=0.0}]",
         ],
     );
     let results = within_candidates(&scene);
@@ -74,13 +76,15 @@ fn an_elastic_contact_at_ten_times_first_yield_is_that_of_hertz() {
     );
     let results = within_candidates(&scene);
     let pressed = state(&results, "pressed");
-    // The bodies are circles where Hertz has parabolas: (b/R)^2 / 8. The edge is read to an eighth of an element, of 16.
+    // The bodies are circles where Hertz has parabolas: (b/R)^2 / 8. The edge is read to an eighth
+    // of an element, of 16.
     let b = hertz.half_width(p);
     let form = (b / 10.0).powi(2) / 8.0;
     close("half width", pressed.half_width, b, b, form + 1.0 / 128.0);
 }
 
-/// A strip that the user makes too short ends the run where contact reaches its end, with what was computed before.
+/// A strip that the user makes too short ends the run where contact reaches its end, with what was
+/// computed before.
 #[test]
 fn a_strip_that_is_too_short_ends_the_run_at_its_end() {
     let scene = load(
@@ -130,7 +134,8 @@ fn fixed_steps_do_not_step_over_the_end() {
     assert_eq!(error.kind(), ErrorKind::Outgrown, "{error}");
 }
 
-/// Two blocks; the candidates are `piece` of the upper one's bottom, which goes on, on the whole lower top.
+/// Two blocks; the candidates are `piece` of the upper one's bottom, which goes on, on the whole
+/// lower top.
 fn blocks(width: f64, piece: f64) -> Scene {
     parse(&format!(
         "kind = \"plane_strain\"
@@ -242,8 +247,8 @@ fn a_check_warns_of_candidates_that_end_too_soon_and_of_long_runs() {
     );
 }
 
-/// Two contacts on one pair of sides with a hole of one element between them: what closes there ends the run, it is not
-/// taken for a surface that goes on.
+/// Two contacts on one pair of sides with a hole of one element between them: what closes there
+/// ends the run, it is not taken for a surface that goes on.
 #[test]
 fn a_hole_between_two_contacts_is_an_end() {
     let mut scene = blocks(2.0, 2.0);
@@ -271,7 +276,8 @@ fn a_hole_between_two_contacts_is_an_end() {
     assert_eq!(error.kind(), ErrorKind::Outgrown, "{error}");
 }
 
-/// Area is where surfaces face each other: a punch has the same pressures whichever of the two surfaces is named first.
+/// Area is where surfaces face each other: a punch has the same pressures whichever of the two
+/// surfaces is named first.
 #[test]
 fn pressure_does_not_depend_on_which_surface_is_first() {
     let one = blocks(1.0, 1.0);

@@ -1,4 +1,5 @@
-//! The cases of `data/peers`, on which CalculiX fails without a word: each runs here as it stands, first time.
+//! The cases of `data/peers`, on which CalculiX fails without a word: each runs here as it stands,
+//! first time.
 
 use crate::running::{close, healthy, run};
 use brinell::analytical::{DiscInPlate, HertzLine, HertzPoint, contact_modulus};
@@ -13,7 +14,8 @@ fn peer(name: &str) -> Results {
     results
 }
 
-/// From pair `from`, counted from the pole outwards, no pair carries more than the one before it: no spikes, no node left out.
+/// From pair `from`, counted from the pole outwards, no pair carries more than the one before it:
+/// no spikes, no node left out.
 #[track_caller]
 fn falls_from_the_pole(state: &State, from: usize) {
     // The pairs run towards the pole or from it.
@@ -34,8 +36,8 @@ fn is_that_of(exact: f64, state: &State, tolerance: f64, from: usize) {
     falls_from_the_pole(state, from);
 }
 
-/// With one node touching a penalty code begins without stiffness and cuts back (CalculiX, on some meshes, until it gives up). Hertz; four elements over
-/// the half width, of order h^2.
+/// With one node touching a penalty code begins without stiffness and cuts back (CalculiX, on some
+/// meshes, until it gives up). Hertz; four elements over the half width, of order h^2.
 #[test]
 fn a_single_node_touches_at_the_beginning() {
     let results = peer("single_node");
@@ -45,8 +47,8 @@ fn a_single_node_touches_at_the_beginning() {
     is_that_of(hertz.max_pressure(elastic.contact_force), elastic, 0.02, 0);
 }
 
-/// The node on the axis has no area of its own: CalculiX gives it no force and doubles its neighbour's, without a warning. Eight elements over
-/// the radius, of order h^2.
+/// The node on the axis has no area of its own: CalculiX gives it no force and doubles its
+/// neighbour's, without a warning. Eight elements over the radius, of order h^2.
 #[test]
 fn the_node_on_the_axis_carries_the_largest_pressure() {
     let results = peer("axis_node");
@@ -60,7 +62,8 @@ fn the_node_on_the_axis_carries_the_largest_pressure() {
     );
 }
 
-/// A stiff penalty bounces between nodes and reports convergence with ten times the pressure (CalculiX); thirty elements over the quarter, of order h^2.
+/// A stiff penalty bounces between nodes and reports convergence with ten times the pressure
+/// (CalculiX); thirty elements over the quarter, of order h^2.
 #[test]
 fn a_conforming_disc_has_the_pressure_of_the_closed_form() {
     let results = peer("conforming_disc");

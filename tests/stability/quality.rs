@@ -2,8 +2,9 @@
 
 use crate::running::{close, run_file, state};
 
-/// Relative to what little is left after unloading, round-off looks like an error of 100 %, and users learn to overlook the
-/// figure. Relative to the largest load and displacement of the run, an unloaded state is as good as a loaded one.
+/// Relative to what little is left after unloading, round-off looks like an error of 100 %, and
+/// users learn to overlook the figure. Relative to the largest load and displacement of the run, an
+/// unloaded state is as good as a loaded one.
 #[test]
 fn an_unloaded_floating_state_is_as_good_as_a_loaded_one() {
     for (name, last) in [
@@ -25,8 +26,9 @@ fn an_unloaded_floating_state_is_as_good_as_a_loaded_one() {
     }
 }
 
-/// A body falls through a gap: its rigid motion costs nothing, so the contact force knows nothing of the gap. Codes that take it from
-/// stiffness times displacement lose a digit for each factor of ten.
+/// A body falls through a gap: its rigid motion costs nothing, so the contact force knows nothing
+/// of the gap. Codes that take it from stiffness times displacement lose a digit for each factor of
+/// ten.
 #[test]
 fn the_contact_force_does_not_know_the_gap() {
     for gap in ["1e-6", "1.0", "1e4", "1e8"] {
@@ -37,8 +39,9 @@ fn the_contact_force_does_not_know_the_gap() {
     }
 }
 
-/// Nor do the stresses: what a body falls through, or is lifted by, is no part of what deforms it. Codes that take strains from the whole
-/// displacement hold four digits of them where it is 1e12 times the deformation, and none at 1e16.
+/// Nor do the stresses: what a body falls through, or is lifted by, is no part of what deforms it.
+/// Codes that take strains from the whole displacement hold four digits of them where it is 1e12
+/// times the deformation, and none at 1e16.
 #[test]
 fn stresses_do_not_know_the_gap() {
     for key in ["gap", "interference"] {
@@ -59,7 +62,8 @@ fn stresses_do_not_know_the_gap() {
     }
 }
 
-/// The zone's strains are those of the whole model: what yields below a body that fell far is what yields below one that did not.
+/// The zone's strains are those of the whole model: what yields below a body that fell far is what
+/// yields below one that did not.
 #[test]
 fn plastic_flow_does_not_know_the_gap() {
     let flow = |gap: &str| {
@@ -84,8 +88,8 @@ const LOOSE: [&str; 2] = [
     "analysis.tolerance=0.0099",
 ];
 
-/// No result with a bad residual looks like a good one: a warning, `inaccurate` in the summary, and an exit code of its own; none of that with a
-/// good one.
+/// No result with a bad residual looks like a good one: a warning, `inaccurate` in the summary, and
+/// an exit code of its own; none of that with a good one.
 #[test]
 fn lost_accuracy_has_a_warning_and_an_exit_code() {
     let folder = std::env::temp_dir().join(format!("brinell-inaccurate-{}", std::process::id()));
@@ -111,7 +115,8 @@ fn lost_accuracy_has_a_warning_and_an_exit_code() {
     std::fs::remove_dir_all(folder).unwrap();
 }
 
-/// Whoever loosens the iteration to one in a hundred must not be told that one in a hundred is good: figures have a tolerance that no setting moves.
+/// Whoever loosens the iteration to one in a hundred must not be told that one in a hundred is
+/// good: figures have a tolerance that no setting moves.
 #[test]
 fn a_loose_iteration_does_not_loosen_what_counts_as_good() {
     let loose = run_file("hard/unload_reload", &LOOSE);
@@ -129,13 +134,15 @@ fn a_loose_iteration_does_not_loosen_what_counts_as_good() {
     assert!(tight.inaccurate.is_empty(), "{:?}", tight.inaccurate);
 }
 
-/// Every run says at least how badly its matrix is conditioned and how well each row of it was solved, for the price of a pass over the matrix. The
-/// condition is estimated where the user asks for it and where accuracy is in doubt, and not paid for elsewhere.
+/// Every run says at least how badly its matrix is conditioned and how well each row of it was
+/// solved, for the price of a pass over the matrix. The condition is estimated where the user asks
+/// for it and where accuracy is in doubt, and not paid for elsewhere.
 #[test]
 fn the_condition_is_estimated_where_it_matters() {
     let usual = run_file("hard/three_in_a_row", &[]);
     assert_eq!(usual.condition_estimate, None);
-    // A factor solves each row to a few rounding errors for each of its entries (18), and of those of the factor's row.
+    // A factor solves each row to a few rounding errors for each of its entries (18), and of those
+    // of the factor's row.
     for q in usual
         .states
         .iter()
@@ -161,7 +168,8 @@ fn the_condition_is_estimated_where_it_matters() {
     assert!(!doubtful.inaccurate.is_empty() && doubtful.condition_estimate.is_some());
 }
 
-/// A yield load is a result like any other: `brinell yield` judges the state that it was taken from, and says so where that is bad.
+/// A yield load is a result like any other: `brinell yield` judges the state that it was taken
+/// from, and says so where that is bad.
 #[test]
 fn a_yield_load_has_its_quality_too() {
     let quality = |overrides: &[&str]| {

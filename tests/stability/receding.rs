@@ -23,9 +23,11 @@ fn closed(state: &State) -> usize {
         .count()
 }
 
-/// Which nodes touch is decided at infinitesimal load, where all gaps and forces are zero: codes that start from "all closed" iterate on
-/// statuses whose violations are round-off, and the answer depends on the size of the load. The extent shrinks as the second tension
-/// grows, and vanishes where the hole's radial displacement (1 + l) + 2 (1 - l) cos 2 theta (Kirsch) is positive all round: l = 1/3.
+/// Which nodes touch is decided at infinitesimal load, where all gaps and forces are zero: codes
+/// that start from "all closed" iterate on statuses whose violations are round-off, and the answer
+/// depends on the size of the load. The extent shrinks as the second tension grows, and vanishes
+/// where the hole's radial displacement (1 + l) + 2 (1 - l) cos 2 theta (Kirsch) is positive all
+/// round: l = 1/3.
 #[test]
 fn biaxial_loads_from_shear_to_the_one_at_which_contact_vanishes() {
     let mut before = usize::MAX;
@@ -66,9 +68,10 @@ fn biaxial_loads_from_shear_to_the_one_at_which_contact_vanishes() {
     }
 }
 
-/// A load applied in one step: codes that search for partners in the deformed state leave part of a surface unpaired (Kratos: pressure
-/// spikes), penalty codes report convergence with pressures ten times too large (CalculiX). The path is elastic: one step and the
-/// path from event to event end in the same state.
+/// A load applied in one step: codes that search for partners in the deformed state leave part of a
+/// surface unpaired (Kratos: pressure spikes), penalty codes report convergence with pressures ten
+/// times too large (CalculiX). The path is elastic: one step and the path from event to event end
+/// in the same state.
 #[test]
 fn one_step_ends_where_the_path_does() {
     for name in [
@@ -99,8 +102,8 @@ fn one_step_ends_where_the_path_does() {
     }
 }
 
-/// From one touching node to a patch in one step: no pair is left out (the pressure falls from the pole to the edge, whole surface), and it is
-/// the state that the path from event to event ends in.
+/// From one touching node to a patch in one step: no pair is left out (the pressure falls from the
+/// pole to the edge, whole surface), and it is the state that the path from event to event ends in.
 #[test]
 fn a_load_in_one_step_pairs_the_whole_surface() {
     let step = run_file("hard/one_step", &[]);
@@ -116,8 +119,8 @@ fn a_load_in_one_step_pairs_the_whole_surface() {
     same_contact("one step", &path.states[0], pressed, 1e-10);
 }
 
-/// The extent hardly depends on the load: the one at first yield is there already when it is asked for. (Once the load went down to nothing in search of
-/// it.)
+/// The extent hardly depends on the load: the one at first yield is there already when it is asked
+/// for. (Once the load went down to nothing in search of it.)
 #[test]
 fn a_half_width_that_is_there_already_needs_no_way() {
     let results = run(&load(

@@ -1,4 +1,5 @@
-//! Whether refinement with a residual in twice the working precision would make a scene's displacements better.
+//! Whether refinement with a residual in twice the working precision would make a scene's
+//! displacements better.
 
 use crate::running::largest;
 use brinell::assembly::assemble;
@@ -9,7 +10,8 @@ use brinell::mesh::Shape;
 use brinell::model::{Model, ModelBuilder};
 use brinell::scene::{Body, Direction, Kind, Load, Material, Support};
 
-/// A rectangle of `elements` under pressure on its top. The lower half has `moduli[0]`, the upper `moduli[1]`.
+/// A rectangle of `elements` under pressure on its top. The lower half has `moduli[0]`, the upper
+/// `moduli[1]`.
 struct Rectangle {
     kind: Kind,
     size: [f64; 2],
@@ -21,7 +23,8 @@ struct Rectangle {
 }
 
 impl Rectangle {
-    /// Its model, elements in ascending or descending order: the stiffness is a sum over elements, the same but for its rounding.
+    /// Its model, elements in ascending or descending order: the stiffness is a sum over elements,
+    /// the same but for its rounding.
     fn model(&self, descending: bool) -> Model {
         let ([nx, ny], [w, h]) = (self.elements, self.size);
         let node = |i: usize, j: usize| j * (nx + 1) + i;
@@ -129,10 +132,12 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
     largest(a.iter().zip(b).map(|(a, b)| a - b)) / largest(a.iter().copied())
 }
 
-/// Other codes refine and believe the digits gained. The entries of an assembled stiffness are sums of rounded element stiffnesses, and a sum in another
-/// order is another matrix: its exact solution is as far off as the plain one is from the refined one (measured: 0.2 to 3 times), so that a
-/// residual in twice the precision makes displacements exact for a matrix that is not. Scenes therefore stop at the residual in working precision;
-/// `ConstrainedStructure`, whose matrix is the caller's own, refines to the last digit.
+/// Other codes refine and believe the digits gained. The entries of an assembled stiffness are sums
+/// of rounded element stiffnesses, and a sum in another order is another matrix: its exact solution
+/// is as far off as the plain one is from the refined one (measured: 0.2 to 3 times), so that a
+/// residual in twice the precision makes displacements exact for a matrix that is not. Scenes
+/// therefore stop at the residual in working precision; `ConstrainedStructure`, whose matrix is the
+/// caller's own, refines to the last digit.
 #[test]
 fn twice_the_precision_is_lost_on_a_stiffness_of_rounded_sums() {
     let block = Rectangle {

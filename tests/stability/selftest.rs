@@ -21,7 +21,8 @@ fn every_family_passes_and_the_page_names_it() {
         };
         assert!(
             page.lines().any(same),
-            "data/stability.md has no row for {line}: brinell selftest --markdown -q > data/stability.md"
+            "data/stability.md has no row for {line}: brinell selftest --markdown -q > \
+             data/stability.md"
         );
     }
 }

@@ -275,8 +275,10 @@ fn a_ball_in_a_bowl_of_its_own_radius() {
 kind = "solid"
 symmetry = 8
 support = [
-    {{ on = "ball.start", fix = ["y"] }}, {{ on = "ball.front", fix = ["z"] }}, {{ on = "ball.back", fix = ["x"] }},
-    {{ on = "bowl.start", fix = ["y"] }}, {{ on = "bowl.front", fix = ["z"] }}, {{ on = "bowl.back", fix = ["x"] }},
+    {{ on = "ball.start", fix = ["y"] }}, {{ on = "ball.front", fix = ["z"] }},
+    {{ on = "ball.back", fix = ["x"] }},
+    {{ on = "bowl.start", fix = ["y"] }}, {{ on = "bowl.front", fix = ["z"] }},
+    {{ on = "bowl.back", fix = ["x"] }},
 ]
 contact = [{{ first = "ball.outer", second = "bowl.inner", interference = {fit} }}]
 [mesh]

@@ -3,8 +3,8 @@
 use crate::running::{close, healthy, run_file, same_contact, state};
 use brinell::results::Status;
 
-/// Codes that keep a list of "active" nodes forget the ones that left, or start the second contact with the first one's forces.
-/// The path is elastic: the same displacement gives the same state.
+/// Codes that keep a list of "active" nodes forget the ones that left, or start the second contact
+/// with the first one's forces. The path is elastic: the same displacement gives the same state.
 #[test]
 fn a_body_that_lifts_off_comes_back_to_the_same_state() {
     let results = run_file("hard/lift_off", &[]);
@@ -17,8 +17,9 @@ fn a_body_that_lifts_off_comes_back_to_the_same_state() {
     same_contact("down again", down, again, 1e-10);
 }
 
-/// Up to a thousand pairs reach zero at the same load up to round-off. Codes that change one pair at a time see a thousand increments of
-/// length zero, or chatter. The strip is in uniaxial stress: opening at displacement 0, and p = E u / h.
+/// Up to a thousand pairs reach zero at the same load up to round-off. Codes that change one pair
+/// at a time see a thousand increments of length zero, or chatter. The strip is in uniaxial stress:
+/// opening at displacement 0, and p = E u / h.
 #[test]
 fn a_thousand_pairs_open_and_close_as_one() {
     together(&[], 301);
@@ -67,8 +68,9 @@ fn together(overrides: &[&str], n: usize) {
     }
 }
 
-/// A gap that just closes at the end of a step: "g <= 0" and "r > 0" are both undecided, and codes flip the pair for ever. At the target
-/// neither gap nor force is left, and beyond it the pressure is E times the strain.
+/// A gap that just closes at the end of a step: "g <= 0" and "r > 0" are both undecided, and codes
+/// flip the pair for ever. At the target neither gap nor force is left, and beyond it the pressure
+/// is E times the strain.
 #[test]
 fn grazing_contact_is_neither_missed_nor_repeated() {
     let results = run_file("hard/grazing", &[]);
@@ -84,7 +86,8 @@ fn grazing_contact_is_neither_missed_nor_repeated() {
         close("gap", p.gap, 0.125, 0.25, 1e-12);
     }
     for p in &state(&results, "press").pairs {
-        // The strain is the 1/500 of a displacement that is more than the gap: 500 times its round-off.
+        // The strain is the 1/500 of a displacement that is more than the gap: 500 times its
+        // round-off.
         close("pressure", p.pressure, 52.5, 52.5, 1e-10);
     }
     for p in &state(&results, "start").pairs {
@@ -93,9 +96,10 @@ fn grazing_contact_is_neither_missed_nor_repeated() {
     assert!(results.history.len() <= 12, "{}", results.history.len());
 }
 
-/// Without a gap every change of contact happens at load 0+: an event algorithm that starts at "all closed" or "all open" never leaves it.
-/// Statuses and p / S do not depend on the load over twelve orders of magnitude. Two solves of 25 pairs differ by eps times the pairs and
-/// the condition of the condensed stiffness of their surface, an operator of first order: about their number again.
+/// Without a gap every change of contact happens at load 0+: an event algorithm that starts at "all
+/// closed" or "all open" never leaves it. Statuses and p / S do not depend on the load over twelve
+/// orders of magnitude. Two solves of 25 pairs differ by eps times the pairs and the condition of
+/// the condensed stiffness of their surface, an operator of first order: about their number again.
 #[test]
 fn conforming_contact_does_not_depend_on_the_size_of_the_load() {
     let results = run_file("hard/zero_gap_conforming", &[]);
@@ -136,8 +140,8 @@ fn conforming_contact_ends_where_it_should() {
     }
 }
 
-/// The last pair opens at load 0 exactly, and then nothing holds the cylinder: the end of the path is singular. What is left is
-/// no force and a dent.
+/// The last pair opens at load 0 exactly, and then nothing holds the cylinder: the end of the path
+/// is singular. What is left is no force and a dent.
 #[test]
 fn complete_separation_at_no_load_leaves_the_dent() {
     let results = run_file("hard/separation", &[]);
@@ -155,7 +159,8 @@ fn complete_separation_at_no_load_leaves_the_dent() {
     assert!(unloaded.residual_depth.abs() > 0.0);
 }
 
-/// The state before anything acts is the one that the scene describes, not the round-off of finding it: its quality is no ratio of two of these.
+/// The state before anything acts is the one that the scene describes, not the round-off of finding
+/// it: its quality is no ratio of two of these.
 #[test]
 fn where_nothing_acts_nothing_moves() {
     let results = run_file(
@@ -173,8 +178,9 @@ fn where_nothing_acts_nothing_moves() {
     assert!(results.inaccurate.is_empty(), "{:?}", results.inaccurate);
 }
 
-/// Changes of contact that follow one another within 1e-9 of the load, in a tube with a fiftieth of its stiffness left: codes that
-/// take the last increment's rates for the next stretch its round-off by as much, and lose equilibrium or the way.
+/// Changes of contact that follow one another within 1e-9 of the load, in a tube with a fiftieth of
+/// its stiffness left: codes that take the last increment's rates for the next stretch its
+/// round-off by as much, and lose equilibrium or the way.
 #[test]
 fn contact_that_comes_nearly_at_once_keeps_its_equilibrium() {
     let results = run_file("hard/nearly_at_once", &[]);

@@ -1,7 +1,9 @@
-//! Smooth flat punch of circular section on a perfectly plastic half space (von Mises): between Tresca's answers.
+//! Smooth flat punch of circular section on a perfectly plastic half space (von Mises): between
+//! Tresca's answers.
 //!
-//! Source: R. T. Shield, Proc. R. Soc. A 233 (1955) 267-287: 5.69 k for Tresca's material (`data/reference/punch`). Tresca's hexagon with k = Y/2 lies
-//! within von Mises' ellipse, that with k = Y/sqrt(3) round it, and a material that carries more everywhere has the larger limit
+//! Source: R. T. Shield, Proc. R. Soc. A 233 (1955) 267-287: 5.69 k for Tresca's material
+//! (`data/reference/punch`). Tresca's hexagon with k = Y/2 lies within von Mises' ellipse, that
+//! with k = Y/sqrt(3) round it, and a material that carries more everywhere has the larger limit
 //! load (R. Hill, The Mathematical Theory of Plasticity, chapter III): 2.845 Y <= p <= 3.285 Y.
 
 use crate::run::{run, scene, state};
@@ -24,7 +26,8 @@ fn limit_load_lies_between_those_of_tresca() {
             elements.as_str(),
         ];
         let results = run(&scene("flat_punch", &set));
-        // Collapsed: a tenth of the load's rise is left of the way from half the displacement to the whole.
+        // Collapsed: a tenth of the load's rise is left of the way from half the displacement to
+        // the whole.
         let [half, whole] = ["alpha 0.5", "flow"].map(|name| state(&results, name).load);
         assert!(whole < 1.02 * half, "{n}: {half} {whole}");
         whole

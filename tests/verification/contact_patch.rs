@@ -1,6 +1,8 @@
-//! The contact patch test: uniform pressure passes through a contact of matching meshes to round-off.
+//! The contact patch test: uniform pressure passes through a contact of matching meshes to
+//! round-off.
 //!
-//! Source: equilibrium; R. L. Taylor and P. Papadopoulos, On a patch test for contact problems in two dimensions (1991).
+//! Source: equilibrium; R. L. Taylor and P. Papadopoulos, On a patch test for contact problems in
+//! two dimensions (1991).
 
 use crate::run::{close, run, scene};
 

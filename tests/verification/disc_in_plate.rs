@@ -1,6 +1,7 @@
 //! Disc in the hole of a plate under tension, the paper's Table II and figures 5.6 to 5.9.
 //!
-//! Source: N. Endahl, section 5.2; integral equation of the receding contact, `brinell::analytical::DiscInPlate`.
+//! Source: N. Endahl, section 5.2; integral equation of the receding contact,
+//! `brinell::analytical::DiscInPlate`.
 
 use crate::run::{close, run, scene};
 use brinell::analytical::{DiscInPlate, Plane};
@@ -27,7 +28,8 @@ fn table_two_converges_to_the_exact_values() {
     for resolution in [30, 60, 120] {
         let results = elastic(&[&format!("mesh.disc_in_plate.resolution={resolution}")]);
         let spacing = 90.0 / resolution as f64;
-        // The contact ends between two nodes: the angle is known to a fraction (measured 0.1 to 0.22) of their spacing.
+        // The contact ends between two nodes: the angle is known to a fraction (measured 0.1 to
+        // 0.22) of their spacing.
         let off = (half_angle(&results, 1) - angle).abs();
         assert!(off <= 0.25 * spacing, "{resolution}: {off}");
         let at_yield = results.first_yield.unwrap();
@@ -61,7 +63,8 @@ fn contact_angle_depends_on_nothing_but_geometry() {
         reference,
         1e-9,
     );
-    // nu does not enter the continuum's angle; it does enter a mesh's error, a fraction of the node spacing of 1.5 degrees.
+    // nu does not enter the continuum's angle; it does enter a mesh's error, a fraction of the node
+    // spacing of 1.5 degrees.
     for other in [
         &["materials.steel.poissons_ratio=0.1"],
         &["kind=\"plane_strain\""],

@@ -18,8 +18,9 @@ fn limit_load_converges_from_above() {
             state(&results, "flow").load / 296.85
         };
         let (coarse, fine) = (load(10), load(20));
-        // The jump of pressure at the edge takes one element, so the load is too high by the order of h: from above, and
-        // what is left after extrapolation is of second order, (h/a)^2 = 1/16 of the correction's size.
+        // The jump of pressure at the edge takes one element, so the load is too high by the order
+        // of h: from above, and what is left after extrapolation is of second order, (h/a)^2 = 1/16
+        // of the correction's size.
         let extrapolated = 2.0 * fine - coarse;
         assert!(fine < coarse && fine > 1.0, "{shape}: {coarse} {fine}");
         assert!(

@@ -39,8 +39,9 @@ fn table_one_converges_to_the_exact_values() {
         assert!(error(2, k) <= 0.01, "quantity {k} at 16: {by_mesh:?}");
         assert!(error(3, k) <= 0.003, "quantity {k} at 32: {by_mesh:?}");
     }
-    // Load and pressure change from mesh to mesh by its error, of order h^2: 16 times less between meshes that are four times as
-    // fine, an eighth and more is gone. They end at the remainder of size (b/W) and curvature (b/R = 0.016, of which the load shows 0.08 %).
+    // Load and pressure change from mesh to mesh by its error, of order h^2: 16 times less between
+    // meshes that are four times as fine, an eighth and more is gone. They end at the remainder of
+    // size (b/W) and curvature (b/R = 0.016, of which the load shows 0.08 %).
     let change = |mesh: usize, k: usize| (by_mesh[mesh][k] - by_mesh[mesh + 1][k]).abs();
     for k in 0..2 {
         assert!(
@@ -72,8 +73,8 @@ fn pressure_and_width_grow_like_the_root_of_the_load() {
     ));
     let at_yield = results.first_yield.unwrap();
     for (state, alpha) in results.states.iter().zip([0.25f64, 0.5, 1.0]) {
-        // At 0.25 eight elements lie over the half width: pressure 0.2 % low there (Table I at 8), width within a
-        // tenth of an element, 1/80.
+        // At 0.25 eight elements lie over the half width: pressure 0.2 % low there (Table I at 8),
+        // width within a tenth of an element, 1/80.
         close(
             state.max_pressure / at_yield.max_pressure,
             alpha.sqrt(),

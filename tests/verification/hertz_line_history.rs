@@ -18,13 +18,15 @@ fn loading_to_one_and_a_half_widths_and_back() {
         assert!(pair[1].residual_depth > pair[0].residual_depth);
     }
     let peak = state(&results, "1.5 b*");
-    // A target width is found to 1e-10 of an increment; the accuracy of hitting it, not that of the mesh.
+    // A target width is found to 1e-10 of an increment; the accuracy of hitting it, not that of the
+    // mesh.
     close(
         peak.half_width,
         1.5 * results.first_yield.unwrap().half_width,
         1e-8,
     );
-    // The legend's largest factor belongs to the paper's coarse mesh (Table I: 13 % in load at yield, 2 % in width).
+    // The legend's largest factor belongs to the paper's coarse mesh (Table I: 13 % in load at
+    // yield, 2 % in width).
     close(peak.alpha, 2.0635, 0.03);
 
     let unloading = &results.states[4..];
@@ -39,7 +41,8 @@ fn loading_to_one_and_a_half_widths_and_back() {
         );
         close(pair[1].residual_depth, peak.residual_depth, 1e-9);
     }
-    // At the same load contact is wider on the way down: the surfaces conform. Loading at 1.4351 lies between these.
+    // At the same load contact is wider on the way down: the surfaces conform. Loading at 1.4351
+    // lies between these.
     let (below, above) = (
         state(&results, "alpha 1.3207"),
         state(&results, "alpha 1.587"),

@@ -1,6 +1,7 @@
 //! A ball on a half space at first yield.
 //!
-//! Source: K. L. Johnson, Contact Mechanics (1985), sections 3.4 and 6.1; Code_Aster SSNV104 lies in the same theory.
+//! Source: K. L. Johnson, Contact Mechanics (1985), sections 3.4 and 6.1; Code_Aster SSNV104 lies
+//! in the same theory.
 
 use crate::run::{scene, yield_load};
 

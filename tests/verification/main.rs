@@ -1,11 +1,14 @@
-//! Published cases with known answers, run through the library: one case per file, its source at the head.
+//! Published cases with known answers, run through the library: one case per file, its source at
+//! the head.
 
+mod body_forces;
 mod circular_punch;
 mod contact_patch;
 mod cyclic_element;
 mod disc_in_plate;
 mod figures;
 mod flat_punch;
+mod heat;
 mod hertz_line;
 mod hertz_line_history;
 mod hertz_point;

@@ -1,6 +1,7 @@
 //! A pin that fits its hole neatly, pushed into the side of it.
 //!
-//! Source: B. G. A. Persson, On the stress distribution of cylindrical elastic bodies in contact (1964) (`data/reference/persson`).
+//! Source: B. G. A. Persson, On the stress distribution of cylindrical elastic bodies in contact
+//! (1964) (`data/reference/persson`).
 
 use crate::run::{close, run, scene, state};
 use brinell::analytical::PinInHole;
@@ -20,7 +21,8 @@ fn contact_angle_and_pressure_are_perssons_at_any_load() {
         let plate = format!("mesh.parts.1.ring.elements=[40,{}]", 2 * n);
         let results = run(&scene("pin_in_hole", &[&pin, &plate]));
         let (pushed, hardly) = (state(&results, "pushed"), state(&results, "hardly"));
-        // Receding contact is proportional; two solves of n pairs, each off by eps n times a condition of n.
+        // Receding contact is proportional; two solves of n pairs, each off by eps n times a
+        // condition of n.
         let pairs = pushed.pairs.len() as f64;
         let round_off = 2.0 * pairs * pairs * f64::EPSILON;
         close(hardly.max_pressure * 1e6, pushed.max_pressure, round_off);
@@ -35,8 +37,9 @@ fn contact_angle_and_pressure_are_perssons_at_any_load() {
         .map(f64::abs)
     };
     let (coarse, fine) = (errors(16), errors(32));
-    // The end of the contact is known to an element, a share of 90/84.8 of 1/n; the pressure at the pole, far from it, to the square of that, and the plate's
-    // rim is a hundred radii away: (R/W)^2 = 1e-4.
+    // The end of the contact is known to an element, a share of 90/84.8 of 1/n; the pressure at the
+    // pole, far from it, to the square of that, and the plate's rim is a hundred radii away:
+    // (R/W)^2 = 1e-4.
     for (found, n) in [(coarse, 16.0f64), (fine, 32.0)] {
         assert!(found[0] <= 1e-4 + 1.0 / (n * n), "{coarse:?} {fine:?}");
         assert!(found[1] <= 1.06 / n, "{coarse:?} {fine:?}");

@@ -1,6 +1,7 @@
 //! Algebraic quality of every state of every scene in `data/scenes`.
 //!
-//! Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 7.1 (backward error).
+//! Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 7.1
+//! (backward error).
 
 use crate::run::{run_as_far_as_it_goes, scene};
 
@@ -23,7 +24,8 @@ fn every_state_of_every_scene_is_in_balance() {
             );
             assert!(q.backward_error <= backward_error, "{at}");
             assert!(q.equilibrium <= 1e-8, "{at}");
-            // Round-off of a solve with the condensed matrix, times its condition: 1e4 where one pair alone is in contact.
+            // Round-off of a solve with the condensed matrix, times its condition: 1e4 where one
+            // pair alone is in contact.
             assert!(q.penetration <= 1e-11, "{at}");
             // Forces are those that the stresses leave over: as good as equilibrium.
             assert!(q.complementarity <= 1e-8, "{at}");

@@ -5,8 +5,9 @@
 use crate::run::{close, run, scene, state};
 use brinell::analytical::{HertzPoint, contact_modulus};
 
-/// The force is Hertz's for a radius of contact of 10: P = 4/3 E* a^3/R. The sphere is a circle where Hertz has a parabola: its gap is larger by up to
-/// (a/R)^2/4 = 1 %, and so are stresses and the radius by shares of it; both are of order h^2.
+/// The force is Hertz's for a radius of contact of 10: P = 4/3 E* a^3/R. The sphere is a circle
+/// where Hertz has a parabola: its gap is larger by up to (a/R)^2/4 = 1 %, and so are stresses and
+/// the radius by shares of it; both are of order h^2.
 #[test]
 fn centre_stress_and_contact_radius() {
     let modulus = contact_modulus(20e3, 0.3, 2e13, 0.3);

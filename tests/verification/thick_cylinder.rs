@@ -1,6 +1,7 @@
 //! Thick cylinder under internal pressure, plane strain, elastic-perfectly plastic.
 //!
-//! Source: R. Hill, The Mathematical Theory of Plasticity (1950), chapter V (exact for nu = 1/2); Lame.
+//! Source: R. Hill, The Mathematical Theory of Plasticity (1950), chapter V (exact for nu = 1/2);
+//! Lame.
 
 use crate::run::{close, radial_displacement, run, run_until_it_ends, scene, yield_load};
 use brinell::ErrorKind;
@@ -18,12 +19,14 @@ fn yields_first_at_the_bore() {
             "thick_cylinder",
             &[&format!("materials.steel.poissons_ratio={nu}")],
         ));
-        // Quadratic elements of 1/40 of the wall at the bore: stress there to (1/16)^2/2 of its curvature.
+        // Quadratic elements of 1/40 of the wall at the bore: stress there to (1/16)^2/2 of its
+        // curvature.
         close(results.first_yield.unwrap().alpha, exact, 2e-3);
     }
 }
 
-/// The tube cut into triangles, nodes inside the wall moved by up to a share of the shortest side there.
+/// The tube cut into triangles, nodes inside the wall moved by up to a share of the shortest side
+/// there.
 fn triangles(n: usize, moved: f64) -> Model {
     let scene = scene(
         "thick_cylinder",
@@ -62,7 +65,8 @@ fn triangles(n: usize, moved: f64) -> Model {
     Model::from_mesh(&scene, mesh).unwrap()
 }
 
-/// The stress of a linear triangle is of first order, what is recovered from the displacements around of second, on irregular meshes too.
+/// The stress of a linear triangle is of first order, what is recovered from the displacements
+/// around of second, on irregular meshes too.
 #[test]
 fn linear_triangles_find_first_yield_to_second_order() {
     for moved in [0.0, 1.0 / 7.0] {
@@ -75,8 +79,9 @@ fn linear_triangles_find_first_yield_to_second_order() {
         println!("{errors}");
         // Halved elements: a quarter of the error, a third where the next order still counts.
         assert!(fine <= coarse / 3.0 && finer <= fine / 3.0, "{errors}");
-        // The displacement falls with the radius, its third derivative is 6 of it over the radius cubed: a fit over two elements of a 64th of the wall, which is a radius
-        // thick, leaves a 6th of that times (2/64)^2 of the strain, and the three strains at the bore add up.
+        // The displacement falls with the radius, its third derivative is 6 of it over the radius
+        // cubed: a fit over two elements of a 64th of the wall, which is a radius thick, leaves a
+        // 6th of that times (2/64)^2 of the strain, and the three strains at the bore add up.
         assert!(finer <= 4e-3, "{errors}");
     }
 }
@@ -98,7 +103,8 @@ fn nearly_incompressible_flow_converges_to_hill() {
             .abs()
     };
     let (coarse, fine) = (error(8), error(16));
-    // The front is a kink inside an element: between first and second order. nu = 0.4999 is off by 2e-4 itself.
+    // The front is a kink inside an element: between first and second order. nu = 0.4999 is off by
+    // 2e-4 itself.
     assert!(fine <= 2e-3, "{coarse:.2e} {fine:.2e}");
     assert!(
         fine <= coarse / 1.5 || fine <= 4e-4,
@@ -106,8 +112,9 @@ fn nearly_incompressible_flow_converges_to_hill() {
     );
 }
 
-/// Size of the plastic zone and work on plastic strains of the whole tube. Of nu = 1/2: the ring up to the front `c`, and with
-/// strains `A / r^2`, elastic ones `k / 2G`, work `2 k (k / 2G) (c^2 / r^2 - 1)` at the radius `r`, hence
+/// Size of the plastic zone and work on plastic strains of the whole tube. Of nu = 1/2: the ring up
+/// to the front `c`, and with strains `A / r^2`, elastic ones `k / 2G`, work
+/// `2 k (k / 2G) (c^2 / r^2 - 1)` at the radius `r`, hence
 /// `2 pi (k^2 / G) (c^2 ln(c/a) - (c^2 - a^2) / 2)`.
 #[test]
 fn the_plastic_ring_and_the_work_in_it_converge_to_hill() {
@@ -139,8 +146,8 @@ fn the_plastic_ring_and_the_work_in_it_converge_to_hill() {
             state.plastic_work / work - 1.0
         );
         assert!(off <= ring, "{n}: {off} of {area}, a ring is {ring}");
-        // The work has a kink at the front, where its slope falls by twice the factor: two Gauss points miss at most an eighth of that
-        // times h^2, the stresses as much; nu is off by 2e-4.
+        // The work has a kink at the front, where its slope falls by twice the factor: two Gauss
+        // points miss at most an eighth of that times h^2, the stresses as much; nu is off by 2e-4.
         let most = factor * h * h / 2.0 + 1e-3 * work;
         let off = (state.plastic_work - work).abs();
         assert!(off <= most, "{n}: {off} of {work}, allowed {most}");
@@ -159,6 +166,7 @@ fn collapse_is_bracketed_and_named() {
     let results = run_until_it_ends(&scene);
     assert_eq!(results.ending().kind(), Some(ErrorKind::Collapse));
     let held = results.history.last().unwrap().alpha;
-    // 2k ln(b/a) = 192.09; finite elements of displacement type lie above the limit load: six quadratic ones by less than 1 %.
+    // 2k ln(b/a) = 192.09; finite elements of displacement type lie above the limit load: six
+    // quadratic ones by less than 1 %.
     assert!(held > 0.995 * 192.09 && held < 1.01 * 192.09, "{held}");
 }

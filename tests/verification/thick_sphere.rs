@@ -21,7 +21,8 @@ fn expands_by_hill_and_converges() {
                     "program.targets=[{load_factor=287.123}]",
                 ],
             );
-            // Stress at the bore is recovered from points inside: order h^2, C between 0.3 and 0.37 for 6 to 16 elements.
+            // Stress at the bore is recovered from points inside: order h^2, C between 0.3 and 0.37
+            // for 6 to 16 elements.
             close(
                 yield_load(&scene).first_yield.unwrap().alpha,
                 140.0,
@@ -30,7 +31,8 @@ fn expands_by_hill_and_converges() {
             (radial_displacement(&scene, "sphere.outer") / exact - 1.0).abs()
         };
         let (coarse, fine) = (error(6), error(12));
-        // The front, a kink of the strain, lies inside an element: at least first order, C about 0.05.
+        // The front, a kink of the strain, lies inside an element: at least first order, C about
+        // 0.05.
         assert!(fine <= 0.05 / 12.0, "nu {nu}: {coarse:.2e} {fine:.2e}");
         assert!(
             fine <= coarse / 1.5 || fine <= 3e-4,

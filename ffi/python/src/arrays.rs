@@ -87,7 +87,8 @@ macro_rules! each_width {
 }
 pub(crate) use each_width;
 
-/// Whole numbers: the caller's own where they are contiguous and of 32 or 64 bit with a sign, else converted.
+/// Whole numbers: the caller's own where they are contiguous and of 32 or 64 bit with a sign, else
+/// converted.
 pub fn integers<'py>(given: &Bound<'py, PyAny>, what: &str) -> PyResult<Integers<'py>> {
     let py = given.py();
     let numpy = py.import(intern!(py, "numpy"))?;

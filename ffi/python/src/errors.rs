@@ -3,7 +3,8 @@
 use brinell::{Error, ErrorKind};
 use pyo3::prelude::*;
 
-/// The exception of an error (`brinell.Error` or one of its kinds), with what was computed before, if anything was.
+/// The exception of an error (`brinell.Error` or one of its kinds), with what was computed before,
+/// if anything was.
 pub fn exception(py: Python<'_>, error: &Error, result: Option<Py<PyAny>>) -> PyErr {
     let kind = match error.kind() {
         ErrorKind::Input => "input",

@@ -1,5 +1,5 @@
-//! numpy's views of memory that brinell owns: nothing is copied, nothing may be written to, and the memory lives as long as a view of
-//! it. The one home of `unsafe` here.
+//! numpy's views of memory that brinell owns: nothing is copied, nothing may be written to, and the
+//! memory lives as long as a view of it. The one home of `unsafe` here.
 #![allow(unsafe_code)]
 
 use numpy::ndarray::{ArrayView1, ArrayView2, ShapeBuilder};
@@ -33,12 +33,14 @@ unsafe impl Number for u32 {
 unsafe impl Number for u8 {
     type Seen = u8;
 }
-// SAFETY: every pattern of bits of a usize is one of an isize, which indexes numpy's arrays; sizes in memory stay below its maximum.
+// SAFETY: every pattern of bits of a usize is one of an isize, which indexes numpy's arrays; sizes
+// in memory stay below its maximum.
 unsafe impl Number for usize {
     type Seen = isize;
 }
 
-/// A view of the values that `part` finds in what `owner` holds: as rows of `width` where it is given.
+/// A view of the values that `part` finds in what `owner` holds: as rows of `width` where it is
+/// given.
 pub fn lent<'py, O, T>(
     py: Python<'py>,
     owner: &Arc<O>,
@@ -53,9 +55,9 @@ where
     let first = values.as_ptr().cast::<T::Seen>();
     let n = values.len();
     let base = keep(py, owner)?;
-    // SAFETY: the slice is borrowed from what `owner` points to. `base` holds another Arc of it, never gives out access, and is
-    // the base of the array: the borrow may stand as long as the array does. The array is read-only; `Number` vouches for the
-    // type.
+    // SAFETY: the slice is borrowed from what `owner` points to. `base` holds another Arc of it,
+    // never gives out access, and is the base of the array: the borrow may stand as long as the
+    // array does. The array is read-only; `Number` vouches for the type.
     let array = unsafe {
         match width {
             None => {

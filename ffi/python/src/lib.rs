@@ -1,7 +1,8 @@
 //! Python bindings of brinell: elastoplastic contact without friction.
 //!
-//! The module `brinell._brinell`; the package `brinell` beside it adds the exceptions. Arrays come in as they lie in memory and
-//! leave as numpy's views of what the analysis computed. The interpreter is free while the analysis works.
+//! The module `brinell._brinell`; the package `brinell` beside it adds the exceptions. Arrays come
+//! in as they lie in memory and leave as numpy's views of what the analysis computed. The
+//! interpreter is free while the analysis works.
 
 mod arrays;
 mod errors;

@@ -16,11 +16,12 @@ use numpy::PyUntypedArrayMethods;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// A model from arrays. Nodes and elements count from 0 in the order in which they were added, and errors name them so. Units are the
-/// caller's, consistent (for instance N, mm, MPa).
+/// A model from arrays. Nodes and elements count from 0 in the order in which they were added, and
+/// errors name them so. Units are the caller's, consistent (for instance N, mm, MPa).
 ///
-/// kind: "plane_strain", "plane_stress", "axisymmetric" (coordinates are then (r, z)) or "solid" (coordinates and vectors have three components).
-/// symmetry: copies of the model that make the whole (2 for a half model); loads and results are those of the whole.
+/// kind: "plane_strain", "plane_stress", "axisymmetric" (coordinates are then (r, z)) or "solid"
+/// (coordinates and vectors have three components). symmetry: copies of the model that make the
+/// whole (2 for a half model); loads and results are those of the whole.
 #[pyclass(module = "brinell")]
 pub struct Model {
     builder: ModelBuilder,
@@ -105,7 +106,8 @@ impl Model {
         self.change(py, |b| b.nodes(coordinates).map(drop))
     }
 
-    /// Adds elements of a body: nodes (n, nodes of an element), counter-clockwise, corners first; of a solid in the order of VTK.
+    /// Adds elements of a body: nodes (n, nodes of an element), counter-clockwise, corners first;
+    /// of a solid in the order of VTK.
     ///
     /// shape: "quad4", "quad8", "tri3", "tri6"; of a solid "hex8", "hex20", "tet4", "tet10",
     /// "prism6", "prism15".
@@ -156,7 +158,8 @@ impl Model {
         })
     }
 
-    /// Names a surface by its nodes, mid-side nodes included: the facets of the boundary all whose nodes are among them.
+    /// Names a surface by its nodes, mid-side nodes included: the facets of the boundary all whose
+    /// nodes are among them.
     fn surface_of_nodes(
         &mut self,
         py: Python<'_>,
@@ -168,7 +171,8 @@ impl Model {
             .change(py, |b| b.surface_of_nodes(name, nodes).map(drop)))
     }
 
-    /// States that a surface is a circle: the body lies inside, or outside of it (outward=False, a hole). Normals are then exact.
+    /// States that a surface is a circle: the body lies inside, or outside of it (outward=False, a
+    /// hole). Normals are then exact.
     #[pyo3(signature = (surface, center, radius, *, outward = true))]
     fn circle(
         &mut self,
@@ -186,8 +190,18 @@ impl Model {
         self.change(py, |b| b.curve(surface, circle).map(drop))
     }
 
-    /// Names a material: youngs_modulus, poissons_ratio, and where it can yield yield_stress with plastic_modulus, tangent_modulus or
-    /// hardening_table (n, 2).
+    /// Adds tables of a scene (TOML text): materials, bodies, [[contact]], [[support]], [[load]],
+    /// [program], [analysis], [units], title; whatever a scene file may say but for kind, symmetry
+    /// and mesh.
+    fn tables(&mut self, py: Python<'_>, text: &str) -> PyResult<()> {
+        let program = self.program.clone();
+        self.change(py, |b| b.program(program).tables(text).map(drop))?;
+        self.program = self.builder.load_program().clone();
+        Ok(())
+    }
+
+    /// Names a material: youngs_modulus, poissons_ratio, and where it can yield yield_stress with
+    /// plastic_modulus, tangent_modulus or hardening_table (n, 2).
     #[pyo3(signature = (name, **values))]
     fn material(
         &mut self,
@@ -199,7 +213,8 @@ impl Model {
         self.change(py, |b| b.material(name, material).map(drop))
     }
 
-    /// Says what a body is made of, and whether it may yield: True, False, or None (if its material can).
+    /// Says what a body is made of, and whether it may yield: True, False, or None (if its material
+    /// can).
     #[pyo3(signature = (name, material, *, plastic = None))]
     fn body(
         &mut self,
@@ -221,12 +236,13 @@ impl Model {
 
     /// Lets two surfaces touch.
     ///
-    /// pairs: (n, 2) nodes of the first and the second surface; None to pair nodes that face each other, and to couple other surfaces
-    /// by the integrals of their shape functions.
-    /// gap: initial gap of all pairs, or (n) gaps of the given ones; None for the geometric gaps.
-    /// normal: direction from the second body to the first, of all pairs or one for each in rows; None for the second surface's outward normals.
-    /// interference: taken off every gap, gradually before the load program.
-    /// slave: "first" or "second", the surface at whose nodes gaps and pressures are; "auto" for the finer one.
+    /// pairs: (n, 2) nodes of the first and the second surface; None to pair nodes that face each
+    /// other, and to couple other surfaces by the integrals of their shape functions. gap: initial
+    /// gap of all pairs, or (n) gaps of the given ones; None for the geometric gaps. normal:
+    /// direction from the second body to the first, of all pairs or one for each in rows; None for
+    /// the second surface's outward normals. interference: taken off every gap, gradually before
+    /// the load program. slave: "first" or "second", the surface at whose nodes gaps and pressures
+    /// are; "auto" for the finer one.
     #[pyo3(signature = (first, second, *, pairs = None, gap = None, normal = None, interference = 0.0, slave = "auto"))]
     #[allow(clippy::too_many_arguments)] // keywords
     fn contact(
@@ -317,8 +333,9 @@ impl Model {
         }))
     }
 
-    /// Holds a node set or surface along "x", "y", of a solid "z", or several of them ("xy"), in axes turned counter-clockwise by `angle`
-    /// degrees; or, of a solid, along any one direction=(x, y, z).
+    /// Holds a node set or surface along "x", "y", of a solid "z", or several of them ("xy"), in
+    /// axes turned counter-clockwise by `angle` degrees; or, of a solid, along any one
+    /// direction=(x, y, z).
     #[pyo3(signature = (on, fix = "", *, angle = None, direction = None))]
     fn support(
         &mut self,
@@ -352,8 +369,9 @@ impl Model {
         })
     }
 
-    /// Loads a surface or node set with one of force=(x, y), pressure=p, traction=(x, y) (of a solid three components), displacement={"y": -0.1},
-    /// plane_force={"direction": "y", "total": -1000}, kirsch={...}; name=..., history="proportional", "constant" or (n, 2).
+    /// Loads a surface or node set with one of force=(x, y), pressure=p, traction=(x, y) (of a
+    /// solid three components), displacement={"y": -0.1}, plane_force={"direction": "y", "total":
+    /// -1000}, kirsch={...}; name=..., history="proportional", "constant" or (n, 2).
     #[pyo3(signature = (on, **values))]
     fn load<'py>(
         &mut self,
@@ -368,7 +386,8 @@ impl Model {
         })
     }
 
-    /// Loads nodes with forces (n, 2), of a solid (n, 3), of their own, on the model itself (not the whole of a symmetric one).
+    /// Loads nodes with forces (n, 2), of a solid (n, 3), of their own, on the model itself (not
+    /// the whole of a symmetric one).
     #[pyo3(signature = (name, nodes, forces, *, history = None))]
     fn nodal_load<'py>(
         &mut self,
@@ -394,8 +413,9 @@ impl Model {
         }))
     }
 
-    /// Adds a target of the load program, which leaves a state: one of load_factor=..., half_width=..., displacement={"on", "direction",
-    /// "value"}, first_yield=True; name=..., fields=False. A model without one has load factor 1 as its target.
+    /// Adds a target of the load program, which leaves a state: one of load_factor=...,
+    /// half_width=..., displacement={"on", "direction", "value"}, first_yield=True; name=...,
+    /// fields=False. A model without one has load factor 1 as its target.
     #[pyo3(signature = (*, first_yield = false, **values))]
     fn target(
         &mut self,
@@ -409,7 +429,8 @@ impl Model {
         Ok(())
     }
 
-    /// How the load program is measured and stepped: unit="load" or "yield", stepping="events" or "steps", steps=..., gamma=...
+    /// How the load program is measured and stepped: unit="load" or "yield", stepping="events" or
+    /// "steps", steps=..., gamma=...
     #[pyo3(signature = (**values))]
     fn program<'py>(
         &mut self,
@@ -429,7 +450,8 @@ impl Model {
         Ok(())
     }
 
-    /// How to compute: yield_load="exact" or "secant", plastic_iteration="newton", "anderson" or "plain", tolerance=..., max_iterations=...
+    /// How to compute: yield_load="exact" or "secant", plastic_iteration="newton", "anderson" or
+    /// "plain", tolerance=..., max_iterations=...
     #[pyo3(signature = (**values))]
     fn settings(&mut self, py: Python<'_>, values: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
         let settings: Settings = keywords(&with(values, &[], py)?, "settings")?;

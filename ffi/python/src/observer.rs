@@ -10,7 +10,8 @@ use std::time::{Duration, Instant};
 /// Time between two looks at the signals: each needs the interpreter.
 pub const LOOK: Duration = Duration::from_millis(50);
 
-/// Calls back after each increment and stops where the callback returns something true, raises, or Ctrl-C was pressed.
+/// Calls back after each increment and stops where the callback returns something true, raises, or
+/// Ctrl-C was pressed.
 pub struct Watcher {
     callback: Option<Py<PyAny>>,
     signals: Signals,

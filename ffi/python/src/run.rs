@@ -132,8 +132,9 @@ pub fn execute(py: Python<'_>, source: Source, way: Way) -> PyResult<Py<RunResul
 
 /// What a run computed.
 ///
-/// Tables (`states`, `history`, `pairs` of a state) are dictionaries of columns: `pandas.DataFrame(result.history)`.
-/// `len(result)` is the number of states; `result[i]` or `result["name"]` is one.
+/// Tables (`states`, `history`, `pairs` of a state) are dictionaries of columns:
+/// `pandas.DataFrame(result.history)`. `len(result)` is the number of states; `result[i]` or
+/// `result["name"]` is one.
 #[pyclass(frozen, name = "Result", module = "brinell")]
 pub struct RunResult {
     results: Arc<Results>,
@@ -160,7 +161,8 @@ impl RunResult {
 
 #[pymethods]
 impl RunResult {
-    /// First yield as a dictionary (`alpha`, `load`, `max_pressure`, `half_width`, `location`, `body`); None where nothing yields.
+    /// First yield as a dictionary (`alpha`, `load`, `max_pressure`, `half_width`, `location`,
+    /// `body`); None where nothing yields.
     #[getter]
     fn first_yield<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         Ok(pythonize::pythonize(py, &self.results.first_yield)?)
@@ -178,7 +180,8 @@ impl RunResult {
         tables::history(py, &self.results)
     }
 
-    /// The mesh: `coordinates` (n, 2), of a solid (n, 3), `connectivity` and `offsets`, `element_body`, `shapes`, `bodies`, `node_sets` (surfaces among them).
+    /// The mesh: `coordinates` (n, 2), of a solid (n, 3), `connectivity` and `offsets`,
+    /// `element_body`, `shapes`, `bodies`, `node_sets` (surfaces among them).
     #[getter]
     fn mesh<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (model, mesh) = (&self.model, &self.model.mesh);
@@ -334,20 +337,23 @@ impl State {
         self.state().contact_arc
     }
 
-    /// Columns of the contact pairs: `pair`, `contact`, `x`, `y`, `z`, `gap`, `force`, `area`, `pressure`, `closed`.
+    /// Columns of the contact pairs: `pair`, `contact`, `x`, `y`, `z`, `gap`, `force`, `area`,
+    /// `pressure`, `closed`.
     #[getter]
     fn pairs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         tables::pairs(py, &self.results, self.index)
     }
 
-    /// Patches of the contact of a solid, a dictionary each: `contact`, `area`, `centroid`, `semi_axes` (the larger first), `direction` of
-    /// the larger one, `max_pressure`, `mean_pressure`, `force`.
+    /// Patches of the contact of a solid, a dictionary each: `contact`, `area`, `centroid`,
+    /// `semi_axes` (the larger first), `direction` of the larger one, `max_pressure`,
+    /// `mean_pressure`, `force`.
     #[getter]
     fn patches<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         Ok(pythonize::pythonize(py, &self.state().patches)?)
     }
 
-    /// Fields on the whole mesh, not copied and not to be written to: `displacement` (n_nodes, 2), `stress` (n_elements, 4) as xx, yy, zz, xy (of a solid 3 and 6, yz and zx after them),
+    /// Fields on the whole mesh, not copied and not to be written to: `displacement` (n_nodes, 2),
+    /// `stress` (n_elements, 4) as xx, yy, zz, xy (of a solid 3 and 6, yz and zx after them),
     /// `von_mises`, `plastic_strain`, `yielded`, `error`; None where the target asks for none.
     #[getter]
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {

@@ -16,10 +16,10 @@ use std::sync::{Mutex, MutexGuard};
 ///
 ///     K u = f - B' r,   g = gaps - B u >= 0,   r >= 0,   g . r = 0
 ///
-/// stiffness: K as a scipy sparse matrix, or (data, indices, indptr) compressed by column, read where it lies; its upper triangle is kept.
-/// rows: B as a scipy sparse matrix, (data, indices, indptr) compressed by row, or a dense array; None for none.
-/// gaps: a value for each row; negative is interference.
-/// triangle: which entries are given, "both", "upper" or "lower".
+/// stiffness: K as a scipy sparse matrix, or (data, indices, indptr) compressed by column, read
+/// where it lies; its upper triangle is kept. rows: B as a scipy sparse matrix, (data, indices,
+/// indptr) compressed by row, or a dense array; None for none. gaps: a value for each row; negative
+/// is interference. triangle: which entries are given, "both", "upper" or "lower".
 #[pyclass(frozen, module = "brinell")]
 pub struct Structure {
     inner: Mutex<ConstrainedStructure>,
@@ -141,7 +141,8 @@ fn contact_rows(given: Option<&Bound<'_, PyAny>>, n: usize) -> PyResult<Vec<Vec<
 
 impl Structure {
     fn lock(&self) -> MutexGuard<'_, ConstrainedStructure> {
-        // A state that a panic left behind is that of the last call that returned, or refused by the next.
+        // A state that a panic left behind is that of the last call that returned, or refused by
+        // the next.
         self.inner.lock().unwrap_or_else(|e| e.into_inner())
     }
 
@@ -233,7 +234,8 @@ impl Structure {
         self.contact_freedoms.clone_ref(py)
     }
 
-    /// The stiffness condensed on the contact freedoms, symmetric: a view of brinell's own, not to be written to.
+    /// The stiffness condensed on the contact freedoms, symmetric: a view of brinell's own, not to
+    /// be written to.
     #[getter]
     fn condensed_stiffness(&self, py: Python<'_>) -> Py<PyAny> {
         self.condensed.clone_ref(py)
@@ -244,12 +246,14 @@ impl Structure {
         self.under(load, "load", ConstrainedStructure::solve)
     }
 
-    /// Starts a piece of the load path: from the state at hand the load goes on as load + t rate, t from 0.
+    /// Starts a piece of the load path: from the state at hand the load goes on as load + t rate, t
+    /// from 0.
     fn start(&self, rate: &Bound<'_, PyAny>) -> PyResult<()> {
         self.under(rate, "rate", ConstrainedStructure::start)
     }
 
-    /// Goes on to `end` or to the next change of contact: t, and a list of (row, closes); empty at the end.
+    /// Goes on to `end` or to the next change of contact: t, and a list of (row, closes); empty at
+    /// the end.
     fn step(&self, py: Python<'_>, end: f64) -> PyResult<(f64, Vec<(usize, bool)>)> {
         let event = py
             .detach(|| contained(|| self.lock().step(end)))
@@ -261,7 +265,8 @@ impl Structure {
         Ok((event.t, changes.collect()))
     }
 
-    /// Gaps of the rows, >= 0, in the state at hand: a view of it that stays as it is when the state changes, not to be written to.
+    /// Gaps of the rows, >= 0, in the state at hand: a view of it that stays as it is when the
+    /// state changes, not to be written to.
     #[getter]
     fn gaps<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let gaps = self.lock().shared_gaps();

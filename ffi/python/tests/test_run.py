@@ -479,6 +479,27 @@ def test_a_solid_from_arrays_passes_its_load_on():
         model.elements("lower", hexahedron, shape="quad4")
 
 
+def test_scene_text_beside_arrays_says_all_that_a_scene_may():
+    """A cube between two walls that is heated: the stress is -E alpha dT."""
+    model = brinell.Model("solid")
+    cube = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
+    model.nodes(cube)
+    model.elements("cube", np.array([[0, 1, 3, 2, 4, 5, 7, 6]]), shape="hex8")
+    for name, nodes in [("x0", [0, 2, 4, 6]), ("y0", [0, 1, 4, 5]), ("ends", [0, 1, 2, 3, 4, 5, 6, 7])]:
+        model.node_set(name, np.array(nodes))
+    model.tables("""
+        materials.steel = { youngs_modulus = 200e3, poissons_ratio = 0.3, thermal_expansion = 1e-5 }
+        bodies.cube = { material = "steel" }
+        support = [{ on = "x0", fix = ["x"] }, { on = "y0", fix = ["y"] }, { on = "ends", fix = ["z"] }]
+        load = [{ on = "cube", temperature = "20 + 0*x" }]
+        program.targets = [{ load_factor = 2.0, name = "hot" }]
+    """)
+    state = model.run()["hot"]
+    assert state.fields["stress"][0, 2] == pytest.approx(-200e3 * 1e-5 * 40.0, rel=1e-12)
+    with pytest.raises(brinell.InputError, match="line 1.*\n?.*colour"):
+        model.tables("colour = 1")
+
+
 def test_a_plastic_history_of_a_solid_from_arrays_is_the_scene_s():
     sets = {"mesh.curved_bodies.resolution": 2, "mesh.curved_bodies.contact_width": 2.5, "mesh.curved_bodies.far_size": 10}
     expected = brinell.run(SCENES / "ball_on_flat_3d.toml", sets)

@@ -24,8 +24,8 @@ pub(super) struct Fit {
 }
 
 impl Fit {
-    /// By least squares through the nearest known values, weighted by nearness; `None` where they do
-    /// not determine even a plane.
+    /// By least squares through the nearest known values, weighted by nearness; `None` where they
+    /// do not determine even a plane.
     pub(super) fn new(known: &[Known], origin: [f64; 2]) -> Option<Self> {
         let off = |known: &Known| (known.at[0] - origin[0]).hypot(known.at[1] - origin[1]);
         let mut near: Vec<(f64, Known)> = known.iter().map(|known| (off(known), *known)).collect();
@@ -34,7 +34,8 @@ impl Fit {
             if near.len() < least {
                 continue;
             }
-            // Those as far away as the last one are used too: which of them came first means nothing.
+            // Those as far away as the last one are used too: which of them came first means
+            // nothing.
             let last = near[most.min(near.len()) - 1].0 * (1.0 + 1e-9);
             let used = &near[..near.partition_point(|(off, _)| *off <= last)];
             let scale = used[used.len() - 1].0;

@@ -136,8 +136,8 @@ fn shares(shape: Shape, at: Place) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// Rules have the volume of their element and are exact for cubics; stresses at the Gauss points
-    /// count one at their own and add up to one.
+    /// Rules have the volume of their element and are exact for cubics; stresses at the Gauss
+    /// points count one at their own and add up to one.
     #[test]
     fn rules_are_exact_and_shares_interpolate() {
         for shape in Shape::ALL.into_iter().filter(|shape| shape.is_quadratic()) {
@@ -145,8 +145,8 @@ mod tests {
             let volume: f64 = row.gauss.iter().map(|(_, weight)| weight).sum();
             let sum: f64 = rule(shape).iter().map(|(_, weight)| weight).sum();
             assert!((sum - volume).abs() < 1e-14, "{shape:?}");
-            // int x^3 by the same rule as by the element's own functions: x over a simplex is
-            // d! 3!/(d + 3)! times the volume, and nothing over a cube; over a prism as over its base.
+            // int x^3 by the same rule as by the element's own functions: x over a simplex is d!
+            // 3!/(d + 3)! times the volume, and nothing over a cube; over a prism as over its base.
             let cubes = rule(shape)
                 .iter()
                 .map(|(x, w)| w * x[0].powi(3))

@@ -1,5 +1,5 @@
-//! Faults put in on purpose: each must show in the run's own figures. The structure that the solver works with is corrupted, the
-//! figures see the true one.
+//! Faults put in on purpose: each must show in the run's own figures. The structure that the solver
+//! works with is corrupted, the figures see the true one.
 
 use super::{Displacements, tolerances};
 use crate::analysis::drive::Arrival;
@@ -51,8 +51,8 @@ fn model() -> (Model, System) {
     (model, system)
 }
 
-/// The quality of the state at the end of the load, found by a solver on `used`, `tamper`ed with before and `after` the way there,
-/// and judged by `system`.
+/// The quality of the state at the end of the load, found by a solver on `used`, `tamper`ed with
+/// before and `after` the way there, and judged by `system`.
 fn quality(
     model: &Model,
     system: &System,
@@ -96,7 +96,8 @@ fn a_sound_run_misses_nothing() {
     assert_eq!(q.misses(&tolerances(&model)), []);
 }
 
-/// One entry of the factored matrix is off by 1e-4 of itself: the factor is that of another structure.
+/// One entry of the factored matrix is off by 1e-4 of itself: the factor is that of another
+/// structure.
 #[test]
 fn a_corrupted_factor_is_caught() {
     let (model, system) = model();
@@ -114,7 +115,8 @@ fn a_corrupted_factor_is_caught() {
     caught(&model, q, &["backward_error", "equilibrium"]);
 }
 
-/// The condensed contact matrix is off by 1e-4 in the entry that couples the outermost pair, which stays open, with the pole.
+/// The condensed contact matrix is off by 1e-4 in the entry that couples the outermost pair, which
+/// stays open, with the pole.
 #[test]
 fn a_wrong_schur_complement_is_caught() {
     let (model, system) = model();
@@ -133,8 +135,9 @@ fn a_wrong_schur_complement_is_caught() {
     caught(&model, q, &["equilibrium"]);
 }
 
-/// The status of a pair is wrong in the end state: the surfaces overlap where it should be closed, hold together where it should be
-/// open. The flip clips gaps and forces as if they were sound: displacements and forces then do not belong together.
+/// The status of a pair is wrong in the end state: the surfaces overlap where it should be closed,
+/// hold together where it should be open. The flip clips gaps and forces as if they were sound:
+/// displacements and forces then do not belong together.
 #[test]
 fn a_flipped_status_is_caught() {
     let (model, system) = model();
@@ -160,7 +163,8 @@ fn a_flipped_status_is_caught() {
     }
 }
 
-/// A run keeps the worst condition of all its factorisations, not the last one's, and a run that goes on from a checkpoint knows it too.
+/// A run keeps the worst condition of all its factorisations, not the last one's, and a run that
+/// goes on from a checkpoint knows it too.
 #[test]
 fn the_condition_of_an_earlier_factorisation_is_not_forgotten() {
     let (model, system) = model();
@@ -251,7 +255,8 @@ fn noise_in_a_displacement_shows_in_the_balance_of_forces() {
     }
 }
 
-/// A contact force that is off leaves as much out of balance on its two nodes, of the stresses and of the full solve.
+/// A contact force that is off leaves as much out of balance on its two nodes, of the stresses and
+/// of the full solve.
 #[test]
 fn noise_in_a_contact_force_shows_in_balance_and_backward_errors() {
     let (model, system) = model();
@@ -286,7 +291,8 @@ fn noise_in_a_contact_force_shows_in_balance_and_backward_errors() {
     }
 }
 
-/// The surface of an open pair is pulled: the stresses there hold bodies together that nothing glues.
+/// The surface of an open pair is pulled: the stresses there hold bodies together that nothing
+/// glues.
 #[test]
 fn tension_shows_as_adhesion() {
     let (model, system) = model();
@@ -315,7 +321,8 @@ fn tension_shows_as_adhesion() {
     }
 }
 
-/// Surfaces of a pressed pair that are moved apart, or into each other, whatever the solver's own gaps are.
+/// Surfaces of a pressed pair that are moved apart, or into each other, whatever the solver's own
+/// gaps are.
 #[test]
 fn a_wrong_gap_shows_in_complementarity_and_as_penetration() {
     let (model, system) = model();
@@ -347,7 +354,8 @@ fn a_wrong_gap_shows_in_complementarity_and_as_penetration() {
     }
 }
 
-/// A pair with the wrong status, its gap or force clipped as if it were sound: stresses and displacements show what was clipped.
+/// A pair with the wrong status, its gap or force clipped as if it were sound: stresses and
+/// displacements show what was clipped.
 #[test]
 fn a_wrong_status_shows_with_its_tension_or_penetration() {
     let (model, system) = model();
@@ -377,8 +385,8 @@ fn a_wrong_status_shows_with_its_tension_or_penetration() {
     }
 }
 
-/// Nearly incompressible bodies cost digits of their stresses by their stiffness against a change of volume. What is lost is within the
-/// round-off that the state reports; more is not accepted.
+/// Nearly incompressible bodies cost digits of their stresses by their stiffness against a change
+/// of volume. What is lost is within the round-off that the state reports; more is not accepted.
 #[test]
 fn the_bound_of_forces_follows_the_round_off_of_the_mesh() {
     let text = SCENE.replace("poissons_ratio = 0.3", "poissons_ratio = 0.49999999");

@@ -15,8 +15,8 @@ const CORNERS: [[f64; 3]; 8] = [
     [-1.0, 1.0, 1.0],
 ];
 
-/// An element, or the part of a triangle, prism or tetrahedron round one of its corners, as the image of
-/// `[-1, 1]^D`.
+/// An element, or the part of a triangle, prism or tetrahedron round one of its corners, as the
+/// image of `[-1, 1]^D`.
 pub(super) struct Cell<const D: usize, const N: usize> {
     pub(super) element: u32,
     shape: Shape,
@@ -92,7 +92,7 @@ impl<const D: usize, const N: usize> Cell<D, N> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{SPACINGS, Summit};
+    use super::super::{Maximum, SPACINGS};
     use super::*;
 
     /// The search covers a triangle, whichever of its corners comes first: the highest point of
@@ -109,7 +109,7 @@ mod tests {
                 *node = corners[(first + i) % 3];
             }
             let highest = Cell::of(0, Shape::Tri3, nodes).into_iter().map(|cell| {
-                let mut top = Summit::unknown();
+                let mut top = Maximum::unknown();
                 for spacing in SPACINGS {
                     top.look_around(spacing, &mut |at, _| f(cell.point(at)));
                 }

@@ -153,7 +153,7 @@ impl<'m> Solver<'m> {
 
 fn unfit() -> Error {
     Error::input(
-        "the checkpoint does not fit this build's factorisation (another version of CHOLMOD or of its orderings?): \
-         run the scene again from its beginning",
+        "the checkpoint does not fit this build's factorisation (another version of CHOLMOD or of \
+         its orderings?): run the scene again from its beginning",
     )
 }

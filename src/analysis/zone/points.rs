@@ -1,6 +1,7 @@
 //! The elements of the zone and the points at which they may yield.
 
 use super::{Evaluation, History};
+use crate::analysis::free_strain::FreeStrains;
 use crate::analysis::gather::{GatheredElements, Nodal, Places};
 use crate::element::{Components, Gradients, Kernel};
 use crate::material::{Lame, Material, PlasticState, Softening};
@@ -21,18 +22,22 @@ pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize
     stride: usize,
     materials: Vec<(Material, Lame)>,
     committed: Vec<PlasticState<S>>,
-    /// Equal to `committed` except where `flows`.
+    /// Equal to `committed` except where `yields`.
     trial: Vec<PlasticState<S>>,
-    /// `D - D_ep` at the last evaluated state; zero except where `flows`.
+    /// `D - D_ep` at the last evaluated state; zero except where `yields`.
     pub(super) softening: Vec<Softening<S>>,
-    /// Points that flowed at the last evaluated state.
-    pub(super) flows: Vec<bool>,
+    /// Points that yielded at the last evaluated state.
+    pub(super) yields: Vec<bool>,
     /// Flowing points of each element at the last evaluated state.
-    flowing: Vec<u8>,
-    /// Elements with a flowing point, ascending.
+    yielding: Vec<u8>,
+    /// Elements with a yielding point, ascending.
     pub(super) active: Vec<u32>,
     forces: Vec<[[f64; D]; N]>,
-    /// Initial loads of the committed plastic strains: what flows adds to them.
+    /// What loads by temperature strain freely.
+    free: FreeStrains<P>,
+    /// Factor of each load.
+    factors: Vec<f64>,
+    /// Initial loads of the committed plastic strains: what yields adds to them.
     base: Trailing,
     nodal: Nodal,
     sums: Nodal,
@@ -48,9 +53,10 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         guard: &[bool],
         places: &Places,
     ) -> Self {
-        let gradients = (elements.iter())
+        let gradients: Vec<Gradients<D, S, P, N>> = (elements.iter())
             .map(|&e| model.gradients(kernel, e))
             .collect();
+        let free = FreeStrains::new(model, elements, |i, nodal| gradients[i].at_points(nodal));
         let elements = GatheredElements::new(model, elements, places);
         let n = elements.list.len();
         // That of the mesh, not of these elements: histories pass from zone to zone.
@@ -59,6 +65,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         let (n_zone, n_contact) = places.sizes();
         ZoneOf {
             forces: vec![[[0.0; D]; N]; n],
+            free,
+            factors: vec![0.0; model.loads.len()],
             elements,
             gradients,
             guard: guard.to_vec(),
@@ -71,8 +79,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             committed: vec![PlasticState::default(); n * stride],
             trial: vec![PlasticState::default(); n * stride],
             softening: vec![Softening::NONE; n * stride],
-            flows: vec![false; n * stride],
-            flowing: vec![0; n],
+            yields: vec![false; n * stride],
+            yielding: vec![0; n],
             active: Vec::new(),
             base: Trailing::zeros(n_zone, n_contact),
             nodal: Nodal::new(model, places),
@@ -83,47 +91,51 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
     /// Bytes held.
     pub fn bytes(&self) -> u64 {
         (self.elements.bytes()
+            + self.free.bytes()
             + self.gradients.capacity() * size_of::<Gradients<D, S, P, N>>()
             + self.forces.capacity() * size_of::<[[f64; D]; N]>()
             + self.committed.capacity() * 2 * size_of::<PlasticState<S>>()
             + self.softening.capacity() * size_of::<Softening<S>>()) as u64
     }
 
-    /// Load factors that scale the prescribed displacements from now on.
+    /// Load factors that scale prescribed displacements and free strains from now on.
     pub fn set_factors(&mut self, factors: &[f64]) {
         self.nodal.set_factors(factors);
+        self.factors.copy_from_slice(factors);
     }
 
     /// Integrates the flow rule for displacements `u` and adds up the initial loads: those of the
-    /// committed plastic strains, plus what the points that flow add.
+    /// committed plastic strains, plus what the points that yield add.
     pub fn evaluate(&mut self, u: &Trailing, initial_load: &mut Trailing) -> Evaluation {
         let nodal = self.nodal.displacements(u);
         let (elements, materials, stride) = (&self.elements, &self.materials, self.stride);
+        let (free, factors) = (&self.free, &self.factors);
         (
             &self.gradients,
-            &mut self.flowing,
+            &mut self.yielding,
             &mut self.forces,
             self.trial.par_chunks_mut(stride),
             self.softening.par_chunks_mut(stride),
-            self.flows.par_chunks_mut(stride),
+            self.yields.par_chunks_mut(stride),
             self.committed.par_chunks(stride),
         )
             .into_par_iter()
             .enumerate()
             .with_min_len(GRAIN)
             .for_each(
-                |(i, (gradients, flowing, force, trial, softening, flows, committed))| {
+                |(i, (gradients, yielding, force, trial, softening, yields, committed))| {
                     let packed = &elements.list[i];
                     let (material, law) = &materials[packed.body as usize];
-                    let strains = gradients.strains(&elements.displacements(i, nodal));
+                    let mut strains = gradients.strains(&elements.displacements(i, nodal));
+                    free.take_off(i, factors, &mut strains);
                     let mut added = [[0.0; P]; S];
-                    *flowing = 0;
+                    *yielding = 0;
                     for g in 0..gradients.n_points() {
                         let (strain, old) = (&at_point(&strains, g), &committed[g]);
                         // Most points are elastic: nothing is stored for them.
                         if material.stays_elastic(law, strain, old) {
-                            if flows[g] {
-                                flows[g] = false;
+                            if yields[g] {
+                                yields[g] = false;
                                 trial[g] = *old;
                                 softening[g] = Softening::NONE;
                             }
@@ -132,13 +144,13 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
                         let update = material.integrate(law, strain, old);
                         trial[g] = update.state;
                         softening[g] = update.softening;
-                        flows[g] = true;
-                        *flowing += 1;
+                        yields[g] = true;
+                        *yielding += 1;
                         let change =
                             std::array::from_fn(|k| update.state.strain[k] - old.strain[k]);
                         put(&mut added, g, law.times(&change));
                     }
-                    if *flowing > 0 {
+                    if *yielding > 0 {
                         *force = gradients.forces(&added);
                     }
                 },
@@ -146,9 +158,9 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         let mut result = Evaluation::default();
         self.active.clear();
         let sums = self.sums.start_sum(Some(&self.base));
-        for (i, &flowing) in self.flowing.iter().enumerate() {
-            if flowing > 0 {
-                result.flowing += flowing as usize;
+        for (i, &yielding) in self.yielding.iter().enumerate() {
+            if yielding > 0 {
+                result.yielding += yielding as usize;
                 self.active.push(i as u32);
                 result.guard_flows += usize::from(self.guard[i]);
                 self.elements.scatter(i, &self.forces[i], sums);
@@ -158,8 +170,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         result
     }
 
-    /// `out = sum_g w_g B' (D - D_ep) B v` at the last evaluated state, for a `v` that vanishes where displacements are
-    /// prescribed.
+    /// `out = sum_g w_g B' (D - D_ep) B v` at the last evaluated state, for a `v` that vanishes
+    /// where displacements are prescribed.
     pub fn softening_times(&mut self, v: &Trailing, out: &mut Trailing) {
         let nodal = self.nodal.variation(v);
         let (elements, gradients) = (&self.elements, &self.gradients);
@@ -186,19 +198,19 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         self.sums.sum_into(out);
     }
 
-    /// Marks the zone freedoms of elements in which a point flowed at the last evaluated state.
+    /// Marks the zone freedoms of elements in which a point yielded at the last evaluated state.
     pub fn mark_active(&self, marks: &mut [bool]) {
         for &i in &self.active {
             self.elements.mark(i as usize, marks);
         }
     }
 
-    /// True where no point flowed at the last evaluated state.
+    /// True where no point yielded at the last evaluated state.
     pub fn is_idle(&self) -> bool {
         self.active.is_empty()
     }
 
-    /// Forgets which points flow, so that the next tangent is elastic.
+    /// Forgets which points yield, so that the next tangent is elastic.
     pub fn assume_elastic(&mut self) {
         self.active.clear();
     }
@@ -249,7 +261,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             }
         }
         self.trial.copy_from_slice(&self.committed);
-        self.flows.fill(false);
+        self.yields.fill(false);
         self.softening.fill(Softening::NONE);
         self.active.clear();
         self.renew_base();

@@ -1,4 +1,4 @@
-//! What a checkpoint keeps of the zone beside the history: what the next increment is predicted
+//! What a checkpoint keeps of the zone besides the history: what the next increment is predicted
 //! from.
 
 use super::ZoneOf;
@@ -12,7 +12,7 @@ pub(in crate::analysis) struct Yielding {
     /// Elements (places in the zone) with a point that yielded.
     active: Ascending,
     /// Their points (places in the zone's arrays) that did.
-    flowing: Ascending,
+    yielding: Ascending,
     /// What flow takes off the elastic matrix there.
     softening: Vec<Softening<6>>,
 }
@@ -22,29 +22,29 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
     pub(in crate::analysis) fn yielding(&self) -> Yielding {
         let active = self.active.iter().map(|&i| i as usize);
         let points = active.clone().flat_map(|i| self.points_of(i));
-        let flowing: Vec<usize> = points.filter(|&point| self.flows[point]).collect();
+        let yielding: Vec<usize> = points.filter(|&point| self.yields[point]).collect();
         Yielding {
             active: Ascending::new(active),
-            softening: (flowing.iter())
+            softening: (yielding.iter())
                 .map(|&point| self.softening[point].resized())
                 .collect(),
-            flowing: Ascending::new(flowing),
+            yielding: Ascending::new(yielding),
         }
     }
 
     /// Takes over what another zone of the same elements says; false where it is of others.
     pub(in crate::analysis) fn set_yielding(&mut self, record: &Yielding) -> bool {
         let fits = record.active.within(self.elements.list.len())
-            && record.flowing.within(self.flows.len())
-            && record.flowing.len() == record.softening.len();
+            && record.yielding.within(self.yields.len())
+            && record.yielding.len() == record.softening.len();
         if !fits {
             return false;
         }
-        self.flows.fill(false);
+        self.yields.fill(false);
         self.softening.fill(Softening::NONE);
         self.active = record.active.iter().map(|i| i as u32).collect();
-        for (point, softening) in record.flowing.iter().zip(&record.softening) {
-            self.flows[point] = true;
+        for (point, softening) in record.yielding.iter().zip(&record.softening) {
+            self.yields[point] = true;
             self.softening[point] = softening.resized();
         }
         true

@@ -79,7 +79,7 @@ fn a_plastic_history_of_a_solid_from_arrays_is_the_scene_s() {
     }
 }
 
-/// The punch on its block from the arrays of the scene's mesh.
+/// The punch on its block from the arrays of the scene's mesh, with the rest as text.
 ///
 /// # Safety
 /// The arrays of the mesh live.
@@ -138,58 +138,36 @@ unsafe fn punch(mesh: &brinell_mesh) -> *mut brinell_model {
                 n,
             ));
         }
-        for (name, modulus, yield_stress) in [(c"hard", 2.1e6, 0.0), (c"metal", 2.1e5, 300.0)] {
-            let mut material: brinell_material = std::mem::zeroed();
-            material.size = size_of::<brinell_material>();
-            (material.youngs_modulus, material.poissons_ratio) = (modulus, 0.3);
-            material.yield_stress = yield_stress;
-            material.plastic_modulus = if yield_stress > 0.0 { 2000.0 } else { 0.0 };
-            ok(brinell_model_material(model, name.as_ptr(), &material));
-        }
-        for (body, material) in [(c"punch", c"hard"), (c"block", c"metal")] {
-            ok(brinell_model_body(
-                model,
-                body.as_ptr(),
-                material.as_ptr(),
-                0,
-            ));
-        }
-        let (first, second) = (c"punch.bottom", c"block.top");
-        ok(brinell_model_contact(
-            model,
-            first.as_ptr(),
-            second.as_ptr(),
-            null(),
-        ));
-        for on in [c"punch.left", c"block.left"] {
-            ok(brinell_model_support(model, on.as_ptr(), BRINELL_X, 0.0));
-        }
-        for on in [c"punch.front", c"block.front"] {
-            let along = [0.0, 1.0, 0.0];
-            ok(brinell_model_support_along(
-                model,
-                on.as_ptr(),
-                along.as_ptr(),
-            ));
-        }
-        ok(brinell_model_support(
-            model,
-            c"block.bottom".as_ptr(),
-            BRINELL_Z,
-            0.0,
-        ));
-        let mut press: brinell_load = std::mem::zeroed();
-        press.size = size_of::<brinell_load>();
-        (press.kind, press.directions) = (BRINELL_LOAD_PLANE_FORCE, BRINELL_Z);
-        (press.name, press.on) = (c"press".as_ptr(), c"punch.top".as_ptr());
-        press.values = [-3600.0, 0.0, 0.0];
-        ok(brinell_model_load(model, &press));
-        for (name, value) in [(c"alpha 1", 1.0), (c"unloaded", 0.0)] {
-            let mut target: brinell_target = std::mem::zeroed();
-            target.size = size_of::<brinell_target>();
-            (target.name, target.value) = (name.as_ptr(), value);
-            ok(brinell_model_target(model, &target));
-        }
+        let tables = c"
+            materials.hard = { youngs_modulus = 2.1e6, poissons_ratio = 0.3 }
+            bodies.punch = { material = 'hard' }
+            bodies.block = { material = 'metal' }
+            contact = [{ first = 'punch.bottom', second = 'block.top' }]
+            support = [
+                { on = 'punch.left', fix = ['x'] },
+                { on = 'block.left', fix = ['x'] },
+                { on = 'punch.front', direction = [0, 1, 0] },
+                { on = 'block.front', direction = [0, 1, 0] },
+                { on = 'block.bottom', fix = ['z'] },
+            ]
+            load = [{ name = 'press', on = 'punch.top',
+                plane_force = { direction = 'z', total = -3600.0 } }]
+            program.targets = [{ name = 'alpha 1', load_factor = 1.0 }]
+            [materials.metal]
+            youngs_modulus = 2.1e5
+            poissons_ratio = 0.3
+            yield_stress = 300.0
+            plastic_modulus = 2000.0
+        ";
+        ok(brinell_model_tables(model, tables.as_ptr()));
+        // Text and structures go together.
+        let mut target: brinell_target = std::mem::zeroed();
+        target.size = size_of::<brinell_target>();
+        target.name = c"unloaded".as_ptr();
+        ok(brinell_model_target(model, &target));
+        let wrong = brinell_model_tables(model, c"materials.metal = 3".as_ptr());
+        assert_eq!(wrong, BRINELL_INPUT);
+        assert!(message().contains("line 1"), "{}", message());
         model
     }
 }

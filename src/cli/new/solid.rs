@@ -3,6 +3,7 @@
 use super::{HEAD, Steel, UNITS, material, not_zero, positive, rounded_up, toml};
 use crate::analytical::{HertzEllipse, contact_modulus};
 use crate::error::Result;
+use crate::number::significant;
 use clap::Args;
 
 /// Elements over the smaller half axis where nothing is said: a run takes seconds.
@@ -24,17 +25,37 @@ pub(in crate::cli) struct Common {
 /// A ball in the groove of a race.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: brinell new ball-in-groove --radius 5 --groove 5.2 --race 20 --out groove.toml && brinell run groove.toml"
+    after_help = "Example: brinell new ball-in-groove --radius 5 --groove 5.2 --race 20 --out \
+                  groove.toml && brinell run groove.toml"
 )]
 pub(in crate::cli) struct Groove {
     /// Radius of the ball [mm]
-    #[arg(long, value_name = "R", default_value_t = 5.0, value_parser = positive, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "R",
+        default_value_t = 5.0,
+        value_parser = positive,
+        allow_negative_numbers = true
+    )]
     pub radius: f64,
     /// Radius of the groove across, larger than the ball's [mm]
-    #[arg(long, value_name = "R", default_value_t = 5.2, value_parser = positive, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "R",
+        default_value_t = 5.2,
+        value_parser = positive,
+        allow_negative_numbers = true
+    )]
     pub groove: f64,
-    /// Radius of the race along the groove [mm]: positive for an inner race, negative for an outer one
-    #[arg(long, value_name = "R", default_value_t = 20.0, value_parser = not_zero, allow_negative_numbers = true)]
+    /// Radius of the race along the groove [mm]: positive for an inner race, negative for an outer
+    /// one
+    #[arg(
+        long,
+        value_name = "R",
+        default_value_t = 20.0,
+        value_parser = not_zero,
+        allow_negative_numbers = true
+    )]
     pub race: f64,
     #[command(flatten)]
     pub common: Common,
@@ -43,20 +64,33 @@ pub(in crate::cli) struct Groove {
 /// Two cylinders at right angles.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: brinell new crossed-cylinders --upper 4 --lower 12 --out crossed.toml && brinell run crossed.toml"
+    after_help = "Example: brinell new crossed-cylinders --upper 4 --lower 12 --out crossed.toml \
+                  && brinell run crossed.toml"
 )]
 pub(in crate::cli) struct Crossed {
     /// Radius of the upper cylinder, whose axis is x [mm]
-    #[arg(long, value_name = "R", default_value_t = 4.0, value_parser = positive, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "R",
+        default_value_t = 4.0,
+        value_parser = positive,
+        allow_negative_numbers = true
+    )]
     pub upper: f64,
     /// Radius of the lower cylinder, whose axis is y [mm]
-    #[arg(long, value_name = "R", default_value_t = 12.0, value_parser = positive, allow_negative_numbers = true)]
+    #[arg(
+        long,
+        value_name = "R",
+        default_value_t = 12.0,
+        value_parser = positive,
+        allow_negative_numbers = true
+    )]
     pub lower: f64,
     #[command(flatten)]
     pub common: Common,
 }
 
-/// The two bodies: principal radii along x and y, and what the scene says of them.
+/// The two bodies: principal radii along x and y, and what the scene states about them.
 struct Bodies {
     title: &'static str,
     upper: ([f64; 2], &'static str),
@@ -83,7 +117,8 @@ pub(super) fn ball_in_groove(groove: &Groove) -> Result<String> {
         upper: ([groove.radius; 2], "ball"),
         lower: (
             [-groove.groove, groove.race],
-            "the groove is hollow across; along it the race is convex (positive) or hollow (negative)",
+            "the groove is hollow across; along it the race is convex (positive) or hollow \
+             (negative)",
         ),
     };
     let Common {
@@ -128,17 +163,18 @@ fn scene(bodies: &Bodies, load: Option<f64>, resolution: usize, steel: &Steel) -
         .collect();
     Ok(format!(
         "{HEAD}#
-# By Hertz the material first yields at a load of {yields} N; the largest load is {times} times that.
+# By Hertz the material first yields at a load of {yields} N;
+# the largest load is {times} times that.
 title = \"{title}\"
 kind = \"solid\"
 {UNITS}
-symmetry = 4                 # a quarter is meshed, x and y >= 0: loads and results are those of the whole
+symmetry = 4                 # x and y >= 0 are meshed; loads and results are those of the whole
 
 # Principal radii along x and y: positive convex, negative hollow, 0 flat.
 [mesh.curved_bodies]
 upper = [{upper}]         # {of_upper}
 lower = [{lower}]         # {of_lower}
-resolution = {resolution}               # elements over the smaller half axis of the contact: 4 coarse, 8 fine, time grows with its sixth power
+resolution = {resolution}   # elements over the smaller half axis of the contact: 4 coarse, 8 fine
 
 {material}
 [[contact]]
@@ -164,8 +200,8 @@ targets = [
 [[reference]]
 hertz_ellipse = {{ first = [{upper}], second = [{lower}] }}
 ",
-        yields = super::significant(yield_load, 4),
-        times = super::significant(load / yield_load, 3),
+        yields = significant(yield_load, 4),
+        times = significant(load / yield_load, 3),
         title = bodies.title,
         upper = list(bodies.upper.0),
         of_upper = bodies.upper.1,

@@ -1,7 +1,7 @@
 //! Supports and loads.
 //!
-//! What a line gives for a whole set stays one entry on that set, where all its members go through the
-//! same; what is left is gathered by what it goes through, on sets made for it.
+//! What a line gives for a whole set stays one entry on that set, where all its members go through
+//! the same; what is left is gathered by what it goes through, on sets made for it.
 
 use super::super::bodies::unsupported;
 use super::super::data::{Condition, Kind, Target};
@@ -234,7 +234,8 @@ impl Draft<'_> {
             if !entry.series.is_zero() {
                 let node = self.deck.nodes.labels[key.0 as usize];
                 let message = format!(
-                    "node {node} is moved along an axis of a *TRANSFORM: displacements are given along x, y, z"
+                    "node {node} is moved along an axis of a *TRANSFORM: displacements are given \
+                     along x, y, z"
                 );
                 return Err(unsupported(self.deck.error(
                     entry.place,

@@ -4,12 +4,13 @@ use super::super::data::{Account, ContactPair};
 use super::super::facets::Face;
 use super::Draft;
 use crate::error::Result;
+use crate::number::exact;
 use crate::scene::{Contact, SlaveSide, Tie};
 use crate::space::{difference, length};
-use crate::text::exact;
 
 impl Draft<'_> {
-    /// The slave surface is the first one. A clearance is a gap, or an interference where it is negative.
+    /// The slave surface is the first one. A clearance is a gap, or an interference where it is
+    /// negative.
     pub(super) fn contacts(&mut self, account: &mut Account) -> Result<()> {
         let properties = &self.deck.properties;
         for pair in &properties.contacts {
@@ -72,8 +73,8 @@ impl Draft<'_> {
         }
     }
 
-    /// Nodes within a distance of the other surface are meant to lie on it. Where all of them are, the
-    /// gaps are zero; otherwise they stay what they are in the mesh.
+    /// Nodes within a distance of the other surface are meant to lie on it. Where all of them are,
+    /// the gaps are zero; otherwise they stay what they are in the mesh.
     fn adjust(
         &self,
         pair: &ContactPair,
@@ -98,7 +99,8 @@ impl Draft<'_> {
             )
         } else {
             format!(
-                "ADJUST={}: the {near} of {} nodes of {} that are so close to a node of {} stay where they are",
+                "ADJUST={}: the {near} of {} nodes of {} that are so close to a node of {} stay \
+                 where they are",
                 exact(within),
                 slave.len(),
                 pair.slave,

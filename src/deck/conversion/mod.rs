@@ -13,11 +13,9 @@ use super::bodies::{Bodies, unsupported};
 use super::data::{Account, Note, Section};
 use super::series::are_alike;
 use crate::error::{Error, ErrorKind, Result};
-use crate::scene::{
-    Body, History, KeyPlaces, Material, MeshSource, Program, Scene, Settings, Stepping, Target,
-};
+use crate::number::exact;
+use crate::scene::{Body, History, Material, Scene, Stepping, Target};
 use crate::space::Space;
-use crate::text::exact;
 use draft::Draft;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -45,8 +43,8 @@ impl Deck {
     /// The scene that the deck describes.
     ///
     /// # Errors
-    /// `Unsupported` with all lines that ask for what brinell does not have; `Input` by file, line and
-    /// keyword for what does not fit together.
+    /// `Unsupported` with all lines that ask for what brinell does not have; `Input` by file, line
+    /// and keyword for what does not fit together.
     pub fn convert(&self, options: Options) -> Result<Conversion> {
         let mut account = self.account.clone();
         self.judge_nlgeom(options, &mut account);
@@ -95,7 +93,8 @@ impl Deck {
             ),
             false => (
                 &mut account.refused,
-                "NLGEOM: strains and displacements are small here; take it out, or compute with --small-strain",
+                "NLGEOM: strains and displacements are small here; take it out, or compute with \
+                 --small-strain",
             ),
         };
         Account::add(list, &self.files, place, "STEP", text);
@@ -145,29 +144,10 @@ impl Deck {
             true => name.to_string_lossy().into_owned(),
             false => self.title.clone(),
         };
-        Scene {
-            title,
-            kind: space,
-            units: None,
-            symmetry: 1,
-            mesh: MeshSource {
-                file: Some(name.into()),
-                ..MeshSource::default()
-            },
-            materials: BTreeMap::new(),
-            bodies: BTreeMap::new(),
-            contact: Vec::new(),
-            tie: Vec::new(),
-            support: Vec::new(),
-            load: Vec::new(),
-            program: Program::default(),
-            analysis: Settings::default(),
-            accuracy: None,
-            reference: Vec::new(),
-            file: None,
-            places: KeyPlaces::default(),
-            warnings: Vec::new(),
-        }
+        let mut scene = Scene::of(space);
+        scene.title = title;
+        scene.mesh.file = Some(name.into());
+        scene
     }
 
     fn add_bodies(
@@ -210,8 +190,8 @@ impl Deck {
         Ok(())
     }
 
-    /// Without contact there is no event to step to: steps then take equal increments, at least as many
-    /// as the deck's first ones would be.
+    /// Without contact there is no event to step to: steps then take equal increments, at least as
+    /// many as the deck's first ones would be.
     fn choose_stepping(&self, draft: &Draft, scene: &mut Scene) {
         let can_yield = scene.materials.values().any(|m| m.yield_stress.is_some());
         if draft.contacts.is_empty() && can_yield {
@@ -222,8 +202,9 @@ impl Deck {
         }
     }
 
-    /// Loads with their histories, and a target for each step. Where everything that changes does so in
-    /// proportion and from step to step, load factors are multiples of the loads; otherwise times.
+    /// Loads with their histories, and a target for each step. Where everything that changes does
+    /// so in proportion and from step to step, load factors are multiples of the loads; otherwise
+    /// times.
     fn add_loads(&self, draft: &mut Draft, scene: &mut Scene) {
         let ends = self.step_ends();
         let shapes: Vec<_> = draft

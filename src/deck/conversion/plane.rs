@@ -24,7 +24,8 @@ impl Draft<'_> {
             {
                 let label = self.deck.nodes.labels[*node as usize];
                 let message = format!(
-                    "node {label} follows another one along {} and is held or moved there too: take it out of one",
+                    "node {label} follows another one along {} and is held or moved there too: \
+                     take it out of one",
                     axis + 1
                 );
                 return Err(self.deck.error(plane.place, "EQUATION", message));

@@ -7,7 +7,7 @@ use crate::deck::fields::Fields;
 use crate::deck::keyword::Keyword;
 use crate::deck::source::Line;
 use crate::error::Result;
-use crate::text::exact;
+use crate::number::exact;
 
 /// Most increments of a step that are taken over.
 const MOST_INCREMENTS: f64 = 1000.0;
@@ -244,7 +244,8 @@ impl Reader<'_> {
             row.end()?;
             if !(1..=3).contains(&freedom) {
                 return Err(row.place.error(format!(
-                    "degree of freedom {freedom}: forces act along 1, 2 and 3; moments and heat are not"
+                    "degree of freedom {freedom}: forces act along 1, 2 and 3; moments and heat \
+                     are not"
                 )));
             }
             self.add(Condition {
@@ -349,7 +350,8 @@ fn freedoms(row: &mut Fields) -> Result<(Vec<[usize; 2]>, f64)> {
     };
     if first == 0 || last < first || last > 6 {
         return Err(row.place.error(format!(
-            "degrees of freedom {first} to {last}: displacements are 1, 2 and 3, the last must not be less than the first"
+            "degrees of freedom {first} to {last}: displacements are 1, 2 and 3, the last must not \
+             be less than the first"
         )));
     }
     Ok((vec![[first, last]], value))

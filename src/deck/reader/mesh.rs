@@ -143,8 +143,8 @@ fn range(fields: &mut Fields) -> Result<Member> {
     fields.end()?;
     if step == 0 || last < first {
         return Err(fields.place.error(format!(
-            "GENERATE from {first} to {last} by {step} gives nothing; the last number must not be less than the first, the \
-             step at least 1"
+            "GENERATE from {first} to {last} by {step} gives nothing; the last number must not be \
+             less than the first, the step at least 1"
         )));
     }
     Ok(Member::Range(first, last, step))

@@ -7,7 +7,7 @@ use crate::deck::data::{
 };
 use crate::deck::keyword::Keyword;
 use crate::error::Result;
-use crate::text::exact;
+use crate::number::exact;
 
 /// Most terms of an equation.
 const MOST_TERMS: u64 = 100_000;
@@ -80,7 +80,8 @@ impl Reader<'_> {
         let laws = ["ISOTROPIC", "KINEMATIC", "COMBINED", "JOHNSON COOK", "USER"];
         let law = keyword.choice(&self.source.files, "HARDENING", &laws)?;
         if law != "ISOTROPIC" || keyword.has("RATE") {
-            let why = "hardening is isotropic and independent of rate here: there is no kinematic hardening yet";
+            let why = "hardening is isotropic and independent of rate here: there is no kinematic \
+                       hardening yet";
             self.refuse(keyword, keyword.place, why);
             return self.skip();
         }
@@ -100,7 +101,8 @@ impl Reader<'_> {
             let last = rows.last().map_or(-1.0, |row| row[0]);
             if (rows.is_empty() && strain != 0.0) || strain <= last {
                 return Err(row.place.error(format!(
-                    "the plastic strain is {}; the first must be 0, and each greater than the one before",
+                    "the plastic strain is {}; the first must be 0, and each greater than the one \
+                     before",
                     exact(strain)
                 )));
             }
@@ -187,7 +189,8 @@ impl Reader<'_> {
             return self.slope(keyword);
         } else if law != "HARD" {
             let how = format!(
-                "PRESSURE-OVERCLOSURE={law} is taken as hard contact: the surfaces do not overlap, and no stiffness is needed"
+                "PRESSURE-OVERCLOSURE={law} is taken as hard contact: the surfaces do not overlap, \
+                 and no stiffness is needed"
             );
             self.take(keyword, keyword.place, &how);
         }
@@ -258,7 +261,8 @@ impl Reader<'_> {
                 Ok(distance) if distance >= 0.0 && distance.is_finite() => Some(distance),
                 _ => {
                     let why = format!(
-                        "ADJUST={text}: only a distance, 0 or more, is read; give one or take it out"
+                        "ADJUST={text}: only a distance, 0 or more, is read; give one or take it \
+                         out"
                     );
                     return Err(keyword.error(files, why));
                 }
@@ -340,8 +344,8 @@ impl Reader<'_> {
         let how = match is_moved {
             true => "the surfaces are tied in the mean over their faces, not node by node",
             false => {
-                "the surfaces are tied in the mean over their faces, not node by node; nodes of the \
-                 slave surface are moved onto the master surface, ADJUST=NO or not"
+                "the surfaces are tied in the mean over their faces, not node by node; nodes of \
+                 the slave surface are moved onto the master surface, ADJUST=NO or not"
             }
         };
         self.take(keyword, keyword.place, how);

@@ -33,8 +33,8 @@ pub(super) fn enter() -> Result<Entered> {
         let left = memory::limits().unwrap_or(f64::INFINITY);
         if left < BUFFER {
             return Err(Error::analysis(format!(
-                "out of memory: the BLAS needs a work buffer of {:.0} MB and the limits of this process leave {:.0} MB: \
-                 raise them (ulimit -v)",
+                "out of memory: the BLAS needs a work buffer of {:.0} MB and the limits of this \
+                 process leave {:.0} MB: raise them (ulimit -v)",
                 BUFFER / 1e6,
                 (left / 1e6).floor()
             )));

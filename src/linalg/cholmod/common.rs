@@ -85,20 +85,22 @@ impl Common {
             sys::CHOLMOD_OUT_OF_MEMORY => Error::new(
                 ErrorKind::Analysis,
                 format!(
-                    "out of memory in the {what} of {n} freedoms: it asked for about {:.0} MB, with {used:.0} MB in \
-                     use by CHOLMOD: use a coarser mesh, a smaller zone or a machine with more memory",
+                    "out of memory in the {what} of {n} freedoms: it asked for about {:.0} MB, \
+                     with {used:.0} MB in use by CHOLMOD: use a coarser mesh, a smaller zone or a \
+                     machine with more memory",
                     (bytes / 1e6).ceil()
                 ),
             ),
             sys::CHOLMOD_TOO_LARGE => Error::new(
                 ErrorKind::Analysis,
                 format!(
-                    "the {what} of {n} freedoms is too large for the integers of CHOLMOD or its BLAS: \
-                     use a coarser mesh"
+                    "the {what} of {n} freedoms is too large for the integers of CHOLMOD or its \
+                     BLAS: use a coarser mesh"
                 ),
             ),
             sys::CHOLMOD_NOT_INSTALLED => Error::input(format!(
-                "this CHOLMOD lacks the method for the {what} of {n} freedoms: install a complete SuiteSparse"
+                "this CHOLMOD lacks the method for the {what} of {n} freedoms: install a complete \
+                 SuiteSparse"
             )),
             _ => Error::internal(format!(
                 "CHOLMOD failed in the {what} of {n} freedoms (status {status})"

@@ -48,7 +48,8 @@ pub(super) struct Ordering {
 /// How the order is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
-    /// The candidate with the fewest floating point operations; the dear one only where it may pay.
+    /// The candidate with the fewest floating point operations; the expensive one only where it may
+    /// pay.
     #[default]
     Automatic,
     /// Constrained approximate minimum degree.
@@ -69,12 +70,12 @@ pub(super) fn choose(
     // As many operations has the whole matrix for one of the pattern.
     let scale = compressed.size().powi(3);
     let entries = matrix.rows().len() as f64;
-    let dear = |order: &Ordering| scale * order.flops > TRY_DISSECTION_ABOVE * entries;
+    let is_expensive = |order: &Ordering| scale * order.flops > TRY_DISSECTION_ABOVE * entries;
     let mut order = match method {
         Method::Dissection => dissection(common, &pattern, groups)?,
         _ => minimum_degree(common, &pattern, groups)?,
     };
-    if method == Method::Automatic && dear(&order) {
+    if method == Method::Automatic && is_expensive(&order) {
         let other = dissection(common, &pattern, groups)?;
         if other.flops < order.flops {
             order = other;

@@ -22,7 +22,7 @@ pub(super) struct Factor {
     counts: Vec<i64>,
     nonzeros: f64,
     flops: f64,
-    /// Bytes that the factorisation needs beside factor and matrix.
+    /// Bytes that the factorisation needs besides factor and matrix.
     workspace: f64,
     starts: Vec<i64>,
     row_starts: Vec<i64>,

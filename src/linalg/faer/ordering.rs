@@ -5,8 +5,8 @@
 //! | `AMD` | approximate minimum degree of interior and zone | plane meshes |
 //! | `nested dissection` | separators of interior and zone | large and solid meshes |
 //!
-//! Neither knows of groups, so each group is ordered by itself. The freedoms of the zone that touch the
-//! interior come last of it: once the interior is gone they are all coupled with one another,
+//! Neither knows of groups, so each group is ordered by itself. The freedoms of the zone that touch
+//! the interior come last of it: once the interior is gone they are all coupled with one another,
 //! whatever the order. The candidate with the fewest floating point operations is kept. Both order
 //! supervariables ([`Supervariables`]).
 //!

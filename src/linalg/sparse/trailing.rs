@@ -153,7 +153,8 @@ impl Trailing {
             .try_reserve_exact(nonzeros)
             .map_err(|cause| {
                 Error::analysis(format!(
-                    "out of memory for the {nonzeros} nonzeros of the zone's factor: choose a smaller zone"
+                    "out of memory for the {nonzeros} nonzeros of the zone's factor: choose a \
+                     smaller zone"
                 ))
                 .because(cause)
             })?;

@@ -85,8 +85,8 @@ impl Triangular {
         pieces
     }
 
-    /// `y = L^-1 f` in place. What a subtree adds to the rows above it is summed in the order of the
-    /// subtrees, so the bits are the same for any number of threads.
+    /// `y = L^-1 f` in place. What a subtree adds to the rows above it is summed in the order of
+    /// the subtrees, so the bits are the same for any number of threads.
     #[cfg(feature = "faer")]
     pub(crate) fn forward(&self, supernodes: &Supernodes, x: &mut [f64]) {
         let n = x.len();

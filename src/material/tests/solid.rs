@@ -58,19 +58,19 @@ fn rotation(angles: [f64; 3]) -> [[f64; 3]; 3] {
 #[test]
 fn a_path_of_plane_strain_is_the_same_in_six_components() {
     let mut number = numbers();
-    for curve in curves() {
-        let m = material(Space::PlaneStrain, 0.3, curve);
+    let all = curves().into_iter();
+    for m in all.flat_map(|curve| both(material(Space::PlaneStrain, 0.3, curve))) {
         let law = m.lame();
         let (mut plane, mut space) = (PlasticState::default(), PlasticState::default());
         let mut strain = [0.0; 4];
-        let mut flowed = 0;
+        let mut yielded = 0;
         for _ in 0..40 {
             strain = strain.map(|e| e + 0.01 * number());
             strain[2] = 0.0;
             let of_plane = m.integrate(&law, &strain, &plane);
             let of_space = m.integrate(&law, &in_space(strain), &space);
-            assert_eq!(of_plane.flows, of_space.flows);
-            flowed += usize::from(of_plane.flows);
+            assert_eq!(of_plane.yields, of_space.yields);
+            yielded += usize::from(of_plane.yields);
             (plane, space) = (of_plane.state, of_space.state);
             assert_eq!(in_space(plane.strain), space.strain);
             assert_eq!(plane.equivalent, space.equivalent);
@@ -87,7 +87,7 @@ fn a_path_of_plane_strain_is_the_same_in_six_components() {
                 of_space.softening.times(&in_space(direction))
             );
         }
-        assert!(flowed > 10, "{flowed}");
+        assert!(yielded > 10, "{yielded}");
     }
 }
 
@@ -95,8 +95,8 @@ fn a_path_of_plane_strain_is_the_same_in_six_components() {
 #[test]
 fn a_turned_path_gives_the_turned_stress() {
     let mut number = numbers();
-    for curve in curves() {
-        let m = material(Space::PlaneStrain, 0.3, curve);
+    let all = curves().into_iter();
+    for m in all.flat_map(|curve| both(material(Space::PlaneStrain, 0.3, curve))) {
         let law = m.lame();
         for _ in 0..20 {
             let q = rotation(std::array::from_fn(|_| 3.0 * number()));
@@ -124,7 +124,7 @@ fn a_turned_path_gives_the_turned_stress() {
 #[test]
 fn the_tangent_is_the_derivative_in_six_components() {
     let mut number = numbers();
-    let mut flowed = 0;
+    let mut yielded = 0;
     for round in 0..300 {
         let curve = curves()[round % 3].clone();
         let knees: &[f64] = if round % 3 == 2 { &[0.004, 0.01] } else { &[] };
@@ -133,6 +133,7 @@ fn the_tangent_is_the_derivative_in_six_components() {
             [0.0, 0.3, 0.49][round % 7 % 3],
             curve.clone(),
         );
+        let m = both(m)[round % 2].clone();
         let law = m.lame();
         let strain: [f64; 6] = std::array::from_fn(|_| 0.02 * number());
         let mut past: [f64; 6] = std::array::from_fn(|_| 0.002 * number());
@@ -144,11 +145,11 @@ fn the_tangent_is_the_derivative_in_six_components() {
         let update = m.integrate(&law, &strain, &old);
         let h = 1e-8;
         let near_knee = |k: &f64| (update.state.equivalent - k).abs() <= 10.0 * h;
-        if !update.flows || knees.iter().any(near_knee) {
+        if !update.yields || knees.iter().any(near_knee) {
             continue;
         }
-        flowed += 1;
-        let q = von_mises(&law.stress(&strain, &update.state.strain));
+        yielded += 1;
+        let q = von_mises(&m.relative_stress(&law, &strain, &update.state));
         assert!((q - curve.yield_stress(update.state.equivalent)).abs() < 1e-11);
         let (elastic, lost) = (
             matrix::<6>(|e| law.times(e)),
@@ -171,7 +172,7 @@ fn the_tangent_is_the_derivative_in_six_components() {
             }
         }
     }
-    assert!(flowed > 200, "{flowed}");
+    assert!(yielded > 200, "{yielded}");
 }
 
 /// The law of [`Lame`] against Hooke's, written with E and nu.
@@ -195,5 +196,6 @@ fn lame_is_hooke() {
     let Lame { lambda, mu, .. } = m.lame();
     let reduced = 2.0 * lambda * mu / (lambda + 2.0 * mu);
     assert!((plane.lambda - reduced).abs() < 1e-13 * reduced);
-    assert!((m.lame().bulk() - m.bulk_modulus()).abs() < 1e-13 * m.bulk_modulus());
+    let bulk = e / (3.0 * (1.0 - 2.0 * nu));
+    assert!((m.lame().bulk() - bulk).abs() < 1e-13 * bulk);
 }

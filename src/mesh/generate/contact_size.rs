@@ -10,19 +10,22 @@ use crate::scene::{
 };
 use std::f64::consts::PI;
 
-/// Elastic contacts are meshed this much wider than Hertz has them: room for what is read off beside their edge.
+/// Elastic contacts are meshed this much wider than Hertz has them: room for what is read off
+/// beside their edge.
 const ROOM: f64 = 1.15;
-/// Largest square of the contact radius over `2 R h` with the depth `h`: the pile-up of a material without hardening.
+/// Largest square of the contact radius over `2 R h` with the depth `h`: the pile-up of a material
+/// without hardening.
 ///
 /// # Source
-/// R. Hill, B. Storakers, A. B. Zdunek, A theoretical study of the Brinell hardness test, Proc. R. Soc. A 423 (1989) 301,
-/// doi:10.1098/rspa.1989.0056.
+/// R. Hill, B. Storakers, A. B. Zdunek, A theoretical study of the Brinell hardness test, Proc. R.
+/// Soc. A 423 (1989) 301, doi:10.1098/rspa.1989.0056.
 const PILE_UP: f64 = 1.45;
 
 /// The size of the contact: at first yield, and the largest of the load program.
 ///
 /// # Errors
-/// A body without material, or bodies without a yield stress where the half width at first yield is not given.
+/// A body without material, or bodies without a yield stress where the half width at first yield is
+/// not given.
 pub(crate) fn of(scene: &Scene, p: &CylinderOnHalfPlane) -> Result<ContactSize> {
     let half_width = match p.half_width {
         Some(given) => given,
@@ -30,8 +33,8 @@ pub(crate) fn of(scene: &Scene, p: &CylinderOnHalfPlane) -> Result<ContactSize> 
             .map(|(width, _)| width)
             .ok_or_else(|| {
                 Error::input(
-                    "mesh.cylinder_on_half_plane: no body has a yield stress, so the contact half width at yield is unknown; \
-                     give `half_width`",
+                    "mesh.cylinder_on_half_plane: no body has a yield stress, so the contact half \
+                     width at yield is unknown; give `half_width`",
                 )
             })?,
     };
@@ -89,8 +92,9 @@ impl Hertz {
         }
     }
 
-    /// The widest contact under a load, where the weaker body yields at the half width and load `first`: the mean pressure only
-    /// rises with the load (from 1.1 to 3 times the yield stress under a ball), so that the area rises no faster.
+    /// The widest contact under a load, where the weaker body yields at the half width and load
+    /// `first`: the mean pressure only rises with the load (from 1.1 to 3 times the yield stress
+    /// under a ball), so that the area rises no faster.
     fn widest(&self, load: f64, first: Option<(f64, f64)>) -> f64 {
         let elastic = ROOM * self.half_width(load);
         let Some((width, at)) = first.filter(|(_, at)| load > *at) else {
@@ -104,8 +108,8 @@ impl Hertz {
     }
 }
 
-/// Half width and load at first yield of the weaker of the two bodies; `None` where neither has a yield stress. A body that is kept
-/// elastic still has the yield stress that the mesh is made for.
+/// Half width and load at first yield of the weaker of the two bodies; `None` where neither has a
+/// yield stress. A body that is kept elastic still has the yield stress that the mesh is made for.
 fn first_yield(scene: &Scene, p: &CylinderOnHalfPlane) -> Result<Option<(f64, f64)>> {
     weaker(scene, p, |_| true)
 }
@@ -131,8 +135,9 @@ fn reach(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<f64>
     Some(by_load.max(by_depth))
 }
 
-/// What the user should know before a run whose contact may become wider than its candidates, if that is so. Displacements do not
-/// count: how much of them the rest of the bodies takes is not known before.
+/// What the user should know before a run whose contact may become wider than its candidates, if
+/// that is so. Displacements do not count: how much of them the rest of the bodies takes is not
+/// known before.
 pub(crate) fn warning(scene: &Scene) -> Option<String> {
     let p = scene.mesh.cylinder_on_half_plane.as_ref()?;
     let ContactSize { half_width, reach } = of(scene, p).ok()?;
@@ -144,7 +149,8 @@ pub(crate) fn warning(scene: &Scene) -> Option<String> {
     }
     let remedy = if wanted > WIDEST * p.radius {
         format!(
-            "that is more than {WIDEST} of the radius {}, far beyond small displacements: check load, radius and units",
+            "that is more than {WIDEST} of the radius {}, far beyond small displacements: check \
+             load, radius and units",
             p.radius
         )
     } else {
@@ -154,12 +160,14 @@ pub(crate) fn warning(scene: &Scene) -> Option<String> {
         )
     };
     Some(format!(
-        "under the largest load of the program the half width of contact may reach {wanted:.4}; its candidates end at \
-         {candidates:.4}, and a contact that reaches their end stops the run: {remedy}"
+        "under the largest load of the program the half width of contact may reach {wanted:.4}; \
+         its candidates end at {candidates:.4}, and a contact that reaches their end stops the \
+         run: {remedy}"
     ))
 }
 
-/// Upper bounds of the widest contact of the load program: by forces and half widths asked for, and by displacements.
+/// Upper bounds of the widest contact of the load program: by forces and half widths asked for, and
+/// by displacements.
 fn widest(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<[f64; 2]> {
     let hertz = Hertz::of(scene, p).ok()?;
     let first = weaker(scene, p, |plastic| plastic != Plastic::No).ok()?;
@@ -199,15 +207,16 @@ fn widest(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<[f6
     ])
 }
 
-/// Size of a prescribed displacement along y. Not inlined: the tag of `y` would be read before that of the displacement, which
-/// memory checkers of programs in C report.
+/// Size of a prescribed displacement along y. Not inlined: the tag of `y` would be read before that
+/// of the displacement, which memory checkers of programs in C report.
 #[inline(never)]
 fn prescribed(displacement: Option<&Displacement>) -> f64 {
     displacement.and_then(|d| d.y).map_or(0.0, f64::abs)
 }
 
-/// Total force along y of a load on the whole cylinder or ball, where its kind and place tell: the mesh is that of half a
-/// cylinder, or a sector of a ball, forces that are given as totals are those of `symmetry` such models.
+/// Total force along y of a load on the whole cylinder or ball, where its kind and place state it:
+/// the mesh is that of half a cylinder, or a sector of a ball, forces that are given as totals are
+/// those of `symmetry` such models.
 fn normal_force(scene: &Scene, load: &Load, size: f64) -> f64 {
     // How many such models make the ball, or a unit of the cylinder's length.
     let (models, area) = match (&scene.mesh.extrude, &scene.mesh.revolve) {

@@ -26,12 +26,12 @@ pub struct EllipseSize {
 /// theory takes them for; the first contact is at the origin, z points from the lower body to the
 /// upper.
 ///
-/// Before loading the upper surface is at the height `z = x^2/(2 R_x) + y^2/(2 R_y)` above the lower
-/// one, which is flat: of the two bodies' curvature only the sum matters. Beyond the candidates it
-/// levels off. Elements are even with a size of the half axis over `resolution` out to `fine_width`
-/// half axes, and down to `fine_depth` of the smaller one; where the contact may reach further they
-/// grow by `1 + 1/resolution` up to there, and from there on by `growth`. Both surfaces have nodes
-/// at the same x and y.
+/// Before loading the upper surface is at the height `z = x^2/(2 R_x) + y^2/(2 R_y)` above the
+/// lower one, which is flat: of the two bodies' curvature only the sum matters. Beyond the
+/// candidates it levels off. Elements are even with a size of the half axis over `resolution` out
+/// to `fine_width` half axes, and down to `fine_depth` of the smaller one; where the contact may
+/// reach further they grow by `1 + 1/resolution` up to there, and from there on by `growth`. Both
+/// surfaces have nodes at the same x and y.
 ///
 /// # Errors
 /// Input errors name the key, its value and what to give instead.

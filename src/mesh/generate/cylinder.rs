@@ -166,9 +166,10 @@ impl Layout {
         let candidates = p.fine_width * half_width;
         if candidates > WIDEST * p.radius {
             return Err(Error::input(format!(
-                "{}: fine_width = {} times half_width = {half_width} is {candidates}, more than {WIDEST} of the \
-                 radius {}; give a fine_width of at most {:.4}, or check radius and materials (the half \
-                 width at first yield is about radius times yield stress over modulus)",
+                "{}: fine_width = {} times half_width = {half_width} is {candidates}, more than \
+                 {WIDEST} of the radius {}; give a fine_width of at most {:.4}, or check radius \
+                 and materials (the half width at first yield is about radius times yield stress \
+                 over modulus)",
                 key("fine_width"),
                 p.fine_width,
                 p.radius,

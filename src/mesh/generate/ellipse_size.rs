@@ -6,15 +6,15 @@ use crate::analytical::{HertzEllipse, contact_modulus};
 use crate::error::{Error, Result};
 use crate::scene::{CurvedBodies, Direction, History, Load, Scene, Unit};
 
-/// Elastic contacts are meshed this much wider than Hertz has them: room for what is read off beside
-/// their edge.
+/// Elastic contacts are meshed this much wider than Hertz has them: room for what is read off
+/// beside their edge.
 const ROOM: f64 = 1.15;
 
 /// The size of the contact: at first yield, and the largest of the load program.
 ///
 /// # Errors
-/// A body without material, radii that leave no gap, or bodies without a yield stress where the half
-/// axes at first yield are not given.
+/// A body without material, radii that leave no gap, or bodies without a yield stress where the
+/// half axes at first yield are not given.
 pub(crate) fn of(scene: &Scene, p: &CurvedBodies) -> Result<EllipseSize> {
     let hertz = hertz(scene, p)?;
     let yielding = yield_load(scene, &hertz);
@@ -23,8 +23,8 @@ pub(crate) fn of(scene: &Scene, p: &CurvedBodies) -> Result<EllipseSize> {
         (None, Some(load)) => hertz.semi_axes(load),
         (None, None) => {
             return Err(Error::input(
-                "mesh.curved_bodies: no body has a yield stress, so the half axes of the contact at \
-                 yield are unknown; give `semi_axes`",
+                "mesh.curved_bodies: no body has a yield stress, so the half axes of the contact \
+                 at yield are unknown; give `semi_axes`",
             ));
         }
     };
@@ -68,8 +68,8 @@ fn yield_load(scene: &Scene, hertz: &HertzEllipse) -> Option<f64> {
 }
 
 /// The widest contact of the load program over that at first yield: elastic half axes grow with the
-/// cube root of the load; beyond first yield the mean pressure only rises, so that the area grows no
-/// faster than the load. `None` where the loads do not say.
+/// cube root of the load; beyond first yield the mean pressure only rises, so that the area grows
+/// no faster than the load. `None` where the loads do not say.
 fn reach(
     scene: &Scene,
     p: &CurvedBodies,

@@ -207,18 +207,23 @@ impl Family for Vec<Part> {
     fn member(&self, ratio: f64) -> Result<(Self, f64), String> {
         if let Some(part) = self.iter().find(|part| !ends_on_nodes(part, None)) {
             return Err(format!(
-                "a piece of the block of `{}` does not begin and end at nodes of an even mesh, so that it would be longer or \
-                 shorter on another; give counts for which it does, without bias along it",
+                "a piece of the block of `{}` does not begin and end at nodes of an even mesh, so \
+                 that it would be longer or shorter on another; give counts for which it does, \
+                 without bias along it",
                 part.body
             ));
         }
         let exact = proportional(self, ratio);
         let is_near = |other: f64| (ratio / other).max(other / ratio) <= NEAR;
         let near = exact.as_ref().filter(|(_, exact)| is_near(*exact));
-        near.cloned().or_else(|| rounded(self, ratio)).or(exact).ok_or_else(|| {
-            "its element counts have no common divisor and are too small to be rounded; give counts that are multiples of 4"
-                .to_string()
-        })
+        near.cloned()
+            .or_else(|| rounded(self, ratio))
+            .or(exact)
+            .ok_or_else(|| {
+                "its element counts have no common divisor and are too small to be rounded; give \
+                 counts that are multiples of 4"
+                    .to_string()
+            })
     }
 
     fn words(&self) -> String {

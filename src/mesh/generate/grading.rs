@@ -3,7 +3,7 @@
 //! Positions come as `2 n + 1` values for `n` elements: even entries are corners, odd entries the
 //! mid-side positions half way between them.
 
-use crate::analytical::root;
+use crate::root;
 use crate::{Error, Result};
 
 /// Even spacing from `from` to `to`. Symmetric ranges give exactly symmetric positions.
@@ -126,17 +126,7 @@ impl Law {
         while sizes(low).1 > sum && low > -1e6 {
             low *= 2.0;
         }
-        loop {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                return sizes(middle).0;
-            }
-            if sizes(middle).1 < sum {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
+        sizes(root::of(|share| sizes(share).1 - sum, low, high)).0
     }
 }
 
@@ -221,7 +211,7 @@ fn grown_count(first: f64, length: f64, growth: f64) -> f64 {
     count.round().max(1.0)
 }
 
-/// The ratio `q` with `1 + q + ... + q^(n-1) = sum`, by bisection down to round-off.
+/// The ratio `q` with `1 + q + ... + q^(n-1) = sum`.
 fn ratio_that_fills(sum: f64, n: usize, guess: f64) -> f64 {
     if n < 2 {
         return 1.0;
@@ -231,7 +221,7 @@ fn ratio_that_fills(sum: f64, n: usize, guess: f64) -> f64 {
     while series(high) < sum {
         high *= 2.0;
     }
-    root(|q| series(q) - sum, 0.0, high)
+    root::of(|q| series(q) - sum, 0.0, high)
 }
 
 /// Puts the mid-side positions between the corners; neighbours must differ in floating point.
@@ -244,8 +234,8 @@ fn with_midpoints(key: &str, corners: Vec<f64>) -> Result<Vec<f64>> {
     positions.extend(corners.last());
     if let Some(pair) = positions.windows(2).find(|pair| pair[0] >= pair[1]) {
         return Err(Error::input(format!(
-            "{key}: neighbouring nodes coincide at {}: the elements are too small to be told apart; \
-             ask for fewer elements or a weaker bias",
+            "{key}: neighbouring nodes coincide at {}: the elements are too small to be told \
+             apart; ask for fewer elements or a weaker bias",
             pair[0]
         )));
     }
@@ -291,13 +281,15 @@ mod tests {
         fn growth_ends_exactly_and_stays_near_the_ratio_asked_for(
             n_even in 0usize..30, length in 40.0..4000.0f64, growth in 1.0..1.5f64
         ) {
-            let x = even_then_grown("x", 1.0, n_even, length, Growth::new(growth, None, 0.0)).unwrap();
+            let law = Growth::new(growth, None, 0.0);
+            let x = even_then_grown("x", 1.0, n_even, length, law).unwrap();
             prop_assert_eq!(x[0], 0.0);
             prop_assert_eq!(x[x.len() - 1], length);
             for i in 0..n_even {
                 prop_assert_eq!(x[2 * i + 2] - x[2 * i], 1.0);
             }
-            let sizes: Vec<f64> = (n_even.max(1)..x.len() / 2).map(|i| x[2 * i + 2] - x[2 * i]).collect();
+            let grown = n_even.max(1)..x.len() / 2;
+            let sizes: Vec<f64> = grown.map(|i| x[2 * i + 2] - x[2 * i]).collect();
             // Rounding the count to an integer moves the length filled by at most half the last
             // element, and with it the ratio by a fraction of itself that falls with the count.
             let n = sizes.len() as f64;

@@ -1,7 +1,7 @@
 //! What a generator accepts: finite sizes of the right sign, and a mesh that fits in memory.
 
 use crate::mesh::Shape;
-use crate::text::exact;
+use crate::number::exact;
 use crate::{Error, Result};
 
 /// Most elements a generator makes.
@@ -77,7 +77,8 @@ pub(super) fn growths(key: &str, near: f64, far_key: &str, far: Option<f64>) -> 
         return Ok(());
     }
     Err(Error::input(format!(
-        "{far_key} = {far}: the growth rises from {key} = {near} with the distance; give at least that, and a growth above 1"
+        "{far_key} = {far}: the growth rises from {key} = {near} with the distance; give at least \
+         that, and a growth above 1"
     )))
 }
 
@@ -115,8 +116,8 @@ pub(in crate::mesh) fn solids(key: &str, bodies: &[[f64; 3]], shape: Shape) -> R
     let needed: f64 = bodies.iter().map(bytes).sum();
     match crate::memory::available() {
         Some(there) if needed > there => Err(Error::input(format!(
-            "{key}: the mesh would have {elements:.3e} elements and take more than {:.0} GB of memory; \
-             {:.0} GB are free: ask for fewer or larger elements",
+            "{key}: the mesh would have {elements:.3e} elements and take more than {:.0} GB of \
+             memory; {:.0} GB are free: ask for fewer or larger elements",
             needed / 1e9,
             there / 1e9
         ))),

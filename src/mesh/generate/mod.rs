@@ -45,7 +45,7 @@ use std::path::Path;
 ///
 /// # Errors
 /// Input errors if not exactly one source is given, and those of the source itself.
-pub fn from_source(
+pub(crate) fn from_source(
     source: &MeshSource,
     directory: Option<&Path>,
     contact: impl FnOnce(&CylinderOnHalfPlane) -> Result<ContactSize>,

@@ -110,7 +110,8 @@ fn predicted_cells(part: &Part) -> Result<f64> {
             limits::finite("ring.center (y)", ring.center[1])?;
             if ring.radius[0] <= 0.0 {
                 return Err(Error::input(format!(
-                    "ring.radius = [{}, {}]: the inner radius must be positive; use a disc for none",
+                    "ring.radius = [{}, {}]: the inner radius must be positive; use a disc for \
+                     none",
                     ring.radius[0], ring.radius[1]
                 )));
             }
@@ -247,8 +248,8 @@ fn piece_cells(key: &str, piece: &Piece, along: &[f64]) -> Result<std::ops::Rang
     match (first, end) {
         (Some(first), Some(end)) if first <= end => Ok(first..end + 1),
         _ => Err(Error::input(format!(
-            "{key}: no element of side {} lies between from = {} and to = {}; the side runs from {} to {} \
-             in {n} elements: move the ends or use more elements",
+            "{key}: no element of side {} lies between from = {} and to = {}; the side runs from \
+             {} to {} in {n} elements: move the ends or use more elements",
             piece.side,
             piece.from,
             piece.to,

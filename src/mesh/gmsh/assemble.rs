@@ -14,8 +14,8 @@ pub(super) fn assemble(content: Content, cursor: &Cursor) -> Result<Mesh> {
     let dimension = dimensions.max().unwrap_or(0);
     if dimension < 2 {
         return Err(cursor.error(
-            "the file has no triangles or quadrilaterals, and no volumes: mesh the surfaces (gmsh -2) \
-             and export those in a Physical Surface, or volumes (gmsh -3) in a Physical Volume",
+            "the file has no triangles or quadrilaterals, and no volumes: mesh the surfaces (gmsh \
+             -2) and export those in a Physical Surface, or volumes (gmsh -3) in a Physical Volume",
         ));
     }
     content.require_one_body(dimension, cursor)?;
@@ -346,8 +346,8 @@ fn no_facet(
         )
     } else {
         format!(
-            "the face with the nodes {} of physical surface `{name}` is the face of no element: mesh \
-             the volume beside it and put it into a Physical Volume",
+            "the face with the nodes {} of physical surface `{name}` is the face of no element: \
+             mesh the volume beside it and put it into a Physical Volume",
             corners.join(", ")
         )
     };

@@ -189,15 +189,15 @@ impl Content {
         let group = if dimension == 3 { "Volume" } else { "Surface" };
         if groups.is_empty() {
             return format!(
-                "element {label} is in no physical {what}: in Gmsh, put every {what} into a Physical \
-                 {group}; its name is the body's"
+                "element {label} is in no physical {what}: in Gmsh, put every {what} into a \
+                 Physical {group}; its name is the body's"
             );
         }
         let name = |&g: &u64| self.group_name((dimension, g));
         let names: Vec<String> = groups.iter().map(name).collect();
         format!(
-            "element {label} is in several physical {what}s ({}): put each {what} into exactly one, \
-             which is its body",
+            "element {label} is in several physical {what}s ({}): put each {what} into exactly \
+             one, which is its body",
             names.join(", ")
         )
     }

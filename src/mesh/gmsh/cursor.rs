@@ -187,7 +187,8 @@ impl<'a> Cursor<'a> {
             return Err(self.error_at(
                 start,
                 format!(
-                    "{what} is {value}, more than the {} bytes left in the file can hold: is it truncated?",
+                    "{what} is {value}, more than the {} bytes left in the file can hold: is it \
+                     truncated?",
                     self.remaining()
                 ),
             ));

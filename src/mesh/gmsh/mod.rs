@@ -1,11 +1,12 @@
 //! Gmsh meshes: `.msh` 2.2 and 4.1, ASCII.
 //!
-//! In a plane mesh physical surfaces are bodies, physical curves surfaces, physical points node sets.
-//! Where there are volumes, the mesh is a solid one: physical volumes are bodies, physical surfaces
-//! surfaces, physical curves and points node sets. An unnamed group goes by its number. A physical curve on the edge between two bodies belongs to the body
-//! whose name begins its own (`shaft.contact` to `shaft`), otherwise to the element on its left.
-//! Nodes of no element of a body (centres of circles, for instance) are dropped, elements that are
-//! given clockwise are turned round.
+//! In a plane mesh physical surfaces are bodies, physical curves surfaces, physical points node
+//! sets. Where there are volumes, the mesh is a solid one: physical volumes are bodies, physical
+//! surfaces surfaces, physical curves and points node sets. An unnamed group goes by its number. A
+//! physical curve on the edge between two bodies belongs to the body whose name begins its own
+//! (`shaft.contact` to `shaft`), otherwise to the element on its left. Nodes of no element of a
+//! body (centres of circles, for instance) are dropped, elements that are given clockwise are
+//! turned round.
 //!
 //! # Source
 //! Gmsh reference manual, chapter "Gmsh file formats", "MSH file format" (version 4.1) and

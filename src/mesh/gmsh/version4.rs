@@ -105,7 +105,10 @@ pub(super) fn read_elements(
         if kind.dimension() != dimension {
             return Err(cursor.error_at(
                 at,
-                format!("elements of type {element_type} cannot belong to an entity of dimension {dimension}"),
+                format!(
+                    "elements of type {element_type} cannot belong to an entity of dimension \
+                     {dimension}"
+                ),
             ));
         }
         let groups = entities

@@ -1,3 +1,5 @@
+mod solid;
+
 use super::*;
 use crate::mesh::generate;
 use crate::mesh::lay_on;
@@ -6,6 +8,10 @@ use crate::scene::{CylinderOnHalfPlane, Part, Ring};
 
 /// A quarter ring, without the shape of its surfaces, as a file would hold it.
 fn ring(element: Shape) -> Mesh {
+    ring_of([3, 4], element)
+}
+
+fn ring_of(elements: [usize; 2], element: Shape) -> Mesh {
     let mut mesh = generate::parts(&[Part {
         body: "tube".into(),
         block: None,
@@ -13,7 +19,7 @@ fn ring(element: Shape) -> Mesh {
             center: [0.0; 2],
             radius: [1.0, 2.0],
             angle: [0.0, 90.0],
-            elements: [3, 4],
+            elements,
             bias: 1.0,
         }),
         disc: None,

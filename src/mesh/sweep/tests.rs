@@ -8,9 +8,10 @@ use std::f64::consts::PI;
 /// A section: a block off the axis, a ring sector or a disc, as a scene has it.
 fn section(part: &str, shape: &str) -> Mesh {
     let text = format!(
-        "kind = \"plane_strain\"\nmesh.parts = [{{ body = \"b\", element = \"{shape}\", {part} }}]\n\
-         [materials.m]\nyoungs_modulus = 1.0\npoissons_ratio = 0.3\n[bodies]\nb = {{ material = \"m\" }}\n\
-         [[load]]\non = \"b.outer\"\npressure = 1.0\n[program]\ntargets = [{{ load_factor = 1.0 }}]\n"
+        "kind = \"plane_strain\"\nmesh.parts = [{{ body = \"b\", element = \"{shape}\", {part} \
+         }}]\n[materials.m]\nyoungs_modulus = 1.0\npoissons_ratio = 0.3\n[bodies]\nb = {{ material \
+         = \"m\" }}\n[[load]]\non = \"b.outer\"\npressure = 1.0\n[program]\ntargets = [{{ \
+         load_factor = 1.0 }}]\n"
     );
     let scene = Scene::parse(&text, "section").unwrap();
     generate::parts(&scene.mesh.parts.unwrap()).unwrap()

@@ -83,7 +83,8 @@ impl ModelBuilder {
     /// [`Shape`].
     ///
     /// # Errors
-    /// A number of indices that is no multiple of the shape's nodes; an index of no node, by element.
+    /// A number of indices that is no multiple of the shape's nodes; an index of no node, by
+    /// element.
     pub fn elements<I: Index>(
         &mut self,
         shape: Shape,
@@ -107,7 +108,8 @@ impl ModelBuilder {
         }
         if let Some(at) = connectivity.iter().position(|n| n.below(n_nodes).is_none()) {
             return Err(Error::input(format!(
-                "element {} (body `{body}`): node {} is {}, but there are {n_nodes} nodes (0 to {}); give the nodes first",
+                "element {} (body `{body}`): node {} is {}, but there are {n_nodes} nodes (0 to \
+                 {}); give the nodes first",
                 self.n_elements() + at / each,
                 at % each,
                 connectivity[at],
@@ -161,13 +163,15 @@ impl ModelBuilder {
         for (k, (element, local)) in facets.into_iter().enumerate() {
             let known = element.below(n_elements).ok_or_else(|| {
                 Error::input(format!(
-                    "surface `{name}`: facet {k} is of element {element}, but there are {n_elements} elements; give the elements first"
+                    "surface `{name}`: facet {k} is of element {element}, but there are \
+                     {n_elements} elements; give the elements first"
                 ))
             })?;
             let shape = self.mesh.shapes[known];
             let local = local.below(shape.n_facets()).ok_or_else(|| {
                 Error::input(format!(
-                    "surface `{name}`: facet {k} is facet {local} of element {element}, a {}: it has {}",
+                    "surface `{name}`: facet {k} is facet {local} of element {element}, a {}: it \
+                     has {}",
                     shape.name(),
                     shape.n_facets()
                 ))
@@ -180,7 +184,8 @@ impl ModelBuilder {
         self.keep_surface(name, out)
     }
 
-    /// Names a surface by its nodes, mid-side nodes included: the facets of the boundary all whose nodes are among them.
+    /// Names a surface by its nodes, mid-side nodes included: the facets of the boundary all whose
+    /// nodes are among them.
     ///
     /// # Errors
     /// A node that belongs to no such facet, an index of no node, a name that is taken.
@@ -216,8 +221,8 @@ impl ModelBuilder {
         }
         if let Some(node) = nodes.into_iter().find(|&n| among[n]) {
             return Err(Error::input(format!(
-                "surface `{name}`: node {node} belongs to no {} of the boundary whose nodes are all given; give {} of each \
-                 and its mid-side nodes where it has some",
+                "surface `{name}`: node {node} belongs to no {} of the boundary whose nodes are \
+                 all given; give {} of each and its mid-side nodes where it has some",
                 if self.mesh.is_solid() { "face" } else { "edge" },
                 if self.mesh.is_solid() {
                     "the corners"

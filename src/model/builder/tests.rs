@@ -342,3 +342,34 @@ fn a_body_that_nothing_holds_is_named() {
     hold(&mut builder, "left", Direction::X);
     refused(builder.build(), ErrorKind::Unheld, &["upper"]);
 }
+
+#[test]
+fn scene_text_says_the_rest_or_leaves_the_builder_as_it_was() {
+    let mut builder = squares();
+    let tables = "
+        bodies = { other = { material = 'steel' } }
+        contact = [{ first = 'opposite', second = 'face', gap = 0.5 }]
+        support = [{ on = 'floor', fix = ['y'] }]
+        load = [{ on = 'top', pressure = 3.0 }]
+        program = { steps = 7, targets = [{ load_factor = 2.0 }] }
+        analysis = { tolerance = 1e-9 }
+    ";
+    builder.tables(tables).unwrap();
+    let scene = &builder.scene;
+    assert_eq!(scene.contact.last().unwrap().gap, Some(0.5));
+    assert_eq!(scene.load.last().unwrap().pressure, Some(3.0));
+    assert_eq!((scene.program.steps, scene.analysis.tolerance), (7, 1e-9));
+    let before = scene.clone();
+    for (text, part) in [
+        ("kind = 'solid'", "kind"),
+        ("\nload = [{ on = 3 }]", "line 2"),
+        (
+            "load = [{ on = 'top' }]\nbodies.other = { material = 'steel' }",
+            "given a material twice",
+        ),
+    ] {
+        let error = builder.tables(text).map(drop).unwrap_err();
+        assert!(error.message().contains(part), "{error}");
+        assert_eq!(builder.scene, before);
+    }
+}

@@ -54,7 +54,8 @@ pub(super) fn pairs(entries: &Entries, given: Option<&[NodePair]>) -> Result<Opt
         }
     };
 
-    // Beyond the end of the shorter surface there is nothing to press on; who gives the pairs decides himself.
+    // Beyond the end of the shorter surface there is nothing to press on; who gives the pairs
+    // decides himself.
     let touching: BTreeSet<usize> = slave_nodes
         .iter()
         .zip(&partner_of)
@@ -114,8 +115,8 @@ pub(super) fn pairs(entries: &Entries, given: Option<&[NodePair]>) -> Result<Opt
         }
         if pair.gap < -1e-9 * facet_length && contact.gap.is_none() {
             return Err(Error::input(format!(
-                "nodes {} and {} overlap by {:.3e} in the mesh; move the bodies apart, or state the overlap as `interference` \
-                 with `gap = 0`",
+                "nodes {} and {} overlap by {:.3e} in the mesh; move the bodies apart, or state \
+                 the overlap as `interference` with `gap = 0`",
                 mesh.node_label(faced),
                 mesh.node_label(pair.slave),
                 -pair.gap
@@ -157,7 +158,8 @@ fn facets_match(mesh: &Mesh, [master, slave]: [&Surface; 2], pairs: &[Pair]) -> 
     masters.collect::<BTreeSet<_>>() == slaves.collect::<BTreeSet<_>>()
 }
 
-/// Integrals of each node's shape function over the facets of a surface all of whose nodes are among `faces`.
+/// Integrals of each node's shape function over the facets of a surface all of whose nodes are
+/// among `faces`.
 fn nodal_areas(
     entries: &Entries,
     surface: &Surface,

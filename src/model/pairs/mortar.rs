@@ -1,7 +1,7 @@
 //! Surfaces whose nodes do not face each other: dual mortar coupling, small sliding.
 //!
-//! With the trace basis `phi_j` of the slave, functions `psi_j` dual to it on each of its facets and
-//! the shape functions `N_k` of the master,
+//! With the trace basis `phi_j` of the slave, functions `psi_j` dual to it on each of its facets
+//! and the shape functions `N_k` of the master,
 //!
 //! ```text
 //!     int psi_j phi_l = delta_jl int phi_j,    D_j = int psi_j,    M_jk = int psi_j N_k
@@ -12,9 +12,9 @@
 //! [`crate::model::ContactBasis`], whose weights are positive.
 //!
 //! # Source
-//! B. Wohlmuth, *A mortar finite element method using dual spaces for the Lagrange multiplier*, SIAM
-//! J. Numer. Anal. 38 (2000) 989; A. Popp, B. Wohlmuth, M. Gee, W. Wall, SIAM J. Sci. Comput. 34
-//! (2012) B421; partly covered facets: A. Popp, A. Seitz, M. Gee, W. Wall, Comput. Methods Appl.
+//! B. Wohlmuth, *A mortar finite element method using dual spaces for the Lagrange multiplier*,
+//! SIAM J. Numer. Anal. 38 (2000) 989; A. Popp, B. Wohlmuth, M. Gee, W. Wall, SIAM J. Sci. Comput.
+//! 34 (2012) B421; partly covered facets: A. Popp, A. Seitz, M. Gee, W. Wall, Comput. Methods Appl.
 //! Mech. Engrg. 264 (2013) 67.
 
 mod dual;
@@ -38,8 +38,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Rows with less of their weight covered than this share are left out: they would be the inverse
 /// of round-off.
 const COVERED: f64 = 1e-8;
-/// Distance of surfaces that are tied, as a share of a facet's length: more than the tolerances of a
-/// mesher, less than an element.
+/// Distance of surfaces that are tied, as a share of a facet's length: more than the tolerances of
+/// a mesher, less than an element.
 const NEAR: f64 = 0.05;
 /// Share of a facet's length by which facets of a flat surface may be off it.
 const FLAT: f64 = 1e-6;
@@ -207,8 +207,8 @@ fn coupled<'a>(entries: &'a Entries<'a>) -> Result<Coupled<'a>> {
     }
     if pairs.is_empty() {
         return Err(Error::input(format!(
-            "no part of `{}` lies opposite `{}`, seen along its normal: check the names of the surfaces and where the bodies \
-             are, or give `normal`",
+            "no part of `{}` lies opposite `{}`, seen along its normal: check the names of the \
+             surfaces and where the bodies are, or give `normal`",
             [&contact.first, &contact.second][slave],
             [&contact.first, &contact.second][1 - slave],
         )));
@@ -353,12 +353,13 @@ impl Sides<'_> {
         let facets = self.depth_of_facets();
         Err(Error::input(match -deepest.gap <= facets {
             true => format!(
-                "{place}: no more than flat facets deviate from a curved surface ({facets:.1e}), which is not what \
-                 the bodies do; say what the surface is (`mesh.circles`, `spheres`, `cylinders`, `tori`), \
-                 give `gap`, or use quadratic elements"
+                "{place}: no more than flat facets deviate from a curved surface ({facets:.1e}), \
+                 which is not what the bodies do; say what the surface is (`mesh.circles`, \
+                 `spheres`, `cylinders`, `tori`), give `gap`, or use quadratic elements"
             ),
             false => format!(
-                "{place}; move the bodies apart, or state the overlap as `interference` with `gap = 0`"
+                "{place}; move the bodies apart, or state the overlap as `interference` with `gap \
+                 = 0`"
             ),
         }))
     }

@@ -21,8 +21,8 @@ pub(in crate::model) struct Tied {
 /// The ties of a scene.
 ///
 /// # Errors
-/// Input errors: surfaces that there are not or that do not lie on one another, a node tied twice, a
-/// surface tied to what it is in contact with.
+/// Input errors: surfaces that there are not or that do not lie on one another, a node tied twice,
+/// a surface tied to what it is in contact with.
 pub(in crate::model) fn resolve(
     scene: &Scene,
     mesh: &Mesh,

@@ -214,7 +214,8 @@ pub(super) fn dent_profile(
         name: numbered("dent", contact, several),
         title: "Shape of the dent".to_string(),
         caption: format!(
-            "Change of the gap in state \u{201c}{}\u{201d}, without load, downwards; both bodies together.",
+            "Change of the gap in state \u{201c}{}\u{201d}, without load, downwards; both bodies \
+             together.",
             free.name
         ),
         chart: Chart {
@@ -227,8 +228,8 @@ pub(super) fn dent_profile(
     })
 }
 
-/// Hertz' pressure beside that of a state in which nothing has yielded, of a half model with one
-/// contact.
+/// Hertz' pressure compared with that of a state in which nothing has yielded, of a half model with
+/// one contact.
 fn elastic_pressure(model: &Model, state: &State) -> Option<Vec<[f64; 2]>> {
     let is_alone = model.contacts.len() == 1 && model.materials.len() == 2;
     let compares = state.plastic_points == 0 && is_alone && mirrors(model)[0];

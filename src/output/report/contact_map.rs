@@ -12,7 +12,7 @@ use super::units::Units;
 use super::window::{Window, negligible};
 use crate::error::Result;
 use crate::model::Model;
-use crate::output::number::significant;
+use crate::number::significant;
 use crate::results::{ContactPatch, State};
 use crate::space::{Vector, along, cross, dot};
 
@@ -99,9 +99,9 @@ impl<'m> ContactMap<'m> {
         (0..PIECES).map(at).collect()
     }
 
-    /// The pressures of a state by pair. Of pairs beside the contact it is the opposite of the largest
-    /// that they share a face with: between two that touch and do not, no pressure reaches beyond
-    /// the middle.
+    /// The pressures of a state by pair. Of pairs beside the contact it is the opposite of the
+    /// largest that they share a face with: between two that touch and do not, no pressure reaches
+    /// beyond the middle.
     fn pressures(&self, state: &State) -> Vec<f64> {
         let mut pressure = vec![0.0; self.model.pairs.len()];
         for pair in &state.pairs {

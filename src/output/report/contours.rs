@@ -20,8 +20,8 @@ pub(super) struct Sheet<'t> {
 impl Sheet<'_> {
     /// Closed lines round all that is not below a value; with minus infinity round all.
     ///
-    /// Inside, sides of triangles cancel: what is left is the line of the value through each triangle
-    /// and what of the border is above it.
+    /// Inside, sides of triangles cancel: what is left is the line of the value through each
+    /// triangle and what of the border is above it.
     pub(super) fn above(&self, level: f64) -> Vec<Vec<[f64; 2]>> {
         let is_above = |k: u32| self.values[k as usize] >= level || level == f64::NEG_INFINITY;
         let cut = |a: u32, b: u32| [a.min(b), a.max(b)];

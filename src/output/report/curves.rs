@@ -217,11 +217,15 @@ fn residual_depth(results: &Results, units: &Units) -> Option<Titled> {
     Some(Titled {
         name: "residual_depth".to_string(),
         title: "Residual depth".to_string(),
-        caption: "The dent that the plastic strains of each state leave when all load is taken off: the largest opening of the \
-                  unloaded surfaces beyond their first shape, both bodies together. The states in their order."
+        caption: "The dent that the plastic strains of each state leave when all load is taken \
+                  off: the largest opening of the unloaded surfaces beyond their first shape, both \
+                  bodies together. The states in their order."
             .to_string(),
         chart: Chart {
-            labels: [load_label(units), labelled("residual depth", units.length())],
+            labels: [
+                load_label(units),
+                labelled("residual depth", units.length()),
+            ],
             curves: vec![curve("", 0, Pen::Dotted, points.collect())],
             from_zero: [true; 2],
             widened: 0.0,
@@ -246,7 +250,8 @@ fn displacement(results: &Results, units: &Units, has_contact: bool) -> Option<T
         false => (
             "displacement",
             "Load against displacement",
-            "Mean displacement of the loaded surface in the direction of the load; the states in their order.",
+            "Mean displacement of the loaded surface in the direction of the load; the states in \
+             their order.",
         ),
     };
     Some(Titled {

@@ -5,7 +5,7 @@
 
 use super::theme::{self, FAINT, INK, PAPER};
 use crate::error::{Error, Result};
-use crate::output::number::significant;
+use crate::number::trimmed;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -89,8 +89,8 @@ impl Drawing {
     }
 }
 
-/// The library's text without what it repeats: the font, which is the whole drawing's, full opacity,
-/// empty lines.
+/// The library's text without what it repeats: the font, which is the whole drawing's, full
+/// opacity, empty lines.
 fn compact(text: &str) -> String {
     text.replace(&font(), "")
         .replace(" opacity=\"1\"", "")
@@ -154,7 +154,7 @@ pub(super) fn axes<'a>(
     labels: [&str; 2],
     grid: bool,
 ) -> Result<()> {
-    // What round-off leaves of a zero is small beside the other ticks.
+    // What round-off leaves of a zero is small compared with the other ticks.
     let extent = |range: std::ops::Range<f64>| 1e-9 * (range.end - range.start).abs();
     let small = [extent(chart.x_range()), extent(chart.y_range())];
     let text = |value: f64, small: f64| tick(if value.abs() < small { 0.0 } else { value });
@@ -185,17 +185,11 @@ pub(super) fn axes<'a>(
 
 /// A number at a tick: as short as it can be said.
 pub(super) fn tick(value: f64) -> String {
-    let text = significant(value, 5);
-    let (digits, exponent) = match text.split_once('e') {
-        Some((digits, exponent)) => (digits, format!("e{exponent}")),
-        None => (text.as_str(), String::new()),
-    };
-    let digits = if digits.contains('.') {
-        digits.trim_end_matches('0').trim_end_matches('.')
-    } else {
-        digits
-    };
-    format!("{}{exponent}", digits.replace('-', "\u{2212}"))
+    let text = trimmed(value, 5);
+    match text.strip_prefix('-') {
+        Some(size) => format!("\u{2212}{size}"),
+        None => text,
+    }
 }
 
 /// Steps of 1, 2, 2.5 or 5 times a power of ten: the finest that covers `extent` with at most

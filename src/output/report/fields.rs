@@ -1,5 +1,5 @@
-//! Pictures of a state: von Mises stress, pressure, plastic zone, on the deformed contour of a plane
-//! model or of a cut through a solid one.
+//! Pictures of a state: von Mises stress, pressure, plastic zone, on the deformed contour of a
+//! plane model or of a cut through a solid one.
 
 use super::bands::Bands;
 use super::contours::Sheet;
@@ -11,7 +11,7 @@ use super::units::Units;
 use super::window::Window;
 use crate::error::Result;
 use crate::mesh::Mesh;
-use crate::output::number::significant;
+use crate::number::significant;
 use crate::results::{Fields, State};
 use plotters::style::RGBColor;
 use rayon::prelude::*;
@@ -92,7 +92,8 @@ const ZONE: f64 = 0.5;
 /// Bodies where nothing is shown of them.
 const NEUTRAL: RGBColor = RGBColor(0x9a, 0xa5, 0xb1);
 
-/// Values of a quantity in a state on a view, and the share of the elements round that have yielded.
+/// Values of a quantity in a state on a view, and the share of the elements round that have
+/// yielded.
 struct Values<'v> {
     state: usize,
     view: usize,

@@ -6,7 +6,7 @@
 //! |---|---|
 //! | `page`, `tables`, `trust` | the page |
 //! | `curves`, `along_contact`, `chart` | charts: which, and how they are drawn |
-//! | `profile`, `hertz` | stresses below the contact; Hertz's pressure beside the computed one |
+//! | `profile`, `hertz` | stresses below the contact; Hertz's pressure compared with the computed one |
 //! | `scenery`, `sketch`, `perspective`, `camera`, `outer` | the scene drawn: plane, solid; what bounds bodies |
 //! | `states`, `fields`, `contact_map` | pictures of states: fields; pressure over a contact of solids |
 //! | `patchwork`, `section`, `contact_frame`, `window` | a mesh as triangles of a plane, cuts through solids, where; what is shown |

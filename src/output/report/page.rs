@@ -5,8 +5,8 @@ use super::theme;
 use super::trust;
 use super::units::Units;
 use crate::model::Model;
+use crate::number::significant;
 use crate::output::RunHeader;
-use crate::output::number::{number, seconds, significant};
 use crate::results::{Results, State};
 use crate::scene::{Kind, Unit};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -293,7 +293,8 @@ fn cards(model: &Model, results: &Results, units: &Units) -> Markup {
     ));
     html! {
         dl.cards {
-            @for (name, value, unit) in cards.iter().filter(|card| card.1 > 0.0 && card.1.is_finite()) {
+            @let shown = |card: &&(_, f64, _)| card.1 > 0.0 && card.1.is_finite();
+            @for (name, value, unit) in cards.iter().filter(shown) {
                 div.card {
                     dt { (name) }
                     dd { b { (round(*value)) } " " small { (unit) } }
@@ -312,7 +313,9 @@ pub(super) fn figures(list: &[Figure], class: &str) -> Markup {
                 div.frame id={ "at-" (figure.name) } {
                     figure id={ "fig-" (figure.name) } {
                         @if !figure.title.is_empty() { h3 { (figure.title) } }
-                        a.enlarge href={ "#fig-" (figure.name) } aria-label="Enlarge" { (PreEscaped(&figure.svg)) }
+                        a.enlarge href={ "#fig-" (figure.name) } aria-label="Enlarge" {
+                            (PreEscaped(&figure.svg))
+                        }
                         @if !figure.caption.is_empty() { figcaption { (figure.caption) } }
                         a.close href={ "#at-" (figure.name) } aria-label="Close" { "\u{d7}" }
                     }
@@ -337,7 +340,10 @@ fn pictures(all: &Figures) -> Markup {
         p.quiet { (all.about_pictures) }
         @if all.states_left_out > 0 {
             p.quiet {
-                (all.states_left_out) " more " (if all.states_left_out == 1 { "state is" } else { "states are" }) " in the " code { ".vtu" } " files (ParaView: open " code { "fields.pvd" } ")."
+                (all.states_left_out) " more "
+                (if all.states_left_out == 1 { "state is" } else { "states are" })
+                " in the " code { ".vtu" }
+                " files (ParaView: open " code { "fields.pvd" } ")."
             }
         }
         @for (name, list) in &all.states {
@@ -360,8 +366,11 @@ fn files(results: &Results) -> Markup {
             @if fields { ", " a href="fields.pvd" { "fields.pvd" } " (fields for ParaView)" }
             ", the figures as " code { "report_*.svg" } "."
         }
-        p { "Written by brinell " (env!("CARGO_PKG_VERSION")) ". Small strains, no friction; after N. Endahl, Finite Element Analysis of \
-             Elastoplastic Contact Problems Without Friction." }
+        p {
+            "Written by brinell " (env!("CARGO_PKG_VERSION"))
+            ". Small strains, no friction; after N. Endahl, Finite Element Analysis of \
+             Elastoplastic Contact Problems Without Friction."
+        }
     }
 }
 
@@ -371,14 +380,4 @@ pub(super) fn factor(unit: Unit) -> &'static str {
         Unit::Load => "load factor",
         Unit::Yield => "load / yield load",
     }
-}
-
-/// Six digits, as in the terminal's tables.
-pub(super) fn digits(value: f64) -> String {
-    number(value)
-}
-
-/// Seconds.
-pub(super) fn time(value: f64) -> String {
-    seconds(value)
 }

@@ -1,5 +1,5 @@
-//! A mesh as triangles of a plane: plane elements, cuts through solid ones, faces of a contact; with
-//! their mirror images.
+//! A mesh as triangles of a plane: plane elements, cuts through solid ones, faces of a contact;
+//! with their mirror images.
 
 use super::contours::{Sheet, border};
 use super::window::Window;
@@ -79,7 +79,7 @@ impl Patchwork {
         out.finished()
     }
 
-    /// The number of a point, by what tells it apart in its body.
+    /// The number of a point, by what identifies it in its body.
     pub(super) fn point(&mut self, body: u32, key: [usize; 2], mix: impl FnOnce() -> Mix) -> u32 {
         let points = &mut self.points;
         *self.known.entry((body, key)).or_insert_with(|| {

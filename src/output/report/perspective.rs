@@ -202,8 +202,8 @@ impl<'m> Perspective<'m> {
         }
     }
 
-    /// The drawing, with the sides of the faces that are large enough where these are asked for; and
-    /// the share of the area seen whose sides are.
+    /// The drawing, with the sides of the faces that are large enough where these are asked for;
+    /// and the share of the area seen whose sides are.
     ///
     /// # Errors
     /// `Internal` where it cannot be drawn.

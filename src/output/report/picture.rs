@@ -28,8 +28,8 @@ pub(super) struct Picture {
 }
 
 impl Picture {
-    /// An empty picture of a window with room for a scale of colours. Three fit beside each other on
-    /// a screen.
+    /// An empty picture of a window with room for a scale of colours. Three fit beside each other
+    /// on a screen.
     pub(super) fn new(window: Window) -> Self {
         Picture {
             window,
@@ -101,7 +101,8 @@ impl Picture {
         if !data.is_empty() {
             let (color, width) = (hex(color), width * f64::from(FINE));
             self.element(format_args!(
-                "<path fill=\"none\" stroke=\"{color}\" stroke-width=\"{width}\" stroke-linejoin=\"round\" d=\"{data}\"/>"
+                "<path fill=\"none\" stroke=\"{color}\" stroke-width=\"{width}\" \
+                 stroke-linejoin=\"round\" d=\"{data}\"/>"
             ));
         }
     }
@@ -130,15 +131,17 @@ impl Picture {
         for (color, width) in [(&paper, 3.0), (&ink, 1.25)] {
             let (r, width) = (3.5 * fine, width * fine);
             self.element(format_args!(
-                "<circle cx=\"{cx}\" cy=\"{cy}\" r=\"{r}\" fill=\"none\" stroke=\"{color}\" stroke-width=\"{width}\"/>"
+                "<circle cx=\"{cx}\" cy=\"{cy}\" r=\"{r}\" fill=\"none\" stroke=\"{color}\" \
+                 stroke-width=\"{width}\"/>"
             ));
         }
         let (tx, ty) = (((x + beside) * fine).round(), (below * fine).round());
         let width = 3.0 * fine;
         let words = shown(words).replace('&', "&amp;").replace('<', "&lt;");
         self.element(format_args!(
-            "<text x=\"{tx}\" y=\"{ty}\" text-anchor=\"{anchor}\" fill=\"{ink}\" stroke=\"{paper}\" \
-             stroke-width=\"{width}\" stroke-linejoin=\"round\" paint-order=\"stroke\">{words}</text>"
+            "<text x=\"{tx}\" y=\"{ty}\" text-anchor=\"{anchor}\" fill=\"{ink}\" \
+             stroke=\"{paper}\" stroke-width=\"{width}\" stroke-linejoin=\"round\" \
+             paint-order=\"stroke\">{words}</text>"
         ));
     }
 

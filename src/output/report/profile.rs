@@ -9,7 +9,7 @@ use super::units::{Units, labelled};
 use super::window::{Window, mirrors, negligible};
 use crate::material::von_mises;
 use crate::model::Model;
-use crate::output::number::significant;
+use crate::number::{significant, with_unit};
 use crate::results::{Fields, PairState, Results, State, Status};
 use crate::space::{Vector, dot, unit};
 use nalgebra::Matrix3;
@@ -73,8 +73,8 @@ pub(super) fn chart(
         };
         caption.push_str(&format!(
             " Largest shear stress in {name}: {} at a depth of {} ({} of the half width).",
-            with_unit(top[1], units.stress()),
-            with_unit(top[0], units.length()),
+            with_unit(&significant(top[1], 3), units.stress()),
+            with_unit(&significant(top[0], 3), units.length()),
             significant(top[0] / state.half_width, 2),
         ));
         for (kind, pen, points) in [
@@ -104,12 +104,6 @@ pub(super) fn chart(
             legend: SeriesLabelPosition::UpperRight,
         },
     })
-}
-
-fn with_unit(value: f64, unit: &str) -> String {
-    format!("{} {unit}", significant(value, 3))
-        .trim_end()
-        .to_string()
 }
 
 type Below = (usize, [[f64; 2]; 2], Patchwork);

@@ -9,7 +9,7 @@ use super::units::Units;
 use super::{sketch, window};
 use crate::error::Result;
 use crate::model::Model;
-use crate::output::number::significant;
+use crate::number::significant;
 use crate::results::Results;
 use crate::space::{Vector, difference, dot, unit};
 

@@ -18,8 +18,8 @@ pub(super) struct Cut {
 /// Share of a window's size by which a cut keeps off nodes on its plane.
 const OFF: f64 = 1e-6;
 
-/// Each order of a tetrahedron's corners is an even one: with the corners on the near side first, the
-/// cut runs round in the same sense.
+/// Each order of a tetrahedron's corners is an even one: with the corners on the near side first,
+/// the cut runs round in the same sense.
 const ONE: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 3, 0, 1], [3, 2, 1, 0]];
 const TWO: [[usize; 4]; 6] = [
     [0, 1, 2, 3],
@@ -203,8 +203,9 @@ mod tests {
     use crate::mesh::Shape;
     use crate::space::{along, direction, unit};
 
-    /// A distorted block of two hexahedra, one of them as prisms or tetrahedra. The areas of cuts add
-    /// up to its volume, whatever their direction: by the trapezoid rule over `n` cuts to O(1/n^2).
+    /// A distorted block of two hexahedra, one of them as prisms or tetrahedra. The areas of cuts
+    /// add up to its volume, whatever their direction: by the trapezoid rule over `n` cuts to
+    /// O(1/n^2).
     #[test]
     fn the_areas_of_cuts_add_up_to_the_volume() {
         let mut mesh = Mesh {

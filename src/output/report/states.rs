@@ -10,7 +10,7 @@ use super::units::Units;
 use super::window::{self, mirrors, negligible};
 use crate::error::Result;
 use crate::model::Model;
-use crate::output::number::significant;
+use crate::number::significant;
 use crate::results::{Fields, Results, State};
 use crate::space::unit;
 
@@ -150,12 +150,15 @@ fn about(model: &Model, has_map: bool, has_fields: bool) -> String {
     let mut out = String::new();
     if has_map {
         out.push_str(
-            "Pressure over the contact that carries most, seen along its normal; the line is the ellipse of the half \
-             axes. ",
+            "Pressure over the contact that carries most, seen along its normal; the line is the \
+             ellipse of the half axes. ",
         );
     }
     if has_fields && model.kind.is_solid() {
-        out.push_str("Sections through the middle of this contact, along the axes of the contact and its normal. ");
+        out.push_str(
+            "Sections through the middle of this contact, along the axes of the contact and its \
+             normal. ",
+        );
     }
     if has_fields {
         out.push_str("The deformed contour, displacements at true scale; ");
@@ -163,8 +166,8 @@ fn about(model: &Model, has_map: bool, has_fields: bool) -> String {
             out.push_str("mirrored at planes or the axis of symmetry; ");
         }
         out.push_str(
-            "the ring marks the largest value. A double line is the border of the plastic zone. Scales of colour are \
-             the same for all states where nothing else is said.",
+            "the ring marks the largest value. A double line is the border of the plastic zone. \
+             Scales of colour are the same for all states where nothing else is said.",
         );
     }
     out
@@ -181,7 +184,8 @@ fn captioned(picture: Shown, state: &State, views: &[View], units: &Units) -> Ca
         Quantity::VonMises => ("von_mises", "Von Mises stress"),
         Quantity::Pressure => (
             "pressure",
-            "Hydrostatic pressure \u{2212}(\u{3c3}\u{2081}+\u{3c3}\u{2082}+\u{3c3}\u{2083})/3 (red: compression)",
+            "Hydrostatic pressure \u{2212}(\u{3c3}\u{2081}+\u{3c3}\u{2082}+\u{3c3}\u{2083})/3 \
+             (red: compression)",
         ),
         Quantity::PlasticZone => (
             "plastic_zone",

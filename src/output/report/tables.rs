@@ -1,15 +1,15 @@
 //! The tables of the page.
 
-use super::page::{Figure, digits, factor, figures, time};
+use super::page::{Figure, factor, figures};
 use super::sketch::{BODIES, CONTACT, LOAD, SUPPORT};
 use super::theme::hex;
 use super::units::{Units, labelled};
 use crate::model::Model;
+use crate::number::{bytes, number, seconds, trimmed, with_unit};
 use crate::output::RunHeader;
 use crate::output::columns::of_states;
-use crate::output::number::{bytes, ratio, significant};
 use crate::results::Results;
-use crate::scene::{Direction, History, Load};
+use crate::scene::{Direction, Field, History, Load};
 use crate::space::Components;
 use maud::{Markup, PreEscaped, html};
 use plotters::style::RGBColor;
@@ -19,13 +19,19 @@ pub(super) fn table(head: &[(bool, String)], rows: &[Vec<Markup>]) -> Markup {
     html! {
         div.wide tabindex="0" {
             table {
-                thead { tr { @for (is_number, name) in head { th class=[is_number.then_some("n")] scope="col" { (name) } } } }
+                thead { tr {
+                    @for (is_number, name) in head {
+                        th class=[is_number.then_some("n")] scope="col" { (name) }
+                    }
+                } }
                 tbody {
                     @for row in rows {
                         tr {
-                            @for (index, (cell, (is_number, _))) in row.iter().zip(head).enumerate() {
-                                @if index == 0 { th scope="row" { (cell) } }
-                                @else { td class=[is_number.then_some("n")] { (cell) } }
+                            @for (cell, _) in row.iter().zip(head).take(1) {
+                                th scope="row" { (cell) }
+                            }
+                            @for (cell, (is_number, _)) in row.iter().zip(head).skip(1) {
+                                td class=[is_number.then_some("n")] { (cell) }
                             }
                         }
                     }
@@ -88,16 +94,26 @@ fn bodies(model: &Model, units: &Units) -> Markup {
                 (None, _) => "elastic".to_string(),
                 (_, Some(0.0)) => "none (perfectly plastic)".to_string(),
                 (_, Some(h)) => {
-                    format!("linear, H = {}", with_unit(h, stress))
+                    format!("linear, H = {}", with_unit(&given(h), stress))
                 }
                 (_, None) => "table".to_string(),
+            };
+            let hardening = match material
+                .kinematic_modulus
+                .filter(|c| *c != 0.0 && yields.is_some())
+            {
+                Some(c) => format!(
+                    "{hardening}; kinematic, C = {}",
+                    with_unit(&given(c), stress)
+                ),
+                None => hardening,
             };
             Some(vec![
                 swatch(BODIES[index % BODIES.len()], name),
                 plain(&body.material),
-                plain(short(material.youngs_modulus)),
-                plain(short(material.poissons_ratio)),
-                plain(yields.map_or("\u{2013}".to_string(), short)),
+                plain(given(material.youngs_modulus)),
+                plain(given(material.poissons_ratio)),
+                plain(yields.map_or("\u{2013}".to_string(), given)),
                 plain(hardening),
             ])
         })
@@ -106,13 +122,8 @@ fn bodies(model: &Model, units: &Units) -> Markup {
 }
 
 /// A number of the input: as it was given, as far as six digits say it.
-fn short(value: f64) -> String {
-    let text = significant(value, 6);
-    if text.contains('.') && !text.contains('e') {
-        text.trim_end_matches('0').trim_end_matches('.').to_string()
-    } else {
-        text
-    }
+fn given(value: f64) -> String {
+    trimmed(value, 6)
 }
 
 fn conditions(model: &Model, units: &Units) -> Markup {
@@ -123,11 +134,14 @@ fn conditions(model: &Model, units: &Units) -> Markup {
         if contact.interference != 0.0 {
             what.push_str(&format!(
                 ", interference {}",
-                with_unit(contact.interference, units.length())
+                with_unit(&given(contact.interference), units.length())
             ));
         }
         if let Some(gap) = contact.gap {
-            what.push_str(&format!(", initial gap {}", with_unit(gap, units.length())));
+            what.push_str(&format!(
+                ", initial gap {}",
+                with_unit(&given(gap), units.length())
+            ));
         }
         let on = format!("{} on {}", contact.first, contact.second);
         rows.push(vec![swatch(CONTACT, "contact"), plain(on), plain(what)]);
@@ -135,7 +149,7 @@ fn conditions(model: &Model, units: &Units) -> Markup {
     for support in &scene.support {
         let fixed: Vec<&str> = support.fix.iter().map(|d| axis(model, *d)).collect();
         let turned = support.angle.map_or(String::new(), |a| {
-            format!(", axes turned by {}\u{b0}", short(a))
+            format!(", axes turned by {}\u{b0}", given(a))
         });
         let what = format!("{} held{turned}", fixed.join(" and "));
         rows.push(vec![
@@ -155,19 +169,15 @@ fn axis(model: &Model, direction: Direction) -> &'static str {
     model.kind.axes()[direction.axis()]
 }
 
-fn with_unit(value: f64, unit: &str) -> String {
-    format!("{} {unit}", short(value)).trim_end().to_string()
-}
-
 fn describe(model: &Model, load: &Load, units: &Units) -> String {
     let vector = |v: Components| {
-        let parts: Vec<String> = v.iter().map(short).collect();
+        let parts: Vec<String> = v.iter().map(given).collect();
         format!("({})", parts.join(", "))
     };
     let mut what = if let Some(force) = load.force {
         format!("force {}", vector(force))
     } else if let Some(pressure) = load.pressure {
-        format!("pressure {}", with_unit(pressure, units.stress()))
+        format!("pressure {}", with_unit(&given(pressure), units.stress()))
     } else if let Some(traction) = load.traction {
         format!("traction {} {}", vector(traction), units.stress())
     } else if let Some(kirsch) = load.kirsch {
@@ -176,7 +186,11 @@ fn describe(model: &Model, load: &Load, units: &Units) -> String {
             vector([kirsch.stress_x, kirsch.stress_y].into())
         )
     } else if let Some(d) = load.displacement {
-        let parts = [(d.x, Direction::X), (d.y, Direction::Y)];
+        let parts = [
+            (d.x, Direction::X),
+            (d.y, Direction::Y),
+            (d.z, Direction::Z),
+        ];
         let parts: Vec<String> = parts
             .into_iter()
             .filter_map(|(value, direction)| {
@@ -184,7 +198,7 @@ fn describe(model: &Model, load: &Load, units: &Units) -> String {
                     format!(
                         "{} = {}",
                         axis(model, direction),
-                        with_unit(v, units.length())
+                        with_unit(&given(v), units.length())
                     )
                 })
             })
@@ -193,9 +207,18 @@ fn describe(model: &Model, load: &Load, units: &Units) -> String {
     } else if let Some(plane) = load.plane_force {
         format!(
             "force {} along {}, the surface held plane",
-            short(plane.total),
+            given(plane.total),
             axis(model, plane.direction)
         )
+    } else if let Some(acceleration) = load.acceleration {
+        format!("acceleration {} of its mass", vector(acceleration))
+    } else if let Some(rotation) = load.rotation {
+        format!("rotation at {} rpm", given(rotation.rpm))
+    } else if let Some(temperature) = &load.temperature {
+        match temperature {
+            Field::Uniform(change) => format!("temperature changed by {}", given(*change)),
+            Field::Formula(text) => format!("temperature changed by {text}"),
+        }
     } else {
         String::new()
     };
@@ -217,7 +240,7 @@ fn describe(model: &Model, load: &Load, units: &Units) -> String {
     }
 }
 
-/// The states, with the columns that tell something in this scene.
+/// The states, with the columns that carry information in this scene.
 pub(super) fn states(model: &Model, results: &Results, units: &Units) -> Markup {
     let states = &results.states;
     if states.is_empty() {
@@ -245,7 +268,7 @@ pub(super) fn states(model: &Model, results: &Results, units: &Units) -> Markup 
     }
 }
 
-/// Reference values beside computed ones.
+/// Reference values compared with computed ones.
 pub(super) fn reference(results: &Results) -> Markup {
     if results.reference.is_empty() {
         return PreEscaped(String::new());
@@ -271,9 +294,9 @@ pub(super) fn reference(results: &Results) -> Markup {
         .map(|row| {
             let mut cells = vec![
                 html! { code { (row.quantity) } },
-                plain(digits(row.reference)),
-                plain(digits(row.computed)),
-                plain(ratio(row.ratio)),
+                plain(number(row.reference)),
+                plain(number(row.computed)),
+                plain(number(row.ratio)),
                 plain(difference(row.ratio)),
             ];
             if published {
@@ -316,8 +339,14 @@ pub(super) fn effects(results: &Results) -> Markup {
                             th scope="row" { (effect.name) }
                             td { @if effect.on { b { "on" } } @else { "off" } }
                             td.why { (effect.why) }
-                            td.n { @if effect.on && effect.seconds > 0.0 { (time(effect.seconds)) } }
-                            td.n { @if effect.on && effect.memory_bytes > 0 { (bytes(effect.memory_bytes as f64)) } }
+                            td.n {
+                                @if effect.on && effect.seconds > 0.0 { (seconds(effect.seconds)) }
+                            }
+                            td.n {
+                                @if effect.on && effect.memory_bytes > 0 {
+                                    (bytes(effect.memory_bytes as f64))
+                                }
+                            }
                         }
                     }
                 }
@@ -349,17 +378,25 @@ pub(super) fn cost(header: &RunHeader, results: &Results) -> Markup {
     html! {
         div.wide tabindex="0" {
             table {
-                thead { tr { th scope="col" { "phase" } th.n scope="col" { "time" } th.n scope="col" { "share" } th.bar scope="col" {} } }
+                thead { tr {
+                    th scope="col" { "phase" } th.n scope="col" { "time" }
+                    th.n scope="col" { "share" } th.bar scope="col" {}
+                } }
                 tbody {
                     @for (phase, t) in &phases {
                         tr {
                             th scope="row" { (phase) }
-                            td.n { (time(*t)) }
+                            td.n { (seconds(*t)) }
                             td.n { (format!("{:.0} %", 100.0 * t / total.max(*t))) }
-                            td.bar { i style={ "width:" (format!("{:.1}", 100.0 * t / longest)) "%" } {} }
+                            td.bar {
+                                i style={ "width:" (format!("{:.1}", 100.0 * t / longest)) "%" } {}
+                            }
                         }
                     }
-                    tr { th scope="row" { b { "all" } } td.n { b { (time(total)) } } td {} td {} }
+                    tr {
+                        th scope="row" { b { "all" } }
+                        td.n { b { (seconds(total)) } } td {} td {}
+                    }
                 }
             }
         }
@@ -370,8 +407,16 @@ pub(super) fn cost(header: &RunHeader, results: &Results) -> Markup {
                         tr { th scope="row" { (name) } td.n { (grouped(*count)) } }
                     }
                     @if results.factor.factor_nonzeros > 0.0 {
-                        tr { th scope="row" { "nonzeros of the factor (order " (results.factor.ordering) ")" } td.n { (grouped(results.factor.factor_nonzeros as usize)) } }
-                        tr { th scope="row" { "memory of the factor" } td.n { (bytes(results.factor.memory_bytes)) } }
+                        tr {
+                            th scope="row" {
+                                "nonzeros of the factor (order " (results.factor.ordering) ")"
+                            }
+                            td.n { (grouped(results.factor.factor_nonzeros as usize)) }
+                        }
+                        tr {
+                            th scope="row" { "memory of the factor" }
+                            td.n { (bytes(results.factor.memory_bytes)) }
+                        }
                     }
                     tr { th scope="row" { "solver" } td.n { (header.solver) } }
                 }

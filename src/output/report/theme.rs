@@ -74,7 +74,8 @@ pub(super) fn variables() -> String {
             .collect()
     };
     format!(
-        ":root{{color-scheme:light dark;{}}}\n@media screen and (prefers-color-scheme: dark){{:root{{{}}}}}\n",
+        ":root{{color-scheme:light dark;{}}}\n@media screen and (prefers-color-scheme: \
+         dark){{:root{{{}}}}}\n",
         list(false),
         list(true)
     )

@@ -1,8 +1,8 @@
 //! How far the numbers can be trusted: the stated errors and the quality of the solves.
 
 use super::tables::{numbers, plain, table, text};
+use crate::number::significant;
 use crate::output::ending::in_words;
-use crate::output::number::significant;
 use crate::output::stated_errors::StatedErrors;
 use crate::results::Results;
 use maud::{Markup, PreEscaped, html};
@@ -18,7 +18,10 @@ pub(super) fn errors(results: &Results) -> Markup {
     }
     html! {
         @if let Some(stated) = &stated {
-            p.quiet { "In per cent of the largest size that the quantity has in this run. " (stated.method) }
+            p.quiet {
+                "In per cent of the largest size that the quantity has in this run. "
+                (stated.method)
+            }
             (stated_errors(stated))
         }
         @if let Some(demand) = &accuracy.demand {
@@ -91,14 +94,17 @@ pub(super) fn quality(results: &Results) -> Markup {
              of the whole and of the worst row; out-of-balance force of the stresses over the \
              forces that act, and what round-off alone may leave of it on this mesh; gap times \
              force of a pair; penetration over the largest displacement; tension of a pair over \
-             the largest force. These say how well the equations were solved, not how fine the mesh is."
+             the largest force. These say how well the equations were solved, not how fine the \
+             mesh is."
         }
         @for text in &results.inaccurate { div.note.bad { b { "Not to be trusted: " } (text) } }
         (table(&head, &rows))
         @if results.condition > 0.0 {
             p.quiet {
                 "Condition of the factored matrix: at least " (significant(results.condition, 2))
-                @if let Some(estimate) = results.condition_estimate { ", about " (significant(estimate, 2)) }
+                @if let Some(estimate) = results.condition_estimate {
+                    ", about " (significant(estimate, 2))
+                }
                 "."
             }
         }

@@ -124,7 +124,7 @@ pub(super) fn extent(model: &Model) -> [Vector; 2] {
     })
 }
 
-/// A length that is none beside the mesh.
+/// A length that counts as none compared with the mesh.
 pub(super) fn negligible(model: &Model) -> f64 {
     let [low, high] = extent(model);
     (0..3)

@@ -1,4 +1,5 @@
-//! Reading: the message for each way to get a scene file wrong, overrides, and what a good file becomes.
+//! Reading: the message for each way to get a scene file wrong, overrides, and what a good file
+//! becomes.
 
 mod overrides;
 
@@ -115,7 +116,8 @@ fn a_bad_scene_is_refused_with_place_key_and_advice() {
             "[[load]]",
             "[load]",
             &[
-                "load: a single table, expected a list of them: write its head with two brackets, [[...]]",
+                "load: a single table, expected a list of them: write its head with two brackets, \
+                 [[...]]",
             ],
         ),
         (
@@ -132,21 +134,24 @@ fn a_bad_scene_is_refused_with_place_key_and_advice() {
             "poissons_ratio = 0.3",
             "poissons_ratio = \"0.3\"",
             &[
-                "bad.toml:10:18: materials.steel.poissons_ratio: wrong type: string \"0.3\", expected a number",
+                "bad.toml:10:18: materials.steel.poissons_ratio: wrong type: string \"0.3\", \
+                 expected a number",
             ],
         ),
         (
             "elements = [2, 2]",
             "elements = [2, -2]",
             &[
-                "mesh.parts.0.block.elements.1: wrong value: integer `-2`, expected a whole number, 0 or more",
+                "mesh.parts.0.block.elements.1: wrong value: integer `-2`, expected a whole \
+                 number, 0 or more",
             ],
         ),
         (
             "x = [0.0, 1.0]",
             "x = [0.0]",
             &[
-                "bad.toml:6:15: mesh.parts.0.block.x: wrong number of values: 1, expected an array of length 2",
+                "bad.toml:6:15: mesh.parts.0.block.x: wrong number of values: 1, expected an array \
+                 of length 2",
             ],
         ),
         (
@@ -182,9 +187,8 @@ fn a_bad_scene_is_refused_with_place_key_and_advice() {
         (
             "pressure = 1.0",
             "pressure = 1.0\nhistory = \"sometimes\"",
-            &[
-                "load.0.history: wrong value: string \"sometimes\", expected \"proportional\", \"constant\" or",
-            ],
+            &["load.0.history: wrong value: string \"sometimes\", \
+               expected \"proportional\", \"constant\" or"],
         ),
         (
             "pressure = 1.0",
@@ -195,7 +199,8 @@ fn a_bad_scene_is_refused_with_place_key_and_advice() {
             "material = \"steel\"",
             "material = \"steel\"\nplastic = \"maybe\"",
             &[
-                "bodies.block.plastic: wrong value: string \"maybe\", expected true, false or \"auto\"",
+                "bodies.block.plastic: wrong value: string \"maybe\", expected true, false \
+                 or \"auto\"",
             ],
         ),
         (
@@ -311,7 +316,8 @@ fn a_wrong_override_is_named() {
         (
             "materials.steel.yeild_stress=400",
             &[
-                "--set materials.steel.yeild_stress=400: unknown key `yeild_stress`, did you mean `yield_stress`?",
+                "--set materials.steel.yeild_stress=400: unknown key `yeild_stress`, did you mean \
+                 `yield_stress`?",
             ],
         ),
         (
@@ -352,7 +358,8 @@ fn a_wrong_override_is_named() {
         (
             "materials.steel.youngs_modulus=-5",
             &[
-                "--set materials.steel.youngs_modulus=-5: materials.steel.youngs_modulus: -5 must be greater",
+                "--set materials.steel.youngs_modulus=-5: materials.steel.youngs_modulus: -5 must \
+                 be greater",
             ],
         ),
     ] {
@@ -395,9 +402,8 @@ fn the_plastic_modulus_follows_from_the_tangent_modulus() {
         youngs_modulus: 200.0,
         poissons_ratio: 0.3,
         yield_stress: Some(1.0),
-        plastic_modulus: None,
         tangent_modulus: Some(40.0),
-        hardening_table: None,
+        ..Material::default()
     };
     // 1/Et = 1/E + 1/H: 1/40 = 1/200 + 1/50.
     assert_eq!(material.plastic_modulus_resolved(), Some(50.0));

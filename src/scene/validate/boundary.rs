@@ -1,9 +1,9 @@
 //! Contact, supports and loads.
 
 use super::Checks;
-use crate::scene::{Contact, Direction, History, Load, Scene, Support, Tie};
+use crate::number::exact;
+use crate::scene::{Contact, Direction, History, Load, Rotation, Scene, Support, Tie};
 use crate::space::{Components, Space};
-use crate::text::exact;
 use std::collections::BTreeSet;
 
 impl Checks {
@@ -160,6 +160,9 @@ impl Checks {
                 ("kirsch", load.kirsch.is_some()),
                 ("displacement", load.displacement.is_some()),
                 ("plane_force", load.plane_force.is_some()),
+                ("acceleration", load.acceleration.is_some()),
+                ("rotation", load.rotation.is_some()),
+                ("temperature", load.temperature.is_some()),
             ],
         );
         if let Some(displacement) = load.displacement {
@@ -176,7 +179,26 @@ impl Checks {
                 self.is_in(&key, Direction::Z, kind);
             }
         }
-        for (name, vector) in [("force", load.force), ("traction", load.traction)] {
+        if let Some(rotation) = load.rotation {
+            self.rotation(&format!("{key}.rotation"), &rotation, kind);
+        }
+        let temperature = load.temperature.as_ref();
+        if let Some(Err(wrong)) = temperature.map(|t| t.function(kind).map(drop)) {
+            self.problem(format!("{key}.temperature"), wrong);
+        }
+        if let (Some(given), Space::Axisymmetric) = (load.acceleration, kind) {
+            self.require(
+                given.vector()[0] == 0.0,
+                format!("{key}.acceleration"),
+                "has a radial component; of an axisymmetric model only the axial one is symmetric",
+            );
+        }
+        let vectors = [
+            ("force", load.force),
+            ("traction", load.traction),
+            ("acceleration", load.acceleration),
+        ];
+        for (name, vector) in vectors {
             if let Some(vector) = vector {
                 self.vector(&format!("{key}.{name}"), vector, kind);
             }
@@ -196,7 +218,37 @@ impl Checks {
                 format!("is the field of a plane model; this one is {}", kind.name()),
             );
         }
-        if let History::Table(rows) = &load.history {
+        self.history(key, &load.history);
+    }
+
+    fn rotation(&mut self, key: &str, rotation: &Rotation, space: Space) {
+        let axis = format!("{key}.axis");
+        match rotation.axis {
+            Some([x, y, z]) if space.is_solid() => self.is_direction(&axis, [x, y, z].into()),
+            Some(_) => self.problem(
+                axis,
+                "is for solids; plane models turn in their plane, axisymmetric ones about their \
+                 axis",
+            ),
+            None => self.require(
+                !space.is_solid(),
+                axis,
+                "is missing; give the direction of the axis",
+            ),
+        }
+        if let Some(center) = rotation.center {
+            let key = format!("{key}.center");
+            self.vector(&key, center, space);
+            self.require(
+                !space.is_axisymmetric(),
+                key,
+                "has no meaning: axisymmetric models turn about their own axis",
+            );
+        }
+    }
+
+    fn history(&mut self, key: &str, history: &History) {
+        if let History::Table(rows) = history {
             let key = format!("{key}.history");
             self.require(
                 !rows.is_empty(),

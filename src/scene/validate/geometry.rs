@@ -2,10 +2,10 @@
 
 use super::Checks;
 use crate::analytical::HertzEllipse;
+use crate::number::exact;
 use crate::scene::{CurvedBodies, CylinderOnHalfPlane, DiscInPlate, MeshSource, Scene};
 use crate::shape::Shape;
 use crate::space::{Space, length};
-use crate::text::exact;
 use std::collections::BTreeSet;
 
 impl Checks {
@@ -154,31 +154,48 @@ impl Checks {
         );
     }
 
+    /// A mesh that is even near the contact and grows from there on; all in half widths.
+    fn graded(
+        &mut self,
+        mesh: &str,
+        [width, depth]: [f64; 2],
+        contact_width: Option<f64>,
+        [growth, far_size]: [f64; 2],
+    ) {
+        let key = |name: &str| format!("{mesh}.{name}");
+        self.at_least(key("fine_width"), width, 1.0);
+        if let Some(contact) = contact_width {
+            self.at_least(key("contact_width"), contact, width);
+        }
+        self.positive(key("fine_depth"), depth);
+        self.at_least(key("growth"), growth, 1.0);
+        let fine = width.max(depth);
+        self.require(
+            far_size > fine,
+            key("far_size"),
+            format!(
+                "{} must be greater than fine_width and fine_depth ({})",
+                exact(far_size),
+                exact(fine)
+            ),
+        );
+    }
+
     fn cylinder_on_half_plane(&mut self, parameters: &CylinderOnHalfPlane, scene: &Scene) {
         let key = |name: &str| format!("mesh.cylinder_on_half_plane.{name}");
         self.positive(key("radius"), parameters.radius);
         let section = scene.mesh.section(scene.kind);
         self.element(&key("element"), parameters.element, section);
         self.count(key("resolution"), parameters.resolution, 1);
-        self.at_least(key("fine_width"), parameters.fine_width, 1.0);
-        if let Some(width) = parameters.contact_width {
-            self.at_least(key("contact_width"), width, parameters.fine_width);
-        }
-        self.positive(key("fine_depth"), parameters.fine_depth);
-        self.at_least(key("growth"), parameters.growth, 1.0);
+        self.graded(
+            "mesh.cylinder_on_half_plane",
+            [parameters.fine_width, parameters.fine_depth],
+            parameters.contact_width,
+            [parameters.growth, parameters.far_size],
+        );
         if let Some(far) = parameters.far_growth {
             self.at_least(key("far_growth"), far, parameters.growth);
         }
-        let fine = parameters.fine_width.max(parameters.fine_depth);
-        self.require(
-            parameters.far_size > fine,
-            key("far_size"),
-            format!(
-                "{} must be greater than fine_width and fine_depth ({})",
-                exact(parameters.far_size),
-                exact(fine)
-            ),
-        );
         match parameters.half_width {
             Some(half_width) => {
                 self.positive(key("half_width"), half_width);
@@ -221,21 +238,11 @@ impl Checks {
             self.problem(key("upper"), error.message());
         }
         self.count(key("resolution"), parameters.resolution, 1);
-        self.at_least(key("fine_width"), parameters.fine_width, 1.0);
-        if let Some(width) = parameters.contact_width {
-            self.at_least(key("contact_width"), width, parameters.fine_width);
-        }
-        self.positive(key("fine_depth"), parameters.fine_depth);
-        self.at_least(key("growth"), parameters.growth, 1.0);
-        let fine = parameters.fine_width.max(parameters.fine_depth);
-        self.require(
-            parameters.far_size > fine,
-            key("far_size"),
-            format!(
-                "{} must be greater than fine_width and fine_depth ({})",
-                exact(parameters.far_size),
-                exact(fine)
-            ),
+        self.graded(
+            "mesh.curved_bodies",
+            [parameters.fine_width, parameters.fine_depth],
+            parameters.contact_width,
+            [parameters.growth, parameters.far_size],
         );
         for semi_axis in parameters.semi_axes.into_iter().flatten() {
             self.positive(key("semi_axes"), semi_axis);

@@ -1,9 +1,9 @@
 //! Materials and bodies.
 
 use super::Checks;
+use crate::number::exact;
 use crate::scene::read::closest;
 use crate::scene::{Material, Plastic, Scene};
-use crate::text::exact;
 
 impl Checks {
     pub(super) fn materials(&mut self, scene: &Scene) {
@@ -50,6 +50,13 @@ impl Checks {
             format!("{key}.poissons_ratio"),
             format!("{} must lie between -1 and 0.5, ends excluded", exact(nu)),
         );
+        if let Some(density) = material.density {
+            self.require(
+                density > 0.0,
+                format!("{key}.density"),
+                format!("{} must be greater than 0", exact(density)),
+            );
+        }
         let hardening = [
             ("plastic_modulus", material.plastic_modulus.is_some()),
             ("tangent_modulus", material.tangent_modulus.is_some()),
@@ -59,8 +66,14 @@ impl Checks {
         if given.len() > 1 {
             self.exactly_one(key, "hardening laws", &hardening);
         }
+        if let Some(modulus) = material.kinematic_modulus {
+            let key = format!("{key}.kinematic_modulus");
+            self.at_least(key.as_str(), modulus, 0.0);
+            self.slope(key, "the modulus", modulus);
+        }
+        let kinematic = material.kinematic_modulus.map(|_| "kinematic_modulus");
         let Some(yield_stress) = material.yield_stress else {
-            if let Some(law) = given.first() {
+            if let Some(law) = given.first().copied().or(kinematic) {
                 self.problem(
                     format!("{key}.{law}"),
                     "needs a yield_stress beside it; without one the material is elastic",
@@ -129,7 +142,8 @@ impl Checks {
                 stress1 >= stress0,
                 key.as_str(),
                 format!(
-                    "yield stress {} is less than {} of the row before: softening has no unique solution",
+                    "yield stress {} is less than {} of the row before: softening has no unique \
+                     solution",
                     exact(stress1),
                     exact(stress0)
                 ),

@@ -8,13 +8,14 @@ mod program;
 
 use super::{History, Scene};
 use crate::error::{Error, Result};
+use crate::number::exact;
 use crate::space::Space;
-use crate::text::exact;
 use std::fmt;
 
 impl Scene {
     /// Checks values and references. [`Scene::load`] and [`Scene::parse`] do so by themselves, with
-    /// line and column, and so does [`crate::model::ModelBuilder`]; a scene changed in code is checked by this.
+    /// line and column, and so does [`crate::model::ModelBuilder`]; a scene changed in code is
+    /// checked by this.
     ///
     /// # Errors
     /// [`crate::ErrorKind::Input`], one line per problem: key path, value, what to do.
@@ -22,7 +23,8 @@ impl Scene {
         self.report(problems(self))
     }
 
-    /// As [`Scene::validate`] for a scene whose mesh is handed over: its `mesh` entry is not looked at.
+    /// As [`Scene::validate`] for a scene whose mesh is handed over: its `mesh` entry is not looked
+    /// at.
     ///
     /// # Errors
     /// As [`Scene::validate`].
@@ -69,7 +71,8 @@ impl Scene {
     }
 }
 
-/// Sizes, stresses and slopes beyond this, or below its inverse, overflow or vanish when they are multiplied by one another.
+/// Sizes, stresses and slopes beyond this, or below its inverse, overflow or vanish when they are
+/// multiplied by one another.
 const LARGEST: f64 = 1e100;
 
 /// Something wrong with the value at a key path.
@@ -108,12 +111,13 @@ fn symmetry_problem(kind: Space, copies: usize) -> Option<String> {
     (!allowed.contains(&copies)).then(|| format!("{copies} must be {words}"))
 }
 
+#[cfg(feature = "capi")]
 impl Space {
     /// Whether so many copies of a model of this kind can make the whole.
     ///
     /// # Errors
     /// `Input` naming the value and those that are possible.
-    pub fn check_symmetry(self, copies: usize) -> Result<()> {
+    pub(crate) fn check_symmetry(self, copies: usize) -> Result<()> {
         match symmetry_problem(self, copies) {
             Some(message) => Err(Error::input(format!("symmetry: {message}"))),
             None => Ok(()),
@@ -131,7 +135,8 @@ fn problems_without_mesh(scene: &Scene) -> Vec<Problem> {
     Checks::of(scene, |_, _| {})
 }
 
-/// Can any body yield, as far as is known? A material that there is not is a problem of its own, not one of all that needs it.
+/// Can any body yield, as far as is known? A material that there is not is a problem of its own,
+/// not one of all that needs it.
 fn may_yield(scene: &Scene) -> bool {
     let mut bodies = scene.bodies.values();
     scene.any_can_yield() || bodies.any(|body| !scene.materials.contains_key(&body.material))
@@ -258,8 +263,8 @@ impl Checks {
         }
     }
 
-    /// The lines of symmetry of a plane are the axes x and y, of a body of revolution there is one: a model is the whole,
-    /// a half or a quarter.
+    /// The lines of symmetry of a plane are the axes x and y, of a body of revolution there is one:
+    /// a model is the whole, a half or a quarter.
     fn symmetry(&mut self, scene: &Scene) {
         let problem = symmetry_problem(scene.kind, scene.symmetry);
         self.problems.extend(problem.map(|message| Problem {

@@ -1,10 +1,10 @@
 //! Parts of a generated mesh.
 
 use super::Checks;
+use crate::number::exact;
 use crate::scene::{Block, BrickPart, Disc, Part, Ring};
 use crate::shape::Shape;
 use crate::space::Space;
-use crate::text::exact;
 use std::collections::BTreeSet;
 
 impl Checks {

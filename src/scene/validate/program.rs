@@ -1,8 +1,8 @@
 //! The load program, the settings and the reference values.
 
 use super::Checks;
+use crate::number::exact;
 use crate::scene::{History, Scene, Target, Unit};
-use crate::text::exact;
 use std::collections::BTreeSet;
 
 /// Each increment leaves a row of the history, and each target a state with all its contact pairs.
@@ -34,8 +34,8 @@ impl Checks {
                 self.require(
                     !matches!(load.history, History::Table(_)),
                     format!("load.{index}.history"),
-                    "is a table over the load factor, but `unit = \"yield\"` counts in the yield load, which the table itself \
-                     would change; use `unit = \"load\"`",
+                    "is a table over the load factor, but `unit = \"yield\"` counts in the yield \
+                     load, which the table itself would change; use `unit = \"load\"`",
                 );
             }
         }
@@ -156,7 +156,10 @@ impl Checks {
                     given == single,
                     format!("{key}.{name}"),
                     if single {
-                        format!("is missing: a single value needs quantity, value and source, and `{name}` is not given")
+                        format!(
+                            "is missing: a single value needs quantity, value and source, and \
+                             `{name}` is not given"
+                        )
                     } else {
                         "belongs to a `quantity`, which is not given".to_string()
                     },

@@ -1,6 +1,6 @@
 //! Rows of plane shapes.
 
-use crate::shape::{Place, Reference, Refinement, Rule, functions};
+use crate::shape::{Place, Reference, Rule, functions};
 
 /// The order of nodes that is Gmsh's own.
 pub(super) const IN_ORDER: [usize; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
@@ -61,12 +61,6 @@ pub(super) static TRI3: Reference = Reference {
     unit_jacobian: 1.0,
     facets: &[&[0, 1], &[1, 2], &[2, 0]],
     edges: SIDES_3,
-    refinement: Some(&Refinement {
-        on_facet: 1,
-        inside: &[],
-        children: &[&[0, 3, 5], &[1, 4, 3], &[2, 5, 4], &[3, 4, 5]],
-        of_facet: OF_TRIANGLE,
-    }),
     vtk: 5,
     gmsh: 2,
     gmsh_order: IN_ORDER.split_at(3).0,
@@ -96,22 +90,6 @@ pub(super) static TRI6: Reference = Reference {
     unit_jacobian: 1.0,
     facets: &[&[0, 1, 3], &[1, 2, 4], &[2, 0, 5]],
     edges: SIDES_3,
-    refinement: Some(&Refinement {
-        on_facet: 2,
-        // The element's own shape functions at the middles of the new sides.
-        inside: &[
-            &[(-0.125, 1), (-0.125, 2), (0.5, 3), (0.5, 5), (0.25, 4)],
-            &[(-0.125, 2), (-0.125, 0), (0.5, 4), (0.5, 3), (0.25, 5)],
-            &[(-0.125, 0), (-0.125, 1), (0.5, 5), (0.5, 4), (0.25, 3)],
-        ],
-        children: &[
-            &[0, 3, 5, 6, 12, 11],
-            &[1, 4, 3, 8, 13, 7],
-            &[2, 5, 4, 10, 14, 9],
-            &[3, 4, 5, 13, 14, 12],
-        ],
-        of_facet: OF_TRIANGLE,
-    }),
     vtk: 22,
     gmsh: 9,
     gmsh_order: IN_ORDER.split_at(6).0,
@@ -132,21 +110,6 @@ pub(super) static QUAD4: Reference = Reference {
     unit_jacobian: 0.25,
     facets: &[&[0, 1], &[1, 2], &[2, 3], &[3, 0]],
     edges: SIDES_4,
-    refinement: Some(&Refinement {
-        on_facet: 1,
-        inside: &[&[
-            (-0.25, 0),
-            (-0.25, 1),
-            (-0.25, 2),
-            (-0.25, 3),
-            (0.5, 4),
-            (0.5, 5),
-            (0.5, 6),
-            (0.5, 7),
-        ]],
-        children: &[&[0, 4, 8, 7], &[1, 5, 8, 4], &[2, 6, 8, 5], &[3, 7, 8, 6]],
-        of_facet: OF_SQUARE,
-    }),
     vtk: 9,
     gmsh: 3,
     gmsh_order: IN_ORDER.split_at(4).0,
@@ -185,33 +148,6 @@ pub(super) static QUAD8: Reference = Reference {
     unit_jacobian: 0.25,
     facets: &[&[0, 1, 4], &[1, 2, 5], &[2, 3, 6], &[3, 0, 7]],
     edges: SIDES_4,
-    refinement: Some(&Refinement {
-        on_facet: 2,
-        // The centre, and the middles of the new sides: the element's own shape functions.
-        inside: &[
-            &[
-                (-0.25, 0),
-                (-0.25, 1),
-                (-0.25, 2),
-                (-0.25, 3),
-                (0.5, 4),
-                (0.5, 5),
-                (0.5, 6),
-                (0.5, 7),
-            ],
-            &beside(4, 5, 6, 7),
-            &beside(5, 6, 7, 4),
-            &beside(6, 7, 4, 5),
-            &beside(7, 4, 5, 6),
-        ],
-        children: &[
-            &[0, 4, 16, 7, 8, 17, 20, 15],
-            &[1, 5, 16, 4, 10, 18, 17, 9],
-            &[2, 6, 16, 5, 12, 19, 18, 11],
-            &[3, 7, 16, 6, 14, 20, 19, 13],
-        ],
-        of_facet: OF_SQUARE,
-    }),
     vtk: 23,
     gmsh: 16,
     gmsh_order: IN_ORDER.split_at(8).0,
@@ -219,28 +155,3 @@ pub(super) static QUAD8: Reference = Reference {
 
 const SIDES_3: &[[usize; 2]] = &[[0, 1], [1, 2], [2, 0]];
 const SIDES_4: &[[usize; 2]] = &[[0, 1], [1, 2], [2, 3], [3, 0]];
-
-/// Half way from the middle of a side to the centre of a quadrilateral, for the middles of the
-/// sides from that one on.
-const fn beside(own: usize, next: usize, opposite: usize, last: usize) -> [(f64, usize); 8] {
-    [
-        (-0.1875, 0),
-        (-0.1875, 1),
-        (-0.1875, 2),
-        (-0.1875, 3),
-        (0.75, own),
-        (0.375, next),
-        (0.25, opposite),
-        (0.375, last),
-    ]
-}
-
-/// Children keep the corner of their number as their first node; the fourth of a triangle is the
-/// one between the middles of its sides.
-const OF_TRIANGLE: &[&[[usize; 2]]] = &[&[[0, 0], [1, 2]], &[[1, 0], [2, 2]], &[[2, 0], [0, 2]]];
-const OF_SQUARE: &[&[[usize; 2]]] = &[
-    &[[0, 0], [1, 3]],
-    &[[1, 0], [2, 3]],
-    &[[2, 0], [3, 3]],
-    &[[3, 0], [0, 3]],
-];

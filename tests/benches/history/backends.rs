@@ -1,5 +1,5 @@
-//! The sparse backends beside one another: ordering and analysis, factorisation with condensation, a whole history, and peak memory,
-//! each in a process of its own, on one thread and on two.
+//! The sparse backends beside one another: ordering and analysis, factorisation with condensation,
+//! a whole history, and peak memory, each in a process of its own, on one thread and on two.
 
 use super::{BALL, Failure, LINE, LONG, REPEATED, SIZES, SOLID, child, peak_memory, scene};
 use brinell::analysis::Analysis;
@@ -11,7 +11,8 @@ use std::time::Instant;
 
 const THREADS: [usize; 2] = [1, 2];
 
-/// Orders, analyses and factors what a run condenses first: `K` with the freedoms of all pairs as contact, held by a shift.
+/// Orders, analyses and factors what a run condenses first: `K` with the freedoms of all pairs as
+/// contact, held by a shift.
 pub fn factor(backend: Backend, changes: &str) -> Result<Value, Failure> {
     let analysis = Analysis::new(Model::new(&scene(changes)?)?, backend)?;
     let (model, matrix) = (analysis.model(), &analysis.system().stiffness);
@@ -51,7 +52,8 @@ pub fn factor(backend: Backend, changes: &str) -> Result<Value, Failure> {
 pub fn measure(names: &[&str]) -> Result<(), Failure> {
     let mut all = Vec::new();
     println!(
-        "| freedoms | threads | backend | order and analysis | factor | half a solve | flops | nonzeros | memory | history | memory |"
+        "| freedoms | threads | backend | order and analysis | factor | half a solve | flops | \
+         nonzeros | memory | history | memory |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|---|");
     let plane = SIZES.iter().map(|size| (LINE, size));
@@ -98,7 +100,8 @@ fn median(arguments: &[&str], threads: usize) -> Result<Value, Failure> {
 fn report(threads: usize, backend: &str, factor: &Value, run: &Value) {
     let of = |value: &Value, key: &str| value[key].as_f64().unwrap_or(f64::NAN);
     println!(
-        "| {} | {threads} | {backend} | {:.2} | {:.2} | {:.3} | {:.2e} | {:.2e} | {:.0} MB | {:.2} | {:.0} MB |",
+        "| {} | {threads} | {backend} | {:.2} | {:.2} | {:.3} | {:.2e} | {:.2e} | {:.0} MB | {:.2} \
+         | {:.0} MB |",
         run["sizes"]["freedoms"],
         of(factor, "analyse"),
         of(factor, "factor"),

@@ -1,8 +1,10 @@
-//! How time and memory grow with the mesh: similar meshes from ten thousand to three million freedoms, phase by phase, on one thread and on two.
+//! How time and memory grow with the mesh: similar meshes from ten thousand to three million
+//! freedoms, phase by phase, on one thread and on two.
 //!
-//! In the plane a factor of n freedoms takes n^1.5 operations and n log n nonzeros (George 1973, doi:10.1137/0710032), assembly and states n, and a mesh twice as
-//! fine has twice as many changes of contact. The exponents are fitted to the larger half of the sizes. Beside the
-//! measured factorisation stands what `brinell check` predicts from the symbolic analysis.
+//! In the plane a factor of n freedoms takes n^1.5 operations and n log n nonzeros (George 1973,
+//! doi:10.1137/0710032), assembly and states n, and a mesh twice as fine has twice as many changes
+//! of contact. The exponents are fitted to the larger half of the sizes. Beside the measured
+//! factorisation stands what `brinell check` predicts from the symbolic analysis.
 
 use super::{Failure, LINE, child, scene};
 use brinell::analysis;
@@ -11,13 +13,15 @@ use brinell::model::Model;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Elements over b*; sizes grow so much more slowly away from the contact that the meshes are similar.
+/// Elements over b*; sizes grow so much more slowly away from the contact that the meshes are
+/// similar.
 const RESOLUTIONS: [f64; 6] = [8.0, 16.0, 32.0, 56.0, 80.0, 112.0];
 const THREADS: [usize; 2] = [1, 2];
 
 fn changes(resolution: f64) -> String {
+    const MESH: &str = "mesh.cylinder_on_half_plane";
     format!(
-        "{LINE};mesh.cylinder_on_half_plane.resolution={resolution};mesh.cylinder_on_half_plane.growth={}",
+        "{LINE};{MESH}.resolution={resolution};{MESH}.growth={}",
         1.0 + 2.0 / resolution
     )
 }

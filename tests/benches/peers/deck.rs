@@ -1,4 +1,5 @@
-//! A scene as a deck of CalculiX: the same mesh, materials, supports and load history; contact surface to surface with a linear penalty.
+//! A scene as a deck of CalculiX: the same mesh, materials, supports and load history; contact
+//! surface to surface with a linear penalty.
 
 use brinell::mesh::Shape;
 use brinell::model::Model;
@@ -23,7 +24,8 @@ pub struct Settings {
 /// The deck: one step for each load factor of the legs.
 ///
 /// # Errors
-/// Where the scene holds what no deck is made of here: other elements than quad4, several contacts or loads.
+/// Where the scene holds what no deck is made of here: other elements than quad4, several contacts
+/// or loads.
 pub fn deck(model: &Model, settings: &Settings, legs: &[f64]) -> Result<String, String> {
     let (mesh, scene) = (&model.mesh, &model.scene);
     let element_type = match (scene.kind, mesh.shapes[0]) {
@@ -110,8 +112,9 @@ pub fn deck(model: &Model, settings: &Settings, legs: &[f64]) -> Result<String, 
         ));
     }
     say(format!(
-        "*SURFACE INTERACTION, NAME=FRICTIONLESS\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{:e}\n\
-         *CONTACT PAIR, INTERACTION=FRICTIONLESS, TYPE={}\nSLAVE, MASTER",
+        "*SURFACE INTERACTION, NAME=FRICTIONLESS\n*SURFACE BEHAVIOR, \
+         PRESSURE-OVERCLOSURE=LINEAR\n{:e}\n*CONTACT PAIR, INTERACTION=FRICTIONLESS, \
+         TYPE={}\nSLAVE, MASTER",
         settings.penalty, settings.kind
     ));
     say("*BOUNDARY".into());
@@ -175,7 +178,8 @@ pub fn deck(model: &Model, settings: &Settings, legs: &[f64]) -> Result<String, 
     let step = 1.0 / settings.increments as f64;
     for &alpha in legs {
         say(format!(
-            "*STEP, INC=1000\n*STATIC{}\n{step}, 1., 1e-6, {step}\n{}\n*NODE FILE\nU\n*CONTACT FILE\nCDIS, CSTR\n*END STEP",
+            "*STEP, INC=1000\n*STATIC{}\n{step}, 1., 1e-6, {step}\n{}\n*NODE FILE\nU\n*CONTACT \
+             FILE\nCDIS, CSTR\n*END STEP",
             settings.solver,
             applied(alpha)
         ));

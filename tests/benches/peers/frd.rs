@@ -1,5 +1,5 @@
-//! Results of CalculiX read from its `.frd` file. Plane models come out as a layer of solid elements: nodes are told by their place.
-//! Those of solid models keep their numbers.
+//! Results of CalculiX read from its `.frd` file. Plane models come out as a layer of solid
+//! elements: nodes are told by their place. Those of solid models keep their numbers.
 
 use std::collections::BTreeMap;
 

@@ -47,7 +47,8 @@ const CASES: [Case; 3] = [
 pub fn run(dir: &Path) -> Result<(), Failure> {
     std::fs::create_dir_all(dir)?;
     println!(
-        "| case | program | largest pressure | at the pole and the next two pairs | remarks |\n|---|---|---|---|---|"
+        "| case | program | largest pressure | at the pole and the next two pairs | remarks \
+         |\n|---|---|---|---|---|"
     );
     for Case {
         name,
@@ -120,7 +121,8 @@ fn theirs(dir: &Path, name: &str, steps: usize) -> Result<(), Failure> {
     let pressures: Vec<f64> = frd.pressures(&increment).iter().map(|p| p[1]).collect();
     let reached = frd.increments.last().map_or(0.0, |i| i.time);
     let remarks = format!(
-        "{} at total time {reached:.3} of {steps}, {} increments, {} divergences, {} warnings in the log",
+        "{} at total time {reached:.3} of {steps}, {} increments, {} divergences, {} warnings in \
+         the log",
         if log.contains("Job finished") {
             "finished"
         } else {

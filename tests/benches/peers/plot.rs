@@ -1,4 +1,5 @@
-//! The work-precision plot: error over processor seconds, both logarithmic, a curve for each program.
+//! The work-precision plot: error over processor seconds, both logarithmic, a curve for each
+//! program.
 
 use plotters::prelude::*;
 use serde_json::Value;
@@ -10,7 +11,8 @@ const CURVES: [(&str, &str, RGBColor); 2] = [
     ("CalculiX", "CalculiX (ccx)", RGBColor(196, 54, 48)),
 ];
 
-/// The plot as SVG: the larger error of the pressures at 0.8 and at 2 times the yield load, in per cent.
+/// The plot as SVG: the larger error of the pressures at 0.8 and at 2 times the yield load, in per
+/// cent.
 ///
 /// # Errors
 /// Where a row lacks a figure or the plotting library fails.

@@ -1,7 +1,9 @@
-//! A ball in three dimensions beside CalculiX on the same mesh: C3D8 and C3D20R, its iterative Cholesky solver.
+//! A ball in three dimensions beside CalculiX on the same mesh: C3D8 and C3D20R, its iterative
+//! Cholesky solver.
 //!
-//! Errors are those of the largest pressure at 0.8 of the yield load against Hertz, and at five times the yield load and of the dent
-//! against brinell's values extrapolated from its two finest meshes.
+//! Errors are those of the largest pressure at 0.8 of the yield load against Hertz, and at five
+//! times the yield load and of the dent against brinell's values extrapolated from its two finest
+//! meshes.
 
 use super::deck::{self, Settings};
 use super::frd::Frd;
@@ -179,7 +181,9 @@ pub fn compare() -> Result<(), Failure> {
         seconds: 0.0,
     };
     let mut table = String::from(
-        "| elements over a | shape | program | processor seconds, history | elastic load | pressure at 0.8 P* | at 5 P* | dent |\n|---|---|---|---|---|---|---|---|\n",
+        "| elements over a | shape | program | processor seconds,
+        history | elastic load | pressure at 0.8 P* | at 5 P* | dent |\n\
+        |---|---|---|---|---|---|---|---|\n",
     );
     let mut rows = Vec::new();
     for case in CASES {
@@ -204,7 +208,8 @@ pub fn compare() -> Result<(), Failure> {
             println!("{row}");
             writeln!(table, "{row}")?;
             rows.push(json!({
-                "elements": case.0, "shape": case.1, "program": program, "history_seconds": history.seconds,
+                "elements": case.0, "shape": case.1, "program": program,
+                "history_seconds": history.seconds,
                 "elastic_seconds": elastic.seconds, "errors_percent": [a, b, c],
             }));
             both.push((history.seconds, elastic.seconds));

@@ -5,9 +5,9 @@ use crate::scene::Scene;
 
 fn scene(mesh: &str) -> Scene {
     let text = format!(
-        "kind = \"plane_strain\"\n{mesh}\n[materials.m]\nyoungs_modulus = 1.0\npoissons_ratio = 0.3\n\
-         [bodies]\nb = {{ material = \"m\" }}\n[[load]]\non = \"b.top\"\npressure = 1.0\n\
-         [program]\ntargets = [{{ load_factor = 1.0 }}]\n"
+        "kind = \"plane_strain\"\n{mesh}\n[materials.m]\nyoungs_modulus = 1.0\npoissons_ratio = \
+         0.3\n[bodies]\nb = {{ material = \"m\" }}\n[[load]]\non = \"b.top\"\npressure = \
+         1.0\n[program]\ntargets = [{{ load_factor = 1.0 }}]\n"
     );
     Scene::parse(&text, "test.toml").unwrap()
 }
@@ -74,8 +74,11 @@ fn a_bias_samples_the_same_sizes() {
 
 #[test]
 fn a_piece_of_a_block_keeps_its_length() {
-    let block = "block = { x = [0.0, 5.0], y = [0.0, 1.0], elements = [40, 40], pieces = [{ name = \"p\", side = \"top\", from = 0.0, to = 1.0 }] }";
-    let parts = blocks(&[block]);
+    let piece = "{ name = \"p\", side = \"top\", from = 0.0, to = 1.0 }";
+    let block = format!(
+        "block = {{ x = [0.0, 5.0], y = [0.0, 1.0], elements = [40, 40], pieces = [{piece}] }}"
+    );
+    let parts = blocks(&[&block]);
     for (wanted, n) in [(2.5, 15), (2.0, 20), (0.33, 120)] {
         let (member, ratio) = parts.member(wanted).unwrap();
         assert_eq!(all_counts(&member), [n, n], "{wanted}");

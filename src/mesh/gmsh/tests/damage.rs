@@ -65,7 +65,10 @@ proptest! {
     #[test]
     fn lines_removed_doubled_or_swapped(
         version in 0..2usize,
-        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<prop::sample::Index>(), 0..3u8), 1..4)
+        changes in prop::collection::vec(
+            (any::<prop::sample::Index>(), any::<prop::sample::Index>(), 0..3u8),
+            1..4,
+        )
     ) {
         let mut lines: Vec<&str> = [V2, V4][version].split_inclusive('\n').collect();
         for (one, other, change) in &changes {

@@ -1,8 +1,8 @@
 //! Integrals over a slave facet, with the functions dual to its trace basis.
 //!
 //! The dual functions come from an orthogonal factorisation at the points of the covered part,
-//! `sqrt(w) phi = Q R`, so that `psi = D R^-1 Q' / sqrt(w)`: where little is covered that loses half
-//! of the digits that the inverse of `int phi_j phi_l` would.
+//! `sqrt(w) phi = Q R`, so that `psi = D R^-1 Q' / sqrt(w)`: where little is covered that loses
+//! half of the digits that the inverse of `int phi_j phi_l` would.
 
 use super::face::{Face, Plane};
 use super::{NOTHING, Sides, overlap};
@@ -112,7 +112,8 @@ pub(super) fn integrate(sides: &Sides, face: &Face) -> Result<Vec<(usize, Integr
     if covered_area > (1.0 + TWICE) * area {
         let mesh = sides.entries.mesh;
         return Err(Error::input(format!(
-            "the other surface lies {:.3} times over the facet at node {} ({}): make contacts of its parts",
+            "the other surface lies {:.3} times over the facet at node {} ({}): make contacts of \
+             its parts",
             covered_area / area,
             mesh.node_label(face.nodes[0]),
             mesh.place(face.nodes[0])

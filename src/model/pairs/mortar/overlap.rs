@@ -13,8 +13,9 @@ const LINE: [(f64, f64); 5] = [
     (0.906_179_845_938_664, 0.236_926_885_056_189_08),
 ];
 
-/// Sixteen points of a triangle, exact to degree 8: orbits by two of their area coordinates, and the
-/// weight of each point over the area (D. A. Dunavant, Int. J. Numer. Methods Engrg. 21 (1985) 1129).
+/// Sixteen points of a triangle, exact to degree 8: orbits by two of their area coordinates, and
+/// the weight of each point over the area (D. A. Dunavant, Int. J. Numer. Methods Engrg. 21 (1985)
+/// 1129).
 const ORBITS: [([f64; 2], f64); 5] = [
     ([1.0 / 3.0, 1.0 / 3.0], 0.144_315_607_677_787),
     (
@@ -55,7 +56,8 @@ fn seven() -> Vec<([f64; 2], f64)> {
     rule.map(|&([x, y, _], weight)| ([x, y], weight)).collect()
 }
 
-/// Points and weights on what two pieces of facets have in common; of quadratic facets more of them.
+/// Points and weights on what two pieces of facets have in common; of quadratic facets more of
+/// them.
 pub(super) fn points(a: &[Point], b: &[Point], are_quadratic: bool) -> Vec<(Point, f64)> {
     match (a, b) {
         (&[a, b], &[c, d]) => on_line([a[0], b[0]], [c[0], d[0]]),

@@ -1,4 +1,5 @@
-//! Where surfaces truly are: on circles, spheres and cylinders that their nodes lie on, and gaps between true surfaces.
+//! Where surfaces truly are: on circles, spheres and cylinders that their nodes lie on, and gaps
+//! between true surfaces.
 
 use super::face::Plane;
 use super::{Sides, spheres};

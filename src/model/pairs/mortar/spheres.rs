@@ -1,8 +1,8 @@
 //! Spheres and circular cylinders that the nodes of a solid's surface lie on.
 //!
 //! Both are fitted by Gauss' and Newton's method to distances from a centre or an axis, from the
-//! sphere of least algebraic error or from the axis that facets are parallel to. Nodes that were put on
-//! such a surface lie on what is found to round-off.
+//! sphere of least algebraic error or from the axis that facets are parallel to. Nodes that were
+//! put on such a surface lie on what is found to round-off.
 
 use super::face::Face;
 use super::roundness::{BENT, LARGEST_TURN, OFF};

@@ -1,10 +1,10 @@
 //! The highest point of a smooth function on a square or cube, from few values.
 //!
-//! Three values along each axis, on a stencil of points `spacing` apart, lead, by least squares, to a quadratic whose
-//! highest point on the stencil is tried, too. The place then is right to the square of the
-//! spacing, so that the next spacing may be the square of this one; the value is right to the
-//! square of the place's error. Stencils lie on a lattice: where a function that differs little is
-//! searched again it is asked for at the same points.
+//! Three values along each axis, on a stencil of points `spacing` apart, lead, by least squares, to
+//! a quadratic whose highest point on the stencil is tried, too. The place then is right to the
+//! square of the spacing, so that the next spacing may be the square of this one; the value is
+//! right to the square of the place's error. Stencils lie on a lattice: where a function that
+//! differs little is searched again it is asked for at the same points.
 
 /// Spacings of one search after the other, on a square of side 2: the whole square first.
 pub const SPACINGS: [f64; 4] = [1.0, 1.0 / 4.0, 1.0 / 16.0, 1.0 / 256.0];
@@ -15,24 +15,24 @@ const ON_EDGE: f64 = 1e-9;
 
 /// The highest point that was found on `[-1, 1]^D`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Summit<const D: usize> {
+pub struct Maximum<const D: usize> {
     /// The function's value there.
     pub value: f64,
     /// Where it is.
     pub at: [f64; D],
 }
 
-impl<const D: usize> Summit<D> {
+impl<const D: usize> Maximum<D> {
     /// The middle of the square, not looked at yet.
     pub fn unknown() -> Self {
-        Summit {
+        Maximum {
             value: f64::NEG_INFINITY,
             at: [0.0; D],
         }
     }
 
     /// Looks round the point for a higher one, and goes on from stencil to stencil while that leads
-    /// uphill. `f` is told, too, whether a point lies on the lattice.
+    /// uphill. `f` also gets whether a point lies on the lattice.
     pub fn look_around(&mut self, spacing: f64, f: &mut impl FnMut([f64; D], bool) -> f64) {
         for _ in 0..MOST_MOVES {
             let from = *self;
@@ -64,7 +64,7 @@ impl<const D: usize> Summit<D> {
 
     fn rise(&mut self, value: f64, at: [f64; D]) {
         if value > self.value {
-            *self = Summit { value, at };
+            *self = Maximum { value, at };
         }
     }
 }
@@ -164,16 +164,16 @@ impl<const D: usize> Quadratic<D> {
 mod tests {
     use super::*;
 
-    fn found<const D: usize>(f: impl Fn([f64; D]) -> f64) -> (Summit<D>, usize) {
-        let mut summit = Summit::unknown();
+    fn found<const D: usize>(f: impl Fn([f64; D]) -> f64) -> (Maximum<D>, usize) {
+        let mut maximum = Maximum::unknown();
         let mut asked = 0;
         for spacing in SPACINGS {
-            summit.look_around(spacing, &mut |x, _| {
+            maximum.look_around(spacing, &mut |x, _| {
                 asked += 1;
                 f(x)
             });
         }
-        (summit, asked)
+        (maximum, asked)
     }
 
     /// Inside, on a side, at a corner, a ridge; the place is as near as the square of the last
@@ -187,7 +187,7 @@ mod tests {
                 1.0 - 0.1 * (dx * dx + 0.5 * dx * dy + dy * dy) + 0.01 * dx.powi(3)
                     - 0.02 * (dy * dy * dy * dy)
             };
-            let (summit, asked) = found(f);
+            let (maximum, asked) = found(f);
             assert!(asked <= 60, "{asked}");
             // Against the highest of a fine grid: no lower than what is left to gain within the
             // error of the place.
@@ -196,26 +196,26 @@ mod tests {
             let highest = grid.map(|x| (f(x), x)).max_by(|a, b| a.0.total_cmp(&b.0));
             let (value, at) = highest.unwrap();
             let left = near * near;
-            assert!(summit.value >= value - left, "{summit:?} {value} {at:?}");
-            assert_eq!(summit.value, f(summit.at));
+            assert!(maximum.value >= value - left, "{maximum:?} {value} {at:?}");
+            assert_eq!(maximum.value, f(maximum.at));
             if x0.abs() < 1.0 && y0.abs() < 1.0 {
-                let off = (summit.at[0] - x0).hypot(summit.at[1] - y0);
-                assert!(off < near, "{summit:?}");
+                let off = (maximum.at[0] - x0).hypot(maximum.at[1] - y0);
+                assert!(off < near, "{maximum:?}");
             }
         }
         let ridge = |[x, y]: [f64; 2]| -(x - y - 0.1) * (x - y - 0.1) + 1e-3 * x;
-        let (summit, asked) = found(ridge);
+        let (maximum, asked) = found(ridge);
         assert!(
-            (summit.value - 1e-3).abs() < 1e-6 && asked < 200,
-            "{summit:?} {asked}"
+            (maximum.value - 1e-3).abs() < 1e-6 && asked < 200,
+            "{maximum:?} {asked}"
         );
     }
 
     #[test]
     fn what_is_flat_or_no_number_ends_the_search() {
-        let (summit, asked) = found(|_: [f64; 2]| 2.0);
-        assert_eq!((summit.value, asked), (2.0, 36));
-        assert_eq!(found(|_: [f64; 2]| f64::NAN).0, Summit::unknown());
+        let (maximum, asked) = found(|_: [f64; 2]| 2.0);
+        assert_eq!((maximum.value, asked), (2.0, 36));
+        assert_eq!(found(|_: [f64; 2]| f64::NAN).0, Maximum::unknown());
     }
 
     /// The quadratic of least squares goes through values that are quadratic.
@@ -251,7 +251,7 @@ mod tests {
                 let [a, b, c] = [0, 1, 2].map(|d| x[d] - at[d]);
                 1.0 - 0.1 * (a * a + 0.4 * a * b + b * b + 0.7 * c * c) + 0.01 * a.powi(3)
             };
-            let (summit, asked) = found(f);
+            let (maximum, asked) = found(f);
             assert!(asked <= 4 * 28 + 28, "{asked}");
             // No point of a fine grid is higher.
             let steps = |n: i32| (-n..=n).map(move |i| f64::from(i) / f64::from(n));
@@ -259,8 +259,8 @@ mod tests {
                 .flat_map(|x| steps(40).flat_map(move |y| steps(40).map(move |z| [x, y, z])));
             let highest = grid.map(f).fold(f64::NEG_INFINITY, f64::max);
             assert!(
-                summit.value >= highest - near * near,
-                "{summit:?} {highest}"
+                maximum.value >= highest - near * near,
+                "{maximum:?} {highest}"
             );
         }
     }

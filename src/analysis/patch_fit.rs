@@ -1,0 +1,282 @@
+//! The polynomial that fits values around an element by weighted least squares.
+//!
+//! With the terms `p(x)` of a polynomial and weights `w_i` at the places `x_i` the coefficients are
+//! `c = G^-1 sum_i w_i p(x_i) s_i`, with `G = sum_i w_i p(x_i) p(x_i)'`. Entries of `G` are moments
+//! of the weights: monomials of twice the degree. Recovered stresses ([`super::patch`]), gradients
+//! of displacements ([`super::fitted`]) and the error indicator ([`super::indicator`]) are such
+//! fits.
+
+use crate::mesh::Mesh;
+
+/// Highest degree of the polynomials.
+pub const CUBIC: usize = 3;
+/// Terms of a cubic in space.
+const N: usize = n_terms(3, CUBIC);
+/// Monomials of twice its degree.
+const MOMENTS: usize = n_terms(3, 2 * CUBIC);
+
+/// A number for each term, by degree: the constant, the coordinates, and so on; those beyond a
+/// fit's degree are zero.
+pub type Terms = [f64; N];
+
+/// Terms of a polynomial of a degree in so many variables.
+pub const fn n_terms(variables: usize, degree: usize) -> usize {
+    match variables {
+        2 => (degree + 1) * (degree + 2) / 2,
+        _ => (degree + 1) * (degree + 2) * (degree + 3) / 6,
+    }
+}
+
+/// Coordinates about an element, of order 1 in it.
+#[derive(Debug, Clone, Copy)]
+pub struct Frame<const D: usize> {
+    /// Where they vanish.
+    pub center: [f64; D],
+    /// Extents of the element.
+    pub scale: [f64; D],
+}
+
+impl<const D: usize> Frame<D> {
+    /// About the middle of an element's extents.
+    pub fn about(mesh: &Mesh, element: usize) -> Self {
+        let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
+        for &node in mesh.nodes(element) {
+            let x = mesh.point(node as usize);
+            for d in 0..D {
+                low[d] = low[d].min(x[d]);
+                high[d] = high[d].max(x[d]);
+            }
+        }
+        Frame {
+            center: std::array::from_fn(|d| 0.5 * (low[d] + high[d])),
+            scale: std::array::from_fn(|d| high[d] - low[d]),
+        }
+    }
+
+    /// A point in these coordinates.
+    #[inline(always)]
+    pub fn relative(&self, at: impl std::ops::Index<usize, Output = f64>) -> [f64; D] {
+        std::array::from_fn(|d| (at[d] - self.center[d]) / self.scale[d])
+    }
+}
+
+/// A polynomial of a degree in `D` variables, with its normal equations factored.
+pub struct PatchFit<const D: usize, const DEGREE: usize> {
+    /// Cholesky's factor of `G` scaled to a unit diagonal.
+    factor: [Terms; N],
+    scaling: Terms,
+}
+
+impl<const D: usize, const DEGREE: usize> PatchFit<D, DEGREE> {
+    /// How many terms it has.
+    pub const N_TERMS: usize = n_terms(D, DEGREE);
+    /// The exponents of the variables in the monomials, by degree.
+    const EXPONENTS: [[usize; 3]; MOMENTS] = exponents(D);
+    /// Which monomial the product of two terms is.
+    const PRODUCTS: [[usize; N]; N] = products(&Self::EXPONENTS);
+
+    /// The fit to values at places with weights; `None` where a pivot of the scaled normal
+    /// equations is below `least_pivot`, so that they do not determine it.
+    #[inline(always)]
+    pub fn to(points: impl Iterator<Item = (f64, [f64; D])>, least_pivot: f64) -> Option<Self> {
+        let n = Self::N_TERMS;
+        let n_moments = const { n_terms(D, 2 * DEGREE) };
+        let mut moments = [0.0; MOMENTS];
+        for (weight, x) in points {
+            let powers = powers(weight, &x);
+            for (moment, exponents) in moments.iter_mut().zip(&Self::EXPONENTS).take(n_moments) {
+                *moment += monomial(&powers, exponents);
+            }
+        }
+        let products = &Self::PRODUCTS;
+        let mut scaling = [0.0; N];
+        for (i, scaling) in scaling.iter_mut().enumerate().take(n) {
+            *scaling = 1.0 / moments[products[i][i]].max(f64::MIN_POSITIVE).sqrt();
+        }
+        let mut l = [[0.0; N]; N];
+        for i in 0..n {
+            for j in 0..=i {
+                let scaled = moments[products[i][j]] * scaling[i] * scaling[j];
+                let known: f64 = (0..j).map(|k| l[i][k] * l[j][k]).sum();
+                let rest = scaled - known;
+                l[i][j] = if i == j { rest.sqrt() } else { rest / l[j][j] };
+            }
+            // Also what is no number.
+            if l[i][i].is_nan() || l[i][i] < least_pivot {
+                return None;
+            }
+        }
+        Some(PatchFit { factor: l, scaling })
+    }
+
+    /// `G^-1 right`
+    #[inline(always)]
+    pub fn solve(&self, right: &Terms) -> Terms {
+        let (n, l) = (Self::N_TERMS, &self.factor);
+        let mut c = [0.0; N];
+        for i in 0..n {
+            let known: f64 = (0..i).map(|k| l[i][k] * c[k]).sum();
+            c[i] = (right[i] * self.scaling[i] - known) / l[i][i];
+        }
+        for i in (0..n).rev() {
+            let known: f64 = (i + 1..n).map(|k| l[k][i] * c[k]).sum();
+            c[i] = (c[i] - known) / l[i][i];
+        }
+        for (c, scaling) in c.iter_mut().zip(self.scaling) {
+            *c *= scaling;
+        }
+        c
+    }
+
+    /// `G^-1 e_k`: with it, a value `s` of weight `w` at `x` adds [`Self::value`] times `s` to the
+    /// coefficient of term `k`.
+    #[inline(always)]
+    pub fn coefficient(&self, k: usize) -> Terms {
+        let mut right = [0.0; N];
+        right[k] = 1.0;
+        self.solve(&right)
+    }
+
+    /// `first` times the polynomial with some coefficients at a place.
+    #[inline(always)]
+    pub fn value(coefficients: &Terms, first: f64, x: &[f64; D]) -> f64 {
+        let powers = powers(first, x);
+        let terms = coefficients.iter().zip(&Self::EXPONENTS);
+        terms
+            .take(Self::N_TERMS)
+            .map(|(c, exponents)| c * monomial(&powers, exponents))
+            .sum()
+    }
+
+    /// The terms at a place, times `first`.
+    #[inline(always)]
+    pub fn terms(first: f64, x: &[f64; D]) -> Terms {
+        let powers = powers(first, x);
+        let mut out = [0.0; N];
+        for (out, exponents) in out.iter_mut().zip(&Self::EXPONENTS).take(Self::N_TERMS) {
+            *out = monomial(&powers, exponents);
+        }
+        out
+    }
+}
+
+/// Powers of a number up to twice the highest degree.
+type Powers = [f64; 2 * CUBIC + 1];
+
+/// Powers of each coordinate, those of the first times `first`.
+#[inline(always)]
+fn powers<const D: usize>(first: f64, x: &[f64; D]) -> [Powers; D] {
+    std::array::from_fn(|d| {
+        let mut out = [if d == 0 { first } else { 1.0 }; 2 * CUBIC + 1];
+        for i in 1..out.len() {
+            out[i] = out[i - 1] * x[d];
+        }
+        out
+    })
+}
+
+#[inline(always)]
+fn monomial<const D: usize>(powers: &[Powers; D], exponents: &[usize; 3]) -> f64 {
+    (1..D).fold(powers[0][exponents[0]], |product, d| {
+        product * powers[d][exponents[d]]
+    })
+}
+
+/// The exponents of the variables in the monomials: by degree, then by the powers of the last
+/// ones.
+const fn exponents(variables: usize) -> [[usize; 3]; MOMENTS] {
+    let mut out = [[0; 3]; MOMENTS];
+    let (mut k, mut degree) = (0, 0);
+    while degree <= 2 * CUBIC {
+        let mut of_z = 0;
+        while of_z <= if variables == 2 { 0 } else { degree } {
+            let mut of_y = 0;
+            while of_y <= degree - of_z {
+                out[k] = [degree - of_z - of_y, of_y, of_z];
+                k += 1;
+                of_y += 1;
+            }
+            of_z += 1;
+        }
+        degree += 1;
+    }
+    out
+}
+
+/// Which monomial the product of two terms is; 0 where there are no such terms.
+const fn products(exponents: &[[usize; 3]; MOMENTS]) -> [[usize; N]; N] {
+    let mut out = [[0; N]; N];
+    let mut a = 0;
+    while a < N {
+        let mut b = 0;
+        while b < N {
+            let (p, q) = (exponents[a], exponents[b]);
+            let mut k = 0;
+            while k < MOMENTS {
+                let r = exponents[k];
+                if r[0] == p[0] + q[0] && r[1] == p[1] + q[1] && r[2] == p[2] + q[2] {
+                    out[a][b] = k;
+                    break;
+                }
+                k += 1;
+            }
+            b += 1;
+        }
+        a += 1;
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A polynomial of its own degree is found from its values, whatever their weights; fewer
+    /// values than terms determine nothing.
+    #[test]
+    fn a_polynomial_is_its_own_fit() {
+        check::<2, 2>();
+        check::<3, 2>();
+        check::<2, 3>();
+        check::<3, 3>();
+    }
+
+    fn check<const D: usize, const DEGREE: usize>() {
+        let n = PatchFit::<D, DEGREE>::N_TERMS;
+        let mut given = [0.0; N];
+        for (k, c) in given.iter_mut().enumerate().take(n) {
+            *c = 1.0 / (1.0 + k as f64) - 0.3;
+        }
+        // Kronecker's sequence spreads evenly.
+        let place = |i: usize| -> [f64; D] {
+            let irrational = [0.754_877_666_2, 0.569_840_291, 0.430_159_709];
+            std::array::from_fn(|d| 2.0 * (irrational[d] * i as f64).fract() - 1.0)
+        };
+        let weight = |i: usize| 1.0 + (i % 3) as f64;
+        let points = |m: usize| (0..m).map(move |i| (weight(i), place(i)));
+        let fit = PatchFit::<D, DEGREE>::to(points(4 * n), 1e-4).unwrap();
+        let mut right = [0.0; N];
+        for (w, x) in points(4 * n) {
+            let value = PatchFit::<D, DEGREE>::value(&given, 1.0, &x);
+            let terms = PatchFit::<D, DEGREE>::terms(w, &x);
+            right
+                .iter_mut()
+                .zip(terms)
+                .for_each(|(r, t)| *r += t * value);
+        }
+        let found = fit.solve(&right);
+        for k in 0..n {
+            // Round-off over the square of the least pivot, which is above 1e-3 here.
+            assert!((found[k] - given[k]).abs() < 1e-10, "{D} {DEGREE} {k}");
+        }
+        let slope = fit.coefficient(1);
+        let sum: f64 = points(4 * n)
+            .map(|(w, x)| {
+                let value = PatchFit::<D, DEGREE>::value(&given, 1.0, &x);
+                value * PatchFit::<D, DEGREE>::value(&slope, w, &x)
+            })
+            .sum();
+        assert!((sum - given[1]).abs() < 1e-10, "{D} {DEGREE}: {sum}");
+        assert!(PatchFit::<D, DEGREE>::to(points(n - 1), 1e-4).is_none());
+    }
+}

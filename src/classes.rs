@@ -1,0 +1,54 @@
+//! Members that are joined pair by pair, and the classes that result.
+
+/// The classes of `0..n` (union-find; R. E. Tarjan, J. ACM 22 (1975) 215-225).
+pub(crate) struct Classes {
+    /// A member of the same class, no larger than the member; the first of a class has itself.
+    parent: Vec<u32>,
+}
+
+impl Classes {
+    /// Each member by itself.
+    pub(crate) fn new(n: usize) -> Self {
+        Classes {
+            parent: (0..n as u32).collect(),
+        }
+    }
+
+    /// Makes the classes of two members one.
+    pub(crate) fn join(&mut self, a: usize, b: usize) {
+        let (a, b) = (self.first(a), self.first(b));
+        self.parent[a.max(b)] = a.min(b) as u32;
+    }
+
+    /// The first member of a member's class. Paths are halved on the way.
+    pub(crate) fn first(&mut self, mut member: usize) -> usize {
+        loop {
+            let above = self.parent[member] as usize;
+            if above == member {
+                return member;
+            }
+            let next = self.parent[above];
+            self.parent[member] = next;
+            member = next as usize;
+        }
+    }
+
+    /// The first member of the class of each.
+    pub(crate) fn firsts(mut self) -> Vec<usize> {
+        (0..self.parent.len()).map(|i| self.first(i)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_joined_has_the_first_of_all() {
+        let mut classes = Classes::new(7);
+        for (a, b) in [(4, 2), (6, 5), (2, 6), (1, 3)] {
+            classes.join(a, b);
+        }
+        assert_eq!(classes.firsts(), [0, 1, 2, 1, 2, 2, 2]);
+    }
+}

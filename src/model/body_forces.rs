@@ -1,0 +1,67 @@
+//! Forces on the volume of a body: its weight, an acceleration, rotation.
+//!
+//! ```text
+//! f_i = sum_e int N_i rho b dV,   b = a,   b = omega^2 (x - x_0),  x_0 nearest to x on the axis
+//! ```
+//!
+//! `omega = 2 pi rpm/60` with the scene's second.
+
+use crate::element::volume_points;
+use crate::mesh::Mesh;
+use crate::scene::Rotation;
+use crate::space::{Space, Vector, along, difference, direction, dot, unit};
+use std::f64::consts::PI;
+
+/// What acts on a body: nodal forces, and the part of the body's volume that each of these nodes
+/// stands for.
+pub(super) struct BodyForces {
+    pub(super) nodal: Vec<(usize, Vector)>,
+    pub(super) volumes: Vec<f64>,
+}
+
+/// Consistent nodal forces of `density` times the field `b(x)` on a body, nodes ascending.
+pub(super) fn on_body(
+    space: Space,
+    mesh: &Mesh,
+    body: usize,
+    density: f64,
+    field: impl Fn(Vector) -> Vector,
+) -> BodyForces {
+    let mut at_node = std::collections::BTreeMap::new();
+    for element in (0..mesh.n_elements()).filter(|&e| mesh.element_body[e] as usize == body) {
+        let nodes = mesh.nodes(element);
+        let x: Vec<Vector> = nodes.iter().map(|&n| mesh.point(n as usize)).collect();
+        for point in volume_points(space, mesh.shapes[element], &x) {
+            let force = field(point.position).map(|b| density * b);
+            for (&node, value) in nodes.iter().zip(point.values) {
+                let share = point.weight * value;
+                let (sum, volume): &mut (Vector, f64) = at_node.entry(node as usize).or_default();
+                *sum = along(*sum, share, force);
+                *volume += share;
+            }
+        }
+    }
+    BodyForces {
+        nodal: at_node
+            .iter()
+            .map(|(&node, &(force, _))| (node, force))
+            .collect(),
+        volumes: at_node.values().map(|(_, volume)| *volume).collect(),
+    }
+}
+
+/// The centripetal field `omega^2 (x - x_0)`, which points away from the axis. In the plane the
+/// axis is normal to it, of an axisymmetric model it is the axis of symmetry.
+pub(super) fn spinning(space: Space, rotation: &Rotation) -> impl Fn(Vector) -> Vector {
+    let center = rotation.center.map_or([0.0; 3], |c| c.vector());
+    let axis: Vector = match space {
+        Space::Axisymmetric => unit(1),
+        Space::PlaneStrain | Space::PlaneStress => unit(2),
+        Space::Solid => direction(rotation.axis.unwrap_or_default()),
+    };
+    let speed = 2.0 * PI * rotation.rpm / 60.0;
+    move |x| {
+        let way = difference(x, center);
+        along(way, -dot(way, axis), axis).map(|d| speed * speed * d)
+    }
+}

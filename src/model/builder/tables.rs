@@ -1,0 +1,72 @@
+//! What a scene says beside its mesh, as text.
+
+use super::ModelBuilder;
+use crate::error::{Error, Result};
+use crate::scene::{Body, Contact, Load, Material, Program, Settings, Support, Units};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+
+/// The tables of a scene but for `kind`, `symmetry` and `mesh`, which come with the arrays.
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+struct Tables {
+    title: Option<String>,
+    units: Option<Units>,
+    materials: BTreeMap<String, Material>,
+    bodies: BTreeMap<String, Body>,
+    contact: Vec<Contact>,
+    support: Vec<Support>,
+    load: Vec<Load>,
+    program: Option<Program>,
+    analysis: Option<Settings>,
+}
+
+impl ModelBuilder {
+    /// Adds tables of a scene (TOML): materials, bodies, `[[contact]]`, `[[support]]`, `[[load]]`,
+    /// `[program]`, `[analysis]`, `[units]`, `title`. Materials, bodies, contacts, supports and loads
+    /// come to those that are there, the others take their place.
+    ///
+    /// ```
+    /// # use brinell::model::ModelBuilder;
+    /// # use brinell::scene::Kind;
+    /// let mut builder = ModelBuilder::new(Kind::PlaneStrain);
+    /// builder.tables(
+    ///     r#"
+    ///     materials.steel = { youngs_modulus = 210e3, poissons_ratio = 0.3, yield_stress = 500.0 }
+    ///     bodies.ball = { material = "steel" }
+    ///     support = [{ on = "floor", fix = ["y"] }]
+    ///     load = [{ on = "top", pressure = 10.0 }]
+    ///     "#,
+    /// )?;
+    /// # Ok::<(), brinell::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// By line and column: no TOML, an unknown key, a value of another type; a material or body that
+    /// is there already.
+    pub fn tables(&mut self, text: &str) -> Result<&mut Self> {
+        let tables: Tables =
+            toml::from_str(text).map_err(|e| Error::input(format!("scene text: {e}")))?;
+        let mut out = self.clone();
+        for (name, material) in tables.materials {
+            out.material(&name, material)?;
+        }
+        for (name, body) in tables.bodies {
+            out.body(&name, body)?;
+        }
+        let scene = &mut out.scene;
+        scene.contact.extend(tables.contact);
+        scene.support.extend(tables.support);
+        scene.load.extend(tables.load);
+        scene.title = tables.title.unwrap_or(std::mem::take(&mut scene.title));
+        scene.units = tables.units.or(scene.units.take());
+        if let Some(program) = tables.program {
+            scene.program = program;
+        }
+        if let Some(settings) = tables.analysis {
+            scene.analysis = settings;
+        }
+        *self = out;
+        Ok(self)
+    }
+}

@@ -1,0 +1,107 @@
+//! Loads on the volume of a body: its weight, rotation, a change of temperature.
+
+use super::loads::{LoadCase, Magnitude, name};
+use super::names::Entry;
+use super::{body_forces, heat};
+use crate::error::{Error, Result};
+use crate::material::Material;
+use crate::mesh::Mesh;
+use crate::scene::{self, Field, Scene};
+use crate::space::Vector;
+
+pub(super) fn resolve(
+    index: usize,
+    load: &scene::Load,
+    scene: &Scene,
+    mesh: &Mesh,
+) -> Result<LoadCase> {
+    let refused = |text: String| {
+        let text = format!("load {} on `{}`: {text}", index + 1, load.on);
+        Entry::of_list(scene, "load", index).refused(Error::input(text))
+    };
+    let Some(body) = mesh.bodies.iter().position(|name| *name == load.on) else {
+        let bodies = mesh.bodies.join("`, `");
+        return Err(refused(format!(
+            "acts on the volume of a body, and there is no such body; there are `{bodies}`"
+        )));
+    };
+    let material = scene.bodies.get(&load.on).map(|b| b.material.as_str());
+    let material = material.unwrap_or_default();
+    let data = scene.materials.get(material).cloned().unwrap_or_default();
+    let needed = |what: &str, key: &str, value: Option<f64>| {
+        let text = format!("needs the {what} of the body; give materials.{material}.{key}");
+        value.ok_or_else(|| refused(text))
+    };
+    // Of a load by temperature the volumes of the nodes alone.
+    let density = match load.temperature {
+        Some(_) => 1.0,
+        None => needed("mass", "density", data.density)?,
+    };
+    let on_body = |field: &dyn Fn(Vector) -> Vector| {
+        body_forces::on_body(scene.kind, mesh, body, density, field)
+    };
+    let acceleration = load.acceleration.map(|a| a.vector());
+    let forces = match &load.rotation {
+        Some(rotation) => on_body(&body_forces::spinning(scene.kind, rotation)),
+        None => on_body(&|_| acceleration.unwrap_or_default()),
+    };
+    let volume: f64 = forces.volumes.iter().sum();
+    let mut case = LoadCase {
+        name: name(index, load),
+        nodes: forces.nodal.iter().map(|(node, _)| *node).collect(),
+        shares: forces.volumes.iter().map(|v| v / volume).collect(),
+        nodal: forces.nodal,
+        forces: Vec::new(),
+        history: load.history.clone(),
+        magnitude: 0.0,
+        measures: Magnitude::Force,
+        body: body as u32,
+        direction: [0.0; 3],
+        free_strain: None,
+    };
+    if let Some(temperature) = &load.temperature {
+        let expansion = needed(
+            "thermal expansion",
+            "thermal_expansion",
+            data.thermal_expansion,
+        )?;
+        let changes = changes(temperature, scene, mesh, &case.nodes).map_err(refused)?;
+        let free: Vec<f64> = changes.iter().map(|change| expansion * change).collect();
+        let law = Material::new(material, &data, scene.kind).lame();
+        let kind = (scene.kind, scene.mesh.formulation);
+        case.nodal = heat::forces(kind, mesh, (body, law), &free);
+        case.measures = Magnitude::Temperature;
+        case.magnitude = changes.iter().fold(0.0, |m, change| m.max(change.abs()));
+        case.free_strain = free.iter().any(|strain| *strain != 0.0).then_some(free);
+    } else if let Some(a) = acceleration {
+        let mass = scene.symmetry as f64 * density * volume;
+        case.set_size(a.map(|a| mass * a), Magnitude::Force);
+    } else {
+        // Forces by rotation have no direction as a whole: their sizes are added up.
+        case.magnitude = scene.symmetry as f64 * case.size();
+    }
+    Ok(case)
+}
+
+/// The change of temperature at every node of the mesh, zero at nodes of other bodies.
+fn changes(
+    field: &Field,
+    scene: &Scene,
+    mesh: &Mesh,
+    nodes: &[usize],
+) -> std::result::Result<Vec<f64>, String> {
+    let of = field.function(scene.kind)?;
+    let mut out = vec![0.0; mesh.n_nodes()];
+    for &node in nodes {
+        out[node] = of(mesh.point(node));
+        if !out[node].is_finite() {
+            return Err(format!(
+                "the temperature at node {} at {} is {}",
+                mesh.node_label(node),
+                mesh.place(node),
+                out[node]
+            ));
+        }
+    }
+    Ok(out)
+}

@@ -1,0 +1,210 @@
+//! Elements cut in smaller ones of their shape, half as large: four in the plane, eight in space.
+//!
+//! Each corner keeps a child that is the element at half its size. Between them lie, of a triangle,
+//! one child turned by half a turn; of a prism, two such; of a tetrahedron, an octahedron that is
+//! cut in four along one of its three diagonals. The shortest keeps the children's angles from
+//! degenerating, however often they are cut (M. E. G. Ong, *SIAM J. Sci. Comput.* 15, 1994, 1134).
+
+use super::{Place, Shape};
+use crate::space::{Vector, cross, difference, dot, unit};
+use std::sync::OnceLock;
+
+/// A cut of a shape.
+#[derive(Debug)]
+pub struct Cut {
+    /// Places of the nodes of all children, each once; those of the element's own nodes come first.
+    pub places: Vec<Place>,
+    /// The corners between which each place lies, with the values of their linear functions there
+    /// in parts of [`WHOLE`]: the same from both elements at a facet.
+    pub between: Vec<Vec<(usize, u32)>>,
+    /// Nodes of each child, as indices of `places`.
+    pub children: Vec<Vec<usize>>,
+    /// The children's facets of which each facet consists: child and local facet.
+    pub of_facet: Vec<Vec<[usize; 2]>>,
+    /// The new places on each facet.
+    pub on_facet: Vec<Vec<usize>>,
+    /// How a place in the middle of a quadrilateral or of a hexahedron moves where the new nodes on
+    /// its sides do: a sum of their displacements (W. J. Gordon, C. A. Hall, *Int. J. Numer.
+    /// Methods Eng.* 7, 1973, 461). Those of quadrilaterals come first. Of linear elements only:
+    /// places on the sides of quadratic ones move by a higher order of the element size.
+    pub follows: Vec<(usize, Vec<(f64, usize)>)>,
+}
+
+/// The value that a corner's linear function has at the corner itself, in [`Cut::between`]. Places
+/// at quarters of a side have products of up to three quarters.
+pub const WHOLE: u32 = 64;
+
+/// From the reference coordinates of a child to those of the element.
+struct Map {
+    origin: Place,
+    columns: [Place; 3],
+}
+
+impl Map {
+    /// The reference element at `factor` times its size.
+    fn scaled(origin: Place, factor: [f64; 3]) -> Map {
+        Map {
+            origin,
+            columns: [0, 1, 2].map(|d| unit(d).map(|c| factor[d] * c)),
+        }
+    }
+
+    /// A simplex by its corners.
+    fn simplex([origin, a, b, c]: [Place; 4]) -> Map {
+        Map {
+            origin,
+            columns: [a, b, c].map(|corner| difference(corner, origin)),
+        }
+    }
+
+    fn apply(&self, at: Place) -> Place {
+        let mut out = self.origin;
+        for (column, t) in self.columns.iter().zip(at) {
+            (0..3).for_each(|d| out[d] += t * column[d]);
+        }
+        out
+    }
+}
+
+/// The cuts of a shape: three of a tetrahedron, one for each diagonal (between the middles of edges
+/// 01-23, 02-13, 03-12), one of any other.
+pub fn cuts(shape: Shape) -> &'static [Cut] {
+    static CUTS: [OnceLock<Vec<Cut>>; Shape::ALL.len()] =
+        [const { OnceLock::new() }; Shape::ALL.len()];
+    CUTS[shape as usize].get_or_init(|| match shape {
+        Shape::Tet4 | Shape::Tet10 => (0..3)
+            .map(|diagonal| Cut::new(shape, octahedron(shape, diagonal)))
+            .collect(),
+        _ => vec![Cut::new(shape, between_corners(shape))],
+    })
+}
+
+/// The cut of an element with these nodes: of a tetrahedron that along its shortest diagonal.
+pub fn cut_of(shape: Shape, nodes: &[Vector]) -> usize {
+    if cuts(shape).len() == 1 {
+        return 0;
+    }
+    let squared = |diagonal: usize| {
+        let [p, q] = DIAGONALS[diagonal].map(|[a, b]| [0, 1, 2].map(|d| nodes[a][d] + nodes[b][d]));
+        let way = difference(p, q);
+        dot(way, way)
+    };
+    (0..3).fold(
+        0,
+        |best, k| if squared(k) < squared(best) { k } else { best },
+    )
+}
+
+/// Edges whose middles a diagonal joins.
+const DIAGONALS: [[[usize; 2]; 2]; 3] = [[[0, 1], [2, 3]], [[0, 2], [1, 3]], [[0, 3], [1, 2]]];
+
+/// What lies between the children at the corners, but for tetrahedra.
+fn between_corners(shape: Shape) -> Vec<Map> {
+    let turned = |z: f64| Map::scaled([0.5, 0.5, z], [-0.5, -0.5, 0.5]);
+    match shape {
+        Shape::Tri3 | Shape::Tri6 => vec![turned(0.0)],
+        Shape::Prism6 | Shape::Prism15 => vec![turned(-0.5), turned(0.5)],
+        _ => Vec::new(),
+    }
+}
+
+/// The four tetrahedra round a diagonal of the octahedron between the middles of the edges.
+fn octahedron(shape: Shape, diagonal: usize) -> Vec<Map> {
+    let corners = shape.reference().nodes;
+    let middle = |[a, b]: [usize; 2]| [0, 1, 2].map(|d| 0.5 * (corners[a][d] + corners[b][d]));
+    let [p, q] = DIAGONALS[diagonal].map(middle);
+    let [[a, c], [b, d]] = [1, 2].map(|k| DIAGONALS[(diagonal + k) % 3].map(middle));
+    let ring = [a, b, c, d];
+    let child = |k: usize| {
+        let (r, s) = (ring[k], ring[(k + 1) % 4]);
+        let volume = dot(difference(q, p), cross(difference(r, p), difference(s, p)));
+        Map::simplex(if volume > 0.0 {
+            [p, q, r, s]
+        } else {
+            [p, q, s, r]
+        })
+    };
+    (0..4).map(child).collect()
+}
+
+impl Cut {
+    fn new(shape: Shape, inner: Vec<Map>) -> Cut {
+        let row = shape.reference();
+        let mut out = Cut {
+            places: row.nodes.to_vec(),
+            between: Vec::new(),
+            children: Vec::new(),
+            of_facet: Vec::new(),
+            on_facet: Vec::new(),
+            follows: Vec::new(),
+        };
+        let half = |corner: &Place| Map::scaled(corner.map(|c| 0.5 * c), [0.5; 3]);
+        let outer = row.nodes[..row.n_corners].iter().map(half);
+        for map in outer.chain(inner) {
+            // All coordinates are multiples of a quarter: equal ones have equal bits.
+            let child = row.nodes.iter().map(|&at| out.entered(map.apply(at)));
+            let child = child.collect();
+            out.children.push(child);
+        }
+        let linear = |at: &Place| {
+            let values = shape.linear().functions(*at).values;
+            let parts = values[..row.n_corners].iter().enumerate();
+            let parts = parts.map(|(corner, v)| (corner, (v * f64::from(WHOLE)).round() as u32));
+            parts.filter(|&(_, part)| part > 0).collect()
+        };
+        out.between = out.places.iter().map(linear).collect();
+        for facet in row.facets {
+            let lies_on = |&place: &usize| {
+                let mut corners = out.between[place].iter();
+                corners.all(|(corner, _)| facet.contains(corner))
+            };
+            let part = |&[child, local]: &[usize; 2]| {
+                let nodes = &out.children[child];
+                row.facets[local].iter().all(|&k| lies_on(&nodes[k]))
+            };
+            let locals = 0..row.facets.len();
+            let all = (0..out.children.len())
+                .flat_map(|child| locals.clone().map(move |local| [child, local]));
+            let new = row.nodes.len()..out.places.len();
+            let (parts, places) = (all.filter(part).collect(), new.filter(lies_on).collect());
+            out.of_facet.push(parts);
+            out.on_facet.push(places);
+        }
+        if row.degree == 1 {
+            out.follows = out.middles();
+        }
+        out
+    }
+
+    /// The index of a place, which is added where it is new.
+    fn entered(&mut self, place: Place) -> usize {
+        let known = self.places.iter().position(|p| *p == place);
+        known.unwrap_or_else(|| {
+            self.places.push(place);
+            self.places.len() - 1
+        })
+    }
+
+    /// [`Cut::follows`]: half the sum over the sides of a quadrilateral; half the sum over the
+    /// faces of a hexahedron less a quarter of that over its edges.
+    fn middles(&self) -> Vec<(usize, Vec<(f64, usize)>)> {
+        let corners = |place: usize| self.between[place].iter().map(|(corner, _)| *corner);
+        let mut out = Vec::new();
+        for count in [4, 8] {
+            let of_count = (0..self.places.len()).filter(|&p| corners(p).count() == count);
+            for place in of_count {
+                let inside =
+                    |&other: &usize| corners(other).all(|c| corners(place).any(|p| p == c));
+                let weight = |other: usize| match (count, corners(other).count()) {
+                    (4, 2) | (8, 4) => 0.5,
+                    (8, 2) => -0.25,
+                    _ => 0.0,
+                };
+                let terms = (0..self.places.len()).filter(inside);
+                let terms = terms.map(|other| (weight(other), other));
+                out.push((place, terms.filter(|(w, _)| *w != 0.0).collect()));
+            }
+        }
+        out
+    }
+}
