@@ -281,6 +281,10 @@ pub struct Fields {
     /// `n_nodes` gap; NaN of nodes that are in no pair.
     #[serde(default)]
     pub gap: Vec<f64>,
+    /// `n_nodes x dimension` forces that act from outside: loads and reactions. Not part of a
+    /// result directory.
+    #[serde(default)]
+    pub force: Vec<f64>,
 }
 
 /// Machine-independent cost of a run.

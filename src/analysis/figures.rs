@@ -2,6 +2,7 @@
 
 use super::indicator::indicator;
 use super::measure::pair_states;
+use super::reactions;
 use super::reading::Reading;
 use super::stress_field::{OfStresses, StressField};
 use super::stresses::Stresses;
@@ -50,6 +51,7 @@ impl Reading<'_, '_> {
             .unwrap_or_else(|| self.solver.total_load_size());
         let Stresses {
             internal,
+            nodal,
             reactions,
             beyond_yield_outside,
             plastic_points,
@@ -67,7 +69,9 @@ impl Reading<'_, '_> {
             |axis| self.distance_on_axis(axis, u),
         );
         if let Some(fields) = &mut fields {
-            on_nodes(self.solver.structure.model, &pairs, fields);
+            let model = self.solver.structure.model;
+            on_nodes(model, &pairs, fields);
+            fields.force = reactions::on_nodes(model, nodal, &self.solver.contact_forces());
         }
         let state = State {
             name: name.to_string(),
@@ -168,6 +172,7 @@ fn fields<const D: usize, const S: usize, const P: usize, const N: usize>(
         error,
         contact_pressure: Vec::new(),
         gap: Vec::new(),
+        force: Vec::new(),
     };
     let elements = (
         out.stress.par_chunks_exact_mut(S),

@@ -105,10 +105,21 @@ impl Nodal {
 }
 
 /// Where the displacements of a node stand in a [`Nodal`] vector, and along which axes they are.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct NodalPlaces {
     places: [u32; 3],
+    /// What its displacements along its axes are the sums of.
+    followed: Vec<Followed>,
     frame: Option<Frame>,
+}
+
+/// A part of a displacement that follows others: `coefficient` times what stands at `place`.
+#[derive(Debug, Clone, Copy)]
+struct Followed {
+    /// Place of the displacement among those of its element or node.
+    own: u8,
+    place: u32,
+    coefficient: f64,
 }
 
 impl NodalPlaces {
@@ -118,19 +129,29 @@ impl NodalPlaces {
         let fixed = none + model.freedoms.prescribed.len() as u32;
         let of = |slot| match slot {
             Slot::Free(f) => places.of_freedom[f as usize].min(fixed),
-            Slot::Fixed => fixed,
+            Slot::Fixed | Slot::Tied(_) => fixed,
             Slot::Prescribed(p) => none + p,
         };
         let freedoms = &model.freedoms;
+        let followed = freedoms.followed(&[node as u32]).into_iter();
+        let followed = followed.map(|(own, slot, coefficient)| Followed {
+            own: own as u8,
+            place: of(slot),
+            coefficient,
+        });
         NodalPlaces {
             places: freedoms.slots[node].map(of),
+            followed: followed.collect(),
             frame: freedoms.is_turned(node).then(|| freedoms.local(node)),
         }
     }
 
     /// The displacement of the node in global axes.
     pub fn of(&self, nodal: &[f64]) -> Vector {
-        let values = self.places.map(|place| nodal[place as usize]);
+        let mut values = self.places.map(|place| nodal[place as usize]);
+        for part in &self.followed {
+            values[usize::from(part.own)] += part.coefficient * nodal[part.place as usize];
+        }
         match &self.frame {
             Some(frame) => in_global_axes(values, frame),
             None => values,
@@ -167,6 +188,7 @@ pub struct Packed {
     first_place: usize,
     turns: (u32, u32),
     blends: (u32, u32),
+    followed: (u32, u32),
 }
 
 /// A node whose freedoms lie along turned axes.
@@ -184,6 +206,7 @@ pub struct GatheredElements {
     places: Vec<u32>,
     turns: Vec<Turn>,
     blends: Vec<Blend>,
+    followed: Vec<Followed>,
 }
 
 impl GatheredElements {
@@ -200,13 +223,20 @@ impl GatheredElements {
     fn push(&mut self, model: &Model, element: usize, places: &Places) {
         let first_turn = self.turns.len() as u32;
         let first_blend = self.blends.len() as u32;
+        let first_followed = self.followed.len() as u32;
         let first_place = self.places.len();
         let nodes = model.mesh.nodes(element);
         let per_node = model.freedoms.per_node;
         for (i, &node) in nodes.iter().enumerate() {
-            let NodalPlaces { places, frame } = NodalPlaces::new(model, places, node as usize);
-            self.places.extend(&places[..per_node]);
-            self.turns.extend(frame.map(|frame| Turn {
+            let of_node = NodalPlaces::new(model, places, node as usize);
+            self.places.extend(&of_node.places[..per_node]);
+            let first = (per_node * i) as u8;
+            self.followed
+                .extend(of_node.followed.iter().map(|part| Followed {
+                    own: first + part.own,
+                    ..*part
+                }));
+            self.turns.extend(of_node.frame.map(|frame| Turn {
                 node: i as u8,
                 frame,
             }));
@@ -219,12 +249,15 @@ impl GatheredElements {
             first_place,
             turns: (first_turn, self.turns.len() as u32),
             blends: (first_blend, self.blends.len() as u32),
+            followed: (first_followed, self.followed.len() as u32),
         });
     }
 
     /// Bytes held.
     pub fn bytes(&self) -> usize {
-        self.list.capacity() * size_of::<Packed>() + 4 * self.places.capacity()
+        self.list.capacity() * size_of::<Packed>()
+            + 4 * self.places.capacity()
+            + self.followed.capacity() * size_of::<Followed>()
     }
 
     /// Displacements of the nodes of element `i` in global axes, for the values of a [`Nodal`].
@@ -242,6 +275,10 @@ impl GatheredElements {
             .zip(self.places_of(packed))
         {
             *u = nodal[place as usize];
+        }
+        for part in self.followed_by(packed) {
+            let u = &mut out.as_flattened_mut()[usize::from(part.own)];
+            *u += part.coefficient * nodal[part.place as usize];
         }
         for turn in self.turns_of(packed) {
             let u = &mut out[usize::from(turn.node)];
@@ -272,11 +309,17 @@ impl GatheredElements {
         for (&place, f) in self.places_of(packed).iter().zip(force.as_flattened()) {
             sums[place as usize] += f;
         }
+        for part in self.followed_by(packed) {
+            let force = force.as_flattened()[usize::from(part.own)];
+            sums[part.place as usize] += part.coefficient * force;
+        }
     }
 
     /// Marks the zone freedoms of element `i`.
     pub fn mark(&self, i: usize, marks: &mut [bool]) {
-        for &place in self.places_of(&self.list[i]) {
+        let packed = &self.list[i];
+        let followed = self.followed_by(packed).iter().map(|part| part.place);
+        for place in self.places_of(packed).iter().copied().chain(followed) {
             if let Some(mark) = marks.get_mut(place as usize) {
                 *mark = true;
             }
@@ -285,6 +328,10 @@ impl GatheredElements {
 
     fn places_of(&self, packed: &Packed) -> &[u32] {
         &self.places[packed.first_place..][..usize::from(packed.n_places)]
+    }
+
+    fn followed_by(&self, packed: &Packed) -> &[Followed] {
+        &self.followed[packed.followed.0 as usize..packed.followed.1 as usize]
     }
 
     fn blends_of(&self, packed: &Packed) -> &[Blend] {

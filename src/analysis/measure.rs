@@ -61,6 +61,13 @@ pub(super) fn on_axis(model: &Model, contact: &ContactSurface, values: &[f64]) -
     Some((b * values[near] - a * values[next]) / (b - a))
 }
 
+/// How far a pair overlaps that carries a force, in soft contact.
+fn overlap(model: &Model, pair: usize, force: f64) -> f64 {
+    let of = &model.pairs[pair];
+    let stiffness = model.contacts[of.contact].stiffness;
+    stiffness.map_or(0.0, |stiffness| force / (stiffness * of.area))
+}
+
 /// Pairs with what they carry, and the points on the axis that are no pairs: these have no area and
 /// no force, and are numbered after the pairs. Nothing holds their nodes apart: `apart` gives how
 /// far they are from each other, negative where they overlap.
@@ -80,7 +87,7 @@ pub fn pair_states(
             pair: k,
             contact: model.pairs[k].contact,
             position: model.mesh.point(model.pairs[k].slave),
-            gap: gap[k],
+            gap: gap[k] - overlap(model, k, force[k]),
             force: force[k],
             area: model.pairs[k].area,
             pressure: pressure[k],

@@ -52,6 +52,7 @@ mod plastic;
 mod position;
 mod program;
 mod quality;
+mod reactions;
 mod reading;
 mod recovery;
 mod region;

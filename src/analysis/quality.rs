@@ -149,6 +149,9 @@ impl Reading<'_, '_> {
         scales.displacement = scales.displacement.max(largest(&u.total));
         scales.deformation = scales.deformation.max(largest(u.deformation()));
         let mut out_of_balance = internal;
+        for spring in &self.solver.structure.model.freedoms.springs {
+            out_of_balance[spring.freedom] += spring.stiffness * u.total[spring.freedom];
+        }
         for (freedom, force) in external {
             out_of_balance[freedom] -= force;
         }

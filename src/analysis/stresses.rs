@@ -19,6 +19,8 @@ const BEYOND: f64 = 1e-8;
 pub(super) struct Stresses {
     /// Internal forces on the free freedoms.
     pub(super) internal: Vec<f64>,
+    /// Those on nodes (control points) in global axes.
+    pub(super) nodal: Vec<Vector>,
     /// Internal force on each prescribed displacement.
     pub(super) reactions: Vec<f64>,
     /// Elements that may yield, are not in the zone and carry more than the yield stress.
@@ -66,6 +68,7 @@ impl Stresses {
         model.freedoms.basis.share(&mut forces);
         let mut out = Stresses {
             internal: vec![0.0; model.freedoms.n],
+            nodal: Vec::new(),
             reactions: vec![0.0; model.freedoms.prescribed.len()],
             beyond_yield_outside,
             plastic_points: vec![0; model.mesh.bodies.len()],
@@ -74,16 +77,17 @@ impl Stresses {
             plastic_depth: 0.0,
             plastic_strain: 0.0,
         };
-        for (node, force) in forces.into_iter().enumerate() {
-            let force = model.freedoms.to_local(node, force);
+        for (node, force) in forces.iter().enumerate() {
+            let force = model.freedoms.to_local(node, *force);
             for (slot, force) in model.freedoms.slots[node].iter().zip(force) {
-                match slot {
-                    Slot::Free(f) => out.internal[*f as usize] += force,
-                    Slot::Prescribed(p) => out.reactions[*p as usize] += force,
-                    Slot::Fixed => {}
-                }
+                model.freedoms.each(*slot, |slot, c| match slot {
+                    Slot::Free(f) => out.internal[f as usize] += c * force,
+                    Slot::Prescribed(p) => out.reactions[p as usize] += c * force,
+                    Slot::Fixed | Slot::Tied(_) => {}
+                });
             }
         }
+        out.nodal = forces;
         // What free strains would take to be held enters with the loads: the same forces here.
         for (load, factor) in model.loads.iter().zip(&field.factors) {
             if load.free_strain.is_some() {

@@ -57,9 +57,11 @@ pub fn zone_freedoms(model: &Model, elements: &[usize]) -> Vec<usize> {
     for &e in elements {
         for &node in model.mesh.nodes(e) {
             for slot in model.freedoms.slots[node as usize] {
-                if let Slot::Free(f) = slot {
-                    marked[f as usize] = true;
-                }
+                model.freedoms.each(slot, |slot, _| {
+                    if let Slot::Free(f) = slot {
+                        marked[f as usize] = true;
+                    }
+                });
             }
         }
     }

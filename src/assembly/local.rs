@@ -79,3 +79,31 @@ pub(super) fn turn_stiffness(model: &Model, element: usize, stiffness: &mut [f64
         }
     }
 }
+
+/// Adds rows for what displacements of an element follow ([`crate::model::Followed`]): of
+/// `u_i = sum c_ik v_k` the stiffness `C' K C` on the `v`, and `C' K` beside the rest.
+pub(super) fn follow_stiffness(model: &Model, element: usize, stiffness: &mut [f64]) {
+    let followed = model.followed_by(element);
+    let own = model.freedoms.per_node * model.mesh.nodes(element).len();
+    let rows = followed.slots.len();
+    // `C' K` on all of the element's own displacements.
+    let mut shared = vec![0.0; rows * own];
+    for &(i, k, c) in &followed.parts {
+        for j in 0..own {
+            shared[k * own + j] += c * stiffness[packed(i, j)];
+        }
+    }
+    for k in 0..rows {
+        for j in 0..own {
+            stiffness[packed(own + k, j)] = shared[k * own + j];
+        }
+        for l in 0..=k {
+            stiffness[packed(own + k, own + l)] = 0.0;
+        }
+    }
+    for &(i, l, c) in &followed.parts {
+        for k in l..rows {
+            stiffness[packed(own + k, own + l)] += c * shared[k * own + i];
+        }
+    }
+}

@@ -84,7 +84,7 @@ pub fn assemble(model: &Model) -> Result<System> {
     })
 }
 
-/// All element stiffness matrices in local axes, packed lower triangles.
+/// All element stiffness matrices in local axes, packed lower triangles, and those of springs.
 struct ElementMatrices {
     offsets: Vec<usize>,
     values: Vec<f64>,
@@ -95,8 +95,8 @@ impl ElementMatrices {
         let n_elements = model.mesh.n_elements();
         let mut offsets = Vec::with_capacity(n_elements + 1);
         offsets.push(0);
-        for shape in &model.mesh.shapes {
-            let n = model.freedoms.per_node * shape.n_nodes();
+        for (e, shape) in model.mesh.shapes.iter().enumerate() {
+            let n = model.freedoms.per_node * shape.n_nodes() + model.followed_by(e).slots.len();
             offsets.push(offsets[offsets.len() - 1] + n * (n + 1) / 2);
         }
         let elastic: Vec<_> = model.materials.iter().map(|m| m.lame()).collect();
@@ -114,7 +114,12 @@ impl ElementMatrices {
             model.gradients(&kernel, e).stiffness_into(elastic, block);
             local::share_stiffness(model, e, block);
             local::turn_stiffness(model, e, block);
+            local::follow_stiffness(model, e, block);
         }));
+        for spring in &model.freedoms.springs {
+            values.push(spring.stiffness);
+            offsets.push(values.len());
+        }
         ElementMatrices { offsets, values }
     }
 
@@ -131,6 +136,7 @@ impl ElementMatrices {
                 .iter()
                 .flat_map(|&node| model.freedoms.of_node(node as usize))
                 .copied()
+                .chain(model.followed_by(e).slots)
                 .collect();
             for (j, slot) in slots.iter().enumerate() {
                 let Slot::Prescribed(p) = *slot else { continue };

@@ -8,13 +8,14 @@ const BLOCK: usize = 4096;
 /// Rows of a column that room is made for: those of bilinear elements.
 const ROWS_EXPECTED: usize = 10;
 
-/// Element freedoms and, for each freedom, the elements that hold it.
+/// Element freedoms, those of springs after them as elements of one freedom, and, for each freedom,
+/// the elements that hold it.
 #[derive(Debug, Clone)]
 pub struct Incidence {
     offsets: Vec<usize>,
     freedoms: Vec<i64>,
     starts: Vec<usize>,
-    entries: Vec<(u32, u8)>,
+    entries: Vec<(u32, u16)>,
 }
 
 impl Incidence {
@@ -24,16 +25,19 @@ impl Incidence {
         offsets.push(0);
         let n = model.freedoms.per_node * model.mesh.connectivity.len();
         let mut freedoms = Vec::with_capacity(n);
+        let number = |slot: &Slot| match *slot {
+            Slot::Free(f) => i64::from(f),
+            _ => -1,
+        };
         for e in 0..model.mesh.n_elements() {
             for &node in model.mesh.nodes(e) {
-                for slot in model.freedoms.of_node(node as usize) {
-                    freedoms.push(if let Slot::Free(f) = *slot {
-                        i64::from(f)
-                    } else {
-                        -1
-                    });
-                }
+                freedoms.extend(model.freedoms.of_node(node as usize).iter().map(number));
             }
+            freedoms.extend(model.followed_by(e).slots.iter().map(number));
+            offsets.push(freedoms.len());
+        }
+        for spring in &model.freedoms.springs {
+            freedoms.push(spring.freedom as i64);
             offsets.push(freedoms.len());
         }
         let mut starts = vec![0usize; model.freedoms.n + 1];
@@ -44,11 +48,11 @@ impl Incidence {
             starts[i + 1] += starts[i];
         }
         let mut next = starts.clone();
-        let mut entries = vec![(0u32, 0u8); starts[model.freedoms.n]];
-        for e in 0..model.mesh.n_elements() {
+        let mut entries = vec![(0u32, 0u16); starts[model.freedoms.n]];
+        for e in 0..offsets.len() - 1 {
             for (local, &f) in freedoms[offsets[e]..offsets[e + 1]].iter().enumerate() {
                 if f >= 0 {
-                    entries[next[f as usize]] = (e as u32, local as u8);
+                    entries[next[f as usize]] = (e as u32, local as u16);
                     next[f as usize] += 1;
                 }
             }
@@ -67,7 +71,7 @@ impl Incidence {
     }
 
     /// Elements (with the local number) that hold a freedom, ascending.
-    pub fn elements(&self, freedom: usize) -> &[(u32, u8)] {
+    pub fn elements(&self, freedom: usize) -> &[(u32, u16)] {
         &self.entries[self.starts[freedom]..self.starts[freedom + 1]]
     }
 

@@ -208,6 +208,7 @@ pub unsafe extern "C" fn brinell_model_contact(
                     .first()
                     .map(|normal| m.builder.components(*normal)),
                 gap: given.gap.as_ref().copied(),
+                stiffness: None,
                 interference: given.interference,
                 slave: match given.slave {
                     0 => SlaveSide::Auto,

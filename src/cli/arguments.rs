@@ -165,6 +165,9 @@ pub(super) struct RunArguments {
     /// Write no report.html and no figures
     #[arg(long)]
     pub no_report: bool,
+    /// File for tables of displacements, forces and stresses of all sets, as CalculiX prints them
+    #[arg(long, value_name = "FILE")]
+    pub dat: Option<PathBuf>,
     /// How progress is shown on standard error
     #[arg(long, value_enum, value_name = "HOW", default_value_t)]
     pub progress: Shown,

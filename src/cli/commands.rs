@@ -136,6 +136,9 @@ fn compute(
             .timings
             .push(("output".to_string(), seconds() - computed));
     }
+    if let Some(path) = &arguments.dat {
+        output::write_dat(path, model, &results)?;
+    }
     progress.finish();
     if let Some((_, out)) = places {
         restart::settle(out, &results)?;

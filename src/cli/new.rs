@@ -4,6 +4,7 @@
 mod punch;
 mod solid;
 
+use super::convert::{self, ConvertArguments};
 use super::print;
 use crate::analytical::{HertzLine, HertzPoint, Plane, ShrinkFit, ThickCylinder, contact_modulus};
 use crate::error::{Error, ErrorKind, Result};
@@ -11,13 +12,17 @@ use crate::number::significant;
 use crate::scene::Scene;
 use clap::{Args, Subcommand};
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// What `brinell new` takes.
 #[derive(Debug, Args)]
 pub(super) struct NewArguments {
     #[command(subcommand)]
-    pub problem: Problem,
+    pub problem: Option<Problem>,
+    /// A deck of Abaqus or CalculiX (.inp) to start from, in place of a problem: scene and mesh as
+    /// of `brinell convert`
+    #[arg(long, value_name = "DECK")]
+    pub from: Option<PathBuf>,
     /// File for the scene; without it the scene is printed
     #[arg(long, short, global = true, value_name = "FILE")]
     pub out: Option<PathBuf>,
@@ -190,7 +195,16 @@ fn within(
 
 /// Writes the scene of a problem.
 pub(super) fn run(arguments: &NewArguments) -> Result<()> {
-    let text = match &arguments.problem {
+    let problem = match (&arguments.problem, &arguments.from) {
+        (Some(problem), None) => problem,
+        (None, Some(deck)) => return from_deck(deck, arguments.out.as_ref()),
+        _ => {
+            return Err(Error::input(
+                "give either a problem (brinell new --help lists them) or a deck (--from DECK)",
+            ));
+        }
+    };
+    let text = match problem {
         Problem::BallOnFlat(ball) if ball.three_dimensional => {
             let Pressed {
                 radius,
@@ -228,6 +242,18 @@ pub(super) fn run(arguments: &NewArguments) -> Result<()> {
             path.display()
         )),
     }
+}
+
+/// A deck's scene and mesh, and how to go on.
+fn from_deck(deck: &Path, out: Option<&PathBuf>) -> Result<()> {
+    let out = out.map_or_else(|| deck.with_extension("toml"), PathBuf::clone);
+    convert::run(&ConvertArguments {
+        deck: deck.to_path_buf(),
+        out: out.clone(),
+        small_strain: false,
+        overrides: Vec::new(),
+    })?;
+    print(&format!("run it with: brinell run {}\n", out.display()))
 }
 
 /// Two digits are enough for a load that nobody gave.

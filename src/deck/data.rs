@@ -136,6 +136,13 @@ pub(super) struct Section {
     pub(super) place: Place,
 }
 
+/// How surfaces press on each other.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Interaction {
+    /// Pressure over overlap, where contact is soft.
+    pub(super) stiffness: Option<f64>,
+}
+
 /// Two surfaces that may touch.
 #[derive(Debug, Clone)]
 pub(super) struct ContactPair {
@@ -144,6 +151,16 @@ pub(super) struct ContactPair {
     pub(super) interaction: String,
     /// Distance within which nodes of the slave surface are moved onto the master surface.
     pub(super) adjust: Option<f64>,
+    pub(super) place: Place,
+}
+
+/// Two surfaces that stay together.
+#[derive(Debug, Clone)]
+pub(super) struct TiedPair {
+    pub(super) slave: String,
+    pub(super) master: String,
+    /// Largest distance of the surfaces.
+    pub(super) tolerance: Option<f64>,
     pub(super) place: Place,
 }
 
@@ -188,8 +205,9 @@ pub(super) struct Transform {
 pub(super) struct Properties {
     pub(super) materials: Named<MaterialData>,
     pub(super) sections: Vec<Section>,
-    pub(super) interactions: Named<Place>,
+    pub(super) interactions: Named<Interaction>,
     pub(super) contacts: Vec<ContactPair>,
+    pub(super) ties: Vec<TiedPair>,
     pub(super) clearances: Vec<Clearance>,
     pub(super) equations: Vec<Equation>,
     pub(super) transforms: Vec<Transform>,

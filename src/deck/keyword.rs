@@ -25,7 +25,7 @@ const CONTROL: Use =
 const SHELLS: Use = Use::Refused("bodies are continua: there are no shells, beams or membranes");
 const POINTS: Use = Use::Refused("there are no springs, masses or dashpots");
 const CONSTRAINTS: Use =
-    Use::Refused("nodes are tied to each other only by the elements they share");
+    Use::Refused("nodes are tied by the elements they share, by *TIE, and by *EQUATION of a plane");
 const INERTIA: Use = Use::Refused("loads are applied slowly: there is no inertia and no time");
 const HEAT: Use = Use::Refused("there is no heat transfer");
 const PARTS: Use = Use::Refused(
@@ -63,6 +63,7 @@ const KEYWORDS: &[(&str, Use)] = &[
     ("SURFACE", Use::Read),
     ("SURFACE BEHAVIOR", Use::Read),
     ("SURFACE INTERACTION", Use::Read),
+    ("TIE", Use::Read),
     ("TRANSFORM", Use::Read),
     ("CONTACT FILE", OUTPUT),
     ("CONTACT OUTPUT", OUTPUT),
@@ -116,7 +117,6 @@ const KEYWORDS: &[(&str, Use)] = &[
         "MODEL CHANGE",
         Use::Refused("contact and elements are the same in all steps"),
     ),
-    ("TIE", CONSTRAINTS),
     ("MPC", CONSTRAINTS),
     ("COUPLING", CONSTRAINTS),
     ("KINEMATIC", CONSTRAINTS),

@@ -20,6 +20,8 @@ pub(super) struct Reader<'t> {
     deck: Deck,
     /// The material that what is read belongs to.
     material: Option<String>,
+    /// The surface interaction that what is read belongs to.
+    interaction: Option<String>,
     is_in_step: bool,
 }
 
@@ -29,6 +31,7 @@ impl<'t> Reader<'t> {
             source,
             deck: Deck::default(),
             material: None,
+            interaction: None,
             is_in_step: false,
         }
     }
@@ -110,6 +113,7 @@ impl<'t> Reader<'t> {
             "FRICTION" => self.friction(keyword),
             "CONTACT PAIR" => self.contact_pair(keyword),
             "CLEARANCE" => self.clearance(keyword),
+            "TIE" => self.tie(keyword),
             "EQUATION" => self.equation(keyword),
             "TRANSFORM" => self.transform(keyword),
             "INITIAL CONDITIONS" => self.initial_conditions(keyword),

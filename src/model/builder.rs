@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 use crate::index::Index;
 use crate::mesh::Mesh;
 use crate::scene::{
-    Body, Contact, History, Load, Material, Program, Scene, Settings, Support, Target,
+    Body, Contact, History, Load, Material, Program, Scene, Settings, Support, Target, Tie,
 };
 use crate::space::{Components, Space, Vector, in_words, length};
 use std::collections::BTreeMap;
@@ -116,6 +116,12 @@ impl ModelBuilder {
     /// Lets two surfaces touch; their nodes are paired by geometry.
     pub fn contact(&mut self, contact: Contact) -> &mut Self {
         self.scene.contact.push(contact);
+        self
+    }
+
+    /// Holds two surfaces together.
+    pub fn tie(&mut self, tie: Tie) -> &mut Self {
+        self.scene.tie.push(tie);
         self
     }
 

@@ -17,6 +17,7 @@
 //! A. Popp, B. Wohlmuth, M. Gee, W. Wall, *Dual quadratic mortar finite element methods for 3D
 //! finite deformation contact*, SIAM J. Sci. Comput. 34 (2012) B421, doi:10.1137/110848190.
 
+use super::pairs::ties::Tied;
 use super::pairs::{ContactSurface, Pair};
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, Surface};
@@ -83,14 +84,25 @@ impl ContactBasis {
     pub const ALPHA: f64 = 0.2;
 
     /// The basis for the pairs of a solid model: of the slaves' faces, and of faces that match
-    /// them.
+    /// them; of the faces that follow in ties.
     ///
     /// # Errors
     /// `Input` where nodes face each other, and one is the middle of an edge and the other is not.
-    pub(super) fn of(mesh: &Mesh, pairs: &[Pair], contacts: &[ContactSurface]) -> Result<Self> {
+    pub(super) fn of(
+        mesh: &Mesh,
+        pairs: &[Pair],
+        contacts: &[ContactSurface],
+        ties: &[Tied],
+    ) -> Result<Self> {
         let mut basis = ContactBasis::default();
         if !mesh.is_solid() {
             return Ok(basis);
+        }
+        for tie in ties {
+            let surface = mesh.surfaces.get(&tie.slaves);
+            basis
+                .ends
+                .extend(surface.map(|s| middles(mesh, s)).unwrap_or_default());
         }
         for contact in contacts {
             let [masters, slaves] = [1 - contact.slave, contact.slave].map(|side| {

@@ -3,12 +3,16 @@
 
 use super::Pair;
 use super::contact_basis::ContactBasis;
+use super::followers::{Followers, Others};
 use super::frame::{ALIGNED, Frame, frame};
 use super::names::Entry;
+use super::pairs::ties::Tied;
+use super::springs::Spring;
+use super::supports::{Held, Supports, turn_normals_into_supports};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::scene::{Direction, Scene};
-use crate::space::{Vector, along, direction, dot, in_words, unit};
+use crate::space::{Vector, along, dot, in_words, unit};
 use std::collections::BTreeMap;
 
 /// What stands in one of a node's directions.
@@ -20,6 +24,8 @@ pub enum Slot {
     Fixed,
     /// Held at a prescribed displacement, see [`Freedoms::prescribed`].
     Prescribed(u32),
+    /// A sum of others, which it follows, see [`Freedoms::each`].
+    Tied(u32),
 }
 
 /// A prescribed displacement.
@@ -50,11 +56,11 @@ pub struct Freedoms {
     pub owners: Vec<(u32, u8)>,
     /// Where freedoms are those of control points.
     pub basis: ContactBasis,
+    /// What gives way in soft contact: the last of the free freedoms.
+    pub springs: Vec<Spring>,
+    /// What tied slots stand for: nodes, axes and coefficients.
+    pub(super) followers: Vec<Vec<(u32, u8, f64)>>,
 }
-
-/// A support within 30 degrees of a contact's tangent is meant to lie in it: the normal of the
-/// discretised surface is then turned into the symmetry plane.
-const NEARLY_TANGENT: f64 = 0.5;
 
 impl Freedoms {
     /// Numbers the freedoms of a scene. Contact normals on symmetry planes are turned into the
@@ -63,13 +69,14 @@ impl Freedoms {
     /// # Errors
     /// Input errors: a support in the direction of a contact normal, turned supports that disagree,
     /// a prescribed displacement on a held freedom, a plane surface that is not free to move.
-    pub fn new(
+    pub(super) fn new(
         scene: &Scene,
         mesh: &Mesh,
         basis: ContactBasis,
         pairs: &mut [Pair],
         master_normals: &[(usize, Vector)],
-    ) -> Result<Self> {
+        ties: &[Tied],
+    ) -> Result<(Self, Followers)> {
         let n_nodes = mesh.n_nodes();
         let supports = Supports::resolve(scene, mesh)?;
         turn_normals_into_supports(pairs, &supports);
@@ -101,6 +108,8 @@ impl Freedoms {
             prescribed: Vec::new(),
             owners: Vec::new(),
             basis,
+            springs: Vec::new(),
+            followers: Vec::new(),
         };
         for (node, normal) in normal_of.iter().enumerate() {
             if normal.is_some() && !supports.of_node.contains_key(&node) {
@@ -111,20 +120,30 @@ impl Freedoms {
         for (&node, of_node) in &supports.of_node {
             freedoms.hold(scene, mesh, node, normal_of[node], of_node)?;
         }
-        let ties = freedoms.apply_loads(scene, mesh, &touches)?;
+        let planes = freedoms.apply_loads(scene, mesh, &touches)?;
         freedoms.check_edges(mesh)?;
-        freedoms.number(&ties);
-        Ok(freedoms)
+        let others = Others {
+            plane: &|axis| planes.contains_key(&axis),
+            pairs: &*pairs,
+        };
+        let followers = freedoms.follow(mesh, ties, &others)?;
+        freedoms.number(&planes);
+        Ok((freedoms, followers))
     }
 
     /// What holds the middle of an edge by its control point must hold its ends.
     fn check_edges(&self, mesh: &Mesh) -> Result<()> {
         let held = |node: usize, direction: Vector| {
             let axes = self.local(node);
+            // Planes at any angle hold what they span.
+            let fixed = (0..3).filter(|&i| self.slots[node][i] == Slot::Fixed);
+            if fixed.map(|i| dot(axes[i], direction).powi(2)).sum::<f64>() > 1.0 - ALIGNED {
+                return Some((usize::MAX, 0.0));
+            }
             let at = (0..3).find(|&i| dot(axes[i], direction).abs() > 1.0 - ALIGNED)?;
             let sign = dot(axes[at], direction).signum();
             match self.slots[node][at] {
-                Slot::Free(_) => None,
+                Slot::Free(_) | Slot::Tied(_) => None,
                 Slot::Fixed => Some((usize::MAX, 0.0)),
                 Slot::Prescribed(p) => {
                     let prescribed = self.prescribed[p as usize];
@@ -209,10 +228,9 @@ impl Freedoms {
         Ok(())
     }
 
-    /// Prescribed displacements become slots; surfaces held plane become ties (group of each node
-    /// and direction).
-    fn apply_loads(&mut self, scene: &Scene, mesh: &Mesh, touches: &[bool]) -> Result<Ties> {
-        let mut ties = Ties::new();
+    /// Prescribed displacements become slots; surfaces held plane become groups.
+    fn apply_loads(&mut self, scene: &Scene, mesh: &Mesh, touches: &[bool]) -> Result<Planes> {
+        let mut planes = Planes::new();
         for (index, load) in scene.load.iter().enumerate() {
             let directions: Vec<(usize, Option<f64>)> = if let Some(d) = load.displacement {
                 d.components()
@@ -246,7 +264,8 @@ impl Freedoms {
                         refused(format!("has {has} and cannot be moved along {name}"))
                     })?;
                     let sign = dot(self.local(node)[local], unit(direction)).signum();
-                    if self.slots[node][local] != Slot::Free(0) || ties.contains_key(&(node, local))
+                    if self.slots[node][local] != Slot::Free(0)
+                        || planes.contains_key(&(node, local))
                     {
                         return Err(refused(format!(
                             "is already held or prescribed along {name}"
@@ -266,16 +285,16 @@ impl Freedoms {
                             return Err(refused(why.to_string()));
                         }
                         None => {
-                            ties.insert((node, local), index);
+                            planes.insert((node, local), index);
                         }
                     }
                 }
             }
         }
-        Ok(ties)
+        Ok(planes)
     }
 
-    fn number(&mut self, ties: &Ties) {
+    fn number(&mut self, planes: &Planes) {
         let mut group_freedom = std::collections::BTreeMap::new();
         for node in 0..self.slots.len() {
             for local in 0..self.per_node {
@@ -283,7 +302,7 @@ impl Freedoms {
                     continue;
                 }
                 let next = self.n as u32;
-                let freedom = match ties.get(&(node, local)) {
+                let freedom = match planes.get(&(node, local)) {
                     Some(&group) => *group_freedom.entry(group).or_insert(next),
                     None => next,
                 };
@@ -298,15 +317,13 @@ impl Freedoms {
 
     /// Holds a freedom at zero and renumbers.
     pub(super) fn pin(&mut self, freedom: usize) {
-        for slots in &mut self.slots {
-            for slot in slots {
-                if let Slot::Free(f) = *slot {
-                    *slot = match (f as usize).cmp(&freedom) {
-                        std::cmp::Ordering::Less => continue,
-                        std::cmp::Ordering::Equal => Slot::Fixed,
-                        std::cmp::Ordering::Greater => Slot::Free(f - 1),
-                    };
-                }
+        for slot in self.slots.iter_mut().flatten() {
+            if let Slot::Free(f) = *slot {
+                *slot = match (f as usize).cmp(&freedom) {
+                    std::cmp::Ordering::Less => continue,
+                    std::cmp::Ordering::Equal => Slot::Fixed,
+                    std::cmp::Ordering::Greater => Slot::Free(f - 1),
+                };
             }
         }
         self.owners.remove(freedom);
@@ -374,6 +391,11 @@ impl Freedoms {
                 let p = self.prescribed[p as usize];
                 factors[p.load] * p.value
             }
+            Slot::Tied(_) => {
+                let mut sum = 0.0;
+                self.each(slot, |slot, c| sum += c * self.value(slot, u, factors));
+                sum
+            }
         }
     }
 
@@ -390,7 +412,10 @@ impl Freedoms {
         let Some(&(node, local)) = self.owners.get(freedom) else {
             return format!("freedom {freedom}");
         };
-        let axis = self.local(node as usize)[local as usize];
+        let Some(axis) = self.local(node as usize).get(local as usize).copied() else {
+            let node = mesh.node_label(node as usize);
+            return format!("the overlap of soft contact at node {node}");
+        };
         let body = (0..mesh.n_elements())
             .find(|&e| mesh.nodes(e).contains(&node))
             .map_or("?", |e| mesh.bodies[mesh.element_body[e] as usize].as_str());
@@ -405,77 +430,5 @@ impl Freedoms {
     }
 }
 
-/// Group (load index) of each tied node and local direction.
-type Ties = BTreeMap<(usize, usize), usize>;
-
-struct Held {
-    direction: Vector,
-    /// Index of the support; `None` on the axis of revolution, which holds by itself.
-    support: Option<usize>,
-}
-
-impl Held {
-    /// What holds the node.
-    fn by(&self, scene: &Scene) -> String {
-        match self.support {
-            Some(index) => format!("support {} on `{}`", index + 1, scene.support[index].on),
-            None => "the axis of revolution".to_string(),
-        }
-    }
-
-    fn refused(&self, scene: &Scene, why: String) -> Error {
-        match self.support {
-            Some(index) => Entry::of_list(scene, "support", index).refused(Error::input(why)),
-            None => Error::input(why),
-        }
-    }
-}
-
-/// What holds each node, in the order of the scene.
-struct Supports {
-    of_node: BTreeMap<usize, Vec<Held>>,
-}
-
-impl Supports {
-    fn resolve(scene: &Scene, mesh: &Mesh) -> Result<Self> {
-        let mut of_node: BTreeMap<usize, Vec<Held>> = BTreeMap::new();
-        for (index, support) in scene.support.iter().enumerate() {
-            let directions = support.directions();
-            for node in Entry::of_list(scene, "support", index).nodes(mesh, &support.on)? {
-                let held = directions.iter().map(|&direction| Held {
-                    direction,
-                    support: Some(index),
-                });
-                of_node.entry(node).or_default().extend(held);
-            }
-        }
-        if scene.kind.is_axisymmetric() {
-            // On the axis of revolution the radial displacement vanishes whether or not the scene
-            // says so.
-            let radius = (0..mesh.n_nodes())
-                .map(|i| mesh.point(i)[0])
-                .fold(0.0, f64::max);
-            for node in (0..mesh.n_nodes()).filter(|&i| mesh.point(i)[0] <= 1e-12 * radius) {
-                of_node.entry(node).or_default().push(Held {
-                    direction: unit(0),
-                    support: None,
-                });
-            }
-        }
-        Ok(Supports { of_node })
-    }
-}
-
-/// A normal that is nearly at right angles to a support is meant to be.
-fn turn_normals_into_supports(pairs: &mut [Pair], supports: &Supports) {
-    for pair in pairs {
-        for node in pair.faced().into_iter().chain([pair.slave]) {
-            for held in supports.of_node.get(&node).into_iter().flatten() {
-                let off = dot(pair.normal, held.direction);
-                if off != 0.0 && off.abs() < NEARLY_TANGENT {
-                    pair.normal = direction(along(pair.normal, -off, held.direction));
-                }
-            }
-        }
-    }
-}
+/// Group (load index) of each node and local direction of a surface held plane.
+type Planes = BTreeMap<(usize, usize), usize>;

@@ -6,7 +6,7 @@
 //! motion.
 
 use super::motions::{self, Motions};
-use super::{ContactRows, Freedoms, LoadCase, Pair, far_boundary};
+use super::{ContactRows, ContactSurface, Freedoms, LoadCase, Pair, far_boundary};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
 use crate::space::Space;
@@ -69,7 +69,7 @@ pub(super) fn resolve(
     space: Space,
     mesh: &Mesh,
     freedoms: &mut Freedoms,
-    pairs: &[Pair],
+    (pairs, contacts): (&[Pair], &[ContactSurface]),
     loads: &[LoadCase],
     warnings: &mut Vec<String>,
 ) -> Result<(FloatingBodies, ContactRows)> {
@@ -126,6 +126,7 @@ pub(super) fn resolve(
             freedoms.pin(freedom);
         }
     }
+    freedoms.add_springs(pairs, contacts);
     let rows = ContactRows::of(mesh, freedoms, pairs)?;
     let owner = |&freedom: &usize| motions.group_of_node[freedoms.owners[freedom].0 as usize];
     let group_of_contact: Vec<usize> = rows.freedoms.iter().map(owner).collect();

@@ -319,9 +319,11 @@ fn on_freedoms(nodal: &[(usize, Vector)], freedoms: &Freedoms) -> Vec<(usize, f6
     let mut out = std::collections::BTreeMap::new();
     for &(node, force) in nodal {
         for (slot, axis) in freedoms.slots[node].iter().zip(freedoms.local(node)) {
-            if let Slot::Free(f) = slot {
-                *out.entry(*f as usize).or_insert(0.0) += dot(force, axis);
-            }
+            freedoms.each(*slot, |slot, c| {
+                if let Slot::Free(f) = slot {
+                    *out.entry(f as usize).or_insert(0.0) += c * dot(force, axis);
+                }
+            });
         }
     }
     out.into_iter().collect()

@@ -8,6 +8,7 @@ mod builder;
 mod contact_basis;
 mod ends;
 mod far_boundary;
+mod followers;
 mod frame;
 mod freedoms;
 mod given;
@@ -20,10 +21,13 @@ mod names;
 mod pairs;
 mod recipe;
 mod rows;
+mod springs;
+mod supports;
 mod volume_loads;
 
 pub use builder::ModelBuilder;
 pub use contact_basis::{Blend, ContactBasis};
+pub use followers::Followed;
 pub use frame::Frame;
 pub use freedoms::{Freedoms, Prescribed, Slot};
 pub use given::NodePair;
@@ -31,6 +35,7 @@ pub use held::{FloatingBodies, Pin, RigidMotion};
 pub use loads::{LoadCase, Magnitude};
 pub use pairs::{AxisPoint, ContactSurface, Pair};
 pub use rows::ContactRows;
+pub use springs::Spring;
 
 use crate::element::{Gradients, Kernel};
 use crate::error::{Error, Result};
@@ -123,7 +128,7 @@ impl Model {
         matches!(self.origin, Origin::Scene)
     }
 
-    fn resolve(scene: &Scene, mesh: Mesh, origin: Origin) -> Result<Self> {
+    fn resolve(scene: &Scene, mut mesh: Mesh, origin: Origin) -> Result<Self> {
         let none = Given::default();
         let given = match &origin {
             Origin::Scene => &none,
@@ -142,14 +147,27 @@ impl Model {
             check_radii(&mesh)?;
         }
         let (mut pairs, mut contacts) = pairs::resolve(scene, &mesh, given, &mut warnings)?;
-        let basis = ContactBasis::of(&mesh, &pairs, &contacts)?;
+        let ties = pairs::ties::resolve(scene, &mesh, &contacts, &mut warnings)?;
+        let basis = ContactBasis::of(&mesh, &pairs, &contacts, &ties)?;
         let normals = pairs::mortar::master_normals(&mesh, &pairs, &contacts);
-        let mut freedoms = Freedoms::new(scene, &mesh, basis, &mut pairs, &normals)?;
+        let (mut freedoms, followers) =
+            Freedoms::new(scene, &mesh, basis, &mut pairs, &normals, &ties)?;
+        if freedoms.settle(&mut mesh, &followers)? {
+            mesh::validate(&mesh).map_err(|e| {
+                e.within("the mesh whose tied nodes are moved onto what they follow")
+            })?;
+        }
         freedoms.basis.restate(&mut pairs, &contacts);
         let loads = loads::resolve(scene, &mesh, given, &freedoms)?;
         check_targets(scene, &mesh)?;
-        let (floating, rows) =
-            held::resolve(kind, &mesh, &mut freedoms, &pairs, &loads, &mut warnings)?;
+        let (floating, rows) = held::resolve(
+            kind,
+            &mesh,
+            &mut freedoms,
+            (&pairs, &contacts),
+            &loads,
+            &mut warnings,
+        )?;
         let loads = loads::renumber(loads, &freedoms);
         ends::find(&mesh, &freedoms, &pairs, &mut contacts);
         if matches!(origin, Origin::Scene) {
@@ -196,6 +214,11 @@ impl Model {
     ) -> Gradients<D, S, P, N> {
         let nodes = self.element_coordinates(element);
         kernel.gauss(self.mesh.shapes[element], &nodes)
+    }
+
+    /// What the displacements of an element's nodes follow.
+    pub fn followed_by(&self, element: usize) -> Followed {
+        Followed::new(self.freedoms.followed(self.mesh.nodes(element)))
     }
 
     /// Displacements of all nodes in global axes, from free freedoms and load factors.

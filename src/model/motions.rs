@@ -193,6 +193,20 @@ impl<'a> Motions<'a> {
                         }
                     },
                     Slot::Free(_) => {}
+                    Slot::Tied(_) => {
+                        let mut difference = row();
+                        freedoms.each(*slot, |slot, c| {
+                            if let Slot::Free(f) = slot {
+                                let (node, local) = freedoms.owners[f as usize];
+                                let (node, local) = (node as usize, local as usize);
+                                let values = self.row(node, freedoms.local(node)[local]);
+                                let first = per * self.group_of_node[node];
+                                let values = values.into_iter().enumerate();
+                                difference.extend(values.map(|(m, v)| (first + m, -c * v)));
+                            }
+                        });
+                        gram.add(&difference);
+                    }
                     Slot::Fixed | Slot::Prescribed(_) => gram.add(&row()),
                 }
             }
@@ -462,7 +476,8 @@ fn plain(rows: &[usize], mut motions: Vec<DVector<f64>>, per: usize) -> Vec<Plai
 /// The free freedoms that each node owns, with the place of each in the node's axes.
 pub(super) fn owned(freedoms: &Freedoms, n_nodes: usize) -> Vec<Vec<(u32, u8)>> {
     let mut owned = vec![Vec::new(); n_nodes];
-    for (freedom, &(node, local)) in freedoms.owners.iter().enumerate() {
+    let of_nodes = freedoms.n - freedoms.springs.len();
+    for (freedom, &(node, local)) in freedoms.owners[..of_nodes].iter().enumerate() {
         owned[node as usize].push((freedom as u32, local));
     }
     owned

@@ -6,6 +6,8 @@
 
 mod matching;
 pub(super) mod mortar;
+mod search;
+pub(super) mod ties;
 
 use super::freedoms::{Freedoms, Slot};
 use super::given::Given;
@@ -73,6 +75,8 @@ pub struct ContactSurface {
     pub range: std::ops::Range<usize>,
     /// Centre and radius of the surface, where it is known to be a circle.
     pub circle: Option<([f64; 2], f64)>,
+    /// Pressure over overlap of soft contact.
+    pub stiffness: Option<f64>,
     /// Length of the longest facet, the resolution of positions.
     pub facet_length: f64,
     /// The nodes on the axis of revolution that carry no force.
@@ -204,6 +208,7 @@ fn surface_of(
             Some(Curve::Circle { center, radius, .. }) => Some((center, radius)),
             _ => None,
         },
+        stiffness: entries.contact.stiffness,
         facet_length,
         axis,
         goes_on: Vec::new(),

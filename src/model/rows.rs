@@ -20,13 +20,15 @@ const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
 /// The rows of all pairs.
 #[derive(Debug, Clone, Default)]
 pub struct ContactRows {
-    /// The free freedoms that rows act on: those of masters in the order of the pairs, then the
-    /// slaves' normal ones.
+    /// The free freedoms that rows act on: those of masters in the order of the pairs, overlaps of
+    /// soft contact, then the slaves' normal ones.
     pub freedoms: Vec<usize>,
     /// Of each pair places in `freedoms` and coefficients `b`; the last is the slave's, 1.
     pub entries: Vec<Vec<(usize, f64)>>,
     /// Number of rows that act on each contact freedom.
     rows_at: Vec<u32>,
+    /// Places of the overlaps among the freedoms.
+    overlaps: std::ops::Range<usize>,
     /// Whether no two rows share a freedom and all coefficients are -1 and 1.
     are_apart: bool,
 }
@@ -72,6 +74,12 @@ impl ContactRows {
             }
             of_masters.push(row);
         }
+        let overlaps = masters.len()..masters.len() + freedoms.springs.len();
+        for spring in &freedoms.springs {
+            place.insert(spring.freedom, masters.len());
+            masters.push(spring.freedom);
+            of_masters[spring.pair].push((spring.freedom, -1.0));
+        }
         let n_masters = masters.len();
         let place_of = |freedom: usize| match is_slave.get(&freedom) {
             Some(k) => n_masters + k,
@@ -84,6 +92,7 @@ impl ContactRows {
             })
             .collect();
         let are_apart = n_masters == pairs.len()
+            && overlaps.is_empty()
             && entries
                 .iter()
                 .all(|row| row.len() == 2 && row[0].0 < n_masters && row[0].1 == -1.0);
@@ -94,6 +103,7 @@ impl ContactRows {
             freedoms: masters,
             entries,
             rows_at,
+            overlaps,
             are_apart,
         })
     }
@@ -122,7 +132,8 @@ impl ContactRows {
         let [masters @ .., slave] = self.entries[row].as_slice() else {
             return [0.0; 2];
         };
-        let faced: f64 = masters.iter().map(|&(i, b)| -b * contact[i]).sum();
+        let masters = masters.iter().filter(|(i, _)| !self.overlaps.contains(i));
+        let faced: f64 = masters.map(|&(i, b)| -b * contact[i]).sum();
         [faced, contact[slave.0]]
     }
 
@@ -183,6 +194,7 @@ impl ContactRows {
 /// Coefficients of a pair's row on the freedoms of its masters; `None` where a load moves one.
 fn on_masters(freedoms: &Freedoms, pair: &Pair) -> Option<Vec<(usize, f64)>> {
     let mut row: Vec<(usize, f64)> = Vec::new();
+    let mut is_moved = false;
     for &(node, weight) in &pair.masters {
         let axes = freedoms.local(node);
         let along_normal = axes[0] == pair.normal;
@@ -193,22 +205,24 @@ fn on_masters(freedoms: &Freedoms, pair: &Pair) -> Option<Vec<(usize, f64)>> {
                 (true, _) => continue,
                 (false, _) => dot(pair.normal, axes[local]),
             };
-            match slot {
-                _ if share.abs() <= ROUND_OFF => {}
-                Slot::Fixed => {}
-                Slot::Prescribed(_) if pair.faced().is_none() => return None,
-                Slot::Prescribed(_) => {}
+            if share.abs() <= ROUND_OFF {
+                continue;
+            }
+            let is_sum = pair.faced().is_none() || matches!(slot, Slot::Tied(_));
+            freedoms.each(*slot, |slot, c| match slot {
                 Slot::Free(freedom) => {
-                    let freedom = *freedom as usize;
+                    let (freedom, b) = (freedom as usize, -c * weight * share);
                     match row.iter_mut().find(|entry| entry.0 == freedom) {
-                        Some(entry) => entry.1 -= weight * share,
-                        None => row.push((freedom, -weight * share)),
+                        Some(entry) => entry.1 += b,
+                        None => row.push((freedom, b)),
                     }
                 }
-            }
+                Slot::Prescribed(_) => is_moved |= is_sum,
+                Slot::Fixed | Slot::Tied(_) => {}
+            });
         }
     }
-    Some(row)
+    (!is_moved).then_some(row)
 }
 
 fn moved(mesh: &Mesh, pair: &Pair) -> Error {

@@ -33,6 +33,7 @@ mod claim;
 #[cfg(feature = "report")]
 pub(crate) mod columns;
 mod contact;
+mod dat;
 pub(crate) mod ending;
 mod fields;
 mod history;
@@ -56,6 +57,7 @@ mod vtu_read;
 mod work_precision;
 
 pub use claim::{Claim, mark_stale, stale};
+pub use dat::write_dat;
 pub use ending::ending;
 pub use read::{Recorded, read};
 #[cfg(feature = "report")]

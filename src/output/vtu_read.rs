@@ -46,6 +46,7 @@ pub(super) fn read(path: &Path, mesh: &Mesh) -> Result<Fields> {
         error: numbers("discretisation_error")?,
         contact_pressure: numbers("contact_pressure")?,
         gap: numbers("gap")?,
+        force: Vec::new(),
     };
     fields::check(mesh, &fields).map_err(|error| {
         damaged(format!(

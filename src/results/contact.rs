@@ -91,8 +91,8 @@ pub struct PairState {
     pub contact: usize,
     /// Position (on the second surface, undeformed).
     pub position: Vector,
-    /// Gap, >= 0; on the axis of revolution, where quadratic elements have no pair, negative where
-    /// the surfaces overlap.
+    /// Gap, >= 0; negative where the surfaces overlap: in soft contact, and on the axis of
+    /// revolution, where quadratic elements have no pair.
     pub gap: f64,
     /// Force, compressive positive.
     pub force: f64,

@@ -21,16 +21,40 @@ pub struct Contact {
     /// Initial gap for all pairs instead of the geometric one.
     pub gap: Option<f64>,
     /// Which surface has the slaves, at whose nodes gaps and pressures are: `"auto"` takes the
-    /// finer one (the coarser where its facets are linear and more than twice as long), the second
-    /// where nodes face each other.
+    /// finer one (the coarser where its facets are linear and more than twice as long, or longer at
+    /// all where they are of a curved surface whose shape is not known), the second where nodes
+    /// face each other.
     #[serde(default, skip_serializing_if = "SlaveSide::is_auto")]
     pub slave: SlaveSide,
+    /// Pressure over overlap of soft contact: `g + p / stiffness >= 0` in place of `g >= 0`. By
+    /// default contact is hard.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness: Option<f64>,
     /// Interference: taken off every initial gap, applied gradually before the load program.
     #[serde(default)]
     pub interference: f64,
 }
 
-/// Which surface of a contact has the slaves.
+/// Two surfaces that stay together, across and along: whether their nodes face each other or not,
+/// the displacement of one follows that of the other (dual mortar). Nodes that do not lie on the
+/// other surface are moved onto it.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Tie {
+    /// One surface.
+    pub first: String,
+    /// The other; it may be one of the same body.
+    pub second: String,
+    /// Which surface follows: `"auto"` takes the finer one.
+    #[serde(default, skip_serializing_if = "SlaveSide::is_auto")]
+    pub slave: SlaveSide,
+    /// Largest distance of the surfaces. By default a twentieth of the longest facet, beyond what
+    /// flat facets are off a curved surface.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub distance: Option<f64>,
+}
+
+/// Which surface of a contact or a tie has the slaves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SlaveSide {

@@ -31,7 +31,7 @@ mod validate;
 pub use accuracy::AccuracyDemand;
 pub use boundary::{
     Contact, Direction, Displacement, History, Kirsch, Load, PlaneForce, Rotation, SlaveSide,
-    Support,
+    Support, Tie,
 };
 pub use field::Field;
 pub use geometry::{
@@ -84,6 +84,9 @@ pub struct Scene {
     /// Pairs of surfaces that may touch.
     #[serde(default)]
     pub contact: Vec<Contact>,
+    /// Pairs of surfaces that stay together.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tie: Vec<Tie>,
     /// Supports.
     #[serde(default)]
     pub support: Vec<Support>,
@@ -127,6 +130,7 @@ impl Scene {
             materials: BTreeMap::new(),
             bodies: BTreeMap::new(),
             contact: Vec::new(),
+            tie: Vec::new(),
             support: Vec::new(),
             load: Vec::new(),
             program: Program::default(),

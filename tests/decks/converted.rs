@@ -66,7 +66,7 @@ fn the_program_tells_what_it_made_of_a_deck() {
     for fragment in [
         "30 nodes, 16 elements",
         "*CONTACT PAIR 1",
-        "line 85: *SURFACE BEHAVIOR: PRESSURE-OVERCLOSURE=LINEAR is",
+        "line 85: *SURFACE BEHAVIOR: PRESSURE-OVERCLOSURE=LINEAR: soft contact of pressure",
         "line 78: *DENSITY: loads are applied slowly: mass has no effect",
         "5 contact pairs",
     ] {
@@ -87,4 +87,93 @@ fn the_program_tells_what_it_made_of_a_deck() {
     // The folder holds a scene that can be run again.
     let (_, results) = run(&out.path().join("out/scene_as_run.toml"), &[]);
     assert_eq!(results.states[1].name, "step-2");
+}
+
+/// The tables of displacements as CalculiX prints them, and the force that holds the base.
+#[test]
+fn tables_are_those_of_calculix() {
+    let work = tempfile::tempdir().unwrap();
+    let (out, dat) = (work.path().join("out"), work.path().join("tied.dat"));
+    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    command.arg("run").arg(deck_path("tied"));
+    command.args([
+        "--no-estimate",
+        "--no-report",
+        "--set",
+        "mesh.formulation=full",
+    ]);
+    command.arg("--out").arg(&out).arg("--dat").arg(&dat);
+    let output = command.output().unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let text = std::fs::read_to_string(&dat).unwrap();
+    let tables = |head: &str| -> Vec<Vec<f64>> {
+        let from = text.find(head).unwrap_or_else(|| panic!("{head}\n{text}"));
+        let rows = text[from..].lines().skip(2);
+        let rows = rows.take_while(|line| !line.trim().is_empty());
+        let numbers = |line: &str| {
+            line.split_whitespace()
+                .map(|w| w.parse().unwrap())
+                .collect()
+        };
+        rows.map(numbers).collect()
+    };
+    let reference = std::fs::read_to_string(folder().join("reference/tied.dat")).unwrap();
+    let printed = tables("displacements (vx,vy,vz) for set NALL and time 1.000000E+00");
+    let theirs: Vec<Vec<f64>> = (reference.lines().skip(2))
+        .filter(|line| !line.trim().is_empty())
+        .map(|line| {
+            line.split_whitespace()
+                .map(|w| w.parse().unwrap())
+                .collect()
+        })
+        .collect();
+    assert_eq!(printed.len(), theirs.len());
+    let scale = theirs
+        .iter()
+        .flat_map(|row| &row[1..])
+        .fold(0.0, |m: f64, u| m.max(u.abs()));
+    for (a, b) in printed.iter().zip(&theirs) {
+        assert_eq!(a[0], b[0]);
+        for (a, b) in a[1..].iter().zip(&b[1..]) {
+            assert!((a - b).abs() <= 1e-6 * scale, "{a} {b}");
+        }
+    }
+    // Twelve nodes are pulled along x by 10, a face of 6 along z by 50.
+    let total = &tables("total force (fx,fy,fz) for set BASE and time")[0];
+    for (force, exact) in total.iter().zip([-120.0, 0.0, -300.0]) {
+        assert!((force - exact).abs() < 1e-4, "{total:?}");
+    }
+    // Of nodes that follow and of those inside nothing is left.
+    for row in tables("forces (fx,fy,fz) for set OVER and time") {
+        assert!(row[1..].iter().all(|f| f.abs() < 1e-9), "{row:?}");
+    }
+    let stresses = tables("stresses (elem, integ.pnt.,sxx,syy,szz,sxy,sxz,syz) for set UPPER");
+    assert_eq!((stresses.len(), stresses[0].len()), (12, 8));
+    let mean = stresses.iter().map(|row| row[4]).sum::<f64>() / 12.0;
+    assert!((mean / 50.0 - 1.0).abs() < 0.1, "{mean}");
+}
+
+#[test]
+fn a_new_scene_from_a_deck_is_its_conversion() {
+    let work = tempfile::tempdir().unwrap();
+    let scene = work.path().join("new.toml");
+    let program = || Command::new(env!("CARGO_BIN_EXE_brinell"));
+    let output = program()
+        .args(["new", "--from"])
+        .arg(deck_path("ring"))
+        .arg("--out")
+        .arg(&scene)
+        .output()
+        .unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(
+        output.status.success() && text.contains("run it with: brinell run"),
+        "{text}"
+    );
+    let (_, results) = run(&scene, &[]);
+    assert_eq!(results.states[0].name, "step-1");
+    for arguments in [&["new"][..], &["new", "punch", "--from", "x.inp"]] {
+        let output = program().args(arguments).output().unwrap();
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+    }
 }

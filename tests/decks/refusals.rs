@@ -306,8 +306,13 @@ fn what_brinell_does_not_have_is_told_by_line_and_reason() {
         ),
         (
             before,
-            "*TIE, NAME=T\nA, B\n*SOLID SECTION, ELSET=BODY",
-            "*TIE: nodes are tied to each other only",
+            "*TIE, NAME=T, CYCLIC SYMMETRY\nA, B\n*SOLID SECTION, ELSET=BODY",
+            "line 15: *TIE: there is no cyclic symmetry",
+        ),
+        (
+            before,
+            "*MPC\nTIE, 1, 2\n*SOLID SECTION, ELSET=BODY",
+            "line 15: *MPC: nodes are tied by",
         ),
         (
             before,

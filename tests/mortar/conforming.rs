@@ -2,13 +2,16 @@
 //! surfaces.
 
 use crate::blocks::{held, of_one_material, run};
+use crate::grid::{Grid, Point};
 use crate::running::{load, try_run};
 use crate::sheet::Sheet;
 use brinell::linalg::Backend;
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
 use brinell::results::State;
-use brinell::scene::{Contact, Direction, Kind, SlaveSide, Target};
+use brinell::scene::{Contact, Direction, Kind, SlaveSide, Support, Target};
+
+type Vector = [f64; 3];
 
 /// The shaft of `shrink_fit`: `E d (b^2 - a^2) / (2 a b^2)`.
 const PRESSURE: f64 = 210e3 * 0.05 * (100.0 * 100.0 - 50.0 * 50.0) / (2.0 * 50.0 * 100.0 * 100.0);
@@ -128,4 +131,146 @@ fn facets_that_overlap_are_noticed() {
         "{why}"
     );
     assert!(why.contains("mesh.circles"), "{why}");
+}
+
+/// Two shells of a solid from `inner` to `middle` to `outer`, meshed with different cells across.
+fn shells(
+    shape: Shape,
+    cells: [[usize; 2]; 2],
+    slave: SlaveSide,
+    [inner, middle, outer]: [f64; 3],
+    place: &dyn Fn(f64, [f64; 2]) -> Point,
+    sides: &[(&str, Vector)],
+) -> ModelBuilder {
+    let mut builder = ModelBuilder::new(Kind::Solid);
+    for (name, [from, to], [m, n]) in [
+        ("inside", [inner, middle], cells[0]),
+        ("outside", [middle, outer], cells[1]),
+    ] {
+        let grid = Grid {
+            name,
+            cells: [m, n, 5],
+            shape,
+            map: &|[a, b, r]| place(from + r * (to - from), [a, b]),
+        };
+        grid.add(&mut builder);
+        for (side, direction) in sides {
+            builder.support(Support {
+                on: format!("{name}.{side}"),
+                direction: Some((*direction).into()),
+                ..Support::default()
+            });
+        }
+    }
+    of_one_material(&mut builder, &["inside", "outside"], 210e3, 0.3);
+    builder.contact(Contact {
+        first: "inside.z1".into(),
+        second: "outside.z0".into(),
+        interference: 0.05,
+        slave,
+        ..Contact::default()
+    });
+    builder.target(Target {
+        load_factor: Some(0.0),
+        ..Target::default()
+    });
+    builder
+}
+
+/// Mean and scatter of the pressure of what nothing says is round.
+fn of_shells(builder: &ModelBuilder, exact: f64) -> [f64; 2] {
+    let results = run(builder);
+    let state = &results.states[0];
+    let [_, scatter] = deviations(state);
+    let force: f64 = state.pairs.iter().map(|p| p.force).sum();
+    let area: f64 = state.pairs.iter().map(|p| p.area).sum();
+    [(force / area / exact - 1.0).abs(), scatter]
+}
+
+const SHAPES: [(Shape, SlaveSide); 5] = [
+    (Shape::Hex8, SlaveSide::First),
+    (Shape::Hex8, SlaveSide::Second),
+    (Shape::Hex20, SlaveSide::First),
+    (Shape::Hex20, SlaveSide::Second),
+    (Shape::Tet10, SlaveSide::Auto),
+];
+
+/// A tube in a ring in plane strain, as solids, on an axis that is none of the model's.
+#[test]
+fn cylinders_are_recognised() {
+    let third = |[x, y, z]: Point| {
+        // Turned by 0.3 about x, then 0.5 about z.
+        let [c, s] = [0.3f64.cos(), 0.3f64.sin()];
+        let [y, z] = [c * y - s * z, s * y + c * z];
+        let [c, s] = [0.5f64.cos(), 0.5f64.sin()];
+        [c * x - s * y + 3.0, s * x + c * y - 7.0, z]
+    };
+    let turned = |v: Vector| {
+        let [a, o] = [third(v), third([0.0; 3])];
+        [0, 1, 2].map(|d| a[d] - o[d])
+    };
+    let place = |r: f64, [a, b]: [f64; 2]| {
+        let angle = 0.5 * std::f64::consts::PI * a;
+        // Counter-clockwise in (angle, axis, radius).
+        third([r * angle.cos(), r * angle.sin(), 20.0 * b])
+    };
+    let sides = [
+        ("x0", turned([0.0, 1.0, 0.0])),
+        ("x1", turned([1.0, 0.0, 0.0])),
+        ("y0", turned([0.0, 0.0, 1.0])),
+        ("y1", turned([0.0, 0.0, 1.0])),
+    ];
+    // Plane strain: E / (1 - nu^2) for E, and both walls of one material.
+    let exact = of_tube([30.0, 50.0, 100.0]) / 0.91;
+    for (shape, slave) in SHAPES {
+        for cells in [[[12, 2], [8, 3]], [[8, 3], [12, 2]]] {
+            let builder = shells(shape, cells, slave, [30.0, 50.0, 100.0], &place, &sides);
+            let [mean, scatter] = of_shells(&builder, exact);
+            println!("cylinder {shape:?} {cells:?} {slave:?}: {mean:.4} {scatter:.4}");
+            assert!(
+                mean < 0.01 && scatter < 0.02,
+                "{shape:?} {cells:?} {slave:?}: {mean:.4} {scatter:.4}"
+            );
+        }
+    }
+}
+
+/// A ball in a bowl: two shells, seen through a pyramid of planes through their centre.
+#[test]
+fn spheres_are_recognised() {
+    let half = 0.25 * std::f64::consts::PI;
+    let place = |r: f64, [a, b]: [f64; 2]| {
+        let [x, y] = [a, b].map(|t| ((2.0 * t - 1.0) * half).tan());
+        let far = (x * x + y * y + 1.0).sqrt();
+        [r * x / far, r * y / far, r / far]
+    };
+    let sides = [
+        ("x0", [1.0, 0.0, 1.0]),
+        ("x1", [1.0, 0.0, -1.0]),
+        ("y0", [0.0, 1.0, 1.0]),
+        ("y1", [0.0, 1.0, -1.0]),
+    ];
+    let [inner, middle, outer] = [30.0f64, 50.0, 100.0];
+    // Displacement of a wall under its pressure: Lamé.
+    let wall = |other: f64| {
+        let (a, b) = (middle.powi(3), other.powi(3));
+        middle / 210e3 * (0.4 * a + 0.65 * b) / (b - a).abs()
+    };
+    let exact = 0.05 / (wall(inner) + wall(outer));
+    for (shape, slave) in SHAPES {
+        let builder = shells(
+            shape,
+            [[12, 12], [8, 8]],
+            slave,
+            [inner, middle, outer],
+            &place,
+            &sides,
+        );
+        let [mean, scatter] = of_shells(&builder, exact);
+        println!("sphere {shape:?} {slave:?}: {mean:.4} {scatter:.4}");
+        assert!(
+            mean < 0.01 && scatter < 0.02,
+            "{shape:?} {slave:?}: {mean:.4} {scatter:.4}"
+        );
+    }
 }

@@ -60,7 +60,7 @@ fn without_loose_nodes(mut mesh: Mesh) -> Mesh {
 }
 
 /// Runs a scene of the generator `key` with the two bodies meshed differently.
-fn at_ratio(
+pub fn at_ratio(
     name: &str,
     key: &str,
     extra: &[String],

@@ -54,6 +54,7 @@ pub fn fields(mesh: &Mesh, seed: f64) -> Fields {
         error: values(elements, 0.9),
         contact_pressure: values(mesh.n_nodes(), 0.1),
         gap: values(mesh.n_nodes(), 0.2),
+        force: Vec::new(),
     }
 }
 

@@ -143,7 +143,26 @@ fn every_kind_of_way_goes_on() {
         &["program.targets=[{ yield = true }, { load_factor = 2.0 }, { load_factor = 0.0 }]"],
     ]
     .concat();
-    let cases: [(&str, &[&str], usize); 12] = [
+    let soft = [&ball[..], &["contact.0.stiffness=1e6"]].concat();
+    let apart = [
+        "mesh.parts.0.brick.elements=[2, 2, 2]",
+        "mesh.parts.1.brick.elements=[5, 5, 4]",
+    ];
+    let tied = [
+        &apart[..],
+        &[
+            "contact=[]",
+            "tie=[{ first = \"punch.bottom\", second = \"block.top\" }]",
+            "program.stepping=steps",
+            "program.steps=4",
+        ],
+    ]
+    .concat();
+    let cases: [(&str, &[&str], usize); 16] = [
+        ("ball_on_flat_3d", &soft, 2),
+        ("roller_on_plate", &[], 4),
+        ("square_punch", &apart, 2),
+        ("square_punch", &tied, 1),
         ("ball_on_flat_3d", &ball, 2),
         ("square_punch", &SMALL_PUNCH, 2),
         (

@@ -13,6 +13,8 @@ const CYLINDER: Case = (
     "cylinder_on_half_plane",
     &["mesh.cylinder_on_half_plane.resolution=12"],
 );
+/// Surfaces whose nodes do not face each other.
+const ROLLER: Case = ("roller_on_plate", &[]);
 const BALL: Case = ("ball_on_flat_3d", &SMALL_BALL);
 
 fn start((scene, sets): Case, out: &Path, more: &[&str]) -> Child {
@@ -141,6 +143,11 @@ fn killed_again_and_again(case: Case) {
 #[test]
 fn a_run_killed_again_and_again_has_the_results_of_one_that_was_not() {
     killed_again_and_again(CYLINDER);
+}
+
+#[test]
+fn a_roller_that_does_not_match_killed_again_and_again_has_the_results_of_one_that_was_not() {
+    killed_again_and_again(ROLLER);
 }
 
 #[test]

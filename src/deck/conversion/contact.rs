@@ -1,11 +1,11 @@
-//! Contact pairs.
+//! Contact pairs and ties.
 
 use super::super::data::{Account, ContactPair};
 use super::super::facets::Face;
 use super::Draft;
 use crate::error::Result;
 use crate::number::exact;
-use crate::scene::Contact;
+use crate::scene::{Contact, SlaveSide, Tie};
 use crate::space::{difference, length};
 
 impl Draft<'_> {
@@ -15,15 +15,16 @@ impl Draft<'_> {
         let properties = &self.deck.properties;
         for pair in &properties.contacts {
             let at = (pair.place, "CONTACT PAIR");
-            if properties.interactions.get(&pair.interaction).is_none() {
+            let Some(interaction) = properties.interactions.get(&pair.interaction) else {
                 let message = format!("there is no *SURFACE INTERACTION {}", pair.interaction);
                 return Err(self.deck.error(at.0, at.1, message));
-            }
+            };
             let [slave, master] = [&pair.slave, &pair.master].map(|s| self.deck.surface(s, at));
             let (slave, master) = (slave?, master?);
             let mut contact = Contact {
                 first: self.geometry.surface_name(&pair.slave),
                 second: self.geometry.surface_name(&pair.master),
+                stiffness: interaction.stiffness,
                 ..Contact::default()
             };
             if let Some(within) = pair.adjust {
@@ -33,6 +34,24 @@ impl Draft<'_> {
             let key = format!("contact.{}", self.contacts.len());
             self.places.insert(key, self.deck.files.show(pair.place));
             self.contacts.push(contact);
+        }
+        Ok(())
+    }
+
+    /// The slave surface is the first one, and stays it.
+    pub(super) fn ties(&mut self) -> Result<()> {
+        for tie in &self.deck.properties.ties {
+            for name in [&tie.slave, &tie.master] {
+                self.deck.surface(name, (tie.place, "TIE"))?;
+            }
+            let key = format!("tie.{}", self.ties.len());
+            self.places.insert(key, self.deck.files.show(tie.place));
+            self.ties.push(Tie {
+                first: self.geometry.surface_name(&tie.slave),
+                second: self.geometry.surface_name(&tie.master),
+                slave: SlaveSide::First,
+                distance: tie.tolerance,
+            });
         }
         Ok(())
     }

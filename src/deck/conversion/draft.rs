@@ -4,7 +4,7 @@ use super::super::Deck;
 use super::super::series::Series;
 use super::super::source::Place;
 use super::Geometry;
-use crate::scene::{Contact, Direction, Load, Support};
+use crate::scene::{Contact, Direction, Load, Support, Tie};
 use crate::space::{Components, Vector};
 use std::collections::BTreeMap;
 
@@ -18,6 +18,7 @@ pub(super) struct Draft<'d> {
     /// Loads at their largest, and what they go through.
     pub(super) loads: Vec<(Load, Series)>,
     pub(super) contacts: Vec<Contact>,
+    pub(super) ties: Vec<Tie>,
     /// Lines of the deck by key.
     pub(super) places: BTreeMap<String, String>,
 }
@@ -31,6 +32,7 @@ impl<'d> Draft<'d> {
             supports: Vec::new(),
             loads: Vec::new(),
             contacts: Vec::new(),
+            ties: Vec::new(),
             places: BTreeMap::new(),
         }
     }

@@ -68,12 +68,14 @@ impl Deck {
         let mut draft = Draft::new(self, self.geometry()?, self.thickness(space, &mut account)?);
         draft.conditions()?;
         draft.contacts(&mut account)?;
+        draft.ties()?;
         let mut scene = self.empty_scene(space);
         self.add_bodies(&bodies, &mut scene, &mut draft.places)?;
         self.add_loads(&mut draft, &mut scene);
         self.choose_stepping(&draft, &mut scene);
         scene.support = std::mem::take(&mut draft.supports);
         scene.contact = std::mem::take(&mut draft.contacts);
+        scene.tie = std::mem::take(&mut draft.ties);
         Ok(Conversion {
             scene,
             account,

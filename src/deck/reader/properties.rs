@@ -2,7 +2,9 @@
 
 use super::mesh::target;
 use super::{Reader, fields};
-use crate::deck::data::{Clearance, ContactPair, Equation, MaterialData, Section, Transform};
+use crate::deck::data::{
+    Clearance, ContactPair, Equation, Interaction, MaterialData, Section, TiedPair, Transform,
+};
 use crate::deck::keyword::Keyword;
 use crate::error::Result;
 use crate::number::exact;
@@ -150,12 +152,13 @@ impl Reader<'_> {
         let files = &self.source.files;
         keyword.allow(files, &["NAME"])?;
         let name = keyword.require(files, "NAME")?;
-        *self.deck.properties.interactions.entry(name) = keyword.place;
+        *self.deck.properties.interactions.entry(name) = Interaction::default();
+        self.interaction = Some(name.to_string());
         // A thickness out of the plane may follow: forces are per unit of it.
         self.skip()
     }
 
-    /// Contact is exact complementarity whatever a deck says.
+    /// Contact is exact complementarity, hard or on a linear spring.
     pub(super) fn behavior(&mut self, keyword: &Keyword) -> Result<()> {
         let files = &self.source.files;
         keyword.allow(
@@ -180,8 +183,10 @@ impl Reader<'_> {
             self.refuse(
                 keyword,
                 keyword.place,
-                "surfaces that touch can part: let bodies that never do share nodes",
+                "surfaces in contact can part: give those that never do a *TIE instead",
             );
+        } else if law == "LINEAR" {
+            return self.slope(keyword);
         } else if law != "HARD" {
             let how = format!(
                 "PRESSURE-OVERCLOSURE={law} is taken as hard contact: the surfaces do not overlap, \
@@ -189,6 +194,35 @@ impl Reader<'_> {
             );
             self.take(keyword, keyword.place, &how);
         }
+        self.skip()
+    }
+
+    /// The slope of the pressure; what CalculiX takes after it, a pull far away, is none here.
+    fn slope(&mut self, keyword: &Keyword) -> Result<()> {
+        let line = self.one_line(keyword, "the slope of the pressure over the overlap")?;
+        let mut row = fields(&self.source, keyword, line);
+        let slope = row.number("the slope")?;
+        if slope <= 0.0 {
+            let message = format!("the slope is {}; it must be positive", exact(slope));
+            return Err(row.place.error(message));
+        }
+        let interactions = &mut self.deck.properties.interactions;
+        match self
+            .interaction
+            .as_deref()
+            .and_then(|name| interactions.get_mut(name))
+        {
+            Some(interaction) => interaction.stiffness = Some(slope),
+            None => {
+                let message = "it belongs to no *SURFACE INTERACTION; put it below one";
+                return Err(keyword.error(&self.source.files, message));
+            }
+        }
+        let how = format!(
+            "PRESSURE-OVERCLOSURE=LINEAR: soft contact of pressure {} times overlap",
+            exact(slope)
+        );
+        self.take(keyword, keyword.place, &how);
         self.skip()
     }
 
@@ -258,6 +292,63 @@ impl Reader<'_> {
             let how = "sliding is small: each node stays at what it faces in the mesh";
             self.take(keyword, keyword.place, how);
         }
+        Ok(())
+    }
+
+    pub(super) fn tie(&mut self, keyword: &Keyword) -> Result<()> {
+        let files = &self.source.files;
+        let cyclic = ["CYCLICSYMMETRY", "MULTISTAGE", "FLUIDPERIODIC", "CYCLIC"];
+        if cyclic.iter().any(|key| keyword.has(key)) {
+            let why = "there is no cyclic symmetry: model what repeats once, with symmetry planes";
+            self.refuse(keyword, keyword.place, why);
+            return self.skip();
+        }
+        let known = [
+            "NAME",
+            "POSITIONTOLERANCE",
+            "ADJUST",
+            "TYPE",
+            "NOROTATION",
+            "NOTHICKNESS",
+        ];
+        keyword.allow(files, &known)?;
+        let tolerance = match keyword.get("POSITIONTOLERANCE") {
+            Some(text) => match text.parse::<f64>() {
+                Ok(distance) if distance >= 0.0 && distance.is_finite() => Some(distance),
+                _ => {
+                    let why = format!("POSITION TOLERANCE={text} must be a distance, 0 or more");
+                    return Err(keyword.error(files, why));
+                }
+            },
+            None => None,
+        };
+        let is_moved = keyword.choice(files, "ADJUST", &["YES", "NO"])? == "YES";
+        let mut is_first = true;
+        while let Some(line) = self.source.next_data()? {
+            let mut row = fields(&self.source, keyword, line);
+            let slave = row.text("the slave surface")?;
+            let master = row.text("the master surface")?;
+            row.end()?;
+            self.deck.properties.ties.push(TiedPair {
+                slave,
+                master,
+                tolerance,
+                place: line.place,
+            });
+            is_first = false;
+        }
+        if is_first {
+            let message = "a line with the slave and the master surface should follow; give it";
+            return Err(keyword.error(&self.source.files, message));
+        }
+        let how = match is_moved {
+            true => "the surfaces are tied in the mean over their faces, not node by node",
+            false => {
+                "the surfaces are tied in the mean over their faces, not node by node; nodes of \
+                 the slave surface are moved onto the master surface, ADJUST=NO or not"
+            }
+        };
+        self.take(keyword, keyword.place, how);
         Ok(())
     }
 

@@ -1,5 +1,6 @@
 //! Pairs of nodes that face each other.
 
+use super::search::Balls;
 use super::{Entries, Found, Pair};
 use crate::element::facet_points;
 use crate::error::{Error, Result};
@@ -36,16 +37,21 @@ pub(super) fn pairs(entries: &Entries, given: Option<&[NodePair]>) -> Result<Opt
             let nodes = [&*master_nodes, &*slave_nodes];
             partners(given, mesh, names, nodes, &normal, contact.gap)?
         }
-        None => (slave_nodes.iter().zip(&normal))
-            .map(|(&node, &normal)| {
-                let faced = facing(mesh, mesh.point(node), normal, &master_nodes, tolerance);
-                faced.map(|first| Partner {
-                    first,
+        None => {
+            let near = Balls::new(master_nodes.iter().map(|&n| (mesh.point(n), 0.0)).collect());
+            let faced = |(&node, &normal): (&usize, &Vector)| {
+                let x = mesh.point(node);
+                let places = near.near(x, normal, tolerance);
+                let nodes: Vec<usize> = places.iter().map(|&k| master_nodes[k]).collect();
+                let at = facing(mesh, x, normal, &nodes, tolerance)?;
+                Some(Partner {
+                    first: places[at],
                     normal,
                     gap: contact.gap,
                 })
-            })
-            .collect(),
+            };
+            slave_nodes.iter().zip(&normal).map(faced).collect()
+        }
     };
 
     // Beyond the end of the shorter surface there is nothing to press on; who gives the pairs

@@ -21,7 +21,9 @@ mod dual;
 mod face;
 mod overlap;
 mod roundness;
+mod spheres;
 
+use super::search::Balls;
 use super::{ContactSurface, Entries, Found, NO_AREA, Pair};
 use crate::error::{Error, Result};
 use crate::mesh::surface::{longest_facet, nodes, normals};
@@ -36,6 +38,11 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Rows with less of their weight covered than this share are left out: they would be the inverse
 /// of round-off.
 const COVERED: f64 = 1e-8;
+/// Distance of surfaces that are tied, as a share of a facet's length: more than the tolerances of
+/// a mesher, less than an element.
+const NEAR: f64 = 0.05;
+/// Share of a facet's length by which facets of a flat surface may be off it.
+const FLAT: f64 = 1e-6;
 /// Overlap of the meshes, as a share of a facet's length, that is round-off.
 const TOUCHING: f64 = 1e-9;
 /// Share of a facet's weight up to which a master counts nothing.
@@ -46,10 +53,25 @@ struct Sides<'a> {
     entries: &'a Entries<'a>,
     slaves: Vec<Face>,
     masters: Vec<Face>,
+    /// The masters, to find those near a line.
+    near: Balls,
     /// Exact shapes of slave and master, where known.
     curves: [Option<Curve>; 2],
     /// Unit normal of each slave node.
     normals: BTreeMap<usize, Vector>,
+}
+
+/// Both sides, and what the slaves face.
+struct Coupled<'a> {
+    sides: Sides<'a>,
+    pairs: Vec<Pair>,
+    /// Slaves that the other surface hardly covers.
+    left_out: Vec<usize>,
+    /// Slaves that nothing lies opposite.
+    alone: Vec<usize>,
+    /// Which surface has the slaves.
+    slave: usize,
+    facet_length: f64,
 }
 
 /// The pairs of a contact.
@@ -57,12 +79,83 @@ struct Sides<'a> {
 /// # Errors
 /// Surfaces that are not one curve, do not face each other, share nodes or overlap.
 pub(super) fn pairs(entries: &Entries, notes: &mut Vec<String>) -> Result<Found> {
+    let found = coupled(entries)?;
+    found
+        .sides
+        .check(&found.pairs, found.facet_length, found.slave)?;
+    if !found.left_out.is_empty() {
+        let contact = entries.contact;
+        notes.push(format!(
+            "contact {}: {} of `{}` face the other surface by less than a part in 1e8 of their \
+             share and stay free",
+            entries.index + 1,
+            super::list(entries.mesh, &found.left_out),
+            [&contact.first, &contact.second][found.slave],
+        ));
+    }
+    Ok(Found {
+        pairs: found.pairs,
+        slave: found.slave,
+        facet_length: found.facet_length,
+    })
+}
+
+/// The rows of two surfaces that are tied, and the slaves that stay free.
+///
+/// # Errors
+/// As [`pairs`], but surfaces may overlap, by `distance` at most.
+pub(super) fn tied(entries: &Entries, distance: Option<f64>) -> Result<(Found, Vec<usize>)> {
+    let found = coupled(entries)?;
+    found.sides.check_apart(&found.pairs)?;
+    let most = distance.unwrap_or(NEAR * found.facet_length + found.sides.depth_of_facets());
+    let far: Vec<&Pair> = (found.pairs.iter())
+        .filter(|pair| pair.gap.abs() > most)
+        .collect();
+    if !far.is_empty() {
+        let mesh = entries.mesh;
+        let contact = entries.contact;
+        let names = [&contact.first, &contact.second];
+        let each = far.iter().take(4).map(|pair| {
+            let (label, place) = (mesh.node_label(pair.slave), mesh.place(pair.slave));
+            format!("node {label} at {place} by {:.3e}", pair.gap)
+        });
+        let each: Vec<String> = each.collect();
+        return Err(Error::input(format!(
+            "{} of {} nodes of `{}` are farther from `{}` than {most:.3e}: {}{}; bring the bodies \
+             together, name the facets that touch, or give `distance`",
+            far.len(),
+            found.pairs.len(),
+            names[found.slave],
+            names[1 - found.slave],
+            each.join(", "),
+            if far.len() > 4 { ", ..." } else { "" }
+        )));
+    }
+    let mut free = found.left_out;
+    free.extend(found.alone);
+    let found = Found {
+        pairs: found.pairs,
+        slave: found.slave,
+        facet_length: found.facet_length,
+    };
+    Ok((found, free))
+}
+
+/// The rows of two surfaces.
+///
+/// # Errors
+/// Surfaces that are not one curve or do not face each other.
+fn coupled<'a>(entries: &'a Entries<'a>) -> Result<Coupled<'a>> {
     let (mesh, contact) = (entries.mesh, entries.contact);
+    let curves = entries
+        .surfaces
+        .map(|s| s.curve.or_else(|| roundness::find(mesh, s)));
     let slave = match contact.slave {
         SlaveSide::First => 0,
         SlaveSide::Second => 1,
-        SlaveSide::Auto => finer(mesh, entries.surfaces),
+        SlaveSide::Auto => finer(mesh, entries.surfaces, [0, 1].map(|k| curves[k].is_some())),
     };
+    let curves = [curves[slave], curves[1 - slave]];
     let [slave_surface, master_surface] = [entries.surfaces[slave], entries.surfaces[1 - slave]];
     let slave_nodes = nodes(mesh, slave_surface)?;
     nodes(mesh, master_surface)?;
@@ -73,8 +166,6 @@ pub(super) fn pairs(entries: &Entries, notes: &mut Vec<String>) -> Result<Found>
             .map(|&facet| Face::new(mesh, facet))
             .collect()
     };
-    let curves =
-        [slave_surface, master_surface].map(|s| s.curve.or_else(|| roundness::find(mesh, s)));
     let shaped = Surface {
         facets: slave_surface.facets.clone(),
         curve: curves[0],
@@ -83,10 +174,12 @@ pub(super) fn pairs(entries: &Entries, notes: &mut Vec<String>) -> Result<Found>
         Some(n) => vec![entries.towards_master(direction(n.vector()), slave); slave_nodes.len()],
         None => normals(mesh, &shaped, &slave_nodes),
     };
+    let masters = faces(master_surface);
     let sides = Sides {
         entries,
         slaves: faces(slave_surface),
-        masters: faces(master_surface),
+        near: Balls::new(masters.iter().map(Face::ball).collect()),
+        masters,
         curves,
         normals: slave_nodes.iter().copied().zip(normals).collect(),
     };
@@ -96,7 +189,7 @@ pub(super) fn pairs(entries: &Entries, notes: &mut Vec<String>) -> Result<Found>
         .map(|face| integrate(&sides, face))
         .collect())?;
     let facet_length = longest_facet(mesh, slave_surface).max(longest_facet(mesh, master_surface));
-    let mut left_out = Vec::new();
+    let (mut left_out, mut alone) = (Vec::new(), Vec::new());
     let mut pairs = Vec::new();
     let mut arc = 0.0;
     for (j, &node) in slave_nodes.iter().enumerate() {
@@ -104,6 +197,7 @@ pub(super) fn pairs(entries: &Entries, notes: &mut Vec<String>) -> Result<Found>
             arc += length(difference(mesh.point(node), mesh.point(slave_nodes[j - 1])));
         }
         let Some(of_node) = integrals.get(&node) else {
+            alone.push(node);
             continue;
         };
         match sides.pair(node, of_node, arc) {
@@ -119,18 +213,11 @@ pub(super) fn pairs(entries: &Entries, notes: &mut Vec<String>) -> Result<Found>
             [&contact.first, &contact.second][1 - slave],
         )));
     }
-    sides.check(&pairs, facet_length, slave)?;
-    if !left_out.is_empty() {
-        notes.push(format!(
-            "contact {}: {} of `{}` face the other surface by less than a part in 1e8 of their \
-             share and stay free",
-            entries.index + 1,
-            super::list(mesh, &left_out),
-            [&contact.first, &contact.second][slave],
-        ));
-    }
-    Ok(Found {
+    Ok(Coupled {
+        sides,
         pairs,
+        left_out,
+        alone,
         slave,
         facet_length,
     })
@@ -150,10 +237,12 @@ fn sum(facets: Vec<Result<Vec<(usize, Integrals)>>>) -> Result<BTreeMap<usize, I
 /// How much longer than those of the slave linear facets of a master may be. They stay straight:
 /// beyond that the kinks between them, not the contact, would shape the pressure.
 const LONGER: f64 = 2.0;
+/// The same where gaps have these kinks too: of curved surfaces whose true shape is not known.
+const LONGER_KINKED: f64 = 1.1;
 
 /// The surface with the smaller facets where the two may face each other, the second if alike; the
-/// other one where its facets are linear and longer by more than [`LONGER`].
-fn finer(mesh: &Mesh, surfaces: [&Surface; 2]) -> usize {
+/// other one where its facets are linear and longer by more than [`LONGER`], or [`LONGER_KINKED`].
+fn finer(mesh: &Mesh, surfaces: [&Surface; 2], is_known: [bool; 2]) -> usize {
     let faces = surfaces.map(|surface| -> Vec<Face> {
         surface
             .facets
@@ -162,7 +251,11 @@ fn finer(mesh: &Mesh, surfaces: [&Surface; 2]) -> usize {
             .collect()
     });
     let median = |own: &[Face], other: &[Face]| {
-        let faced = |face: &&Face| other.iter().any(|o| face.may_face(o));
+        let near = Balls::new(other.iter().map(Face::ball).collect());
+        let faced = |face: &&Face| {
+            let near = near.near(face.center, face.normal, face.radius);
+            near.into_iter().any(|k| face.may_face(&other[k]))
+        };
         let mut sizes: Vec<f64> = own.iter().filter(faced).map(|face| face.radius).collect();
         sizes.sort_by(f64::total_cmp);
         sizes.get(sizes.len() / 2).copied().unwrap_or(f64::INFINITY)
@@ -175,7 +268,13 @@ fn finer(mesh: &Mesh, surfaces: [&Surface; 2]) -> usize {
     } else {
         first / second
     };
-    match ratio > LONGER * (1.0 + 1e-6) && faces[1 - finer].iter().all(is_linear) {
+    let coarser = &faces[1 - finer];
+    let size = coarser.iter().map(|face| face.radius).fold(0.0, f64::max);
+    let longer = match is_known[1 - finer] || depth(coarser) <= FLAT * size {
+        true => LONGER,
+        false => LONGER_KINKED,
+    };
+    match ratio > longer * (1.0 + 1e-6) && coarser.iter().all(is_linear) {
         true => 1 - finer,
         false => finer,
     }
@@ -222,9 +321,9 @@ impl Sides<'_> {
         })
     }
 
-    /// Refuses pairs that share nodes or overlap.
-    fn check(&self, pairs: &[Pair], facet_length: f64, slave: usize) -> Result<()> {
-        let (mesh, contact) = (self.entries.mesh, self.entries.contact);
+    /// Refuses pairs that share nodes.
+    fn check_apart(&self, pairs: &[Pair]) -> Result<()> {
+        let mesh = self.entries.mesh;
         for pair in pairs {
             if pair.masters.iter().any(|&(node, _)| node == pair.slave) {
                 return Err(Error::input(format!(
@@ -233,6 +332,13 @@ impl Sides<'_> {
                 )));
             }
         }
+        Ok(())
+    }
+
+    /// Refuses pairs that share nodes or overlap.
+    fn check(&self, pairs: &[Pair], facet_length: f64, slave: usize) -> Result<()> {
+        let (mesh, contact) = (self.entries.mesh, self.entries.contact);
+        self.check_apart(pairs)?;
         let deepest = pairs.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
         let Some(deepest) = deepest.filter(|pair| pair.gap < -TOUCHING * facet_length) else {
             return Ok(());
@@ -267,21 +373,24 @@ impl Sides<'_> {
         ]
         .into_iter()
         .filter(|(_, curve)| curve.is_none())
-        .map(|(faces, _)| {
-            let mut at: BTreeMap<usize, &Face> = BTreeMap::new();
-            let mut largest = 0.0f64;
-            for face in faces {
-                for &node in &face.nodes {
-                    if let Some(other) = at.insert(node, face) {
-                        let turn = dot(face.normal, other.normal).clamp(-1.0, 1.0).acos();
-                        largest = largest.max(2.0 * face.radius.max(other.radius) * turn / 8.0);
-                    }
-                }
-            }
-            largest
-        })
+        .map(|(faces, _)| depth(faces))
         .sum()
     }
+}
+
+/// How far facets may be off a surface through their nodes.
+fn depth(faces: &[Face]) -> f64 {
+    let mut at: BTreeMap<usize, &Face> = BTreeMap::new();
+    let mut largest = 0.0f64;
+    for face in faces {
+        for &node in &face.nodes {
+            if let Some(other) = at.insert(node, face) {
+                let turn = dot(face.normal, other.normal).clamp(-1.0, 1.0).acos();
+                largest = largest.max(2.0 * face.radius.max(other.radius) * turn / 8.0);
+            }
+        }
+    }
+    largest
 }
 
 /// The normals of masters that face no single node, for axes of their own.

@@ -2,7 +2,7 @@
 
 use super::Checks;
 use crate::number::exact;
-use crate::scene::{Contact, Direction, History, Load, Rotation, Scene, Support};
+use crate::scene::{Contact, Direction, History, Load, Rotation, Scene, Support, Tie};
 use crate::space::{Components, Space};
 use std::collections::BTreeSet;
 
@@ -10,6 +10,9 @@ impl Checks {
     pub(super) fn boundary(&mut self, scene: &Scene) {
         for (index, contact) in scene.contact.iter().enumerate() {
             self.contact(&format!("contact.{index}"), contact, scene.kind);
+        }
+        for (index, tie) in scene.tie.iter().enumerate() {
+            self.tie(&format!("tie.{index}"), tie);
         }
         for (index, support) in scene.support.iter().enumerate() {
             let key = format!("support.{index}");
@@ -114,6 +117,9 @@ impl Checks {
             self.vector(&format!("{key}.normal"), normal, space);
             self.is_direction(&format!("{key}.normal"), normal);
         }
+        if let Some(stiffness) = contact.stiffness {
+            self.stress(format!("{key}.stiffness"), stiffness);
+        }
         if let Some(gap) = contact.gap {
             self.require(
                 gap >= 0.0,
@@ -123,6 +129,22 @@ impl Checks {
                     exact(gap)
                 ),
             );
+        }
+    }
+
+    fn tie(&mut self, key: &str, tie: &Tie) {
+        self.set_name(&format!("{key}.first"), &tie.first);
+        self.set_name(&format!("{key}.second"), &tie.second);
+        self.require(
+            tie.first != tie.second,
+            format!("{key}.second"),
+            format!(
+                "\"{}\" cannot be tied to itself; name another surface",
+                tie.second
+            ),
+        );
+        if let Some(distance) = tie.distance {
+            self.at_least(format!("{key}.distance"), distance, 0.0);
         }
     }
 

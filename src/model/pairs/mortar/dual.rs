@@ -14,8 +14,8 @@ use std::collections::BTreeMap;
 
 /// Smallest over largest diagonal entry of `R` at which a facet counts as covered at all.
 const SLIVER: f64 = 1e-7;
-/// Share of a facet that may be covered twice.
-const TWICE: f64 = 0.01;
+/// Share of a facet that may be covered twice: more than polygons are off facets with curved edges.
+const TWICE: f64 = 0.05;
 /// What each end of an edge counts at the middle of it: that of [`crate::model::ContactBasis`].
 const ALPHA: f64 = crate::model::ContactBasis::ALPHA;
 
@@ -85,7 +85,8 @@ pub(super) fn integrate(sides: &Sides, face: &Face) -> Result<Vec<(usize, Integr
     let pieces = face.pieces(&plane);
     let mut samples = Vec::new();
     let mut faced = Vec::new();
-    for (number, master) in sides.masters.iter().enumerate() {
+    for number in sides.near.near(face.center, face.normal, face.radius) {
+        let master = &sides.masters[number];
         if !face.may_face(master) {
             continue;
         }
@@ -111,8 +112,9 @@ pub(super) fn integrate(sides: &Sides, face: &Face) -> Result<Vec<(usize, Integr
     if covered_area > (1.0 + TWICE) * area {
         let mesh = sides.entries.mesh;
         return Err(Error::input(format!(
-            "the other surface lies twice over the facet at node {} ({}): make two contacts of its \
-             parts",
+            "the other surface lies {:.3} times over the facet at node {} ({}): make contacts of \
+             its parts",
+            covered_area / area,
             mesh.node_label(face.nodes[0]),
             mesh.place(face.nodes[0])
         )));

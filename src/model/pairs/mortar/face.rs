@@ -76,6 +76,11 @@ impl Face {
         }
     }
 
+    /// Centre and radius of a ball round it.
+    pub(super) fn ball(&self) -> (Vector, f64) {
+        (self.center, self.radius)
+    }
+
     pub(super) fn is_solid(&self) -> bool {
         self.reference.dimension() == 2
     }

@@ -1,26 +1,27 @@
-//! Where surfaces truly are: on circles that their nodes lie on, and gaps between true surfaces.
+//! Where surfaces truly are: on circles, spheres and cylinders that their nodes lie on, and gaps
+//! between true surfaces.
 
-use super::Sides;
 use super::face::Plane;
+use super::{Sides, spheres};
 use crate::mesh::surface::ordered_nodes;
 use crate::mesh::{Curve, Mesh, Surface};
 use crate::space::{Vector, along, difference, dot, length};
 
 /// What nodes may lie off a circle that is to be recognised, as a share of what chords between them
 /// do; and what these must be off a straight line, as a share of their length.
-const OFF: f64 = 1e-2;
-const BENT: f64 = 1e-8;
+pub(super) const OFF: f64 = 1e-2;
+pub(super) const BENT: f64 = 1e-8;
 /// Fewest nodes, and largest turn from one to the next in degrees, of what is a circle rather than
 /// a polygon.
 const FEWEST: usize = 6;
-const LARGEST_TURN: f64 = 30.0;
+pub(super) const LARGEST_TURN: f64 = 30.0;
 /// Share of a facet by which a point on the border of two may be off either.
 const BORDER: f64 = 1e-6;
 
-/// The circle that the nodes of a plane surface lie on.
+/// The circle that the nodes of a plane surface lie on; of a solid the sphere or cylinder.
 pub(super) fn find(mesh: &Mesh, surface: &Surface) -> Option<Curve> {
     if mesh.is_solid() {
-        return None;
+        return spheres::find(mesh, surface);
     }
     let nodes = ordered_nodes(mesh, surface).ok()?;
     if nodes.len() < FEWEST {

@@ -1,0 +1,36 @@
+//! What acts on each node from outside: loads, supports, prescribed displacements.
+//!
+//! ```text
+//!     f_node = sum_elements int B' sigma - contact forces
+//! ```
+//!
+//! Forces that go through a tie are those of what its nodes follow. On quadratic faces in contact
+//! forces are those of control points ([`crate::model::ContactBasis`]): sums are the same.
+
+use crate::model::{Model, Slot};
+use crate::space::{Vector, along, dot};
+
+/// Forces on all nodes in global axes, from the internal ones on control points and the forces of
+/// the pairs.
+pub(super) fn on_nodes(model: &Model, mut forces: Vec<Vector>, of_pairs: &[f64]) -> Vec<f64> {
+    for (pair, &r) in model.pairs.iter().zip(of_pairs) {
+        forces[pair.slave] = along(forces[pair.slave], r, pair.normal);
+        for &(node, weight) in &pair.masters {
+            forces[node] = along(forces[node], -weight * r, pair.normal);
+        }
+    }
+    let freedoms = &model.freedoms;
+    for node in 0..forces.len() {
+        for (slot, axis) in freedoms.of_node(node).iter().zip(freedoms.local(node)) {
+            let Slot::Tied(k) = *slot else { continue };
+            let force = dot(forces[node], axis);
+            forces[node] = along(forces[node], -force, axis);
+            for &(other, local, c) in freedoms.followed_axes(k) {
+                let axis = freedoms.local(other as usize)[usize::from(local)];
+                forces[other as usize] = along(forces[other as usize], c * force, axis);
+            }
+        }
+    }
+    let d = model.mesh.dimension;
+    forces.iter().flat_map(|f| &f[..d]).copied().collect()
+}

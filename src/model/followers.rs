@@ -1,0 +1,381 @@
+//! Displacements that follow others: those of the nodes of tied surfaces.
+//!
+//! A row `j` of a tie says `R_j = D_j u_j - sum_k M_jk u_k = 0` of all directions; with it the
+//! displacement of a slave along each of its axes is a sum of others, which assembly eliminates.
+//! Where something else stands in a direction `n` of a slave `h` (a support, a prescribed
+//! displacement, a contact normal), that stays, and `n . R_h` is added to the rows of its
+//! neighbours:
+//!
+//! ```text
+//!     R_j + sum_h c_jh n n' R_h = 0,    c_jh = D_j / sum_j D_j
+//! ```
+//!
+//! so that the multipliers that are left still add up to any uniform traction.
+//!
+//! # Source
+//! Nodes that are held, and nodes of two interfaces: B. Wohlmuth, *Discretization methods and
+//! iterative solvers based on domain decomposition*, Springer 2001, section 1.2.
+
+use super::freedoms::{Freedoms, Slot};
+use super::pairs::Pair;
+use super::pairs::ties::Tied;
+use crate::error::{Error, Result};
+use crate::mesh::Mesh;
+use crate::space::{Vector, along, dot, in_words};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Share of a coefficient of 1 up to which one is none.
+const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
+/// Cosine squared up to which a direction is one of those that a node is free in.
+const FREE: f64 = 1.0 - 1e-6;
+
+/// A node and a place among its axes.
+type Axis = (usize, usize);
+
+/// What the displacements of tied nodes follow.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Followers {
+    /// Place of each among the others.
+    place: BTreeMap<Axis, usize>,
+    /// `sum v . q` of control points.
+    terms: Vec<Vec<(usize, Vector)>>,
+}
+
+/// What stands at the axes of nodes besides supports and prescribed displacements.
+pub(super) struct Others<'a> {
+    /// Axes of surfaces held plane.
+    pub plane: &'a dyn Fn(Axis) -> bool,
+    /// Contact pairs: normals of their slaves.
+    pub pairs: &'a [Pair],
+}
+
+impl Freedoms {
+    /// Lets the slaves of ties follow.
+    ///
+    /// # Errors
+    /// A slave all of whose neighbours are held as it is, though what it would follow is not.
+    pub(super) fn follow(
+        &mut self,
+        mesh: &Mesh,
+        ties: &[Tied],
+        others: &Others,
+    ) -> Result<Followers> {
+        let mut followers = Followers::default();
+        if ties.is_empty() {
+            return Ok(followers);
+        }
+        let in_contact: BTreeSet<usize> = others.pairs.iter().map(|pair| pair.slave).collect();
+        let is_free: BTreeMap<usize, [bool; 3]> = (ties.iter().flat_map(|tie| &tie.rows))
+            .map(|row| {
+                let node = row.slave;
+                let free = std::array::from_fn(|i| {
+                    matches!(self.slots[node][i], Slot::Free(_))
+                        && !(others.plane)((node, i))
+                        && !(i == 0 && in_contact.contains(&node))
+                });
+                (node, free)
+            })
+            .collect();
+        for row in ties.iter().flat_map(|tie| &tie.rows) {
+            for (i, axis) in self.local(row.slave).into_iter().enumerate() {
+                if is_free[&row.slave][i] {
+                    let terms = self.on_masters(row, axis, 1.0);
+                    followers
+                        .place
+                        .insert((row.slave, i), followers.terms.len());
+                    followers.terms.push(terms);
+                }
+            }
+        }
+        for (&(node, i), &k) in &followers.place {
+            self.slots[node][i] = Slot::Tied(k as u32);
+        }
+        for tie in ties {
+            let neighbours = neighbours(mesh, tie);
+            for row in &tie.rows {
+                for i in (0..self.per_node).filter(|&i| !is_free[&row.slave][i]) {
+                    let near = neighbours.get(&row.slave).map_or(&[][..], Vec::as_slice);
+                    self.hand_on(mesh, tie, (row, i), near, &mut followers)?;
+                }
+            }
+        }
+        Ok(followers)
+    }
+
+    /// `scale v . sum w_k u_k` on control points.
+    fn on_masters(&self, row: &Pair, v: Vector, scale: f64) -> Vec<(usize, Vector)> {
+        let terms = row.masters.iter();
+        let terms = terms.map(|&(node, w)| (node, v.map(|v| scale * w * v)));
+        self.basis.share_of(terms.collect())
+    }
+
+    /// Gives the condition of a slave along an axis that is taken to the rows of its neighbours.
+    fn hand_on(
+        &self,
+        mesh: &Mesh,
+        tie: &Tied,
+        (row, i): (&Pair, usize),
+        near: &[(usize, f64)],
+        followers: &mut Followers,
+    ) -> Result<()> {
+        let normal = self.local(row.slave)[i];
+        let shares = |node: usize| {
+            let axes = self.local(node).into_iter().enumerate();
+            let free = axes.filter(|&(l, _)| followers.place.contains_key(&(node, l)));
+            let shares: Vec<(usize, f64)> = free.map(|(l, axis)| (l, dot(axis, normal))).collect();
+            shares
+        };
+        let takers: Vec<(usize, f64)> = (near.iter().copied())
+            .filter(|&(node, _)| shares(node).iter().map(|s| s.1 * s.1).sum::<f64>() > FREE)
+            .collect();
+        let total: f64 = takers.iter().map(|taker| taker.1).sum();
+        if takers.is_empty() {
+            let masters = self.on_masters(row, normal, 1.0);
+            return match masters.into_iter().all(|(node, v)| !self.moves(node, v)) {
+                true => Ok(()),
+                false => Err(Error::input(format!(
+                    "{}: node {} of `{}` and those beside it are held along {}, by supports, loads \
+                     or a contact, but what they would follow is not: let the other surface follow \
+                     (`slave`)",
+                    tie.what,
+                    mesh.node_label(row.slave),
+                    tie.slaves,
+                    in_words(normal, mesh.dimension),
+                ))),
+            };
+        }
+        let mut additions = Vec::new();
+        for &(node, _) in &takers {
+            for (l, share) in shares(node) {
+                let factor = share * row.area / total;
+                if factor.abs() > ROUND_OFF {
+                    let mut terms = self.on_masters(row, normal, factor);
+                    terms.push((row.slave, normal.map(|n| -factor * n)));
+                    additions.push((followers.place[&(node, l)], terms));
+                }
+            }
+        }
+        for (k, terms) in additions {
+            followers.terms[k].extend(terms);
+        }
+        Ok(())
+    }
+
+    /// Whether a control point can move along a direction.
+    fn moves(&self, node: usize, v: Vector) -> bool {
+        let axes = self.of_node(node).iter().zip(self.local(node));
+        axes.filter(|(_, axis)| dot(v, *axis).abs() > ROUND_OFF)
+            .any(|(slot, _)| matches!(slot, Slot::Free(_) | Slot::Tied(_)))
+    }
+
+    /// Puts followers in terms of numbered freedoms, and moves their nodes to where they follow
+    /// without strain: `x_j = sum w_jk x_k`, so that a rigid motion stays one. Returns whether any
+    /// moved by more than round-off.
+    ///
+    /// # Errors
+    /// Ties that go in a circle.
+    pub(super) fn settle(&mut self, mesh: &mut Mesh, followers: &Followers) -> Result<bool> {
+        if followers.terms.is_empty() {
+            return Ok(false);
+        }
+        let mut expansion = Expansion {
+            freedoms: self,
+            mesh,
+            followers,
+            of: vec![Expanded::No; followers.terms.len()],
+        };
+        for &k in followers.place.values() {
+            expansion.expand(k)?;
+        }
+        let expanded: Vec<Vec<(Axis, f64)>> = (expansion.of.into_iter())
+            .map(|of| match of {
+                Expanded::To(terms) => terms,
+                _ => Vec::new(),
+            })
+            .collect();
+        let moved = self.place(mesh, followers, &expanded);
+        let axes = |terms: Vec<(Axis, f64)>| {
+            let terms = terms.into_iter();
+            terms
+                .map(|((node, i), c)| (node as u32, i as u8, c))
+                .collect()
+        };
+        self.followers = expanded.into_iter().map(axes).collect();
+        Ok(moved)
+    }
+
+    fn place(&self, mesh: &mut Mesh, followers: &Followers, expanded: &[Vec<(Axis, f64)>]) -> bool {
+        let control = |node: usize| self.basis.at_control(node, |node| mesh.point(node));
+        let mut step: BTreeMap<usize, Vector> = BTreeMap::new();
+        let mut moved = false;
+        for (&(node, i), &k) in &followers.place {
+            let (axis, x) = (self.local(node)[i], control(node));
+            let terms = expanded[k].iter();
+            let at: f64 = terms
+                .map(|&((n, l), c)| c * dot(self.local(n)[l], control(n)))
+                .sum();
+            let off = at - dot(axis, x);
+            moved |= off.abs() > 1e-12 * x.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+            let sum = step.entry(node).or_default();
+            *sum = along(*sum, off, axis);
+        }
+        let at = |node: usize| {
+            let x = control(node);
+            step.get(&node).map_or(x, |step| along(x, 1.0, *step))
+        };
+        let nodes: BTreeSet<usize> = (step.keys().copied())
+            .chain(self.basis.edges().filter_map(|(node, ends)| {
+                let moves = |n: &usize| step.contains_key(n);
+                (moves(&node) || ends.iter().any(moves)).then_some(node)
+            }))
+            .collect();
+        let places: Vec<(usize, Vector)> = nodes
+            .into_iter()
+            .map(|node| (node, self.basis.at_node(node, at)))
+            .collect();
+        for (node, x) in places {
+            let d = mesh.dimension;
+            mesh.coordinates[d * node..d * (node + 1)].copy_from_slice(&x[..d]);
+        }
+        moved
+    }
+
+    /// What a slot stands for: free freedoms and prescribed displacements with their coefficients.
+    #[inline]
+    pub fn each(&self, slot: Slot, mut of: impl FnMut(Slot, f64)) {
+        match slot {
+            Slot::Tied(k) => {
+                for &(node, i, c) in self.followed_axes(k) {
+                    match self.slots[node as usize][usize::from(i)] {
+                        Slot::Fixed => {}
+                        slot => of(slot, c),
+                    }
+                }
+            }
+            slot => of(slot, 1.0),
+        }
+    }
+
+    /// The nodes, axes and coefficients that a tied slot is the sum of.
+    pub fn followed_axes(&self, tied: u32) -> &[(u32, u8, f64)] {
+        &self.followers[tied as usize]
+    }
+
+    /// What the axes of some nodes follow, if they do: the place of each among all of theirs, and
+    /// what it is the sum of.
+    pub fn followed(&self, nodes: &[u32]) -> Vec<(usize, Slot, f64)> {
+        let mut out = Vec::new();
+        if self.followers.is_empty() {
+            return out;
+        }
+        let slots = nodes.iter().flat_map(|&node| self.of_node(node as usize));
+        for (own, slot) in slots.enumerate() {
+            if let Slot::Tied(_) = slot {
+                self.each(*slot, |slot, c| out.push((own, slot, c)));
+            }
+        }
+        out
+    }
+}
+
+/// What displacements of an element follow: `u_i = sum_k c_ik v_k`.
+#[derive(Debug, Clone, Default)]
+pub struct Followed {
+    /// The slots of the `v`: free freedoms and prescribed displacements.
+    pub slots: Vec<Slot>,
+    /// `i` among the element's own displacements, node by node, `k` among the slots, and `c_ik`.
+    pub parts: Vec<(usize, usize, f64)>,
+}
+
+impl Followed {
+    pub(super) fn new(parts: Vec<(usize, Slot, f64)>) -> Self {
+        let mut out = Followed::default();
+        for (own, slot, c) in parts {
+            let known = out.slots.iter().position(|other| *other == slot);
+            let k = known.unwrap_or_else(|| {
+                out.slots.push(slot);
+                out.slots.len() - 1
+            });
+            out.parts.push((own, k, c));
+        }
+        out
+    }
+}
+
+/// Nodes that share a facet of the slave surface with each, with their weights.
+fn neighbours(mesh: &Mesh, tie: &Tied) -> BTreeMap<usize, Vec<(usize, f64)>> {
+    let weight: BTreeMap<usize, f64> = (tie.rows.iter()).map(|row| (row.slave, row.area)).collect();
+    let mut out: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
+    for &facet in mesh
+        .surfaces
+        .get(&tie.slaves)
+        .map_or(&[][..], |s| &s.facets)
+    {
+        for node in mesh.facet_nodes(facet) {
+            let others = mesh
+                .facet_nodes(facet)
+                .filter(|n| *n != node && weight.contains_key(n));
+            out.entry(node).or_default().extend(others);
+        }
+    }
+    let weigh = |nodes: BTreeSet<usize>| nodes.into_iter().map(|n| (n, weight[&n])).collect();
+    out.into_iter()
+        .map(|(node, near)| (node, weigh(near)))
+        .collect()
+}
+
+#[derive(Clone)]
+enum Expanded {
+    No,
+    InProgress,
+    To(Vec<(Axis, f64)>),
+}
+
+/// Followers by the axes that follow nothing.
+struct Expansion<'a> {
+    freedoms: &'a Freedoms,
+    mesh: &'a Mesh,
+    followers: &'a Followers,
+    of: Vec<Expanded>,
+}
+
+impl Expansion<'_> {
+    fn expand(&mut self, k: usize) -> Result<()> {
+        match &self.of[k] {
+            Expanded::To(_) => return Ok(()),
+            Expanded::InProgress => {
+                let at = self.followers.terms[k].first().map_or(0, |term| term.0);
+                return Err(Error::input(format!(
+                    "the ties at node {} go in a circle: let the other surface of one of them \
+                     follow (`slave`)",
+                    self.mesh.node_label(at)
+                )));
+            }
+            Expanded::No => self.of[k] = Expanded::InProgress,
+        }
+        let mut sums: BTreeMap<Axis, f64> = BTreeMap::new();
+        let (freedoms, followers) = (self.freedoms, self.followers);
+        for &(node, v) in &followers.terms[k] {
+            let axes = freedoms.local(node).into_iter().zip(freedoms.slots[node]);
+            for (l, (axis, slot)) in axes.enumerate() {
+                let share = dot(v, axis);
+                if share.abs() <= ROUND_OFF {
+                    continue;
+                }
+                match slot {
+                    Slot::Tied(other) => {
+                        self.expand(other as usize)?;
+                        if let Expanded::To(terms) = &self.of[other as usize] {
+                            for &(axis, c) in terms {
+                                *sums.entry(axis).or_default() += share * c;
+                            }
+                        }
+                    }
+                    _ => *sums.entry((node, l)).or_default() += share,
+                }
+            }
+        }
+        self.of[k] = Expanded::To(sums.into_iter().collect());
+        Ok(())
+    }
+}

@@ -1,0 +1,171 @@
+//! Which facets or nodes a line comes near: a tree of balls.
+//!
+//! Ball trees: S. M. Omohundro, *Five balltree construction algorithms*, ICSI TR-89-063 (1989), the
+//! one that cuts the longest axis at the median.
+
+use crate::space::{Vector, difference, dot, length};
+
+/// Items of a leaf.
+const LEAF: usize = 4;
+
+/// Balls round items, and balls round these.
+pub(super) struct Balls {
+    /// Centre and radius of each item.
+    items: Vec<(Vector, f64)>,
+    /// Items, leaf by leaf.
+    order: Vec<usize>,
+    /// In preorder.
+    nodes: Vec<Node>,
+}
+
+struct Node {
+    center: Vector,
+    radius: f64,
+    /// Items of a leaf, as places in the order; none of others.
+    items: std::ops::Range<usize>,
+    /// The node that comes after all below this one.
+    next: usize,
+}
+
+impl Balls {
+    pub(super) fn new(items: Vec<(Vector, f64)>) -> Self {
+        let mut out = Balls {
+            order: (0..items.len()).collect(),
+            nodes: Vec::new(),
+            items,
+        };
+        if !out.items.is_empty() {
+            out.split(0..out.items.len());
+        }
+        out
+    }
+
+    fn split(&mut self, range: std::ops::Range<usize>) {
+        let of_items = self.order[range.clone()].iter().map(|&k| self.items[k]);
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        for (center, radius) in of_items.clone() {
+            for d in 0..3 {
+                low[d] = low[d].min(center[d] - radius);
+                high[d] = high[d].max(center[d] + radius);
+            }
+        }
+        let center: Vector = std::array::from_fn(|d| 0.5 * (low[d] + high[d]));
+        let reach = of_items.map(|(c, radius)| length(difference(c, center)) + radius);
+        let radius = reach.fold(0.0, f64::max);
+        let is_leaf = range.len() <= LEAF;
+        let own = self.nodes.len();
+        self.nodes.push(Node {
+            center,
+            radius,
+            items: if is_leaf { range.clone() } else { 0..0 },
+            next: 0,
+        });
+        if !is_leaf {
+            let width = |d: &usize| high[*d] - low[*d];
+            let longest = (0..3).max_by(|a, b| width(a).total_cmp(&width(b)));
+            let axis = longest.unwrap_or(0);
+            let middle = range.len() / 2;
+            let items = &self.items;
+            let along = |a: &usize, b: &usize| {
+                let place = |k: &usize| items[*k].0[axis];
+                place(a).total_cmp(&place(b)).then(a.cmp(b))
+            };
+            self.order[range.clone()].select_nth_unstable_by(middle, along);
+            self.split(range.start..range.start + middle);
+            self.split(range.start + middle..range.end);
+        }
+        self.nodes[own].next = self.nodes.len();
+    }
+
+    /// The items that come nearer than `reach` to the line through a point along a unit vector,
+    /// ascending.
+    pub(super) fn near(&self, point: Vector, way: Vector, reach: f64) -> Vec<usize> {
+        let mut found = Vec::new();
+        self.visit(point, way, reach, |item| found.push(item));
+        found.sort_unstable();
+        found
+    }
+
+    /// As [`Balls::near`], in no order; the number of balls that were looked at.
+    fn visit(&self, point: Vector, way: Vector, reach: f64, mut found: impl FnMut(usize)) -> usize {
+        let comes_near = |center: Vector, radius: f64| {
+            let off = difference(center, point);
+            let along = dot(off, way);
+            // Round-off must not lose what just touches.
+            let near = (reach + radius) * (1.0 + 1e-9);
+            dot(off, off) - along * along <= near * near
+        };
+        let (mut at, mut looked_at) = (0, 0);
+        while let Some(node) = self.nodes.get(at) {
+            looked_at += 1;
+            if !comes_near(node.center, node.radius) {
+                at = node.next;
+                continue;
+            }
+            for &item in &self.order[node.items.clone()] {
+                looked_at += 1;
+                let (center, radius) = self.items[item];
+                if comes_near(center, radius) {
+                    found(item);
+                }
+            }
+            at += 1;
+        }
+        looked_at
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Facets of a surface of `n x n`, bent to a bowl.
+    fn bowl(n: usize) -> Vec<(Vector, f64)> {
+        let at = |k: usize| {
+            let [x, y] = [k % n, k / n].map(|i| (i as f64 + 0.5) / n as f64 - 0.5);
+            ([x, y, x * x + y * y], 0.8 / n as f64)
+        };
+        (0..n * n).map(at).collect()
+    }
+
+    #[test]
+    fn what_is_found_is_what_a_scan_finds() {
+        let items = bowl(23);
+        let balls = Balls::new(items.clone());
+        for k in (0..items.len()).step_by(7) {
+            let (x, _) = items[k];
+            let way = crate::space::direction([0.3 * x[0], 0.2, 1.0]);
+            let near = |(_, (center, radius)): &(usize, &(Vector, f64))| {
+                let off = difference(*center, x);
+                let along = dot(off, way);
+                dot(off, off) - along * along <= (0.05 + radius).powi(2)
+            };
+            let scan: Vec<usize> = items.iter().enumerate().filter(near).map(|f| f.0).collect();
+            assert_eq!(balls.near(x, way, 0.05), scan);
+            assert!(scan.contains(&k));
+        }
+        assert!(
+            Balls::new(Vec::new())
+                .near([0.0; 3], [0.0, 0.0, 1.0], 1.0)
+                .is_empty()
+        );
+    }
+
+    /// 16 times as many facets: a few more balls on the way down, as many facets at its end.
+    #[test]
+    fn few_are_looked_at_however_many_there_are() {
+        let most = |n: usize| {
+            let items = bowl(n);
+            let balls = Balls::new(items.clone());
+            let each = items.iter().map(|&(x, radius)| {
+                let mut found = 0;
+                let looked_at = balls.visit(x, [0.0, 0.0, 1.0], radius, |_| found += 1);
+                (looked_at, found)
+            });
+            each.fold((0, 0), |m, c| (m.0.max(c.0), m.1.max(c.1)))
+        };
+        let [(few, facing), (many, facing_many)] = [18, 72].map(most);
+        assert!(facing_many <= 12 && facing <= 12, "{facing} {facing_many}");
+        assert!(few < 130 && many < 130, "{few} {many}");
+    }
+}

@@ -1,0 +1,125 @@
+//! Surfaces that are tied: which of their nodes follow which, by the rows of [`super::mortar`].
+
+use super::{ContactSurface, Entries, Pair, list, mortar};
+use crate::error::{Error, Result};
+use crate::mesh::{Facet, Mesh, Surface};
+use crate::model::names::Entry;
+use crate::scene::{Contact, Scene, Tie};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A tie of the scene.
+#[derive(Debug, Clone)]
+pub(in crate::model) struct Tied {
+    /// In words, for messages.
+    pub what: String,
+    /// The surface whose nodes follow.
+    pub slaves: String,
+    /// What each of its nodes follows; the area is the integral of the dual function.
+    pub rows: Vec<Pair>,
+}
+
+/// The ties of a scene.
+///
+/// # Errors
+/// Input errors: surfaces that there are not or that do not lie on one another, a node tied twice,
+/// a surface tied to what it is in contact with.
+pub(in crate::model) fn resolve(
+    scene: &Scene,
+    mesh: &Mesh,
+    contacts: &[ContactSurface],
+    notes: &mut Vec<String>,
+) -> Result<Vec<Tied>> {
+    let mut out = Vec::new();
+    let mut tie_of: BTreeMap<usize, usize> = BTreeMap::new();
+    for (index, tie) in scene.tie.iter().enumerate() {
+        let entry = Entry::of_list(scene, "tie", index);
+        let surfaces = [
+            entry.surface(mesh, "first", &tie.first)?,
+            entry.surface(mesh, "second", &tie.second)?,
+        ];
+        let what = format!("tie {} (`{}` to `{}`)", index + 1, tie.first, tie.second);
+        let refused = |error: Error| entry.refused(error.within(&what));
+        check_no_contact(mesh, contacts, surfaces).map_err(refused)?;
+        let of_tie = rows(scene, mesh, (index, tie), surfaces, notes).map_err(refused)?;
+        for row in &of_tie.rows {
+            if let Some(other) = tie_of.insert(row.slave, index) {
+                return Err(refused(Error::input(format!(
+                    "node {} follows in tie {} already; a node may follow in one tie: take it out \
+                     of a surface, or let the other surface follow (`slave`)",
+                    mesh.node_label(row.slave),
+                    other + 1,
+                ))));
+            }
+        }
+        out.push(of_tie);
+    }
+    Ok(out)
+}
+
+fn rows(
+    scene: &Scene,
+    mesh: &Mesh,
+    (index, tie): (usize, &Tie),
+    surfaces: [&Surface; 2],
+    notes: &mut Vec<String>,
+) -> Result<Tied> {
+    let sides = Contact {
+        first: tie.first.clone(),
+        second: tie.second.clone(),
+        slave: tie.slave,
+        ..Contact::default()
+    };
+    let entries = Entries {
+        index,
+        contact: &sides,
+        surfaces,
+        mesh,
+        space: scene.kind,
+    };
+    let (found, free) = mortar::tied(&entries, tie.distance)?;
+    let names = [&tie.first, &tie.second];
+    if !free.is_empty() {
+        notes.push(format!(
+            "tie {}: {} of `{}` lie opposite no part of `{}` and stay free",
+            index + 1,
+            list(mesh, &free),
+            names[found.slave],
+            names[1 - found.slave],
+        ));
+    }
+    Ok(Tied {
+        what: format!("tie {}", index + 1),
+        slaves: names[found.slave].clone(),
+        rows: found.pairs,
+    })
+}
+
+/// Refuses surfaces that are in contact with each other.
+fn check_no_contact(
+    mesh: &Mesh,
+    contacts: &[ContactSurface],
+    surfaces: [&Surface; 2],
+) -> Result<()> {
+    let tied = surfaces.map(|surface| surface.facets.iter().copied().collect::<BTreeSet<Facet>>());
+    let shared = |name: &str, side: usize| {
+        let mut facets = mesh.surfaces.get(name)?.facets.iter();
+        facets.find(|facet| tied[side].contains(facet)).copied()
+    };
+    for (index, contact) in contacts.iter().enumerate() {
+        let [first, second] = &contact.names;
+        let sides = [
+            [shared(first, 0), shared(second, 1)],
+            [shared(first, 1), shared(second, 0)],
+        ];
+        if let Some([Some(facet), Some(_)]) = sides.iter().find(|[a, b]| a.is_some() && b.is_some())
+        {
+            return Err(Error::input(format!(
+                "contact {} (`{first}` on `{second}`) has the same facets, such as that of element \
+                 {}: surfaces that are tied cannot touch; take out one of the two",
+                index + 1,
+                mesh.element_label(facet.element),
+            )));
+        }
+    }
+    Ok(())
+}

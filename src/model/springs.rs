@@ -1,0 +1,43 @@
+//! Soft contact: the overlap of a pair as a freedom of its own.
+//!
+//! ```text
+//!     s_j = u_slave . n - sum_k w_k u_k . n - e_j <= delta_j,     e_j = r_j / (k A_j)
+//! ```
+//!
+//! With `e_j` the condition on gap and force is `g_j + r_j / (k A_j) >= 0`. The freedom belongs to
+//! no node and has the stiffness `k A_j` alone, so that for all that comes after soft contact is
+//! hard contact on springs.
+
+use super::freedoms::Freedoms;
+use super::pairs::{ContactSurface, Pair};
+
+/// The overlap of a pair.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spring {
+    /// The pair.
+    pub pair: usize,
+    /// Its free freedom.
+    pub freedom: usize,
+    /// `k A`: force over overlap.
+    pub stiffness: f64,
+}
+
+/// The place among a node's axes that stands for the overlap of its pair.
+const OVERLAP: u8 = 3;
+
+impl Freedoms {
+    /// Adds the overlaps of soft contacts, after all else is numbered.
+    pub(super) fn add_springs(&mut self, pairs: &[Pair], contacts: &[ContactSurface]) {
+        for (k, pair) in pairs.iter().enumerate() {
+            if let Some(stiffness) = contacts[pair.contact].stiffness {
+                self.springs.push(Spring {
+                    pair: k,
+                    freedom: self.n,
+                    stiffness: stiffness * pair.area,
+                });
+                self.owners.push((pair.slave as u32, OVERLAP));
+                self.n += 1;
+            }
+        }
+    }
+}

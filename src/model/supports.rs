@@ -1,0 +1,86 @@
+//! What holds each node, and what that makes of contact normals.
+
+use super::names::Entry;
+use super::pairs::Pair;
+use crate::error::{Error, Result};
+use crate::mesh::Mesh;
+use crate::scene::Scene;
+use crate::space::{Vector, along, direction, dot, unit};
+use std::collections::BTreeMap;
+
+/// A support within 30 degrees of a contact's tangent is meant to lie in it: the normal of the
+/// discretised surface is then turned into the symmetry plane.
+const NEARLY_TANGENT: f64 = 0.5;
+
+/// A direction in which a node is held.
+pub(super) struct Held {
+    pub(super) direction: Vector,
+    /// Index of the support; `None` on the axis of revolution, which holds by itself.
+    pub(super) support: Option<usize>,
+}
+
+impl Held {
+    /// What holds the node.
+    pub(super) fn by(&self, scene: &Scene) -> String {
+        match self.support {
+            Some(index) => format!("support {} on `{}`", index + 1, scene.support[index].on),
+            None => "the axis of revolution".to_string(),
+        }
+    }
+
+    pub(super) fn refused(&self, scene: &Scene, why: String) -> Error {
+        match self.support {
+            Some(index) => Entry::of_list(scene, "support", index).refused(Error::input(why)),
+            None => Error::input(why),
+        }
+    }
+}
+
+/// What holds each node, in the order of the scene.
+pub(super) struct Supports {
+    pub(super) of_node: BTreeMap<usize, Vec<Held>>,
+}
+
+impl Supports {
+    pub(super) fn resolve(scene: &Scene, mesh: &Mesh) -> Result<Self> {
+        let mut of_node: BTreeMap<usize, Vec<Held>> = BTreeMap::new();
+        for (index, support) in scene.support.iter().enumerate() {
+            let directions = support.directions();
+            for node in Entry::of_list(scene, "support", index).nodes(mesh, &support.on)? {
+                let held = directions.iter().map(|&direction| Held {
+                    direction,
+                    support: Some(index),
+                });
+                of_node.entry(node).or_default().extend(held);
+            }
+        }
+        if scene.kind.is_axisymmetric() {
+            // On the axis of revolution the radial displacement vanishes whether or not the scene
+            // says so.
+            let radius = (0..mesh.n_nodes())
+                .map(|i| mesh.point(i)[0])
+                .fold(0.0, f64::max);
+            for node in (0..mesh.n_nodes()).filter(|&i| mesh.point(i)[0] <= 1e-12 * radius) {
+                of_node.entry(node).or_default().push(Held {
+                    direction: unit(0),
+                    support: None,
+                });
+            }
+        }
+        Ok(Supports { of_node })
+    }
+}
+
+/// A normal that is nearly at right angles to a support is meant to be.
+pub(super) fn turn_normals_into_supports(pairs: &mut [Pair], supports: &Supports) {
+    for pair in pairs {
+        for node in pair.faced().into_iter().chain([pair.slave]) {
+            for held in supports.of_node.get(&node).into_iter().flatten() {
+                let off = dot(pair.normal, held.direction);
+                if off != 0.0 && off.abs() < NEARLY_TANGENT {
+                    pair.normal = direction(along(pair.normal, -off, held.direction));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,229 @@
+//! Tied bodies against closed forms and meshes that match; what cannot be tied.
+
+use crate::blocks::{held, of_one_material, pressed, run, touching};
+use crate::sheet::Sheet;
+use crate::tie::{aim, tied};
+use brinell::mesh::Shape;
+use brinell::model::ModelBuilder;
+use brinell::scene::{Direction, Kind, SlaveSide, Tie};
+
+/// A tube of two rings that are meshed apart.
+fn tube(
+    shape: Shape,
+    [inner, outer]: [[usize; 2]; 2],
+    slave: SlaveSide,
+    sides: bool,
+) -> ModelBuilder {
+    let mut builder = ModelBuilder::new(Kind::PlaneStrain);
+    let half_turn = if sides { 0.5 } else { 2.0 };
+    for (name, from, to, cells) in [("inner", 1.0, 2.0, inner), ("outer", 2.0, 4.0, outer)] {
+        let sheet = Sheet {
+            name,
+            cells,
+            shape,
+            map: &|[r, angle]| {
+                let (r, angle) = (
+                    from + r * (to - from),
+                    half_turn * std::f64::consts::PI * angle,
+                );
+                [r * angle.cos(), r * angle.sin()]
+            },
+        };
+        sheet.add(&mut builder);
+        if sides {
+            held(&mut builder, &format!("{name}.bottom"), Direction::Y);
+            held(&mut builder, &format!("{name}.top"), Direction::X);
+        }
+    }
+    of_one_material(&mut builder, &["inner", "outer"], 1000.0, 0.3);
+    tied(&mut builder, "inner.right", "outer.left", slave);
+    pressed(&mut builder, "inner.left", 10.0);
+    aim(&mut builder);
+    builder
+}
+
+/// Lamé: displacement of the bore of a tube from 1 to 4, plane strain.
+const BORE: f64 = 1.3 * 10.0 / (1000.0 * (16.0 - 1.0)) * (0.4 + 16.0);
+
+/// Largest error of the displacement of the bore.
+fn bore(shape: Shape, n: usize, slave: SlaveSide) -> f64 {
+    let builder = tube(shape, [[2 * n, 4 * n], [2 * n, 3 * n]], slave, true);
+    let model = builder.build().unwrap();
+    let results = run(&builder);
+    let u = &results.states[0].fields.as_ref().unwrap().displacement;
+    let nodes = model.mesh.set_nodes("inner.left").unwrap();
+    let errors = nodes.into_iter().map(|node| {
+        let [x, y] = model.mesh.in_plane(node);
+        let radial = (u[2 * node] * x + u[2 * node + 1] * y) / x.hypot(y);
+        (radial / BORE - 1.0).abs()
+    });
+    errors.fold(0.0, f64::max)
+}
+
+/// The order is that of the elements: 2 and more, whichever surface follows.
+#[test]
+fn displacements_converge_across_a_tie() {
+    for (shape, order) in [(Shape::Quad4, 1.8), (Shape::Quad8, 2.8), (Shape::Tri6, 2.7)] {
+        for slave in [SlaveSide::First, SlaveSide::Second] {
+            let [coarse, fine] = [3, 6].map(|n| bore(shape, n, slave));
+            let seen = (coarse / fine).log2();
+            println!("{shape:?} {slave:?}: {coarse:.2e} {fine:.2e}, order {seen:.2}");
+            assert!(
+                seen > order && fine < 0.02,
+                "{shape:?} {slave:?}: {coarse:.2e} {fine:.2e} {seen:.2}"
+            );
+        }
+    }
+}
+
+/// Facets of two sizes do not lie on one another; the rings still turn together without strain: all
+/// three motions of the plane are free, and nothing else.
+#[test]
+fn a_rigid_motion_stays_one() {
+    for shape in [Shape::Quad4, Shape::Quad8] {
+        for slave in [SlaveSide::First, SlaveSide::Second] {
+            let builder = tube(shape, [[2, 18], [2, 14]], slave, false);
+            let model = builder.build().unwrap();
+            assert_eq!(model.floating.pins.len(), 3, "{shape:?} {slave:?}");
+        }
+    }
+}
+
+/// Surfaces that do not match, tied, in place of a mesh that goes over from fine to coarse: a bump
+/// pressed into a block.
+#[test]
+fn a_fine_part_in_a_coarse_body() {
+    let pressed_into = |is_tied: bool| {
+        let mut builder = ModelBuilder::new(Kind::PlaneStrain);
+        let sheet =
+            |builder: &mut ModelBuilder, name: &str, cells, map: &dyn Fn([f64; 2]) -> [f64; 2]| {
+                let shape = Shape::Quad4;
+                Sheet {
+                    name,
+                    cells,
+                    shape,
+                    map,
+                }
+                .add(builder);
+            };
+        sheet(&mut builder, "bump", [24, 8], &|[x, y]| {
+            [x, 1.0 - (1.0 - y) * (1.0 - 0.02 * x * x)]
+        });
+        sheet(&mut builder, "fine", [24, 12], &|[x, y]| [x, y - 1.0]);
+        let bodies = ["bump", "fine", "coarse"];
+        let coarse = if is_tied { [6, 8] } else { [24, 8] };
+        sheet(&mut builder, "coarse", coarse, &|[x, y]| [x, 3.0 * y - 4.0]);
+        of_one_material(&mut builder, &bodies, 1000.0, 0.3);
+        touching(&mut builder, "bump.bottom", "fine.top", SlaveSide::Auto);
+        tied(&mut builder, "fine.bottom", "coarse.top", SlaveSide::Auto);
+        for body in bodies {
+            held(&mut builder, &format!("{body}.left"), Direction::X);
+        }
+        held(&mut builder, "coarse.bottom", Direction::Y);
+        pressed(&mut builder, "bump.top", 2.0);
+        aim(&mut builder);
+        let state = run(&builder).states.remove(0);
+        (state.max_pressure, state.half_width)
+    };
+    let [(p, b), (exact_p, exact_b)] = [true, false].map(pressed_into);
+    let [of_p, of_b] = [p / exact_p - 1.0, b / exact_b - 1.0];
+    println!("{p} {exact_p}, {b} {exact_b}");
+    assert!(
+        of_p.abs() < 0.005 && of_b.abs() < 0.005,
+        "{of_p:.4} {of_b:.4}"
+    );
+}
+
+/// Two blocks `gap` apart, tied.
+fn apart(gap: f64) -> ModelBuilder {
+    let mut builder = ModelBuilder::new(Kind::PlaneStress);
+    for (name, up, n) in [("lower", 0.0, 3), ("upper", 1.0 + gap, 4)] {
+        let sheet = Sheet {
+            name,
+            cells: [n, 2],
+            shape: Shape::Quad4,
+            map: &|[x, y]| [x, y + up],
+        };
+        sheet.add(&mut builder);
+    }
+    of_one_material(&mut builder, &["lower", "upper"], 1000.0, 0.3);
+    held(&mut builder, "lower.bottom", Direction::Y);
+    held(&mut builder, "lower.left", Direction::X);
+    pressed(&mut builder, "upper.top", 1.0);
+    aim(&mut builder);
+    builder
+}
+
+#[test]
+fn what_cannot_be_tied_is_named() {
+    let refused = |builder: &ModelBuilder, expected: &[&str]| {
+        let error = builder.build().map(|_| ()).unwrap_err();
+        assert_eq!(error.kind(), brinell::ErrorKind::Input);
+        for expected in expected {
+            assert!(error.to_string().contains(expected), "{error}\n{expected}");
+        }
+    };
+    let tie = |builder: &mut ModelBuilder, slave| {
+        tied(builder, "upper.bottom", "lower.top", slave);
+    };
+    let mut far = apart(0.1);
+    tie(&mut far, SlaveSide::First);
+    refused(
+        &far,
+        &[
+            "5 of 5 nodes of `upper.bottom` are farther from `lower.top` than",
+            "by 1.000e-1",
+        ],
+    );
+    // It is the user's to say so; the nodes are moved.
+    let mut said = apart(0.1);
+    said.tie(Tie {
+        first: "upper.bottom".into(),
+        second: "lower.top".into(),
+        slave: SlaveSide::First,
+        distance: Some(0.2),
+    });
+    let model = said.build().unwrap();
+    for node in model.mesh.set_nodes("upper.bottom").unwrap() {
+        assert!((model.mesh.point(node)[1] - 1.0).abs() < 1e-14);
+    }
+    let mut twice = apart(0.0);
+    tie(&mut twice, SlaveSide::First);
+    tie(&mut twice, SlaveSide::First);
+    refused(&twice, &["tie 2", "follows in tie 1 already"]);
+    let mut circle = apart(0.0);
+    tie(&mut circle, SlaveSide::First);
+    tie(&mut circle, SlaveSide::Second);
+    refused(&circle, &["go in a circle"]);
+    let mut touched = apart(0.0);
+    tie(&mut touched, SlaveSide::First);
+    touching(&mut touched, "lower.top", "upper.bottom", SlaveSide::Auto);
+    refused(
+        &touched,
+        &["contact 1", "surfaces that are tied cannot touch"],
+    );
+    let mut elsewhere = apart(0.0);
+    tied(&mut elsewhere, "upper.right", "lower.top", SlaveSide::Auto);
+    refused(&elsewhere, &["no part of"]);
+    let mut unknown = apart(0.0);
+    tied(&mut unknown, "upper.botom", "lower.top", SlaveSide::Auto);
+    refused(
+        &unknown,
+        &["tie 1 surface `upper.botom`", "did you mean `upper.bottom`"],
+    );
+    let mut itself = apart(0.0);
+    tied(&mut itself, "lower.top", "lower.top", SlaveSide::Auto);
+    refused(&itself, &["cannot be tied to itself"]);
+    // Nothing would hold the upper block by what is held already.
+    let mut all_held = apart(0.0);
+    held(&mut all_held, "lower.top", Direction::Y);
+    tie(&mut all_held, SlaveSide::Second);
+    refused(
+        &all_held,
+        &["are held along (0, 1)", "let the other surface follow"],
+    );
+    let mut other = apart(0.0);
+    held(&mut other, "lower.top", Direction::Y);
+    tie(&mut other, SlaveSide::First);
+    assert!(other.build().is_ok());
+}
