@@ -34,6 +34,7 @@ const EXAMPLES: &[Example] = examples![
     "crossed_cylinders",
     "cylinder_on_half_plane",
     "disc_in_plate",
+    "fit_by_heat",
     "flat_punch",
     "nafems_cb1",
     "pin_in_hole",

@@ -30,30 +30,24 @@ const EFFECTS: &[(&str, &[&str])] = &[
         &[
             "dynamics",
             "dynamic",
-            "density",
             "mass",
             "inertia",
             "time",
             "time_step",
             "damping",
             "velocity",
-            "acceleration",
             "frequency",
             "impact",
         ],
     ),
     (
-        "body forces: loads act on surfaces and nodes",
-        &["gravity", "body_force", "body_forces", "centrifugal"],
-    ),
-    (
-        "thermal effects: nothing depends on temperature",
+        "conduction of heat: temperatures are given, by `temperature` of a load",
         &[
             "thermal",
-            "temperature",
-            "thermal_expansion",
             "conductivity",
             "heat",
+            "heat_flux",
+            "specific_heat",
         ],
     ),
     (
@@ -61,8 +55,14 @@ const EFFECTS: &[(&str, &[&str])] = &[
         &["creep", "viscosity", "viscoplasticity", "strain_rate"],
     ),
     (
-        "kinematic hardening: hardening is isotropic",
-        &["kinematic_hardening", "kinematic", "backstress"],
+        "nonlinear kinematic hardening: the linear one is `kinematic_modulus`",
+        &[
+            "kinematic_hardening",
+            "kinematic",
+            "backstress",
+            "back_stresses",
+            "chaboche",
+        ],
     ),
     (
         "adhesion, wear or damage",
@@ -71,8 +71,8 @@ const EFFECTS: &[(&str, &[&str])] = &[
         ],
     ),
     (
-        "three dimensions: models are plane strain, plane stress or axisymmetric",
-        &["3d", "three_dimensional", "solid", "thickness"],
+        "thickness: plane models are of unit thickness; `kind = \"solid\"` has three dimensions",
+        &["3d", "three_dimensional", "thickness"],
     ),
 ];
 

@@ -252,7 +252,7 @@ fn all_problems_are_told_at_once_a_line_each() {
 fn effects_that_brinell_has_not_are_unsupported() {
     for (good, bad, effect) in [
         ("name = \"press\"", "friction = 0.3", "friction"),
-        ("poissons_ratio = 0.3", "density = 7.8e-9", "dynamics"),
+        ("poissons_ratio = 0.3", "mass = 7.8e-9", "dynamics"),
         (
             "title =",
             "finite_strain =",
@@ -262,11 +262,16 @@ fn effects_that_brinell_has_not_are_unsupported() {
         ("name = \"press\"", "time = 1", "dynamics"),
         (
             "poissons_ratio = 0.3",
-            "thermal_expansion = 1e-5",
-            "thermal",
+            "conductivity = 45.0",
+            "conduction of heat",
         ),
         ("poissons_ratio = 0.3", "damping = 0.1", "dynamics"),
-        ("\"plane_strain\"", "\"3d\"", "three dimensions"),
+        ("\"plane_strain\"", "\"3d\"", "thickness"),
+        (
+            "poissons_ratio = 0.3",
+            "back_stresses = []",
+            "nonlinear kinematic hardening",
+        ),
     ] {
         let error = Scene::parse(&GOOD.replacen(good, bad, 1), "bad.toml").unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Unsupported, "{error}");
