@@ -290,12 +290,16 @@ pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
         n => effect(
             "contact",
             true,
-            match model.contacts.len() {
-                1 => format!("{n} pairs of nodes may touch"),
-                surfaces => format!("{n} pairs of nodes on {surfaces} pairs of surfaces may touch"),
+            match (model.contacts.len(), model.freedoms.springs.len()) {
+                (1, 0) => format!("{n} pairs of nodes may touch"),
+                (surfaces, 0) => {
+                    format!("{n} pairs of nodes on {surfaces} pairs of surfaces may touch")
+                }
+                (_, soft) => format!("{n} pairs of nodes may touch, {soft} of them softly"),
             },
         ),
     };
+    let tied = model.freedoms.n_tied();
     let plasticity = if able.is_empty() {
         effect(
             "plasticity",
@@ -328,6 +332,15 @@ pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
         kinematic_hardening(model, yields),
         volume_forces(model),
         temperature(model),
+        effect(
+            "ties",
+            tied > 0,
+            on_off(
+                tied > 0,
+                format!("{tied} displacements follow those of what they are tied to"),
+                "the scene ties no surfaces",
+            ),
+        ),
         effect(
             "interference",
             interference,

@@ -256,6 +256,11 @@ impl Freedoms {
         }
     }
 
+    /// Number of displacements that follow others.
+    pub(crate) fn n_tied(&self) -> usize {
+        self.followers.len()
+    }
+
     /// The nodes, axes and coefficients that a tied slot is the sum of.
     pub fn followed_axes(&self, tied: u32) -> &[(u32, u8, f64)] {
         &self.followers[tied as usize]

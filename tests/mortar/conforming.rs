@@ -257,7 +257,8 @@ fn spheres_are_recognised() {
         middle / 210e3 * (0.4 * a + 0.65 * b) / (b - a).abs()
     };
     let exact = 0.05 / (wall(inner) + wall(outer));
-    for (shape, slave) in SHAPES {
+    // Many unknowns: not all of the shapes.
+    for (shape, slave) in SHAPES.into_iter().take(3) {
         let builder = shells(
             shape,
             [[12, 12], [8, 8]],

@@ -69,6 +69,6 @@ fn elliptic_contact_of_solids() {
         "crossed_cylinders",
         [[0.0, 4.0], [12.0, 0.0]],
         8,
-        &[([12, 8], "auto"), ([12, 8], "first")],
+        &[([12, 8], "auto"), ([12, 8], "second")],
     );
 }
