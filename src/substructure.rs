@@ -16,6 +16,7 @@
 //! Rigid motions of floating bodies are treated apart: see `tied`.
 
 mod groups;
+mod rigid_slips;
 mod rows;
 mod tied;
 

@@ -30,6 +30,7 @@
 //! motions); A. van der Sluis (1969), doi:10.1007/BF02165096, and N. J. Higham, *Accuracy and
 //! Stability of Numerical Algorithms*, 2nd ed., theorem 10.5 (scaling).
 
+use super::rigid_slips::{RigidSlip, rigid_slips, take_rigid_slips};
 use super::rows::Rows;
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::{ContactStiffness, blocked};
@@ -61,12 +62,6 @@ pub(super) struct SplitSlip {
     pub rest: DVector<f64>,
     /// Amplitude of each rigid motion of the model that gives what is left out.
     pub motions: DVector<f64>,
-}
-
-/// The displacement of the rows under a rigid motion: one of an orthonormal set.
-struct RigidSlip {
-    values: DVector<f64>,
-    of_motion: DVector<f64>,
 }
 
 /// What is left of a motion, as a share of it, when that share is the round-off of taking the rest
@@ -197,12 +192,14 @@ impl Tied {
         matrix.fill_upper_triangle_with_lower_triangle();
         let mut matrix = rows.congruence(matrix);
         matrix.fill_upper_triangle_with_lower_triangle();
+        let rigid_slips = rigid_slips(&rigid, &rows);
+        take_rigid_slips(&mut matrix, &rigid_slips);
         let tied = Tied {
             kept,
             motions,
             lifted,
             rigid_share,
-            rigid_slips: rigid_slips(&rigid, &rows),
+            rigid_slips,
             rigid,
             part: part.to_vec(),
             factor,
@@ -350,31 +347,6 @@ fn orthonormal(traces: &[Trace]) -> Vec<Trace> {
             next.values /= left;
             next.of_motion /= left;
             out.push(next);
-        }
-    }
-    out
-}
-
-/// The displacements of the rows that rigid motions give, orthonormal.
-fn rigid_slips(rigid: &[Trace], rows: &Rows) -> Vec<RigidSlip> {
-    let mut out: Vec<RigidSlip> = Vec::new();
-    for trace in rigid {
-        let mut values = rows.slip(&trace.values);
-        let mut of_motion = trace.of_motion.clone();
-        let size = values.norm();
-        for _ in 0..2 {
-            for other in &out {
-                let along = other.values.dot(&values);
-                values.axpy(-along, &other.values, 1.0);
-                of_motion.axpy(-along, &other.of_motion, 1.0);
-            }
-        }
-        let left = values.norm();
-        if left > 1e-6 * size {
-            out.push(RigidSlip {
-                values: values / left,
-                of_motion: of_motion / left,
-            });
         }
     }
     out
