@@ -107,19 +107,20 @@ fn a_nearly_floating_body_is_held_by_its_own_stiffness() {
 }
 
 /// A ball that nothing holds but its flat, with gaps along its own normals, which turn along the
-/// surface: whatever the mesh, the first bit of load finds the pair that carries it. (Before what is
-/// rigid was put into the contact matrix exactly, one of these meshes was driven off by round-off.)
-/// The two ways to take the gaps differ by the slope of the ball at the edge, 0.011.
+/// surface: whatever the mesh, the first bit of load finds the pair that carries it. (Before what
+/// is rigid was put into the contact matrix exactly, one of these meshes was driven off by
+/// round-off.) The two ways to take the gaps differ by the slope of the ball at the edge, 0.011.
 #[test]
 fn a_ball_is_held_by_whichever_pair_comes_first() {
+    let mesh = "mesh.cylinder_on_half_plane";
     for element in ["quad4", "quad8"] {
         for resolution in 4..=9 {
             let yields = ["first", "second"].map(|slave| {
                 let scene = running::load(
                     "ball_on_half_space",
                     &[
-                        &format!("mesh.cylinder_on_half_plane.element=\"{element}\""),
-                        &format!("mesh.cylinder_on_half_plane.resolution={resolution}"),
+                        &format!("{mesh}.element=\"{element}\""),
+                        &format!("{mesh}.resolution={resolution}"),
                         &format!("contact.0.slave=\"{slave}\""),
                     ],
                 );

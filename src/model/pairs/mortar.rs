@@ -74,15 +74,28 @@ struct Coupled<'a> {
     facet_length: f64,
 }
 
+impl Coupled<'_> {
+    /// Refuses pairs that share nodes or overlap.
+    fn check(&self) -> Result<()> {
+        self.sides.check(&self.pairs, self.facet_length, self.slave)
+    }
+}
+
 /// The pairs of a contact.
 ///
 /// # Errors
 /// Surfaces that are not one curve, do not face each other, share nodes or overlap.
 pub(super) fn pairs(entries: &Entries, notes: &mut Vec<String>) -> Result<Found> {
-    let found = coupled(entries)?;
-    found
-        .sides
-        .check(&found.pairs, found.facet_length, found.slave)?;
+    let found = coupled(entries, entries.contact.slave)?;
+    found.check()?;
+    // Facets of a curved surface overlap the other one on one side and gape on the other: where the
+    // slaves see the gap alone, a fit would have no pressure, and nothing would show it.
+    if found.sides.depth_of_facets() > FLAT * found.facet_length {
+        let other = [SlaveSide::Second, SlaveSide::First][found.slave];
+        if let Ok(other) = coupled(entries, other) {
+            other.check()?;
+        }
+    }
     if !found.left_out.is_empty() {
         let contact = entries.contact;
         notes.push(format!(
@@ -105,7 +118,7 @@ pub(super) fn pairs(entries: &Entries, notes: &mut Vec<String>) -> Result<Found>
 /// # Errors
 /// As [`pairs`], but surfaces may overlap, by `distance` at most.
 pub(super) fn tied(entries: &Entries, distance: Option<f64>) -> Result<(Found, Vec<usize>)> {
-    let found = coupled(entries)?;
+    let found = coupled(entries, entries.contact.slave)?;
     found.sides.check_apart(&found.pairs)?;
     let most = distance.unwrap_or(NEAR * found.facet_length + found.sides.depth_of_facets());
     let far: Vec<&Pair> = (found.pairs.iter())
@@ -145,12 +158,12 @@ pub(super) fn tied(entries: &Entries, distance: Option<f64>) -> Result<(Found, V
 ///
 /// # Errors
 /// Surfaces that are not one curve or do not face each other.
-fn coupled<'a>(entries: &'a Entries<'a>) -> Result<Coupled<'a>> {
+fn coupled<'a>(entries: &'a Entries<'a>, slave: SlaveSide) -> Result<Coupled<'a>> {
     let (mesh, contact) = (entries.mesh, entries.contact);
     let curves = entries
         .surfaces
         .map(|s| s.curve.or_else(|| roundness::find(mesh, s)));
-    let slave = match contact.slave {
+    let slave = match slave {
         SlaveSide::First => 0,
         SlaveSide::Second => 1,
         SlaveSide::Auto => finer(mesh, entries.surfaces, [0, 1].map(|k| curves[k].is_some())),
