@@ -105,8 +105,8 @@ pub unsafe extern "C" fn brinell_model_free(model: *mut brinell_model) {
     unsafe { free(model) }
 }
 
-/// Adds tables of a scene (TOML text): materials, bodies, [[contact]], [[support]], [[load]],
-/// [program], [analysis], [units], title; whatever a scene file may say but for `kind`, `symmetry`
+/// Adds tables of a scene (TOML text): materials, bodies, contact, support, load,
+/// program, analysis, units, title; whatever a scene file may say but for `kind`, `symmetry`
 /// and `mesh`. Materials, bodies, contacts, supports and loads come to those that are there, the
 /// others take their place.
 ///

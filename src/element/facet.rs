@@ -16,7 +16,7 @@ pub struct FacetPoint {
     pub normal: Vector,
 }
 
-/// The points of a facet ([`FacetReference::rule`]) with these nodes.
+/// The points of a facet (the rule of the facet) with these nodes.
 pub fn facet_points(
     space: Space,
     facet: &FacetReference,

@@ -184,7 +184,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Kernel<D, S
 }
 
 /// An element at the points where its stress is most accurate
-/// ([`Reference::sampling`](crate::shape::Reference::sampling)).
+/// (superconvergent ones).
 #[derive(Debug, Clone)]
 pub struct Sampling<const D: usize, const S: usize, const P: usize, const N: usize> {
     at: Gradients<D, S, P, N>,

@@ -124,7 +124,7 @@ pub trait Condensed: Send + Sync {
     /// What the factorisation cost (the same figures that were predicted).
     fn cost(&self) -> Prediction;
 
-    /// The pivot that lost most to cancellation. Near [`smallest_pivot_ratio`] the model is
+    /// The pivot that lost most to cancellation. Near `smallest_pivot_ratio` the model is
     /// barely held at that freedom.
     fn weakest_pivot(&self) -> Pivot;
 }
@@ -251,7 +251,7 @@ impl Default for Backend {
 ///
 /// # Errors
 /// [`crate::ErrorKind::Internal`] naming the freedom as `freedom I` where the matrix is not
-/// positive definite, to working precision ([`smallest_pivot_ratio`]; callers map it back to body,
+/// positive definite, to working precision (`smallest_pivot_ratio`; callers map it back to body,
 /// node and direction through [`NotDefinite`] as cause), or where the arguments do not fit
 /// together; `Input` where the backend is not built in or the model is too large for it; `Analysis`
 /// where the memory does not suffice.
