@@ -548,8 +548,8 @@ int32_t brinell_model_new(int32_t kind, size_t symmetry, struct brinell_model **
 // Frees a model.
 void brinell_model_free(struct brinell_model *model);
 
-// Adds tables of a scene (TOML text): materials, bodies, [[contact]], [[support]], [[load]],
-// [program], [analysis], [units], title; whatever a scene file may say but for `kind`, `symmetry`
+// Adds tables of a scene (TOML text): materials, bodies, contact, support, load,
+// program, analysis, units, title; whatever a scene file may say but for `kind`, `symmetry`
 // and `mesh`. Materials, bodies, contacts, supports and loads come to those that are there, the
 // others take their place.
 int32_t brinell_model_tables(struct brinell_model *model, const char *tables);
