@@ -92,7 +92,6 @@ static void blocks(void) {
         for (int j = 0; j <= NY; ++j) middle[body * (NY + 1) + j] = node(body, 0, j);
         check(brinell_model_nodes(model, coordinates, EACH), "nodes");
         check(brinell_model_elements(model, names[body], BRINELL_SHAPE_QUAD4, elements, NX * NY), "elements");
-        check(brinell_model_body(model, names[body], "steel", 0), "body");
     }
     for (int i = 0; i <= NX; ++i) {
         rows[0][i] = node(0, i, 0);
@@ -105,20 +104,20 @@ static void blocks(void) {
     for (int k = 0; k < 4; ++k)
         check(brinell_model_surface_of_nodes(model, surfaces[k], rows[k], ROW), "surface");
     check(brinell_model_node_set(model, "middle", middle, 2 * (NY + 1)), "node set");
-    brinell_material steel = {.size = sizeof steel, .youngs_modulus = 210e3, .poissons_ratio = 0.3,
-                              .yield_stress = 300, .plastic_modulus = 2100};
-    check(brinell_model_material(model, "steel", &steel), "material");
-    brinell_contact contact = {.size = sizeof contact, .n_pairs = ROW, .first_nodes = rows[2],
-                               .second_nodes = rows[1], .gaps = gaps};
-    check(brinell_model_contact(model, "opposite", "face", &contact), "contact");
-    check(brinell_model_support(model, "floor", BRINELL_Y, 0), "support");
-    check(brinell_model_support(model, "middle", BRINELL_X, 0), "support");
-    brinell_load press = {.size = sizeof press, .kind = BRINELL_LOAD_PRESSURE, .on = "top", .values = {300}};
-    check(brinell_model_load(model, &press), "load");
-    for (int k = 0; k < 2; ++k) {
-        brinell_target target = {.size = sizeof target, .value = 1 - k};
-        check(brinell_model_target(model, &target), "target");
-    }
+    /* Arrays for the mesh and the pairs, scene text for all else. */
+    check(brinell_model_contact_pairs(model, "first = 'opposite'\nsecond = 'face'", ROW, rows[2], rows[1], NULL, gaps),
+          "contact");
+    check(brinell_model_tables(model,
+                               "bodies = { lower = { material = 'steel' }, upper = { material = 'steel' } }\n"
+                               "support = [{ on = 'floor', fix = ['y'] }, { on = 'middle', fix = ['x'] }]\n"
+                               "load = [{ on = 'top', pressure = 300 }]\n"
+                               "program.targets = [{ load_factor = 1.0 }, { load_factor = 0.0 }]\n"
+                               "[materials.steel]\n"
+                               "youngs_modulus = 210e3\n"
+                               "poissons_ratio = 0.3\n"
+                               "yield_stress = 300\n"
+                               "plastic_modulus = 2100\n"),
+          "tables");
     brinell_results *results = NULL;
     check(brinell_model_run(model, NULL, NULL, NULL, &results), "run");
     brinell_model_free(model);

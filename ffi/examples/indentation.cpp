@@ -100,7 +100,6 @@ void blocks() {
         for (int j = 0; j <= ny; ++j) middle.push_back(node(body, 0, j));
         check(brinell_model_nodes(model.get(), coordinates.data(), each), "nodes");
         check(brinell_model_elements(model.get(), name, BRINELL_SHAPE_QUAD4, elements.data(), nx * ny), "elements");
-        check(brinell_model_body(model.get(), name, "steel", 0), "body");
     }
     for (int i = 0; i <= nx; ++i) {
         rows[0].push_back(node(0, i, 0));
@@ -113,30 +112,22 @@ void blocks() {
     for (int k = 0; k < 4; ++k)
         check(brinell_model_surface_of_nodes(model.get(), surfaces[k], rows[k].data(), row), "surface");
     check(brinell_model_node_set(model.get(), "middle", middle.data(), middle.size()), "node set");
-    auto steel = sized<brinell_material>();
-    steel.youngs_modulus = 210e3;
-    steel.poissons_ratio = 0.3;
-    steel.yield_stress = 300;
-    steel.plastic_modulus = 2100;
-    check(brinell_model_material(model.get(), "steel", &steel), "material");
-    auto contact = sized<brinell_contact>();
-    contact.n_pairs = row;
-    contact.first_nodes = rows[2].data();
-    contact.second_nodes = rows[1].data();
-    contact.gaps = gaps.data();
-    check(brinell_model_contact(model.get(), "opposite", "face", &contact), "contact");
-    check(brinell_model_support(model.get(), "floor", BRINELL_Y, 0), "support");
-    check(brinell_model_support(model.get(), "middle", BRINELL_X, 0), "support");
-    auto press = sized<brinell_load>();
-    press.kind = BRINELL_LOAD_PRESSURE;
-    press.on = "top";
-    press.values[0] = 300;
-    check(brinell_model_load(model.get(), &press), "load");
-    for (double factor : {1.0, 0.0}) {
-        auto target = sized<brinell_target>();
-        target.value = factor;
-        check(brinell_model_target(model.get(), &target), "target");
-    }
+    // Arrays for the mesh and the pairs, scene text for all else.
+    check(brinell_model_contact_pairs(model.get(), "first = 'opposite'\nsecond = 'face'", row, rows[2].data(),
+                                      rows[1].data(), nullptr, gaps.data()),
+          "contact");
+    check(brinell_model_tables(model.get(), R"(
+bodies = { lower = { material = 'steel' }, upper = { material = 'steel' } }
+support = [{ on = 'floor', fix = ['y'] }, { on = 'middle', fix = ['x'] }]
+load = [{ on = 'top', pressure = 300 }]
+program.targets = [{ load_factor = 1.0 }, { load_factor = 0.0 }]
+[materials.steel]
+youngs_modulus = 210e3
+poissons_ratio = 0.3
+yield_stress = 300
+plastic_modulus = 2100
+)"),
+          "tables");
     brinell_results *run = nullptr;
     check(brinell_model_run(model.get(), nullptr, nullptr, nullptr, &run), "run");
     Results results(run);

@@ -337,7 +337,7 @@ pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
             tied > 0,
             on_off(
                 tied > 0,
-                format!("{tied} displacements follow those of what they are tied to"),
+                format!("{tied} displacements follow others in ties and equations"),
                 "the scene ties no surfaces",
             ),
         ),

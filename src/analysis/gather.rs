@@ -1,6 +1,6 @@
 //! Where the freedoms of a list of elements find displacements, and leave forces.
 
-use crate::model::{Blend, Frame, Model, Slot};
+use crate::model::{Model, Slot};
 use crate::space::Vector;
 use crate::substructure::Trailing;
 
@@ -104,22 +104,21 @@ impl Nodal {
     }
 }
 
-/// Where the displacements of a node stand in a [`Nodal`] vector, and along which axes they are.
-#[derive(Debug, Clone)]
-pub struct NodalPlaces {
-    places: [u32; 3],
-    /// What its displacements along its axes are the sums of.
-    followed: Vec<Followed>,
-    frame: Option<Frame>,
-}
-
-/// A part of a displacement that follows others: `coefficient` times what stands at `place`.
+/// A part of a displacement: `coefficient` times what stands at `place` of a [`Nodal`] vector.
 #[derive(Debug, Clone, Copy)]
-struct Followed {
-    /// Place of the displacement among those of its element or node.
+struct Part {
+    /// Which displacement of its element or node, node by node in global axes.
     own: u8,
     place: u32,
     coefficient: f64,
+}
+
+/// Where the displacements of a node stand in a [`Nodal`] vector.
+#[derive(Debug, Clone)]
+pub struct NodalPlaces {
+    places: [u32; 3],
+    /// What is added to them, where they are sums.
+    parts: Vec<Part>,
 }
 
 impl NodalPlaces {
@@ -129,52 +128,39 @@ impl NodalPlaces {
         let fixed = none + model.freedoms.prescribed.len() as u32;
         let of = |slot| match slot {
             Slot::Free(f) => places.of_freedom[f as usize].min(fixed),
-            Slot::Fixed | Slot::Tied(_) => fixed,
             Slot::Prescribed(p) => none + p,
+            Slot::Fixed | Slot::Sum(_) => fixed,
         };
         let freedoms = &model.freedoms;
-        let followed = freedoms.followed(&[node as u32]).into_iter();
-        let followed = followed.map(|(own, slot, coefficient)| Followed {
-            own: own as u8,
-            place: of(slot),
-            coefficient,
+        if freedoms.is_plain(node) {
+            return NodalPlaces {
+                places: freedoms.slots[node].map(of),
+                parts: Vec::new(),
+            };
+        }
+        let mut parts = Vec::new();
+        freedoms.each_term(node, |slot, v| {
+            let components = v.into_iter().take(freedoms.per_node).enumerate();
+            parts.extend(components.filter(|(_, c)| *c != 0.0).map(|(d, c)| Part {
+                own: d as u8,
+                place: of(slot),
+                coefficient: c,
+            }));
         });
         NodalPlaces {
-            places: freedoms.slots[node].map(of),
-            followed: followed.collect(),
-            frame: freedoms.is_turned(node).then(|| freedoms.local(node)),
+            places: [fixed; 3],
+            parts,
         }
     }
 
     /// The displacement of the node in global axes.
     pub fn of(&self, nodal: &[f64]) -> Vector {
         let mut values = self.places.map(|place| nodal[place as usize]);
-        for part in &self.followed {
+        for part in &self.parts {
             values[usize::from(part.own)] += part.coefficient * nodal[part.place as usize];
         }
-        match &self.frame {
-            Some(frame) => in_global_axes(values, frame),
-            None => values,
-        }
+        values
     }
-}
-
-/// `sum u_i a_i`, its first D components.
-#[inline]
-fn in_global_axes<const D: usize>(local: [f64; D], frame: &Frame) -> [f64; D] {
-    std::array::from_fn(|d| {
-        let rest = (1..D).map(|i| local[i] * frame[i][d]);
-        rest.fold(local[0] * frame[0][d], |sum, term| sum + term)
-    })
-}
-
-/// `a_i . f`.
-#[inline]
-fn in_local_axes<const D: usize>(global: [f64; D], frame: &Frame) -> [f64; D] {
-    std::array::from_fn(|i| {
-        let rest = (1..D).map(|d| global[d] * frame[i][d]);
-        rest.fold(global[0] * frame[i][0], |sum, term| sum + term)
-    })
 }
 
 /// An element: where its places begin.
@@ -186,16 +172,7 @@ pub struct Packed {
     pub body: u32,
     n_places: u8,
     first_place: usize,
-    turns: (u32, u32),
-    blends: (u32, u32),
-    followed: (u32, u32),
-}
-
-/// A node whose freedoms lie along turned axes.
-#[derive(Debug, Clone, Copy)]
-struct Turn {
-    node: u8,
-    frame: Frame,
+    parts: (u32, u32),
 }
 
 /// Elements one after the other.
@@ -204,9 +181,7 @@ pub struct GatheredElements {
     /// The elements, in the order given.
     pub list: Vec<Packed>,
     places: Vec<u32>,
-    turns: Vec<Turn>,
-    blends: Vec<Blend>,
-    followed: Vec<Followed>,
+    parts: Vec<Part>,
 }
 
 impl GatheredElements {
@@ -221,9 +196,7 @@ impl GatheredElements {
     }
 
     fn push(&mut self, model: &Model, element: usize, places: &Places) {
-        let first_turn = self.turns.len() as u32;
-        let first_blend = self.blends.len() as u32;
-        let first_followed = self.followed.len() as u32;
+        let first_part = self.parts.len() as u32;
         let first_place = self.places.len();
         let nodes = model.mesh.nodes(element);
         let per_node = model.freedoms.per_node;
@@ -231,25 +204,18 @@ impl GatheredElements {
             let of_node = NodalPlaces::new(model, places, node as usize);
             self.places.extend(&of_node.places[..per_node]);
             let first = (per_node * i) as u8;
-            self.followed
-                .extend(of_node.followed.iter().map(|part| Followed {
-                    own: first + part.own,
-                    ..*part
-                }));
-            self.turns.extend(of_node.frame.map(|frame| Turn {
-                node: i as u8,
-                frame,
+            let parts = of_node.parts.into_iter();
+            self.parts.extend(parts.map(|part| Part {
+                own: first + part.own,
+                ..part
             }));
         }
-        self.blends.extend(model.freedoms.basis.of_element(nodes));
         self.list.push(Packed {
             element: element as u32,
             body: model.mesh.element_body[element],
             n_places: (per_node * nodes.len()) as u8,
             first_place,
-            turns: (first_turn, self.turns.len() as u32),
-            blends: (first_blend, self.blends.len() as u32),
-            followed: (first_followed, self.followed.len() as u32),
+            parts: (first_part, self.parts.len() as u32),
         });
     }
 
@@ -257,7 +223,7 @@ impl GatheredElements {
     pub fn bytes(&self) -> usize {
         self.list.capacity() * size_of::<Packed>()
             + 4 * self.places.capacity()
-            + self.followed.capacity() * size_of::<Followed>()
+            + self.parts.capacity() * size_of::<Part>()
     }
 
     /// Displacements of the nodes of element `i` in global axes, for the values of a [`Nodal`].
@@ -269,23 +235,12 @@ impl GatheredElements {
     ) -> [[f64; D]; N] {
         let packed = &self.list[i];
         let mut out = [[0.0; D]; N];
-        for (u, &place) in out
-            .as_flattened_mut()
-            .iter_mut()
-            .zip(self.places_of(packed))
-        {
+        let flat = out.as_flattened_mut();
+        for (u, &place) in flat.iter_mut().zip(self.places_of(packed)) {
             *u = nodal[place as usize];
         }
-        for part in self.followed_by(packed) {
-            let u = &mut out.as_flattened_mut()[usize::from(part.own)];
-            *u += part.coefficient * nodal[part.place as usize];
-        }
-        for turn in self.turns_of(packed) {
-            let u = &mut out[usize::from(turn.node)];
-            *u = in_global_axes(*u, &turn.frame);
-        }
-        for blend in self.blends_of(packed) {
-            blend.displace(&mut out);
+        for part in self.parts_of(packed) {
+            flat[usize::from(part.own)] += part.coefficient * nodal[part.place as usize];
         }
         out
     }
@@ -298,18 +253,10 @@ impl GatheredElements {
         sums: &mut [f64],
     ) {
         let packed = &self.list[i];
-        let mut force = *force;
-        for blend in self.blends_of(packed) {
-            blend.share(&mut force);
-        }
-        for turn in self.turns_of(packed) {
-            let f = &mut force[usize::from(turn.node)];
-            *f = in_local_axes(*f, &turn.frame);
-        }
         for (&place, f) in self.places_of(packed).iter().zip(force.as_flattened()) {
             sums[place as usize] += f;
         }
-        for part in self.followed_by(packed) {
+        for part in self.parts_of(packed) {
             let force = force.as_flattened()[usize::from(part.own)];
             sums[part.place as usize] += part.coefficient * force;
         }
@@ -318,8 +265,8 @@ impl GatheredElements {
     /// Marks the zone freedoms of element `i`.
     pub fn mark(&self, i: usize, marks: &mut [bool]) {
         let packed = &self.list[i];
-        let followed = self.followed_by(packed).iter().map(|part| part.place);
-        for place in self.places_of(packed).iter().copied().chain(followed) {
+        let parts = self.parts_of(packed).iter().map(|part| part.place);
+        for place in self.places_of(packed).iter().copied().chain(parts) {
             if let Some(mark) = marks.get_mut(place as usize) {
                 *mark = true;
             }
@@ -330,16 +277,8 @@ impl GatheredElements {
         &self.places[packed.first_place..][..usize::from(packed.n_places)]
     }
 
-    fn followed_by(&self, packed: &Packed) -> &[Followed] {
-        &self.followed[packed.followed.0 as usize..packed.followed.1 as usize]
-    }
-
-    fn blends_of(&self, packed: &Packed) -> &[Blend] {
-        &self.blends[packed.blends.0 as usize..packed.blends.1 as usize]
-    }
-
-    fn turns_of(&self, packed: &Packed) -> &[Turn] {
-        &self.turns[packed.turns.0 as usize..packed.turns.1 as usize]
+    fn parts_of(&self, packed: &Packed) -> &[Part] {
+        &self.parts[packed.parts.0 as usize..packed.parts.1 as usize]
     }
 }
 
@@ -379,7 +318,7 @@ mod tests {
             let values = nodal.variation(&u).to_vec();
             let mut turned = 0;
             for (i, &e) in elements.iter().enumerate() {
-                turned += gathered.turns_of(&gathered.list[i]).len();
+                turned += gathered.parts_of(&gathered.list[i]).len();
                 let moved = gathered.displacements::<2, 8>(i, &values);
                 for (u, &node) in moved.iter().zip(model.mesh.nodes(e)) {
                     let expected = model

@@ -22,7 +22,7 @@ pub(super) fn on_nodes(model: &Model, mut forces: Vec<Vector>, of_pairs: &[f64])
     let freedoms = &model.freedoms;
     for node in 0..forces.len() {
         for (slot, axis) in freedoms.of_node(node).iter().zip(freedoms.local(node)) {
-            let Slot::Tied(k) = *slot else { continue };
+            let Slot::Sum(k) = *slot else { continue };
             let force = dot(forces[node], axis);
             forces[node] = along(forces[node], -force, axis);
             for &(other, local, c) in freedoms.followed_axes(k) {

@@ -65,7 +65,6 @@ impl Stresses {
     ) -> Self {
         let (mut forces, beyond_yield_outside) = nodal_forces(field);
         let model = field.model;
-        model.freedoms.basis.share(&mut forces);
         let mut out = Stresses {
             internal: vec![0.0; model.freedoms.n],
             nodal: Vec::new(),
@@ -78,15 +77,13 @@ impl Stresses {
             plastic_strain: 0.0,
         };
         for (node, force) in forces.iter().enumerate() {
-            let force = model.freedoms.to_local(node, *force);
-            for (slot, force) in model.freedoms.slots[node].iter().zip(force) {
-                model.freedoms.each(*slot, |slot, c| match slot {
-                    Slot::Free(f) => out.internal[f as usize] += c * force,
-                    Slot::Prescribed(p) => out.reactions[p as usize] += c * force,
-                    Slot::Fixed | Slot::Tied(_) => {}
-                });
-            }
+            model.freedoms.each_term(node, |slot, v| match slot {
+                Slot::Free(f) => out.internal[f as usize] += dot(v, *force),
+                Slot::Prescribed(p) => out.reactions[p as usize] += dot(v, *force),
+                Slot::Fixed | Slot::Sum(_) => {}
+            });
         }
+        model.freedoms.basis.share(&mut forces);
         out.nodal = forces;
         // What free strains would take to be held enters with the loads: the same forces here.
         for (load, factor) in model.loads.iter().zip(&field.factors) {

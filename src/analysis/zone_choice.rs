@@ -56,13 +56,11 @@ pub fn zone_freedoms(model: &Model, elements: &[usize]) -> Vec<usize> {
     let mut marked = vec![false; model.freedoms.n];
     for &e in elements {
         for &node in model.mesh.nodes(e) {
-            for slot in model.freedoms.slots[node as usize] {
-                model.freedoms.each(slot, |slot, _| {
-                    if let Slot::Free(f) = slot {
-                        marked[f as usize] = true;
-                    }
-                });
-            }
+            model.freedoms.each_term(node as usize, |slot, _| {
+                if let Slot::Free(f) = slot {
+                    marked[f as usize] = true;
+                }
+            });
         }
     }
     model.rows.freedoms.iter().for_each(|&f| marked[f] = false);

@@ -4,7 +4,6 @@
 //! gathers its elements' contributions in ascending element order, so the result has the same bits
 //! for any number of threads.
 
-mod local;
 mod pattern;
 
 pub use pattern::Incidence;
@@ -84,7 +83,8 @@ pub fn assemble(model: &Model) -> Result<System> {
     })
 }
 
-/// All element stiffness matrices in local axes, packed lower triangles, and those of springs.
+/// All element stiffness matrices on what they act on ([`Model::slots_of`]), packed lower triangles,
+/// and those of springs.
 struct ElementMatrices {
     offsets: Vec<usize>,
     values: Vec<f64>,
@@ -96,7 +96,8 @@ impl ElementMatrices {
         let mut offsets = Vec::with_capacity(n_elements + 1);
         offsets.push(0);
         for (e, shape) in model.mesh.shapes.iter().enumerate() {
-            let n = model.freedoms.per_node * shape.n_nodes() + model.followed_by(e).slots.len();
+            let own = model.freedoms.per_node * shape.n_nodes();
+            let n = model.sums_of(e).map_or(own, |sums| sums.slots.len());
             offsets.push(offsets[offsets.len() - 1] + n * (n + 1) / 2);
         }
         let elastic: Vec<_> = model.materials.iter().map(|m| m.lame()).collect();
@@ -111,10 +112,14 @@ impl ElementMatrices {
         let blocks = blocks.into_par_iter().enumerate().with_min_len(256);
         with_kernel!(model, kernel => blocks.for_each(|(e, block)| {
             let elastic = &elastic[model.mesh.element_body[e] as usize];
-            model.gradients(&kernel, e).stiffness_into(elastic, block);
-            local::share_stiffness(model, e, block);
-            local::turn_stiffness(model, e, block);
-            local::follow_stiffness(model, e, block);
+            let gradients = model.gradients(&kernel, e);
+            let Some(sums) = model.sums_of(e) else {
+                return gradients.stiffness_into(elastic, block);
+            };
+            let n = model.freedoms.per_node * model.mesh.shapes[e].n_nodes();
+            let mut own = vec![0.0; n * (n + 1) / 2];
+            gradients.stiffness_into(elastic, &mut own);
+            sums.stiffness(n, &own, block);
         }));
         for spring in &model.freedoms.springs {
             values.push(spring.stiffness);
@@ -130,14 +135,7 @@ impl ElementMatrices {
     /// Adds `-K_fp u_p` of each load's prescribed displacements.
     fn add_prescribed(&self, model: &Model, loads: &mut [Vec<f64>]) {
         for e in 0..model.mesh.n_elements() {
-            let slots: Vec<Slot> = model
-                .mesh
-                .nodes(e)
-                .iter()
-                .flat_map(|&node| model.freedoms.of_node(node as usize))
-                .copied()
-                .chain(model.followed_by(e).slots)
-                .collect();
+            let slots = model.slots_of(e);
             for (j, slot) in slots.iter().enumerate() {
                 let Slot::Prescribed(p) = *slot else { continue };
                 let prescribed = model.freedoms.prescribed[p as usize];

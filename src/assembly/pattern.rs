@@ -30,10 +30,7 @@ impl Incidence {
             _ => -1,
         };
         for e in 0..model.mesh.n_elements() {
-            for &node in model.mesh.nodes(e) {
-                freedoms.extend(model.freedoms.of_node(node as usize).iter().map(number));
-            }
-            freedoms.extend(model.followed_by(e).slots.iter().map(number));
+            freedoms.extend(model.slots_of(e).iter().map(number));
             offsets.push(freedoms.len());
         }
         for spring in &model.freedoms.springs {

@@ -52,7 +52,7 @@ pub extern "C" fn brinell_version() -> *const c_char {
 /// The version of this interface: raised where a program built against an older header would break.
 #[unsafe(no_mangle)]
 pub extern "C" fn brinell_abi_version() -> u32 {
-    1
+    2
 }
 
 /// Runs `act`; its failure, or its panic, becomes a status with a message.

@@ -10,7 +10,6 @@
 
 mod border;
 mod conditions;
-mod loading;
 mod model;
 mod options;
 mod patches;
@@ -22,7 +21,6 @@ mod structure;
 
 pub use border::*;
 pub use conditions::*;
-pub use loading::*;
 pub use model::*;
 pub use options::*;
 pub use patches::*;

@@ -7,14 +7,12 @@ use super::run::{Task, brinell_callback, execute};
 use crate::error::{Error, Result};
 use crate::mesh::{Curve, Shape};
 use crate::model::ModelBuilder;
-use crate::scene::Program;
 use crate::space::Space;
 use std::ffi::{c_char, c_void};
 
 /// A model that is being put together from arrays.
 pub struct brinell_model {
     pub(super) builder: ModelBuilder,
-    pub(super) program: Program,
 }
 
 /// No strain out of the plane; forces per unit thickness.
@@ -86,12 +84,8 @@ pub unsafe extern "C" fn brinell_model_new(
         kind.check_symmetry(symmetry)?;
         let mut builder = ModelBuilder::new(kind);
         builder.symmetry(symmetry);
-        let model = brinell_model {
-            builder,
-            program: Program::default(),
-        };
         // SAFETY: as vouched for by the caller.
-        unsafe { hand_out(out, model) }
+        unsafe { hand_out(out, brinell_model { builder }) }
     })
 }
 
@@ -103,29 +97,6 @@ pub unsafe extern "C" fn brinell_model_new(
 pub unsafe extern "C" fn brinell_model_free(model: *mut brinell_model) {
     // SAFETY: as vouched for by the caller.
     unsafe { free(model) }
-}
-
-/// Adds tables of a scene (TOML text): materials, bodies, contact, support, load,
-/// program, analysis, units, title; whatever a scene file may say but for `kind`, `symmetry`
-/// and `mesh`. Materials, bodies, contacts, supports and loads come to those that are there, the
-/// others take their place.
-///
-/// # Safety
-/// `model` is a living handle, `tables` ends with a zero.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn brinell_model_tables(
-    model: *mut brinell_model,
-    tables: *const c_char,
-) -> i32 {
-    // SAFETY: the caller vouches for every pointer.
-    unsafe {
-        change(model, |m| {
-            m.builder.program(m.program.clone());
-            m.builder.tables(text(tables, "the scene text")?)?;
-            m.program = m.builder.load_program().clone();
-            Ok(())
-        })
-    }
 }
 
 /// Adds nodes: n x 2 coordinates, of a solid n x 3, node by node. Nodes are numbered from 0 in the
@@ -291,9 +262,7 @@ pub unsafe extern "C" fn brinell_model_run(
         execute(
             || {
                 let model = shared(model, "the model")?;
-                let mut builder = model.builder.clone();
-                builder.program(model.program.clone());
-                Ok(Task::Model(Box::new(builder.build()?)))
+                Ok(Task::Model(Box::new(model.builder.clone().build()?)))
             },
             options,
             callback,

@@ -277,8 +277,23 @@ fn a_model_from_arrays_gives_the_bits_of_the_scene() {
 /// What the scene `floating_body` says, by calls.
 ///
 /// # Safety
-/// The mesh is as the results handed it out.
+/// As [`blocks_without_contact`].
 unsafe fn two_blocks(mesh: &brinell_mesh) -> *mut brinell_model {
+    let contact = c"contact = [{ first = 'opposite', second = 'face' }]";
+    // SAFETY: as vouched for by the caller; the text lives through the call.
+    unsafe {
+        let model = blocks_without_contact(mesh);
+        let status = brinell_model_tables(model, contact.as_ptr());
+        assert_eq!(status, BRINELL_OK, "{}", message());
+        model
+    }
+}
+
+/// All of it but the contact.
+///
+/// # Safety
+/// The mesh is as the results handed it out.
+unsafe fn blocks_without_contact(mesh: &brinell_mesh) -> *mut brinell_model {
     let mut model = null_mut();
     // SAFETY: as vouched for by the caller; texts, arrays and places live through the calls.
     unsafe {
@@ -325,50 +340,23 @@ unsafe fn two_blocks(mesh: &brinell_mesh) -> *mut brinell_model {
             left.as_ptr(),
             left.len(),
         ));
-        let mut steel: brinell_material = std::mem::zeroed();
-        steel.size = size_of::<brinell_material>();
-        (steel.youngs_modulus, steel.poissons_ratio) = (210000.0, 0.3);
-        (steel.yield_stress, steel.plastic_modulus) = (8.0, 1000.0);
-        ok(brinell_model_material(model, c"steel".as_ptr(), &steel));
-        for body in [c"lower", c"upper"] {
-            ok(brinell_model_body(
-                model,
-                body.as_ptr(),
-                c"steel".as_ptr(),
-                0,
-            ));
-        }
-        ok(brinell_model_contact(
-            model,
-            c"opposite".as_ptr(),
-            c"face".as_ptr(),
-            null(),
-        ));
-        ok(brinell_model_support(
-            model,
-            c"floor".as_ptr(),
-            BRINELL_Y,
-            0.0,
-        ));
-        ok(brinell_model_support(
-            model,
-            c"left".as_ptr(),
-            BRINELL_X,
-            0.0,
-        ));
-        let mut press: brinell_load = std::mem::zeroed();
-        press.size = size_of::<brinell_load>();
-        (press.kind, press.on, press.values[0]) = (BRINELL_LOAD_PRESSURE, c"top".as_ptr(), 10.0);
-        ok(brinell_model_load(model, &press));
-        ok(brinell_model_program(model, null()));
-        for factor in [1.0, 0.25, 1.0] {
-            let mut target: brinell_target = std::mem::zeroed();
-            (target.size, target.value) = (size_of::<brinell_target>(), factor);
-            ok(brinell_model_target(model, &target));
-        }
+        ok(brinell_model_tables(model, TABLES.as_ptr()));
     }
     model
 }
+
+/// What the two blocks are besides their mesh and contact.
+const TABLES: &CStr = c"
+    bodies = { lower = { material = 'steel' }, upper = { material = 'steel' } }
+    support = [{ on = 'floor', fix = ['y'] }, { on = 'left', fix = ['x'] }]
+    load = [{ on = 'top', pressure = 10.0 }]
+    program.targets = [{ load_factor = 1.0 }, { load_factor = 0.25 }, { load_factor = 1.0 }]
+    [materials.steel]
+    youngs_modulus = 210000.0
+    poissons_ratio = 0.3
+    yield_stress = 8.0
+    plastic_modulus = 1000.0
+";
 
 /// All arrays of results, bit by bit.
 ///
@@ -458,23 +446,25 @@ fn bad_arrays_are_refused_by_index_and_leave_the_model_as_it_was() {
         );
         refused(elements([0, 1, 2, 3], 10), &["shape 10"]);
         assert_eq!(elements([0, 1, 2, 3], BRINELL_SHAPE_QUAD4), BRINELL_OK);
+        let text = c"support = [{ on = 'body', fix = ['w'] }]";
         refused(
-            brinell_model_support(model, body, 8, 0.0),
-            &["8 are no directions"],
+            brinell_model_tables(model, text.as_ptr()),
+            &["line 1", "unknown variant `w`"],
         );
-        for kind in [-1, 7] {
-            let mut load: brinell_load = std::mem::zeroed();
-            (load.size, load.kind, load.on) = (size_of::<brinell_load>(), kind, body);
-            refused(brinell_model_load(model, &load), &["no kind of load"]);
-            load.history = kind;
-            refused(brinell_model_load(model, &load), &["no history"]);
-        }
-        let mut nodal: brinell_load = std::mem::zeroed();
-        (nodal.size, nodal.kind) = (size_of::<brinell_load>(), BRINELL_LOAD_NODAL);
-        nodal.n_nodes = 3;
-        refused(brinell_model_load(model, &nodal), &["NULL", "3"]);
-        nodal.n_nodes = usize::MAX;
-        refused(brinell_model_load(model, &nodal), &["NULL"]);
+        refused(brinell_model_tables(model, null()), &["NULL"]);
+        let nodal = |load: &CStr, n: usize| {
+            brinell_model_nodal_load(model, load.as_ptr(), n, null(), null())
+        };
+        refused(nodal(c"name = 'more'", 3), &["NULL", "3"]);
+        refused(nodal(c"name = 'more'", usize::MAX), &["NULL"]);
+        refused(nodal(c"history = 'constant'", 0), &["the load", "name"]);
+        let pairs = |contact: &CStr, nodes: [i64; 2]| {
+            let [a, b] = &nodes;
+            brinell_model_contact_pairs(model, contact.as_ptr(), 1, a, b, null(), null())
+        };
+        let both = c"first = 'a'\nsecond = 'b'";
+        refused(pairs(both, [0, 7]), &["pair 0", "7"]);
+        refused(pairs(c"first = 'a'", [0, 1]), &["the contact", "second"]);
         refused(
             brinell_model_nodes(model, square.as_ptr(), usize::MAX / 2),
             &["more than memory holds"],

@@ -25,7 +25,7 @@ const CONTROL: Use =
 const SHELLS: Use = Use::Refused("bodies are continua: there are no shells, beams or membranes");
 const POINTS: Use = Use::Refused("there are no springs, masses or dashpots");
 const CONSTRAINTS: Use =
-    Use::Refused("nodes are tied by the elements they share, by *TIE, and by *EQUATION of a plane");
+    Use::Refused("nodes are tied by the elements they share, by *TIE, and by *EQUATION");
 const INERTIA: Use = Use::Refused("loads are applied slowly: there is no inertia and no time");
 const HEAT: Use = Use::Refused("there is no heat transfer");
 const PARTS: Use = Use::Refused(

@@ -19,12 +19,12 @@
 //! (keywords); *Abaqus Keywords Reference Guide*.
 
 mod bodies;
+mod constraints;
 mod conversion;
 mod data;
 mod element_type;
 mod facets;
 mod fields;
-mod held_plane;
 mod history;
 mod keyword;
 mod load;

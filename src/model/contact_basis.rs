@@ -35,50 +35,6 @@ pub struct ContactBasis {
     ends: BTreeMap<usize, [usize; 2]>,
 }
 
-/// A middle node of an element with the ends of its edge, as places in its list of nodes.
-#[derive(Debug, Clone, Copy)]
-pub struct Blend {
-    middle: u8,
-    ends: [u8; 2],
-}
-
-impl Blend {
-    /// The displacement of the middle node, from those of the control points.
-    #[inline]
-    pub fn displace<const D: usize>(&self, u: &mut [[f64; D]]) {
-        let [a, b] = self.ends.map(|end| u[usize::from(end)]);
-        for (d, u) in u[usize::from(self.middle)].iter_mut().enumerate() {
-            *u = OWN * *u + ALPHA * (a[d] + b[d]);
-        }
-    }
-
-    /// The forces on the control points, from those on the nodes: the transpose.
-    #[inline]
-    pub fn share<const D: usize>(&self, forces: &mut [[f64; D]]) {
-        let own = forces[usize::from(self.middle)];
-        forces[usize::from(self.middle)] = own.map(|f| OWN * f);
-        for end in self.ends {
-            for (f, own) in forces[usize::from(end)].iter_mut().zip(own) {
-                *f += ALPHA * own;
-            }
-        }
-    }
-
-    /// The same for the rows of a matrix with `per` rows for each node.
-    pub(crate) fn share_rows(&self, per: usize, n: usize, matrix: &mut [f64]) {
-        for d in 0..per {
-            let row = |node: u8| per * usize::from(node) + d;
-            for k in 0..n {
-                let own = matrix[row(self.middle) * n + k];
-                matrix[row(self.middle) * n + k] = OWN * own;
-                for end in self.ends {
-                    matrix[row(end) * n + k] += ALPHA * own;
-                }
-            }
-        }
-    }
-}
-
 impl ContactBasis {
     /// What each end of an edge counts at the middle of it.
     pub const ALPHA: f64 = 0.2;
@@ -154,6 +110,18 @@ impl ContactBasis {
         self.ends.iter().map(|(&node, &ends)| (node, ends))
     }
 
+    /// The control points whose displacements that of a node is the sum of, with their weights.
+    #[inline]
+    pub(super) fn each_control(&self, node: usize, mut of: impl FnMut(usize, f64)) {
+        match self.ends(node) {
+            None => of(node, 1.0),
+            Some(ends) => {
+                of(node, OWN);
+                ends.into_iter().for_each(|end| of(end, ALPHA));
+            }
+        }
+    }
+
     /// A vector at a node, from those at control points.
     #[inline]
     pub(crate) fn at_node(&self, node: usize, control: impl Fn(usize) -> Vector) -> Vector {
@@ -194,36 +162,13 @@ impl ContactBasis {
             return forces;
         }
         let mut out: BTreeMap<usize, Vector> = BTreeMap::new();
-        let mut add = |node: usize, share: f64, force: Vector| {
-            let sum = out.entry(node).or_default();
-            *sum = along(*sum, share, force);
-        };
         for (node, force) in forces {
-            match self.ends(node) {
-                None => add(node, 1.0, force),
-                Some(ends) => {
-                    add(node, OWN, force);
-                    ends.into_iter().for_each(|end| add(end, ALPHA, force));
-                }
-            }
+            self.each_control(node, |control, weight| {
+                let sum = out.entry(control).or_default();
+                *sum = along(*sum, weight, force);
+            });
         }
         out.into_iter().collect()
-    }
-
-    /// The middle nodes of an element.
-    pub fn of_element(&self, nodes: &[u32]) -> Vec<Blend> {
-        if self.ends.is_empty() {
-            return Vec::new();
-        }
-        let place = |node: usize| nodes.iter().position(|&n| n as usize == node);
-        let blend = |(middle, &node): (usize, &u32)| {
-            let [a, b] = self.ends(node as usize)?.map(place);
-            Some(Blend {
-                middle: middle as u8,
-                ends: [a? as u8, b? as u8],
-            })
-        };
-        nodes.iter().enumerate().filter_map(blend).collect()
     }
 
     /// Puts gaps, interferences and areas of pairs of nodes, which are those of the nodes, in terms

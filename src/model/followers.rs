@@ -1,4 +1,4 @@
-//! Displacements that follow others: those of the nodes of tied surfaces.
+//! Displacements that follow others: those of the nodes of tied surfaces, and those of equations.
 //!
 //! A row `j` of a tie says `R_j = D_j u_j - sum_k M_jk u_k = 0` of all directions; with it the
 //! displacement of a slave along each of its axes is a sum of others, which assembly eliminates.
@@ -16,11 +16,13 @@
 //! Nodes that are held, and nodes of two interfaces: B. Wohlmuth, *Discretization methods and
 //! iterative solvers based on domain decomposition*, Springer 2001, section 1.2.
 
+use super::equations::Following;
 use super::freedoms::{Freedoms, Slot};
 use super::pairs::Pair;
 use super::pairs::ties::Tied;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
+use crate::scene::Scene;
 use crate::space::{Vector, along, dot, in_words};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -32,13 +34,15 @@ const FREE: f64 = 1.0 - 1e-6;
 /// A node and a place among its axes.
 type Axis = (usize, usize);
 
-/// What the displacements of tied nodes follow.
+/// What displacements follow.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Followers {
     /// Place of each among the others.
     place: BTreeMap<Axis, usize>,
     /// `sum v . q` of control points.
     terms: Vec<Vec<(usize, Vector)>>,
+    /// Number of those of ties, which are the first.
+    of_ties: usize,
 }
 
 /// What stands at the axes of nodes besides supports and prescribed displacements.
@@ -88,7 +92,7 @@ impl Freedoms {
             }
         }
         for (&(node, i), &k) in &followers.place {
-            self.slots[node][i] = Slot::Tied(k as u32);
+            self.slots[node][i] = Slot::Sum(k as u32);
         }
         for tie in ties {
             let neighbours = neighbours(mesh, tie);
@@ -99,7 +103,42 @@ impl Freedoms {
                 }
             }
         }
+        followers.of_ties = followers.terms.len();
         Ok(followers)
+    }
+
+    /// Lets displacements follow others by equations.
+    ///
+    /// # Errors
+    /// Input errors: a displacement that something else holds; a node that a tie moves as well.
+    pub(super) fn follow_equations(
+        &mut self,
+        scene: &Scene,
+        mesh: &Mesh,
+        equations: &[Following],
+        others: &Others,
+        followers: &mut Followers,
+    ) -> Result<()> {
+        let in_contact: BTreeSet<usize> = others.pairs.iter().map(|pair| pair.slave).collect();
+        let of_ties = followers.terms.iter().flatten();
+        let in_tie: BTreeSet<usize> = of_ties.map(|term| term.0).collect();
+        for equation in equations {
+            // Nodes of ties are placed where they follow without strain, which equations may not
+            // allow.
+            let is_taken = |(node, i): Axis| {
+                (others.plane)((node, i))
+                    || i == 0 && in_contact.contains(&node)
+                    || in_tie.contains(&node)
+            };
+            let (axis, sense) = equation.axis(scene, mesh, self, is_taken)?;
+            let terms = equation.terms.iter();
+            let terms = terms.map(|&(node, v)| (node, v.map(|v| sense * v)));
+            let k = followers.terms.len();
+            followers.place.insert((equation.node, axis), k);
+            followers.terms.push(self.basis.share_of(terms.collect()));
+            self.slots[equation.node][axis] = Slot::Sum(k as u32);
+        }
+        Ok(())
     }
 
     /// `scale v . sum w_k u_k` on control points.
@@ -165,7 +204,7 @@ impl Freedoms {
     fn moves(&self, node: usize, v: Vector) -> bool {
         let axes = self.of_node(node).iter().zip(self.local(node));
         axes.filter(|(_, axis)| dot(v, *axis).abs() > ROUND_OFF)
-            .any(|(slot, _)| matches!(slot, Slot::Free(_) | Slot::Tied(_)))
+            .any(|(slot, _)| matches!(slot, Slot::Free(_) | Slot::Sum(_)))
     }
 
     /// Puts followers in terms of numbered freedoms, and moves their nodes to where they follow
@@ -173,7 +212,7 @@ impl Freedoms {
     /// moved by more than round-off.
     ///
     /// # Errors
-    /// Ties that go in a circle.
+    /// Ties and equations that go in a circle.
     pub(super) fn settle(&mut self, mesh: &mut Mesh, followers: &Followers) -> Result<bool> {
         if followers.terms.is_empty() {
             return Ok(false);
@@ -208,7 +247,11 @@ impl Freedoms {
         let control = |node: usize| self.basis.at_control(node, |node| mesh.point(node));
         let mut step: BTreeMap<usize, Vector> = BTreeMap::new();
         let mut moved = false;
-        for (&(node, i), &k) in &followers.place {
+        let of_ties = followers
+            .place
+            .iter()
+            .filter(|of| *of.1 < followers.of_ties);
+        for (&(node, i), &k) in of_ties {
             let (axis, x) = (self.local(node)[i], control(node));
             let terms = expanded[k].iter();
             let at: f64 = terms
@@ -242,9 +285,9 @@ impl Freedoms {
 
     /// What a slot stands for: free freedoms and prescribed displacements with their coefficients.
     #[inline]
-    pub fn each(&self, slot: Slot, mut of: impl FnMut(Slot, f64)) {
+    pub(super) fn each(&self, slot: Slot, mut of: impl FnMut(Slot, f64)) {
         match slot {
-            Slot::Tied(k) => {
+            Slot::Sum(k) => {
                 for &(node, i, c) in self.followed_axes(k) {
                     match self.slots[node as usize][usize::from(i)] {
                         Slot::Fixed => {}
@@ -252,11 +295,12 @@ impl Freedoms {
                     }
                 }
             }
+            Slot::Fixed => {}
             slot => of(slot, 1.0),
         }
     }
 
-    /// Number of displacements that follow others.
+    /// Number of displacements that follow others, in ties and equations.
     pub(crate) fn n_tied(&self) -> usize {
         self.followers.len()
     }
@@ -264,46 +308,6 @@ impl Freedoms {
     /// The nodes, axes and coefficients that a tied slot is the sum of.
     pub fn followed_axes(&self, tied: u32) -> &[(u32, u8, f64)] {
         &self.followers[tied as usize]
-    }
-
-    /// What the axes of some nodes follow, if they do: the place of each among all of theirs, and
-    /// what it is the sum of.
-    pub fn followed(&self, nodes: &[u32]) -> Vec<(usize, Slot, f64)> {
-        let mut out = Vec::new();
-        if self.followers.is_empty() {
-            return out;
-        }
-        let slots = nodes.iter().flat_map(|&node| self.of_node(node as usize));
-        for (own, slot) in slots.enumerate() {
-            if let Slot::Tied(_) = slot {
-                self.each(*slot, |slot, c| out.push((own, slot, c)));
-            }
-        }
-        out
-    }
-}
-
-/// What displacements of an element follow: `u_i = sum_k c_ik v_k`.
-#[derive(Debug, Clone, Default)]
-pub struct Followed {
-    /// The slots of the `v`: free freedoms and prescribed displacements.
-    pub slots: Vec<Slot>,
-    /// `i` among the element's own displacements, node by node, `k` among the slots, and `c_ik`.
-    pub parts: Vec<(usize, usize, f64)>,
-}
-
-impl Followed {
-    pub(super) fn new(parts: Vec<(usize, Slot, f64)>) -> Self {
-        let mut out = Followed::default();
-        for (own, slot, c) in parts {
-            let known = out.slots.iter().position(|other| *other == slot);
-            let k = known.unwrap_or_else(|| {
-                out.slots.push(slot);
-                out.slots.len() - 1
-            });
-            out.parts.push((own, k, c));
-        }
-        out
     }
 }
 
@@ -351,8 +355,8 @@ impl Expansion<'_> {
             Expanded::InProgress => {
                 let at = self.followers.terms[k].first().map_or(0, |term| term.0);
                 return Err(Error::input(format!(
-                    "the ties at node {} go in a circle: let the other surface of one of them \
-                     follow (`slave`)",
+                    "the ties and equations at node {} go in a circle: let the other surface of a \
+                     tie follow (`slave`), or put another term of an equation first",
                     self.mesh.node_label(at)
                 )));
             }
@@ -368,7 +372,7 @@ impl Expansion<'_> {
                     continue;
                 }
                 match slot {
-                    Slot::Tied(other) => {
+                    Slot::Sum(other) => {
                         self.expand(other as usize)?;
                         if let Expanded::To(terms) = &self.of[other as usize] {
                             for &(axis, c) in terms {

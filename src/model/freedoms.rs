@@ -3,6 +3,7 @@
 
 use super::Pair;
 use super::contact_basis::ContactBasis;
+use super::equations::Following;
 use super::followers::{Followers, Others};
 use super::frame::{ALIGNED, Frame, frame};
 use super::names::Entry;
@@ -12,7 +13,7 @@ use super::supports::{Held, Supports, turn_normals_into_supports};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::scene::{Direction, Scene};
-use crate::space::{Vector, along, dot, in_words, unit};
+use crate::space::{Vector, dot, in_words, unit};
 use std::collections::BTreeMap;
 
 /// What stands in one of a node's directions.
@@ -24,8 +25,8 @@ pub enum Slot {
     Fixed,
     /// Held at a prescribed displacement, see [`Freedoms::prescribed`].
     Prescribed(u32),
-    /// A sum of others, which it follows, see [`Freedoms::each`].
-    Tied(u32),
+    /// A sum of others, which it follows in a tie or an equation.
+    Sum(u32),
 }
 
 /// A prescribed displacement.
@@ -58,7 +59,7 @@ pub struct Freedoms {
     pub basis: ContactBasis,
     /// What gives way in soft contact: the last of the free freedoms.
     pub springs: Vec<Spring>,
-    /// What tied slots stand for: nodes, axes and coefficients.
+    /// What sums stand for: nodes, axes and coefficients.
     pub(super) followers: Vec<Vec<(u32, u8, f64)>>,
 }
 
@@ -75,7 +76,7 @@ impl Freedoms {
         basis: ContactBasis,
         pairs: &mut [Pair],
         master_normals: &[(usize, Vector)],
-        ties: &[Tied],
+        (ties, equations): (&[Tied], &[Following]),
     ) -> Result<(Self, Followers)> {
         let n_nodes = mesh.n_nodes();
         let supports = Supports::resolve(scene, mesh)?;
@@ -126,7 +127,8 @@ impl Freedoms {
             plane: &|axis| planes.contains_key(&axis),
             pairs: &*pairs,
         };
-        let followers = freedoms.follow(mesh, ties, &others)?;
+        let mut followers = freedoms.follow(mesh, ties, &others)?;
+        freedoms.follow_equations(scene, mesh, equations, &others, &mut followers)?;
         freedoms.number(&planes);
         Ok((freedoms, followers))
     }
@@ -143,7 +145,7 @@ impl Freedoms {
             let at = (0..3).find(|&i| dot(axes[i], direction).abs() > 1.0 - ALIGNED)?;
             let sign = dot(axes[at], direction).signum();
             match self.slots[node][at] {
-                Slot::Free(_) | Slot::Tied(_) => None,
+                Slot::Free(_) | Slot::Sum(_) => None,
                 Slot::Fixed => Some((usize::MAX, 0.0)),
                 Slot::Prescribed(p) => {
                     let prescribed = self.prescribed[p as usize];
@@ -348,55 +350,10 @@ impl Freedoms {
         self.frame_of[node] != 0
     }
 
-    /// A vector at a node, given in global axes, in the local ones.
-    pub(crate) fn to_local(&self, node: usize, vector: Vector) -> Vector {
-        if !self.is_turned(node) {
-            return vector;
-        }
-        self.local(node).map(|axis| dot(axis, vector))
-    }
-
     /// Which local axis lies along a global direction (either sense), if one does.
     pub(crate) fn local_axis(&self, node: usize, direction: usize) -> Option<usize> {
         let axes = self.local(node);
         (0..self.per_node).find(|&i| dot(axes[i], unit(direction)).abs() > 1.0 - ALIGNED)
-    }
-
-    /// Displacement of a node in global axes, from free freedoms and load factors.
-    pub fn displacement(&self, node: usize, u: &[f64], factors: &[f64]) -> Vector {
-        self.basis
-            .at_node(node, |node| self.of_control(node, u, factors))
-    }
-
-    /// Displacement of a node's control point.
-    fn of_control(&self, node: usize, u: &[f64], factors: &[f64]) -> Vector {
-        let values = self.slots[node].map(|slot| self.value(slot, u, factors));
-        if !self.is_turned(node) {
-            return values;
-        }
-        let axes = self.local(node);
-        let mut out = [0.0; 3];
-        for (value, axis) in values.into_iter().zip(axes) {
-            out = along(out, value, axis);
-        }
-        out
-    }
-
-    /// Value of a slot.
-    pub fn value(&self, slot: Slot, u: &[f64], factors: &[f64]) -> f64 {
-        match slot {
-            Slot::Free(f) => u[f as usize],
-            Slot::Fixed => 0.0,
-            Slot::Prescribed(p) => {
-                let p = self.prescribed[p as usize];
-                factors[p.load] * p.value
-            }
-            Slot::Tied(_) => {
-                let mut sum = 0.0;
-                self.each(slot, |slot, c| sum += c * self.value(slot, u, factors));
-                sum
-            }
-        }
     }
 
     /// The free freedom of a node's contact normal (its first local axis).

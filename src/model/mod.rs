@@ -7,6 +7,7 @@ mod body_forces;
 mod builder;
 mod contact_basis;
 mod ends;
+mod equations;
 mod far_boundary;
 mod followers;
 mod frame;
@@ -22,12 +23,12 @@ mod pairs;
 mod recipe;
 mod rows;
 mod springs;
+mod sums;
 mod supports;
 mod volume_loads;
 
 pub use builder::ModelBuilder;
-pub use contact_basis::{Blend, ContactBasis};
-pub use followers::Followed;
+pub use contact_basis::ContactBasis;
 pub use frame::Frame;
 pub use freedoms::{Freedoms, Prescribed, Slot};
 pub use given::NodePair;
@@ -36,6 +37,7 @@ pub use loads::{LoadCase, Magnitude};
 pub use pairs::{AxisPoint, ContactSurface, Pair};
 pub use rows::ContactRows;
 pub use springs::Spring;
+pub use sums::Sums;
 
 use crate::element::{Gradients, Kernel};
 use crate::error::{Error, Result};
@@ -149,9 +151,16 @@ impl Model {
         let (mut pairs, mut contacts) = pairs::resolve(scene, &mesh, given, &mut warnings)?;
         let ties = pairs::ties::resolve(scene, &mesh, &contacts, &mut warnings)?;
         let basis = ContactBasis::of(&mesh, &pairs, &contacts, &ties)?;
+        let equations = equations::resolve(scene, &mesh)?;
         let normals = pairs::mortar::master_normals(&mesh, &pairs, &contacts);
-        let (mut freedoms, followers) =
-            Freedoms::new(scene, &mesh, basis, &mut pairs, &normals, &ties)?;
+        let (mut freedoms, followers) = Freedoms::new(
+            scene,
+            &mesh,
+            basis,
+            &mut pairs,
+            &normals,
+            (&ties, &equations),
+        )?;
         if freedoms.settle(&mut mesh, &followers)? {
             mesh::validate(&mesh).map_err(|e| {
                 e.within("the mesh whose tied nodes are moved onto what they follow")
@@ -214,11 +223,6 @@ impl Model {
     ) -> Gradients<D, S, P, N> {
         let nodes = self.element_coordinates(element);
         kernel.gauss(self.mesh.shapes[element], &nodes)
-    }
-
-    /// What the displacements of an element's nodes follow.
-    pub fn followed_by(&self, element: usize) -> Followed {
-        Followed::new(self.freedoms.followed(self.mesh.nodes(element)))
     }
 
     /// Displacements of all nodes in global axes, from free freedoms and load factors.

@@ -193,7 +193,7 @@ impl<'a> Motions<'a> {
                         }
                     },
                     Slot::Free(_) => {}
-                    Slot::Tied(_) => {
+                    Slot::Sum(_) => {
                         let mut difference = row();
                         freedoms.each(*slot, |slot, c| {
                             if let Slot::Free(f) = slot {

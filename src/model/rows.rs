@@ -208,7 +208,7 @@ fn on_masters(freedoms: &Freedoms, pair: &Pair) -> Option<Vec<(usize, f64)>> {
             if share.abs() <= ROUND_OFF {
                 continue;
             }
-            let is_sum = pair.faced().is_none() || matches!(slot, Slot::Tied(_));
+            let is_sum = pair.faced().is_none() || matches!(slot, Slot::Sum(_));
             freedoms.each(*slot, |slot, c| match slot {
                 Slot::Free(freedom) => {
                     let (freedom, b) = (freedom as usize, -c * weight * share);
@@ -218,7 +218,7 @@ fn on_masters(freedoms: &Freedoms, pair: &Pair) -> Option<Vec<(usize, f64)>> {
                     }
                 }
                 Slot::Prescribed(_) => is_moved |= is_sum,
-                Slot::Fixed | Slot::Tied(_) => {}
+                Slot::Fixed | Slot::Sum(_) => {}
             });
         }
     }

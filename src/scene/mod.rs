@@ -15,6 +15,7 @@ mod boundary;
 mod complete;
 mod defaults;
 mod document;
+mod equation;
 mod field;
 mod geometry;
 mod key_places;
@@ -33,6 +34,7 @@ pub use boundary::{
     Contact, Direction, Displacement, History, Kirsch, Load, PlaneForce, Rotation, SlaveSide,
     Support, Tie,
 };
+pub use equation::{Equation, EquationTerm};
 pub use field::Field;
 pub use geometry::{
     Block, BrickPart, CurvedBodies, CylinderOnHalfPlane, Disc, DiscInPlate, Extrusion, Formulation,
@@ -87,6 +89,9 @@ pub struct Scene {
     /// Pairs of surfaces that stay together.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tie: Vec<Tie>,
+    /// Linear equations between displacements.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub equation: Vec<Equation>,
     /// Supports.
     #[serde(default)]
     pub support: Vec<Support>,
@@ -131,6 +136,7 @@ impl Scene {
             bodies: BTreeMap::new(),
             contact: Vec::new(),
             tie: Vec::new(),
+            equation: Vec::new(),
             support: Vec::new(),
             load: Vec::new(),
             program: Program::default(),

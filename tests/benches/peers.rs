@@ -13,7 +13,8 @@
 //! CalculiX's long ones once; `-- decks DIR` only writes its decks; `-- solid` takes the ball of
 //! `data/peers/ball_contact.toml` in three dimensions, loaded to five times first yield and back,
 //! and one elastic load (`peers/solid.rs`); `-- hard DIR` runs three small cases on which contact
-//! codes fail silently (`data/peers/README.md`).
+//! codes fail silently (`data/peers/README.md`); `-- unlike` compares pressures where the meshes of
+//! the two bodies do not match (`peers/unlike.rs`).
 
 #[path = "peers/deck.rs"]
 mod deck;
@@ -21,11 +22,15 @@ mod deck;
 mod frd;
 #[path = "peers/hard.rs"]
 mod hard;
+#[path = "../running/meshes.rs"]
+mod meshes;
 #[path = "peers/plot.rs"]
 mod plot;
 mod process;
 #[path = "peers/solid.rs"]
 mod solid;
+#[path = "peers/unlike.rs"]
+mod unlike;
 
 use brinell::analytical::{HertzLine, contact_modulus};
 use brinell::model::Model;
@@ -79,6 +84,7 @@ fn main() -> Result<(), Failure> {
         ["hard", dir] => hard::run(Path::new(dir)),
         ["quick"] => compare(true),
         ["solid"] => solid::compare(),
+        ["unlike"] => unlike::compare(),
         _ => compare(false),
     }
 }

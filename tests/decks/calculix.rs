@@ -15,7 +15,7 @@ struct Case {
 const PRINTED: f64 = 1e-6;
 const FULL: &[&str] = &["mesh.formulation=full"];
 
-const CASES: [Case; 13] = [
+const CASES: [Case; 14] = [
     case("two_blocks", FULL, PRINTED),
     case("history", &[], PRINTED),
     case("plastic", &[], 2e-4),
@@ -25,6 +25,7 @@ const CASES: [Case; 13] = [
     case("wedges", &[], 1e-2),
     case("tube", &[], 2e-4),
     case("held_plane", &[], PRINTED),
+    case("lever", FULL, PRINTED),
     case("included", FULL, 1e-3),
     case("interference", FULL, PRINTED),
     case("tied", FULL, PRINTED),

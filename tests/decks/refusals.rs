@@ -326,8 +326,8 @@ fn what_brinell_does_not_have_is_told_by_line_and_reason() {
         ),
         (
             before,
-            "*EQUATION\n2\n3, 1, 1., 4, 1, 2.\n*SOLID SECTION, ELSET=BODY",
-            "*EQUATION: only equations u_i - u_k = 0",
+            "*EQUATION\n2\n3, 4, 1., 4, 1, 2.\n*SOLID SECTION, ELSET=BODY",
+            "*EQUATION: degree of freedom 4 is none of a node here",
         ),
         (
             "*HEADING",

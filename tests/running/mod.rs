@@ -2,6 +2,7 @@
 #![allow(dead_code)] // every test binary uses a part of it
 
 pub mod limit;
+pub mod meshes;
 
 use brinell::Result;
 use brinell::analysis::Analysis;

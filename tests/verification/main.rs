@@ -6,6 +6,7 @@ mod circular_punch;
 mod contact_patch;
 mod cyclic_element;
 mod disc_in_plate;
+mod equations;
 mod figures;
 mod flat_punch;
 mod heat;

@@ -4,7 +4,7 @@ use super::super::Deck;
 use super::super::series::Series;
 use super::super::source::Place;
 use super::Geometry;
-use crate::scene::{Contact, Direction, Load, Support, Tie};
+use crate::scene::{Contact, Direction, Equation, Load, Support, Tie};
 use crate::space::{Components, Vector};
 use std::collections::BTreeMap;
 
@@ -19,6 +19,7 @@ pub(super) struct Draft<'d> {
     pub(super) loads: Vec<(Load, Series)>,
     pub(super) contacts: Vec<Contact>,
     pub(super) ties: Vec<Tie>,
+    pub(super) equations: Vec<Equation>,
     /// Lines of the deck by key.
     pub(super) places: BTreeMap<String, String>,
 }
@@ -33,6 +34,7 @@ impl<'d> Draft<'d> {
             loads: Vec::new(),
             contacts: Vec::new(),
             ties: Vec::new(),
+            equations: Vec::new(),
             places: BTreeMap::new(),
         }
     }

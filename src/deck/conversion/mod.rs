@@ -3,8 +3,8 @@
 mod conditions;
 mod contact;
 mod draft;
+mod equations;
 mod geometry;
-mod plane;
 
 pub(crate) use geometry::Geometry;
 
@@ -76,6 +76,7 @@ impl Deck {
         scene.support = std::mem::take(&mut draft.supports);
         scene.contact = std::mem::take(&mut draft.contacts);
         scene.tie = std::mem::take(&mut draft.ties);
+        scene.equation = std::mem::take(&mut draft.equations);
         Ok(Conversion {
             scene,
             account,

@@ -2,7 +2,9 @@
 
 use super::ModelBuilder;
 use crate::error::{Error, Result};
-use crate::scene::{Body, Contact, Load, Material, Program, Settings, Support, Units};
+use crate::scene::{
+    Body, Contact, Equation, Load, Material, Program, Settings, Support, Tie, Units,
+};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -15,6 +17,8 @@ struct Tables {
     materials: BTreeMap<String, Material>,
     bodies: BTreeMap<String, Body>,
     contact: Vec<Contact>,
+    tie: Vec<Tie>,
+    equation: Vec<Equation>,
     support: Vec<Support>,
     load: Vec<Load>,
     program: Option<Program>,
@@ -22,9 +26,10 @@ struct Tables {
 }
 
 impl ModelBuilder {
-    /// Adds tables of a scene (TOML): materials, bodies, `[[contact]]`, `[[support]]`, `[[load]]`,
-    /// `[program]`, `[analysis]`, `[units]`, `title`. Materials, bodies, contacts, supports and
-    /// loads come to those that are there, the others take their place.
+    /// Adds tables of a scene (TOML): materials, bodies, `[[contact]]`, `[[tie]]`, `[[equation]]`,
+    /// `[[support]]`, `[[load]]`, `[program]`, `[analysis]`, `[units]`, `title`. Materials, bodies,
+    /// contacts, ties, equations, supports and loads come to those that are there, the others take
+    /// their place.
     ///
     /// ```
     /// # use brinell::model::ModelBuilder;
@@ -56,6 +61,8 @@ impl ModelBuilder {
         }
         let scene = &mut out.scene;
         scene.contact.extend(tables.contact);
+        scene.tie.extend(tables.tie);
+        scene.equation.extend(tables.equation);
         scene.support.extend(tables.support);
         scene.load.extend(tables.load);
         scene.title = tables.title.unwrap_or(std::mem::take(&mut scene.title));

@@ -2,7 +2,7 @@
 
 use super::Checks;
 use crate::number::exact;
-use crate::scene::{Contact, Direction, History, Load, Rotation, Scene, Support, Tie};
+use crate::scene::{Contact, Direction, Equation, History, Load, Rotation, Scene, Support, Tie};
 use crate::space::{Components, Space};
 use std::collections::BTreeSet;
 
@@ -13,6 +13,9 @@ impl Checks {
         }
         for (index, tie) in scene.tie.iter().enumerate() {
             self.tie(&format!("tie.{index}"), tie);
+        }
+        for (index, equation) in scene.equation.iter().enumerate() {
+            self.equation(&format!("equation.{index}"), equation, scene.kind);
         }
         for (index, support) in scene.support.iter().enumerate() {
             let key = format!("support.{index}");
@@ -145,6 +148,27 @@ impl Checks {
         );
         if let Some(distance) = tie.distance {
             self.at_least(format!("{key}.distance"), distance, 0.0);
+        }
+    }
+
+    fn equation(&mut self, key: &str, equation: &Equation, space: Space) {
+        self.require(
+            equation.terms.len() >= 2,
+            format!("{key}.terms"),
+            "an equation has at least two terms; hold what is to be zero by a support",
+        );
+        for (k, term) in equation.terms.iter().enumerate() {
+            let key = format!("{key}.terms.{k}");
+            self.set_name(&format!("{key}.on"), &term.on);
+            self.is_in(&format!("{key}.direction"), term.direction, space);
+            self.require(
+                term.coefficient.is_finite() && (k > 0 || term.coefficient != 0.0),
+                format!("{key}.coefficient"),
+                format!(
+                    "is {}; that of the first term, which follows the others, is not zero",
+                    exact(term.coefficient)
+                ),
+            );
         }
     }
 

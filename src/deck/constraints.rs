@@ -1,7 +1,6 @@
 //! Equations that hold a surface plane, and local axes.
 
 use super::Deck;
-use super::bodies::unsupported;
 use super::data::{Equation, Transform};
 use super::history::Key;
 use super::sets::What;
@@ -21,14 +20,18 @@ pub(super) struct HeldPlane {
 }
 
 impl Deck {
-    /// What equations hold plane: `u_i - u_leader = 0` along one axis.
+    /// What equations hold plane, `u_i - u_leader = 0` along one axis, and the other equations.
     ///
     /// # Errors
-    /// Other equations, and names and numbers that there are not.
-    pub(super) fn held_planes(&self) -> Result<Vec<HeldPlane>> {
+    /// Names and numbers that there are not.
+    pub(super) fn held_planes(&self) -> Result<(Vec<HeldPlane>, Vec<&Equation>)> {
         let mut out: BTreeMap<Key, HeldPlane> = BTreeMap::new();
+        let mut others = Vec::new();
         for equation in &self.properties.equations {
-            let (leader, followers) = self.follows(equation)?;
+            let Some((leader, followers)) = self.follows(equation)? else {
+                others.push(equation);
+                continue;
+            };
             let plane = out.entry(leader).or_insert_with(|| HeldPlane {
                 leader,
                 nodes: vec![leader.0],
@@ -41,27 +44,22 @@ impl Deck {
             plane.nodes.sort_unstable();
             plane.nodes.dedup();
         }
-        Ok(planes)
+        Ok((planes, others))
     }
 
-    /// The node that is followed along an axis, and those that follow.
-    fn follows(&self, equation: &Equation) -> Result<(Key, Vec<u32>)> {
-        let refused = || {
-            let message = "only equations u_i - u_k = 0 between the same degree of freedom of two \
-                           nodes are there, which hold a surface plane";
-            unsupported(self.error(equation.place, "EQUATION", message))
-        };
+    /// The node that is followed along an axis, and those that follow, if it is that simple.
+    fn follows(&self, equation: &Equation) -> Result<Option<(Key, Vec<u32>)>> {
         let [(of, freedom, a), (to, other, b)] = &equation.terms[..] else {
-            return Err(refused());
+            return Ok(None);
         };
         if freedom != other || *a != -*b || *a == 0.0 || !(1..=3).contains(freedom) {
-            return Err(refused());
+            return Ok(None);
         }
         let at = (equation.place, "EQUATION");
         let followers = self.indices(What::Nodes, of, at)?;
         match self.indices(What::Nodes, to, at)?[..] {
-            [leader] => Ok(((leader, *freedom as u8 - 1), followers)),
-            _ => Err(refused()),
+            [leader] => Ok(Some(((leader, *freedom as u8 - 1), followers))),
+            _ => Ok(None),
         }
     }
 
