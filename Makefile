@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .ONESHELL:
 .DEFAULT_GOAL := help
-.PHONY: help setup cargo build run check test test-all bench bench-peers install python python-tests clean
+.PHONY: help setup cargo build run check test test-all test-rest bench bench-peers install python python-tests clean
 
 # What the CHOLMOD backend is built on: SuiteSparse, a fast BLAS, and libclang for bindgen.
 PACKAGES := libsuitesparse-dev libopenblas-dev libclang-dev
@@ -69,9 +69,11 @@ LONG := install:: python:: damaged_inputs_are_taken_or_refused
 test: check ## All that shows the results to be right (about ten minutes)
 	@cargo test --features capi,faer -- $(addprefix --skip ,$(LONG))
 
+test-all: test test-rest ## All tests, builds with other features, documentation
+
 # What brinell does without CHOLMOD, in Rust alone, and with the dense backend only, fast subsets
 # show. A library alone must build without the program.
-test-all: test python-tests ## All tests, builds with other features, documentation
+test-rest: setup python-tests ## What test-all has beyond test
 	@cargo test --features capi,faer -- $(LONG)
 	cargo clippy --no-default-features --all-targets -- -D warnings
 	cargo clippy --no-default-features --features faer,cli --all-targets -- -D warnings

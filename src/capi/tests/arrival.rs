@@ -49,8 +49,9 @@ fn pairs_and_nodal_forces_arrive() {
         ));
         let built = (*model).builder.build().unwrap();
         assert_eq!(built.pairs.len(), 2);
-        for (k, pair) in built.pairs.iter().enumerate() {
-            assert_eq!(pair.slave, second[k] as usize);
+        for k in 0..2 {
+            let mut pairs = built.pairs.iter();
+            let pair = pairs.find(|pair| pair.slave == second[k] as usize).unwrap();
             assert_eq!(pair.faced(), Some(first[k] as usize));
             assert_eq!(pair.normal, [0.0, 1.0, 0.0]);
             assert_eq!((pair.gap, pair.interference), (gaps[k], 0.25));
