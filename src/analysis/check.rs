@@ -9,6 +9,7 @@ use crate::results::{Effect, Sizes};
 use crate::scene::{Program, Stepping};
 use crate::substructure::ContactCost;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// What a run of the scene will do and cost.
 #[derive(Debug, Clone, Serialize)]
@@ -83,7 +84,7 @@ fn solves(model: &Model) -> f64 {
         let slope = material
             .hardening
             .as_ref()
-            .map(|h| h.slope(0.0) + material.kinematic_modulus);
+            .map(|h| h.slope(0.0) + material.back_stresses.linear());
         *may && slope.is_some_and(|slope| slope < SOFT * material.youngs_modulus)
     });
     let each = match soft {
@@ -228,21 +229,19 @@ fn effect(name: &str, on: bool, why: String) -> Effect {
 
 fn kinematic_hardening(model: &Model, yields: bool) -> Effect {
     let materials = model.materials.iter().zip(&model.may_yield);
-    let asked = materials.filter(|(m, may)| **may && m.kinematic_modulus != 0.0);
-    let names: std::collections::BTreeSet<&str> = asked.map(|(m, _)| m.name.as_str()).collect();
-    let names: Vec<&str> = names.into_iter().collect();
-    let why = match (names.is_empty(), yields) {
-        (true, _) => "no material that may yield has a kinematic modulus".to_string(),
-        (false, true) => format!(
-            "{} hardens so; its back stress is stored nowhere",
-            names.join(", ")
-        ),
-        (false, false) => format!(
-            "{} would, but stays elastic under these loads",
-            names.join(", ")
-        ),
+    let asked = materials.filter(|(m, may)| **may && !m.back_stresses.is_none());
+    let asked: BTreeMap<&str, usize> = asked
+        .map(|(m, _)| (m.name.as_str(), m.back_stresses.n_stored()))
+        .collect();
+    let names = asked.keys().copied().collect::<Vec<_>>().join(", ");
+    let why = match (asked.is_empty(), yields, asked.values().max()) {
+        (false, true, Some(0)) => format!("{names} hardens so; its back stress is stored nowhere"),
+        (false, true, Some(1)) => format!("{names} hardens so, with a back stress that fades"),
+        (false, true, Some(n)) => format!("{names} hardens so, with {n} back stresses that fade"),
+        (false, ..) => format!("{names} would, but stays elastic under these loads"),
+        (true, ..) => "no material that may yield has a back stress".to_string(),
     };
-    effect("kinematic hardening", !names.is_empty() && yields, why)
+    effect("kinematic hardening", !asked.is_empty() && yields, why)
 }
 
 fn volume_forces(model: &Model) -> Effect {

@@ -5,7 +5,7 @@ use super::equilibrium::Equilibrium;
 use super::load_point::LoadPoint;
 use super::packed;
 use super::solver::Solver;
-use crate::material::PlasticState;
+use super::zone::History;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -28,8 +28,7 @@ pub(super) struct State {
     #[serde(with = "packed::ascending")]
     pub(super) elements: Arc<[usize]>,
     /// Their plastic history, point by point.
-    #[serde(with = "packed::history")]
-    pub(super) history: Vec<PlasticState<6>>,
+    pub(super) history: History,
 }
 
 impl State {

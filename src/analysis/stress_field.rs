@@ -17,7 +17,7 @@ const GROUP: usize = 64;
 pub(super) struct StressField<'a, const D: usize, const S: usize, const P: usize, const N: usize> {
     pub(super) kernel: Kernel<D, S, P, N>,
     pub(super) model: &'a Model,
-    zone: &'a ZoneOf<D, S, P, N>,
+    pub(super) zone: &'a ZoneOf<D, S, P, N>,
     /// Elements of the zone, ascending.
     in_zone: &'a [usize],
     /// The first of them in each group of elements of the mesh.
@@ -89,13 +89,14 @@ impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
         Some(first + place)
     }
 
-    /// The elements of the zone that have yielded, ascending, with their history.
-    pub(super) fn yielded(&self) -> impl Iterator<Item = (usize, &'a [PlasticState<S>])> {
+    /// The elements of the zone that have yielded, ascending, with their places in it.
+    pub(super) fn yielded(&self) -> impl Iterator<Item = (usize, usize)> {
         let zone = self.zone;
         let elements = self.in_zone.iter().enumerate();
+        let has_yielded = |past: &PlasticState<S>| past.equivalent > 0.0;
         elements
-            .map(move |(i, &e)| (e, zone.states(i)))
-            .filter(|(_, history)| history.iter().any(|past| past.equivalent > 0.0))
+            .map(|(i, &e)| (e, i))
+            .filter(move |&(_, i)| zone.states(i).iter().any(has_yielded))
     }
 
     /// The stresses of an element.

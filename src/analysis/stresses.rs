@@ -93,7 +93,8 @@ impl Stresses {
                 }
             }
         }
-        for (e, history) in field.yielded() {
+        for (e, place) in field.yielded() {
+            let history = field.zone.states(place);
             let gradients = field.model.gradients(&field.kernel, e);
             let body = model.mesh.element_body[e] as usize;
             let surface = nearest_pair(model, e);
@@ -107,7 +108,7 @@ impl Stresses {
                     }
                     out.plastic_points[body] += 1;
                     out.plastic_volume += weight;
-                    out.plastic_work += weight * model.materials[body].plastic_work(past);
+                    out.plastic_work += weight * field.zone.plastic_work(place, g);
                     out.plastic_strain = out.plastic_strain.max(past.equivalent);
                 }
             }

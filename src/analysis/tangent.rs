@@ -14,15 +14,44 @@
 //! N. I. M. Gould, M. E. Hribar, J. Nocedal, *On the solution of equality constrained quadratic
 //! programming problems arising in optimization* (2001), section 6 (the growth of the part of the
 //! residual that the constraints carry, and its removal), doi:10.1137/S1064827598345667.
+//!
+//! Back stresses that fade make the tangent unsymmetric where flow turns. It is then solved by
+//! conjugate residuals that keep the last few directions (Orthomin), with the same preconditioner
+//! and the same work for each: S. C. Eisenstat, H. C. Elman, M. H. Schultz (1983),
+//! doi:10.1137/0720023.
 
 use super::equilibrium::Equilibrium;
 use super::solver::Solver;
 use crate::linalg::ZonePart;
 use crate::substructure::Trailing;
+use std::collections::VecDeque;
 
 /// Most iterations of a solve: enough for perfect plasticity near collapse; a solve that needs more
 /// has no useful direction.
 const MOST: usize = 400;
+/// Directions that conjugate residuals keep: an elastoplastic solve takes some ten.
+const KEPT: usize = 20;
+
+/// A residual, or what the tangent makes of a direction: a load `r` with its elastic answer `S^-1
+/// r`, and the forces in it that closed pairs carry alone.
+struct Answered {
+    change: Equilibrium,
+    carried: Vec<f64>,
+}
+
+impl Answered {
+    fn add(&mut self, factor: f64, other: &Answered) {
+        self.change.add(factor, &other.change);
+        for (own, other) in self.carried.iter_mut().zip(&other.carried) {
+            *own += factor * other;
+        }
+    }
+
+    /// `r' S^-1 r'` of two.
+    fn dot(&self, other: &Answered) -> f64 {
+        self.change.initial.load.dot(&other.change.u)
+    }
+}
 
 impl Solver<'_> {
     /// The direction of initial loads `initial`, closed pairs staying closed.
@@ -43,20 +72,30 @@ impl Solver<'_> {
     /// besides the iteration's trailing solves the direction costs half a solve. In the iteration
     /// the second halves go through the part of the zone that counts.
     pub fn solve_tangent(&mut self, residual: &Trailing, tolerance: f64, keep: f64) -> Equilibrium {
-        let mut softened = self.structure.sub.zeros();
         let part = self.part_that_counts(residual);
-        // The residual that is left is the load of z.
-        let mut z = Equilibrium::none(residual, self.now.gap.len());
-        z.initial.load.copy_from(residual);
-        let mut carried = vec![0.0; z.gap.len()];
-        self.take_what_closed_pairs_carry(&mut z.initial.load, &mut carried);
-        self.respond_homogeneous(&mut z, &part);
-        let mut total = Equilibrium::none(residual, z.gap.len());
-        let mut p = z.clone();
-        let mut rz = z.initial.load.dot(&z.u);
-        let target = tolerance * tolerance * rz;
+        let residual = self.answer(residual.clone(), &part);
+        let size = tolerance * residual.dot(&residual).max(0.0).sqrt();
+        if self.zone.is_symmetric() {
+            self.conjugate_gradients(residual, size, keep, &part)
+        } else {
+            self.conjugate_residuals(residual, size, keep, &part)
+        }
+    }
+
+    /// Conjugate gradients until the residual is below `size`.
+    fn conjugate_gradients(
+        &mut self,
+        mut z: Answered,
+        size: f64,
+        keep: f64,
+        part: &ZonePart,
+    ) -> Equilibrium {
+        let mut softened = self.structure.sub.zeros();
+        let mut total = Equilibrium::none(&softened, z.carried.len());
+        let mut p = z.change.clone();
+        let mut rz = z.dot(&z);
         for _ in 0..MOST {
-            if rz <= target || rz <= 0.0 {
+            if rz <= size * size || rz <= 0.0 {
                 break;
             }
             self.zone.softening_times(&p.u, &mut softened);
@@ -67,19 +106,77 @@ impl Solver<'_> {
             }
             let step = rz / curvature;
             total.add(step, &p);
-            z.initial.load.add(-step, &p.initial.load);
-            z.initial.load.add(step * keep, &softened);
-            self.take_what_closed_pairs_carry(&mut z.initial.load, &mut carried);
-            self.respond_homogeneous(&mut z, &part);
-            let next = z.initial.load.dot(&z.u);
-            p.scale_and_add(next / rz, &z);
+            let load = &mut z.change.initial.load;
+            load.add(-step, &p.initial.load);
+            load.add(step * keep, &softened);
+            self.take_what_closed_pairs_carry(load, &mut z.carried);
+            self.respond_homogeneous(&mut z.change, part);
+            let next = z.dot(&z);
+            p.scale_and_add(next / rz, &z.change);
             rz = next;
         }
-        total.add(1.0, &z);
+        self.complete_direction(total, &z)
+    }
+
+    /// The same of a tangent that is not symmetric.
+    fn conjugate_residuals(
+        &mut self,
+        mut z: Answered,
+        size: f64,
+        keep: f64,
+        part: &ZonePart,
+    ) -> Equilibrium {
+        let mut softened = self.structure.sub.zeros();
+        let mut total = Equilibrium::none(&softened, z.carried.len());
+        // Directions with what the tangent makes of them, and its size squared.
+        let mut kept: VecDeque<(Equilibrium, Answered, f64)> = VecDeque::new();
+        for _ in 0..MOST {
+            let rz = z.dot(&z);
+            if rz <= size * size || rz <= 0.0 {
+                break;
+            }
+            let mut p = z.change.clone();
+            self.zone.softening_times(&p.u, &mut softened);
+            let mut load = p.initial.load.clone();
+            load.add(-keep, &softened);
+            let mut image = self.answer(load, part);
+            for (direction, other, square) in &kept {
+                let share = image.dot(other) / square;
+                p.add(-share, direction);
+                image.add(-share, other);
+            }
+            let square = image.dot(&image);
+            if square <= 1e-28 * rz {
+                break;
+            }
+            let step = z.dot(&image) / square;
+            total.add(step, &p);
+            z.add(-step, &image);
+            if kept.len() == KEPT {
+                kept.pop_front();
+            }
+            kept.push_back((p, image, square));
+        }
+        self.complete_direction(total, &z)
+    }
+
+    /// The elastic answer to a load.
+    fn answer(&mut self, load: Trailing, part: &ZonePart) -> Answered {
+        let mut change = Equilibrium::none(&load, self.now.gap.len());
+        change.initial.load = load;
+        let mut carried = vec![0.0; change.gap.len()];
+        self.take_what_closed_pairs_carry(&mut change.initial.load, &mut carried);
+        self.respond_homogeneous(&mut change, part);
+        Answered { change, carried }
+    }
+
+    /// What directions add up to, the residual that is left taken as a step on top.
+    fn complete_direction(&mut self, mut total: Equilibrium, left: &Answered) -> Equilibrium {
+        total.add(1.0, &left.change);
         let contact = &mut total.initial.load.contact;
         let rows = &self.structure.model.rows;
-        rows.add_forces(&carried, |i, force| contact[i] += force);
-        for (k, c) in carried.iter().enumerate() {
+        rows.add_forces(&left.carried, |i, force| contact[i] += force);
+        for (k, c) in left.carried.iter().enumerate() {
             // Compressive forces hold the nodes of a pair apart.
             total.initial.forces[k] -= c;
             total.force[k] -= c;

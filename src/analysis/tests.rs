@@ -350,3 +350,78 @@ fn the_start_of_a_way_keeps_the_first_yield_that_was_known() {
     assert_eq!(start.state.history, run.solver.zone.history());
     assert_eq!(start.state.open, run.solver.tableau.open());
 }
+
+/// Back stresses that fade make a tangent that is not symmetric where flow turns: Newton's
+/// direction is its solution nevertheless, and its products are the differences of the forces.
+#[test]
+fn a_tangent_that_is_not_symmetric_is_solved() {
+    let rest = r#"
+[[load]]
+on = "bar.top"
+traction = [14.0, 3.0]
+history = [[1.0, 0.0], [2.0, 1.0]]
+[program]
+targets = [{ load_factor = 1.0 }, { load_factor = 1.3 }]
+"#;
+    let material = "plastic_modulus = 20.0\nback_stresses = [[400.0, 30.0], [300.0, 200.0]]";
+    let text = bar(
+        material,
+        "traction = [14.0, 0.0]\nhistory = [[0.0, 0.0], [1.0, 1.0]]",
+        rest,
+    );
+    let model = Model::new(&Scene::parse(&text, "test").unwrap()).unwrap();
+    let analysis = Analysis::new(model, Backend::Dense).unwrap();
+    let mut observer = Silent;
+    let mut run = Run::new(&analysis, &mut observer).unwrap();
+    run.execute().unwrap();
+    let solver = &mut run.solver;
+    assert!(!solver.zone.is_symmetric());
+    // On from here under more of the second load.
+    let mut u = solver.now.u.clone();
+    let mut seed = 1u64;
+    u.zone.iter_mut().for_each(|u| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        *u += 2e-3 * ((seed >> 11) as f64 / (1u64 << 53) as f64 - 0.5);
+    });
+    let zeros = solver.structure.sub.zeros();
+    let (mut load, mut taken) = (zeros.clone(), zeros.clone());
+    let evaluation = solver.zone.evaluate(&u, &mut load);
+    assert!(evaluation.yielding > 4, "{evaluation:?}");
+    // A residual of no particular direction.
+    let mut residual = zeros.clone();
+    let values = residual.zone.iter_mut().enumerate();
+    values.for_each(|(i, r)| *r = ((i * i) as f64).sin());
+    let direction = solver.solve_tangent(&residual, 1e-10, 1.0);
+    solver.zone.softening_times(&direction.u, &mut taken);
+    let mut left = direction.initial.load.clone();
+    left.add(-1.0, &taken);
+    left.add(-1.0, &residual);
+    assert!(
+        left.largest() < 1e-8 * residual.largest(),
+        "{:e}",
+        left.largest()
+    );
+    // Its products, forwards and in the transposed order: `v' K w` and `w' K v`.
+    let w = solver.direction(residual.clone()).u;
+    let v = direction.u.clone();
+    let mut of_w = zeros.clone();
+    solver.zone.softening_times(&w, &mut of_w);
+    let [there, back] = [v.dot(&of_w), w.dot(&taken)];
+    assert!((there - back).abs() > 1e-4 * there.abs(), "{there} {back}");
+    // Differences of the initial loads.
+    let step = 1e-5 * u.largest() / v.largest();
+    let [mut ahead, mut behind] = [u.clone(), u.clone()];
+    ahead.add(step, &v);
+    behind.add(-step, &v);
+    let (mut change, mut other) = (zeros.clone(), zeros);
+    solver.zone.evaluate(&ahead, &mut change);
+    solver.zone.evaluate(&behind, &mut other);
+    change.add(-1.0, &other);
+    change.add(-2.0 * step, &taken);
+    assert!(
+        change.largest() < 1e-5 * 2.0 * step * taken.largest(),
+        "{:e} {:e}",
+        change.largest(),
+        step * taken.largest()
+    );
+}

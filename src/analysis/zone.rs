@@ -8,20 +8,18 @@
 //! on the total strain at the end of the increment only, so within an increment they are a function
 //! of `u`.
 
+mod history;
 mod points;
 mod yielding;
 
+pub use history::History;
 pub(super) use points::ZoneOf;
 pub(super) use yielding::Yielding;
 
 use super::gather::Places;
 use crate::element::with_kernel;
-use crate::material::PlasticState;
 use crate::model::Model;
 use crate::substructure::Trailing;
-
-/// The plastic history of points, in the plane with zeros for the components it has not.
-pub type History = Vec<PlasticState<6>>;
 
 /// Result of evaluating the material over the zone.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -92,6 +90,11 @@ impl Zone {
         of_zone!(self, zone => zone.softening_times(v, out));
     }
 
+    /// [`ZoneOf::is_symmetric`]
+    pub fn is_symmetric(&self) -> bool {
+        of_zone!(self, zone => zone.is_symmetric())
+    }
+
     /// [`ZoneOf::mark_active`]
     pub fn mark_active(&self, marks: &mut [bool]) {
         of_zone!(self, zone => zone.mark_active(marks));
@@ -123,12 +126,12 @@ impl Zone {
     }
 
     /// [`ZoneOf::restore`]
-    pub fn restore(&mut self, history: &[PlasticState<6>]) {
+    pub fn restore(&mut self, history: &History) {
         of_zone!(self, zone => zone.restore(history));
     }
 
     /// [`ZoneOf::restore_of`]
-    pub fn restore_of(&mut self, elements: &[usize], history: &[PlasticState<6>]) {
+    pub fn restore_of(&mut self, elements: &[usize], history: &History) {
         of_zone!(self, zone => zone.restore_of(elements, history));
     }
 
@@ -156,6 +159,7 @@ impl Zone {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::material::PlasticState;
     use crate::scene::Scene;
 
     const TEXT: &str = r#"
@@ -240,7 +244,7 @@ targets = [{ load_factor = 1.0 }]
         assert_eq!(yielding, case.flow(&mut fresh, 0.03));
         // In a part of an element's points, so that the others show what they remember.
         let history = fresh.history();
-        let points = history.chunks(4);
+        let points = history.points.chunks(4);
         let partly = |states: &[PlasticState<6>]| {
             let yielded = states.iter().filter(|s| s.equivalent > 0.0).count();
             yielded > 0 && yielded < states.len()
@@ -258,14 +262,18 @@ targets = [{ load_factor = 1.0 }]
         case.flow(&mut zone, 0.3);
         let stride = 4;
         // Of the second element of two, the first being elastic then.
-        let mut small = vec![PlasticState::<6>::default(); 2 * stride];
-        small[stride..].copy_from_slice(&zone.history()[4 * stride..5 * stride]);
+        let all = zone.history();
+        let mut small = History {
+            points: vec![PlasticState::default(); 2 * stride],
+            ..History::default()
+        };
+        small.points[stride..].copy_from_slice(&all.points[4 * stride..5 * stride]);
         zone.restore_of(&[1, 4], &small);
-        let mut expected = vec![PlasticState::<6>::default(); zone.history().len()];
-        expected[4 * stride..5 * stride].copy_from_slice(&small[stride..]);
+        let mut expected = vec![PlasticState::default(); all.points.len()];
+        expected[4 * stride..5 * stride].copy_from_slice(&small.points[stride..]);
         assert!(expected.iter().any(|s| s.equivalent > 0.0));
-        assert_eq!(zone.history(), expected);
-        zone.restore_of(&[], &[]);
+        assert_eq!(zone.history().points, expected);
+        zone.restore_of(&[], &History::default());
         let base = zone.initial_load(Trailing::zeros(case.model.freedoms.n, 0));
         assert_eq!((zone.extent(), base.largest()), ((0, 0.0), 0.0));
     }

@@ -64,7 +64,7 @@ fn steel(space: Space) -> Lame {
         youngs_modulus: 10.0,
         poissons_ratio: 0.3,
         hardening: None,
-        kinematic_modulus: 0.0,
+        back_stresses: Default::default(),
         space,
     }
     .lame()

@@ -92,12 +92,18 @@ impl<const S: usize> Softening<S> {
         }
     }
 
+    /// How much flow a strain increment makes: what it adds to the stress along the normal.
+    #[inline]
+    pub fn flow(&self, strain: &[f64; S]) -> f64 {
+        let terms = self.normal.iter().zip(strain);
+        terms.map(|(n, e)| n * e).sum()
+    }
+
     /// What is lost of the stress of a strain increment.
     #[inline]
     pub fn times(&self, strain: &[f64; S]) -> [f64; S] {
         let mut out = self.isotropic.times(strain);
-        let terms = self.normal.iter().zip(strain);
-        let share = self.along * terms.map(|(n, e)| n * e).sum::<f64>();
+        let share = self.along * self.flow(strain);
         for (out, n) in out.iter_mut().zip(&self.normal) {
             *out += share * n;
         }

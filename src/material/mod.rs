@@ -3,18 +3,20 @@
 //! Stress and strain are vectors `[xx, yy, zz, xy | yz, zx]` (axisymmetric: `[rr, zz, tt, rz]`) of
 //! S = 4 components in the plane, 6 in space; shear strains are engineering strains `gamma`. The
 //! elastic law is `sigma = D (eps - eps_p)`, isotropic ([`Lame`]); plastic flow is associated with
-//! isotropic and linear kinematic hardening (W. Prager, *Proc. Inst. Mech. Eng.* 169, 1955, 41),
-//! integrated by the implicit (closest point) rule. The back stress `2/3 C eps_p` follows from the
-//! plastic strain: it is stored nowhere.
+//! isotropic ([`Hardening`]) and kinematic hardening ([`BackStresses`]), integrated by the implicit
+//! (closest point) rule.
 
+mod back_stresses;
 mod hardening;
 mod lame;
 mod plane_stress;
 mod radial_return;
 
+pub use back_stresses::BackStresses;
 pub use hardening::Hardening;
 pub use lame::{Lame, Softening};
 
+use crate::root::{self, Accuracy};
 use crate::scene;
 use crate::space::Space;
 use serde::{Deserialize, Serialize};
@@ -30,9 +32,8 @@ pub struct Material {
     pub poissons_ratio: f64,
     /// Yield stress against equivalent plastic strain; `None` for an elastic material.
     pub hardening: Option<Hardening>,
-    /// Modulus C of linear kinematic hardening (Prager): the yield surface is centred at the back
-    /// stress `2/3 C eps_p`. 0 without.
-    pub kinematic_modulus: f64,
+    /// What moves the yield surface.
+    pub back_stresses: BackStresses,
     /// The idealisation, which decides the elastic matrix and the return mapping.
     pub space: Space,
 }
@@ -70,8 +71,17 @@ impl<const S: usize> PlasticState<S> {
 }
 
 /// The first components of a tensor, zeros for those it has not.
-fn resized<const S: usize, const T: usize>(tensor: &[f64; S]) -> [f64; T] {
+pub(crate) fn resized<const S: usize, const T: usize>(tensor: &[f64; S]) -> [f64; T] {
     std::array::from_fn(|i| tensor.get(i).copied().unwrap_or(0.0))
+}
+
+/// What a point has gone through.
+#[derive(Debug, Clone, Copy)]
+pub struct Past<'a, const S: usize> {
+    /// Its plastic history.
+    pub state: &'a PlasticState<S>,
+    /// Strains of the back stresses that fade, the material's first: engineering shear, trace 0.
+    pub back: &'a [[f64; S]],
 }
 
 /// Result of integrating the flow rule over an increment.
@@ -81,6 +91,9 @@ pub struct Update<const S: usize> {
     pub state: PlasticState<S>,
     /// `D - D_ep`: what plastic flow takes off the elastic stiffness. Zero where elastic.
     pub softening: Softening<S>,
+    /// The rest of it, the dyad of this stress and the softening's normal: flow turns as back
+    /// stresses fade. Zero without those.
+    pub turn: [f64; S],
     /// Whether plastic flow took place.
     pub yields: bool,
 }
@@ -93,7 +106,7 @@ impl Material {
             youngs_modulus: data.youngs_modulus,
             poissons_ratio: data.poissons_ratio,
             hardening: Hardening::from_scene(data),
-            kinematic_modulus: data.kinematic_modulus.unwrap_or(0.0),
+            back_stresses: BackStresses::new(data.back_stresses()),
             space,
         }
     }
@@ -104,35 +117,26 @@ impl Material {
     }
 
     /// Work on plastic strains per volume, 0 for an elastic material: `int sigma_y deps_p` on the
-    /// equivalent one, and what the back stress stores, `C/3 eps_p : eps_p`.
-    pub fn plastic_work<const S: usize>(&self, past: &PlasticState<S>) -> f64 {
-        let worked = |h: &Hardening| h.work(past.equivalent);
-        let normal: f64 = past.strain[..3].iter().map(|e| e * e).sum();
-        let shear: f64 = past.strain[3..].iter().map(|e| e * e).sum();
-        let stored = self.kinematic_modulus / 3.0 * (normal + 0.5 * shear);
-        self.hardening.as_ref().map_or(0.0, worked) + stored
+    /// equivalent one, and what the back stresses hold (`C/3 z:z`). What they lost on the way is
+    /// none of it ([`BackStresses::carry`]).
+    pub fn plastic_work<const S: usize>(&self, past: &Past<S>) -> f64 {
+        let worked = |h: &Hardening| h.work(past.state.equivalent);
+        let held = self.back_stresses.held(&past.state.strain, past.back);
+        self.hardening.as_ref().map_or(0.0, worked) + held
     }
 
-    /// The stress of a total strain, less the back stress `2/3 C eps_p`: what the yield condition
-    /// is of.
+    /// The stress of a total strain, less the back stress: what the yield condition is of.
     #[inline]
     fn relative_stress<const S: usize>(
         &self,
         law: &Lame,
         strain: &[f64; S],
-        old: &PlasticState<S>,
+        old: &Past<S>,
     ) -> [f64; S] {
-        let mut out = law.stress(strain, &old.strain);
-        if self.kinematic_modulus != 0.0 {
-            let c = 2.0 / 3.0 * self.kinematic_modulus;
-            for (k, (out, plastic)) in out.iter_mut().zip(&old.strain).enumerate() {
-                // Shear strains are engineering strains.
-                *out -= if k < 3 {
-                    c * plastic
-                } else {
-                    0.5 * c * plastic
-                };
-            }
+        let mut out = law.stress(strain, &old.state.strain);
+        if !self.back_stresses.is_none() {
+            let plastic = &old.state.strain;
+            self.back_stresses.take_off(&mut out, plastic, old.back);
         }
         out
     }
@@ -174,11 +178,11 @@ impl Material {
         &self,
         law: &Lame,
         strain: &[f64; S],
-        old: &PlasticState<S>,
+        old: &Past<S>,
     ) -> bool {
         self.hardening.as_ref().is_none_or(|hardening| {
             let trial = self.relative_stress(law, strain, old);
-            von_mises(&trial) <= hardening.yield_stress(old.equivalent)
+            von_mises(&trial) <= hardening.yield_stress(old.state.equivalent)
         })
     }
 
@@ -191,18 +195,19 @@ impl Material {
         &self,
         law: &Lame,
         strain: &[f64; S],
-        old: &PlasticState<S>,
+        old: &Past<S>,
     ) -> Update<S> {
         let idle = Update {
-            state: *old,
+            state: *old.state,
             softening: Softening::NONE,
+            turn: [0.0; S],
             yields: false,
         };
         let Some(hardening) = &self.hardening else {
             return idle;
         };
         let trial = self.relative_stress(law, strain, old);
-        if von_mises(&trial) <= hardening.yield_stress(old.equivalent) {
+        if von_mises(&trial) <= hardening.yield_stress(old.state.equivalent) {
             return idle;
         }
         match self.space {
@@ -210,6 +215,34 @@ impl Material {
             _ => radial_return::integrate(self, hardening, &trial, old),
         }
     }
+}
+
+/// The increment of equivalent plastic strain at which the excess over the yield stress, positive
+/// at zero, vanishes; over any length it falls by at least the stiffness times that, and is a stress
+/// of the size of `scale`.
+fn flow_to_root(excess: impl Fn(f64) -> f64, stiffness: f64, scale: f64) -> f64 {
+    let first = excess(0.0);
+    let end = first / stiffness;
+    let accuracy = Accuracy {
+        value: 4.0 * f64::EPSILON * scale,
+        place: f64::EPSILON,
+    };
+    root::between([(0.0, first), (end, excess(end))], accuracy, excess)
+}
+
+/// A strain with engineering shear as a tensor's components.
+#[inline]
+fn tensor_of<const S: usize>(strain: &[f64; S]) -> [f64; S] {
+    std::array::from_fn(|k| if k < 3 { strain[k] } else { 0.5 * strain[k] })
+}
+
+/// `a:b` of two tensors.
+#[inline]
+fn double_dot<const S: usize>(a: &[f64; S], b: &[f64; S]) -> f64 {
+    let product = |k: usize| a[k] * b[k];
+    let normal: f64 = (0..3).map(product).sum();
+    let shear: f64 = (3..S).map(product).sum();
+    normal + 2.0 * shear
 }
 
 /// Von Mises stress `sqrt(3/2 s:s)`.

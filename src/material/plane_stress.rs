@@ -1,91 +1,80 @@
 //! Return mapping that keeps the stress in the plane.
 //!
 //! With `P = [[2, -1, 0], [-1, 2, 0], [0, 0, 6]]/3`, the stress `xi = sigma - alpha` relative to a
-//! back stress of the plane with `P alpha = 2/3 C eps_p`, `q^2 = 3/2 xi' P xi`, `eps_p += c P xi`
-//! and `alpha += 2/3 C c xi`, the trial stress decouples in the eigenvectors that `D` and `P`
-//! share. With `h = 1 + 2/3 C c`:
+//! back stress `alpha` of the plane whose deviator is the back stress, `eps_p += (3/2) d P u`, `u =
+//! xi/sigma_y`, everything decouples in the eigenvectors (1, 1, 0), (1, -1, 0) and (0, 0, 1) that
+//! `D` and `P` share, `D P` having the eigenvalues `m = E/(3 (1 - nu))` and `2 G`. With the trial
+//! stress, what the back stresses forget over the increment `d` of equivalent plastic strain added
+//! to it (`x(d)`, see [`super::back_stresses`]), and `K(d)` what they gain:
 //!
 //! ```text
-//! q(c)^2 = a^2/(2 (h + c E/(3 (1 - nu)))^2) + (3/2 b^2 + 3 t^2)/(h + 2 G c)^2
-//! a = (sxx + syy)/sqrt 2,  b = (syy - sxx)/sqrt 2,  t = sxy          (trial xi)
-//! q(c) = sigma_y(eps + 2/3 c q(c))                                   one scalar equation for c
+//! b_j(d) = sigma_y(eps + d) + K(d) + (3/2) m_j d,        u_j = x_j(d)/b_j(d)
+//! (3/2) u' P u = u_1^2 + 3 u_2^2 + 3 u_3^2 = 1                   one scalar equation for d
+//! w = D B^-1 P u,   r = u' P B^-1 (B' u - x'),   k = sigma_y + K - d (H + K')
+//! D - D_ep = (3/2) d D P B^-1 D + (3/2)/r (k w + d D P B^-1 x') w'
 //! ```
+//!
+//! No back stress exceeds `C/gamma`: at `d = (q - sigma_y)/(3/2 m)`, q that of the trial stress and
+//! `m` the smaller eigenvalue, the left side is at most 1, which brackets the solution.
 //!
 //! # Source
 //! Simo and Hughes (1998), section 3.4, box 3.3; J. C. Simo, R. L. Taylor (1986),
 //! doi:10.1002/nme.1620220310.
 
-use super::{Hardening, Lame, Material, PlasticState, Softening, Update};
-use crate::root::{self, Accuracy};
+use super::{Hardening, Lame, Material, Past, Softening, Update, flow_to_root};
 
 pub(super) fn integrate<const S: usize>(
     material: &Material,
     hardening: &Hardening,
     trial: &[f64; S],
-    old: &PlasticState<S>,
+    old: &Past<S>,
 ) -> Update<S> {
     let g = material.shear_modulus();
-    let e = material.youngs_modulus;
-    let nu = material.poissons_ratio;
-    let biaxial = e / (3.0 * (1.0 - nu));
-    let kinematic = 2.0 / 3.0 * material.kinematic_modulus;
-    // What the trial holds is `sigma - P alpha` with its component across the plane: the relative
-    // stress of the plane differs from it by that.
-    let across = trial[2];
-    let half_sum = 0.5 * (trial[0] + trial[1]) - across;
-    let half_difference = 0.5 * (trial[0] - trial[1]);
-    // q^2 = sum part / (h + c biaxial)^2 + deviator part / (h + 2 G c)^2
-    let sum_part = half_sum * half_sum;
-    let deviator_part = 3.0 * (half_difference * half_difference + trial[3] * trial[3]);
-    let shrunk = |c: f64| {
-        let h = 1.0 + kinematic * c;
-        (h + c * biaxial, h + 2.0 * g * c)
+    let (e, nu) = (material.youngs_modulus, material.poissons_ratio);
+    let laws = &material.back_stresses;
+    let equivalent = old.state.equivalent;
+    let moduli = [e / (3.0 * (1.0 - nu)), 2.0 * g, 2.0 * g];
+    let start = in_plane(trial);
+    let divisors = |d: f64| {
+        let size = hardening.yield_stress(equivalent + d) + laws.gain(d);
+        moduli.map(|m| size + 1.5 * m * d)
     };
-    let equivalent_stress = |c: f64| {
-        let (a, b) = shrunk(c);
-        (sum_part / (a * a) + deviator_part / (b * b)).sqrt()
+    let relative = |d: f64| {
+        let b = divisors(d);
+        let forgotten = in_plane(&laws.forgotten(old.back, d));
+        let u: [f64; 3] = std::array::from_fn(|j| (start[j] + forgotten[j]) / b[j]);
+        u
     };
-    let stiffness = 2.0 * g + kinematic;
-    let c = solve_multiplier(hardening, old.equivalent, equivalent_stress, stiffness);
+    // Times the yield stress, so that it is a stress as elsewhere.
+    let scale = hardening.yield_stress(equivalent);
+    let excess = |d: f64| scale * (product(&relative(d), &relative(d)).sqrt() - 1.0);
+    let d = flow_to_root(excess, 1.5 * moduli[0].min(moduli[1]), scale);
 
-    let (a, b) = shrunk(c);
-    let (sum, difference, shear) = (half_sum / a, half_difference / b, trial[3] / b);
-    let xi = [sum + difference, sum - difference, shear];
-    let q = equivalent_stress(c);
-    let d = 2.0 / 3.0 * c * q;
-    let p_xi = [
-        (2.0 * xi[0] - xi[1]) / 3.0,
-        (2.0 * xi[1] - xi[0]) / 3.0,
-        2.0 * xi[2],
-    ];
-    let mut state = *old;
+    let (u, b) = (relative(d), divisors(d));
+    let mut state = *old.state;
     state.equivalent += d;
-    state.strain[0] += c * p_xi[0];
-    state.strain[1] += c * p_xi[1];
-    state.strain[2] -= c * (p_xi[0] + p_xi[1]);
-    state.strain[3] += c * p_xi[2];
+    state.strain[0] += 1.5 * d * (u[0] / 3.0 + u[1]);
+    state.strain[1] += 1.5 * d * (u[0] / 3.0 - u[1]);
+    state.strain[2] -= d * u[0];
+    state.strain[3] += 3.0 * d * u[2];
 
-    // D_ep = Xi - w w'/(..), w = Xi P xi; Xi = (D^-1 + c/h P)^-1 in the eigenvectors that it
-    // shares with D: (1,1,0)/sqrt2, (1,-1,0)/sqrt2, (0,0,1).
-    let h = 1.0 + kinematic * c;
-    let (a, b) = (a / h, b / h);
-    let of_sum = e / (1.0 - nu);
-    let half_w = [
-        0.5 * (p_xi[0] + p_xi[1]) * of_sum / a,
-        0.5 * (p_xi[0] - p_xi[1]) * 2.0 * g / b,
-    ];
-    let mut normal = [0.0; S];
-    normal[0] = half_w[0] + half_w[1];
-    normal[1] = half_w[0] - half_w[1];
-    normal[3] = p_xi[2] * g / b;
-    let slope = hardening.slope(state.equivalent);
-    let p_xi_p = p_xi[0] * normal[0] + p_xi[1] * normal[1] + p_xi[2] * normal[3];
-    let xi_p_xi = 2.0 / 3.0 * q * q;
-    let isotropic = 2.0 / 3.0 * slope / (1.0 - 2.0 / 3.0 * slope * c);
-    let resistance = h * xi_p_xi * (kinematic + h * isotropic);
-    // D - Xi: what is lost of the sum and of the difference of the normal stresses.
-    let lost_sum = of_sum * (1.0 - 1.0 / a);
-    let lost_difference = 2.0 * g * (1.0 - 1.0 / b);
+    let (size, slope) = (
+        hardening.yield_stress(state.equivalent) + laws.gain(d),
+        hardening.slope(state.equivalent) + laws.modulus(d),
+    );
+    let forgetting = in_plane(&laws.forgetting(old.back, d));
+    // x' along the flow and beside it.
+    let along_flow = product(&u, &forgetting);
+    let beside: [f64; 3] = std::array::from_fn(|j| forgetting[j] - along_flow * u[j]);
+    // D P B^-1 of either.
+    let of = |v: &[f64; 3]| -> [f64; 3] { std::array::from_fn(|j| v[j] * moduli[j] / b[j]) };
+    let rate: [f64; 3] =
+        std::array::from_fn(|j| ((slope + 1.5 * moduli[j]) * u[j] - forgetting[j]) / b[j]);
+    let resistance = product(&u, &rate);
+    // D P B^-1 D on the sum and on the difference of the normal strains.
+    let lost_sum = 1.5 * d * moduli[0] / b[0] * e / (1.0 - nu);
+    let lost_difference = 1.5 * d * moduli[1] / b[1] * 2.0 * g;
+    let turn = 2.25 * d / resistance;
     Update {
         state,
         softening: Softening {
@@ -94,37 +83,31 @@ pub(super) fn integrate<const S: usize>(
                 mu: 0.5 * lost_difference,
                 across: 0.0,
             },
-            along: 1.0 / (p_xi_p + resistance),
-            normal,
+            along: 2.25 * (size - d * (slope - along_flow)) / resistance,
+            normal: components(&of(&u)),
         },
+        turn: components(&of(&beside).map(|v| turn * v)),
         yields: true,
     }
 }
 
-/// Solves `q(c) = sigma_y(strain + 2/3 c q(c))`: the left side falls, the right side does not, so
-/// that there is a bracket.
-fn solve_multiplier(
-    hardening: &Hardening,
-    strain: f64,
-    q: impl Fn(f64) -> f64,
-    stiffness: f64,
-) -> f64 {
-    let excess = |c: f64| {
-        let q = q(c);
-        q - hardening.yield_stress(strain + 2.0 / 3.0 * c * q)
-    };
-    let (mut low, mut f_low) = (0.0, excess(0.0));
-    let scale = hardening.yield_stress(strain);
-    let mut high = f_low / (scale * stiffness);
-    let mut f_high = excess(high);
-    while f_high > 0.0 {
-        (low, f_low) = (high, f_high);
-        high *= 2.0;
-        f_high = excess(high);
-    }
-    let accuracy = Accuracy {
-        value: 4.0 * f64::EPSILON * scale,
-        place: f64::EPSILON,
-    };
-    root::between([(low, f_low), (high, f_high)], accuracy, excess)
+/// Half sum and half difference of the normal stresses of the plane whose deviator a stress has,
+/// and its shear stress: what is across the plane is a mean stress.
+fn in_plane<const S: usize>(stress: &[f64; S]) -> [f64; 3] {
+    let half_sum = 0.5 * (stress[0] + stress[1]) - stress[2];
+    [half_sum, 0.5 * (stress[0] - stress[1]), stress[3]]
+}
+
+/// The stress vector of half sum, half difference and shear stress.
+fn components<const S: usize>([sum, difference, shear]: &[f64; 3]) -> [f64; S] {
+    let mut out = [0.0; S];
+    out[0] = sum + difference;
+    out[1] = sum - difference;
+    out[3] = *shear;
+    out
+}
+
+/// `3/2 a' P b`.
+fn product(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    a[0] * b[0] + 3.0 * (a[1] * b[1] + a[2] * b[2])
 }

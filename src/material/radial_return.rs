@@ -1,36 +1,61 @@
-//! Radial return: plane strain and axisymmetric.
+//! Radial return: plane strain, axisymmetric and in space.
 //!
-//! With the trial deviator `s` (less the back stress), `q = sqrt(3/2 s:s)` and `n = s/|s|`:
+//! With the trial deviator `s` (less the back stress), what the back stresses forget over the
+//! increment `d` of equivalent plastic strain added to it (`s(d)`, see [`super::back_stresses`]),
+//! `q = sqrt(3/2 s:s)`, `n = s/|s|`, `K(d)` what the back stresses gain and `s' = ds/dd`:
 //!
 //! ```text
-//! q - (3 G + C) d = sigma_y(eps + d)        increment d of equivalent plastic strain
+//! q(d) - 3 G d - K(d) = sigma_y(eps + d)            one scalar equation for d
 //! eps_p += d (3/2) s/q
-//! D - D_ep = 2G (3 G d/q) I_dev + 2G (1/(1 + (H + C)/3G) - 3 G d/q) n n'
+//! R = 3G + K' + H - sqrt(3/2) n:s'
+//! D - D_ep = 2G (3 G d/q) I_dev + 2G (3G/R - 3 G d/q) n n' + 2G (3 G d/q) sqrt(3/2)/R t n'
+//! t = s' - (n:s') n
 //! ```
 //!
+//! No back stress exceeds `C/gamma`, so that `sqrt(3/2) |s'| <= K' - C_linear`: the left side falls
+//! by at least `3 G d`, which brackets the solution. Without back stresses that fade `s` is
+//! constant, and the equation is linear on each segment of the hardening curve. The last term,
+//! which alone is not symmetric, vanishes where flow is along the back stress.
+//!
 //! # Source
-//! Simo and Hughes (1998), boxes 3.1 and 3.2.
+//! Simo and Hughes (1998), boxes 3.1 and 3.2; one equation for several back stresses: M. Kobayashi,
+//! N. Ohno (2002), doi:10.1002/nme.428, with their implicit rule for each back stress replaced by
+//! its closed form.
 
-use super::{Hardening, Lame, Material, PlasticState, Softening, Update};
+use super::{
+    Hardening, Lame, Material, Past, Softening, Update, double_dot, flow_to_root, von_mises,
+};
 
 pub(super) fn integrate<const S: usize>(
     material: &Material,
     hardening: &Hardening,
     trial: &[f64; S],
-    old: &PlasticState<S>,
+    old: &Past<S>,
 ) -> Update<S> {
     let g = material.shear_modulus();
-    let mean = (trial[0] + trial[1] + trial[2]) / 3.0;
-    let mut s = *trial;
-    s[..3].iter_mut().for_each(|s| *s -= mean);
-    let normal: f64 = s[..3].iter().map(|s| s * s).sum();
-    let shear: f64 = s[3..].iter().map(|s| s * s).sum();
-    let norm = (normal + 2.0 * shear).sqrt();
+    let laws = &material.back_stresses;
+    let start = deviator(trial);
+    let equivalent = old.state.equivalent;
+    let (d, slope, s) = if laws.n_stored() == 0 {
+        let q = von_mises(&start);
+        let (d, slope) = hardening.solve(q, 3.0 * g + laws.linear(), equivalent);
+        (d, slope, start)
+    } else {
+        let at = |d: f64| {
+            let forgotten = laws.forgotten(old.back, d);
+            std::array::from_fn(|k| start[k] + forgotten[k])
+        };
+        let excess = |d: f64| {
+            von_mises(&at(d)) - 3.0 * g * d - laws.gain(d) - hardening.yield_stress(equivalent + d)
+        };
+        let scale = hardening.yield_stress(equivalent);
+        let d = flow_to_root(excess, 3.0 * g, scale);
+        (d, hardening.slope(equivalent + d), at(d))
+    };
+    let norm = double_dot(&s, &s).sqrt();
     let q = 1.5f64.sqrt() * norm;
-    let kinematic = material.kinematic_modulus;
-    let (d, slope) = hardening.solve(q, 3.0 * g + kinematic, old.equivalent);
     let multiplier = 1.5 * d / q;
-    let mut state = *old;
+    let mut state = *old.state;
     state.equivalent += d;
     for (i, (strain, s)) in state.strain.iter_mut().zip(&s).enumerate() {
         // Shear strains are engineering strains.
@@ -40,14 +65,27 @@ pub(super) fn integrate<const S: usize>(
             2.0 * multiplier * s
         };
     }
+    let normal = s.map(|s| s / norm);
+    let forgetting = laws.forgetting(old.back, d);
+    let along_flow = double_dot(&normal, &forgetting);
+    let resistance = 3.0 * g + laws.modulus(d) + slope - 1.5f64.sqrt() * along_flow;
     let shrink = 3.0 * g * d / q;
+    let turn = 2.0 * g * shrink * 1.5f64.sqrt() / resistance;
     Update {
         state,
         softening: Softening {
             isotropic: Lame::of_deviator(2.0 * g * shrink),
-            along: 2.0 * g * (1.0 / (1.0 + (slope + kinematic) / (3.0 * g)) - shrink),
-            normal: s.map(|s| s / norm),
+            along: 2.0 * g * (3.0 * g / resistance - shrink),
+            normal,
         },
+        turn: std::array::from_fn(|k| turn * (forgetting[k] - along_flow * normal[k])),
         yields: true,
     }
+}
+
+fn deviator<const S: usize>(stress: &[f64; S]) -> [f64; S] {
+    let mean = (stress[0] + stress[1] + stress[2]) / 3.0;
+    let mut out = *stress;
+    out[..3].iter_mut().for_each(|s| *s -= mean);
+    out
 }

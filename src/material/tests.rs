@@ -1,5 +1,6 @@
 use super::*;
 
+mod fading;
 mod solid;
 
 fn material(space: Space, nu: f64, hardening: Hardening) -> Material {
@@ -8,18 +9,85 @@ fn material(space: Space, nu: f64, hardening: Hardening) -> Material {
         youngs_modulus: 200.0,
         poissons_ratio: nu,
         hardening: Some(hardening),
-        kinematic_modulus: 0.0,
+        back_stresses: BackStresses::default(),
         space,
     }
 }
 
-/// Without and with kinematic hardening.
-fn both(material: Material) -> [Material; 2] {
-    let kinematic = Material {
-        kinematic_modulus: 25.0,
+/// Without kinematic hardening, with Prager's, and with that and two back stresses that fade.
+fn each_kind(material: Material) -> [Material; 3] {
+    let laws: [&[[f64; 2]]; 3] = [
+        &[],
+        &[[25.0, 0.0]],
+        &[[60.0, 40.0], [10.0, 0.0], [30.0, 300.0]],
+    ];
+    laws.map(|laws| Material {
+        back_stresses: BackStresses::new(laws.iter().copied()),
         ..material.clone()
-    };
-    [material, kinematic]
+    })
+}
+
+/// A point with its history; the back stresses that fade remember a share of the plastic strain.
+#[derive(Debug, Clone)]
+struct Point<const S: usize> {
+    state: PlasticState<S>,
+    back: Vec<[f64; S]>,
+    lost_work: f64,
+}
+
+impl<const S: usize> Point<S> {
+    fn new(m: &Material) -> Self {
+        Self::with(m, [0.0; S], 0.0)
+    }
+
+    fn with(m: &Material, strain: [f64; S], equivalent: f64) -> Self {
+        let share = |i: usize| if i == 0 { 0.5 } else { -0.2 };
+        let back = (0..m.back_stresses.n_stored()).map(|i| strain.map(|e| share(i) * e));
+        Point {
+            state: PlasticState { strain, equivalent },
+            back: back.collect(),
+            lost_work: 0.0,
+        }
+    }
+
+    fn past(&self) -> Past<'_, S> {
+        Past {
+            state: &self.state,
+            back: &self.back,
+        }
+    }
+
+    fn integrate(&self, m: &Material, strain: &[f64; S]) -> Update<S> {
+        m.integrate(&m.lame(), strain, &self.past())
+    }
+
+    /// The stress at a total strain.
+    fn stress(&self, m: &Material, strain: &[f64; S]) -> [f64; S] {
+        let plastic = self.integrate(m, strain).state.strain;
+        m.lame().stress(strain, &plastic)
+    }
+
+    /// Goes on to a total strain; the stress there.
+    fn advance(&mut self, m: &Material, strain: &[f64; S]) -> [f64; S] {
+        let state = self.integrate(m, strain).state;
+        let laws = &m.back_stresses;
+        self.lost_work += laws.carry(&mut self.back, &self.state, &state);
+        self.state = state;
+        m.lame().stress(strain, &state.strain)
+    }
+
+    fn work(&self, m: &Material) -> f64 {
+        m.plastic_work(&self.past()) + self.lost_work
+    }
+}
+
+/// What flow takes off the stress of a strain increment.
+fn lost<const S: usize>(update: &Update<S>, strain: &[f64; S]) -> [f64; S] {
+    let (out, flow) = (
+        update.softening.times(strain),
+        update.softening.flow(strain),
+    );
+    std::array::from_fn(|k| out[k] + flow * update.turn[k])
 }
 
 /// The matrix of a linear map.
@@ -81,20 +149,19 @@ fn a_tangent_modulus_is_the_slope_of_the_whole_strain() {
 fn stress_after_flow_lies_on_the_yield_surface() {
     for space in [Space::PlaneStrain, Space::PlaneStress, Space::Axisymmetric] {
         let all = curves().into_iter();
-        for m in all.flat_map(|curve| both(material(space, 0.3, curve))) {
+        for m in all.flat_map(|curve| each_kind(material(space, 0.3, curve))) {
             let curve = m.hardening.clone().unwrap();
             let d = m.lame();
             let strain = match space {
                 Space::Axisymmetric => [0.012, -0.004, 0.003, 0.009],
                 _ => [0.012, -0.004, 0.0, 0.009],
             };
-            let old = PlasticState {
-                strain: [0.001, -0.0004, -0.0006, 0.0002],
-                equivalent: 0.0011,
-            };
-            let new = m.integrate(&d, &strain, &old);
+            let mut point = Point::with(&m, [0.001, -0.0004, -0.0006, 0.0002], 0.0011);
+            let old = point.state;
+            let new = point.integrate(&m, &strain);
             assert!(new.yields);
-            let q = von_mises(&m.relative_stress(&d, &strain, &new.state));
+            point.advance(&m, &strain);
+            let q = von_mises(&m.relative_stress(&d, &strain, &point.past()));
             let y = curve.yield_stress(new.state.equivalent);
             assert!(
                 (q - y).abs() < 1e-13 * (1.0 + 200.0 * 0.02),
@@ -118,7 +185,7 @@ fn stress_after_flow_lies_on_the_yield_surface() {
 fn softening_is_the_derivative_of_the_stress() {
     for space in [Space::PlaneStrain, Space::PlaneStress, Space::Axisymmetric] {
         let all = curves().into_iter();
-        for m in all.flat_map(|curve| both(material(space, 0.3, curve))) {
+        for m in all.flat_map(|curve| each_kind(material(space, 0.3, curve))) {
             let d = m.lame();
             let strain = [
                 0.009,
@@ -130,12 +197,10 @@ fn softening_is_the_derivative_of_the_stress() {
                 },
                 0.007,
             ];
-            let old = PlasticState {
-                strain: [0.0007, -0.0003, -0.0004, 0.0003],
-                equivalent: 0.0009,
-            };
-            let softening = m.integrate(&d, &strain, &old).softening;
-            let tangent = matrix(|e| softening.times(e));
+            let point = Point::with(&m, [0.0007, -0.0003, -0.0004, 0.0003], 0.0009);
+            let update = point.integrate(&m, &strain);
+            let tangent = matrix(|e| lost(&update, e));
+            let symmetric = matrix(|e| update.softening.times(e));
             let elastic = matrix::<4>(|e| d.times(e));
             let h = 1e-7;
             for j in 0..4 {
@@ -145,7 +210,7 @@ fn softening_is_the_derivative_of_the_stress() {
                 let at = |t: f64| {
                     let mut e = strain;
                     e[j] += t;
-                    d.stress(&e, &m.integrate(&d, &e, &old).state.strain)
+                    point.stress(&m, &e)
                 };
                 let (plus, minus) = (at(h), at(-h));
                 for i in 0..4 {
@@ -159,7 +224,7 @@ fn softening_is_the_derivative_of_the_stress() {
                         (derivative - consistent).abs() < 200.0 * 1e-6,
                         "{space:?} {i}{j}: {derivative} {consistent}"
                     );
-                    assert!((tangent[i][j] - tangent[j][i]).abs() < 1e-11);
+                    assert!((symmetric[i][j] - symmetric[j][i]).abs() < 1e-11);
                 }
             }
         }
@@ -183,7 +248,7 @@ fn the_tangent_of_plane_stress_is_consistent_in_states_of_all_kinds() {
         let curve = curves()[round % 3].clone();
         let knees: &[f64] = if round % 3 == 2 { &[0.004, 0.01] } else { &[] };
         let m = material(Space::PlaneStress, [0.0, 0.3, 0.49][round % 7 % 3], curve);
-        let m = both(m)[round % 2].clone();
+        let m = each_kind(m)[round / 3 % 3].clone();
         let d = m.lame();
         let size = 0.003 * 80f64.powf(0.5 + 0.5 * random());
         let strain = [size * random(), size * random(), 0.0, size * random()];
@@ -192,11 +257,18 @@ fn the_tangent_of_plane_stress_is_consistent_in_states_of_all_kinds() {
             0.2 * size * random(),
             0.2 * size * random(),
         ];
-        let old = PlasticState {
-            strain: [p[0], p[1], -p[0] - p[1], p[2]],
-            equivalent: 0.3 * size * (1.0 + random()),
-        };
-        let update = m.integrate(&d, &strain, &old);
+        let equivalent = 0.3 * size * (1.0 + random());
+        let mut point = Point::with(&m, [p[0], p[1], -p[0] - p[1], p[2]], equivalent);
+        // No more than flow can bring about.
+        let fading = m.back_stresses.rates().zip(&mut point.back);
+        for (rate, back) in fading {
+            let strain = tensor_of(back);
+            let norm = (2.0 / 3.0 * double_dot(&strain, &strain)).sqrt();
+            let share = 1.0 / (1.0 + rate * norm);
+            back.iter_mut().for_each(|e| *e *= share);
+        }
+        let old = point.state;
+        let update = point.integrate(&m, &strain);
         if !update.yields {
             assert_eq!(update.softening, Softening::NONE);
             elastic += 1;
@@ -210,12 +282,12 @@ fn the_tangent_of_plane_stress_is_consistent_in_states_of_all_kinds() {
         }
         yielding += 1;
         let elastic = matrix::<4>(|e| d.times(e));
-        let lost = matrix(|e| update.softening.times(e));
+        let lost = matrix(|e| lost(&update, e));
         for j in [0, 1, 3] {
             let at = |t: f64| {
                 let mut e = strain;
                 e[j] += t;
-                d.stress(&e, &m.integrate(&d, &e, &old).state.strain)
+                point.stress(&m, &e)
             };
             let (plus, minus) = (at(h), at(-h));
             for i in [0, 1, 3] {
@@ -237,9 +309,8 @@ fn the_tangent_of_plane_stress_is_consistent_in_states_of_all_kinds() {
 fn cyclic_uniaxial_stress_follows_the_hardening_curve() {
     let (e, h, y) = (200.0, 20.0, 1.0);
     let m = material(Space::PlaneStress, 0.3, Hardening::linear(y, h));
-    let d = m.lame();
     let et = e * h / (e + h);
-    let mut state = PlasticState::default();
+    let mut point = Point::new(&m);
     let mut yield_now = y;
     let mut axial_plastic = 0.0;
     for target in [0.02, -0.02, 0.03, -0.01] {
@@ -247,17 +318,11 @@ fn cyclic_uniaxial_stress_follows_the_hardening_curve() {
         let (mut a, mut b) = (-0.1, 0.1);
         for _ in 0..200 {
             let lateral = 0.5 * (a + b);
-            let s = d.stress(
-                &[target, lateral, 0.0, 0.0],
-                &m.integrate(&d, &[target, lateral, 0.0, 0.0], &state)
-                    .state
-                    .strain,
-            );
+            let s = point.stress(&m, &[target, lateral, 0.0, 0.0]);
             if s[1] > 0.0 { b = lateral } else { a = lateral }
         }
         let strain = [target, 0.5 * (a + b), 0.0, 0.0];
-        state = m.integrate(&d, &strain, &state).state;
-        let sigma = d.stress(&strain, &state.strain)[0];
+        let sigma = point.advance(&m, &strain)[0];
         let sign = (target - axial_plastic).signum();
         let at_yield = axial_plastic + sign * yield_now / e;
         let expected = sign * yield_now + et * (target - at_yield);
@@ -271,12 +336,8 @@ fn cyclic_uniaxial_stress_follows_the_hardening_curve() {
 fn elastic_material_never_flows() {
     let m = Material {
         hardening: None,
-        kinematic_modulus: 0.0,
         ..material(Space::PlaneStrain, 0.3, Hardening::linear(1.0, 0.0))
     };
-    let d = m.lame();
-    assert!(
-        !m.integrate(&d, &[1.0, -2.0, 0.0, 3.0], &PlasticState::default())
-            .yields
-    );
+    let point = Point::new(&m);
+    assert!(!point.integrate(&m, &[1.0, -2.0, 0.0, 3.0]).yields);
 }

@@ -27,14 +27,26 @@ pub struct Material {
     /// d(stress)/d(total strain) of a bar beyond yield; `H = E Et/(E - Et)`.
     pub tangent_modulus: Option<f64>,
     /// Modulus C of linear kinematic hardening, alone or with any of the isotropic laws: a bar
-    /// hardens with `H + C`, and yields that much earlier the other way.
+    /// hardens with `H + C`, and yields that much earlier the other way. Short for a row `[C, 0]`
+    /// of `back_stresses`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kinematic_modulus: Option<f64>,
+    /// Back stresses that fade (Armstrong and Frederick, Chaboche), rows of modulus C and rate
+    /// gamma: `da = 2/3 C deps_p - gamma a dp`, of a bar at most `C/gamma` each.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub back_stresses: Option<Vec<[f64; 2]>>,
     /// Table of (equivalent plastic strain, yield stress), first strain 0, flat after the last row.
     pub hardening_table: Option<Vec<[f64; 2]>>,
 }
 
 impl Material {
+    /// Modulus and rate of each back stress.
+    pub(crate) fn back_stresses(&self) -> Vec<[f64; 2]> {
+        let linear = self.kinematic_modulus.map(|modulus| [modulus, 0.0]);
+        let rows = self.back_stresses.iter().flatten().copied();
+        linear.into_iter().chain(rows).collect()
+    }
+
     /// Slope `H = d(yield stress)/d(equivalent plastic strain)` of linear hardening: the plastic
     /// modulus as given, `E Et/(E - Et)` from a tangent modulus, 0 for a yield stress alone
     /// (perfectly plastic). `None` where the material is elastic or hardens by a table.

@@ -55,16 +55,6 @@ const EFFECTS: &[(&str, &[&str])] = &[
         &["creep", "viscosity", "viscoplasticity", "strain_rate"],
     ),
     (
-        "nonlinear kinematic hardening: the linear one is `kinematic_modulus`",
-        &[
-            "kinematic_hardening",
-            "kinematic",
-            "backstress",
-            "back_stresses",
-            "chaboche",
-        ],
-    ),
-    (
         "adhesion, wear or damage",
         &[
             "adhesion", "cohesion", "cohesive", "wear", "damage", "fracture",

@@ -4,6 +4,8 @@ mod allocations;
 #[cfg(any(feature = "cholmod", feature = "faer"))]
 mod counts;
 #[cfg(any(feature = "cholmod", feature = "faer"))]
+mod effects;
+#[cfg(any(feature = "cholmod", feature = "faer"))]
 mod many;
 #[path = "../running/mod.rs"]
 mod running;

@@ -158,7 +158,19 @@ fn every_kind_of_way_goes_on() {
         ],
     ]
     .concat();
-    let cases: [(&str, &[&str], usize); 16] = [
+    let fading = [
+        "materials.metal.plastic_modulus=2000",
+        "materials.metal.back_stresses=[[40000, 300], [5000, 20]]",
+        "program.stepping=steps",
+        "program.steps=3",
+    ];
+    let cases: [(&str, &[&str], usize); 18] = [
+        ("hard/ratchet", &fading, 2),
+        (
+            "hard/cyclic",
+            &["materials.steel.back_stresses=[[20000, 50]]"],
+            3,
+        ),
         ("ball_on_flat_3d", &soft, 2),
         ("roller_on_plate", &[], 4),
         ("square_punch", &apart, 2),

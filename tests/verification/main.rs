@@ -1,6 +1,7 @@
 //! Published cases with known answers, run through the library: one case per file, its source at
 //! the head.
 
+mod back_stresses;
 mod body_forces;
 mod circular_punch;
 mod contact_patch;

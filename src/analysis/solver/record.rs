@@ -120,7 +120,7 @@ impl<'m> Solver<'m> {
         state.fits(
             [model.pairs.len(), model.rows.n_contact()],
             model.loads.len(),
-        ) && state.history.len() == n_points
+        ) && state.history.is_of(n_points)
             && state
                 .elements
                 .iter()

@@ -1,12 +1,14 @@
 //! The elements of the zone and the points at which they may yield.
 
+use super::history::BackStrains;
 use super::{Evaluation, History};
 use crate::analysis::free_strain::FreeStrains;
 use crate::analysis::gather::{GatheredElements, Nodal, Places};
 use crate::element::{Components, Gradients, Kernel};
-use crate::material::{Lame, Material, PlasticState, Softening};
+use crate::material::{Lame, Material, Past, PlasticState, Softening};
 use crate::model::Model;
 use crate::substructure::Trailing;
+use rayon::iter::Either;
 use rayon::prelude::*;
 
 /// Elements that a thread takes at a time.
@@ -22,10 +24,15 @@ pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize
     stride: usize,
     materials: Vec<(Material, Lame)>,
     committed: Vec<PlasticState<S>>,
+    /// What back stresses that fade remember of it.
+    back: BackStrains<S>,
     /// Equal to `committed` except where `yields`.
     trial: Vec<PlasticState<S>>,
     /// `D - D_ep` at the last evaluated state; zero except where `yields`.
     pub(super) softening: Vec<Softening<S>>,
+    /// What is not symmetric of it, times the dyad with its normal; empty where no back stress
+    /// fades.
+    pub(super) turn: Vec<[f64; S]>,
     /// Points that yielded at the last evaluated state.
     pub(super) yields: Vec<bool>,
     /// Flowing points of each element at the last evaluated state.
@@ -63,7 +70,11 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         let shapes = model.mesh.shapes.iter();
         let stride = shapes.map(|s| s.n_gauss_points()).max().unwrap_or(1);
         let (n_zone, n_contact) = places.sizes();
+        let fading = model.materials.iter().map(|m| m.back_stresses.n_stored());
+        let back = BackStrains::new(fading.max().unwrap_or(0), n * stride);
         ZoneOf {
+            turn: vec![[0.0; S]; if back.is_none() { 0 } else { n * stride }],
+            back,
             forces: vec![[[0.0; D]; N]; n],
             free,
             factors: vec![0.0; model.loads.len()],
@@ -95,6 +106,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             + self.gradients.capacity() * size_of::<Gradients<D, S, P, N>>()
             + self.forces.capacity() * size_of::<[[f64; D]; N]>()
             + self.committed.capacity() * 2 * size_of::<PlasticState<S>>()
+            + self.back.bytes()
+            + self.turn.capacity() * size_of::<[f64; S]>()
             + self.softening.capacity() * size_of::<Softening<S>>()) as u64
     }
 
@@ -109,13 +122,22 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
     pub fn evaluate(&mut self, u: &Trailing, initial_load: &mut Trailing) -> Evaluation {
         let nodal = self.nodal.displacements(u);
         let (elements, materials, stride) = (&self.elements, &self.materials, self.stride);
-        let (free, factors) = (&self.free, &self.factors);
+        let (free, factors, back) = (&self.free, &self.factors, &self.back);
+        let turn = match self.turn.is_empty() {
+            true => Either::Left(
+                (0..elements.list.len())
+                    .into_par_iter()
+                    .map(|_| &mut [][..]),
+            ),
+            false => Either::Right(self.turn.par_chunks_mut(stride)),
+        };
         (
             &self.gradients,
             &mut self.yielding,
             &mut self.forces,
             self.trial.par_chunks_mut(stride),
             self.softening.par_chunks_mut(stride),
+            turn,
             self.yields.par_chunks_mut(stride),
             self.committed.par_chunks(stride),
         )
@@ -123,7 +145,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             .enumerate()
             .with_min_len(GRAIN)
             .for_each(
-                |(i, (gradients, yielding, force, trial, softening, yields, committed))| {
+                |(i, (gradients, yielding, force, trial, softening, turn, yields, committed))| {
                     let packed = &elements.list[i];
                     let (material, law) = &materials[packed.body as usize];
                     let mut strains = gradients.strains(&elements.displacements(i, nodal));
@@ -131,9 +153,14 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
                     let mut added = [[0.0; P]; S];
                     *yielding = 0;
                     for g in 0..gradients.n_points() {
-                        let (strain, old) = (&at_point(&strains, g), &committed[g]);
+                        let strain = &at_point(&strains, g);
+                        let old = &committed[g];
+                        let past = Past {
+                            state: old,
+                            back: back.of(i * stride + g),
+                        };
                         // Most points are elastic: nothing is stored for them.
-                        if material.stays_elastic(law, strain, old) {
+                        if material.stays_elastic(law, strain, &past) {
                             if yields[g] {
                                 yields[g] = false;
                                 trial[g] = *old;
@@ -141,9 +168,12 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
                             }
                             continue;
                         }
-                        let update = material.integrate(law, strain, old);
+                        let update = material.integrate(law, strain, &past);
                         trial[g] = update.state;
                         softening[g] = update.softening;
+                        if let Some(turn) = turn.get_mut(g) {
+                            *turn = update.turn;
+                        }
                         yields[g] = true;
                         *yielding += 1;
                         let change =
@@ -175,7 +205,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
     pub fn softening_times(&mut self, v: &Trailing, out: &mut Trailing) {
         let nodal = self.nodal.variation(v);
         let (elements, gradients) = (&self.elements, &self.gradients);
-        let (softening, stride) = (&self.softening, self.stride);
+        let (softening, turn, stride) = (&self.softening, &self.turn, self.stride);
         self.active
             .par_iter()
             .zip(&mut self.forces[..self.active.len()])
@@ -187,7 +217,13 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
                 let mut stress = [[0.0; P]; S];
                 let points = &softening[i * stride..][..gradients.n_points()];
                 for (g, lost) in points.iter().enumerate() {
-                    put(&mut stress, g, lost.times(&at_point(&strains, g)));
+                    let strain = at_point(&strains, g);
+                    let mut out = lost.times(&strain);
+                    if let Some(turn) = turn.get(i * stride + g) {
+                        let flow = lost.flow(&strain);
+                        out = std::array::from_fn(|k| out[k] + flow * turn[k]);
+                    }
+                    put(&mut stress, g, out);
                 }
                 *force = gradients.forces(&stress);
             });
@@ -196,6 +232,11 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             self.elements.scatter(i as usize, force, sums);
         }
         self.sums.sum_into(out);
+    }
+
+    /// Whether the tangent is: only back stresses that fade make it another.
+    pub fn is_symmetric(&self) -> bool {
+        self.turn.is_empty()
     }
 
     /// Marks the zone freedoms of elements in which a point yielded at the last evaluated state.
@@ -218,11 +259,28 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
     /// Makes the last evaluated state the history.
     pub fn commit(&mut self) {
         if !self.active.is_empty() {
+            self.carry_back();
             for &i in &self.active {
                 let points = self.points_of(i as usize);
                 self.committed[points.clone()].copy_from_slice(&self.trial[points]);
             }
             self.renew_base();
+        }
+    }
+
+    /// Lets back stresses that fade follow the last evaluated state.
+    fn carry_back(&mut self) {
+        if self.back.is_none() {
+            return;
+        }
+        for i in self.active.iter().map(|&i| i as usize) {
+            let laws = &self.materials[self.elements.list[i].body as usize]
+                .0
+                .back_stresses;
+            for point in self.points_of(i) {
+                let (from, to) = (&self.committed[point], &self.trial[point]);
+                self.back.carry(laws, point, from, to);
+            }
         }
     }
 
@@ -233,31 +291,31 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
 
     /// The history, point by point.
     pub fn history(&self) -> History {
-        self.committed.iter().map(PlasticState::resized).collect()
+        History {
+            points: self.committed.iter().map(PlasticState::resized).collect(),
+            back: self.back.resized(),
+        }
     }
 
     /// Puts a history back.
-    pub fn restore(&mut self, history: &[PlasticState<6>]) {
-        for (own, state) in self.committed.iter_mut().zip(history) {
-            *own = state.resized();
-        }
+    pub fn restore(&mut self, history: &History) {
+        self.put(0..self.committed.len(), history, 0);
         self.trial.copy_from_slice(&self.committed);
         self.renew_base();
     }
 
     /// Puts the history of a zone of other elements (ascending) back; elements that were not in it
     /// have none.
-    pub fn restore_of(&mut self, elements: &[usize], history: &[PlasticState<6>]) {
-        for (i, packed) in self.elements.list.iter().enumerate() {
-            let states = &mut self.committed[i * self.stride..][..self.stride];
-            match elements.binary_search(&(packed.element as usize)) {
-                Ok(j) => {
-                    let known = &history[j * self.stride..][..self.stride];
-                    for (state, known) in states.iter_mut().zip(known) {
-                        *state = known.resized();
-                    }
+    pub fn restore_of(&mut self, elements: &[usize], history: &History) {
+        for i in 0..self.elements.list.len() {
+            let points = i * self.stride..(i + 1) * self.stride;
+            let element = self.elements.list[i].element as usize;
+            match elements.binary_search(&element) {
+                Ok(j) => self.put(points, history, j * self.stride),
+                Err(_) => {
+                    self.committed[points.clone()].fill(PlasticState::default());
+                    self.back.clear(points);
                 }
-                Err(_) => states.fill(PlasticState::default()),
             }
         }
         self.trial.copy_from_slice(&self.committed);
@@ -265,6 +323,15 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         self.softening.fill(Softening::NONE);
         self.active.clear();
         self.renew_base();
+    }
+
+    /// Puts the history of other points in the place of that of some.
+    fn put(&mut self, points: std::ops::Range<usize>, history: &History, from: usize) {
+        let known = &history.points[from..][..points.len()];
+        for (state, known) in self.committed[points.clone()].iter_mut().zip(known) {
+            *state = known.resized();
+        }
+        self.back.put(points, &history.back, from);
     }
 
     /// Initial loads of the committed plastic strains.
@@ -290,6 +357,17 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             elements.scatter(i, &gradients.forces(&stress), sums);
         }
         self.sums.sum_into(&mut self.base);
+    }
+
+    /// Work on the plastic strains of a point of the zone's element `i`, per volume.
+    pub fn plastic_work(&self, i: usize, point: usize) -> f64 {
+        let place = i * self.stride + point;
+        let material = &self.materials[self.elements.list[i].body as usize].0;
+        let past = Past {
+            state: &self.committed[place],
+            back: self.back.of(place),
+        };
+        material.plastic_work(&past) + self.back.lost_work(place)
     }
 
     /// History of the zone's element `i`.

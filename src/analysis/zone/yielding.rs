@@ -3,7 +3,7 @@
 
 use super::ZoneOf;
 use crate::analysis::packed::Ascending;
-use crate::material::Softening;
+use crate::material::{Softening, resized};
 use serde::{Deserialize, Serialize};
 
 /// Which points of a zone yielded at the last evaluated state.
@@ -15,6 +15,8 @@ pub(in crate::analysis) struct Yielding {
     yielding: Ascending,
     /// What flow takes off the elastic matrix there.
     softening: Vec<Softening<6>>,
+    /// What is not symmetric of it, where any may be.
+    turn: Vec<[f64; 6]>,
 }
 
 impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S, P, N> {
@@ -28,6 +30,10 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             softening: (yielding.iter())
                 .map(|&point| self.softening[point].resized())
                 .collect(),
+            turn: (yielding.iter())
+                .filter_map(|&point| self.turn.get(point))
+                .map(resized)
+                .collect(),
             yielding: Ascending::new(yielding),
         }
     }
@@ -36,7 +42,13 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
     pub(in crate::analysis) fn set_yielding(&mut self, record: &Yielding) -> bool {
         let fits = record.active.within(self.elements.list.len())
             && record.yielding.within(self.yields.len())
-            && record.yielding.len() == record.softening.len();
+            && record.yielding.len() == record.softening.len()
+            && record.turn.len()
+                == if self.turn.is_empty() {
+                    0
+                } else {
+                    record.softening.len()
+                };
         if !fits {
             return false;
         }
@@ -46,6 +58,9 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         for (point, softening) in record.yielding.iter().zip(&record.softening) {
             self.yields[point] = true;
             self.softening[point] = softening.resized();
+        }
+        for (point, turn) in record.yielding.iter().zip(&record.turn) {
+            self.turn[point] = resized(turn);
         }
         true
     }

@@ -98,15 +98,22 @@ fn bodies(model: &Model, units: &Units) -> Markup {
                 }
                 (_, None) => "table".to_string(),
             };
-            let hardening = match material
-                .kinematic_modulus
-                .filter(|c| *c != 0.0 && yields.is_some())
-            {
-                Some(c) => format!(
-                    "{hardening}; kinematic, C = {}",
-                    with_unit(&given(c), stress)
-                ),
-                None => hardening,
+            let back = material
+                .back_stresses()
+                .into_iter()
+                .filter(|[c, _]| *c != 0.0);
+            let back: Vec<String> = back
+                .map(|[c, gamma]| match gamma == 0.0 {
+                    true => format!("C = {}", with_unit(&given(c), stress)),
+                    false => {
+                        let c = with_unit(&given(c), stress);
+                        format!("C = {c}, \u{3b3} = {}", given(gamma))
+                    }
+                })
+                .collect();
+            let hardening = match back.is_empty() || yields.is_none() {
+                true => hardening,
+                false => format!("{hardening}; kinematic, {}", back.join("; ")),
             };
             Some(vec![
                 swatch(BODIES[index % BODIES.len()], name),

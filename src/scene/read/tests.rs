@@ -267,11 +267,6 @@ fn effects_that_brinell_has_not_are_unsupported() {
         ),
         ("poissons_ratio = 0.3", "damping = 0.1", "dynamics"),
         ("\"plane_strain\"", "\"3d\"", "thickness"),
-        (
-            "poissons_ratio = 0.3",
-            "back_stresses = []",
-            "nonlinear kinematic hardening",
-        ),
     ] {
         let error = Scene::parse(&GOOD.replacen(good, bad, 1), "bad.toml").unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Unsupported, "{error}");

@@ -71,7 +71,11 @@ impl Checks {
             self.at_least(key.as_str(), modulus, 0.0);
             self.slope(key, "the modulus", modulus);
         }
-        let kinematic = material.kinematic_modulus.map(|_| "kinematic_modulus");
+        if let Some(rows) = &material.back_stresses {
+            self.back_stresses(&format!("{key}.back_stresses"), rows);
+        }
+        let linear = material.kinematic_modulus.map(|_| "kinematic_modulus");
+        let kinematic = linear.or(material.back_stresses.as_ref().map(|_| "back_stresses"));
         let Some(yield_stress) = material.yield_stress else {
             if let Some(law) = given.first().copied().or(kinematic) {
                 self.problem(
@@ -108,6 +112,36 @@ impl Checks {
         }
         if let Some(table) = &material.hardening_table {
             self.hardening_table(&format!("{key}.hardening_table"), table, yield_stress);
+        }
+    }
+
+    fn back_stresses(&mut self, key: &str, rows: &[[f64; 2]]) {
+        self.require(
+            !rows.is_empty(),
+            key,
+            "is empty; give rows of [modulus C, rate gamma]",
+        );
+        for (index, [modulus, rate]) in rows.iter().enumerate() {
+            let key = format!("{key}.{index}");
+            self.require(
+                *modulus >= 0.0 && *rate >= 0.0,
+                key.as_str(),
+                format!(
+                    "[{}, {}]: modulus C and rate gamma must be at least 0",
+                    exact(*modulus),
+                    exact(*rate)
+                ),
+            );
+            self.require(
+                *modulus != 0.0 || *rate == 0.0,
+                key.as_str(),
+                format!(
+                    "[0, {}] is a rate gamma without a modulus C: there is nothing that could fade",
+                    exact(*rate)
+                ),
+            );
+            self.slope(key.as_str(), "the modulus", *modulus);
+            self.slope(key, "the rate", *rate);
         }
     }
 

@@ -1,0 +1,122 @@
+//! What the points of a zone have gone through, and what back stresses that fade remember of it.
+
+use crate::analysis::packed;
+use crate::material::{BackStresses, PlasticState, resized};
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+
+/// The history of points, in the plane with zeros for the components it has not.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct History {
+    /// Plastic history of each.
+    #[serde(with = "packed::history")]
+    pub points: Vec<PlasticState<6>>,
+    /// What its back stresses remember.
+    pub back: BackStrains<6>,
+}
+
+impl History {
+    /// Whether it is of so many points.
+    pub fn is_of(&self, n_points: usize) -> bool {
+        self.points.len() == n_points && self.back.is_of(n_points)
+    }
+}
+
+/// The strains of back stresses that fade, point by point, and the work that was lost with them.
+/// Empty where no material has any.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(bound(
+    serialize = "[f64; S]: Serialize",
+    deserialize = "[f64; S]: Deserialize<'de>"
+))]
+pub struct BackStrains<const S: usize> {
+    /// How many each point has.
+    each: usize,
+    strains: Vec<[f64; S]>,
+    /// Per volume, of each point.
+    lost_work: Vec<f64>,
+}
+
+impl<const S: usize> BackStrains<S> {
+    /// `each` of so many points, all zero.
+    pub fn new(each: usize, n_points: usize) -> Self {
+        BackStrains {
+            each,
+            strains: vec![[0.0; S]; each * n_points],
+            lost_work: vec![0.0; if each > 0 { n_points } else { 0 }],
+        }
+    }
+
+    /// Whether there are any.
+    pub fn is_none(&self) -> bool {
+        self.each == 0
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        self.strains.capacity() * size_of::<[f64; S]>()
+            + self.lost_work.capacity() * size_of::<f64>()
+    }
+
+    fn is_of(&self, n_points: usize) -> bool {
+        let n = if self.is_none() { 0 } else { n_points };
+        self.strains.len() == self.each * n_points && self.lost_work.len() == n
+    }
+
+    /// Those of a point.
+    #[inline]
+    pub fn of(&self, point: usize) -> &[[f64; S]] {
+        &self.strains[self.each * point..][..self.each]
+    }
+
+    /// The work that a point lost, per volume.
+    pub fn lost_work(&self, point: usize) -> f64 {
+        self.lost_work.get(point).copied().unwrap_or(0.0)
+    }
+
+    /// Follows a point from one plastic state to the next.
+    pub fn carry(
+        &mut self,
+        laws: &BackStresses,
+        point: usize,
+        from: &PlasticState<S>,
+        to: &PlasticState<S>,
+    ) {
+        if !self.is_none() {
+            let strains = &mut self.strains[self.each * point..][..self.each];
+            self.lost_work[point] += laws.carry(strains, from, to);
+        }
+    }
+
+    /// The same with another number of components.
+    pub fn resized<const T: usize>(&self) -> BackStrains<T> {
+        BackStrains {
+            each: self.each,
+            strains: self.strains.iter().map(resized).collect(),
+            lost_work: self.lost_work.clone(),
+        }
+    }
+
+    /// Puts those of other points in the place of some.
+    pub fn put(&mut self, points: Range<usize>, other: &BackStrains<6>, from: usize) {
+        if self.is_none() {
+            return;
+        }
+        let n = self.each * points.len();
+        let known = &other.strains[self.each * from..][..n];
+        let own = &mut self.strains[self.each * points.start..][..n];
+        for (own, known) in own.iter_mut().zip(known) {
+            *own = resized(known);
+        }
+        let lost = &other.lost_work[from..][..points.len()];
+        self.lost_work[points].copy_from_slice(lost);
+    }
+
+    /// Forgets those of some points.
+    pub fn clear(&mut self, points: Range<usize>) {
+        if !self.is_none() {
+            self.strains[self.each * points.start..self.each * points.end].fill([0.0; S]);
+            self.lost_work[points].fill(0.0);
+        }
+    }
+}
