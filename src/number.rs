@@ -76,9 +76,18 @@ pub(crate) fn percent(share: f64) -> String {
     }
 }
 
-/// As [`percent`], without the sign: for tables and sentences that have it.
+/// As [`percent`], without the sign: for sentences that have it.
 pub(crate) fn percentage(share: f64) -> String {
     significant(100.0 * share, 2)
+}
+
+/// As [`percentage`], for tables: what is so small that nobody minds has no digits.
+#[cfg(feature = "report")]
+pub(crate) fn rough_percentage(share: f64) -> String {
+    match share {
+        s if s > 0.0 && s < 1e-4 => "< 0.01".to_string(),
+        s => percentage(s),
+    }
 }
 
 /// Bytes in the unit that fits.
@@ -208,6 +217,14 @@ mod tests {
             (f64::NAN, "of unknown size"),
         ] {
             assert_eq!(percent(share), text);
+        }
+        for (share, text) in [
+            (0.0, "0"),
+            (5.1e-13, "< 0.01"),
+            (1e-4, "0.010"),
+            (0.1, "10"),
+        ] {
+            assert_eq!(rough_percentage(share), text);
         }
         for (seconds, text) in [
             (0.0123, "12 ms"),

@@ -13,6 +13,7 @@ Examples:
   brinell run press.toml --out results --set materials.steel.yield_stress=400 --set program.steps=40
   brinell yield press.toml --json
   brinell new ball-on-flat --radius 5 --load 20 > ball.toml
+  brinell sweep ball.toml --vary materials.steel.yield_stress=400,500,600 --jobs 2
   brinell view press.out
   brinell check press.inp
 
@@ -57,6 +58,8 @@ pub(super) struct Arguments {
     pub command: Command,
 }
 
+// One is made in a run of the program.
+#[expect(clippy::large_enum_variant)]
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Run the load program: yield load, states at the targets, fields
@@ -106,6 +109,13 @@ pub(super) enum Command {
         after_help = "Example: brinell accuracy data/scenes/thick_cylinder.toml --budget 60s"
     )]
     Accuracy(StudyArguments),
+    /// Run the scene with other values of some keys: a table, a CSV file and charts
+    ///
+    /// Every point is a run with a directory of its own. Ctrl-C ends the sweep and keeps what it
+    /// has; the same command goes on where it was.
+    Sweep(super::sweep::SweepArguments),
+    /// List steels and alloys that a scene takes by name, with the sources of their numbers
+    Materials(super::materials::MaterialsArguments),
     /// Print a commented scene to start from, or list those there are
     Example(super::example::ExampleArguments),
     /// Write a commented scene for a common problem from a few numbers

@@ -9,7 +9,6 @@ use crate::analysis::{self, Analysis, Check};
 use crate::checkpoint::Checkpoints;
 use crate::deck::{self, Deck, Options};
 use crate::error::{Error, Result};
-use crate::linalg::Backend;
 use crate::model::Model;
 use crate::output::{self, Claim, RunHeader};
 use crate::progress::Observer;
@@ -39,6 +38,8 @@ pub(super) fn execute(arguments: &Arguments, start: Instant) -> Result<()> {
         Command::Convert(convert) => super::convert::run(convert),
         Command::Selftest(selftest) => super::selftest::execute(selftest),
         Command::Accuracy(arguments) => study::execute(arguments),
+        Command::Sweep(sweep) => super::sweep::execute(sweep),
+        Command::Materials(materials) => super::materials::run(materials),
         Command::Example(example) => example::run(example),
         Command::New(new) => new::run(new),
         Command::Schema(schema) => schema::run(schema),
@@ -123,7 +124,7 @@ fn compute(
     };
     let model = analysis.model();
     let computed = seconds();
-    let header = header(&scene, model, common, computed);
+    let header = header(model, common, computed);
     let out = claim.as_ref().map(|claim| claim.dir().to_path_buf());
     if let Some(claim) = claim {
         progress.start("output");
@@ -146,7 +147,7 @@ fn compute(
     let text = if common.json {
         json(&output::summary(&header, &results))?
     } else {
-        report::results(&scene, &header.bodies, &results, seconds(), out.as_deref())
+        report::results(&scene, &header, &results, seconds(), out.as_deref())
     };
     Ok((text, results))
 }
@@ -199,19 +200,10 @@ fn once(
     Ok((analysis, results))
 }
 
-pub(super) fn header(
-    scene: &Scene,
-    model: &Model,
-    common: &CommonArguments,
-    wall_seconds: f64,
-) -> RunHeader {
+pub(super) fn header(model: &Model, common: &CommonArguments, wall_seconds: f64) -> RunHeader {
     RunHeader {
-        scene_title: scene.title.clone(),
         scene_file: Some(common.scene.display().to_string()),
-        kind: scene.kind.name().to_string(),
-        solver: Backend::from(common.solver).name().to_string(),
-        wall_seconds,
-        bodies: model.mesh.bodies.clone(),
+        ..RunHeader::new(model, common.solver.into(), wall_seconds)
     }
 }
 

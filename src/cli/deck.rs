@@ -1,6 +1,6 @@
 //! What became of a deck, in words.
 
-use super::table::{Column, Table, WIDTH, wrap};
+use super::table::{Column, Table, page_width, wrap};
 use crate::deck::{Deck, Note};
 
 /// Keywords that were understood, and what was taken otherwise, ignored and refused.
@@ -18,7 +18,7 @@ pub(super) fn account(deck: &Deck) -> String {
         "Deck      {} nodes, {} elements\n\n{}\n",
         deck.n_nodes(),
         deck.n_elements(),
-        table.render()
+        table.render(page_width())
     );
     for (heading, notes) in [
         ("Taken otherwise", &account.taken),
@@ -37,7 +37,7 @@ fn list(heading: &str, notes: &[Note], text: &mut String) {
     text.push_str(heading);
     text.push('\n');
     for note in notes {
-        for (index, line) in wrap(&note.to_string(), WIDTH - 4).iter().enumerate() {
+        for (index, line) in wrap(&note.to_string(), page_width() - 4).iter().enumerate() {
             let mark = if index == 0 { "  - " } else { "    " };
             text.push_str(&format!("{mark}{line}\n"));
         }

@@ -1,7 +1,7 @@
 //! `brinell example`: the commented scenes of the project, built in.
 
 use super::print;
-use super::table::{Column, Table};
+use super::table::{Column, Table, page_width};
 use crate::error::{Error, Result};
 use clap::Args;
 
@@ -52,7 +52,7 @@ pub(super) fn run(arguments: &ExampleArguments) -> Result<()> {
         for (name, text) in EXAMPLES {
             table.row([name.to_string(), title(text).to_string()]);
         }
-        return print(&table.render());
+        return print(&table.render(page_width()));
     };
     match EXAMPLES.iter().find(|(known, _)| known == name) {
         Some((_, text)) => print(text),

@@ -12,6 +12,7 @@ mod deck;
 mod example;
 mod forecast;
 mod interrupt;
+mod materials;
 mod new;
 mod progress;
 mod remaining;
@@ -20,6 +21,7 @@ mod restart;
 mod schema;
 mod selftest;
 mod study;
+mod sweep;
 mod table;
 mod view;
 

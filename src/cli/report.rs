@@ -1,10 +1,11 @@
 //! The printed summaries.
 
-use super::table::{Column::*, Table, WIDTH, wrap};
+use super::table::{Column::*, Table, page_width, wrap};
 use crate::analysis::Check;
 use crate::linalg::Prediction;
 use crate::number::{bytes, number, seconds, significant};
 use crate::output::columns::{cell, of_states};
+use crate::output::{Labels, RunHeader};
 use crate::results::{
     Effect, QUANTITIES, Quality, ReferenceRow, Results, Sizes, State, YieldPoint,
 };
@@ -13,21 +14,20 @@ use crate::space::Space;
 use crate::text::shown_in_line;
 use std::path::Path;
 
-/// The summary of a run or of a yield load. `bodies` are the names by index, `wall_seconds` is the
-/// time of the whole command.
+/// The summary of a run or of a yield load. `wall_seconds` is the time of the whole command.
 pub(super) fn results(
     scene: &Scene,
-    bodies: &[String],
+    header: &RunHeader,
     results: &Results,
     wall_seconds: f64,
     out: Option<&Path>,
 ) -> String {
-    let mut report = Report::new(scene);
+    let mut report = Report::new(scene, header.labels.clone());
     report.sizes(&results.sizes);
     report.factor(&results.factor);
     report.effects(&results.effects);
     if let Some(first) = &results.first_yield {
-        report.first_yield(first, bodies, results.sizes.contact_pairs > 0);
+        report.first_yield(first, &header.bodies, results.sizes.contact_pairs > 0);
     }
     report.states(
         &results.states,
@@ -62,7 +62,7 @@ pub(super) fn results(
 
 /// What a run would do and cost.
 pub(super) fn check(scene: &Scene, check: &Check) -> String {
-    let mut report = Report::new(scene);
+    let mut report = Report::new(scene, Labels::default());
     report.sizes(&check.sizes);
     report.factor(&check.prediction);
     report.labelled(
@@ -89,10 +89,18 @@ fn counted(count: usize, what: &str) -> String {
 const LABEL: usize = 9;
 
 /// The table of states.
-pub(super) fn states_table(states: &[State], space: Space, contact: bool) -> Table {
-    let columns = of_states(states, space, contact, true);
-    let numbers = columns.iter().map(|column| (Number, column.heading));
-    let headings: Vec<_> = std::iter::once((Text, "state")).chain(numbers).collect();
+pub(super) fn states_table(
+    states: &[State],
+    labels: &Labels,
+    space: Space,
+    contact: bool,
+) -> Table {
+    let columns = of_states(states, labels, space, contact, true);
+    let numbers = columns
+        .iter()
+        .map(|c| (Number, with_unit_below(c.heading, &c.unit)));
+    let state = (Text, "state".to_string());
+    let headings: Vec<_> = std::iter::once(state).chain(numbers).collect();
     let mut table = Table::new(&headings);
     for (index, state) in states.iter().enumerate() {
         let cells = columns.iter().map(|column| column.cells[index].clone());
@@ -101,13 +109,23 @@ pub(super) fn states_table(states: &[State], space: Space, contact: bool) -> Tab
     table
 }
 
+/// A heading of lines, the unit the last of them.
+fn with_unit_below(heading: &str, unit: &str) -> String {
+    match unit {
+        "" => heading.to_string(),
+        unit => format!("{heading}\n[{unit}]"),
+    }
+}
+
 struct Report {
     text: String,
     space: Space,
+    labels: Labels,
+    width: usize,
 }
 
 impl Report {
-    fn new(scene: &Scene) -> Self {
+    fn new(scene: &Scene, labels: Labels) -> Self {
         let kind = match scene.kind {
             Kind::PlaneStrain => "plane strain",
             Kind::PlaneStress => "plane stress",
@@ -122,6 +140,8 @@ impl Report {
         let mut report = Report {
             text: String::new(),
             space: scene.kind,
+            labels,
+            width: page_width(),
         };
         report.lines(&format!("{} ({kind})", shown_in_line(&title)));
         report.text.push('\n');
@@ -129,7 +149,7 @@ impl Report {
     }
 
     fn lines(&mut self, text: &str) {
-        for line in wrap(text, WIDTH) {
+        for line in wrap(text, self.width) {
             self.text.push_str(&line);
             self.text.push('\n');
         }
@@ -138,7 +158,7 @@ impl Report {
     /// A label with its text beside it.
     fn labelled(&mut self, label: &str, text: &str) {
         let indent = LABEL + 2;
-        for (index, line) in wrap(text, WIDTH - indent).iter().enumerate() {
+        for (index, line) in wrap(text, self.width - indent).iter().enumerate() {
             let label = if index == 0 { label } else { "" };
             self.text.push_str(&format!("{label:<indent$}{line}\n"));
         }
@@ -153,7 +173,7 @@ impl Report {
         self.text.push('\n');
         self.text.push_str(heading);
         self.text.push('\n');
-        self.text.push_str(&table.render());
+        self.text.push_str(&table.render(self.width));
     }
 
     fn list(&mut self, heading: &str, items: &[String]) {
@@ -162,7 +182,7 @@ impl Report {
         }
         self.paragraph(heading);
         for item in items {
-            for (index, line) in wrap(item, WIDTH - 4).iter().enumerate() {
+            for (index, line) in wrap(item, self.width - 4).iter().enumerate() {
                 let mark = if index == 0 { "  - " } else { "    " };
                 self.text.push_str(&format!("{mark}{line}\n"));
             }
@@ -242,27 +262,25 @@ impl Report {
     }
 
     fn first_yield(&mut self, first: &YieldPoint, bodies: &[String], contact: bool) {
-        let mut columns: Vec<(super::table::Column, &'static str, String)> = Vec::new();
+        let mut columns: Vec<(super::table::Column, String, String)> = Vec::new();
+        let labels = &self.labels;
         for quantity in QUANTITIES.iter().filter(|q| q.scope.holds(contact, true)) {
             let heading = match quantity.key {
                 "alpha" => "factor on\nthe loads",
-                _ => quantity.heading,
+                _ => labels.heading(quantity),
             };
+            let heading = with_unit_below(heading, &labels.unit(quantity.unit));
             let value = quantity.at_yield.map(|field| (field.get)(first));
             columns.extend(value.map(|value| (Number, heading, cell(quantity, value))));
         }
         let body = bodies.get(first.body).cloned().unwrap_or_default();
-        columns.extend([
-            (Text, "in body", body),
-            (Number, "at x", number(first.location[0])),
-            (Number, "y", number(first.location[1])),
-        ]);
-        columns.extend(
-            self.space
-                .is_solid()
-                .then(|| (Number, "z", number(first.location[2]))),
-        );
-        let headings: Vec<_> = columns.iter().map(|c| (c.0, c.1)).collect();
+        columns.push((Text, "in body".to_string(), body));
+        for (axis, name) in self.space.axes().iter().enumerate() {
+            let at = if axis == 0 { "at " } else { "" };
+            let heading = with_unit_below(&format!("{at}{name}"), labels.length());
+            columns.push((Number, heading, number(first.location[axis])));
+        }
+        let headings: Vec<_> = columns.iter().map(|c| (c.0, c.1.as_str())).collect();
         let mut table = Table::new(&headings);
         table.row(columns.into_iter().map(|c| c.2));
         self.section("First yield", &table);
@@ -278,7 +296,7 @@ impl Report {
                 Unit::Load => "States",
                 Unit::Yield => "States (load factor 1 is first yield)",
             },
-            &states_table(states, self.space, contact),
+            &states_table(states, &self.labels, self.space, contact),
         );
     }
 

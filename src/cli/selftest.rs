@@ -2,7 +2,7 @@
 
 use super::arguments::Shown;
 use super::progress::Progress;
-use super::table::{Column::*, Table};
+use super::table::{Column::*, Table, page_width};
 use super::{interrupt, print};
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg;
@@ -52,7 +52,7 @@ pub(super) fn execute(arguments: &SelftestArguments) -> Result<()> {
             "brinell {}, BLAS: {}\n\n{}",
             env!("CARGO_PKG_VERSION"),
             linalg::blas_name(),
-            table.render()
+            table.render(page_width())
         )
     };
     print(&text)?;

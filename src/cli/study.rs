@@ -3,7 +3,7 @@
 use super::arguments::{CommonArguments, Shown};
 use super::commands::{at_once, header, json, prepare};
 use super::progress::Progress;
-use super::table::{Column::*, Table, WIDTH, wrap};
+use super::table::{Column::*, Table, page_width, wrap};
 use super::{interrupt, print};
 use crate::accuracy::{Knob, Plan, QuantityStudy, Study, foremost, study};
 use crate::error::{Error, ErrorKind, Result};
@@ -84,12 +84,7 @@ pub(super) fn execute(arguments: &StudyArguments) -> Result<()> {
     let start = Instant::now();
     let mut progress = Progress::new(arguments.quiet, Shown::default(), std::time::Instant::now());
     let found = study(&scene, common.solver.into(), &plan, &mut progress)?;
-    let header = header(
-        &scene,
-        &Model::new(&scene)?,
-        common,
-        start.elapsed().as_secs_f64(),
-    );
+    let header = header(&Model::new(&scene)?, common, start.elapsed().as_secs_f64());
     progress.start("output");
     claim.write_study(&header, &found)?;
     progress.finish();
@@ -139,7 +134,7 @@ fn report(study: &Study, out: &Path) -> String {
             error.map_or("-".to_string(), |e| significant(100.0 * e, 3)),
         ]);
     }
-    text.push_str(&table.render());
+    text.push_str(&table.render(page_width()));
     text.push_str("\nPrices\n");
     for quantity in foremost(&study.quantities) {
         prices(quantity, &mut text);
@@ -185,7 +180,7 @@ fn prices(quantity: &QuantityStudy, text: &mut String) {
 }
 
 fn bullet(item: &str, text: &mut String) {
-    for (i, line) in wrap(item, WIDTH - 6).iter().enumerate() {
+    for (i, line) in wrap(item, page_width() - 6).iter().enumerate() {
         let mark = if i == 0 { "    - " } else { "      " };
         text.push_str(&format!("{mark}{line}\n"));
     }

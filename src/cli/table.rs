@@ -1,9 +1,14 @@
-//! Tables of text: aligned columns, no wider than a page, long text wrapped.
+//! Tables of text: aligned columns, no wider than a page, long text wrapped, more columns than a
+//! page holds as one table below the other.
 
 use crate::text::shown_in_line;
+use std::io;
+use terminal_size::{Width, terminal_size_of};
 
-/// No line of a report is longer.
-pub(super) const WIDTH: usize = 110;
+/// Columns of a page where there is no terminal.
+const WIDTH: usize = 110;
+/// A page is no narrower, and no wider: longer lines are not easily read.
+const WIDTHS: [usize; 2] = [40, 160];
 const INDENT: usize = 2;
 const GAP: usize = 2;
 /// A text column is not squeezed below this.
@@ -18,16 +23,23 @@ pub(super) enum Column {
     Number,
 }
 
+/// Columns of a page: as many as the terminal has that standard output is.
+pub(super) fn page_width() -> usize {
+    let columns = terminal_size_of(io::stdout()).map(|(Width(columns), _)| usize::from(columns));
+    columns.map_or(WIDTH, |columns| columns.clamp(WIDTHS[0], WIDTHS[1]))
+}
+
 /// A table with a heading per column; a heading may have line breaks.
 pub(super) struct Table {
-    columns: Vec<(Column, &'static str)>,
+    columns: Vec<(Column, String)>,
     rows: Vec<Vec<String>>,
 }
 
 impl Table {
-    pub fn new(columns: &[(Column, &'static str)]) -> Self {
+    pub fn new<Heading: ToString>(columns: &[(Column, Heading)]) -> Self {
+        let named = columns.iter().map(|(kind, name)| (*kind, name.to_string()));
         Table {
-            columns: columns.to_vec(),
+            columns: named.collect(),
             rows: Vec::new(),
         }
     }
@@ -41,28 +53,35 @@ impl Table {
         self.rows.push(cells);
     }
 
-    /// The lines, each ended by a line break.
-    pub fn render(&self) -> String {
-        let widths = self.widths();
+    /// The lines, each ended by a line break and no longer than a page, unless one column is wider.
+    pub fn render(&self, page: usize) -> String {
+        let widths = self.widths(page);
+        let blocks = blocks(&widths, page);
+        let rendered: Vec<String> = blocks.iter().map(|b| self.block(b, &widths)).collect();
+        rendered.join("\n")
+    }
+
+    /// Some of the columns.
+    fn block(&self, columns: &[usize], widths: &[usize]) -> String {
         let mut text = String::new();
         let heading: Vec<String> = self.columns.iter().map(|(_, h)| h.to_string()).collect();
         // Headings of one line stand next to the values, not above the others.
-        let height = heading.iter().map(|h| h.lines().count()).max().unwrap_or(0);
-        let heading: Vec<String> = heading
-            .iter()
-            .map(|h| "\n".repeat(height.saturating_sub(h.lines().count().max(1))) + h)
-            .collect();
-        self.set(&heading, &widths, &mut text);
-        let length = widths.iter().sum::<usize>() + GAP * widths.len().saturating_sub(1);
+        let lines = |h: &String| h.lines().count().max(1);
+        let height = columns.iter().map(|&c| lines(&heading[c])).max();
+        let low = |h: &String| "\n".repeat(height.unwrap_or(1).saturating_sub(lines(h))) + h;
+        let heading: Vec<String> = heading.iter().map(low).collect();
+        self.set(&heading, columns, widths, &mut text);
+        let widths_of_block = columns.iter().map(|&c| widths[c]);
+        let length = widths_of_block.sum::<usize>() + GAP * columns.len().saturating_sub(1);
         text.push_str(&format!("{}{}\n", " ".repeat(INDENT), "-".repeat(length)));
         for row in &self.rows {
-            self.set(row, &widths, &mut text);
+            self.set(row, columns, widths, &mut text);
         }
         text
     }
 
     /// Natural widths; where they exceed the page, the widest text columns give way.
-    fn widths(&self) -> Vec<usize> {
+    fn widths(&self, page: usize) -> Vec<usize> {
         let mut widths: Vec<usize> = (0..self.columns.len())
             .map(|c| {
                 let heading = self.columns[c].1.lines();
@@ -70,7 +89,7 @@ impl Table {
                 heading.chain(cells).map(length).max().unwrap_or(0)
             })
             .collect();
-        let page = WIDTH.saturating_sub(INDENT + GAP * widths.len().saturating_sub(1));
+        let page = page.saturating_sub(INDENT + GAP * widths.len().saturating_sub(1));
         while widths.iter().sum::<usize>() > page {
             let widest = (0..widths.len())
                 .filter(|&c| self.columns[c].0 == Column::Text && widths[c] > LEAST)
@@ -81,19 +100,18 @@ impl Table {
         widths
     }
 
-    fn set(&self, cells: &[String], widths: &[usize], text: &mut String) {
-        let cells: Vec<Vec<String>> = cells
+    fn set(&self, cells: &[String], columns: &[usize], widths: &[usize], text: &mut String) {
+        let cells: Vec<Vec<String>> = columns
             .iter()
-            .zip(widths)
-            .map(|(cell, &width)| wrap(cell, width))
+            .map(|&column| wrap(&cells[column], widths[column]))
             .collect();
         let height = cells.iter().map(Vec::len).max().unwrap_or(0);
         for line in 0..height {
             let mut set = " ".repeat(INDENT);
-            for (c, (cell, &width)) in cells.iter().zip(widths).enumerate() {
+            for (&column, cell) in columns.iter().zip(&cells) {
                 let part = cell.get(line).map_or("", String::as_str);
-                let pad = " ".repeat(width.saturating_sub(length(part)));
-                match self.columns[c].0 {
+                let pad = " ".repeat(widths[column].saturating_sub(length(part)));
+                match self.columns[column].0 {
                     Column::Text => {
                         set.push_str(part);
                         set.push_str(&pad);
@@ -109,6 +127,25 @@ impl Table {
             text.push('\n');
         }
     }
+}
+
+/// The columns that fit a page, one block after the other, the first column in each.
+fn blocks(widths: &[usize], page: usize) -> Vec<Vec<usize>> {
+    let Some(first) = widths.first() else {
+        return Vec::new();
+    };
+    let (mut blocks, mut used) = (vec![vec![0]], INDENT + first);
+    for (column, width) in widths.iter().enumerate().skip(1) {
+        let block = &blocks[blocks.len() - 1];
+        if block.len() > 1 && used + GAP + width > page {
+            blocks.push(vec![0]);
+            used = INDENT + first;
+        }
+        used += GAP + width;
+        let last = blocks.len() - 1;
+        blocks[last].push(column);
+    }
+    blocks
 }
 
 fn length(text: &str) -> usize {
@@ -149,7 +186,7 @@ mod tests {
         table.row(["yield".to_string(), "1.5".to_string()]);
         table.row(["β".to_string(), "10.25".to_string()]);
         assert_eq!(
-            table.render(),
+            table.render(WIDTH),
             "\
 \x20             max
 \x20 name   pressure
@@ -169,7 +206,7 @@ mod tests {
         ]);
         let why = "because of this ".repeat(20);
         table.row(["contact".to_string(), why.clone(), "1.5".to_string()]);
-        let text = table.render();
+        let text = table.render(WIDTH);
         assert!(text.lines().all(|line| length(line) <= WIDTH), "{text}");
         let words = text.matches("because").count();
         assert_eq!(words, 20, "words lost:\n{text}");
@@ -177,10 +214,28 @@ mod tests {
     }
 
     #[test]
+    fn numbers_that_do_not_fit_are_a_second_table() {
+        let mut table = Table::new(&[
+            (Column::Text, "state"),
+            (Column::Number, "pressure\n[MPa]"),
+            (Column::Number, "width\n[mm]"),
+        ]);
+        table.row(["pressed", "1234.5", "0.5"].map(String::from));
+        let first =
+            "           pressure\n  state       [MPa]\n  -----------------\n  pressed    1234.5\n";
+        let second = "           width\n  state     [mm]\n  --------------\n  pressed    0.5\n";
+        assert_eq!(table.render(22), format!("{first}\n{second}"));
+        assert!(!table.render(WIDTH).contains("\n\n"));
+    }
+
+    #[test]
     fn an_empty_heading_takes_no_line() {
         let mut table = Table::new(&[(Column::Text, "effect"), (Column::Text, "")]);
         table.row(["contact".to_string(), "on".to_string()]);
-        assert_eq!(table.render(), "  effect\n  -----------\n  contact  on\n");
+        assert_eq!(
+            table.render(WIDTH),
+            "  effect\n  -----------\n  contact  on\n"
+        );
     }
 
     #[test]
@@ -194,6 +249,6 @@ mod tests {
     fn short_rows_are_filled_up() {
         let mut table = Table::new(&[(Column::Text, "a"), (Column::Number, "b")]);
         table.row(["x".to_string()]);
-        assert_eq!(table.render(), "  a  b\n  ----\n  x\n");
+        assert_eq!(table.render(WIDTH), "  a  b\n  ----\n  x\n");
     }
 }

@@ -1,9 +1,11 @@
 //! `brinell view`: the report of a result directory made anew, or its main figures in the terminal.
 
 use super::report::states_table;
+use super::table::page_width;
 use super::{print, warn};
 use crate::error::Result;
-use crate::number::{number, significant};
+use crate::number::{number, significant, with_unit};
+use crate::output::labels::{Labels, in_line, labelled};
 use crate::output::{self, rows};
 use crate::results::{HistoryRow, QUANTITIES, Results};
 use crate::space::Space;
@@ -22,15 +24,14 @@ pub(super) struct ViewArguments {
     /// Print the main plots instead; writes nothing
     #[arg(long)]
     pub terminal: bool,
-    /// Columns of the plots
+    /// Columns of the plots; by default those of the terminal, 110 at most
     #[arg(
         long,
         value_name = "N",
         requires = "terminal",
-        default_value_t = 72,
         value_parser = clap::value_parser!(u16).range(20..=400)
     )]
-    pub width: u16,
+    pub width: Option<u16>,
 }
 
 /// Makes the report anew from what the directory holds, or prints the plots.
@@ -51,13 +52,16 @@ fn terminal(arguments: &ViewArguments) -> Result<()> {
     let summary = rows::summary(&dir.join("summary.json"))?;
     let history: Vec<HistoryRow> = rows::rows(&dir.join("history.csv"))?;
     let mut text = format!("{}\n", summary.scene);
-    let space = summary.space();
-    text.push_str(&headlines(&summary.results(&[]), space));
+    let (space, labels) = (summary.space(), summary.labels());
+    let columns = arguments
+        .width
+        .map_or_else(|| page_width().min(WIDEST), usize::from);
+    text.push_str(&headlines(&summary.results(&[]), &labels, space));
     // Where a displacement is prescribed without contact the history has no load.
     let (against, load): (_, fn(&HistoryRow) -> f64) =
         match history.iter().any(|row| row.load.is_finite()) {
-            true => ("load", |row| row.load),
-            false => ("load factor", |row| row.alpha),
+            true => (labelled("load", labels.load()), |row| row.load),
+            false => ("load factor".to_string(), |row| row.alpha),
         };
     for quantity in QUANTITIES
         .iter()
@@ -68,15 +72,15 @@ fn terminal(arguments: &ViewArguments) -> Result<()> {
         };
         let points: Vec<[f64; 2]> = history.iter().map(|r| [load(r), (field.get)(r)]).collect();
         if points.iter().any(|p| p[1] > 0.0) {
-            let name = quantity.heading.replace('\n', " ");
-            let plot = plot(&points, usize::from(arguments.width));
+            let name = labels.name(quantity);
+            let plot = plot(&points, columns);
             text.push_str(&format!("\n{name} against {against}\n{plot}"));
         }
     }
     print(&text)
 }
 
-fn headlines(results: &Results, space: Space) -> String {
+fn headlines(results: &Results, labels: &Labels, space: Space) -> String {
     let mut text = String::new();
     if let Some(incomplete) = &results.incomplete {
         text.push_str(&format!("INCOMPLETE: {}\n", incomplete.why));
@@ -86,20 +90,24 @@ fn headlines(results: &Results, space: Space) -> String {
         let figures = QUANTITIES.iter().filter(|q| q.scope.holds(contact, true));
         let figures = figures.filter_map(|quantity| {
             let value = (quantity.at_yield?.get)(first);
-            let name = quantity.heading.replace('\n', " ");
-            value
-                .is_finite()
-                .then(|| format!("{name} {}", number(value)))
+            let name = in_line(labels.heading(quantity));
+            let value = value.is_finite().then(|| number(value))?;
+            Some(with_unit(
+                &format!("{name} {value}"),
+                &labels.unit(quantity.unit),
+            ))
         });
         let figures: Vec<String> = figures.collect();
         text.push_str(&format!("First yield at {}\n", figures.join(", ")));
     }
     if !results.states.is_empty() {
-        text.push_str(&states_table(&results.states, space, contact).render());
+        text.push_str(&states_table(&results.states, labels, space, contact).render(page_width()));
     }
     text
 }
 
+/// A plot in a wide terminal has no more columns.
+const WIDEST: usize = 110;
 /// Lines of a plot without axes.
 const LINES: usize = 12;
 

@@ -31,11 +31,13 @@ impl Hardening {
 
     /// The curve of a scene's (validated) material; `None` where it has no yield stress.
     pub(crate) fn from_scene(data: &scene::Material) -> Option<Self> {
-        let yield_stress = data.yield_stress?;
-        if let Some(table) = data.hardening_table.as_ref().filter(|t| !t.is_empty()) {
-            return Some(Self::table(table));
+        match data.hardening_curve() {
+            Some(curve) => Some(Self::table(&curve)),
+            None => Some(Self::linear(
+                data.yield_stress?,
+                data.plastic_modulus_resolved()?,
+            )),
         }
-        Some(Self::linear(yield_stress, data.plastic_modulus_resolved()?))
     }
 
     /// Yield stress at an equivalent plastic strain.

@@ -1,6 +1,7 @@
 //! The table of states as a reader sees it, on the terminal and in the report: a column for each
 //! quantity that says something in this run.
 
+use super::Labels;
 use crate::number::number;
 use crate::results::{QUANTITIES, Quantity, State, Unit};
 use crate::space::Space;
@@ -13,8 +14,8 @@ const SAME: f64 = 1e-6;
 pub(crate) struct Column {
     /// Its heading, in lines.
     pub heading: &'static str,
-    /// What it is measured in, for who names units.
-    pub unit: Unit,
+    /// The name of its unit; empty: none.
+    pub unit: String,
     /// A cell for each state.
     pub cells: Vec<String>,
 }
@@ -31,6 +32,7 @@ pub(crate) fn cell(quantity: &Quantity, value: f64) -> String {
 /// approach where arcs or pressures at the pole stand beside them.
 pub(crate) fn of_states(
     states: &[State],
+    labels: &Labels,
     space: Space,
     contact: bool,
     is_narrow: bool,
@@ -56,7 +58,7 @@ pub(crate) fn of_states(
         let cells = states.iter().map(cell).collect();
         out.push(Column {
             heading,
-            unit,
+            unit: labels.unit(unit),
             cells,
         });
     };
@@ -68,9 +70,9 @@ pub(crate) fn of_states(
                     let larger =
                         |state: &State| state.patches.first().map_or(0.0, |p| p.semi_axes[0]);
                     add("larger\nhalf axis", quantity.unit, &|s| number(larger(s)));
-                    add("smaller\nhalf axis", quantity.unit, &of_state);
+                    add(labels.heading(quantity), quantity.unit, &of_state);
                 } else if !(is_narrow && has_arc) {
-                    add(quantity.heading, quantity.unit, &of_state);
+                    add(labels.heading(quantity), quantity.unit, &of_state);
                 }
                 for (end, heading) in ["arc\nfrom\n[deg]", "arc\nto\n[deg]"]
                     .into_iter()

@@ -37,6 +37,7 @@ mod dat;
 pub(crate) mod ending;
 mod fields;
 mod history;
+pub(crate) mod labels;
 mod named;
 mod read;
 mod record;
@@ -50,6 +51,8 @@ pub(crate) mod stated_errors;
 #[cfg(feature = "report")]
 mod study;
 mod summary;
+#[cfg(feature = "cli")]
+pub(crate) mod sweep;
 mod table;
 mod vtu;
 mod vtu_read;
@@ -59,6 +62,7 @@ mod work_precision;
 pub use claim::{Claim, mark_stale, stale};
 pub use dat::write_dat;
 pub use ending::ending;
+pub use labels::Labels;
 pub use read::{Recorded, read};
 #[cfg(feature = "report")]
 pub use reported::{write_report, write_with_report};
@@ -111,6 +115,8 @@ pub struct RunHeader {
     pub wall_seconds: f64,
     /// Body names, in the order of the mesh.
     pub bodies: Vec<String>,
+    /// What the quantities are called, and the names of their units.
+    pub labels: Labels,
 }
 
 impl RunHeader {
@@ -123,6 +129,7 @@ impl RunHeader {
             solver: backend.name().to_string(),
             wall_seconds,
             bodies: model.mesh.bodies.clone(),
+            labels: Labels::of(model),
         }
     }
 

@@ -6,7 +6,8 @@
 
 use super::contact::Row;
 use super::rows::{rows, summary};
-use super::{CONTACT_FILE, HISTORY_FILE, PATH_FILE, RunHeader, SUMMARY_FILE, record, vtu_read};
+use super::{CONTACT_FILE, HISTORY_FILE, Labels, PATH_FILE, RunHeader, SUMMARY_FILE};
+use super::{record, vtu_read};
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::results::Results;
@@ -57,6 +58,7 @@ pub fn read(dir: &Path) -> Result<Recorded> {
     let bodies = &model.mesh.bodies;
     let header = RunHeader {
         scene_title: model.scene.title.clone(),
+        labels: Labels::of(&model),
         ..summary.header(bodies)
     };
     let field_files = summary.field_files();

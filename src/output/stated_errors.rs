@@ -1,7 +1,8 @@
 //! The stated errors as rows and columns, for terminal and report alike: a row per state, a column
 //! per quantity.
 
-use crate::number::{percentage, significant};
+use super::Labels;
+use crate::number::{rough_percentage, significant};
 use crate::results::{Accuracy, EstimateMethod, QUANTITIES, Quantity, QuantityError};
 use std::collections::BTreeMap;
 
@@ -19,7 +20,7 @@ pub(crate) struct StatedErrors {
 
 impl StatedErrors {
     /// The table of an estimate; `None` where nothing was estimated.
-    pub(crate) fn of(accuracy: &Accuracy) -> Option<Self> {
+    pub(crate) fn of(accuracy: &Accuracy, labels: &Labels) -> Option<Self> {
         if accuracy.method == EstimateMethod::None {
             return None;
         }
@@ -69,7 +70,10 @@ impl StatedErrors {
             (name, largest.collect())
         });
         Some(StatedErrors {
-            columns: keys.iter().map(|quantity| quantity.heading).collect(),
+            columns: keys
+                .iter()
+                .map(|quantity| labels.heading(quantity))
+                .collect(),
             states: states.collect(),
             kinds: kinds.collect(),
             method: method(accuracy),
@@ -92,5 +96,5 @@ fn method(accuracy: &Accuracy) -> String {
 }
 
 fn figure(share: Option<f64>) -> String {
-    share.map_or_else(|| "-".to_string(), percentage)
+    share.map_or_else(|| "-".to_string(), rough_percentage)
 }

@@ -1,6 +1,7 @@
 //! `summary.json`: the figures of a run, as one structure that writes and reads it. Keys and
 //! meanings are in [`super::SUMMARY_SCHEMA`]; those of a state are the table [`QUANTITIES`].
 
+use super::labels::{Extent, Labels, UnitNames};
 use super::{RunHeader, fields, named::Named};
 use crate::error::ErrorKind;
 use crate::memory;
@@ -32,6 +33,8 @@ pub(crate) struct Summary {
     pub scene: String,
     scene_file: Option<String>,
     kind: String,
+    units: Option<UnitNames>,
+    half_width_is: Option<Extent>,
     solver: String,
     #[serde(flatten)]
     sizes: Sizes,
@@ -174,6 +177,8 @@ impl Summary {
             scene: scene(header),
             scene_file: header.scene_file.clone(),
             kind: header.kind.clone(),
+            units: header.labels.units(),
+            half_width_is: Some(header.labels.extent()),
             solver: header.solver.clone(),
             sizes: results.sizes,
             effects: results.effects.iter().map(EffectEntry::new).collect(),
@@ -205,7 +210,13 @@ impl Summary {
             solver: self.solver.clone(),
             wall_seconds: total.unwrap_or(f64::NAN),
             bodies: bodies.to_vec(),
+            labels: self.labels(),
         }
+    }
+
+    /// The words and units of its numbers.
+    pub(crate) fn labels(&self) -> Labels {
+        Labels::recorded(&self.kind, self.units.clone(), self.half_width_is)
     }
 
     /// The idealisation; an unknown one is taken for a plane one.

@@ -22,6 +22,18 @@ pub(super) fn shape() -> Shape {
     Shape::Quad4
 }
 
+pub(super) fn cylinder_names() -> [String; 2] {
+    ["cylinder", "half_plane"].map(String::from)
+}
+
+pub(super) fn disc_names() -> [String; 2] {
+    ["disc", "plate"].map(String::from)
+}
+
+pub(super) fn curved_names() -> [String; 2] {
+    ["upper", "lower"].map(String::from)
+}
+
 pub(super) fn far_radius() -> f64 {
     100.0
 }

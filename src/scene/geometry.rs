@@ -159,7 +159,7 @@ pub struct SurfaceCircle {
 }
 
 /// The half model (x >= 0) of a cylinder (ball) pressed on a half plane (half space), the first
-/// contact at the origin. Bodies `cylinder` (above) and `half_plane`.
+/// contact at the origin. Bodies `cylinder` (above) and `half_plane`, if not named otherwise.
 ///
 /// | set | where |
 /// |---|---|
@@ -176,6 +176,10 @@ pub struct SurfaceCircle {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CylinderOnHalfPlane {
+    /// Names of the two bodies, of which those of their sets are made: `["ball", "race"]` gives
+    /// `ball.contact` and `race.contact`.
+    #[serde(default = "super::defaults::cylinder_names")]
+    pub names: [String; 2],
     /// Radius of the cylinder or ball.
     pub radius: f64,
     /// Elements over the contact half width (radius), at first yield and at any larger contact at
@@ -211,8 +215,8 @@ pub struct CylinderOnHalfPlane {
 }
 
 /// Two bodies whose surfaces have principal radii along x and y, pressed together along z: a ball
-/// in a groove, crossed cylinders, a crowned roller on a plate. Bodies `upper` and `lower`; the
-/// first contact is at the origin.
+/// in a groove, crossed cylinders, a crowned roller on a plate. Bodies `upper` and `lower`, if not
+/// named otherwise; the first contact is at the origin.
 ///
 /// | set | where |
 /// |---|---|
@@ -227,6 +231,10 @@ pub struct CylinderOnHalfPlane {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CurvedBodies {
+    /// Names of the two bodies, of which those of their sets are made: `["ball", "race"]` gives
+    /// `ball.contact` and `race.contact`.
+    #[serde(default = "super::defaults::curved_names")]
+    pub names: [String; 2],
     /// Principal radii of the upper body along x and y: positive convex, negative hollow, 0 or
     /// infinite flat.
     pub upper: [f64; 2],
@@ -279,6 +287,18 @@ pub enum Meshed {
 }
 
 impl MeshSource {
+    /// The generator of two bodies, by its key, and what it calls them.
+    pub(crate) fn named_pair(&self) -> Option<(&'static str, &[String; 2])> {
+        if let Some(p) = &self.cylinder_on_half_plane {
+            Some(("cylinder_on_half_plane", &p.names))
+        } else if let Some(p) = &self.disc_in_plate {
+            Some(("disc_in_plate", &p.names))
+        } else {
+            let p = self.curved_bodies.as_ref()?;
+            Some(("curved_bodies", &p.names))
+        }
+    }
+
     /// The kind of the model that the mesh is a section of, where it is drawn to a solid one: plane
     /// strain for an extrusion, axisymmetric for a revolution, else `kind`.
     pub fn section(&self, kind: Space) -> Space {
@@ -307,13 +327,18 @@ impl CurvedBodies {
 }
 
 /// Quarter model (x, y >= 0) of a disc that fills the hole of a plate, tension along x. Bodies
-/// `disc` and `plate`; surfaces `disc.contact`, `plate.contact` (the hole), `plate.far`,
+/// `disc` and `plate`, if not named otherwise; surfaces `disc.contact`, `plate.contact` (the hole),
+/// `plate.far`,
 /// `disc.symmetry_x`, `plate.symmetry_x` (on x = 0), `disc.symmetry_y`, `plate.symmetry_y` (on y =
 /// 0); node sets `disc.pole`, `plate.pole` (on the y axis, where the contact stays) and
 /// `disc.center`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DiscInPlate {
+    /// Names of the two bodies, of which those of their sets are made: `["ball", "race"]` gives
+    /// `ball.contact` and `race.contact`.
+    #[serde(default = "super::defaults::disc_names")]
+    pub names: [String; 2],
     /// Radius of the hole and the disc.
     pub radius: f64,
     /// Disc radius minus hole radius: positive is interference, negative clearance.

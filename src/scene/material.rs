@@ -1,5 +1,6 @@
 //! What the bodies are made of.
 
+use super::tensile_test;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserializer, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
@@ -20,7 +21,7 @@ pub struct Material {
     /// Strain per change of temperature, of which loads by `temperature` are made.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thermal_expansion: Option<f64>,
-    /// Tensile yield stress; without it the material is elastic.
+    /// Tensile yield stress; without it, a table or a tensile test the material is elastic.
     pub yield_stress: Option<f64>,
     /// d(yield stress)/d(equivalent plastic strain) of linear hardening.
     pub plastic_modulus: Option<f64>,
@@ -36,7 +37,14 @@ pub struct Material {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub back_stresses: Option<Vec<[f64; 2]>>,
     /// Table of (equivalent plastic strain, yield stress), first strain 0, flat after the last row.
+    /// Its first stress is the yield stress.
     pub hardening_table: Option<Vec<[f64; 2]>>,
+    /// Tensile test in place of a table: rows of (engineering strain, engineering stress), turned
+    /// into true stress against plastic strain, `s (1 + e)` and `ln(1 + e) - s (1 + e)/E`. The
+    /// material yields at `yield_stress` (true) where one is given, else where the plastic strain
+    /// becomes positive. Flat after the last row, which is not beyond the largest load.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tensile_test: Option<Vec<[f64; 2]>>,
 }
 
 impl Material {
@@ -47,12 +55,29 @@ impl Material {
         linear.into_iter().chain(rows).collect()
     }
 
+    /// Points of (equivalent plastic strain, yield stress), the first at strain 0, of the table or
+    /// the tensile test; `None` where the material is elastic or hardens linearly.
+    pub fn hardening_curve(&self) -> Option<Vec<[f64; 2]>> {
+        if let Some(test) = &self.tensile_test {
+            return tensile_test::curve(test, self);
+        }
+        self.hardening_table
+            .clone()
+            .filter(|table| !table.is_empty())
+    }
+
+    /// The stress at which it first yields: the yield stress as given, else that at the start of
+    /// the table or the tensile test. `None` where the material is elastic.
+    pub fn first_yield_stress(&self) -> Option<f64> {
+        let from_curve = || Some(self.hardening_curve()?.first()?[1]);
+        self.yield_stress.or_else(from_curve)
+    }
+
     /// Slope `H = d(yield stress)/d(equivalent plastic strain)` of linear hardening: the plastic
     /// modulus as given, `E Et/(E - Et)` from a tangent modulus, 0 for a yield stress alone
     /// (perfectly plastic). `None` where the material is elastic or hardens by a table.
     pub fn plastic_modulus_resolved(&self) -> Option<f64> {
-        let by_table = self.hardening_table.as_ref().is_some_and(|t| !t.is_empty());
-        if self.yield_stress.is_none() || by_table {
+        if self.yield_stress.is_none() || self.hardening_curve().is_some() {
             return None;
         }
         let from_tangent = self
@@ -66,7 +91,8 @@ impl Material {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Body {
-    /// Name of the material.
+    /// Name of the material: one of `materials`, or of the list that `brinell materials` prints,
+    /// which is turned into the scene's `units`.
     pub material: String,
     /// May this body yield?
     #[serde(default)]

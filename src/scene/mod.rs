@@ -12,6 +12,7 @@
 
 mod accuracy;
 mod boundary;
+mod catalogue;
 mod complete;
 mod defaults;
 mod document;
@@ -25,6 +26,7 @@ mod program;
 mod read;
 mod reference;
 mod schema;
+mod tensile_test;
 mod units;
 mod unsupported;
 mod validate;
@@ -34,6 +36,7 @@ pub use boundary::{
     Contact, Direction, Displacement, History, Kirsch, Load, PlaneForce, Rotation, SlaveSide,
     Support, Tie,
 };
+pub use catalogue::{Listed, Published, materials};
 pub use equation::{Equation, EquationTerm};
 pub use field::Field;
 pub use geometry::{
@@ -49,6 +52,7 @@ pub use program::{
 pub(crate) use read::closest;
 pub use reference::{NoParameters, RadiusOnly, Reference, TwoBodies};
 pub use schema::schema;
+pub(crate) use tensile_test::beyond_yield;
 pub use units::Units;
 
 /// What a scene calls the [`Space`] of its model.
@@ -79,7 +83,8 @@ pub struct Scene {
     pub symmetry: usize,
     /// Where the mesh comes from.
     pub mesh: MeshSource,
-    /// Materials by name.
+    /// Materials by name; those of the list that `brinell materials` prints need no entry.
+    #[serde(default)]
     pub materials: BTreeMap<String, Material>,
     /// Bodies by name: the names are those of the mesh.
     pub bodies: BTreeMap<String, Body>,

@@ -1,7 +1,7 @@
 //! Reading: text to [`Scene`], with errors that name file, line, column, key and what was meant.
 
 use super::document::{Places, Source};
-use super::{Scene, complete, overrides, unsupported, validate};
+use super::{Scene, catalogue, complete, overrides, unsupported, validate};
 use crate::error::{Error, ErrorKind, Result};
 use crate::files;
 use crate::text::short;
@@ -124,6 +124,7 @@ fn parse(source: &Source<'_>, made_from: Option<&BTreeMap<String, String>>) -> R
     }
     scene.warnings = warnings;
     complete::check(&scene, root.get_ref(), &scene.places)?;
+    catalogue::fill_in(&mut scene)?;
     let problems = validate::problems(&scene);
     if !problems.is_empty() {
         let lines = problems.iter().map(|problem| {
@@ -206,10 +207,14 @@ fn unknown_word(word: &str, known: &[&str], path: &str) -> (ErrorKind, String) {
 
 /// The known word closest to `word`, if it is close: at most a third of its letters differ.
 pub(crate) fn closest<'k>(word: &str, known: &[&'k str]) -> Option<&'k str> {
-    let word = word.to_lowercase();
+    let lower = word.to_lowercase();
+    let distance = |k: &str| {
+        let [a, b] = [word, &lower].map(|word| strsim::damerau_levenshtein(word, k));
+        a.min(b)
+    };
     known
         .iter()
-        .map(|k| (strsim::damerau_levenshtein(&word, k), *k))
+        .map(|k| (distance(k), *k))
         .filter(|(distance, k)| 3 * distance <= k.chars().count().max(3))
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, k)| k)

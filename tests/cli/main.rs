@@ -14,6 +14,7 @@ mod scene_help;
 mod shown;
 mod solids;
 mod solvers;
+mod sweep;
 mod watching;
 
 use std::path::PathBuf;

@@ -216,6 +216,60 @@ fn new_scenes_run_and_give_what_their_comments_say() {
     let pressure = 210e3 * 0.02 * (50.0f64.powi(2) - 625.0) / (2.0 * 25.0 * 50.0f64.powi(2));
     near(&fit["states"][0]["max_pressure"], pressure, 0.01);
 
+    // Persson: the ring ends at ten radii, the contact at whole elements of 3.75 degrees.
+    std::fs::remove_file(folder.path().join("shaft-in-bore.toml")).unwrap();
+    let loose = made_and_run(
+        folder.path(),
+        &[
+            "shaft-in-bore",
+            "--diameter",
+            "20",
+            "--clearance",
+            "0.02",
+            "--resolution",
+            "24",
+        ],
+    );
+    let pin = brinell::analytical::PinInHole::new(10.0, 0.02, 105e3).unwrap();
+    let pressed = &loose["states"][0];
+    let load = pressed["load"].as_f64().unwrap();
+    near(
+        &pressed["max_pressure"],
+        pin.max_pressure(load).unwrap(),
+        0.05,
+    );
+    let angle = pin.half_angle(load).unwrap().to_degrees();
+    assert!((pressed["contact_arc"]["to"].as_f64().unwrap() - angle).abs() < 3.75);
+
+    // Two materials: the contact modulus is that of both, the softer one yields.
+    let folder_of_two = tempfile::tempdir().unwrap();
+    let two = made_and_run(
+        folder_of_two.path(),
+        &[
+            "ball-on-flat",
+            "--diameter",
+            "10",
+            "--material",
+            "100Cr6",
+            "--second-material",
+            "EN AW-6082-T6",
+            "--resolution",
+            "8",
+        ],
+    );
+    let modulus = brinell::analytical::contact_modulus(207e3, 0.3, 70e3, 0.3);
+    let hertz = brinell::analytical::HertzPoint::new(5.0, modulus).unwrap();
+    near(
+        &two["yield"]["load"],
+        hertz.yield_load(0.3, 260.0),
+        1.0 / 64.0,
+    );
+    assert_eq!(two["yield"]["location"]["body"], "flat");
+    assert_eq!(
+        (&two["half_width_is"], &two["units"]["load"]),
+        (&"radius".into(), &"N".into())
+    );
+
     // Between Prandtl's load and a tenth above it: elements of an eighth of the half width.
     let punch = made_and_run(
         folder.path(),
@@ -240,6 +294,7 @@ fn a_new_scene_overwrites_nothing_and_refuses_nonsense() {
         ["roller-on-flat", "--poissons-ratio", "0.7"],
         ["shaft-in-bore", "--outer-radius", "10"],
         ["shaft-in-bore", "--interference", "0"],
+        ["shaft-in-bore", "--clearance", "-0.1"],
         ["punch", "--half-width", "inf"],
         ["punch", "--depth", "-1"],
         ["ball-on-flat", "--load", "NaN"],
@@ -256,6 +311,50 @@ fn a_new_scene_overwrites_nothing_and_refuses_nonsense() {
         let named = why.contains(arguments[1]) || why.contains("outer radius");
         assert!(named && why.contains(arguments[2]), "{arguments:?}: {why}");
     }
+}
+
+#[test]
+fn an_interference_below_zero_points_to_the_clearance() {
+    let refused = brinell(&["new", "shaft-in-bore", "--interference", "-0.02"]);
+    assert_eq!(refused.status.code(), Some(2));
+    let why = String::from_utf8_lossy(&refused.stderr);
+    assert!(why.contains("give --clearance 0.02"), "{why}");
+    let scene = scene("shrink_fit");
+    let refused = brinell(&["check", &scene, "--set", "contact.0.interference=-0.05"]);
+    assert_eq!(refused.status.code(), Some(2));
+    let why = String::from_utf8_lossy(&refused.stderr);
+    assert!(why.contains("a clearance is given by `gap`"), "{why}");
+}
+
+/// A curve from a file stands in the scene, and gives the material that it describes.
+#[test]
+fn a_new_scene_takes_a_curve_from_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let curve = folder.path().join("curve.csv");
+    std::fs::write(
+        &curve,
+        "strain,stress\n0,0\n0.001,210\n0.003,420\n0.05,520\n",
+    )
+    .unwrap();
+    let curve = curve.to_str().unwrap();
+    let made = brinell(&["new", "ball-on-flat", "--tensile-test", curve]);
+    assert!(
+        made.status.success(),
+        "{}",
+        String::from_utf8_lossy(&made.stderr)
+    );
+    let scene = Scene::parse(&stdout(&made), "made").unwrap();
+    let steel = &scene.materials["steel"];
+    assert_eq!(steel.tensile_test.as_ref().unwrap().len(), 4);
+    assert_eq!(steel.yield_stress, None);
+    // 210 MPa at 0.1 % lies a little below the line of 210000 MPa: yield is soon after.
+    let yields = steel.first_yield_stress().unwrap();
+    assert!((210.0..220.0).contains(&yields), "{yields}");
+    // As a hardening table it would begin at no stress.
+    let refused = brinell(&["new", "ball-on-flat", "--hardening-table", curve]);
+    assert_eq!(refused.status.code(), Some(2));
+    let why = String::from_utf8_lossy(&refused.stderr);
+    assert!(why.contains("hardening_table"), "{why}");
 }
 
 #[test]

@@ -16,6 +16,7 @@ pub fn header() -> RunHeader {
         solver: "dense".into(),
         wall_seconds: 1.25,
         bodies: vec!["cylinder".into(), "half_plane".into()],
+        ..RunHeader::default()
     }
 }
 

@@ -69,6 +69,8 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
         "scene": "cylinder \"on\" <plane> & more",
         "scene_file": "scenes/cylinder.toml",
         "kind": "plane_strain",
+        "units": null,
+        "half_width_is": "half_width",
         "solver": "dense",
         "nodes": 15, "elements": 4, "freedoms": 27, "contact_pairs": 2,
         "zone_freedoms": 9, "zone_elements": 2,

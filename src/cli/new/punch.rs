@@ -1,6 +1,8 @@
 //! The scene of a flat punch on a block.
 
-use super::{HEAD, Steel, UNITS, material, positive, toml};
+use super::materials::{First, section};
+use super::{HEAD, UNITS, positive, toml};
+use crate::error::Result;
 use crate::number::significant;
 use clap::Args;
 
@@ -24,21 +26,28 @@ pub(in crate::cli) struct Punch {
     #[arg(long, value_name = "N", default_value_t = 8)]
     pub resolution: usize,
     #[command(flatten)]
-    pub steel: Steel,
+    pub first: First,
 }
 
 /// Its scene.
-pub(super) fn scene(punch: &Punch) -> String {
+pub(super) fn scene(punch: &Punch) -> Result<String> {
     let a = punch.half_width;
     let depth = punch.depth.unwrap_or(0.02 * a);
-    let limit = (2.0 + std::f64::consts::PI) * punch.steel.yield_stress / 3f64.sqrt() * 2.0 * a;
-    let n = 5 * punch.resolution;
-    let material = material(&punch.steel, &["block"]);
-    format!(
-        "{HEAD}#
-# A perfectly plastic block carries 2a (2 + pi) Y/sqrt(3) = {limit} N per mm (Prandtl 1920);
+    let made = punch.first.made()?;
+    let limit = made.first_yield_stress().map_or(String::new(), |stress| {
+        let limit = (2.0 + std::f64::consts::PI) * stress / 3f64.sqrt() * 2.0 * a;
+        format!(
+            "#
+# A perfectly plastic block carries 2a (2 + pi) Y/sqrt(3) = {} N per mm (Prandtl 1920);
 # elements give a little more.
-title = \"Flat punch on a block\"
+",
+            significant(limit, 4)
+        )
+    });
+    let n = 5 * punch.resolution;
+    let material = section(&[("block", &made)]);
+    Ok(format!(
+        "{HEAD}{limit}title = \"Flat punch on a block\"
 kind = \"plane_strain\"
 {UNITS}
 symmetry = 2                 # half model, x >= 0: loads and results are those of the whole
@@ -54,8 +63,7 @@ y = [-{far}, 0.0]
 elements = [{n}, {n}]
 pieces = [{{ name = \"punch\", side = \"top\", from = 0.0, to = {a} }}]
 
-{material}
-[[support]]
+{material}[[support]]
 on = \"block.left\"            # symmetry
 fix = [\"x\"]
 
@@ -82,9 +90,8 @@ targets = [
     {{ name = \"pressed\", load_factor = 1.0 }},   # not back to 0: that would pull
 ]
 ",
-        limit = significant(limit, 4),
         far = toml(5.0 * a),
         a = toml(a),
         depth = toml(-depth),
-    )
+    ))
 }

@@ -1,9 +1,10 @@
 //! Scenes of two curved bodies in three dimensions.
 
-use super::{HEAD, Steel, UNITS, material, not_zero, positive, rounded_up, toml};
+use super::materials::{First, Second, section};
+use super::pressed::Pressed;
+use super::{HEAD, UNITS, about_loads, largest, not_zero, positive, toml, weaker};
 use crate::analytical::{HertzEllipse, contact_modulus};
 use crate::error::Result;
-use crate::number::significant;
 use clap::Args;
 
 /// Elements over the smaller half axis where nothing is said: a run takes seconds.
@@ -19,7 +20,9 @@ pub(in crate::cli) struct Common {
     #[arg(long, value_name = "N", default_value_t = RESOLUTION)]
     pub resolution: usize,
     #[command(flatten)]
-    pub steel: Steel,
+    pub first: First,
+    #[command(flatten)]
+    pub second: Second,
 }
 
 /// A ball in the groove of a race.
@@ -38,6 +41,15 @@ pub(in crate::cli) struct Groove {
         allow_negative_numbers = true
     )]
     pub radius: f64,
+    /// Diameter of the ball in place of its radius [mm]
+    #[arg(
+        long,
+        value_name = "D",
+        value_parser = positive,
+        allow_negative_numbers = true,
+        conflicts_with = "radius"
+    )]
+    pub diameter: Option<f64>,
     /// Radius of the groove across, larger than the ball's [mm]
     #[arg(
         long,
@@ -93,102 +105,118 @@ pub(in crate::cli) struct Crossed {
 /// The two bodies: principal radii along x and y, and what the scene states about them.
 struct Bodies {
     title: &'static str,
+    names: [&'static str; 2],
     upper: ([f64; 2], &'static str),
     lower: ([f64; 2], &'static str),
 }
 
-pub(super) fn ball_on_flat(
-    radius: f64,
-    load: Option<f64>,
-    resolution: Option<usize>,
-    steel: &Steel,
-) -> Result<String> {
+pub(super) fn ball_on_flat(pressed: &Pressed) -> Result<String> {
     let bodies = Bodies {
         title: "Ball on a flat",
-        upper: ([radius; 2], "ball"),
+        names: ["ball", "flat"],
+        upper: ([pressed.radius(); 2], "ball"),
         lower: ([0.0; 2], "flat"),
     };
-    scene(&bodies, load, resolution.unwrap_or(RESOLUTION), steel)
+    let resolution = pressed.resolution.unwrap_or(RESOLUTION);
+    let (first, second) = (&pressed.first, &pressed.second);
+    scene(&bodies, pressed.load, resolution, first, second)
 }
 
 pub(super) fn ball_in_groove(groove: &Groove) -> Result<String> {
+    let radius = groove
+        .diameter
+        .map_or(groove.radius, |diameter| 0.5 * diameter);
     let bodies = Bodies {
         title: "Ball in a groove",
-        upper: ([groove.radius; 2], "ball"),
+        names: ["ball", "race"],
+        upper: ([radius; 2], "ball"),
         lower: (
             [-groove.groove, groove.race],
             "the groove is hollow across; along it the race is convex (positive) or hollow \
              (negative)",
         ),
     };
-    let Common {
-        load,
-        resolution,
-        steel,
-    } = &groove.common;
-    scene(&bodies, *load, *resolution, steel)
+    groove.common.scene(&bodies)
 }
 
 pub(super) fn crossed_cylinders(crossed: &Crossed) -> Result<String> {
     let bodies = Bodies {
         title: "Crossed cylinders",
+        names: ["upper", "lower"],
         upper: ([0.0, crossed.upper], "along its axis a cylinder is flat"),
         lower: ([crossed.lower, 0.0], "the other way round"),
     };
-    let Common {
-        load,
-        resolution,
-        steel,
-    } = &crossed.common;
-    scene(&bodies, *load, *resolution, steel)
+    crossed.common.scene(&bodies)
 }
 
-fn scene(bodies: &Bodies, load: Option<f64>, resolution: usize, steel: &Steel) -> Result<String> {
-    let (e, nu) = (steel.youngs_modulus, steel.poissons_ratio);
+impl Common {
+    fn scene(&self, bodies: &Bodies) -> Result<String> {
+        scene(
+            bodies,
+            self.load,
+            self.resolution,
+            &self.first,
+            &self.second,
+        )
+    }
+}
+
+fn scene(
+    bodies: &Bodies,
+    load: Option<f64>,
+    resolution: usize,
+    first: &First,
+    second: &Second,
+) -> Result<String> {
+    let made = second.both(first)?;
+    let [[e1, nu1], [e2, nu2]] = [made[0].elastic(), made[1].elastic()];
     let radii = HertzEllipse::relative_radii(bodies.upper.0, bodies.lower.0)?;
-    let hertz = HertzEllipse::new(radii, contact_modulus(e, nu, e, nu))?;
-    let yield_load = hertz.yield_load(nu, steel.yield_stress);
-    let load = load.unwrap_or_else(|| rounded_up(3.0 * yield_load));
-    let first = match load > yield_load {
-        true => "    { yield = true },                    # first yield\n",
-        false => "",
+    let hertz = HertzEllipse::new(radii, contact_modulus(e1, nu1, e2, nu2))?;
+    let yield_load = weaker(&made, |nu, y| hertz.yield_load(nu, y));
+    let load = largest(load, yield_load)?;
+    let (about, first) = about_loads(load, yield_load, "N");
+    let semi_axes = match yield_load {
+        Some(_) => String::new(),
+        None => format!(
+            "semi_axes = [{}]   # half axes of the contact that the mesh is made for\n",
+            hertz.semi_axes(load).map(toml).join(", ")
+        ),
     };
+    let [upper, lower] = bodies.names;
     let list = |radii: [f64; 2]| radii.map(toml).join(", ");
     let supports: String = ["x", "y"]
         .into_iter()
-        .flat_map(|axis| ["upper", "lower"].map(|body| (axis, body)))
+        .flat_map(|axis| bodies.names.map(|body| (axis, body)))
         .map(|(axis, body)| {
             format!("[[support]]\non = \"{body}.symmetry_{axis}\"\nfix = [\"{axis}\"]\n\n")
         })
         .collect();
     Ok(format!(
         "{HEAD}#
-# By Hertz the material first yields at a load of {yields} N;
-# the largest load is {times} times that.
-title = \"{title}\"
+{about}title = \"{title}\"
 kind = \"solid\"
 {UNITS}
 symmetry = 4                 # x and y >= 0 are meshed; loads and results are those of the whole
 
 # Principal radii along x and y: positive convex, negative hollow, 0 flat.
 [mesh.curved_bodies]
-upper = [{upper}]         # {of_upper}
-lower = [{lower}]         # {of_lower}
-resolution = {resolution}   # elements over the smaller half axis of the contact: 4 coarse, 8 fine
+names = [\"{upper}\", \"{lower}\"]
+upper = [{above}]         # {of_upper}
+lower = [{below}]         # {of_lower}
+{semi_axes}resolution = {resolution}   # elements over its smaller half axis: 4 coarse, 8 fine
 
-{material}
-[[contact]]
-first = \"upper.contact\"
-second = \"lower.contact\"
+{material}[[contact]]
+first = \"{upper}.contact\"
+second = \"{lower}.contact\"
 
 # Symmetry: nothing crosses the planes x = 0 and y = 0.
 {supports}[[support]]
-on = \"lower.bottom\"
+on = \"{lower}.bottom\"
 fix = [\"z\"]
 
 [[load]]
 name = \"press\"
-on = \"upper.top\"
+on = \"{upper}.top\"
 plane_force = {{ direction = \"z\", total = {total} }}   # N; the surface stays plane
 
 [program]
@@ -198,16 +226,14 @@ targets = [
 ]
 
 [[reference]]
-hertz_ellipse = {{ first = [{upper}], second = [{lower}] }}
+hertz_ellipse = {{ first = [{above}], second = [{below}] }}
 ",
-        yields = significant(yield_load, 4),
-        times = significant(load / yield_load, 3),
         title = bodies.title,
-        upper = list(bodies.upper.0),
+        above = list(bodies.upper.0),
         of_upper = bodies.upper.1,
-        lower = list(bodies.lower.0),
+        below = list(bodies.lower.0),
         of_lower = bodies.lower.1,
-        material = material(steel, &["upper", "lower"]),
+        material = section(&[(upper, &made[0]), (lower, &made[1])]),
         total = toml(-load),
     ))
 }

@@ -10,7 +10,7 @@ impl Report {
     /// Stated errors relative to the largest size of each quantity, and the largest of each kind of
     /// error below them.
     pub(super) fn accuracy(&mut self, accuracy: &Accuracy) {
-        if let Some(stated) = StatedErrors::of(accuracy) {
+        if let Some(stated) = StatedErrors::of(accuracy, &self.labels) {
             self.stated_errors(&stated);
         }
         if let Some(demand) = &accuracy.demand {

@@ -1,6 +1,8 @@
 //! The printed summaries: what must be in them, and that they fit the page.
 
 use super::*;
+use crate::linalg::Backend;
+use crate::model::Model;
 use crate::results::{Counts, HistoryRow, Incomplete};
 use std::path::PathBuf;
 
@@ -10,8 +12,8 @@ fn scene() -> Scene {
 }
 
 fn report(of: &Results, out: Option<&Path>) -> String {
-    let bodies = ["cylinder", "half_plane"].map(String::from);
-    results(&scene(), &bodies, of, 5.0, out)
+    let header = RunHeader::new(&Model::new(&scene()).unwrap(), Backend::Dense, 5.0);
+    results(&scene(), &header, of, 5.0, out)
 }
 
 fn full() -> Results {
@@ -106,7 +108,7 @@ fn full() -> Results {
 fn a_report_fits_the_page_and_holds_every_section() {
     let text = report(&full(), Some(&PathBuf::from("cylinder.out")));
     for line in text.lines() {
-        assert!(line.chars().count() <= WIDTH, "too wide: {line}");
+        assert!(line.chars().count() <= page_width(), "too wide: {line}");
         assert_eq!(line, line.trim_end(), "blanks at the end: {line:?}");
     }
     for fragment in [
@@ -120,6 +122,8 @@ fn a_report_fits_the_page_and_holds_every_section() {
         "0.217000  217.000",
         "half_plane",
         "-0.109470",
+        "  [N/mm]",
+        "[MPa]",
         "\nStates (load factor 1 is first yield)\n",
         "1.05150",
         "-1234568",
@@ -233,5 +237,8 @@ fn a_check_tells_effects_cost_and_notes() {
     ] {
         assert!(text.contains(fragment), "no {fragment:?} in\n{text}");
     }
-    assert!(text.lines().all(|line| line.chars().count() <= WIDTH));
+    assert!(
+        text.lines()
+            .all(|line| line.chars().count() <= page_width())
+    );
 }

@@ -194,7 +194,10 @@ impl Deck {
     /// Without contact there is no event to step to: steps then take equal increments, at least as
     /// many as the deck's first ones would be.
     fn choose_stepping(&self, draft: &Draft, scene: &mut Scene) {
-        let can_yield = scene.materials.values().any(|m| m.yield_stress.is_some());
+        let can_yield = scene
+            .materials
+            .values()
+            .any(|m| m.first_yield_stress().is_some());
         if draft.contacts.is_empty() && can_yield {
             let increments = self.program.steps.iter().map(|step| step.increments);
             let program = &mut scene.program;

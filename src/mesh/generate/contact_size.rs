@@ -63,7 +63,7 @@ impl Hertz {
                     ))
                 })
         };
-        let (a, b) = (of("cylinder")?, of("half_plane")?);
+        let (a, b) = (of(&p.names[0])?, of(&p.names[1])?);
         let modulus = analytical::contact_modulus(
             a.youngs_modulus,
             a.poissons_ratio,
@@ -120,12 +120,12 @@ fn weaker(
     counts: impl Fn(Plastic) -> bool,
 ) -> Result<Option<(f64, f64)>> {
     let hertz = Hertz::of(scene, p)?;
-    let of = |body: &str| {
+    let of = |body: &String| {
         let body = scene.bodies.get(body).filter(|b| counts(b.plastic))?;
         let material = scene.materials.get(&body.material)?;
-        Some(hertz.at_yield(material.poissons_ratio, material.yield_stress?))
+        Some(hertz.at_yield(material.poissons_ratio, material.first_yield_stress()?))
     };
-    let bodies = ["cylinder", "half_plane"].into_iter().filter_map(of);
+    let bodies = p.names.iter().filter_map(of);
     Ok(bodies.reduce(|a, b| if b.0 < a.0 { b } else { a }))
 }
 
@@ -195,7 +195,7 @@ fn widest(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<[f6
             History::Constant => 1.0,
             History::Table(rows) => largest(&mut rows.iter().map(|row| row[1])),
         };
-        force += times * normal_force(scene, load, size);
+        force += times * normal_force(scene, p, load, size);
         depth += times * prescribed(load.displacement.as_ref());
     }
     depth += largest(&mut scene.contact.iter().map(|c| c.interference));
@@ -217,7 +217,7 @@ fn prescribed(displacement: Option<&Displacement>) -> f64 {
 /// Total force along y of a load on the whole cylinder or ball, where its kind and place state it:
 /// the mesh is that of half a cylinder, or a sector of a ball, forces that are given as totals are
 /// those of `symmetry` such models.
-fn normal_force(scene: &Scene, load: &Load, size: f64) -> f64 {
+fn normal_force(scene: &Scene, p: &CylinderOnHalfPlane, load: &Load, size: f64) -> f64 {
     // How many such models make the ball, or a unit of the cylinder's length.
     let (models, area) = match (&scene.mesh.extrude, &scene.mesh.revolve) {
         (Some(extrude), _) => (2.0 / extrude.depth, size * extrude.depth),
@@ -228,7 +228,8 @@ fn normal_force(scene: &Scene, load: &Load, size: f64) -> f64 {
         _ if scene.kind.is_axisymmetric() => (1.0, PI * size * size),
         _ => (2.0, size),
     };
-    let on_cut = ["cylinder.top", "half_plane.bottom"].contains(&load.on.as_str());
+    let [above, below] = &p.names;
+    let on_cut = [format!("{above}.top"), format!("{below}.bottom")].contains(&load.on);
     let on_area = |stress: f64| if on_cut { stress * area } else { 0.0 };
     let of_model = |total: f64| total / scene.symmetry as f64;
     let plane = load

@@ -44,13 +44,14 @@ pub fn curved_bodies(p: &CurvedBodies, contact: EllipseSize) -> Result<Mesh> {
         dimension: 3,
         ..Mesh::default()
     };
-    let upper = Brick::add(&mut mesh, "upper", p.element, cells, |[i, j, k]| {
+    let [above, below] = &p.names;
+    let upper = Brick::add(&mut mesh, above, p.element, cells, |[i, j, k]| {
         let height = depth[k];
         // The bottom's shape fades out linearly towards the flat top.
         let raised = layout.height(x[i], y[j]) * (1.0 - height / layout.size);
         [x[i], y[j], if k == last { height } else { height + raised }]
     })?;
-    let lower = Brick::add(&mut mesh, "lower", p.element, cells, |[i, j, k]| {
+    let lower = Brick::add(&mut mesh, below, p.element, cells, |[i, j, k]| {
         [x[i], y[j], 0.0 - depth[last - k]]
     })?;
     let inside = &layout.candidates;
@@ -73,7 +74,7 @@ pub fn curved_bodies(p: &CurvedBodies, contact: EllipseSize) -> Result<Mesh> {
     }
     // The corner or middle of the surfaces is the origin.
     let origin = [layout.origin[0], layout.origin[1]];
-    for (name, body, k) in [("upper", &upper, 0), ("lower", &lower, last)] {
+    for (name, body, k) in [(above, &upper, 0), (below, &lower, last)] {
         let pole = body.node([origin[0], origin[1], k]);
         mesh.node_sets.insert(format!("{name}.pole"), vec![pole]);
     }

@@ -68,7 +68,7 @@ pub fn cylinder_on_half_plane(p: &CylinderOnHalfPlane, contact: ContactSize) -> 
     let mut mesh = empty_mesh();
     let line = |normal: [f64; 2]| Some(Curve::Line { normal });
 
-    let mut cylinder = BodyBuilder::new(&mut mesh, "cylinder", p.element);
+    let mut cylinder = BodyBuilder::new(&mut mesh, &p.names[0], p.element);
     let grid = cylinder.patch(
         cells,
         false,
@@ -106,7 +106,7 @@ pub fn cylinder_on_half_plane(p: &CylinderOnHalfPlane, contact: ContactSize) -> 
     cylinder.surface("side", grid.side(Side::Right), line([1.0, 0.0]))?;
     cylinder.node_set("pole", grid.node(0, 0))?;
 
-    let mut half_plane = BodyBuilder::new(&mut mesh, "half_plane", p.element);
+    let mut half_plane = BodyBuilder::new(&mut mesh, &p.names[1], p.element);
     let grid = half_plane.patch(
         cells,
         false,

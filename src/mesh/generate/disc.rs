@@ -77,7 +77,7 @@ pub fn disc_in_plate(p: &DiscInPlate) -> Result<Mesh> {
         })
     };
 
-    let mut disc = BodyBuilder::new(&mut mesh, "disc", p.element);
+    let mut disc = BodyBuilder::new(&mut mesh, &p.names[0], p.element);
     let grid = disc_grid(&mut disc, &sector, 1, p.radius)?;
     disc.surface("contact", grid.outer, circle(p.radius, true))?;
     disc.surface("symmetry_y", grid.start, symmetry_y)?;
@@ -92,7 +92,7 @@ pub fn disc_in_plate(p: &DiscInPlate) -> Result<Mesh> {
     }
     let last = radii.len() - 1;
     radii[last] = far;
-    let mut plate = BodyBuilder::new(&mut mesh, "plate", p.element);
+    let mut plate = BodyBuilder::new(&mut mesh, &p.names[1], p.element);
     let grid = ring_grid(&mut plate, &sector, &radii);
     plate.surface("contact", grid.side(Side::Left), circle(p.radius, false))?;
     plate.surface("far", grid.side(Side::Right), circle(far, true))?;

@@ -17,7 +17,7 @@ const ROOM: f64 = 1.15;
 /// half axes at first yield are not given.
 pub(crate) fn of(scene: &Scene, p: &CurvedBodies) -> Result<EllipseSize> {
     let hertz = hertz(scene, p)?;
-    let yielding = yield_load(scene, &hertz);
+    let yielding = yield_load(scene, p, &hertz);
     let semi_axes = match (p.semi_axes, yielding) {
         (Some(given), _) => given,
         (None, Some(load)) => hertz.semi_axes(load),
@@ -46,7 +46,7 @@ fn hertz(scene: &Scene, p: &CurvedBodies) -> Result<HertzEllipse> {
                 ))
             })
     };
-    let (a, b) = (of("upper")?, of("lower")?);
+    let (a, b) = (of(&p.names[0])?, of(&p.names[1])?);
     let modulus = contact_modulus(
         a.youngs_modulus,
         a.poissons_ratio,
@@ -59,10 +59,10 @@ fn hertz(scene: &Scene, p: &CurvedBodies) -> Result<HertzEllipse> {
 }
 
 /// Load at first yield of the weaker body.
-fn yield_load(scene: &Scene, hertz: &HertzEllipse) -> Option<f64> {
-    let bodies = ["upper", "lower"].into_iter().filter_map(|body| {
+fn yield_load(scene: &Scene, p: &CurvedBodies, hertz: &HertzEllipse) -> Option<f64> {
+    let bodies = p.names.iter().filter_map(|body| {
         let material = scene.materials.get(&scene.bodies.get(body)?.material)?;
-        Some(hertz.yield_load(material.poissons_ratio, material.yield_stress?))
+        Some(hertz.yield_load(material.poissons_ratio, material.first_yield_stress()?))
     });
     bodies.reduce(f64::min)
 }

@@ -127,6 +127,7 @@ fn new_nodes_lie_on_the_circle_that_is_known_and_on_the_side_else() {
 fn nodes_that_face_each_other_have_new_ones_that_do() {
     for shape in Shape::PLANE {
         let parameters = CylinderOnHalfPlane {
+            names: ["cylinder", "half_plane"].map(String::from),
             radius: 10.0,
             resolution: 3,
             half_width: None,

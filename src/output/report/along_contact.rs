@@ -3,9 +3,9 @@
 use super::chart::{Chart, Curve, Pen};
 use super::curves::{Titled, curve};
 use super::fields::chosen;
-use super::units::{Units, labelled};
 use super::window::mirrors;
 use crate::model::Model;
+use crate::output::labels::{Labels, labelled};
 use crate::reference::hertz_pressure;
 use crate::results::{PairState, Results, State, Status};
 use plotters::prelude::SeriesLabelPosition;
@@ -24,7 +24,7 @@ struct Along {
 }
 
 impl Along {
-    fn new(model: &Model, units: &Units, contact: usize) -> Self {
+    fn new(model: &Model, labels: &Labels, contact: usize) -> Self {
         let surface = &model.contacts[contact];
         let pairs = &model.pairs[surface.range.clone()];
         let circle = surface.circle.filter(|(center, radius)| {
@@ -56,7 +56,7 @@ impl Along {
                 let end = pairs.iter().map(|p| p.arc).fold(0.0, f64::max);
                 Along {
                     is_angle: false,
-                    label: labelled("distance along the contact surface", units.length()),
+                    label: labelled("distance along the contact surface", labels.length()),
                     of_pair: pairs
                         .iter()
                         .map(|p| if turned { end - p.arc } else { p.arc - begin })
@@ -89,11 +89,11 @@ impl Along {
 pub(super) fn pressure_profiles(
     model: &Model,
     results: &Results,
-    units: &Units,
+    labels: &Labels,
     contact: usize,
     names: &[String; 2],
 ) -> Option<Titled> {
-    let along = Along::new(model, units, contact);
+    let along = Along::new(model, labels, contact);
     let closed = |state: &State| {
         state
             .pairs
@@ -158,7 +158,7 @@ pub(super) fn pressure_profiles(
         title: format!("Contact pressure at the states{of}"),
         caption,
         chart: Chart {
-            labels: [along.label, labelled("pressure", units.stress())],
+            labels: [along.label, labelled("pressure", labels.stress())],
             widened: if curves.len() > 3 { 0.4 } else { 0.2 },
             curves,
             from_zero: [false, true],
@@ -179,7 +179,7 @@ fn numbered(name: &str, contact: usize, several: bool) -> String {
 pub(super) fn dent_profile(
     model: &Model,
     results: &Results,
-    units: &Units,
+    labels: &Labels,
     contact: usize,
 ) -> Option<Titled> {
     let largest = results
@@ -196,7 +196,7 @@ pub(super) fn dent_profile(
     if pairs.iter().any(|p| p.interference != 0.0) {
         return None;
     }
-    let along = Along::new(model, units, contact);
+    let along = Along::new(model, labels, contact);
     let mut points = along.curve(model, contact, &free.pairs, |pair| {
         pair.gap - model.pairs[pair.pair].gap
     });
@@ -219,7 +219,7 @@ pub(super) fn dent_profile(
             free.name
         ),
         chart: Chart {
-            labels: [along.label, labelled("change of shape", units.length())],
+            labels: [along.label, labelled("change of shape", labels.length())],
             curves: vec![curve("", 0, Pen::Dotted, points)],
             from_zero: [false, true],
             widened: 0.0,

@@ -1,8 +1,8 @@
 //! Where the contact of solids is, and along which axes it is looked at.
 
-use super::units::{Units, labelled};
 use super::window::Window;
 use crate::model::{Model, Pair};
+use crate::output::labels::{Labels, labelled};
 use crate::results::State;
 use crate::space::{Vector, along, cross, direction, dot, unit};
 
@@ -85,10 +85,10 @@ impl ContactFrame {
     }
 
     /// The label of an axis: its own name where it is a global one.
-    pub(super) fn label(axis: Vector, units: &Units) -> String {
+    pub(super) fn label(axis: Vector, labels: &Labels) -> String {
         labelled(
             global(axis).map_or("along the contact", |d| ["x", "y", "z"][d]),
-            units.length(),
+            labels.length(),
         )
     }
 }

@@ -8,11 +8,11 @@ use super::patchwork::Patchwork;
 use super::path;
 use super::picture::Picture;
 use super::theme::{INK, PAPER, Scale};
-use super::units::Units;
 use super::window::{Window, negligible};
 use crate::error::Result;
 use crate::model::Model;
 use crate::number::significant;
+use crate::output::Labels;
 use crate::results::{ContactPatch, State};
 use crate::space::{Vector, along, cross, dot};
 
@@ -43,7 +43,7 @@ impl<'m> ContactMap<'m> {
         frame: &'m ContactFrame,
         mirror: [bool; 3],
         states: &[State],
-        units: &Units,
+        labels: &Labels,
     ) -> Option<Self> {
         let contact = &model.contacts[frame.contact];
         let mirror = frame
@@ -77,10 +77,10 @@ impl<'m> ContactMap<'m> {
         (w > 0.0 && h > 0.0 && largest > 0.0).then(|| ContactMap {
             model,
             frame,
-            labels: frame.axes.map(|axis| ContactFrame::label(axis, units)),
+            labels: frame.axes.map(|axis| ContactFrame::label(axis, labels)),
             patchwork,
             window: window.framed(0.0),
-            bands: Bands::new([0.0, largest], Scale::Rising, units.stress()),
+            bands: Bands::new([0.0, largest], Scale::Rising, labels.stress()),
             pairs,
         })
     }

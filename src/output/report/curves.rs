@@ -4,8 +4,8 @@ use super::along_contact::{dent_profile, pressure_profiles};
 use super::chart::{Chart, Curve, Pen};
 use super::contact_frame::ContactFrame;
 use super::profile;
-use super::units::{Units, labelled};
 use crate::model::Model;
+use crate::output::labels::{Labels, capitalised, labelled};
 use crate::results::{HistoryRow, PathPoint, Results};
 use crate::scene::Unit;
 use plotters::prelude::SeriesLabelPosition;
@@ -26,18 +26,18 @@ pub(super) struct Titled {
 pub(super) fn charts(
     model: &Model,
     results: &Results,
-    units: &Units,
+    labels: &Labels,
     frame: Option<&ContactFrame>,
 ) -> Vec<Titled> {
     let mut out = Vec::new();
     if !model.pairs.is_empty() {
         out.extend(against_load(
             results,
-            units,
+            labels,
             Figure {
                 name: "pressure",
                 title: "Maximum contact pressure",
-                label: labelled("maximum pressure", units.stress()),
+                label: labelled("maximum pressure", labels.stress()),
                 at_zero: AtZero::Proportional,
             },
             |row| row.max_pressure,
@@ -46,11 +46,11 @@ pub(super) fn charts(
         ));
         out.extend(against_load(
             results,
-            units,
+            labels,
             Figure {
                 name: "half_width",
-                title: "Contact half width",
-                label: labelled("half width", units.length()),
+                title: &capitalised(labels.half_width()),
+                label: labelled(labels.half_width(), labels.length()),
                 at_zero: AtZero::Constant,
             },
             |row| row.half_width,
@@ -63,25 +63,25 @@ pub(super) fn charts(
             out.extend(pressure_profiles(
                 model,
                 results,
-                units,
+                labels,
                 index,
                 &contact.names,
             ));
         }
-        out.extend(residual_depth(results, units));
+        out.extend(residual_depth(results, labels));
         let plane = Some(model.contacts.len()).filter(|_| !model.kind.is_solid());
         for index in 0..plane.unwrap_or(0) {
-            out.extend(dent_profile(model, results, units, index));
+            out.extend(dent_profile(model, results, labels, index));
         }
-        out.extend(profile::chart(model, results, units, frame));
+        out.extend(profile::chart(model, results, labels, frame));
     }
-    out.extend(displacement(results, units, !model.pairs.is_empty()));
-    out.extend(plastic_strain(results, units));
+    out.extend(displacement(results, labels, !model.pairs.is_empty()));
+    out.extend(plastic_strain(results, labels));
     out
 }
 
-fn load_label(units: &Units) -> String {
-    labelled("load", units.load())
+fn load_label(labels: &Labels) -> String {
+    labelled("load", labels.load())
 }
 
 /// What becomes of a figure as the load goes to zero within an increment, in which statuses do not
@@ -123,7 +123,7 @@ struct Figure<'t> {
 /// states.
 fn against_load(
     results: &Results,
-    units: &Units,
+    labels: &Labels,
     figure: Figure,
     value: impl Fn(&HistoryRow) -> f64,
     between: impl Fn(&PathPoint) -> f64,
@@ -186,7 +186,7 @@ fn against_load(
                   one to the next, contact forces changing evenly."
             .to_string(),
         chart: Chart {
-            labels: [load_label(units), figure.label],
+            labels: [load_label(labels), figure.label],
             curves,
             from_zero: [true; 2],
             widened: 0.0,
@@ -205,7 +205,7 @@ pub(super) fn curve(label: &str, color: usize, pen: Pen, points: Vec<[f64; 2]>) 
 }
 
 /// The dent against the load at which it was made.
-fn residual_depth(results: &Results, units: &Units) -> Option<Titled> {
+fn residual_depth(results: &Results, labels: &Labels) -> Option<Titled> {
     let deepest = results
         .states
         .iter()
@@ -223,8 +223,8 @@ fn residual_depth(results: &Results, units: &Units) -> Option<Titled> {
             .to_string(),
         chart: Chart {
             labels: [
-                load_label(units),
-                labelled("residual depth", units.length()),
+                load_label(labels),
+                labelled("residual depth", labels.length()),
             ],
             curves: vec![curve("", 0, Pen::Dotted, points.collect())],
             from_zero: [true; 2],
@@ -236,7 +236,7 @@ fn residual_depth(results: &Results, units: &Units) -> Option<Titled> {
 
 /// Load against the approach of the bodies, without contact against the displacement of the loaded
 /// surface: the stiffness.
-fn displacement(results: &Results, units: &Units, has_contact: bool) -> Option<Titled> {
+fn displacement(results: &Results, labels: &Labels, has_contact: bool) -> Option<Titled> {
     if results.states.len() < 2 || results.states.iter().all(|s| s.approach == 0.0) {
         return None;
     }
@@ -259,7 +259,7 @@ fn displacement(results: &Results, units: &Units, has_contact: bool) -> Option<T
         title: title.to_string(),
         caption: caption.to_string(),
         chart: Chart {
-            labels: [labelled(name, units.length()), load_label(units)],
+            labels: [labelled(name, labels.length()), load_label(labels)],
             curves: vec![curve("", 0, Pen::Dotted, points.collect())],
             from_zero: [true; 2],
             widened: 0.0,
@@ -269,7 +269,7 @@ fn displacement(results: &Results, units: &Units, has_contact: bool) -> Option<T
 }
 
 /// Largest plastic strain against the load factor.
-fn plastic_strain(results: &Results, units: &Units) -> Option<Titled> {
+fn plastic_strain(results: &Results, labels: &Labels) -> Option<Titled> {
     // A prescribed displacement without contact has a load at the states only.
     let known = results.history.iter().all(|row| row.load.is_finite());
     let points: Vec<[f64; 2]> = results
@@ -281,7 +281,7 @@ fn plastic_strain(results: &Results, units: &Units) -> Option<Titled> {
         })
         .collect();
     let label = if known {
-        load_label(units)
+        load_label(labels)
     } else {
         "load factor".to_string()
     };

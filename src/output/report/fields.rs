@@ -7,11 +7,11 @@ use super::drawing::{Drawing, tick};
 use super::patchwork::Patchwork;
 use super::picture::Picture;
 use super::theme::{INK, PAPER, Scale};
-use super::units::Units;
 use super::window::Window;
 use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::number::significant;
+use crate::output::Labels;
 use crate::results::{Fields, State};
 use plotters::style::RGBColor;
 use rayon::prelude::*;
@@ -48,10 +48,10 @@ impl Quantity {
         }
     }
 
-    fn unit(self, units: &Units) -> &str {
+    fn unit(self, labels: &Labels) -> &str {
         match self {
             Quantity::PlasticZone => "strain",
-            _ => units.stress(),
+            _ => labels.stress(),
         }
     }
 }
@@ -108,7 +108,7 @@ struct Values<'v> {
 /// `Internal` where one cannot be drawn.
 pub(super) fn draw(
     mesh: &Mesh,
-    units: &Units,
+    labels: &Labels,
     views: &[View],
     states: &[(usize, &Fields)],
     quantities: &[Quantity],
@@ -156,7 +156,7 @@ pub(super) fn draw(
             && size(*own) > 0.0
             && size(*own) < FAINT * size(common);
         let range = if has_own_scale { *own } else { common };
-        let drawing = draw_one(units, &views[shown.view], shown, range)?;
+        let drawing = draw_one(labels, &views[shown.view], shown, range)?;
         Ok(Shown {
             state: shown.state,
             view: shown.view,
@@ -168,10 +168,10 @@ pub(super) fn draw(
     drawn.collect()
 }
 
-fn draw_one(units: &Units, view: &View, shown: &Values, range: [f64; 2]) -> Result<Drawing> {
+fn draw_one(labels: &Labels, view: &View, shown: &Values, range: [f64; 2]) -> Result<Drawing> {
     let quantity = shown.quantity;
     let sheet = &shown.sheet;
-    let bands = Bands::new(range, quantity.scale(), quantity.unit(units));
+    let bands = Bands::new(range, quantity.scale(), quantity.unit(labels));
     let zone = Sheet {
         places: sheet.places.clone(),
         values: shown.zone.clone(),

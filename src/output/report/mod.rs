@@ -12,7 +12,7 @@
 //! | `patchwork`, `section`, `contact_frame`, `window` | a mesh as triangles of a plane, cuts through solids, where; what is shown |
 //! | `contours`, `path` | lines of equal value over triangles; lines as SVG |
 //! | `picture`, `bands` | areas and lines under axes; scales of colours |
-//! | `drawing`, `theme`, `units` | SVG text, colours for light and dark, names of units |
+//! | `drawing`, `theme` | SVG text, colours for light and dark |
 //!
 //! A picture costs a pass over the elements and what is in its window; its text is as long as the
 //! lines that can be seen, whatever the mesh.
@@ -41,7 +41,6 @@ mod states;
 mod tables;
 mod theme;
 mod trust;
-mod units;
 mod window;
 
 use super::{FIGURE_PREFIX, FIGURE_SUFFIX, REPORT_FILE, RunHeader};
@@ -49,12 +48,15 @@ use crate::error::Result;
 use crate::model::Model;
 use crate::results::Results;
 use crate::text::shown;
+#[cfg(feature = "cli")]
+use chart::{Chart, Curve, Pen};
 use contact_frame::ContactFrame;
 use drawing::Drawing;
 use page::{Figure, Figures};
+#[cfg(feature = "cli")]
+use plotters::prelude::SeriesLabelPosition;
 use rayon::prelude::*;
 use std::borrow::Cow;
-use units::Units;
 
 /// A drawing with its words.
 struct Captioned {
@@ -83,6 +85,31 @@ impl Captioned {
     }
 }
 
+/// A chart of some named curves, as the text of an SVG file.
+///
+/// # Errors
+/// `Internal` where it cannot be drawn.
+#[cfg(feature = "cli")]
+pub(super) fn line_chart(
+    labels: [String; 2],
+    curves: Vec<(String, Vec<[f64; 2]>)>,
+) -> Result<String> {
+    let curve = |(index, (label, points)): (usize, (String, Vec<[f64; 2]>))| Curve {
+        label,
+        color: Some(index),
+        pen: Pen::Dotted,
+        points,
+    };
+    let chart = Chart {
+        labels,
+        widened: if curves.len() > 1 { 0.3 } else { 0.0 },
+        curves: curves.into_iter().enumerate().map(curve).collect(),
+        from_zero: [false, true],
+        legend: SeriesLabelPosition::UpperRight,
+    };
+    Ok(shown(&chart.draw()?.file()).into_owned())
+}
+
 /// Names and contents of the report's files, the page last.
 ///
 /// # Errors
@@ -92,10 +119,10 @@ pub(super) fn files(
     model: &Model,
     results: &Results,
 ) -> Result<Vec<(String, String)>> {
-    let units = Units::of(model);
+    let labels = &header.labels;
     let frame = ContactFrame::new(model, &results.states);
-    let [scene, meshed] = scenery::draw(model, results, &units, frame.as_ref())?;
-    let charts: Vec<Captioned> = curves::charts(model, results, &units, frame.as_ref())
+    let [scene, meshed] = scenery::draw(model, results, labels, frame.as_ref())?;
+    let charts: Vec<Captioned> = curves::charts(model, results, labels, frame.as_ref())
         .into_par_iter()
         .map(|titled| {
             Ok(Captioned {
@@ -106,7 +133,7 @@ pub(super) fn files(
             })
         })
         .collect::<Result<_>>()?;
-    let pictures = states::draw(model, results, &units, frame.as_ref())?;
+    let pictures = states::draw(model, results, labels, frame.as_ref())?;
     let of = |list: &[Captioned]| list.iter().map(Captioned::figure).collect();
     let figures = Figures {
         scene: of(&scene),
@@ -126,7 +153,7 @@ pub(super) fn files(
             (name, figure.drawing.file())
         })
         .collect();
-    let page = page::page(header, model, results, &units, &figures);
+    let page = page::page(header, model, results, labels, &figures);
     out.push((REPORT_FILE.to_string(), page));
     for (_, text) in &mut out {
         // Titles and names with characters that are no XML.

@@ -3,10 +3,10 @@
 use super::tables;
 use super::theme;
 use super::trust;
-use super::units::Units;
 use crate::model::Model;
 use crate::number::significant;
 use crate::output::RunHeader;
+use crate::output::labels::{Labels, capitalised};
 use crate::results::{Results, State};
 use crate::scene::{Kind, Unit};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -47,7 +47,7 @@ pub(super) fn page(
     header: &RunHeader,
     model: &Model,
     results: &Results,
-    units: &Units,
+    labels: &Labels,
     figures: &Figures,
 ) -> String {
     let title = title(header);
@@ -55,16 +55,16 @@ pub(super) fn page(
         (
             "scene",
             "Scene",
-            tables::scene(model, units, &figures.scene, &figures.meshed),
+            tables::scene(model, labels, &figures.scene, &figures.meshed),
         ),
         ("load", "Along the load", charts(&figures.charts)),
-        ("states", "States", tables::states(model, results, units)),
+        ("states", "States", tables::states(model, results, labels)),
         ("pictures", "Stress and plastic zone", pictures(figures)),
         ("reference", "Reference values", tables::reference(results)),
         (
             "errors",
             "How wrong the numbers may be",
-            trust::errors(results),
+            trust::errors(results, labels),
         ),
         ("effects", "What was simulated", tables::effects(results)),
         (
@@ -98,8 +98,8 @@ pub(super) fn page(
                     @if let Some(incomplete) = &results.incomplete {
                         div.note.bad { b { "Incomplete. " } (incomplete.why) }
                     }
-                    p.lead { (story(header, model, results, units)) }
-                    (cards(model, results, units))
+                    p.lead { (story(header, model, results, labels)) }
+                    (cards(model, results, labels))
                     nav aria-label="Sections" {
                         @for (id, heading, _) in &sections { a href={ "#" (id) } { (heading) } }
                     }
@@ -188,14 +188,14 @@ fn quantity(value: f64, unit: &str) -> String {
 }
 
 /// The run in a few sentences.
-fn story(header: &RunHeader, model: &Model, results: &Results, units: &Units) -> String {
+fn story(header: &RunHeader, model: &Model, results: &Results, labels: &Labels) -> String {
     let mut text = String::new();
     let contact = !model.pairs.is_empty();
     match &results.first_yield {
         Some(first) => {
             // A prescribed displacement without contact has a load at the states only.
             let load = match first.load.is_finite() {
-                true => format!("load of {}", quantity(first.load, units.load())),
+                true => format!("load of {}", quantity(first.load, labels.load())),
                 false => format!("load factor of {}", round(first.alpha)),
             };
             text.push_str(&format!(
@@ -208,9 +208,10 @@ fn story(header: &RunHeader, model: &Model, results: &Results, units: &Units) ->
             ));
             if contact {
                 text.push_str(&format!(
-                    ", under a maximum contact pressure of {} and a half width of {}",
-                    quantity(first.max_pressure, units.stress()),
-                    quantity(first.half_width, units.length())
+                    ", under a maximum contact pressure of {} and a {} of {}",
+                    quantity(first.max_pressure, labels.stress()),
+                    labels.half_width(),
+                    quantity(first.half_width, labels.length())
                 ));
             }
             text.push_str(". ");
@@ -222,11 +223,11 @@ fn story(header: &RunHeader, model: &Model, results: &Results, units: &Units) ->
         let plastic = top.max_equivalent_plastic_strain;
         text.push_str(&format!(
             "The largest load of a state is {}{}",
-            quantity(top.load, units.load()),
+            quantity(top.load, labels.load()),
             if contact {
                 format!(
                     ", with a maximum pressure of {}",
-                    quantity(top.max_pressure, units.stress())
+                    quantity(top.max_pressure, labels.stress())
                 )
             } else {
                 String::new()
@@ -243,57 +244,53 @@ fn story(header: &RunHeader, model: &Model, results: &Results, units: &Units) ->
     if let Some(last) = results.states.last().filter(|s| s.residual_depth > 0.0) {
         text.push_str(&format!(
             "Without load a dent {} deep stays.",
-            quantity(last.residual_depth, units.length())
+            quantity(last.residual_depth, labels.length())
         ));
     }
     text
 }
 
-fn cards(model: &Model, results: &Results, units: &Units) -> Markup {
+fn cards(model: &Model, results: &Results, labels: &Labels) -> Markup {
     let contact = !model.pairs.is_empty();
-    let mut cards: Vec<(&str, f64, &str)> = Vec::new();
+    let width = labels.half_width();
+    let mut cards: Vec<(String, f64, &str)> = Vec::new();
+    let mut add = |name: &str, value, unit| cards.push((name.to_string(), value, unit));
     if let Some(first) = &results.first_yield {
-        cards.push(("Yield load", first.load, units.load()));
+        add("Yield load", first.load, labels.load());
         if contact {
-            cards.push((
+            add(
                 "Pressure at first yield",
                 first.max_pressure,
-                units.stress(),
-            ));
-            cards.push((
-                "Half width at first yield",
-                first.half_width,
-                units.length(),
-            ));
+                labels.stress(),
+            );
+            let name = capitalised(&format!("{width} at first yield"));
+            add(&name, first.half_width, labels.length());
         }
     }
     let largest = |value: fn(&State) -> f64| results.states.iter().map(value).fold(0.0, f64::max);
-    cards.push(("Largest load", largest(|s| s.load), units.load()));
+    add("Largest load", largest(|s| s.load), labels.load());
     if contact {
-        cards.push((
+        add(
             "Largest pressure",
             largest(|s| s.max_pressure),
-            units.stress(),
-        ));
-        cards.push((
-            "Largest half width",
+            labels.stress(),
+        );
+        add(
+            &format!("Largest {width}"),
             largest(|s| s.half_width),
-            units.length(),
-        ));
+            labels.length(),
+        );
     }
-    cards.push((
+    add(
         "Residual depth",
         largest(|s| s.residual_depth),
-        units.length(),
-    ));
-    cards.push((
-        "Largest plastic strain",
-        100.0 * largest(|s| s.max_equivalent_plastic_strain),
-        "%",
-    ));
+        labels.length(),
+    );
+    let strain = 100.0 * largest(|s| s.max_equivalent_plastic_strain);
+    add("Largest plastic strain", strain, "%");
     html! {
         dl.cards {
-            @let shown = |card: &&(_, f64, _)| card.1 > 0.0 && card.1.is_finite();
+            @let shown = |card: &&(String, f64, &str)| card.1 > 0.0 && card.1.is_finite();
             @for (name, value, unit) in cards.iter().filter(shown) {
                 div.card {
                     dt { (name) }

@@ -5,11 +5,11 @@ use super::contact_frame::{ContactFrame, global};
 use super::curves::Titled;
 use super::patchwork::{Patchwork, seen};
 use super::section::Cut;
-use super::units::{Units, labelled};
 use super::window::{Window, mirrors, negligible};
 use crate::material::von_mises;
 use crate::model::Model;
 use crate::number::{significant, with_unit};
+use crate::output::labels::{Labels, labelled};
 use crate::results::{Fields, PairState, Results, State, Status};
 use crate::space::{Vector, dot, unit};
 use nalgebra::Matrix3;
@@ -23,7 +23,7 @@ const DEPTH: f64 = 3.0;
 pub(super) fn chart(
     model: &Model,
     results: &Results,
-    units: &Units,
+    labels: &Labels,
     frame: Option<&ContactFrame>,
 ) -> Option<Titled> {
     let with_fields = results.states.iter().filter(|s| s.contact_force > 0.0);
@@ -72,10 +72,11 @@ pub(super) fn chart(
             continue;
         };
         caption.push_str(&format!(
-            " Largest shear stress in {name}: {} at a depth of {} ({} of the half width).",
-            with_unit(&significant(top[1], 3), units.stress()),
-            with_unit(&significant(top[0], 3), units.length()),
+            " Largest shear stress in {name}: {} at a depth of {} ({} of the {}).",
+            with_unit(&significant(top[1], 3), labels.stress()),
+            with_unit(&significant(top[0], 3), labels.length()),
             significant(top[0] / state.half_width, 2),
+            labels.half_width(),
         ));
         for (kind, pen, points) in [
             ("von Mises", Pen::Line, of_mises),
@@ -95,8 +96,8 @@ pub(super) fn chart(
         caption,
         chart: Chart {
             labels: [
-                labelled("depth", units.length()),
-                labelled("stress", units.stress()),
+                labelled("depth", labels.length()),
+                labelled("stress", labels.stress()),
             ],
             curves,
             from_zero: [true; 2],
@@ -220,8 +221,8 @@ mod tests {
             crate::analysis::Analysis::new(model, crate::linalg::Backend::default()).unwrap();
         let results = analysis.run(&mut crate::progress::Silent).unwrap();
         let model = analysis.model();
-        let units = Units::of(model);
-        let titled = chart(model, &results, &units, None).unwrap();
+        let labels = Labels::of(model);
+        let titled = chart(model, &results, &labels, None).unwrap();
         let state = &results.states[0];
         let shear: Vec<&Curve> = (titled.chart.curves.iter())
             .filter(|curve| curve.label.starts_with("shear"))

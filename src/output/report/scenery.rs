@@ -5,11 +5,11 @@ use super::camera::Stand;
 use super::contact_frame::ContactFrame;
 use super::drawing::Drawing;
 use super::perspective::Perspective;
-use super::units::Units;
 use super::{sketch, window};
 use crate::error::Result;
 use crate::model::Model;
 use crate::number::significant;
+use crate::output::Labels;
 use crate::results::Results;
 use crate::space::{Vector, difference, dot, unit};
 
@@ -36,13 +36,13 @@ type View<'v> = (
 pub(super) fn draw(
     model: &Model,
     results: &Results,
-    units: &Units,
+    labels: &Labels,
     frame: Option<&ContactFrame>,
 ) -> Result<[Vec<Captioned>; 2]> {
     let (views, about) = match model.kind.is_solid() {
-        true => (solid(model, frame), size(model, units)),
+        true => (solid(model, frame), size(model, labels)),
         false => (
-            plane(model, results, units),
+            plane(model, results, labels),
             "As given in the scene, without load.".to_string(),
         ),
     };
@@ -74,7 +74,7 @@ pub(super) fn draw(
 const WHOLE: [&str; 2] = ["scene", "The whole model"];
 const NEAR: [&str; 2] = ["contact_region", "Near the contact"];
 
-fn plane<'v>(model: &'v Model, results: &Results, units: &'v Units) -> Vec<View<'v>> {
+fn plane<'v>(model: &'v Model, results: &Results, labels: &'v Labels) -> Vec<View<'v>> {
     let Some(whole) = window::whole(model, [false; 2]) else {
         return Vec::new();
     };
@@ -86,7 +86,7 @@ fn plane<'v>(model: &'v Model, results: &Results, units: &'v Units) -> Vec<View<
         .filter_map(|(words, window)| Some((words, window?)));
     views
         .map(|([name, title], window)| -> View {
-            let draw = move |mesh| sketch::draw(model, units, window, mesh);
+            let draw = move |mesh| sketch::draw(model, labels, window, mesh);
             (name, title, Box::new(draw))
         })
         .collect()
@@ -120,7 +120,7 @@ fn solid<'v>(model: &'v Model, frame: Option<&ContactFrame>) -> Vec<View<'v>> {
 }
 
 /// What a perspective does not show: the size.
-fn size(model: &Model, units: &Units) -> String {
+fn size(model: &Model, labels: &Labels) -> String {
     let [low, high] = window::extent(model);
     let sides = difference(high, low).map(|side| significant(side, 3));
     let halves = (0..3).filter(|&d| window::mirrors(model)[d]).count();
@@ -132,7 +132,7 @@ fn size(model: &Model, units: &Units) -> String {
     format!(
         "In perspective, without load{planes}. The whole is {} {}.",
         sides.join(" \u{d7} "),
-        units.length()
+        labels.length()
     )
     .replace(" .", ".")
 }

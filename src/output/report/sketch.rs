@@ -6,12 +6,12 @@ use super::outer;
 use super::patchwork::{ring, seen};
 use super::picture::Picture;
 use super::theme::{CURVES, INK};
-use super::units::Units;
 use super::window::Window;
 use crate::error::Result;
 use crate::mesh::Facet;
 use crate::mesh::surface::{normals, ordered_nodes};
 use crate::model::{Magnitude, Model};
+use crate::output::Labels;
 use crate::scene::Support;
 use crate::space::{Vector, unit};
 use plotters::prelude::*;
@@ -50,7 +50,7 @@ const SIDE: RGBColor = RGBColor(0x6a, 0x74, 0x80);
 /// `Internal` where it cannot be drawn.
 pub(super) fn draw(
     model: &Model,
-    units: &Units,
+    labels: &Labels,
     window: Window,
     mesh: bool,
 ) -> Result<(Drawing, f64)> {
@@ -75,8 +75,8 @@ pub(super) fn draw(
     picture.stroke(&lines, SIDE, 0.5);
     picture.outline(outlines, INK, 0.9);
     let signs = Signs::new(model, &picture, window);
-    let labels = units.axes(model.kind);
-    let drawing = picture.finish([&labels[0], &labels[1]], None, |area| signs.draw(area))?;
+    let axes = labels.axes(model.kind);
+    let drawing = picture.finish([&axes[0], &axes[1]], None, |area| signs.draw(area))?;
     Ok((drawing, meshed))
 }
 

@@ -6,11 +6,11 @@ use super::contact_map::ContactMap;
 use super::fields::{self, Quantity, Shown, View, chosen};
 use super::patchwork::{Patchwork, seen};
 use super::section::Cut;
-use super::units::Units;
 use super::window::{self, mirrors, negligible};
 use crate::error::Result;
 use crate::model::Model;
 use crate::number::significant;
+use crate::output::Labels;
 use crate::results::{Fields, Results, State};
 use crate::space::unit;
 
@@ -34,7 +34,7 @@ pub(super) struct Pictures {
 pub(super) fn draw(
     model: &Model,
     results: &Results,
-    units: &Units,
+    labels: &Labels,
     frame: Option<&ContactFrame>,
 ) -> Result<Pictures> {
     let touches = |state: &State| state.patches.iter().any(|patch| patch.force > 0.0);
@@ -44,7 +44,7 @@ pub(super) fn draw(
         .iter()
         .filter_map(|&index| Some((index, results.states[index].fields.as_ref()?)))
         .collect();
-    let views = views(model, results, units, frame, &with_fields);
+    let views = views(model, results, labels, frame, &with_fields);
     let quantities: &[Quantity] = match model.kind.is_solid() {
         true => &[Quantity::VonMises],
         false => &[
@@ -58,8 +58,9 @@ pub(super) fn draw(
     let quantities: Vec<Quantity> = (quantities.iter().copied())
         .filter(|q| *q != Quantity::PlasticZone || any_yields)
         .collect();
-    let drawn = fields::draw(&model.mesh, units, &views, &with_fields, &quantities)?;
-    let map = frame.and_then(|f| ContactMap::new(model, f, mirrors(model), &results.states, units));
+    let drawn = fields::draw(&model.mesh, labels, &views, &with_fields, &quantities)?;
+    let map =
+        frame.and_then(|f| ContactMap::new(model, f, mirrors(model), &results.states, labels));
     let mut states: Vec<(usize, Vec<Captioned>)> = Vec::new();
     for &index in &shown {
         let state = &results.states[index];
@@ -68,7 +69,7 @@ pub(super) fn draw(
             pictures.push(Captioned {
                 name: format!("state_{:02}_contact_pressure", index + 1),
                 title: String::new(),
-                caption: format!("Contact pressure, {}.", load(state, units)),
+                caption: format!("Contact pressure, {}.", load(state, labels)),
                 drawing: map.draw(state)?,
             });
         }
@@ -77,7 +78,7 @@ pub(super) fn draw(
     for picture in drawn {
         let state = &results.states[picture.state];
         if let Some(entry) = states.iter_mut().find(|entry| entry.0 == picture.state) {
-            entry.1.push(captioned(picture, state, &views, units));
+            entry.1.push(captioned(picture, state, &views, labels));
         }
     }
     states.retain(|(_, pictures)| !pictures.is_empty());
@@ -93,7 +94,7 @@ pub(super) fn draw(
 fn views(
     model: &Model,
     results: &Results,
-    units: &Units,
+    labels: &Labels,
     frame: Option<&ContactFrame>,
     states: &[(usize, &Fields)],
 ) -> Vec<View> {
@@ -115,7 +116,7 @@ fn views(
             words: String::new(),
             patchwork: patchwork.mirrored(mesh, mirror, negligible(model)),
             window,
-            labels: units.axes(model.kind),
+            labels: labels.axes(model.kind),
         }];
     }
     let Some(frame) = frame else {
@@ -129,7 +130,7 @@ fn views(
         let mirror = cut.axes.map(|axis| global(axis).is_some_and(|d| halves[d]));
         let window = frame.window(model, axis, mirror)?;
         let patchwork = cut.pieces(mesh, window, mirror, &displacements);
-        let labels = cut.axes.map(|axis| ContactFrame::label(axis, units));
+        let labels = cut.axes.map(|axis| ContactFrame::label(axis, labels));
         let words = match global(cut.axes[0]) {
             Some(d) => format!(" in the section along {}", ["x", "y", "z"][d]),
             None if axis == 0 => " in the section along the longer half axis".to_string(),
@@ -173,12 +174,12 @@ fn about(model: &Model, has_map: bool, has_fields: bool) -> String {
     out
 }
 
-fn load(state: &State, units: &Units) -> String {
-    let load = format!("load {} {}", significant(state.load, 4), units.load());
+fn load(state: &State, labels: &Labels) -> String {
+    let load = format!("load {} {}", significant(state.load, 4), labels.load());
     load.trim_end().to_string()
 }
 
-fn captioned(picture: Shown, state: &State, views: &[View], units: &Units) -> Captioned {
+fn captioned(picture: Shown, state: &State, views: &[View], labels: &Labels) -> Captioned {
     let view = &views[picture.view];
     let (name, words) = match picture.quantity {
         Quantity::VonMises => ("von_mises", "Von Mises stress"),
@@ -210,7 +211,7 @@ fn captioned(picture: Shown, state: &State, views: &[View], units: &Units) -> Ca
         caption: format!(
             "{words}{}, {}{strain}.{own}",
             view.words,
-            load(state, units)
+            load(state, labels)
         ),
         drawing: picture.drawing,
     }

@@ -3,11 +3,11 @@
 use super::page::{Figure, factor, figures};
 use super::sketch::{BODIES, CONTACT, LOAD, SUPPORT};
 use super::theme::hex;
-use super::units::{Units, labelled};
 use crate::model::Model;
 use crate::number::{bytes, number, seconds, trimmed, with_unit};
 use crate::output::RunHeader;
 use crate::output::columns::of_states;
+use crate::output::labels::{Labels, in_line, labelled};
 use crate::results::Results;
 use crate::scene::{Direction, Field, History, Load};
 use crate::space::Components;
@@ -58,7 +58,7 @@ fn swatch(color: RGBColor, name: &str) -> Markup {
 }
 
 /// What the scene is made of, beside its drawing.
-pub(super) fn scene(model: &Model, units: &Units, drawn: &[Figure], meshed: &[Figure]) -> Markup {
+pub(super) fn scene(model: &Model, labels: &Labels, drawn: &[Figure], meshed: &[Figure]) -> Markup {
     html! {
         (figures(drawn, "figures"))
         @if !meshed.is_empty() {
@@ -68,14 +68,14 @@ pub(super) fn scene(model: &Model, units: &Units, drawn: &[Figure], meshed: &[Fi
             }
         }
         h3 { "Bodies" }
-        (bodies(model, units))
+        (bodies(model, labels))
         h3 { "Contact, supports, loads" }
-        (conditions(model, units))
+        (conditions(model, labels))
     }
 }
 
-fn bodies(model: &Model, units: &Units) -> Markup {
-    let stress = units.stress();
+fn bodies(model: &Model, labels: &Labels) -> Markup {
+    let stress = labels.stress();
     let head = [
         text("body"),
         text("material"),
@@ -89,7 +89,9 @@ fn bodies(model: &Model, units: &Units) -> Markup {
             let name = &model.mesh.bodies[index];
             let body = model.scene.bodies.get(name)?;
             let material = model.scene.materials.get(&body.material)?;
-            let yields = material.yield_stress.filter(|_| model.may_yield[index]);
+            let yields = material
+                .first_yield_stress()
+                .filter(|_| model.may_yield[index]);
             let hardening = match (yields, material.plastic_modulus_resolved()) {
                 (None, _) => "elastic".to_string(),
                 (_, Some(0.0)) => "none (perfectly plastic)".to_string(),
@@ -133,7 +135,7 @@ fn given(value: f64) -> String {
     trimmed(value, 6)
 }
 
-fn conditions(model: &Model, units: &Units) -> Markup {
+fn conditions(model: &Model, labels: &Labels) -> Markup {
     let scene = &model.scene;
     let mut rows: Vec<Vec<Markup>> = Vec::new();
     for (contact, surface) in scene.contact.iter().zip(&model.contacts) {
@@ -141,13 +143,13 @@ fn conditions(model: &Model, units: &Units) -> Markup {
         if contact.interference != 0.0 {
             what.push_str(&format!(
                 ", interference {}",
-                with_unit(&given(contact.interference), units.length())
+                with_unit(&given(contact.interference), labels.length())
             ));
         }
         if let Some(gap) = contact.gap {
             what.push_str(&format!(
                 ", initial gap {}",
-                with_unit(&given(gap), units.length())
+                with_unit(&given(gap), labels.length())
             ));
         }
         let on = format!("{} on {}", contact.first, contact.second);
@@ -166,7 +168,7 @@ fn conditions(model: &Model, units: &Units) -> Markup {
         ]);
     }
     for load in &scene.load {
-        let what = describe(model, load, units);
+        let what = describe(model, load, labels);
         rows.push(vec![swatch(LOAD, "load"), plain(&load.on), plain(what)]);
     }
     table(&[text(""), text("on"), text("what")], &rows)
@@ -176,7 +178,7 @@ fn axis(model: &Model, direction: Direction) -> &'static str {
     model.kind.axes()[direction.axis()]
 }
 
-fn describe(model: &Model, load: &Load, units: &Units) -> String {
+fn describe(model: &Model, load: &Load, labels: &Labels) -> String {
     let vector = |v: Components| {
         let parts: Vec<String> = v.iter().map(given).collect();
         format!("({})", parts.join(", "))
@@ -184,9 +186,9 @@ fn describe(model: &Model, load: &Load, units: &Units) -> String {
     let mut what = if let Some(force) = load.force {
         format!("force {}", vector(force))
     } else if let Some(pressure) = load.pressure {
-        format!("pressure {}", with_unit(&given(pressure), units.stress()))
+        format!("pressure {}", with_unit(&given(pressure), labels.stress()))
     } else if let Some(traction) = load.traction {
-        format!("traction {} {}", vector(traction), units.stress())
+        format!("traction {} {}", vector(traction), labels.stress())
     } else if let Some(kirsch) = load.kirsch {
         format!(
             "traction of a plate with a hole under remote tensions {}",
@@ -205,7 +207,7 @@ fn describe(model: &Model, load: &Load, units: &Units) -> String {
                     format!(
                         "{} = {}",
                         axis(model, direction),
-                        with_unit(&given(v), units.length())
+                        with_unit(&given(v), labels.length())
                     )
                 })
             })
@@ -248,18 +250,18 @@ fn describe(model: &Model, load: &Load, units: &Units) -> String {
 }
 
 /// The states, with the columns that carry information in this scene.
-pub(super) fn states(model: &Model, results: &Results, units: &Units) -> Markup {
+pub(super) fn states(model: &Model, results: &Results, labels: &Labels) -> Markup {
     let states = &results.states;
     if states.is_empty() {
         return PreEscaped(String::new());
     }
-    let columns = of_states(states, model.kind, !model.pairs.is_empty(), false);
+    let columns = of_states(states, labels, model.kind, !model.pairs.is_empty(), false);
     let unit = model.scene.program.unit;
     let mut head = vec![text("state"), numbers(factor(unit))];
-    let rest = columns.iter().skip(1).map(|column| {
-        let name = column.heading.replace("-\n", "").replace('\n', " ");
-        numbers(labelled(&name, &units.of_quantity(column.unit)))
-    });
+    let rest = columns
+        .iter()
+        .skip(1)
+        .map(|column| numbers(labelled(&in_line(column.heading), &column.unit)));
     head.extend(rest);
     let rows: Vec<Vec<Markup>> = states
         .iter()

@@ -2,17 +2,18 @@
 
 use super::tables::{numbers, plain, table, text};
 use crate::number::significant;
+use crate::output::Labels;
 use crate::output::ending::in_words;
 use crate::output::stated_errors::StatedErrors;
 use crate::results::Results;
 use maud::{Markup, PreEscaped, html};
 
 /// What each number may be wrong by.
-pub(super) fn errors(results: &Results) -> Markup {
+pub(super) fn errors(results: &Results, labels: &Labels) -> Markup {
     let Some(accuracy) = &results.accuracy else {
         return PreEscaped(String::new());
     };
-    let stated = StatedErrors::of(accuracy);
+    let stated = StatedErrors::of(accuracy, labels);
     if stated.is_none() && accuracy.demand.is_none() && accuracy.notes.is_empty() {
         return PreEscaped(String::new());
     }

@@ -123,6 +123,14 @@ impl Checks {
         if let Some(stiffness) = contact.stiffness {
             self.stress(format!("{key}.stiffness"), stiffness);
         }
+        self.require(
+            contact.interference >= 0.0,
+            format!("{key}.interference"),
+            format!(
+                "{} is negative; a clearance is given by `gap`",
+                exact(contact.interference)
+            ),
+        );
         if let Some(gap) = contact.gap {
             self.require(
                 gap >= 0.0,

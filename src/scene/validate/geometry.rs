@@ -320,9 +320,16 @@ impl Checks {
         };
         let mut seen = BTreeSet::new();
         for (index, name) in names.iter().enumerate() {
-            if !seen.insert(*name) {
+            let key = match scene.mesh.named_pair() {
+                Some((generator, _)) => format!("mesh.{generator}.names.{index}"),
+                None => format!("mesh.parts.{index}.body"),
+            };
+            let is_pair = scene.mesh.named_pair().is_some();
+            if is_pair && name.is_empty() {
+                self.problem(key, "is empty; give the body a name");
+            } else if !seen.insert(*name) {
                 self.problem(
-                    format!("mesh.parts.{index}.body"),
+                    key,
                     format!("\"{name}\" is used twice; every part is a body of its own"),
                 );
             } else if !scene.bodies.contains_key(*name) {
@@ -344,14 +351,9 @@ impl Checks {
 
 /// Names of the bodies of a generated mesh; `None` where a file decides.
 fn generated_bodies(mesh: &MeshSource) -> Option<Vec<&str>> {
-    if mesh.cylinder_on_half_plane.is_some() {
-        Some(vec!["cylinder", "half_plane"])
-    } else if mesh.disc_in_plate.is_some() {
-        Some(vec!["disc", "plate"])
-    } else if mesh.curved_bodies.is_some() {
-        Some(vec!["upper", "lower"])
-    } else {
-        let parts = mesh.parts.as_ref()?;
-        Some(parts.iter().map(|part| part.body.as_str()).collect())
+    if let Some((_, names)) = mesh.named_pair() {
+        return Some(names.iter().map(String::as_str).collect());
     }
+    let parts = mesh.parts.as_ref()?;
+    Some(parts.iter().map(|part| part.body.as_str()).collect())
 }

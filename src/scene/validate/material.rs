@@ -3,7 +3,7 @@
 use super::Checks;
 use crate::number::exact;
 use crate::scene::read::closest;
-use crate::scene::{Material, Plastic, Scene};
+use crate::scene::{Material, Plastic, Scene, beyond_yield, materials};
 
 impl Checks {
     pub(super) fn materials(&mut self, scene: &Scene) {
@@ -19,18 +19,23 @@ impl Checks {
             match scene.materials.get(&body.material) {
                 None => {
                     let known: Vec<&str> = scene.materials.keys().map(String::as_str).collect();
-                    let meant = match closest(&body.material, &known) {
+                    let listed = materials().iter().map(|(name, _)| name.as_str());
+                    let all: Vec<&str> = known.iter().copied().chain(listed).collect();
+                    let meant = match closest(&body.material, &all) {
                         Some(close) => format!(", did you mean \"{close}\"? Known"),
                         None => "; known".to_string(),
                     };
                     let wrong = format!("there is no material \"{}\"", body.material);
                     self.problem(
                         format!("bodies.{name}.material"),
-                        format!("{wrong}{meant} materials: {}", known.join(", ")),
+                        format!(
+                            "{wrong}{meant} materials: {}; `brinell materials` lists more",
+                            known.join(", ")
+                        ),
                     );
                 }
                 Some(material) => self.require(
-                    body.plastic != Plastic::Yes || material.yield_stress.is_some(),
+                    body.plastic != Plastic::Yes || material.first_yield_stress().is_some(),
                     format!("bodies.{name}.plastic"),
                     format!(
                         "true, but the material \"{0}\" has no yield stress; \
@@ -61,6 +66,7 @@ impl Checks {
             ("plastic_modulus", material.plastic_modulus.is_some()),
             ("tangent_modulus", material.tangent_modulus.is_some()),
             ("hardening_table", material.hardening_table.is_some()),
+            ("tensile_test", material.tensile_test.is_some()),
         ];
         let given: Vec<&str> = hardening.iter().filter(|h| h.1).map(|h| h.0).collect();
         if given.len() > 1 {
@@ -76,7 +82,22 @@ impl Checks {
         }
         let linear = material.kinematic_modulus.map(|_| "kinematic_modulus");
         let kinematic = linear.or(material.back_stresses.as_ref().map(|_| "back_stresses"));
-        let Some(yield_stress) = material.yield_stress else {
+        if let Some(yield_stress) = material.yield_stress {
+            self.stress(format!("{key}.yield_stress"), yield_stress);
+        }
+        if let Some(table) = &material.hardening_table {
+            self.hardening_table(
+                &format!("{key}.hardening_table"),
+                table,
+                material.yield_stress,
+            );
+            return;
+        }
+        if let Some(test) = &material.tensile_test {
+            self.tensile_test(&format!("{key}.tensile_test"), test, material);
+            return;
+        }
+        if material.yield_stress.is_none() {
             if let Some(law) = given.first().copied().or(kinematic) {
                 self.problem(
                     format!("{key}.{law}"),
@@ -84,8 +105,7 @@ impl Checks {
                 );
             }
             return;
-        };
-        self.stress(format!("{key}.yield_stress"), yield_stress);
+        }
         if let Some(modulus) = material.plastic_modulus {
             let key = format!("{key}.plastic_modulus");
             self.at_least(key.as_str(), modulus, 0.0);
@@ -109,9 +129,6 @@ impl Checks {
                     slope,
                 );
             }
-        }
-        if let Some(table) = &material.hardening_table {
-            self.hardening_table(&format!("{key}.hardening_table"), table, yield_stress);
         }
     }
 
@@ -145,21 +162,36 @@ impl Checks {
         }
     }
 
-    fn hardening_table(&mut self, key: &str, table: &[[f64; 2]], yield_stress: f64) {
+    fn hardening_table(&mut self, key: &str, table: &[[f64; 2]], yield_stress: Option<f64>) {
         let Some(&[strain, stress]) = table.first() else {
             self.problem(key, "is empty; give rows of [plastic strain, yield stress]");
             return;
         };
-        self.require(
-            strain == 0.0 && stress == yield_stress,
-            format!("{key}.0"),
-            format!(
-                "[{}, {}] must be [0, {}]: plastic strain 0, yield_stress",
-                exact(strain),
-                exact(stress),
-                exact(yield_stress)
+        let first = format!("{key}.0");
+        match yield_stress {
+            Some(yield_stress) => self.require(
+                strain == 0.0 && stress == yield_stress,
+                first,
+                format!(
+                    "[{}, {}] must be [0, {}]: plastic strain 0, yield_stress (which may be left \
+                     out)",
+                    exact(strain),
+                    exact(stress),
+                    exact(yield_stress)
+                ),
             ),
-        );
+            None => {
+                self.require(
+                    strain == 0.0,
+                    first.as_str(),
+                    format!(
+                        "plastic strain {} must be 0: there it yields",
+                        exact(strain)
+                    ),
+                );
+                self.stress(first, stress);
+            }
+        }
         for (index, pair) in table.windows(2).enumerate() {
             let ([strain0, stress0], [strain1, stress1]) = (pair[0], pair[1]);
             let key = format!("{key}.{}", index + 1);
@@ -186,6 +218,86 @@ impl Checks {
                 let slope = (stress1 - stress0) / (strain1 - strain0);
                 self.slope(key, "the slope from the row before", slope);
             }
+        }
+    }
+
+    /// Rows of engineering strain and stress, and the curve that they give.
+    fn tensile_test(&mut self, key: &str, test: &[[f64; 2]], material: &Material) {
+        for (index, &[strain, stress]) in test.iter().enumerate() {
+            let before = index
+                .checked_sub(1)
+                .map_or(f64::NEG_INFINITY, |i| test[i][0]);
+            self.require(
+                strain >= 0.0 && stress >= 0.0 && strain > before,
+                format!("{key}.{index}"),
+                format!(
+                    "[{}, {}]: strains must grow from row to row, strains and stresses be at \
+                     least 0",
+                    exact(strain),
+                    exact(stress)
+                ),
+            );
+        }
+        let rows = beyond_yield(test, material.youngs_modulus, material.yield_stress);
+        let Some(first) = rows.first() else {
+            self.problem(
+                key,
+                "no row lies beyond yield; give rows of [engineering strain, engineering stress] \
+                 up to the largest load",
+            );
+            return;
+        };
+        let curve = material.hardening_curve().unwrap_or_default();
+        // A row at no strain is no point of the elastic line that the test has measured.
+        let begins = material.yield_stress.or_else(|| Some(curve.first()?[1]));
+        if !begins.is_some_and(|stress| stress > 0.0) {
+            self.problem(
+                format!("{key}.{}", first.row),
+                format!(
+                    "[{}, {}] lies below the line of Young's modulus ({}) and no row before it \
+                     on it: where does the material yield? Give a yield_stress, from which on \
+                     rows count, or correct the strains",
+                    exact(test[first.row][0]),
+                    exact(test[first.row][1]),
+                    exact(material.youngs_modulus)
+                ),
+            );
+            return;
+        }
+        for (pair, row) in curve.windows(2).zip(&rows) {
+            self.rising(&format!("{key}.{}", row.row), pair);
+        }
+    }
+
+    /// A point of a curve of true stress against plastic strain and the one before it.
+    fn rising(&mut self, key: &str, pair: &[[f64; 2]]) {
+        let ([strain0, stress0], [strain1, stress1]) = (pair[0], pair[1]);
+        self.require(
+            stress1 >= stress0,
+            key,
+            format!(
+                "true stress {} is less than {} before it: beyond the largest load the bar necks, \
+                 leave these rows out",
+                exact(stress1),
+                exact(stress0)
+            ),
+        );
+        self.require(
+            strain1 > strain0,
+            key,
+            format!(
+                "plastic strain {} is not greater than {} before it: the stress grows as on the \
+                 line of Young's modulus, or faster",
+                exact(strain1),
+                exact(strain0)
+            ),
+        );
+        if strain1 > strain0 {
+            self.slope(
+                key,
+                "the slope from the row before",
+                (stress1 - stress0) / (strain1 - strain0),
+            );
         }
     }
 }

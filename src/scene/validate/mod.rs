@@ -52,7 +52,7 @@ impl Scene {
                 && self
                     .materials
                     .get(&body.material)
-                    .is_some_and(|material| material.yield_stress.is_some())
+                    .is_some_and(|material| material.first_yield_stress().is_some())
         })
     }
 

@@ -6,6 +6,8 @@ use crate::scene::{
 };
 use crate::shape::Shape;
 
+mod material;
+
 /// The paper's first example: has every kind of entry that the rules are about.
 fn good() -> Scene {
     let text = include_str!("../../../data/scenes/cylinder_on_half_plane.toml");
@@ -49,139 +51,6 @@ fn refused(make: fn() -> Scene, cases: &[(Spoil, &str)]) {
 
 fn target(scene: &mut Scene, target: Target) {
     scene.program.targets = vec![target];
-}
-
-#[test]
-fn materials_and_bodies() {
-    macro_rules! steel {
-        ($scene:ident) => {
-            $scene.materials.get_mut("steel").unwrap()
-        };
-    }
-    refused(
-        good,
-        &[
-            (
-                |s| steel!(s).youngs_modulus = 0.0,
-                "materials.steel.youngs_modulus: 0 must be",
-            ),
-            (
-                |s| steel!(s).youngs_modulus = f64::NAN,
-                "materials.steel.youngs_modulus: NaN is not",
-            ),
-            (
-                |s| steel!(s).poissons_ratio = 0.5,
-                "poissons_ratio: 0.5 must lie",
-            ),
-            (
-                |s| steel!(s).poissons_ratio = -1.0,
-                "poissons_ratio: -1 must lie",
-            ),
-            (
-                |s| steel!(s).yield_stress = Some(-5.0),
-                "yield_stress: -5 must be",
-            ),
-            (
-                |s| steel!(s).yield_stress = None,
-                "plastic_modulus: needs a yield_stress",
-            ),
-            (
-                |s| steel!(s).plastic_modulus = Some(-1.0),
-                "plastic_modulus: -1 must be at least 0",
-            ),
-            (
-                |s| steel!(s).tangent_modulus = Some(1.0),
-                "keep exactly one",
-            ),
-            (
-                |s| steel!(s).kinematic_modulus = Some(-1.0),
-                "kinematic_modulus: -1 must be at least 0",
-            ),
-            (
-                |s| steel!(s).back_stresses = Some(vec![]),
-                "back_stresses: is empty; give rows of",
-            ),
-            (
-                |s| steel!(s).back_stresses = Some(vec![[5.0, 0.0], [-5.0, 3.0]]),
-                "back_stresses.1: [-5, 3]: modulus C and rate gamma must be at least 0",
-            ),
-            (
-                |s| steel!(s).back_stresses = Some(vec![[5.0, -3.0]]),
-                "back_stresses.0: [5, -3]: modulus C and rate gamma must be at least 0",
-            ),
-            (
-                |s| steel!(s).back_stresses = Some(vec![[0.0, 3.0]]),
-                "back_stresses.0: [0, 3] is a rate gamma without a modulus C",
-            ),
-            (
-                |s| steel!(s).back_stresses = Some(vec![[5.0, 1e101]]),
-                "back_stresses.0: the rate is",
-            ),
-            (
-                |s| {
-                    steel!(s).plastic_modulus = None;
-                    steel!(s).yield_stress = None;
-                    steel!(s).back_stresses = Some(vec![[5.0, 3.0]]);
-                },
-                "back_stresses: needs a yield_stress",
-            ),
-            (
-                |s| {
-                    steel!(s).plastic_modulus = None;
-                    steel!(s).tangent_modulus = Some(210000.0);
-                },
-                "tangent_modulus: 210000 must be at least 0 and less than Young's modulus",
-            ),
-            (
-                |s| {
-                    steel!(s).plastic_modulus = None;
-                    steel!(s).hardening_table = Some(vec![]);
-                },
-                "hardening_table: is empty",
-            ),
-            (
-                |s| {
-                    steel!(s).plastic_modulus = None;
-                    steel!(s).hardening_table = Some(vec![[0.0, 499.0]]);
-                },
-                "hardening_table.0: [0, 499] must be [0, 500]",
-            ),
-            (
-                |s| {
-                    steel!(s).plastic_modulus = None;
-                    steel!(s).hardening_table =
-                        Some(vec![[0.0, 500.0], [0.1, 600.0], [0.1, 700.0]]);
-                },
-                "hardening_table.2: plastic strain 0.1 must be greater",
-            ),
-            (
-                |s| {
-                    steel!(s).plastic_modulus = None;
-                    steel!(s).hardening_table = Some(vec![[0.0, 500.0], [0.1, 400.0]]);
-                },
-                "hardening_table.1: yield stress 400 is less than 500",
-            ),
-            (
-                |s| s.bodies.get_mut("cylinder").unwrap().material = "wood".into(),
-                "bodies.cylinder.material: there is no material \"wood\"; known materials: steel",
-            ),
-            (
-                |s| {
-                    steel!(s).yield_stress = None;
-                    s.bodies.get_mut("cylinder").unwrap().plastic = Plastic::Yes;
-                },
-                "bodies.cylinder.plastic: true, but the material \"steel\" has no yield stress",
-            ),
-            (|s| s.bodies.clear(), "the mesh has a body `cylinder`"),
-            (
-                |s| {
-                    let body = s.bodies["cylinder"].clone();
-                    s.bodies.insert("ball".into(), body);
-                },
-                "bodies.ball: the mesh has no such body, only cylinder, half_plane",
-            ),
-        ],
-    );
 }
 
 #[test]

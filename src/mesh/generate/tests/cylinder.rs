@@ -7,6 +7,7 @@ const HALF_WIDTH: f64 = 1.1;
 
 pub(super) fn example(element: Shape) -> CylinderOnHalfPlane {
     CylinderOnHalfPlane {
+        names: ["cylinder", "half_plane"].map(String::from),
         radius: RADIUS,
         resolution: 6,
         half_width: None,

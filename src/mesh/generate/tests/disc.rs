@@ -7,6 +7,7 @@ const RADIUS: f64 = 3.0;
 
 pub(super) fn example(resolution: usize, element: Shape) -> DiscInPlate {
     DiscInPlate {
+        names: ["disc", "plate"].map(String::from),
         radius: RADIUS,
         interference: 0.0,
         resolution,

@@ -4,6 +4,7 @@ use crate::scene::{CylinderOnHalfPlane, DiscInPlate};
 
 fn generated(shape: Shape) -> [Mesh; 2] {
     let cylinder = CylinderOnHalfPlane {
+        names: ["cylinder", "half_plane"].map(String::from),
         radius: 1.0 / 3.0,
         resolution: 3,
         half_width: None,
@@ -16,6 +17,7 @@ fn generated(shape: Shape) -> [Mesh; 2] {
         element: shape,
     };
     let disc = DiscInPlate {
+        names: ["disc", "plate"].map(String::from),
         radius: 0.1,
         interference: 0.0,
         resolution: 6,

@@ -177,6 +177,7 @@ fn new_nodes_lie_on_cylinders_and_those_between_follow() {
 fn solid_faces_go_on_facing_each_other() {
     for element in [Shape::Hex8, Shape::Hex20] {
         let bodies = CurvedBodies {
+            names: ["upper", "lower"].map(String::from),
             upper: [10.0, 20.0],
             lower: [0.0, -50.0],
             resolution: 3,

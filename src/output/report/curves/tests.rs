@@ -25,7 +25,7 @@ fn an_extent_does_not_grow_with_the_load_from_zero() {
     let root = env!("CARGO_MANIFEST_DIR");
     let scene = format!("{root}/data/scenes/contact_patch.toml");
     let scene = crate::scene::Scene::load(scene).unwrap();
-    let units = Units::of(&Model::new(&scene).unwrap());
+    let labels = Labels::of(&Model::new(&scene).unwrap());
     let points = |at_zero: AtZero, value: fn(&HistoryRow) -> f64| -> Vec<Vec<[f64; 2]>> {
         let figure = Figure {
             name: "",
@@ -33,7 +33,7 @@ fn an_extent_does_not_grow_with_the_load_from_zero() {
             label: String::new(),
             at_zero,
         };
-        let found = against_load(&results, &units, figure, value, |p| p.half_width, |_| 0.0);
+        let found = against_load(&results, &labels, figure, value, |p| p.half_width, |_| 0.0);
         let curves = found.unwrap().chart.curves;
         curves.into_iter().map(|curve| curve.points).collect()
     };
@@ -61,7 +61,7 @@ fn a_curve_goes_through_the_points_between_increments() {
     let coarse = "mesh.disc_in_plate.resolution=20".to_string();
     let scene = crate::scene::Scene::load_with(scene, &[coarse]).unwrap();
     let model = Model::new(&scene).unwrap();
-    let units = Units::of(&model);
+    let labels = Labels::of(&model);
     let mut analysis =
         crate::analysis::Analysis::new(model, crate::linalg::Backend::Dense).unwrap();
     let results = analysis.run(&mut crate::progress::Silent).unwrap();
@@ -77,7 +77,7 @@ fn a_curve_goes_through_the_points_between_increments() {
         assert!(within(point.load, from.load, to.load), "{point:?}");
     }
     assert!(results.path.is_sorted_by_key(|point| point.increment));
-    for chart in &charts(analysis.model(), &results, &units, None)[..2] {
+    for chart in &charts(analysis.model(), &results, &labels, None)[..2] {
         let drawn: usize = chart.chart.curves[..2].iter().map(|c| c.points.len()).sum();
         let rows = results.history.len();
         assert!(

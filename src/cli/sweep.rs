@@ -1,0 +1,494 @@
+//! `brinell sweep`: the same scene with other values of some keys, each point in a process of its
+//! own.
+
+use super::arguments::CommonArguments;
+use super::commands::json;
+use super::table::{Column, Table, page_width};
+use super::{interrupt, print};
+use crate::deck::{self, Options};
+use crate::error::{Error, ErrorKind, Result};
+use crate::files;
+use crate::number::{number, seconds};
+use crate::output::sweep::{Outcome, Point, Sweep, folder};
+use clap::{Args, ValueEnum};
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+use xxhash_rust::xxh3::xxh3_128;
+
+const VARY_HELP: &str = "\
+Values of a key of the scene, separated by commas; may be repeated: all combinations are run.
+KEY is as of --set, values with commas of their own stand in brackets, braces or quotes:
+  --vary materials.steel.yield_stress=400,500,600
+  --vary 'load.0.force=[0.0, -10.0],[0.0, -20.0]'";
+
+/// What `brinell sweep` takes.
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Example: brinell sweep ball.toml --vary materials.steel.yield_stress=400,500,600 \
+                  --vary mesh.cylinder_on_half_plane.radius=5,10 --jobs 2"
+)]
+pub(super) struct SweepArguments {
+    #[command(flatten)]
+    pub common: CommonArguments,
+    #[arg(
+        long,
+        value_name = "KEY=A,B,...",
+        required = true,
+        value_parser = varied,
+        help = "Values of a key, separated by commas (see --help)",
+        long_help = VARY_HELP
+    )]
+    pub vary: Vec<Varied>,
+    /// How many points are run at a time; each takes its share of the threads
+    #[arg(
+        long,
+        value_name = "N",
+        default_value_t = 1,
+        value_parser = clap::value_parser!(u16).range(1..=256)
+    )]
+    pub jobs: u16,
+    /// Directory for the points, the table (sweep.csv) and the charts; SCENE with the ending .sweep
+    /// if it is not given. Points that are finished there are not run again
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Figures that the table and the charts show, such as yield.load or
+    /// states.pressed.max_pressure; sweep.csv has all
+    #[arg(long, value_name = "PATH,...", value_delimiter = ',')]
+    pub show: Vec<String>,
+    /// As of `brinell run`
+    #[arg(long, value_name = "DEMAND")]
+    pub accuracy: Option<String>,
+    /// Do not estimate the errors of the points
+    #[arg(long)]
+    pub no_estimate: bool,
+    /// Write no reports
+    #[arg(long)]
+    pub no_report: bool,
+    /// No progress, only the table and errors
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// A key and its values.
+#[derive(Debug, Clone)]
+pub(super) struct Varied {
+    key: String,
+    values: Vec<String>,
+}
+
+/// `KEY=A,B,...`; commas within brackets, braces and quotes separate nothing.
+fn varied(text: &str) -> std::result::Result<Varied, String> {
+    let wanted = "give KEY=A,B,... such as materials.steel.yield_stress=400,500";
+    let (key, list) = text.split_once('=').ok_or(wanted)?;
+    let (mut depth, mut is_quoted) = (0i32, false);
+    let mut values = vec![String::new()];
+    for c in list.chars() {
+        match c {
+            '"' => is_quoted = !is_quoted,
+            '[' | '{' if !is_quoted => depth += 1,
+            ']' | '}' if !is_quoted => depth -= 1,
+            _ => {}
+        }
+        let last = values.len() - 1;
+        match c {
+            ',' if depth == 0 && !is_quoted => values.push(String::new()),
+            c => values[last].push(c),
+        }
+    }
+    let values: Vec<String> = values
+        .iter()
+        .map(|value| value.trim().to_string())
+        .collect();
+    let is_twice = (1..values.len()).any(|k| values[..k].contains(&values[k]));
+    match key.trim().is_empty() || values.iter().any(String::is_empty) {
+        true => Err(wanted.to_string()),
+        false if is_twice => Err("a value is given twice".to_string()),
+        false => Ok(Varied {
+            key: key.trim().to_string(),
+            values,
+        }),
+    }
+}
+
+/// All combinations of the values, the last key's varying fastest.
+fn combinations(vary: &[Varied]) -> Vec<Vec<String>> {
+    vary.iter().fold(vec![Vec::new()], |points, varied| {
+        let with = |point: &Vec<String>, value: &String| {
+            let mut point = point.clone();
+            point.push(value.clone());
+            point
+        };
+        let of_point = |point: Vec<String>| -> Vec<Vec<String>> {
+            varied
+                .values
+                .iter()
+                .map(|value| with(&point, value))
+                .collect()
+        };
+        points.into_iter().flat_map(of_point).collect()
+    })
+}
+
+/// Runs what is not finished yet, writes table and charts, and prints the table.
+pub(super) fn execute(arguments: &SweepArguments) -> Result<()> {
+    let common = &arguments.common;
+    let dir = (arguments.out.clone()).unwrap_or_else(|| common.scene.with_extension("sweep"));
+    let keys: Vec<String> = arguments.vary.iter().map(|v| v.key.clone()).collect();
+    let values = combinations(&arguments.vary);
+    // What is wrong with any point is found before the first is run.
+    let points: Result<Vec<Point>> = values
+        .into_iter()
+        .map(|values| point(arguments, &keys, values))
+        .collect();
+    let mut sweep = Sweep::new(&dir, keys, points?)?;
+    std::fs::create_dir_all(&dir).map_err(|cause| Error::io("make", &dir, cause))?;
+    let running: Arc<Mutex<Vec<u32>>> = Arc::default();
+    let at_once = Arc::clone(&running);
+    interrupt::listen(None, move || stop(&at_once))?;
+    let work = Work {
+        arguments,
+        dir: &dir,
+        running: &running,
+        sweep: Mutex::new(&mut sweep),
+        next: Mutex::new(0),
+    };
+    work.run()?;
+    sweep.record(&dir)?;
+    let outcome = sweep.outcome(&dir)?;
+    let shown = match arguments.show.is_empty() {
+        true => outcome.main_paths(),
+        false => arguments.show.clone(),
+    };
+    let written = outcome.write(&dir, &shown)?;
+    print(&match common.json {
+        true => json(&outcome.json())?,
+        false => format!(
+            "{}\nSweep in {}: {}\n",
+            table(&sweep, &outcome, &shown).render(page_width()),
+            dir.display(),
+            written.join(", ")
+        ),
+    })?;
+    ending(&sweep)
+}
+
+/// A point that has not been run, with what its results depend on.
+fn point(arguments: &SweepArguments, keys: &[String], values: Vec<String>) -> Result<Point> {
+    let common = &arguments.common;
+    let options = Options {
+        small_strain: common.small_strain,
+    };
+    let scene = deck::load_with(&common.scene, &overrides(common, keys, &values), options)?;
+    let mut text = serde_json::to_string(&scene)
+        .map_err(|cause| Error::internal("the scene is not plain data").because(cause))?;
+    for choice in [
+        env!("CARGO_PKG_VERSION").to_string(),
+        format!("{:?}", common.solver),
+        format!("{:?}", arguments.accuracy),
+        arguments.no_estimate.to_string(),
+    ] {
+        text.push('\n');
+        text.push_str(&choice);
+    }
+    let mut content = text.into_bytes();
+    if let Some(file) = &scene.mesh.file {
+        let folder = common.scene.parent().unwrap_or(Path::new(""));
+        content.extend(files::read("read the mesh", &folder.join(file), None)?);
+    }
+    Ok(Point {
+        folder: folder(keys, &values),
+        values,
+        identity: format!("{:032x}", xxh3_128(&content)),
+        ..Point::default()
+    })
+}
+
+/// The scene's overrides and those of a point after them.
+fn overrides(common: &CommonArguments, keys: &[String], values: &[String]) -> Vec<String> {
+    let of_point = keys.iter().zip(values);
+    let of_point = of_point.map(|(key, value)| format!("{key}={value}"));
+    common.overrides.iter().cloned().chain(of_point).collect()
+}
+
+/// The runs of a sweep, several at a time.
+struct Work<'w> {
+    arguments: &'w SweepArguments,
+    dir: &'w Path,
+    /// Processes that run.
+    running: &'w Mutex<Vec<u32>>,
+    sweep: Mutex<&'w mut Sweep>,
+    next: Mutex<usize>,
+}
+
+/// What a panic elsewhere left is still in order: every change is one assignment.
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Work<'_> {
+    fn run(&self) -> Result<()> {
+        let jobs = usize::from(self.arguments.jobs);
+        std::thread::scope(|scope| {
+            let workers: Vec<_> = (0..jobs).map(|_| scope.spawn(|| self.work())).collect();
+            let ended = workers.into_iter().map(|worker| match worker.join() {
+                Ok(ended) => ended,
+                Err(_) => Err(Error::internal("a worker of the sweep panicked")),
+            });
+            ended.collect()
+        })
+    }
+
+    /// Runs one point after the other until none is left or the user has asked to stop.
+    fn work(&self) -> Result<()> {
+        while let Some((index, point)) = self.take().filter(|_| !interrupt::requested()) {
+            let start = Instant::now();
+            let (exit_code, message) = self.run_point(&point)?;
+            let mut sweep = lock(&self.sweep);
+            sweep.points[index].exit_code = exit_code;
+            sweep.points[index].message = message.clone();
+            sweep.record(self.dir)?;
+            let how = match exit_code {
+                Some(0) => format!("done in {}", seconds(start.elapsed().as_secs_f64())),
+                _ => message,
+            };
+            let total = sweep.points.len();
+            self.note(&format!(
+                "point {} of {total}, {}: {how}",
+                index + 1,
+                point.folder
+            ));
+        }
+        Ok(())
+    }
+
+    /// The next point that is not finished.
+    fn take(&self) -> Option<(usize, Point)> {
+        let sweep = lock(&self.sweep);
+        let mut next = lock(&self.next);
+        while *next < sweep.points.len() {
+            let index = *next;
+            *next += 1;
+            let point = &sweep.points[index];
+            if !point.is_finished() {
+                return Some((index, point.clone()));
+            }
+            self.note(&format!(
+                "point {}, {}: finished before",
+                index + 1,
+                point.folder
+            ));
+        }
+        None
+    }
+
+    fn note(&self, text: &str) {
+        if !self.arguments.quiet {
+            let _ = writeln!(std::io::stderr(), "{}", crate::text::shown_in_line(text));
+        }
+    }
+
+    /// Runs a point in a process of its own: how it ended, and what it says.
+    fn run_point(&self, point: &Point) -> Result<(Option<i32>, String)> {
+        let failed = |cause| Error::analysis("cannot start the run of a point").because(cause);
+        let mut child = self.command(point)?.spawn().map_err(failed)?;
+        let id = child.id();
+        lock(self.running).push(id);
+        let said = child.stderr.take().map(|mut stderr| {
+            std::thread::spawn(move || {
+                let mut text = Vec::new();
+                let _ = stderr.read_to_end(&mut text);
+                String::from_utf8_lossy(&text).into_owned()
+            })
+        });
+        let status = wait(&mut child).map_err(failed);
+        lock(self.running).retain(|running| *running != id);
+        let text = said.and_then(|said| said.join().ok()).unwrap_or_default();
+        let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+        let message = lines.collect::<Vec<_>>().join(" ");
+        let message = message.strip_prefix("error: ").unwrap_or(&message);
+        Ok((status?, message.to_string()))
+    }
+
+    fn command(&self, point: &Point) -> Result<Command> {
+        let program = std::env::current_exe()
+            .map_err(|cause| Error::analysis("cannot find this program").because(cause))?;
+        let SweepArguments { common, jobs, .. } = self.arguments;
+        let processors = std::thread::available_parallelism().map_or(1, usize::from);
+        let share = (processors / usize::from(*jobs)).max(1);
+        let threads = common.threads.map_or(share, usize::from);
+        let mut command = Command::new(program);
+        command
+            .arg("run")
+            .arg(&common.scene)
+            .arg("--quiet")
+            .arg("--json");
+        command.arg("--out").arg(self.dir.join(&point.folder));
+        command.arg("--threads").arg(threads.to_string());
+        if let Some(solver) = common.solver.to_possible_value() {
+            command.arg("--solver").arg(solver.get_name());
+        }
+        let keys = &lock(&self.sweep).keys;
+        for change in overrides(common, keys, &point.values) {
+            command.arg("--set").arg(change);
+        }
+        if let Some(demand) = &self.arguments.accuracy {
+            command.arg("--accuracy").arg(demand);
+        }
+        for (is_asked, flag) in [
+            (self.arguments.no_estimate, "--no-estimate"),
+            (self.arguments.no_report, "--no-report"),
+            (common.small_strain, "--small-strain"),
+        ] {
+            command.args(is_asked.then_some(flag));
+        }
+        command
+            .stdin(Stdio::null())
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped());
+        // Ctrl-C in a terminal goes to the group: the runs hear of it from here, once.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        Ok(command)
+    }
+}
+
+/// How often a run is looked after.
+const PATIENCE: Duration = Duration::from_millis(20);
+
+/// Waits for a run, and passes on that the user has asked to stop.
+fn wait(child: &mut Child) -> std::io::Result<Option<i32>> {
+    let mut is_asked = false;
+    loop {
+        if let Some(status) = child.try_wait()? {
+            return Ok(status.code());
+        }
+        if interrupt::requested() && !is_asked {
+            is_asked = true;
+            ask_to_stop(child.id());
+        }
+        std::thread::sleep(PATIENCE);
+    }
+}
+
+/// A second signal ends the runs at once, too.
+fn stop(running: &Mutex<Vec<u32>>) {
+    for id in lock(running).iter() {
+        ask_to_stop(*id);
+    }
+}
+
+#[cfg(unix)]
+fn ask_to_stop(id: u32) {
+    let pid = i32::try_from(id)
+        .ok()
+        .and_then(rustix::process::Pid::from_raw);
+    if let Some(pid) = pid {
+        // It may have ended meanwhile.
+        let _ = rustix::process::kill_process(pid, rustix::process::Signal::INT);
+    }
+}
+
+/// Where there are no signals a run is let end.
+#[cfg(not(unix))]
+fn ask_to_stop(_: u32) {}
+
+fn table(sweep: &Sweep, outcome: &Outcome<'_>, shown: &[String]) -> Table {
+    let short = |key: &String| {
+        let last = key.rsplit('.').next().unwrap_or(key);
+        let is_alone = sweep
+            .keys
+            .iter()
+            .filter(|k| k.rsplit('.').next() == Some(last))
+            .count()
+            == 1;
+        if is_alone {
+            last.to_string()
+        } else {
+            key.clone()
+        }
+    };
+    let failed = |point: &Point| point.exit_code != Some(0);
+    let mut columns: Vec<(Column, String)> = Vec::new();
+    columns.extend(sweep.keys.iter().map(|key| (Column::Number, short(key))));
+    columns.extend(
+        shown
+            .iter()
+            .map(|path| (Column::Number, outcome.heading(path))),
+    );
+    let with_notes = sweep.points.iter().any(failed);
+    columns.extend(with_notes.then(|| (Column::Text, "note".to_string())));
+    let mut table = Table::new(&columns);
+    for (index, point) in sweep.points.iter().enumerate() {
+        let figures = shown.iter().map(|path| match outcome.figure(index, path) {
+            Some(value) => number(value),
+            None => "-".to_string(),
+        });
+        let note = match point.exit_code {
+            None => "not run".to_string(),
+            Some(0) => String::new(),
+            Some(code) => format!("exit code {code}: {}", point.message),
+        };
+        table.row(point.values.iter().cloned().chain(figures).chain([note]));
+    }
+    table
+}
+
+/// How the program ends.
+fn ending(sweep: &Sweep) -> Result<()> {
+    let total = sweep.points.len();
+    if interrupt::requested() {
+        let finished = sweep
+            .points
+            .iter()
+            .filter(|point| point.is_finished())
+            .count();
+        let text = format!(
+            "the sweep was stopped, {finished} of {total} points are finished; the same command \
+             goes on with the others"
+        );
+        return Err(Error::new(ErrorKind::Stopped, text));
+    }
+    let failed: Vec<&str> = (sweep.points.iter())
+        .filter(|point| point.exit_code != Some(0))
+        .map(|point| point.folder.as_str())
+        .collect();
+    match failed.is_empty() {
+        true => Ok(()),
+        false => Err(Error::analysis(format!(
+            "{} of {total} points did not end well: {}",
+            failed.len(),
+            failed.join(", ")
+        ))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn commas_within_brackets_and_quotes_separate_nothing() {
+        let values = |text: &str| varied(text).map(|v| (v.key, v.values));
+        let texts = |list: &[&str]| list.iter().map(|s| s.to_string()).collect::<Vec<_>>();
+        assert_eq!(
+            values("a.b=1, 2,3"),
+            Ok(("a.b".to_string(), texts(&["1", "2", "3"])))
+        );
+        let force = values("load.0.force=[0.0, -1.0],[0.0, -2.0]").unwrap().1;
+        assert_eq!(force, ["[0.0, -1.0]", "[0.0, -2.0]"]);
+        assert_eq!(values("title=\"a,b\",c").unwrap().1, ["\"a,b\"", "c"]);
+        for wrong in ["", "a", "=1,2", "a=", "a=1,,2", "a=1,1"] {
+            assert!(values(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn all_combinations_are_run() {
+        let vary = ["a=1,2", "b=x,y,z"].map(|text| varied(text).unwrap());
+        let points: Vec<String> = combinations(&vary).iter().map(|p| p.concat()).collect();
+        assert_eq!(points, ["1x", "1y", "1z", "2x", "2y", "2z"]);
+    }
+}

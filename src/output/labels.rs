@@ -1,0 +1,228 @@
+//! What readers call the quantities of a run, and the names of their units: the scene's names where
+//! it gives them, else nothing. Keys and columns for programs keep their names.
+
+use crate::model::{LoadCase, Magnitude, Model};
+use crate::results::{Quantity, Unit};
+use crate::scene;
+use crate::space::Space;
+use serde::{Deserialize, Serialize};
+
+/// Words for the numbers of a run.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Labels {
+    units: Option<UnitNames>,
+    /// Whether forces are per thickness.
+    is_plane: bool,
+    /// What the half width of the contact is.
+    extent: Extent,
+}
+
+/// Names of units as they stand beside numbers, and in `summary.json`.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub(super) struct UnitNames {
+    length: String,
+    force: String,
+    stress: String,
+    /// Of the total load.
+    load: String,
+}
+
+/// What the half width of a contact is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Extent {
+    /// Half the width of a strip.
+    #[default]
+    HalfWidth,
+    /// The radius of a circle round the axis.
+    Radius,
+    /// The smaller half axis of a patch.
+    SmallerHalfAxis,
+}
+
+impl Labels {
+    /// Those of a model.
+    pub fn of(model: &Model) -> Self {
+        let is_plane = !model.kind.is_axisymmetric() && !model.kind.is_solid();
+        let units = model.scene.units.clone().map(|names| UnitNames {
+            load: load_unit(model, &names, is_plane),
+            length: names.length,
+            force: names.force,
+            stress: names.stress,
+        });
+        // A contact that begins at the axis is a circle.
+        let is_on_axis = |slave: usize| model.mesh.point(slave)[0] == 0.0;
+        let reaches_axis = model.contacts.iter().any(|contact| contact.axis.is_some())
+            || model.pairs.iter().any(|pair| is_on_axis(pair.slave));
+        let extent = match model.kind {
+            Space::Solid => Extent::SmallerHalfAxis,
+            Space::Axisymmetric if reaches_axis => Extent::Radius,
+            _ => Extent::HalfWidth,
+        };
+        Labels {
+            units,
+            is_plane,
+            extent,
+        }
+    }
+
+    /// Those that `summary.json` has of a run of this kind.
+    pub(super) fn recorded(kind: &str, units: Option<UnitNames>, extent: Option<Extent>) -> Self {
+        let plane = [Space::PlaneStrain, Space::PlaneStress];
+        Labels {
+            units,
+            is_plane: plane.iter().any(|space| space.name() == kind),
+            extent: extent.unwrap_or_default(),
+        }
+    }
+
+    /// The names of the units for `summary.json`.
+    pub(super) fn units(&self) -> Option<UnitNames> {
+        self.units.clone()
+    }
+
+    /// What the half width is, for `summary.json`.
+    pub(super) fn extent(&self) -> Extent {
+        self.extent
+    }
+
+    /// Of lengths.
+    pub fn length(&self) -> &str {
+        self.units.as_ref().map_or("", |names| &names.length)
+    }
+
+    /// Of stresses.
+    pub fn stress(&self) -> &str {
+        self.units.as_ref().map_or("", |names| &names.stress)
+    }
+
+    /// Of the total load.
+    pub fn load(&self) -> &str {
+        self.units.as_ref().map_or("", |names| &names.load)
+    }
+
+    /// Of a quantity.
+    pub fn unit(&self, unit: Unit) -> String {
+        let Some(names) = &self.units else {
+            return String::new();
+        };
+        let (force, length) = (&names.force, &names.length);
+        match unit {
+            Unit::One => String::new(),
+            Unit::Length => length.clone(),
+            Unit::Stress => names.stress.clone(),
+            Unit::Load => names.load.clone(),
+            Unit::Size if self.is_plane => format!("{length}\u{b2}"),
+            Unit::Size => format!("{length}\u{b3}"),
+            // Per unit thickness.
+            Unit::Work if self.is_plane => force.clone(),
+            Unit::Work => format!("{force} {length}"),
+        }
+    }
+
+    /// Labels of the axes of the plane.
+    pub fn axes(&self, space: Space) -> [String; 2] {
+        let names = space.axes();
+        [0, 1].map(|axis| labelled(names[axis], self.length()))
+    }
+
+    /// What the half width of the contact is called.
+    pub fn half_width(&self) -> &'static str {
+        match self.extent {
+            Extent::HalfWidth => "half width",
+            Extent::Radius => "contact radius",
+            Extent::SmallerHalfAxis => "smaller half axis",
+        }
+    }
+
+    /// The heading of a quantity's column, in lines.
+    pub fn heading(&self, quantity: &Quantity) -> &'static str {
+        match (quantity.key, self.extent) {
+            ("half_width", Extent::Radius) => "contact\nradius",
+            ("half_width", Extent::SmallerHalfAxis) => "smaller\nhalf axis",
+            _ => quantity.heading,
+        }
+    }
+
+    /// A quantity's name in a line, with its unit.
+    pub fn name(&self, quantity: &Quantity) -> String {
+        labelled(&in_line(self.heading(quantity)), &self.unit(quantity.unit))
+    }
+}
+
+/// The first load that varies is what the total load is stated of; of a displacement it is the
+/// force that it takes.
+fn load_unit(model: &Model, names: &scene::Units, is_plane: bool) -> String {
+    let varies = |load: &&LoadCase| load.history != scene::History::Constant;
+    let leading = model.loads.iter().find(varies).or(model.loads.first());
+    match leading.map(|load| load.measures) {
+        Some(Magnitude::Stress) => names.stress.clone(),
+        _ if !is_plane => names.force.clone(),
+        _ => format!("{}/{}", names.force, names.length),
+    }
+}
+
+/// A heading of several lines in one.
+pub(crate) fn in_line(heading: &str) -> String {
+    heading.replace("-\n", "").replace('\n', " ")
+}
+
+/// With a capital first letter.
+pub(crate) fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next();
+    first
+        .into_iter()
+        .flat_map(char::to_uppercase)
+        .chain(letters)
+        .collect()
+}
+
+/// `name [unit]`, or the name alone.
+pub(crate) fn labelled(name: &str, unit: &str) -> String {
+    if unit.is_empty() {
+        name.to_string()
+    } else {
+        format!("{name} [{unit}]")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    fn labels(name: &str, with_units: bool) -> Labels {
+        let root = env!("CARGO_MANIFEST_DIR");
+        let mut scene = Scene::load(format!("{root}/data/scenes/{name}.toml")).unwrap();
+        scene.units = scene.units.filter(|_| with_units);
+        Labels::of(&Model::new(&scene).unwrap())
+    }
+
+    /// Per length in the plane, of the whole about an axis; a pressure is a stress.
+    #[test]
+    fn the_unit_of_the_load_is_that_of_what_loads() {
+        for (name, expected) in [
+            ("cylinder_on_half_plane", "N/mm"),
+            ("ball_on_half_space", "N"),
+            ("ball_on_flat_3d", "N"),
+            ("thick_cylinder", "MPa"),
+        ] {
+            assert_eq!(labels(name, true).load(), expected, "{name}");
+        }
+        assert_eq!(labels("contact_patch", false).load(), "");
+    }
+
+    /// A radius is that of a contact round the axis, not of any axisymmetric one.
+    #[test]
+    fn a_half_width_is_called_what_it_is() {
+        let width = Quantity::of("half_width").unwrap();
+        for (name, expected) in [
+            ("cylinder_on_half_plane", "half width [mm]"),
+            ("ball_on_half_space", "contact radius [mm]"),
+            ("ball_on_flat_3d", "smaller half axis [mm]"),
+        ] {
+            assert_eq!(labels(name, true).name(width), expected, "{name}");
+        }
+    }
+}

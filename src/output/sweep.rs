@@ -1,0 +1,384 @@
+//! A sweep: the same scene with other values of some keys, a result directory for each point.
+//!
+//! ```text
+//! DIR/sweep.json        points with their values, folders and how they ended
+//!     sweep.csv         a row per point: values, all figures of first yield and of the states
+//!     sweep_PATH.svg    charts of the main figures
+//!     NAME/             the result directory of a point
+//! ```
+
+use super::labels::{Labels, in_line, labelled};
+use super::{atomic, report, rows};
+use crate::error::{Error, Result};
+use crate::files;
+use crate::results::{QUANTITIES, Quantity, Results, State, value};
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
+use std::path::Path;
+
+/// What a sweep has done.
+const RECORD_FILE: &str = "sweep.json";
+const TABLE_FILE: &str = "sweep.csv";
+/// Longest name of a point's folder.
+const NAME_LENGTH: usize = 80;
+
+/// The points of a sweep.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub(crate) struct Sweep {
+    /// Version of brinell.
+    brinell: String,
+    /// The keys that vary.
+    pub keys: Vec<String>,
+    /// In the order of their values.
+    pub points: Vec<Point>,
+}
+
+/// A point.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Point {
+    /// A value for each key, as it was given.
+    pub values: Vec<String>,
+    /// Its folder below that of the sweep.
+    pub folder: String,
+    /// Stands for all that its results depend on.
+    pub identity: String,
+    /// How its run ended; `None` where it has not.
+    pub exit_code: Option<i32>,
+    /// Why, where it did not end well.
+    pub message: String,
+}
+
+impl Point {
+    /// Its run will end the same way again: done, a limit load, an inaccurate result, or the end of
+    /// the contact candidates.
+    pub(crate) fn is_finished(&self) -> bool {
+        matches!(self.exit_code, Some(0 | 6 | 7 | 8))
+    }
+}
+
+impl Sweep {
+    /// A sweep of these points. What an earlier one in `dir` has finished is taken over.
+    ///
+    /// # Errors
+    /// `Input` where `dir` holds something else, `Io` where it cannot be read.
+    pub(crate) fn new(dir: &Path, keys: Vec<String>, points: Vec<Point>) -> Result<Self> {
+        let mut sweep = Sweep {
+            brinell: env!("CARGO_PKG_VERSION").to_string(),
+            keys,
+            points,
+        };
+        let before = Sweep::read(dir)?;
+        for point in &mut sweep.points {
+            let same = |old: &&Point| old.identity == point.identity && old.folder == point.folder;
+            if let Some(old) = before
+                .points
+                .iter()
+                .find(same)
+                .filter(|old| old.is_finished())
+            {
+                let summary = dir.join(&old.folder).join(super::SUMMARY_FILE);
+                if summary.exists() && super::stale(&dir.join(&old.folder)).is_none() {
+                    *point = old.clone();
+                }
+            }
+        }
+        Ok(sweep)
+    }
+
+    /// That of a directory; an empty one where there is none yet.
+    fn read(dir: &Path) -> Result<Self> {
+        let path = dir.join(RECORD_FILE);
+        if path.exists() {
+            let text = files::read_text("read the sweep", &path, None)?;
+            return serde_json::from_str(&text).map_err(|cause| {
+                let what = format!(
+                    "{}: no record of a sweep; choose another --out",
+                    path.display()
+                );
+                Error::input(what).because(cause)
+            });
+        }
+        let is_in_use = std::fs::read_dir(dir).is_ok_and(|mut entries| entries.next().is_some());
+        match is_in_use || dir.is_file() {
+            false => Ok(Sweep::default()),
+            true => Err(Error::input(format!(
+                "{} exists and is no sweep of brinell: choose another --out",
+                dir.display()
+            ))),
+        }
+    }
+
+    /// Writes what is known so far, so that an interrupted sweep can go on.
+    ///
+    /// # Errors
+    /// `Io` naming the file.
+    pub(crate) fn record(&self, dir: &Path) -> Result<()> {
+        let text = serde_json::to_string_pretty(self)
+            .map_err(|cause| Error::internal("a sweep is not plain data").because(cause))?;
+        atomic::replace(&dir.join(RECORD_FILE), (text + "\n").as_bytes())
+    }
+
+    /// Reads the results of all points that have some.
+    ///
+    /// # Errors
+    /// Those of a summary that cannot be read.
+    pub(crate) fn outcome(&self, dir: &Path) -> Result<Outcome<'_>> {
+        let mut labels = Labels::default();
+        let results = self.points.iter().map(|point| {
+            let path = dir.join(&point.folder).join(super::SUMMARY_FILE);
+            let has_results = point.exit_code.is_some() && path.exists();
+            if !has_results || super::stale(&dir.join(&point.folder)).is_some() {
+                return Ok(None);
+            }
+            let summary = rows::summary(&path)?;
+            labels = summary.labels();
+            Ok(Some(summary.results(&[])))
+        });
+        let results = results.collect::<Result<Vec<_>>>()?;
+        Ok(Outcome {
+            sweep: self,
+            results,
+            labels,
+        })
+    }
+}
+
+/// A name for the folder of a point: the last parts of its keys and its values.
+pub(crate) fn folder(keys: &[String], values: &[String]) -> String {
+    let part = |(key, value): (&String, &String)| {
+        let last = key.rsplit('.').next().unwrap_or(key);
+        format!("{last}_{value}")
+    };
+    let name: Vec<String> = keys.iter().zip(values).map(part).collect();
+    let safe = |c: char| match c {
+        'a'..='z' | 'A'..='Z' | '0'..='9' | '.' | '-' | '_' | '+' => c,
+        _ => '_',
+    };
+    name.join("-").chars().take(NAME_LENGTH).map(safe).collect()
+}
+
+/// What came of a sweep.
+pub(crate) struct Outcome<'s> {
+    sweep: &'s Sweep,
+    results: Vec<Option<Results>>,
+    labels: Labels,
+}
+
+impl Outcome<'_> {
+    /// The paths of all figures that any point has, `yield.KEY` or `states.NAME.KEY`.
+    fn paths(&self) -> Vec<String> {
+        let mut paths: Vec<String> = Vec::new();
+        for results in self.results.iter().flatten() {
+            let of_yield = QUANTITIES.iter().filter(|q| q.at_yield.is_some());
+            let at_yield = of_yield.map(|q| format!("yield.{}", q.key));
+            let in_states = results.states.iter().flat_map(|state| {
+                let of_state = |q: &Quantity| format!("states.{}.{}", state.name, q.key);
+                QUANTITIES.iter().map(of_state)
+            });
+            for path in at_yield.chain(in_states) {
+                if !paths.contains(&path) {
+                    paths.push(path);
+                }
+            }
+        }
+        paths
+    }
+
+    /// The figures that tables and charts show where none are asked for: the yield load; pressure,
+    /// extent, approach and plastic strain under the largest load; the dent at the end. Those that
+    /// are 0 in all points are left out.
+    pub(crate) fn main_paths(&self) -> Vec<String> {
+        let by_load = |a: &&State, b: &&State| a.load.total_cmp(&b.load);
+        let with_states = |r: &&Results| !r.states.is_empty();
+        let Some(results) = self.results.iter().flatten().find(with_states) else {
+            let any = self.results.iter().flatten().next();
+            return any.map_or(Vec::new(), |_| vec!["yield.load".to_string()]);
+        };
+        let largest = results
+            .states
+            .iter()
+            .max_by(by_load)
+            .map_or("", |s| &s.name);
+        let last = results.states.last().map_or("", |s| &s.name);
+        let pressed = [
+            "max_pressure",
+            "half_width",
+            "approach",
+            "max_equivalent_plastic_strain",
+        ];
+        let paths = std::iter::once("yield.load".to_string())
+            .chain(pressed.map(|key| format!("states.{largest}.{key}")))
+            .chain([format!("states.{last}.residual_depth")]);
+        paths
+            .filter(|path| {
+                (0..self.results.len()).any(|k| self.figure(k, path).is_some_and(|v| v != 0.0))
+            })
+            .collect()
+    }
+
+    /// A figure of a point.
+    pub(crate) fn figure(&self, point: usize, path: &str) -> Option<f64> {
+        let found = value(self.results.get(point)?.as_ref()?, path);
+        found.filter(|value| value.is_finite())
+    }
+
+    /// What a figure is called, in lines, with its unit in the last.
+    pub(crate) fn heading(&self, path: &str) -> String {
+        let (place, key) = path.rsplit_once('.').unwrap_or(("", path));
+        let place = place.strip_prefix("states.").unwrap_or(place);
+        let Some(quantity) = Quantity::of(key) else {
+            return path.to_string();
+        };
+        let name = match self.labels.heading(quantity) {
+            "" => quantity.key,
+            heading => heading,
+        };
+        let unit = self.labels.unit(quantity.unit);
+        let unit = if unit.is_empty() {
+            unit
+        } else {
+            format!("\n[{unit}]")
+        };
+        format!("{place}\n{name}{unit}")
+    }
+
+    /// All of it as one object.
+    pub(crate) fn json(&self) -> Value {
+        let paths = self.paths();
+        let points = self.sweep.points.iter().enumerate().map(|(index, point)| {
+            let values: Map<String, Value> = (self.sweep.keys.iter().cloned())
+                .zip(point.values.iter().map(|v| json!(v)))
+                .collect();
+            let figures: Map<String, Value> = paths
+                .iter()
+                .filter_map(|path| Some((path.clone(), json!(self.figure(index, path)?))))
+                .collect();
+            json!({
+                "values": values, "folder": point.folder, "exit_code": point.exit_code,
+                "message": point.message, "figures": figures,
+            })
+        });
+        json!({ "keys": self.sweep.keys, "points": points.collect::<Vec<_>>() })
+    }
+
+    /// Writes the table and the charts of some figures; returns the names of the files.
+    ///
+    /// # Errors
+    /// `Io` naming the file, `Internal` where a chart cannot be drawn.
+    pub(crate) fn write(&self, dir: &Path, shown: &[String]) -> Result<Vec<String>> {
+        atomic::replace(&dir.join(TABLE_FILE), &self.table()?)?;
+        let mut names = vec![TABLE_FILE.to_string()];
+        for path in shown {
+            if let Some(svg) = self.chart(path)? {
+                let safe = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+                let name: String = path.chars().map(safe).collect();
+                let name = format!("sweep_{name}.svg");
+                atomic::replace(&dir.join(&name), svg.as_bytes())?;
+                names.push(name);
+            }
+        }
+        Ok(names)
+    }
+
+    fn table(&self) -> Result<Vec<u8>> {
+        let paths = self.paths();
+        let mut csv = csv::Writer::from_writer(Vec::new());
+        let failed = |cause| Error::internal("a sweep is not plain data").because(cause);
+        let keys = self.sweep.keys.iter().map(String::as_str);
+        let head = keys.chain(["exit_code", "message"]);
+        csv.write_record(head.chain(paths.iter().map(String::as_str)))
+            .map_err(failed)?;
+        for (index, point) in self.sweep.points.iter().enumerate() {
+            let code = point
+                .exit_code
+                .map_or(String::new(), |code| code.to_string());
+            let figures = paths.iter().map(|path| {
+                self.figure(index, path)
+                    .map_or(String::new(), |v| json!(v).to_string())
+            });
+            let ended = [code, point.message.replace('\n', " ")];
+            let cells = point.values.iter().cloned().chain(ended).chain(figures);
+            csv.write_record(cells).map_err(failed)?;
+        }
+        csv.into_inner()
+            .map_err(|cause| Error::internal("a sweep is not plain data").because(cause))
+    }
+
+    /// A figure against the first key, a curve for each combination of the others; `None` where its
+    /// values are no numbers, or fewer than two.
+    fn chart(&self, path: &str) -> Result<Option<String>> {
+        let mut curves: Vec<(String, Vec<[f64; 2]>)> = Vec::new();
+        for (index, point) in self.sweep.points.iter().enumerate() {
+            let Some((first, others)) = point.values.split_first() else {
+                return Ok(None);
+            };
+            let (Ok(x), Some(y)) = (first.trim().parse::<f64>(), self.figure(index, path)) else {
+                continue;
+            };
+            let named = self.sweep.keys.iter().skip(1).zip(others);
+            let named = named
+                .map(|(key, value)| format!("{} = {value}", key.rsplit('.').next().unwrap_or(key)));
+            let label = named.collect::<Vec<_>>().join(", ");
+            match curves.iter_mut().find(|(known, _)| *known == label) {
+                Some((_, points)) => points.push([x, y]),
+                None => curves.push((label, vec![[x, y]])),
+            }
+        }
+        for (_, points) in &mut curves {
+            points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        }
+        if curves.iter().all(|(_, points)| points.len() < 2) {
+            return Ok(None);
+        }
+        let key = self.sweep.keys.first().map_or("", String::as_str);
+        let (place, name) = path.rsplit_once('.').unwrap_or(("", path));
+        let place = place.strip_prefix("states.").unwrap_or(place);
+        let label = match Quantity::of(name) {
+            Some(quantity) if !quantity.heading.is_empty() => labelled(
+                &format!("{}, {place}", in_line(self.labels.heading(quantity))),
+                &self.labels.unit(quantity.unit),
+            ),
+            _ => path.to_string(),
+        };
+        report::line_chart([key.to_string(), label], curves).map(Some)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folders_have_names_that_say_the_point() {
+        let texts = |list: &[&str]| list.iter().map(|s| s.to_string()).collect::<Vec<_>>();
+        let keys = texts(&[
+            "materials.steel.yield_stress",
+            "load.press.plane_force.total",
+        ]);
+        let name = folder(&keys, &texts(&["400", "-1e3"]));
+        assert_eq!(name, "yield_stress_400-total_-1e3");
+        assert_eq!(
+            folder(&keys[..1], &texts(&["../x y"])),
+            "yield_stress_.._x_y"
+        );
+    }
+
+    #[test]
+    fn only_ends_that_would_come_again_are_finished() {
+        let ended = |exit_code| Point {
+            exit_code,
+            ..Point::default()
+        };
+        assert!(
+            [0, 6, 7, 8]
+                .iter()
+                .all(|&code| ended(Some(code)).is_finished())
+        );
+        assert!(
+            [2, 3, 5, 70, 130]
+                .iter()
+                .all(|&code| !ended(Some(code)).is_finished())
+        );
+        assert!(!ended(None).is_finished());
+    }
+}

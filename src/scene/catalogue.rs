@@ -1,0 +1,247 @@
+//! Steels and alloys by name, from `data/materials.toml`, each number with its source.
+
+use super::{Material, Scene, Units};
+use crate::error::{Error, Result};
+use serde::Deserialize;
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+/// A number and where it is published.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct Published(pub f64, pub String);
+
+/// A material of the list: stresses in MPa, the density in kg/m^3, expansion per kelvin.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Listed {
+    /// What it is, and for which pieces its yield stress holds.
+    pub what: String,
+    /// Young's modulus.
+    pub youngs_modulus: Published,
+    /// Poisson's ratio.
+    pub poissons_ratio: Published,
+    /// Least yield stress; without it nothing is published that holds for all of it.
+    pub yield_stress: Option<Published>,
+    /// Tangent modulus beyond yield.
+    pub tangent_modulus: Option<Published>,
+    /// Mass per volume.
+    pub density: Option<Published>,
+    /// Strain per change of temperature.
+    pub thermal_expansion: Option<Published>,
+}
+
+/// The list, in the order of its file.
+static LIST: LazyLock<Vec<(String, Listed)>> = LazyLock::new(|| {
+    let text = include_str!("../../data/materials.toml");
+    // A test reads it: what it holds is known when the program is built.
+    let mut by_name: BTreeMap<String, Listed> = toml::from_str(text).unwrap_or_default();
+    let names = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("[\"")?.strip_suffix("\"]"));
+    names
+        .filter_map(|name| by_name.remove_entry(name))
+        .collect()
+});
+
+/// The materials that a scene can take by name.
+pub fn materials() -> &'static [(String, Listed)] {
+    &LIST
+}
+
+impl Listed {
+    /// The one of a name.
+    pub fn of(name: &str) -> Option<&'static Listed> {
+        let found = LIST.iter().find(|(listed, _)| listed == name);
+        found.map(|(_, listed)| listed)
+    }
+
+    /// Its numbers by the key that a scene has for them, with unit and source.
+    pub fn figures(&self) -> Vec<(&'static str, &'static str, &Published)> {
+        [
+            ("youngs_modulus", "MPa", Some(&self.youngs_modulus)),
+            ("poissons_ratio", "", Some(&self.poissons_ratio)),
+            ("yield_stress", "MPa", self.yield_stress.as_ref()),
+            ("tangent_modulus", "MPa", self.tangent_modulus.as_ref()),
+            ("density", "kg/m^3", self.density.as_ref()),
+            ("thermal_expansion", "1/K", self.thermal_expansion.as_ref()),
+        ]
+        .into_iter()
+        .filter_map(|(key, unit, figure)| Some((key, unit, figure?)))
+        .collect()
+    }
+
+    /// As a material of a scene with these units. The density needs a unit of length that is known,
+    /// seconds and kelvins are those of the scene.
+    ///
+    /// # Errors
+    /// `Input` where the unit of stress is not known.
+    pub fn material(&self, units: &Units) -> Result<Material> {
+        let stress = known(&STRESSES, &units.stress).ok_or_else(|| {
+            let names: Vec<&str> = STRESSES.iter().map(|(name, _)| *name).collect();
+            Error::input(format!(
+                "its stresses are in MPa, and \"{}\" is none of the units they can be turned \
+                 into: {}; or write the material into [materials]",
+                units.stress,
+                names.join(", ")
+            ))
+        })?;
+        let in_units = |figure: &Published| figure.0 * 1e6 / stress;
+        let length = known(&LENGTHS, &units.length);
+        Ok(Material {
+            youngs_modulus: in_units(&self.youngs_modulus),
+            poissons_ratio: self.poissons_ratio.0,
+            yield_stress: self.yield_stress.as_ref().map(in_units),
+            tangent_modulus: self.tangent_modulus.as_ref().map(in_units),
+            // kg/m^3 = Pa s^2/m^2.
+            density: self
+                .density
+                .as_ref()
+                .and_then(|d| Some(d.0 / stress * length?.powi(2))),
+            thermal_expansion: self.thermal_expansion.as_ref().map(|e| e.0),
+            ..Material::default()
+        })
+    }
+}
+
+/// Units of stress in pascals. A pound-force per square inch: 0.45359237 kg, 9.80665 m/s^2 and
+/// 0.0254 m, all exact.
+const STRESSES: [(&str, f64); 9] = [
+    ("MPa", 1e6),
+    ("N/mm^2", 1e6),
+    ("N/mm2", 1e6),
+    ("N/mm\u{b2}", 1e6),
+    ("Pa", 1.0),
+    ("kPa", 1e3),
+    ("GPa", 1e9),
+    ("psi", PSI),
+    ("ksi", 1e3 * PSI),
+];
+const PSI: f64 = 0.45359237 * 9.80665 / (0.0254 * 0.0254);
+
+/// Units of length in metres.
+const LENGTHS: [(&str, f64); 5] = [
+    ("mm", 1e-3),
+    ("m", 1.0),
+    ("cm", 1e-2),
+    ("in", 0.0254),
+    ("\u{b5}m", 1e-6),
+];
+
+fn known(units: &[(&str, f64)], name: &str) -> Option<f64> {
+    let found = units.iter().find(|(known, _)| *known == name);
+    found.map(|(_, size)| *size)
+}
+
+/// Puts the listed materials that bodies name, and the scene has none of, among those of the scene.
+///
+/// # Errors
+/// `Input` naming the body where the scene does not name its units, or they are not known.
+pub(super) fn fill_in(scene: &mut Scene) -> Result<()> {
+    for (name, body) in &scene.bodies {
+        let of_scene = scene.materials.contains_key(&body.material);
+        let Some(listed) = Listed::of(&body.material).filter(|_| !of_scene) else {
+            continue;
+        };
+        let units = scene.units.as_ref().ok_or_else(|| {
+            Error::input(
+                "it is of the list of materials, in MPa: name the units of the scene, such as \
+                 units = { length = \"mm\", force = \"N\", stress = \"MPa\" }",
+            )
+        });
+        let material = units
+            .and_then(|units| listed.material(units))
+            .map_err(|error| {
+                let key = format!("bodies.{name}.material");
+                let error = error.within(format!("{key}: \"{}\"", body.material));
+                scene.places.in_front(&key, error)
+            })?;
+        scene.materials.insert(body.material.clone(), material);
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn units(length: &str, stress: &str) -> Units {
+        Units {
+            length: length.into(),
+            force: "N".into(),
+            stress: stress.into(),
+        }
+    }
+
+    /// The whole file is read, and every entry is a material that a scene takes.
+    #[test]
+    fn every_entry_is_a_valid_material_with_sources() {
+        let text = include_str!("../../data/materials.toml");
+        let by_name: BTreeMap<String, Listed> = toml::from_str(text).unwrap();
+        assert_eq!(materials().len(), by_name.len());
+        assert!(materials().len() >= 12);
+        for (name, listed) in materials() {
+            let scene = include_str!("../../data/scenes/contact_patch.toml");
+            let mut scene = Scene::parse(scene, name).unwrap();
+            let material = listed.material(&units("mm", "MPa")).unwrap();
+            scene.materials.insert(name.clone(), material);
+            scene.validate().unwrap();
+            assert!(
+                listed.figures().iter().all(|(_, _, f)| f.1.len() > 5),
+                "{name}"
+            );
+        }
+    }
+
+    #[test]
+    fn numbers_are_turned_into_the_units_of_the_scene() {
+        let steel = Listed::of("S355").unwrap();
+        let [mm, m, inches] =
+            [("mm", "MPa"), ("m", "Pa"), ("in", "psi")].map(|(l, s)| steel.material(&units(l, s)));
+        let (mm, m, inches) = (mm.unwrap(), m.unwrap(), inches.unwrap());
+        assert_eq!((mm.youngs_modulus, mm.yield_stress), (210e3, Some(355.0)));
+        assert_eq!((m.youngs_modulus, m.density), (210e9, Some(7850.0)));
+        let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
+        assert!(near(mm.density.unwrap(), 7.85e-9));
+        assert!(near(
+            inches.yield_stress.unwrap(),
+            355e6 / 6894.757293168361
+        ));
+        // Slinch (12 slugs) per cubic inch.
+        let slinch = 0.45359237 * 9.80665 / 0.0254;
+        assert!(near(
+            inches.density.unwrap(),
+            7850.0 * 0.0254f64.powi(3) / slinch
+        ));
+        assert_eq!(
+            steel.material(&units("furlong", "MPa")).unwrap().density,
+            None
+        );
+        let error = steel.material(&units("mm", "bar")).unwrap_err();
+        assert!(error.message().contains("\"bar\" is none of"), "{error}");
+    }
+
+    #[test]
+    fn a_scene_takes_a_material_by_its_name() {
+        let text = include_str!("../../data/scenes/contact_patch.toml");
+        let with = |body: &str, units: &str| {
+            let overrides = [body, units].map(String::from);
+            Scene::parse_with(text, "patch.toml", &overrides)
+        };
+        let scene = Scene::parse(text, "patch.toml").unwrap();
+        let body = format!(
+            "bodies.{}.material=S355",
+            scene.bodies.keys().next().unwrap()
+        );
+        let units = "units={ length = \"m\", force = \"N\", stress = \"Pa\" }";
+        let taken = with(&body, units).unwrap();
+        assert_eq!(taken.materials["S355"].yield_stress, Some(355e6));
+        // What the program writes down is whole.
+        let again = Scene::parse(&taken.to_toml().unwrap(), "again").unwrap();
+        assert_eq!(again.materials, taken.materials);
+        let error = with(&body, "title=unnamed").unwrap_err();
+        assert!(
+            error.message().contains("name the units of the scene"),
+            "{error}"
+        );
+    }
+}
