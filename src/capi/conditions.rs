@@ -177,6 +177,7 @@ pub unsafe extern "C" fn brinell_model_body(
             let made_of = Body {
                 material: text(material, "the material")?.to_string(),
                 plastic: one_of(&choices, yields, "choice of yielding")?,
+                ..Body::default()
             };
             m.builder.body(text(body, "the body")?, made_of)?;
             Ok(())

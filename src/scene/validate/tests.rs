@@ -6,6 +6,8 @@ use crate::scene::{
 };
 use crate::shape::Shape;
 
+mod effects;
+
 /// The paper's first example: has every kind of entry that the rules are about.
 fn good() -> Scene {
     let text = include_str!("../../../data/scenes/cylinder_on_half_plane.toml");
@@ -92,38 +94,6 @@ fn materials_and_bodies() {
             (
                 |s| steel!(s).tangent_modulus = Some(1.0),
                 "keep exactly one",
-            ),
-            (
-                |s| steel!(s).kinematic_modulus = Some(-1.0),
-                "kinematic_modulus: -1 must be at least 0",
-            ),
-            (
-                |s| steel!(s).back_stresses = Some(vec![]),
-                "back_stresses: is empty; give rows of",
-            ),
-            (
-                |s| steel!(s).back_stresses = Some(vec![[5.0, 0.0], [-5.0, 3.0]]),
-                "back_stresses.1: [-5, 3]: modulus C and rate gamma must be at least 0",
-            ),
-            (
-                |s| steel!(s).back_stresses = Some(vec![[5.0, -3.0]]),
-                "back_stresses.0: [5, -3]: modulus C and rate gamma must be at least 0",
-            ),
-            (
-                |s| steel!(s).back_stresses = Some(vec![[0.0, 3.0]]),
-                "back_stresses.0: [0, 3] is a rate gamma without a modulus C",
-            ),
-            (
-                |s| steel!(s).back_stresses = Some(vec![[5.0, 1e101]]),
-                "back_stresses.0: the rate is",
-            ),
-            (
-                |s| {
-                    steel!(s).plastic_modulus = None;
-                    steel!(s).yield_stress = None;
-                    steel!(s).back_stresses = Some(vec![[5.0, 3.0]]);
-                },
-                "back_stresses: needs a yield_stress",
             ),
             (
                 |s| {
