@@ -88,8 +88,12 @@ fn at_yield(
     ]
 }
 
-/// Contact modulus of the first two bodies, and nu and yield stress of the one that yields first.
+/// Contact modulus of the first two bodies, and nu and yield stress of the one that yields first;
+/// none where a yield stress depends on depth.
 fn moduli(model: &Model) -> Option<(f64, f64, f64)> {
+    if model.yield_by_depth.iter().any(Option::is_some) {
+        return None;
+    }
     let (a, b) = (model.materials.first()?, model.materials.get(1)?);
     let modulus = analytical::contact_modulus(
         a.youngs_modulus,

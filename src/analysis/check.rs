@@ -244,6 +244,23 @@ fn kinematic_hardening(model: &Model, yields: bool) -> Effect {
     effect("kinematic hardening", !asked.is_empty() && yields, why)
 }
 
+fn yield_by_depth(model: &Model, yields: bool) -> Effect {
+    let bodies = model.mesh.bodies.iter().zip(&model.yield_by_depth);
+    let asked = bodies
+        .zip(&model.may_yield)
+        .filter(|((_, profile), may)| profile.is_some() && **may);
+    let names: Vec<&str> = asked.map(|((name, _), _)| name.as_str()).collect();
+    let names = names.join(", ");
+    let why = match (names.is_empty(), yields) {
+        (true, _) => {
+            "no body that may yield has another yield stress than its material".to_string()
+        }
+        (false, true) => format!("the yield stress of {names} depends on the depth"),
+        (false, false) => format!("{names} stays elastic under these loads"),
+    };
+    effect("yield stress by depth", !names.is_empty() && yields, why)
+}
+
 fn volume_forces(model: &Model) -> Effect {
     let loads = model.scene.load.iter().zip(&model.loads);
     let asked = loads.filter(|(load, _)| load.acceleration.is_some() || load.rotation.is_some());
@@ -329,6 +346,7 @@ pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
         contact,
         plasticity,
         kinematic_hardening(model, yields),
+        yield_by_depth(model, yields),
         volume_forces(model),
         temperature(model),
         effect(

@@ -15,7 +15,7 @@
 //! | `outgrown` | contact that reaches the end of its candidates | |
 //! | `path` | the path between increments | |
 //! | `measure`, `contact_edge`, `reading`, `dent`, `figures`, `quality` | pressure, half width, dent, quality of a state | 5 |
-//! | `stress_field`, `stresses` | stresses of all elements, the forces they exert | |
+//! | `stress_field`, `stresses`, `local_yield` | stresses of all elements, the forces they exert, what they may be | |
 //! | `indicator` | discretisation error of the stresses, element by element | |
 //! | `check` | effects and cost before a run | |
 
@@ -39,6 +39,7 @@ mod increment;
 mod indicator;
 mod landing;
 mod load_point;
+mod local_yield;
 mod maximum;
 mod measure;
 mod mirror;

@@ -131,6 +131,9 @@ pub struct RecoveryOf<const D: usize, const S: usize, const P: usize, const N: u
     /// Coordinates of the sampling points.
     positions: Vec<[f64; D]>,
     materials: Vec<(Material, Lame)>,
+    /// The least yield stress at the nodes of each element, where it differs within a body: what
+    /// elements are chosen by. The maximum is that of the yield stress at each place.
+    least_yield: Vec<f64>,
     nodal: Nodal,
     /// Strains of the linear triangles and tetrahedra.
     fitted: FittedStrains<D>,
@@ -160,7 +163,17 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
         for i in 0..packed.list.len() {
             first.push(first[i] + sampling[i].n_points());
         }
+        let mut least_yield = Vec::new();
+        if model.yield_by_depth.iter().any(Option::is_some) {
+            least_yield.extend(packed.list.iter().map(|own| {
+                let nodes = model.mesh.nodes(own.element as usize).iter();
+                let places = nodes.map(|&node| model.mesh.point(node as usize));
+                let stresses = places.map(|x| model.yield_stress(own.body as usize, x));
+                stresses.fold(f64::INFINITY, f64::min)
+            }));
+        }
         let mut out = RecoveryOf {
+            least_yield,
             free: FreeStrains::new(model, elements, |i, nodal| sampling[i].at_points(nodal)),
             elements: packed,
             sampling,
@@ -218,13 +231,9 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
         let (samples, _) = samples.as_chunks::<S>();
         let raw: Vec<f64> = (0..self.elements.list.len())
             .map(|i| {
-                let y = self.materials[self.elements.list[i].body as usize]
-                    .0
-                    .yield_stress();
-                samples[self.first[i]..self.first[i + 1]]
-                    .iter()
-                    .map(|s| von_mises(s) / y)
-                    .fold(0.0, f64::max)
+                let places = self.first[i]..self.first[i + 1];
+                let ratios = places.map(|place| self.ratio(i, place, samples));
+                ratios.fold(0.0, f64::max)
             })
             .collect();
         let highest = raw.iter().copied().reduce(f64::max).filter(|r| *r > 0.0)?;
@@ -252,14 +261,20 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
         let least = ratio * (1.0 - TIE);
         let i = by_element.iter().position(|r| *r >= least)?;
         let body = self.elements.list[i].body as usize;
-        let yield_stress = self.materials[body].0.yield_stress();
         let place = (self.first[i]..self.first[i + 1])
-            .find(|&place| von_mises(&samples[place]) / yield_stress >= least)?;
+            .find(|&place| self.ratio(i, place, samples) >= least)?;
         Some(Peak {
             ratio,
             location: in_space(self.positions[place]),
             body,
         })
+    }
+
+    /// Von Mises stress over yield stress at a sampling point of element `i`.
+    fn ratio(&self, i: usize, place: usize, samples: &[[f64; S]]) -> f64 {
+        let body = self.elements.list[i].body as usize;
+        let least = self.least_yield.get(i).copied();
+        von_mises(&samples[place]) / least.unwrap_or_else(|| self.materials[body].0.yield_stress())
     }
 
     /// Elements of the same body that share a node with element `i`, itself included.
@@ -291,7 +306,9 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
             for (cell, top) in &mut tops {
                 top.look_around(spacing, &mut |at, again| {
                     let point = cell.point(at);
-                    self.value_at(cell.element, point, samples, keep && again)
+                    let stress = self.value_at(cell.element, point, samples, keep && again);
+                    let body = self.elements.list[cell.element as usize].body as usize;
+                    stress / model.yield_stress(body, in_space(point))
                 });
             }
             if left_after(spacing) <= self.gamma {
@@ -311,14 +328,10 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
         })
     }
 
-    /// Recovered von Mises stress over yield stress at a point of an element with a patch.
+    /// Recovered von Mises stress at a point of an element with a patch.
     fn value_at(&mut self, i: u32, point: [f64; D], samples: &[[f64; S]], keep: bool) -> f64 {
-        let body = self.elements.list[i as usize].body as usize;
-        let yield_stress = self.materials[body].0.yield_stress();
         let patch = self.patches.get_mut(&i);
-        patch.map_or(0.0, |patch| {
-            von_mises(&patch.value(samples, point, keep)) / yield_stress
-        })
+        patch.map_or(0.0, |patch| von_mises(&patch.value(samples, point, keep)))
     }
 
     fn cache_patch(&mut self, model: &Model, i: u32) {

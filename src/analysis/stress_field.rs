@@ -4,6 +4,7 @@
 //! of the factor's memory.
 
 use super::free_strain::take_off;
+use super::local_yield::largest_ratio;
 use super::zone::ZoneOf;
 use crate::element::{Components, Gradients, Kernel};
 use crate::material::{Lame, PlasticState};
@@ -137,6 +138,12 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ElementStre
     #[inline]
     pub(super) fn von_mises(&self) -> f64 {
         largest_von_mises(&self.stress, self.gradients.n_points())
+    }
+
+    /// Largest von Mises stress over yield stress at a point of the element `e`.
+    pub(super) fn yield_ratio(&self, model: &Model, e: usize) -> f64 {
+        let places = || self.gradients.positions(&model.element_coordinates(e));
+        largest_ratio(model, e, &self.stress, (places, self.gradients.n_points()))
     }
 
     /// Largest equivalent plastic strain at a point.

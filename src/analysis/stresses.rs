@@ -142,17 +142,27 @@ fn nodal_forces<const D: usize, const S: usize, const P: usize, const N: usize>(
             false => f64::INFINITY,
         })
         .collect();
+    let by_depth: Vec<bool> = (field
+        .model
+        .yield_by_depth
+        .iter()
+        .zip(&field.model.may_yield))
+    .map(|(profile, may_yield)| profile.is_some() && *may_yield)
+    .collect();
     let evaluate = |start: usize, block: &mut Vec<Evaluated<D, N>>| {
         (start..(start + BLOCK).min(n))
             .into_par_iter()
             .with_min_len(GRAIN)
             .map(|e| {
                 let element = field.at(e);
-                let limit = limits[mesh.element_body[e] as usize];
+                let body = mesh.element_body[e] as usize;
+                let is_beyond = || match by_depth[body] {
+                    false => element.von_mises() > limits[body],
+                    true => element.yield_ratio(field.model, e) > 1.0 + BEYOND,
+                };
                 Evaluated {
                     forces: element.gradients.forces(&element.stress),
-                    beyond_yield_outside: element.von_mises() > limit
-                        && field.place_in_zone(e).is_none(),
+                    beyond_yield_outside: is_beyond() && field.place_in_zone(e).is_none(),
                 }
             })
             .collect_into_vec(block);

@@ -5,9 +5,10 @@
 //! layer round the prediction watches, and when it yields the zone grows.
 
 use super::free_strain::take_off;
+use super::local_yield::largest_ratio;
 use super::region::{Reach, Region};
 use super::solver::Solver;
-use super::stress_field::{largest_von_mises, stress};
+use super::stress_field::stress;
 use super::structure::combination;
 use crate::element::{Kernel, with_kernel};
 use crate::error::Result;
@@ -219,8 +220,8 @@ fn ratios_of<const D: usize, const S: usize, const P: usize, const N: usize>(
             for (load, nodal) in model.free_strains(e) {
                 take_off(&mut strains, factors[load], &sampling.at_points(&nodal));
             }
-            let largest = largest_von_mises(&stress(&elastic[body], &strains), sampling.n_points());
-            largest / model.materials[body].yield_stress()
+            let places = (|| sampling.positions(&nodes), sampling.n_points());
+            largest_ratio(model, e, &stress(&elastic[body], &strains), places)
         })
         .collect()
 }

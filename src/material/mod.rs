@@ -82,6 +82,16 @@ pub struct Past<'a, const S: usize> {
     pub state: &'a PlasticState<S>,
     /// Strains of the back stresses that fade, the material's first: engineering shear, trace 0.
     pub back: &'a [[f64; S]],
+    /// What the yield stress lies above the material's there.
+    pub harder: f64,
+}
+
+impl<const S: usize> Past<'_, S> {
+    /// The yield stress after `d` more of equivalent plastic strain.
+    #[inline]
+    fn yield_stress(&self, hardening: &Hardening, d: f64) -> f64 {
+        hardening.yield_stress(self.state.equivalent + d) + self.harder
+    }
 }
 
 /// Result of integrating the flow rule over an increment.
@@ -120,7 +130,8 @@ impl Material {
     /// equivalent one, and what the back stresses hold (`C/3 z:z`). What they lost on the way is
     /// none of it ([`BackStresses::carry`]).
     pub fn plastic_work<const S: usize>(&self, past: &Past<S>) -> f64 {
-        let worked = |h: &Hardening| h.work(past.state.equivalent);
+        let equivalent = past.state.equivalent;
+        let worked = |h: &Hardening| h.work(equivalent) + past.harder * equivalent;
         let held = self.back_stresses.held(&past.state.strain, past.back);
         self.hardening.as_ref().map_or(0.0, worked) + held
     }
@@ -182,7 +193,7 @@ impl Material {
     ) -> bool {
         self.hardening.as_ref().is_none_or(|hardening| {
             let trial = self.relative_stress(law, strain, old);
-            von_mises(&trial) <= hardening.yield_stress(old.state.equivalent)
+            von_mises(&trial) <= old.yield_stress(hardening, 0.0)
         })
     }
 
@@ -207,7 +218,7 @@ impl Material {
             return idle;
         };
         let trial = self.relative_stress(law, strain, old);
-        if von_mises(&trial) <= hardening.yield_stress(old.state.equivalent) {
+        if von_mises(&trial) <= old.yield_stress(hardening, 0.0) {
             return idle;
         }
         match self.space {
@@ -218,8 +229,8 @@ impl Material {
 }
 
 /// The increment of equivalent plastic strain at which the excess over the yield stress, positive
-/// at zero, vanishes; over any length it falls by at least the stiffness times that, and is a stress
-/// of the size of `scale`.
+/// at zero, vanishes; over any length it falls by at least the stiffness times that, and is a
+/// stress of the size of `scale`.
 fn flow_to_root(excess: impl Fn(f64) -> f64, stiffness: f64, scale: f64) -> f64 {
     let first = excess(0.0);
     let end = first / stiffness;

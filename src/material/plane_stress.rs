@@ -32,11 +32,10 @@ pub(super) fn integrate<const S: usize>(
     let g = material.shear_modulus();
     let (e, nu) = (material.youngs_modulus, material.poissons_ratio);
     let laws = &material.back_stresses;
-    let equivalent = old.state.equivalent;
     let moduli = [e / (3.0 * (1.0 - nu)), 2.0 * g, 2.0 * g];
     let start = in_plane(trial);
     let divisors = |d: f64| {
-        let size = hardening.yield_stress(equivalent + d) + laws.gain(d);
+        let size = old.yield_stress(hardening, d) + laws.gain(d);
         moduli.map(|m| size + 1.5 * m * d)
     };
     let relative = |d: f64| {
@@ -46,7 +45,7 @@ pub(super) fn integrate<const S: usize>(
         u
     };
     // Times the yield stress, so that it is a stress as elsewhere.
-    let scale = hardening.yield_stress(equivalent);
+    let scale = old.yield_stress(hardening, 0.0);
     let excess = |d: f64| scale * (product(&relative(d), &relative(d)).sqrt() - 1.0);
     let d = flow_to_root(excess, 1.5 * moduli[0].min(moduli[1]), scale);
 
@@ -59,7 +58,7 @@ pub(super) fn integrate<const S: usize>(
     state.strain[3] += 3.0 * d * u[2];
 
     let (size, slope) = (
-        hardening.yield_stress(state.equivalent) + laws.gain(d),
+        old.yield_stress(hardening, d) + laws.gain(d),
         hardening.slope(state.equivalent) + laws.modulus(d),
     );
     let forgetting = in_plane(&laws.forgetting(old.back, d));

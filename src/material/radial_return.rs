@@ -37,7 +37,7 @@ pub(super) fn integrate<const S: usize>(
     let start = deviator(trial);
     let equivalent = old.state.equivalent;
     let (d, slope, s) = if laws.n_stored() == 0 {
-        let q = von_mises(&start);
+        let q = von_mises(&start) - old.harder;
         let (d, slope) = hardening.solve(q, 3.0 * g + laws.linear(), equivalent);
         (d, slope, start)
     } else {
@@ -46,10 +46,9 @@ pub(super) fn integrate<const S: usize>(
             std::array::from_fn(|k| start[k] + forgotten[k])
         };
         let excess = |d: f64| {
-            von_mises(&at(d)) - 3.0 * g * d - laws.gain(d) - hardening.yield_stress(equivalent + d)
+            von_mises(&at(d)) - 3.0 * g * d - laws.gain(d) - old.yield_stress(hardening, d)
         };
-        let scale = hardening.yield_stress(equivalent);
-        let d = flow_to_root(excess, 3.0 * g, scale);
+        let d = flow_to_root(excess, 3.0 * g, old.yield_stress(hardening, 0.0));
         (d, hardening.slope(equivalent + d), at(d))
     };
     let norm = double_dot(&s, &s).sqrt();

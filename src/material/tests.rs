@@ -54,6 +54,7 @@ impl<const S: usize> Point<S> {
         Past {
             state: &self.state,
             back: &self.back,
+            harder: 0.0,
         }
     }
 
@@ -329,6 +330,42 @@ fn cyclic_uniaxial_stress_follows_the_hardening_curve() {
         assert!((sigma - expected).abs() < 1e-12, "{sigma} {expected}");
         yield_now = sigma.abs();
         axial_plastic = target - sigma / e;
+    }
+}
+
+/// A point that is harder than its material is one of a material whose whole curve is higher.
+#[test]
+fn a_harder_point_has_a_higher_curve() {
+    for space in [Space::PlaneStrain, Space::PlaneStress, Space::Axisymmetric] {
+        let higher = Hardening::table(&[[0.0, 1.2], [0.004, 1.5], [0.01, 1.6]]);
+        let usual = Hardening::table(&[[0.0, 1.0], [0.004, 1.3], [0.01, 1.4]]);
+        let materials = each_kind(material(space, 0.3, usual)).into_iter();
+        for (m, other) in materials.zip(each_kind(material(space, 0.3, higher))) {
+            let point = Point::with(&m, [0.0007, -0.0003, -0.0004, 0.0003], 0.0009);
+            for strain in [[0.009, -0.006, 0.0, 0.007], [0.0052, -0.001, 0.0, 0.001]] {
+                let past = Past {
+                    harder: 0.2,
+                    ..point.past()
+                };
+                let law = m.lame();
+                let (found, expected) = (
+                    m.integrate(&law, &strain, &past),
+                    other.integrate(&law, &strain, &point.past()),
+                );
+                assert_eq!(found.yields, expected.yields);
+                assert_eq!(m.stays_elastic(&law, &strain, &past), !found.yields);
+                for k in 0..4 {
+                    let off = found.state.strain[k] - expected.state.strain[k];
+                    assert!(off.abs() < 1e-15, "{space:?}");
+                }
+                let [a, b] = [&found, &expected].map(|update| matrix(|e| lost(update, e)));
+                for (a, b) in a.iter().flatten().zip(b.iter().flatten()) {
+                    assert!((a - b).abs() < 1e-10, "{space:?} {a} {b}");
+                }
+                let [mine, others] = [m.plastic_work(&past), other.plastic_work(&point.past())];
+                assert!((mine - others).abs() < 1e-15);
+            }
+        }
     }
 }
 

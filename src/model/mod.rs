@@ -26,6 +26,7 @@ mod springs;
 mod sums;
 mod supports;
 mod volume_loads;
+mod yield_depth;
 
 pub use builder::ModelBuilder;
 pub use contact_basis::ContactBasis;
@@ -38,6 +39,7 @@ pub use pairs::{AxisPoint, ContactSurface, Pair};
 pub use rows::ContactRows;
 pub use springs::Spring;
 pub use sums::Sums;
+pub use yield_depth::YieldByDepth;
 
 use crate::element::{Gradients, Kernel};
 use crate::error::{Error, Result};
@@ -63,6 +65,8 @@ pub struct Model {
     pub materials: Vec<Material>,
     /// Whether each body may yield.
     pub may_yield: Vec<bool>,
+    /// Yield stress by depth, of each body that has one.
+    pub yield_by_depth: Vec<Option<YieldByDepth>>,
     /// Freedom numbering, local axes and supports.
     pub freedoms: Freedoms,
     /// Contact pairs, contact by contact, along each surface.
@@ -179,6 +183,7 @@ impl Model {
         )?;
         let loads = loads::renumber(loads, &freedoms);
         ends::find(&mesh, &freedoms, &pairs, &mut contacts);
+        let yield_by_depth = yield_depth::resolve(scene, &mesh, &materials, &contacts)?;
         if matches!(origin, Origin::Scene) {
             warnings.extend(mesh::generate::contact_size::warning(scene));
         }
@@ -188,6 +193,7 @@ impl Model {
             mesh,
             materials,
             may_yield,
+            yield_by_depth,
             freedoms,
             pairs,
             rows,
@@ -232,6 +238,15 @@ impl Model {
             .with_min_len(1 << 14)
             .map(|node| self.freedoms.displacement(node, u, factors))
             .collect()
+    }
+
+    /// Initial yield stress of a body at a place, infinite for an elastic material.
+    #[inline]
+    pub fn yield_stress(&self, body: usize, place: Vector) -> f64 {
+        match &self.yield_by_depth[body] {
+            Some(profile) => profile.at(place),
+            None => self.materials[body].yield_stress(),
+        }
     }
 
     /// Material of an element.

@@ -6,7 +6,7 @@
 
 mod matching;
 pub(super) mod mortar;
-mod search;
+pub(super) mod search;
 pub(super) mod ties;
 
 use super::freedoms::{Freedoms, Slot};

@@ -97,6 +97,23 @@ pub struct Body {
     /// May this body yield?
     #[serde(default)]
     pub plastic: Plastic,
+    /// Yield stress by depth below the surface (case hardening), rows of depth and yield stress,
+    /// depths ascending, straight between them and constant beyond: in place of the material's,
+    /// whose hardening adds to it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub yield_by_depth: Option<Vec<[f64; 2]>>,
+    /// The surface of the body from which depths count; without it those that may touch others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub depth_from: Option<String>,
+}
+
+impl Body {
+    /// The largest initial yield stress in it.
+    pub(crate) fn largest_yield_stress(&self, material: &Material) -> Option<f64> {
+        let rows = self.yield_by_depth.iter().flatten();
+        let largest = rows.map(|row| row[1]).reduce(f64::max);
+        material.first_yield_stress().map(|y| largest.unwrap_or(y))
+    }
 }
 
 /// May a body yield?

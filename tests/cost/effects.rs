@@ -61,3 +61,25 @@ fn back_stresses_are_stored_where_they_fade() {
     let size = |bytes: u64| bytes as f64 / effect(&plain, "plasticity").memory_bytes as f64;
     assert!((size(linear) - 1.0).abs() < 0.2, "{}", size(linear));
 }
+
+/// A profile that is the material's yield stress everywhere is nothing; any other is a number at
+/// each point of the zone.
+#[test]
+fn yield_stresses_by_depth_are_stored_where_there_are_any() {
+    let plain = run(&[]);
+    let profile = |rows: &str| run(&[&format!("bodies.half_plane.yield_by_depth={rows}")]);
+    let none = profile("[[0.0, 500.0], [1.0, 500.0]]");
+    assert_eq!(cost(&none), cost(&plain));
+    let found = effect(&none, "yield stress by depth");
+    assert!(!found.on && found.why.contains("no body that may yield"));
+    // Harder far below all that yields: the same path, and the same cost but for the numbers.
+    let deep = profile("[[0.0, 500.0], [30.0, 500.0], [40.0, 900.0]]");
+    assert!(effect(&deep, "yield stress by depth").on);
+    assert_eq!(deep.counts, plain.counts);
+    let bytes = |results| effect(results, "plasticity").memory_bytes;
+    let more = bytes(&deep) - bytes(&plain);
+    assert!(
+        more > 100 * 8 && more % 8 == 0 && more < bytes(&plain) / 20,
+        "{more}"
+    );
+}

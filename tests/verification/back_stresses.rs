@@ -100,14 +100,18 @@ mesh.parts = [{ body = "bar", block = { x = [0.0, 1.0], y = [0.0, 1.0], elements
 support = [{ on = "bar.left", fix = ["x"] }, { on = "bar.bottom", fix = ["y"] }]
 "#;
 const SOLID: &str = r#"
-mesh.parts = [
-    { body = "bar", brick = { x = [0.0, 1.0], y = [0.0, 1.0], z = [0.0, 1.0], elements = [1, 1, 1] } },
-]
 support = [
     { on = "bar.left", fix = ["x"] },
     { on = "bar.front", fix = ["y"] },
     { on = "bar.bottom", fix = ["z"] },
 ]
+[[mesh.parts]]
+body = "bar"
+[mesh.parts.brick]
+x = [0.0, 1.0]
+y = [0.0, 1.0]
+z = [0.0, 1.0]
+elements = [1, 1, 1]
 "#;
 
 fn targets(factors: &[f64]) -> String {

@@ -22,4 +22,5 @@ mod shrink_fit;
 mod ssnv104;
 mod thick_cylinder;
 mod thick_sphere;
+mod yield_depth;
 mod yield_load;

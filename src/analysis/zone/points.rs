@@ -4,6 +4,7 @@ use super::history::BackStrains;
 use super::{Evaluation, History};
 use crate::analysis::free_strain::FreeStrains;
 use crate::analysis::gather::{GatheredElements, Nodal, Places};
+use crate::analysis::local_yield;
 use crate::element::{Components, Gradients, Kernel};
 use crate::material::{Lame, Material, Past, PlasticState, Softening};
 use crate::model::Model;
@@ -26,6 +27,8 @@ pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize
     committed: Vec<PlasticState<S>>,
     /// What back stresses that fade remember of it.
     back: BackStrains<S>,
+    /// What the yield stress of each point lies above its material's; empty where none does.
+    harder: Vec<f64>,
     /// Equal to `committed` except where `yields`.
     trial: Vec<PlasticState<S>>,
     /// `D - D_ep` at the last evaluated state; zero except where `yields`.
@@ -64,17 +67,34 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             .map(|&e| model.gradients(kernel, e))
             .collect();
         let free = FreeStrains::new(model, elements, |i, nodal| gradients[i].at_points(nodal));
+        let yield_stresses = |i: usize| {
+            let places = gradients[i].positions(&model.element_coordinates(elements[i]));
+            local_yield::at_places(model, elements[i], &places, gradients[i].n_points())
+        };
+        let elements_of_mesh = elements;
         let elements = GatheredElements::new(model, elements, places);
         let n = elements.list.len();
         // That of the mesh, not of these elements: histories pass from zone to zone.
         let shapes = model.mesh.shapes.iter();
         let stride = shapes.map(|s| s.n_gauss_points()).max().unwrap_or(1);
+        let mut harder = Vec::new();
+        if model.yield_by_depth.iter().any(Option::is_some) {
+            harder.resize(n * stride, 0.0);
+            for (i, own) in harder.chunks_mut(stride).enumerate() {
+                let usual = model.material(elements_of_mesh[i]).yield_stress();
+                let stresses = yield_stresses(i).into_iter().flatten();
+                own.iter_mut()
+                    .zip(stresses)
+                    .for_each(|(own, y)| *own = y - usual);
+            }
+        }
         let (n_zone, n_contact) = places.sizes();
         let fading = model.materials.iter().map(|m| m.back_stresses.n_stored());
         let back = BackStrains::new(fading.max().unwrap_or(0), n * stride);
         ZoneOf {
             turn: vec![[0.0; S]; if back.is_none() { 0 } else { n * stride }],
             back,
+            harder,
             forces: vec![[[0.0; D]; N]; n],
             free,
             factors: vec![0.0; model.loads.len()],
@@ -107,6 +127,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             + self.forces.capacity() * size_of::<[[f64; D]; N]>()
             + self.committed.capacity() * 2 * size_of::<PlasticState<S>>()
             + self.back.bytes()
+            + self.harder.capacity() * size_of::<f64>()
             + self.turn.capacity() * size_of::<[f64; S]>()
             + self.softening.capacity() * size_of::<Softening<S>>()) as u64
     }
@@ -122,7 +143,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
     pub fn evaluate(&mut self, u: &Trailing, initial_load: &mut Trailing) -> Evaluation {
         let nodal = self.nodal.displacements(u);
         let (elements, materials, stride) = (&self.elements, &self.materials, self.stride);
-        let (free, factors, back) = (&self.free, &self.factors, &self.back);
+        let (free, factors) = (&self.free, &self.factors);
+        let (back, harder) = (&self.back, &self.harder);
         let turn = match self.turn.is_empty() {
             true => Either::Left(
                 (0..elements.list.len())
@@ -158,6 +180,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
                         let past = Past {
                             state: old,
                             back: back.of(i * stride + g),
+                            harder: harder.get(i * stride + g).copied().unwrap_or(0.0),
                         };
                         // Most points are elastic: nothing is stored for them.
                         if material.stays_elastic(law, strain, &past) {
@@ -366,6 +389,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         let past = Past {
             state: &self.committed[place],
             back: self.back.of(place),
+            harder: self.harder.get(place).copied().unwrap_or(0.0),
         };
         material.plastic_work(&past) + self.back.lost_work(place)
     }

@@ -123,7 +123,8 @@ fn weaker(
     let of = |body: &String| {
         let body = scene.bodies.get(body).filter(|b| counts(b.plastic))?;
         let material = scene.materials.get(&body.material)?;
-        Some(hertz.at_yield(material.poissons_ratio, material.first_yield_stress()?))
+        let yield_stress = body.largest_yield_stress(material)?;
+        Some(hertz.at_yield(material.poissons_ratio, yield_stress))
     };
     let bodies = p.names.iter().filter_map(of);
     Ok(bodies.reduce(|a, b| if b.0 < a.0 { b } else { a }))

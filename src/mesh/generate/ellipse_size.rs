@@ -61,8 +61,10 @@ fn hertz(scene: &Scene, p: &CurvedBodies) -> Result<HertzEllipse> {
 /// Load at first yield of the weaker body.
 fn yield_load(scene: &Scene, p: &CurvedBodies, hertz: &HertzEllipse) -> Option<f64> {
     let bodies = p.names.iter().filter_map(|body| {
-        let material = scene.materials.get(&scene.bodies.get(body)?.material)?;
-        Some(hertz.yield_load(material.poissons_ratio, material.first_yield_stress()?))
+        let body = scene.bodies.get(body)?;
+        let material = scene.materials.get(&body.material)?;
+        let yield_stress = body.largest_yield_stress(material)?;
+        Some(hertz.yield_load(material.poissons_ratio, yield_stress))
     });
     bodies.reduce(f64::min)
 }

@@ -9,7 +9,8 @@ use crate::space::{Vector, difference, dot, length};
 const LEAF: usize = 4;
 
 /// Balls round items, and balls round these.
-pub(super) struct Balls {
+#[derive(Debug)]
+pub(in crate::model) struct Balls {
     /// Centre and radius of each item.
     items: Vec<(Vector, f64)>,
     /// Items, leaf by leaf.
@@ -18,6 +19,7 @@ pub(super) struct Balls {
     nodes: Vec<Node>,
 }
 
+#[derive(Debug)]
 struct Node {
     center: Vector,
     radius: f64,
@@ -28,7 +30,7 @@ struct Node {
 }
 
 impl Balls {
-    pub(super) fn new(items: Vec<(Vector, f64)>) -> Self {
+    pub(in crate::model) fn new(items: Vec<(Vector, f64)>) -> Self {
         let mut out = Balls {
             order: (0..items.len()).collect(),
             nodes: Vec::new(),
@@ -75,6 +77,22 @@ impl Balls {
             self.split(range.start + middle..range.end);
         }
         self.nodes[own].next = self.nodes.len();
+    }
+
+    /// The least distance of a point from an item, which `distance` measures; none of no items.
+    pub(in crate::model) fn nearest(&self, point: Vector, distance: impl Fn(usize) -> f64) -> f64 {
+        let (mut least, mut at) = (f64::INFINITY, 0);
+        while let Some(node) = self.nodes.get(at) {
+            if length(difference(point, node.center)) - node.radius >= least {
+                at = node.next;
+                continue;
+            }
+            for &item in &self.order[node.items.clone()] {
+                least = least.min(distance(item));
+            }
+            at += 1;
+        }
+        least
     }
 
     /// The items that come nearer than `reach` to the line through a point along a unit vector,

@@ -117,12 +117,16 @@ fn bodies(model: &Model, labels: &Labels) -> Markup {
                 true => hardening,
                 false => format!("{hardening}; kinematic, {}", back.join("; ")),
             };
+            let by_depth = model.yield_by_depth[index].is_some();
             Some(vec![
                 swatch(BODIES[index % BODIES.len()], name),
                 plain(&body.material),
                 plain(given(material.youngs_modulus)),
                 plain(given(material.poissons_ratio)),
-                plain(yields.map_or("\u{2013}".to_string(), given)),
+                plain(yields.map_or("\u{2013}".to_string(), |y| match by_depth {
+                    true => "by depth".to_string(),
+                    false => given(y),
+                })),
                 plain(hardening),
             ])
         })

@@ -3,7 +3,7 @@
 use super::Checks;
 use crate::number::exact;
 use crate::scene::read::closest;
-use crate::scene::{Material, Plastic, Scene, beyond_yield, materials};
+use crate::scene::{Body, Material, Plastic, Scene, beyond_yield, materials};
 
 impl Checks {
     pub(super) fn materials(&mut self, scene: &Scene) {
@@ -16,6 +16,7 @@ impl Checks {
             "is empty; name each body of the mesh with its material",
         );
         for (name, body) in &scene.bodies {
+            self.yield_by_depth(&format!("bodies.{name}"), body, scene);
             match scene.materials.get(&body.material) {
                 None => {
                     let known: Vec<&str> = scene.materials.keys().map(String::as_str).collect();
@@ -44,6 +45,53 @@ impl Checks {
                     ),
                 ),
             }
+        }
+    }
+
+    fn yield_by_depth(&mut self, key: &str, body: &Body, scene: &Scene) {
+        let Some(rows) = &body.yield_by_depth else {
+            self.require(
+                body.depth_from.is_none(),
+                format!("{key}.depth_from"),
+                "without yield_by_depth there are no depths that could count from it",
+            );
+            return;
+        };
+        let key = format!("{key}.yield_by_depth");
+        let material = scene.materials.get(&body.material);
+        self.require(
+            material.is_none_or(|material| material.first_yield_stress().is_some()),
+            key.as_str(),
+            format!(
+                "the material \"{0}\" has no yield stress; give materials.{0}.yield_stress, from \
+                 which its hardening counts",
+                body.material
+            ),
+        );
+        self.require(
+            !rows.is_empty(),
+            key.as_str(),
+            "is empty; give rows of [depth, yield stress]",
+        );
+        for (index, [depth, yield_stress]) in rows.iter().enumerate() {
+            let key = format!("{key}.{index}");
+            self.require(
+                *depth >= 0.0,
+                key.as_str(),
+                format!("depth {} must be at least 0", exact(*depth)),
+            );
+            if let Some([before, _]) = index.checked_sub(1).map(|before| rows[before]) {
+                self.require(
+                    *depth > before,
+                    key.as_str(),
+                    format!(
+                        "depth {} must be greater than {} of the row before",
+                        exact(*depth),
+                        exact(before)
+                    ),
+                );
+            }
+            self.stress(key, *yield_stress);
         }
     }
 

@@ -6,6 +6,7 @@ use crate::scene::{
 };
 use crate::shape::Shape;
 
+mod effects;
 mod material;
 
 /// The paper's first example: has every kind of entry that the rules are about.

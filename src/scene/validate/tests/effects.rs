@@ -1,0 +1,93 @@
+//! What is refused of effects.
+
+use super::*;
+
+fn steel(scene: &mut Scene) -> &mut crate::scene::Material {
+    scene.materials.get_mut("steel").unwrap()
+}
+
+#[test]
+fn back_stresses() {
+    refused(
+        good,
+        &[
+            (
+                |s| steel(s).kinematic_modulus = Some(-1.0),
+                "kinematic_modulus: -1 must be at least 0",
+            ),
+            (
+                |s| steel(s).back_stresses = Some(vec![]),
+                "back_stresses: is empty; give rows of",
+            ),
+            (
+                |s| steel(s).back_stresses = Some(vec![[5.0, 0.0], [-5.0, 3.0]]),
+                "back_stresses.1: [-5, 3]: modulus C and rate gamma must be at least 0",
+            ),
+            (
+                |s| steel(s).back_stresses = Some(vec![[5.0, -3.0]]),
+                "back_stresses.0: [5, -3]: modulus C and rate gamma must be at least 0",
+            ),
+            (
+                |s| steel(s).back_stresses = Some(vec![[0.0, 3.0]]),
+                "back_stresses.0: [0, 3] is a rate gamma without a modulus C",
+            ),
+            (
+                |s| steel(s).back_stresses = Some(vec![[5.0, 1e101]]),
+                "back_stresses.0: the rate is",
+            ),
+            (
+                |s| {
+                    steel(s).plastic_modulus = None;
+                    steel(s).yield_stress = None;
+                    steel(s).back_stresses = Some(vec![[5.0, 3.0]]);
+                },
+                "back_stresses: needs a yield_stress",
+            ),
+        ],
+    );
+}
+
+#[test]
+fn yield_stress_by_depth() {
+    fn cylinder(scene: &mut Scene) -> &mut crate::scene::Body {
+        let body = scene.bodies.get_mut("cylinder").unwrap();
+        body.yield_by_depth = Some(vec![[0.0, 900.0], [1.0, 500.0]]);
+        body
+    }
+    refused(
+        good,
+        &[
+            (
+                |s| cylinder(s).yield_by_depth = Some(vec![]),
+                "bodies.cylinder.yield_by_depth: is empty; give rows of [depth, yield stress]",
+            ),
+            (
+                |s| cylinder(s).yield_by_depth = Some(vec![[-1.0, 500.0]]),
+                "yield_by_depth.0: depth -1 must be at least 0",
+            ),
+            (
+                |s| cylinder(s).yield_by_depth = Some(vec![[0.0, 900.0], [0.0, 500.0]]),
+                "yield_by_depth.1: depth 0 must be greater than 0 of the row before",
+            ),
+            (
+                |s| cylinder(s).yield_by_depth = Some(vec![[0.0, -900.0]]),
+                "yield_by_depth.0: -900 must be greater than zero",
+            ),
+            (
+                |s| {
+                    cylinder(s);
+                    steel(s).plastic_modulus = None;
+                    steel(s).yield_stress = None;
+                },
+                "yield_by_depth: the material \"steel\" has no yield stress",
+            ),
+            (
+                |s| {
+                    cylinder(s).depth_from = Some("cylinder.top".into());
+                    cylinder(s).yield_by_depth = None;
+                },
+                "bodies.cylinder.depth_from: without yield_by_depth",
+            ),
+        ],
+    );
+}
