@@ -4,7 +4,8 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .ONESHELL:
 .DEFAULT_GOAL := help
-.PHONY: help setup cargo build run check test test-all test-rest bench bench-peers install python python-tests clean
+.PHONY: help setup cargo build run check test test-all test-rest bench bench-peers install uninstall wheel deb \
+    package python python-tests clean
 
 # What the CHOLMOD backend is built on: SuiteSparse, a fast BLAS, and libclang for bindgen.
 PACKAGES := libsuitesparse-dev libopenblas-dev libclang-dev
@@ -80,6 +81,7 @@ test-rest: setup python-tests ## What test-all has beyond test
 	cargo test --no-default-features --features faer,cli --test cli --test cost
 	cargo test --no-default-features --features cli --lib --bins --test cli
 	RUSTDOCFLAGS="-D warnings" cargo doc --features capi,faer --no-deps --quiet
+	$(MAKE) --no-print-directory package PACKAGE_FLAGS='--no-default-features --features faer,cli'
 
 bench: setup ## Measure
 	@cargo bench --bench trailing --bench history --bench contact --bench acceleration --bench reading
@@ -89,24 +91,77 @@ bench-peers: PACKAGES += calculix-ccx
 bench-peers: setup ## Measure beside CalculiX (installs it where it is absent)
 	@cargo bench --bench peers
 
-# The libraries are built for `install` alone: they would slow down every other build.
+# The libraries are built for `install` alone: they would slow down every other build. PROGRAM names
+# a program that is built already.
 PREFIX ?= /usr/local
+DESTDIR ?=
 PYTHON ?= python3
 PROFILE ?= release
 FEATURES ?= --features capi
 VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -1)
 TARGET = $(or $(CARGO_TARGET_DIR),target)/$(if $(filter dev,$(PROFILE)),debug,$(PROFILE))
+PROGRAM ?=
+# Where things go: where they are used, and where they are put now.
+HOME_OF = $(abspath $(PREFIX))
+INTO = $(DESTDIR)$(HOME_OF)
+INSTALLED = bin/brinell include/brinell.h lib/libbrinell.a lib/libbrinell.so \
+    lib/libbrinell.so.0 lib/libbrinell.so.$(VERSION) lib/pkgconfig/brinell.pc \
+    lib/cmake/brinell/brinell-config.cmake lib/cmake/brinell/brinell-config-version.cmake \
+    share/man/man1/brinell.1 share/bash-completion/completions/brinell \
+    share/zsh/site-functions/_brinell share/fish/vendor_completions.d/brinell.fish
 
-install: setup ## Install the C library, header and pkg-config file (PREFIX=...)
+install: setup ## Install program, library, header, manual, completions (PREFIX=..., DESTDIR=...)
 	@cargo rustc --lib --profile $(PROFILE) $(FEATURES) --crate-type cdylib,staticlib -- \
 	    -C link-arg=-Wl,-soname,libbrinell.so.0
-	install -d "$(PREFIX)/lib/pkgconfig" "$(PREFIX)/include"
-	install -m 644 ffi/include/brinell.h "$(PREFIX)/include/"
-	install -m 644 "$(TARGET)/libbrinell.a" "$(PREFIX)/lib/"
-	install -m 755 "$(TARGET)/libbrinell.so" "$(PREFIX)/lib/libbrinell.so.$(VERSION)"
-	ln -sf "libbrinell.so.$(VERSION)" "$(PREFIX)/lib/libbrinell.so.0"
-	ln -sf libbrinell.so.0 "$(PREFIX)/lib/libbrinell.so"
-	sed -e 's|@PREFIX@|$(abspath $(PREFIX))|' -e 's|@VERSION@|$(VERSION)|' ffi/brinell.pc.in > "$(PREFIX)/lib/pkgconfig/brinell.pc"
+	program="$(PROGRAM)"
+	if [[ -z $$program ]]; then
+	    cargo build --bin brinell --profile $(PROFILE) $(FEATURES)
+	    program="$(TARGET)/brinell"
+	fi
+	for file in $(INSTALLED); do install -d "$$(dirname "$(INTO)/$$file")"; done
+	install -m 755 "$$program" "$(INTO)/bin/brinell"
+	install -m 644 ffi/include/brinell.h "$(INTO)/include/"
+	install -m 644 "$(TARGET)/libbrinell.a" "$(INTO)/lib/"
+	install -m 755 "$(TARGET)/libbrinell.so" "$(INTO)/lib/libbrinell.so.$(VERSION)"
+	ln -sf "libbrinell.so.$(VERSION)" "$(INTO)/lib/libbrinell.so.0"
+	ln -sf libbrinell.so.0 "$(INTO)/lib/libbrinell.so"
+	sed -e 's|@PREFIX@|$(HOME_OF)|' -e 's|@VERSION@|$(VERSION)|' ffi/brinell.pc.in \
+	    > "$(INTO)/lib/pkgconfig/brinell.pc"
+	install -m 644 ffi/cmake/brinell-config.cmake "$(INTO)/lib/cmake/brinell/"
+	sed -e 's|@VERSION@|$(VERSION)|' ffi/cmake/brinell-config-version.cmake.in \
+	    > "$(INTO)/lib/cmake/brinell/brinell-config-version.cmake"
+	"$$program" man > "$(INTO)/share/man/man1/brinell.1"
+	"$$program" completions bash > "$(INTO)/share/bash-completion/completions/brinell"
+	"$$program" completions zsh > "$(INTO)/share/zsh/site-functions/_brinell"
+	"$$program" completions fish > "$(INTO)/share/fish/vendor_completions.d/brinell.fish"
+
+uninstall: ## Remove what `make install` put there (PREFIX=..., DESTDIR=...)
+	@for file in $(INSTALLED); do rm -f "$(INTO)/$$file"; done
+	if [[ -d "$(INTO)/lib/cmake/brinell" ]]; then
+	    rmdir --ignore-fail-on-non-empty "$(INTO)/lib/cmake/brinell"
+	fi
+
+wheel: setup python-tests ## Build a Python wheel (target/wheels)
+	@"$(or $(BRINELL_PYTHON),$(PYTHON_TESTS)/bin/python)" -m maturin build --release --locked \
+	    -m ffi/python/Cargo.toml -o "$(or $(CARGO_TARGET_DIR),target)/wheels"
+
+deb: setup ## Build a Debian package of the program (needs cargo-deb)
+	@if ! cargo deb --version >/dev/null 2>&1; then
+	    echo "cargo-deb is missing: cargo install cargo-deb" >&2
+	    exit 1
+	fi
+	cargo build --release --bin brinell
+	mkdir -p target/deb
+	target/release/brinell man > target/deb/brinell.1
+	target/release/brinell completions bash > target/deb/brinell.bash
+	cargo deb --no-build
+
+package: ## Check what `cargo publish` would upload: it builds, and is smaller than 2 MB
+	@cargo package --allow-dirty $(PACKAGE_FLAGS)
+	archive="$(or $(CARGO_TARGET_DIR),target)/package/brinell-$(VERSION).crate"
+	size=$$(wc -c < "$$archive")
+	echo "$$archive: $$size bytes"
+	[[ $$size -lt 2000000 ]]
 
 # An environment of its own: where Python belongs to the system, pip may not install beside it.
 PYTHON_TESTS := $(abspath $(or $(CARGO_TARGET_DIR),target))/python

@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What the scene's numbers are in. brinell computes in whatever consistent units the scene uses
-/// (N, mm and MPa; N, m and Pa; ...) and converts nothing: these names stand beside figures in the
-/// report.
+/// (N, mm and MPa; N, m and Pa; ...) and converts nothing but materials of its own list: these
+/// names stand beside numbers in tables and plots.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Units {

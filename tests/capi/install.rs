@@ -82,8 +82,10 @@ fn programs_against_the_installed_library_print_the_same_digits() {
             .current_dir(root())
             .args(["install", "PROFILE=dev"])
             .arg(format!("PREFIX={}", prefix.display()))
+            .arg(format!("PROGRAM={}", env!("CARGO_BIN_EXE_brinell")))
             .arg(format!("FEATURES={} {quick}", features())),
     );
+    the_program_is_installed(&prefix);
     let lib = prefix.join("lib");
     for file in [
         "libbrinell.so",
@@ -159,6 +161,11 @@ fn programs_against_the_installed_library_print_the_same_digits() {
     let rust = done(&mut rust_example(&scene));
     assert_eq!(printed, String::from_utf8(rust.stdout).unwrap());
 
+    let by_cmake = built_by_cmake(&prefix, folder.path());
+    if let Some(program) = &by_cmake {
+        assert_eq!(printed, run(program));
+    }
+
     // The archive: all of the library inside the program.
     let mut inside = vec![lib.join("libbrinell.a").display().to_string()];
     inside.extend(
@@ -197,4 +204,98 @@ fn programs_against_the_installed_library_print_the_same_digits() {
     } else {
         println!("skipped: there is no valgrind on this machine");
     }
+    everything_goes_again(&prefix);
+}
+
+/// The program runs from where it is, its manual page and completions are those it prints.
+fn the_program_is_installed(prefix: &Path) {
+    let program = prefix.join("bin/brinell");
+    let version = done(Command::new(&program).arg("--version"));
+    assert_eq!(words(&version), ["brinell", env!("CARGO_PKG_VERSION")]);
+    for (file, arguments) in [
+        ("share/man/man1/brinell.1", &["man"][..]),
+        (
+            "share/bash-completion/completions/brinell",
+            &["completions", "bash"],
+        ),
+        ("share/zsh/site-functions/_brinell", &["completions", "zsh"]),
+        (
+            "share/fish/vendor_completions.d/brinell.fish",
+            &["completions", "fish"],
+        ),
+    ] {
+        let printed = done(Command::new(&program).args(arguments)).stdout;
+        assert_eq!(std::fs::read(prefix.join(file)).unwrap(), printed, "{file}");
+    }
+}
+
+/// The C example by `find_package(brinell)`; `None` where there is no CMake.
+fn built_by_cmake(prefix: &Path, folder: &Path) -> Option<PathBuf> {
+    if !is_installed("cmake") {
+        println!("skipped: there is no cmake on this machine");
+        return None;
+    }
+    let (source, build) = (folder.join("cmake"), folder.join("cmake-build"));
+    std::fs::create_dir(&source).unwrap();
+    let example = root().join("ffi/examples/indentation.c");
+    let version = env!("CARGO_PKG_VERSION");
+    let project = format!(
+        "cmake_minimum_required(VERSION 3.16)
+project(indentation C)
+find_package(Threads REQUIRED)
+find_package(brinell {version} REQUIRED)
+add_executable(indentation {})
+target_link_libraries(indentation PRIVATE brinell::brinell Threads::Threads)
+",
+        example.display()
+    );
+    std::fs::write(source.join("CMakeLists.txt"), project).unwrap();
+    let prefix = format!("-DCMAKE_PREFIX_PATH={}", prefix.display());
+    done(
+        Command::new("cmake")
+            .arg("-S")
+            .arg(&source)
+            .arg("-B")
+            .arg(&build)
+            .arg(&prefix),
+    );
+    done(Command::new("cmake").arg("--build").arg(&build));
+    // A version that is not there is not found.
+    let newer = std::fs::read_to_string(source.join("CMakeLists.txt")).unwrap();
+    let newer = newer.replace(&format!("brinell {version}"), "brinell 99.0");
+    std::fs::write(source.join("CMakeLists.txt"), newer).unwrap();
+    let refused = Command::new("cmake")
+        .arg("-S")
+        .arg(&source)
+        .arg("-B")
+        .arg(folder.join("cmake-newer"))
+        .arg(&prefix)
+        .output()
+        .unwrap();
+    assert!(!refused.status.success());
+    Some(build.join("indentation"))
+}
+
+/// No file is left by `make uninstall`, and nothing that is not brinell's is touched.
+fn everything_goes_again(prefix: &Path) {
+    let other = prefix.join("bin/other");
+    std::fs::write(&other, "mine").unwrap();
+    let prefix_is = format!("PREFIX={}", prefix.display());
+    done(
+        Command::new("make")
+            .current_dir(root())
+            .arg("uninstall")
+            .arg(prefix_is),
+    );
+    let mut left = Vec::new();
+    let mut folders = vec![prefix.to_path_buf()];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(folder).unwrap().flatten() {
+            match entry.file_type().unwrap().is_dir() {
+                true => folders.push(entry.path()),
+                false => left.push(entry.path()),
+            }
+        }
+    }
+    assert_eq!(left, [other]);
 }

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod directory;
+mod guide;
 mod interruption;
 #[path = "../running/limit.rs"]
 mod limit;

@@ -117,7 +117,13 @@ fn links_lead_somewhere() {
         let folder = folder.parent().unwrap();
         for link in page(&name).split("](").skip(1) {
             let link = link.split(')').next().unwrap();
-            if !link.contains("://") {
+            if let Some(heading) = link.strip_prefix('#') {
+                let headings = page(&name).to_lowercase();
+                assert!(
+                    headings.contains(&format!("\n## {heading}\n")),
+                    "{name}: {link}"
+                );
+            } else if !link.contains("://") {
                 assert!(folder.join(link).exists(), "{name}: {link}");
                 links += 1;
             }

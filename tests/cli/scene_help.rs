@@ -16,6 +16,24 @@ fn printed_schema() -> Value {
     serde_json::from_str(&stdout(&output)).unwrap()
 }
 
+/// The pages of keys are those that the program prints: none is missing, none is invented.
+#[test]
+fn the_reference_pages_are_those_that_are_printed() {
+    for (file, arguments) in [
+        ("scene.md", &["schema", "--markdown"][..]),
+        ("summary.md", &["schema", "--summary", "--markdown"]),
+    ] {
+        let printed = stdout(&brinell(arguments));
+        let page = std::fs::read_to_string(root().join("data/guide").join(file)).unwrap();
+        let command = arguments.join(" ");
+        let anew = format!("write it anew: brinell {command} > data/guide/{file}");
+        assert!(
+            page == printed,
+            "data/guide/{file} is not what the program says; {anew}"
+        );
+    }
+}
+
 /// All scenes of the repository.
 fn scenes() -> Vec<PathBuf> {
     ["data/scenes", "data/scenes/hard"]

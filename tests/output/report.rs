@@ -208,11 +208,25 @@ fn pictures_are_bands_in_order_with_the_largest_value_marked() {
     run(scene, overrides, &dir);
     let recorded = brinell::output::read(&dir).unwrap();
     let mesh = &recorded.model.mesh;
-    let mut n_pictures = 0;
+    let (mut n_pictures, mut n_magnified) = (0, 0);
     for (name, text) in figures(&dir) {
         let Some(rest) = name.strip_prefix("report_state_") else {
             continue;
         };
+        if rest.contains("magnified") {
+            check_magnified(&recorded, rest, &text);
+            n_magnified += 1;
+            continue;
+        }
+        // Each band says from where to where it is, where a pointer rests on it.
+        let titles = text.matches("<title>").count();
+        let bands = text.matches(" to ").count();
+        // Nothing has yielded at first.
+        let is_empty = rest.contains("plastic_zone") && titles == 0;
+        assert!(
+            is_empty || (titles > 2 && bands >= titles),
+            "{name}: {titles}"
+        );
         n_pictures += 1;
         let picture = Picture::read(&text);
         picture.check_bands(&name);
@@ -253,7 +267,26 @@ fn pictures_are_bands_in_order_with_the_largest_value_marked() {
             );
         }
     }
-    assert!(n_pictures >= 9, "{n_pictures}");
+    assert!(
+        n_pictures >= 9 && n_magnified >= 3,
+        "{n_pictures}, {n_magnified}"
+    );
+    // Points of a chart tell both values: the pressure of first yield is one of them.
+    let chart = std::fs::read_to_string(dir.join("report_pressure.svg")).unwrap();
+    let first = recorded.results.first_yield.as_ref().unwrap();
+    let told = format!("maximum pressure [MPa]: {:.2}", first.max_pressure);
+    assert!(chart.contains(&told), "{told}");
+}
+
+/// The magnified contour is not that at true scale, and the page says how many times.
+fn check_magnified(recorded: &brinell::output::Recorded, rest: &str, text: &str) {
+    let index: usize = rest[..2].parse().unwrap();
+    let picture = Picture::read(text);
+    assert_eq!(picture.areas.len(), 1, "{rest}");
+    assert!(recorded.results.states[index - 1].fields.is_some());
+    // The undeformed contour in grey, the deformed one on top.
+    let strokes = text.matches("stroke-linejoin=\"round\"").count();
+    assert!(strokes >= 2, "{rest}: {strokes}");
 }
 
 /// A ring between two circles, drawn as four of its quarter, has its area in the picture: sides of

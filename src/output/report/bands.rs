@@ -3,6 +3,7 @@
 use super::drawing::{Area, failed, nice_step, stroke, tick, units, write};
 use super::theme::{INK, Scale};
 use crate::error::Result;
+use crate::number::with_unit;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -40,6 +41,13 @@ impl Bands {
     /// Lower ends of the bands and their colours, from the lowest on.
     pub(super) fn levels(&self) -> impl Iterator<Item = (f64, RGBColor)> {
         (0..self.count).map(|band| (self.low + band as f64 * self.step, self.color(band)))
+    }
+
+    /// A band in words: from where to where.
+    pub(super) fn words(&self, band: usize) -> String {
+        let from = self.low + band as f64 * self.step;
+        let [from, to] = [from, from + self.step].map(tick);
+        with_unit(&format!("{from} to {to}"), &self.unit)
     }
 
     fn color(&self, band: usize) -> RGBColor {

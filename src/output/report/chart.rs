@@ -1,8 +1,9 @@
 //! Charts of curves.
 
-use super::drawing::{Drawing, axes, failed, letters, nice_step, stroke, units};
+use super::drawing::{Drawing, axes, failed, letters, nice_step, stroke, title, units};
 use super::theme::{CURVES, FAINT, INK, PAPER};
 use crate::error::Result;
+use crate::number::significant;
 use plotters::prelude::*;
 use plotters::series::DashedLineSeries;
 
@@ -59,7 +60,8 @@ impl Chart {
         let mut x = range(&self.curves, 0, self.from_zero[0]);
         x[1] += self.widened * (x[1] - x[0]);
         let y = range(&self.curves, 1, self.from_zero[1]);
-        Drawing::new(SIZE, |area| {
+        let mut values = String::new();
+        let mut drawing = Drawing::new(SIZE, |area| {
             let mut chart = ChartBuilder::on(area)
                 .margin_top(units(14.0))
                 .margin_right(units(22.0))
@@ -104,6 +106,10 @@ impl Chart {
                         EmptyElement::at(at) + a + b + dot
                     });
                 }
+                for &[x, y] in told(&curve.points).iter() {
+                    let at = chart.backend_coord(&(x, y));
+                    values.push_str(&self.value(&curve.label, [x, y], at));
+                }
                 if dots {
                     let radius = units(3.5);
                     chart
@@ -128,8 +134,45 @@ impl Chart {
                     .map_err(failed)?;
             }
             Ok(())
-        })
+        })?;
+        drawing.overlay(&values);
+        Ok(drawing)
     }
+
+    /// A spot that shows the values of a point where a pointer rests on it.
+    fn value(&self, label: &str, point: [f64; 2], at: (i32, i32)) -> String {
+        let number = |k: usize| format!("{}: {}", self.labels[k], significant(point[k], 5));
+        let label = if label.is_empty() {
+            String::new()
+        } else {
+            format!("{label}\n")
+        };
+        format!(
+            "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"none\" \
+             pointer-events=\"all\">{}</circle>\n",
+            at.0,
+            at.1,
+            units(7.0),
+            title(&format!("{label}{}\n{}", number(0), number(1)))
+        )
+    }
+}
+
+/// Most points of a curve that tell their values.
+const MOST_TOLD: usize = 60;
+
+/// The points of a curve that tell their values: all, or as many of them in equal steps.
+fn told(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let finite = points
+        .iter()
+        .copied()
+        .filter(|p| p.iter().all(|v| v.is_finite()));
+    let finite: Vec<[f64; 2]> = finite.collect();
+    let step = finite.len().div_ceil(MOST_TOLD).max(1);
+    let last = finite.last().copied();
+    let mut out: Vec<[f64; 2]> = finite.into_iter().step_by(step).collect();
+    out.extend(last.filter(|last| out.last() != Some(last)));
+    out
 }
 
 /// The strokes beside a curve's name, from and to.

@@ -6,6 +6,7 @@
 use super::theme::{self, FAINT, INK, PAPER};
 use crate::error::{Error, Result};
 use crate::number::trimmed;
+use crate::text::shown;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -58,6 +59,11 @@ impl Drawing {
         self.content.insert_str(0, elements);
     }
 
+    /// Puts elements of SVG over what is drawn.
+    pub(super) fn overlay(&mut self, elements: &str) {
+        self.content.push_str(elements);
+    }
+
     /// The text of a file of its own: fixed colours on a ground of their own.
     pub(super) fn file(&self) -> String {
         let ground = format!(
@@ -103,6 +109,16 @@ fn compact(text: &str) -> String {
 fn font() -> String {
     let size = LETTERS * f64::from(FINE) / 1.24;
     format!(" font-family=\"{FONT}\" font-size=\"{size}\"")
+}
+
+/// Text as it stands in XML, what a terminal would obey written out.
+pub(super) fn escaped(text: &str) -> String {
+    shown(text).replace('&', "&amp;").replace('<', "&lt;")
+}
+
+/// What shows where a pointer rests on the element that holds it.
+pub(super) fn title(text: &str) -> String {
+    format!("<title>{}</title>", escaped(text))
 }
 
 /// An error of the plotting library.

@@ -186,11 +186,13 @@ fn draw_one(labels: &Labels, view: &View, shown: &Values, range: [f64; 2]) -> Re
         picture.fill(&all, NEUTRAL, 0.35);
     }
     for (band, (level, color)) in bands.levels().enumerate() {
-        match (band, is_zone) {
-            (0, true) => picture.fill(&zone, color, 1.0),
-            (0, false) => picture.fill(&all, color, 1.0),
-            _ => picture.fill(&sheet.above(level), color, 1.0),
-        }
+        let above = sheet.above(level);
+        let rings = match (band, is_zone) {
+            (0, true) => &zone,
+            (0, false) => &all,
+            _ => &above,
+        };
+        picture.fill_told(rings, color, 1.0, &bands.words(band));
     }
     picture.outline(all, INK, 0.9);
     if is_zone {

@@ -8,7 +8,7 @@
 //! | `curves`, `along_contact`, `chart` | charts: which, and how they are drawn |
 //! | `profile`, `hertz` | stresses below the contact; Hertz's pressure compared with the computed one |
 //! | `scenery`, `sketch`, `perspective`, `camera`, `outer` | the scene drawn: plane, solid; what bounds bodies |
-//! | `states`, `fields`, `contact_map` | pictures of states: fields; pressure over a contact of solids |
+//! | `states`, `fields`, `magnified`, `contact_map` | pictures of states: fields, deformed contours; pressure over a contact of solids |
 //! | `patchwork`, `section`, `contact_frame`, `window` | a mesh as triangles of a plane, cuts through solids, where; what is shown |
 //! | `contours`, `path` | lines of equal value over triangles; lines as SVG |
 //! | `picture`, `bands` | areas and lines under axes; scales of colours |
@@ -27,6 +27,7 @@ mod contours;
 mod curves;
 mod drawing;
 mod fields;
+mod magnified;
 mod outer;
 mod page;
 mod patchwork;

@@ -1,12 +1,11 @@
 //! Pictures: areas and lines in their place under axes of one scale.
 
 use super::bands::Bands;
-use super::drawing::{Area, Drawing, FINE, LETTERS, axes, failed};
+use super::drawing::{Area, Drawing, FINE, LETTERS, axes, escaped, failed, title};
 use super::path::{self, Spot};
 use super::theme::{INK, PAPER, hex};
 use super::window::Window;
 use crate::error::Result;
-use crate::text::shown;
 use plotters::prelude::*;
 use std::fmt::Write as _;
 
@@ -80,6 +79,17 @@ impl Picture {
 
     /// Fills what closed lines surround.
     pub(super) fn fill(&mut self, rings: &[Vec<[f64; 2]>], color: RGBColor, opacity: f64) {
+        self.fill_told(rings, color, opacity, "");
+    }
+
+    /// As [`Picture::fill`], with words that show where a pointer rests on it.
+    pub(super) fn fill_told(
+        &mut self,
+        rings: &[Vec<[f64; 2]>],
+        color: RGBColor,
+        opacity: f64,
+        told: &str,
+    ) {
         let (rings, shows) = self.drawn(rings);
         let data = path::area(&rings, shows);
         let opacity = match opacity < 1.0 {
@@ -88,9 +98,15 @@ impl Picture {
         };
         if !data.is_empty() {
             let color = hex(color);
-            self.element(format_args!(
-                "<path fill=\"{color}\"{opacity} d=\"{data}\"/>"
-            ));
+            match told {
+                "" => self.element(format_args!(
+                    "<path fill=\"{color}\"{opacity} d=\"{data}\"/>"
+                )),
+                told => self.element(format_args!(
+                    "<path fill=\"{color}\"{opacity} d=\"{data}\">{}</path>",
+                    title(told)
+                )),
+            }
         }
     }
 
@@ -137,7 +153,7 @@ impl Picture {
         }
         let (tx, ty) = (((x + beside) * fine).round(), (below * fine).round());
         let width = 3.0 * fine;
-        let words = shown(words).replace('&', "&amp;").replace('<', "&lt;");
+        let words = escaped(words);
         self.element(format_args!(
             "<text x=\"{tx}\" y=\"{ty}\" text-anchor=\"{anchor}\" fill=\"{ink}\" \
              stroke=\"{paper}\" stroke-width=\"{width}\" stroke-linejoin=\"round\" \

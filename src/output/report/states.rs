@@ -4,6 +4,7 @@ use super::Captioned;
 use super::contact_frame::{ContactFrame, global};
 use super::contact_map::ContactMap;
 use super::fields::{self, Quantity, Shown, View, chosen};
+use super::magnified;
 use super::patchwork::{Patchwork, seen};
 use super::section::Cut;
 use super::window::{self, mirrors, negligible};
@@ -79,6 +80,24 @@ pub(super) fn draw(
         let state = &results.states[picture.state];
         if let Some(entry) = states.iter_mut().find(|entry| entry.0 == picture.state) {
             entry.1.push(captioned(picture, state, &views, labels));
+        }
+    }
+    for (index, fields) in &with_fields {
+        for view in &views {
+            let picture = magnified::draw(&model.mesh, view, fields)?;
+            let entry = states.iter_mut().find(|entry| entry.0 == *index);
+            if let (Some((drawing, times)), Some(entry)) = (picture, entry) {
+                entry.1.push(Captioned {
+                    name: format!("state_{:02}_magnified{}", index + 1, view.name),
+                    title: String::new(),
+                    caption: magnified::caption(
+                        view,
+                        times,
+                        &load(&results.states[*index], labels),
+                    ),
+                    drawing,
+                });
+            }
         }
     }
     states.retain(|(_, pictures)| !pictures.is_empty());

@@ -1,0 +1,210 @@
+//! The tutorials of the guide do what they say: their commands run, their numbers are what comes
+//! out.
+
+use super::{brinell, stdout};
+use serde_json::Value;
+use std::path::Path;
+
+fn page(name: &str) -> String {
+    let path = format!("{}/data/guide/{name}", env!("CARGO_MANIFEST_DIR"));
+    std::fs::read_to_string(path).unwrap()
+}
+
+/// The blocks of a language.
+fn blocks<'t>(text: &'t str, language: &str) -> Vec<&'t str> {
+    let fence = format!("```{language}\n");
+    let blocks = text.split(&fence).skip(1);
+    blocks
+        .map(|block| block.split("```").next().unwrap())
+        .collect()
+}
+
+/// Runs the commands of a page in a folder; the summaries of what was run, by scene.
+fn follow(text: &str, folder: &Path) -> Vec<(String, Value)> {
+    let mut summaries = Vec::new();
+    let lines = blocks(text, "sh").into_iter().flat_map(str::lines);
+    for line in lines.filter_map(|line| line.strip_prefix("brinell ")) {
+        let words: Vec<String> = line
+            .split('#')
+            .next()
+            .unwrap()
+            .split_whitespace()
+            .map(
+                |word| match word.contains(".toml") || word.contains(".csv") {
+                    true => folder.join(word).display().to_string(),
+                    false => word.to_string(),
+                },
+            )
+            .collect();
+        let mut arguments: Vec<&str> = words.iter().map(String::as_str).collect();
+        // Neither changes the numbers.
+        if arguments[0] == "run" {
+            arguments.extend(["--quiet", "--json", "--no-estimate", "--no-report"]);
+        }
+        let done = brinell(&arguments);
+        let why = String::from_utf8_lossy(&done.stderr).into_owned();
+        assert!(done.status.success(), "brinell {line}: {why}");
+        if arguments[0] == "run" {
+            let summary = serde_json::from_str(&stdout(&done)).unwrap();
+            summaries.push((arguments[1].to_string(), summary));
+        }
+    }
+    summaries
+}
+
+/// A figure of a summary: states go by their name.
+fn figure(summary: &Value, path: &str) -> Option<f64> {
+    let mut at = summary;
+    for part in path.split('.') {
+        at = match at.as_array() {
+            Some(states) => states.iter().find(|state| state["name"] == part)?,
+            None => at.get(part)?,
+        };
+    }
+    at.as_f64()
+}
+
+/// Every row `| ... | unit | \`path\` | value |` is what the runs above it give, to its digits.
+fn check_rows(text: &str, summaries: &[(String, Value)]) -> usize {
+    let rows = text.lines().filter_map(|line| {
+        let cells: Vec<&str> = line.strip_prefix("| ")?.split('|').map(str::trim).collect();
+        let path = cells.get(2)?.strip_prefix('`')?.strip_suffix('`')?;
+        Some((path, *cells.get(3)?))
+    });
+    let mut checked = 0;
+    for (path, value) in rows {
+        let digits = value
+            .split_once('.')
+            .map_or(0, |(_, decimals)| decimals.len());
+        let computed = summaries
+            .iter()
+            .find_map(|(_, summary)| figure(summary, path));
+        let computed = computed.unwrap_or_else(|| panic!("no run has {path}"));
+        assert_eq!(format!("{computed:.digits$}"), value, "{path}");
+        checked += 1;
+    }
+    checked
+}
+
+/// The meshes are beyond what the dense backend takes.
+#[test]
+#[cfg(any(feature = "cholmod", feature = "faer"))]
+fn the_roller_and_the_shaft_are_as_their_pages_say() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, rows) in [("roller.md", 6), ("shaft.md", 4)] {
+        let text = page(name);
+        let mut checked = 0;
+        // A part of the page has runs and numbers of its own.
+        for part in text.split("\n## ") {
+            let summaries = follow(part, folder.path());
+            checked += check_rows(part, &summaries);
+        }
+        assert_eq!(checked, rows, "{name}");
+    }
+}
+
+/// The tensile test of the page, as a scene has it and from a file.
+#[test]
+fn the_tensile_test_is_taken_as_its_page_says() {
+    let text = page("tensile-test.md");
+    let folder = tempfile::tempdir().unwrap();
+    let material: toml::Table = blocks(&text, "toml")[0].parse().unwrap();
+    let rows = material["materials"]["steel"]["tensile_test"]
+        .as_array()
+        .unwrap();
+    let number = |value: &toml::Value| value.as_float().unwrap();
+    let line = |row: &toml::Value| {
+        let row = row.as_array().unwrap();
+        format!("{},{}\n", number(&row[0]), number(&row[1]))
+    };
+    let csv: String = rows.iter().map(line).collect();
+    std::fs::write(folder.path().join("bar.csv"), csv).unwrap();
+    follow(&text, folder.path());
+    let scene = brinell::scene::Scene::load(folder.path().join("ball.toml")).unwrap();
+    let steel = &scene.materials["steel"];
+    let curve = steel.hardening_curve().unwrap();
+    // The second row lies on the line of 210000 MPa but for the change of the section: the curve
+    // begins there, and ends with the last row.
+    assert!((curve[0][1] - 315.0 * 1.0015).abs() < 1.0, "{curve:?}");
+    assert!(
+        (curve.last().unwrap()[1] - 540.0 * 1.08).abs() < 1e-9,
+        "{curve:?}"
+    );
+}
+
+/// The sweep of the page, on a coarser mesh.
+#[test]
+#[cfg(any(feature = "cholmod", feature = "faer"))]
+fn the_sweep_runs_as_its_page_says() {
+    let text = page("sweep.md").replace("--resolution 8", "--resolution 4");
+    let text = text.replace("--jobs 2", "--jobs 2 --no-estimate --no-report");
+    let folder = tempfile::tempdir().unwrap();
+    follow(&text, folder.path());
+    let table = std::fs::read_to_string(folder.path().join("ball.sweep/sweep.csv")).unwrap();
+    assert_eq!(table.lines().count(), 4, "{table}");
+    // The softer the deeper.
+    let mut rows = csv::Reader::from_reader(table.as_bytes());
+    let column = rows.headers().unwrap().iter();
+    let column = column.collect::<Vec<_>>();
+    let dent = column
+        .iter()
+        .position(|c| *c == "states.unloaded.residual_depth")
+        .unwrap();
+    let depths: Vec<f64> = rows
+        .records()
+        .map(|r| r.unwrap()[dent].parse().unwrap())
+        .collect();
+    assert!(depths.is_sorted_by(|a, b| a > b), "{depths:?}");
+}
+
+/// The words of the page on ParaView are the names in the files.
+#[test]
+fn the_arrays_of_the_paraview_page_are_those_of_the_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let scene = super::scene("contact_patch");
+    let run = brinell(&[
+        "run",
+        &scene,
+        "-q",
+        "--no-report",
+        "--out",
+        out.to_str().unwrap(),
+    ]);
+    assert!(run.status.success());
+    let fields = std::fs::read_dir(&out).unwrap().flatten();
+    let fields = fields
+        .map(|e| e.path())
+        .find(|p| p.extension().is_some_and(|e| e == "vtu"));
+    let bytes = std::fs::read(fields.unwrap()).unwrap();
+    let file = String::from_utf8_lossy(&bytes);
+    for array in [
+        "displacement",
+        "contact_pressure",
+        "gap",
+        "stress",
+        "von_mises",
+        "equivalent_plastic_strain",
+        "yielded",
+        "discretisation_error",
+        "body",
+    ] {
+        assert!(file.contains(&format!("Name=\"{array}\"")), "{array}");
+        assert!(
+            page("outputs.md").contains(&format!("`{array}`")),
+            "{array}"
+        );
+    }
+    for array in [
+        "von_mises",
+        "equivalent_plastic_strain",
+        "yielded",
+        "displacement",
+        "body",
+    ] {
+        assert!(
+            page("paraview.md").contains(&format!("`{array}`")),
+            "{array}"
+        );
+    }
+}
