@@ -5,8 +5,8 @@ use super::{RunHeader, fields, named::Named};
 use crate::error::ErrorKind;
 use crate::memory;
 use crate::results::{
-    Accuracy, ContactPatch, Counts, Effect, Field, Incomplete, Prediction, QUANTITIES, Quality,
-    Quantity, ReferenceRow, Results, Sizes, State, YieldPoint, number,
+    Accuracy, ContactPatch, Counts, Cycles, Effect, Field, Incomplete, Prediction, QUANTITIES,
+    Quality, Quantity, ReferenceRow, Results, Sizes, State, YieldPoint, number,
 };
 #[cfg(feature = "cli")]
 use crate::space::Space;
@@ -48,6 +48,8 @@ pub(crate) struct Summary {
     #[serde(rename = "yield")]
     first_yield: Option<YieldEntry>,
     states: Vec<StateEntry>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cycles: Option<Cycles>,
     reference: Vec<ReferenceRow>,
     accuracy: Option<Accuracy>,
     warnings: Vec<String>,
@@ -187,6 +189,7 @@ impl Summary {
             inaccurate: results.inaccurate.clone(),
             first_yield: (results.first_yield.as_ref()).map(|point| YieldEntry::new(header, point)),
             states: states.map(entry).collect(),
+            cycles: results.cycles.clone(),
             reference: results.reference.clone(),
             accuracy: results.accuracy.clone(),
             warnings: results.warnings.clone(),
@@ -231,6 +234,7 @@ impl Summary {
                 .collect(),
             first_yield: self.first_yield.map(|entry| entry.point(bodies)),
             states: self.states.into_iter().map(StateEntry::state).collect(),
+            cycles: self.cycles,
             timings: phases
                 .map(|(phase, seconds)| (phase, seconds.unwrap_or(f64::NAN)))
                 .collect(),
