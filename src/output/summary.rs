@@ -48,7 +48,6 @@ pub(crate) struct Summary {
     #[serde(rename = "yield")]
     first_yield: Option<YieldEntry>,
     states: Vec<StateEntry>,
-    #[serde(skip_serializing_if = "Option::is_none")]
     cycles: Option<Cycles>,
     reference: Vec<ReferenceRow>,
     accuracy: Option<Accuracy>,

@@ -19,10 +19,13 @@ fn wall(primary: f64, thermal: f64, layers: usize, cycles: usize) -> Results {
         r#"
 kind = "plane_stress"
 support = [{{ on = "wall.left", fix = ["x"] }}, {{ on = "wall.bottom_left", fix = ["y"] }}]
-load = [
-    {{ on = "wall.right", plane_force = {{ direction = "x", total = {:?} }}, history = "constant" }},
-    {{ on = "wall", temperature = "{:?} * (2*y - 1)" }},
-]
+[[load]]
+on = "wall.right"
+plane_force = {{ direction = "x", total = {:?} }}
+history = "constant"
+[[load]]
+on = "wall"
+temperature = "{:?} * (2*y - 1)"
 [[mesh.parts]]
 body = "wall"
 element = "quad8"
