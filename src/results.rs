@@ -1,12 +1,14 @@
 //! What an analysis computed: states, history, quality and cost, free of any solver's types.
 
 mod contact;
+mod cycles;
 mod ending;
 mod history;
 mod quality;
 mod quantities;
 
 pub use contact::{ContactPatch, PairState, Status};
+pub use cycles::{CycleOutcome, CycleRow, Cycles};
 pub use ending::{Ending, Incomplete};
 pub use history::{HistoryRow, PathPoint};
 pub use quality::{Quality, Tolerances};
@@ -55,6 +57,8 @@ pub struct Results {
     pub first_yield: Option<YieldPoint>,
     /// One state per target reached, in the order of the program.
     pub states: Vec<State>,
+    /// Of a program of cycles, what they came to; the states are those of the last.
+    pub cycles: Option<Cycles>,
     /// One row per accepted increment.
     pub history: Vec<HistoryRow>,
     /// Points of the path between the rows of the history, where its figures bend: for curves.

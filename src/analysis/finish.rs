@@ -77,6 +77,7 @@ impl Run<'_, '_> {
         ] {
             results.timings.push((name.to_string(), seconds));
         }
+        results.cycles = self.cycles();
         results.effects = check::effects(model, first_yield.alpha.is_some());
         for effect in &mut results.effects {
             match effect.name.as_str() {

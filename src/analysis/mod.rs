@@ -9,7 +9,7 @@
 //! | `zone`, `gather`, `region`, `zone_choice`, `zone_fit` | elements that may yield, initial loads, their choice and growth | 4.1 |
 //! | `tangent`, `acceleration` | acceleration of the plastic iteration | |
 //! | `collapse` | limit load, or an iteration that did not converge | |
-//! | `program`, `position`, `first_yield`, `targets` | the program, step by step; where it is | 5.1, 5.2 |
+//! | `program`, `position`, `first_yield`, `targets`, `cycles` | the program, step by step; where it is | 5.1, 5.2 |
 //! | `drive`, `elastic`, `plastic`, `stretch`, `stepping`, `landing` | along a straight piece of the load path | 4.7 to 4.23 |
 //! | `state`, `restart`, `packed` | a committed state; checkpoints, and going on from them | |
 //! | `outgrown` | contact that reaches the end of its candidates | |
@@ -25,6 +25,7 @@ mod collapse;
 mod contact_area;
 mod contact_edge;
 mod contact_patch;
+mod cycles;
 mod dent;
 mod drive;
 mod elastic;

@@ -1,5 +1,6 @@
 //! Where the load program is between two steps.
 
+use super::cycles::CycleRecord;
 use super::drive::Drive;
 use crate::results::YieldPoint;
 use serde::{Deserialize, Serialize};
@@ -10,8 +11,10 @@ use serde::{Deserialize, Serialize};
 pub(super) struct Position {
     /// Part of the program.
     pub(super) stage: Stage,
-    /// Targets that were reached.
+    /// Targets that were reached, of the cycle at hand.
     pub(super) target: usize,
+    /// The cycles behind.
+    pub(super) cycles: CycleRecord,
     /// Zones that were too small for the target at hand.
     pub(super) attempt: usize,
     /// The search for the target at hand, where it is no load factor.

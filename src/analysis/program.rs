@@ -181,7 +181,12 @@ impl<'m, 'o> Run<'m, 'o> {
                     Stage::Targets if self.position.target < self.labels.len() => {
                         self.begin_target()?;
                     }
-                    Stage::Targets | Stage::YieldOnly => return Ok(None),
+                    Stage::Targets => {
+                        if !self.begin_cycle() {
+                            return Ok(None);
+                        }
+                    }
+                    Stage::YieldOnly => return Ok(None),
                 }
             }
         }
@@ -231,8 +236,10 @@ impl<'m, 'o> Run<'m, 'o> {
         let Step { increment, arrival } = step?;
         let row = increment.map(|report| self.row(&report));
         if row.is_some() {
-            let targets = self.labels.len().max(1) as f64;
-            let behind = (self.position.target as f64 + self.share_behind(arrival)) / targets;
+            let cycle = self.labels.len().max(1) as f64;
+            let cycles = self.model().scene.program.cycles as f64;
+            let reached = self.position.target as f64 + self.share_behind(arrival);
+            let behind = (self.position.cycles.n_done() as f64 + reached / cycle) / cycles;
             self.position.fraction = self.position.fraction.max(behind);
         }
         if let Some(arrival) = arrival {

@@ -229,8 +229,9 @@ impl<'m, 'o> Run<'m, 'o> {
         };
         let position = record.position;
         let n_targets = model.scene.program.targets.len();
+        let is_last = position.cycles.is_last(model.scene.program.cycles);
         let fits = position.target <= n_targets
-            && position.target == results.states.len()
+            && results.states.len() == if is_last { position.target } else { 0 }
             && (position.target < n_targets || (start.is_none() && position.search.is_none()))
             && start
                 .as_ref()

@@ -90,7 +90,11 @@ impl<'m> Run<'m, '_> {
         if missed.is_empty() {
             self.position.target += 1;
             self.position.attempt = 0;
-            return Ok(Some(figures.state));
+            let is_last = self
+                .position
+                .cycles
+                .is_last(self.model().scene.program.cycles);
+            return Ok(is_last.then_some(figures.state));
         }
         let start = start.ok_or_else(|| Error::internal("the way to a target has no start"))?;
         self.position.attempt += 1;

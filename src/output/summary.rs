@@ -6,8 +6,8 @@ use super::{RunHeader, fields, named::Named};
 use crate::error::ErrorKind;
 use crate::memory;
 use crate::results::{
-    Accuracy, ContactPatch, Counts, Effect, Field, Incomplete, Prediction, QUANTITIES, Quality,
-    Quantity, ReferenceRow, Results, Sizes, State, YieldPoint, number,
+    Accuracy, ContactPatch, Counts, Cycles, Effect, Field, Incomplete, Prediction, QUANTITIES,
+    Quality, Quantity, ReferenceRow, Results, Sizes, State, YieldPoint, number,
 };
 #[cfg(feature = "cli")]
 use crate::space::Space;
@@ -51,6 +51,7 @@ pub(crate) struct Summary {
     #[serde(rename = "yield")]
     first_yield: Option<YieldEntry>,
     states: Vec<StateEntry>,
+    cycles: Option<Cycles>,
     reference: Vec<ReferenceRow>,
     accuracy: Option<Accuracy>,
     warnings: Vec<String>,
@@ -192,6 +193,7 @@ impl Summary {
             inaccurate: results.inaccurate.clone(),
             first_yield: (results.first_yield.as_ref()).map(|point| YieldEntry::new(header, point)),
             states: states.map(entry).collect(),
+            cycles: results.cycles.clone(),
             reference: results.reference.clone(),
             accuracy: results.accuracy.clone(),
             warnings: results.warnings.clone(),
@@ -242,6 +244,7 @@ impl Summary {
                 .collect(),
             first_yield: self.first_yield.map(|entry| entry.point(bodies)),
             states: self.states.into_iter().map(StateEntry::state).collect(),
+            cycles: self.cycles,
             timings: phases
                 .map(|(phase, seconds)| (phase, seconds.unwrap_or(f64::NAN)))
                 .collect(),

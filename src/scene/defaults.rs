@@ -82,6 +82,10 @@ pub(super) fn steps() -> usize {
     20
 }
 
+pub(super) fn cycles() -> usize {
+    1
+}
+
 pub(super) fn gamma() -> f64 {
     1e-8
 }

@@ -25,6 +25,14 @@ pub struct Program {
     pub gamma: f64,
     /// The targets, reached one after the other; each leaves a state.
     pub targets: Vec<Target>,
+    /// The targets again and again, at most so often: until the next cycle would be like the last.
+    /// The states are those of the last cycle.
+    #[serde(default = "super::defaults::cycles", skip_serializing_if = "is_one")]
+    pub cycles: usize,
+}
+
+fn is_one(cycles: &usize) -> bool {
+    *cycles == 1
 }
 
 impl Default for Program {
@@ -36,6 +44,7 @@ impl Default for Program {
             steps: super::defaults::steps(),
             gamma: super::defaults::gamma(),
             targets: Vec::new(),
+            cycles: super::defaults::cycles(),
         }
     }
 }

@@ -3,9 +3,9 @@
 use brinell::mesh::{Mesh, Shape};
 use brinell::output::RunHeader;
 use brinell::results::{
-    Accuracy, Companion, Counts, Demand, Effect, EstimateMethod, Fields, HistoryRow, Incomplete,
-    PairState, PathPoint, Quality, QuantityError, ReferenceRow, Results, Sizes, State, Status,
-    YieldPoint,
+    Accuracy, Companion, Counts, CycleOutcome, CycleRow, Cycles, Demand, Effect, EstimateMethod,
+    Fields, HistoryRow, Incomplete, PairState, PathPoint, Quality, QuantityError, ReferenceRow,
+    Results, Sizes, State, Status, YieldPoint,
 };
 
 pub fn header() -> RunHeader {
@@ -120,6 +120,15 @@ pub fn results(mesh: &Mesh) -> Results {
         ..pressed.clone()
     };
     Results {
+        cycles: Some(Cycles {
+            outcome: CycleOutcome::Ratchetting,
+            body: Some("block".into()),
+            rows: vec![CycleRow {
+                cycle: 1,
+                flow: 2e-3,
+                growth: 1e-3,
+            }],
+        }),
         sizes: Sizes {
             freedoms: 27,
             nodes: mesh.n_nodes(),

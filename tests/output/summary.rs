@@ -97,6 +97,10 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
             "location": {"x": 0.0, "y": -0.7, "body": "half_plane"}
         },
         "states": [pressed, between, released],
+        "cycles": {
+            "outcome": "ratchetting", "body": "block",
+            "rows": [{"cycle": 1, "flow": 2e-3, "growth": 1e-3}]
+        },
         "reference": [{
             "quantity": "yield.load", "reference": 61.0, "computed": 60.0, "ratio": 60.0 / 61.0,
             "published_ratio": null, "source": "Johnson, Contact Mechanics, p. 155"
@@ -229,8 +233,9 @@ fn the_schema_refuses_missing_and_unknown_keys() {
     ];
     objects.retain(|path| !open.iter().any(|end| path.ends_with(end)));
     // The root, an effect, counts, factor, quality, yield with its location, three states with
-    // quality (two with an arc), a reference, accuracy with a mesh, a quantity and a demand.
-    assert_eq!(objects.len(), 1 + 1 + 1 + 1 + 1 + 2 + 3 + 3 + 2 + 1 + 4);
+    // quality (two with an arc), cycles with one, a reference, accuracy with a mesh, a quantity and
+    // a demand.
+    assert_eq!(objects.len(), 1 + 1 + 1 + 1 + 1 + 2 + 3 + 3 + 2 + 2 + 1 + 4);
     for path in objects {
         let object = valid.pointer(&path).unwrap().as_object().unwrap();
         for key in object.keys() {

@@ -58,7 +58,7 @@ fn text(results: &Results) -> String {
         results.counts,
         results.quality,
         results.incomplete
-    )
+    ) + &format!("{:?}", results.cycles)
 }
 
 /// Runs the scene, then goes on from the checkpoint of every increment (`every`-th of them): all
@@ -164,7 +164,20 @@ fn every_kind_of_way_goes_on() {
         "program.stepping=steps",
         "program.steps=3",
     ];
-    let cases: [(&str, &[&str], usize); 18] = [
+    let cycles = [
+        "program.cycles=4",
+        "program.targets=[{ load_factor = 2.0 }, { load_factor = 0.3 }]",
+    ];
+    let cases: [(&str, &[&str], usize); 20] = [
+        ("hard/cyclic", &cycles, 9),
+        (
+            "hard/ratchet",
+            &[
+                "program.cycles=9",
+                "program.targets=[{ load_factor = 1.0 }, { load_factor = -1.0 }]",
+            ],
+            1,
+        ),
         ("hard/ratchet", &fading, 2),
         (
             "hard/cyclic",

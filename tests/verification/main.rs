@@ -5,6 +5,7 @@ mod back_stresses;
 mod body_forces;
 mod circular_punch;
 mod contact_patch;
+mod cycles;
 mod cyclic_element;
 mod disc_in_plate;
 mod equations;

@@ -1,4 +1,5 @@
-//! Yield stress by depth: layers pulled in parallel, and line contact of a case-hardened half plane.
+//! Yield stress by depth: layers pulled in parallel, and line contact of a case-hardened half
+//! plane.
 //!
 //! Source of the elastic stresses: K. L. Johnson, Contact Mechanics (1985), section 4.2.
 
@@ -10,8 +11,8 @@ use brinell::scene::Scene;
 
 const E: f64 = 200_000.0;
 
-/// A sheet of depth 2 pulled along x; its yield stress falls from the top to the bottom. Layers have
-/// the same strain and nothing acts across them: each is a bar.
+/// A sheet of depth 2 pulled along x; its yield stress falls from the top to the bottom. Layers
+/// have the same strain and nothing acts across them: each is a bar.
 fn sheet(element: &str, hardening: f64, targets: &[f64]) -> Scene {
     let each: Vec<String> = targets
         .iter()

@@ -8,8 +8,25 @@ use std::collections::BTreeSet;
 /// Each increment leaves a row of the history, and each target a state with all its contact pairs.
 const MOST_STEPS: usize = 10_000_000;
 const MOST_TARGETS: usize = 10_000;
+const MOST_CYCLES: usize = 1_000_000;
 
 impl Checks {
+    /// A cycle goes from load factor to load factor and back.
+    fn cycle(&mut self, targets: &[Target]) {
+        let factors: Vec<Option<f64>> = targets.iter().map(|target| target.load_factor).collect();
+        for (index, _) in factors.iter().enumerate().filter(|(_, f)| f.is_none()) {
+            self.problem(
+                format!("program.targets.{index}"),
+                "a target of `cycles` must be a load_factor: it is met again in each",
+            );
+        }
+        self.require(
+            factors.iter().any(|factor| *factor != factors[0]) || factors.contains(&None),
+            "program.cycles",
+            "all targets are the same load factor: a cycle needs at least two, its ends",
+        );
+    }
+
     pub(super) fn program(&mut self, scene: &Scene) {
         let program = &scene.program;
         self.require(
@@ -28,6 +45,11 @@ impl Checks {
             "program.targets",
             "is empty; give at least one, for instance { load_factor = 1 }",
         );
+        self.count("program.cycles", program.cycles, 1);
+        self.at_most("program.cycles", program.cycles, MOST_CYCLES);
+        if program.cycles > 1 {
+            self.cycle(&program.targets);
+        }
         if program.unit == Unit::Yield {
             self.needs_yield("program.unit", "\"yield\"", scene);
             for (index, load) in scene.load.iter().enumerate() {

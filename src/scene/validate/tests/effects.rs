@@ -91,3 +91,36 @@ fn yield_stress_by_depth() {
         ],
     );
 }
+
+#[test]
+fn cycles() {
+    fn load_factors(scene: &mut Scene, factors: &[f64]) {
+        let target = |factor: &f64| Target {
+            load_factor: Some(*factor),
+            ..Target::default()
+        };
+        scene.program.targets = factors.iter().map(target).collect();
+        scene.program.cycles = 10;
+    }
+    let mut scene = good();
+    load_factors(&mut scene, &[1.0, 0.0]);
+    scene.validate().unwrap();
+    refused(
+        good,
+        &[
+            (
+                |s| s.program.cycles = 0,
+                "program.cycles: 0 must be at least 1",
+            ),
+            (|s| s.program.cycles = 2_000_000, "program.cycles: 2000000"),
+            (
+                |s| s.program.cycles = 2,
+                "program.targets.0: a target of `cycles` must be a load_factor",
+            ),
+            (
+                |s| load_factors(s, &[1.0, 1.0]),
+                "program.cycles: all targets are the same load factor",
+            ),
+        ],
+    );
+}

@@ -1,0 +1,235 @@
+//! Programs of cycles: what each leaves, and whether the next would leave the same.
+//!
+//! The change of the plastic strains over a cycle is compared, point by point, with that over the
+//! cycle before. Where the differences `r_k` fall like a geometric series, the cycles to come
+//! change it by `r_k q/(1 - q)`, `q = r_k/r_(k-1)`: a cycle is steady once both are a small share
+//! of what flowed in the first one. A cycle in which nothing flows is steady at once. The states of
+//! a program are those of one more cycle.
+
+use super::packed;
+use super::program::Run;
+use crate::material::PlasticState;
+use crate::results::{CycleOutcome, CycleRow, Cycles};
+use serde::{Deserialize, Serialize};
+
+/// Share of the largest flow of the first cycle that counts as none: strains that nobody reads off
+/// a result, and that no mesh resolves.
+const STEADY: f64 = 1e-3;
+
+/// The cycles so far.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub(super) struct CycleRecord {
+    rows: Vec<CycleRow>,
+    /// Of the last cycle, once that was like the next.
+    outcome: Option<CycleOutcome>,
+    /// Whether the last cycle left its states.
+    is_over: bool,
+    /// Elements of the zone at its end, with the histories of their points, what it changed of
+    /// them, and how much more or less than the cycle before.
+    elements: Vec<usize>,
+    #[serde(with = "packed::history")]
+    points: Vec<PlasticState<6>>,
+    #[serde(with = "packed::history")]
+    change: Vec<PlasticState<6>>,
+    difference: Option<f64>,
+    /// The element with the largest change.
+    place: usize,
+}
+
+impl CycleRecord {
+    /// Whether the cycle at hand, of at most so many, leaves its states.
+    pub(super) fn is_last(&self, most: usize) -> bool {
+        self.is_over || self.outcome.is_some() || self.rows.len() + 1 >= most
+    }
+
+    /// How many lie behind.
+    pub(super) fn n_done(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// A cycle ended with these histories of the zone's elements.
+    fn end(&mut self, elements: &[usize], points: Vec<PlasticState<6>>) {
+        let stride = points.len() / elements.len().max(1);
+        let of_now = |known: &[PlasticState<6>]| aligned(known, &self.elements, elements, stride);
+        let minus = |a: &[PlasticState<6>], b: &[PlasticState<6>]| -> Vec<PlasticState<6>> {
+            let pairs = a.iter().zip(b);
+            pairs.map(|(a, b)| difference(a, b)).collect()
+        };
+        let change = minus(&points, &of_now(&self.points));
+        let unlike = minus(&change, &of_now(&self.change));
+        let growth = largest(&change, |point| size(&point.strain));
+        let row = CycleRow {
+            cycle: self.rows.len() + 1,
+            flow: largest(&change, |point| point.equivalent).1,
+            growth: growth.1,
+        };
+        let before = self.difference.take();
+        if !self.rows.is_empty() {
+            let both = |point: &PlasticState<6>| size(&point.strain).max(point.equivalent.abs());
+            self.difference = Some(largest(&unlike, both).1);
+        }
+        self.rows.push(row);
+        self.place = elements.get(growth.0 / stride.max(1)).copied().unwrap_or(0);
+        (self.elements, self.points, self.change) = (elements.to_vec(), points, change);
+        self.outcome = self.judge(row, before);
+    }
+
+    /// What a cycle that is like the next amounts to, the differences of it and of the one before
+    /// from theirs being known.
+    fn judge(&self, row: CycleRow, before: Option<f64>) -> Option<CycleOutcome> {
+        let first = self.rows[0].flow;
+        if row.flow == 0.0 {
+            return Some(match first == 0.0 {
+                true => CycleOutcome::Elastic,
+                false => CycleOutcome::ElasticShakedown,
+            });
+        }
+        let small = STEADY * first;
+        let (now, before) = (self.difference?, before?);
+        let ahead = match now < before {
+            true => now * now / (before - now),
+            // No more than an iteration leaves.
+            false if now <= STEADY * small => now,
+            false => f64::INFINITY,
+        };
+        match now.max(ahead) <= small {
+            false => None,
+            true if row.flow <= small => Some(CycleOutcome::ElasticShakedown),
+            true if row.growth <= small => Some(CycleOutcome::PlasticShakedown),
+            true => Some(CycleOutcome::Ratchetting),
+        }
+    }
+}
+
+/// The same of the elements of another zone: nothing of those that were in none.
+fn aligned(
+    known: &[PlasticState<6>],
+    from: &[usize],
+    to: &[usize],
+    stride: usize,
+) -> Vec<PlasticState<6>> {
+    let mut out = vec![PlasticState::default(); to.len() * stride];
+    for (element, points) in to.iter().zip(out.chunks_mut(stride.max(1))) {
+        if let Ok(i) = from.binary_search(element) {
+            points.copy_from_slice(&known[i * stride..][..stride]);
+        }
+    }
+    out
+}
+
+fn difference(a: &PlasticState<6>, b: &PlasticState<6>) -> PlasticState<6> {
+    PlasticState {
+        strain: std::array::from_fn(|k| a.strain[k] - b.strain[k]),
+        equivalent: a.equivalent - b.equivalent,
+    }
+}
+
+/// `sqrt(2/3 e:e)` of a strain with engineering shear.
+fn size(strain: &[f64; 6]) -> f64 {
+    let [normal, shear] = [&strain[..3], &strain[3..]];
+    let square = |part: &[f64]| part.iter().map(|e| e * e).sum::<f64>();
+    (2.0 / 3.0 * (square(normal) + 0.5 * square(shear))).sqrt()
+}
+
+/// The largest value over points, and where.
+fn largest(points: &[PlasticState<6>], of: impl Fn(&PlasticState<6>) -> f64) -> (usize, f64) {
+    let values = points.iter().map(of).enumerate();
+    values.fold(
+        (0, 0.0),
+        |most, next| if next.1 > most.1 { next } else { most },
+    )
+}
+
+impl Run<'_, '_> {
+    /// After the last target of a cycle: whether another follows.
+    pub(super) fn begin_cycle(&mut self) -> bool {
+        let most = self.model().scene.program.cycles;
+        let record = &mut self.position.cycles;
+        if most == 1 || record.is_over {
+            return false;
+        }
+        let was_last = record.is_last(most);
+        let history = self.solver.zone.history();
+        record.end(&self.solver.structure.elements, history.points);
+        record.is_over = was_last;
+        if !was_last {
+            self.position.target = 0;
+        }
+        !was_last
+    }
+
+    /// What the cycles came to, where the program has them.
+    pub(super) fn cycles(&self) -> Option<Cycles> {
+        let (model, record) = (self.model(), &self.position.cycles);
+        if model.scene.program.cycles == 1 {
+            return None;
+        }
+        let body = model.mesh.element_body.get(record.place);
+        let grows = record.rows.last().is_some_and(|row| row.growth > 0.0);
+        Some(Cycles {
+            outcome: record.outcome.unwrap_or_default(),
+            body: body
+                .filter(|_| grows)
+                .map(|&body| model.mesh.bodies[body as usize].clone()),
+            rows: record.rows.clone(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cycles of one element with two points whose plastic strains along x the closure says.
+    fn outcome(cycles: usize, strain: impl Fn(usize) -> [f64; 2]) -> (Option<CycleOutcome>, usize) {
+        let mut record = CycleRecord::default();
+        let (mut before, mut equivalent) = ([0.0; 2], [0.0; 2]);
+        for cycle in 1..=cycles {
+            let now = strain(cycle);
+            let point = |k: usize| PlasticState {
+                strain: [now[k], -0.5 * now[k], -0.5 * now[k], 0.0, 0.0, 0.0],
+                equivalent: equivalent[k] + (now[k] - before[k]).abs(),
+            };
+            let points: Vec<PlasticState<6>> = [0, 1].map(point).to_vec();
+            equivalent = [0, 1].map(|k| points[k].equivalent);
+            before = now;
+            record.end(&[7], points);
+            if let Some(outcome) = record.outcome {
+                return (Some(outcome), cycle);
+            }
+        }
+        (None, cycles)
+    }
+
+    /// What still changes slowly is not steady, however little a single cycle changes.
+    #[test]
+    fn a_cycle_is_steady_once_those_to_come_change_little() {
+        assert_eq!(outcome(5, |_| [0.0; 2]), (Some(CycleOutcome::Elastic), 1));
+        let at_once = outcome(5, |_| [0.01, 0.0]);
+        assert_eq!(at_once, (Some(CycleOutcome::ElasticShakedown), 2));
+        let even = outcome(9, |k| [0.01 + 0.001 * k as f64, 0.0]);
+        assert_eq!(even, (Some(CycleOutcome::Ratchetting), 3));
+        // Flow that falls by a hundredth in each cycle: after 600 of them a thousandth is ahead.
+        let slow = |k: usize| [1.0 - 0.99f64.powi(k as i32), 0.0];
+        let (found, cycles) = outcome(2000, slow);
+        assert_eq!(found, Some(CycleOutcome::ElasticShakedown));
+        assert!((600..800).contains(&cycles), "{cycles}");
+        // Growth that falls to a rate: the rate is what is left.
+        let (found, cycles) = outcome(200, |k| [1e-3 * k as f64 - 0.5f64.powi(k as i32), 0.0]);
+        assert_eq!(found, Some(CycleOutcome::Ratchetting));
+        assert!((9..14).contains(&cycles), "{cycles}");
+    }
+
+    /// A zone that grows: what was in none had no plastic strain.
+    #[test]
+    fn cycles_of_another_zone_are_compared_element_by_element() {
+        let point = |equivalent: f64| PlasticState {
+            equivalent,
+            ..PlasticState::default()
+        };
+        let known = [point(1.0), point(2.0), point(3.0), point(4.0)];
+        let found = aligned(&known, &[3, 8], &[1, 3, 5, 8], 2);
+        let found: Vec<f64> = found.iter().map(|point| point.equivalent).collect();
+        assert_eq!(found, [0.0, 0.0, 1.0, 2.0, 0.0, 0.0, 3.0, 4.0]);
+    }
+}

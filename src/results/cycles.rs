@@ -1,0 +1,67 @@
+//! What a program of cycles came to.
+
+use super::number;
+use serde::{Deserialize, Serialize};
+
+/// How a structure answers cycles of its loads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CycleOutcome {
+    /// Nothing yields.
+    Elastic,
+    /// It yields at first, and not any more.
+    ElasticShakedown,
+    /// Plastic strains go to and fro, and come back in each cycle.
+    PlasticShakedown,
+    /// Plastic strains grow by the same in each cycle.
+    Ratchetting,
+    /// The last cycle was not yet like the next.
+    #[default]
+    NotSteady,
+}
+
+impl CycleOutcome {
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            CycleOutcome::Elastic => "elastic",
+            CycleOutcome::ElasticShakedown => "elastic shakedown",
+            CycleOutcome::PlasticShakedown => "plastic shakedown",
+            CycleOutcome::Ratchetting => "ratchetting",
+            CycleOutcome::NotSteady => "not steady",
+        }
+    }
+}
+
+/// A cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct CycleRow {
+    /// Its number, from 1.
+    pub cycle: usize,
+    /// The largest equivalent plastic strain that a point gained in it.
+    #[serde(deserialize_with = "number")]
+    pub flow: f64,
+    /// The largest change of a point's plastic strain from its start to its end, `sqrt(2/3 e:e)`.
+    #[serde(deserialize_with = "number")]
+    pub growth: f64,
+}
+
+/// The cycles of a program.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Cycles {
+    /// What they came to.
+    pub outcome: CycleOutcome,
+    /// The body whose plastic strain grew most in the last.
+    pub body: Option<String>,
+    /// Each of them.
+    pub rows: Vec<CycleRow>,
+}
+
+impl Cycles {
+    /// The last of them.
+    pub fn last(&self) -> CycleRow {
+        self.rows.last().copied().unwrap_or_default()
+    }
+}
