@@ -168,6 +168,7 @@ pub(crate) fn in_line(heading: &str) -> String {
 }
 
 /// With a capital first letter.
+#[cfg(feature = "report")]
 pub(crate) fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     let first = letters.next();

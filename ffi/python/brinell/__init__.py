@@ -21,7 +21,7 @@ from ._errors import (
     UnheldError,
     UnsupportedError,
 )
-from ._run import run
+from ._run import check, run, yield_load
 
 __all__ = [
     "AnalysisError",
@@ -39,5 +39,7 @@ __all__ = [
     "UnheldError",
     "UnsupportedError",
     "__version__",
+    "check",
     "run",
+    "yield_load",
 ]

@@ -26,12 +26,30 @@ def run(scene, overrides=None, *, solver=None, callback=None, estimate=False, th
     reached, is told by an `InaccurateWarning`; a scene with `accuracy` is run on finer and finer meshes, and the result is that of
     the last.
     """
+    return _brinell.run(*_scene(scene, overrides, more), solver, callback, estimate, threads, budget)
+
+
+def check(scene, overrides=None, *, solver=None, **more):
+    """What a run of the scene would do and cost, without running it: a dictionary with `effects`, `sizes`, `prediction`,
+    `predicted_seconds`, `predicted_run_seconds`, `notes`. Arguments as of `run`.
+    """
+    return _brinell.check(*_scene(scene, overrides, more), solver)
+
+
+def yield_load(scene, overrides=None, *, solver=None, **more):
+    """First yield of a scene, a dictionary with `alpha`, `load`, `max_pressure`, `half_width`, `location`, `body`. Elastic, hence
+    fast. Arguments as of `run`; raises `AnalysisError` where nothing can yield.
+    """
+    return _brinell.yield_load(*_scene(scene, overrides, more), solver)
+
+
+def _scene(scene, overrides, more):
+    """The text or path, whether it is a path, and the overrides as `KEY=VALUE`."""
     is_path = not isinstance(scene, str) or "\n" not in scene
     values = dict(overrides or {})
     values.update((key.replace("__", "."), value) for key, value in more.items())
     pairs = [pair for key, value in values.items() for pair in _pairs(key, value)]
-    text = os.fspath(scene) if is_path else scene
-    return _brinell.run(text, is_path, pairs, solver, callback, estimate, threads, budget)
+    return os.fspath(scene) if is_path else scene, is_path, pairs
 
 
 def _pairs(key, value):

@@ -8,12 +8,13 @@ use crate::tables;
 use crate::threads;
 use brinell::ErrorKind;
 use brinell::accuracy::{self, Extent};
-use brinell::analysis::Analysis;
+use brinell::analysis::{self, Analysis};
 use brinell::deck::{self, Options};
 use brinell::linalg::Backend;
 use brinell::model::Model;
 use brinell::output::{self, RunHeader};
 use brinell::panics::contained;
+use brinell::progress::Silent;
 use brinell::reference;
 use brinell::results::{self, QUANTITIES, Quantity, Results};
 use brinell::scene::Scene;
@@ -56,15 +57,7 @@ pub fn run(
     threads: Option<i64>,
     budget: Option<f64>,
 ) -> PyResult<Py<RunResult>> {
-    let read = || match is_path {
-        true => deck::load_with(scene, &overrides, Options::default()),
-        false => Scene::parse_with(scene, "scene", &overrides),
-    };
-    let scene = contained(read).raise(py)?;
-    for warning in &scene.warnings {
-        py.import("warnings")?.call_method1("warn", (warning,))?;
-    }
-    let source = Source::Scene(Box::new(scene));
+    let source = Source::Scene(Box::new(read(py, scene, is_path, &overrides)?));
     let way = Way {
         backend: backend(py, solver)?,
         callback,
@@ -73,6 +66,56 @@ pub fn run(
         budget,
     };
     execute(py, source, way)
+}
+
+/// Reads a scene; its warnings are those of Python.
+fn read(py: Python<'_>, scene: &str, is_path: bool, overrides: &[String]) -> PyResult<Scene> {
+    let read = || match is_path {
+        true => deck::load_with(scene, overrides, Options::default()),
+        false => Scene::parse_with(scene, "scene", overrides),
+    };
+    let scene = contained(read).raise(py)?;
+    for warning in &scene.warnings {
+        py.import("warnings")?.call_method1("warn", (warning,))?;
+    }
+    Ok(scene)
+}
+
+/// What a run would do and cost; see `brinell.check`, which calls this.
+#[pyfunction]
+pub fn check<'py>(
+    py: Python<'py>,
+    scene: &str,
+    is_path: bool,
+    overrides: Vec<String>,
+    solver: Option<&str>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let scene = read(py, scene, is_path, &overrides)?;
+    let backend = backend(py, solver)?;
+    let work = || contained(|| analysis::check(&Model::new(&scene)?, backend));
+    let found = py.detach(work).raise(py)?;
+    Ok(pythonize::pythonize(py, &found)?)
+}
+
+/// First yield alone, elastic; see `brinell.yield_load`, which calls this.
+#[pyfunction]
+pub fn yield_load<'py>(
+    py: Python<'py>,
+    scene: &str,
+    is_path: bool,
+    overrides: Vec<String>,
+    solver: Option<&str>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let scene = read(py, scene, is_path, &overrides)?;
+    let backend = backend(py, solver)?;
+    let work = || {
+        contained(|| {
+            let mut analysis = Analysis::new(Model::new(&scene)?, backend)?;
+            analysis.yield_load(&mut Silent)
+        })
+    };
+    let results = py.detach(work).raise(py)?;
+    Ok(pythonize::pythonize(py, &results.first_yield)?)
 }
 
 /// Runs with the interpreter released.
@@ -237,6 +280,80 @@ impl RunResult {
         self.results.inaccurate.clone()
     }
 
+    /// Names of units of all numbers: `length`, `force`, `stress`, `load`; None where the scene does
+    /// not name them.
+    #[getter]
+    fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.summary.bind(py).get_item("units")
+    }
+
+    /// A meshio mesh with the fields of a state (its number or name): needs meshio.
+    #[pyo3(signature = (state = None))]
+    fn to_meshio<'py>(
+        slf: &Bound<'py, Self>,
+        state: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let convert = slf.py().import("brinell._convert")?;
+        convert.call_method1("to_meshio", (slf, state))
+    }
+
+    /// Draws a column of the history against another with matplotlib; the axes.
+    #[pyo3(signature = (y = "max_pressure", x = "load", ax = None))]
+    fn plot<'py>(
+        slf: &Bound<'py, Self>,
+        y: &str,
+        x: &str,
+        ax: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        slf.py()
+            .import("brinell._convert")?
+            .call_method1("plot", (slf, y, x, ax))
+    }
+
+    /// A key of the tables in words, with its unit: `max pressure [MPa]`.
+    fn label(&self, key: &str) -> String {
+        let named = Quantity::of(key).filter(|quantity| !quantity.heading.is_empty());
+        named.map_or_else(
+            || key.to_string(),
+            |quantity| self.header.labels.name(quantity),
+        )
+    }
+
+    /// The states as a table, for notebooks.
+    fn _repr_html_(&self) -> String {
+        let escaped = |text: &str| text.replace('&', "&amp;").replace('<', "&lt;");
+        let shown = |q: &&Quantity| {
+            let is_said = !q.heading.is_empty() && !q.is_detail;
+            is_said
+                && self
+                    .results
+                    .states
+                    .iter()
+                    .any(|s| (q.in_state.get)(s) != 0.0)
+        };
+        let columns: Vec<&Quantity> = QUANTITIES.iter().filter(shown).collect();
+        let head: String = (columns.iter())
+            .map(|q| format!("<th>{}</th>", escaped(&self.header.labels.name(q))))
+            .collect();
+        let row = |state: &results::State| {
+            let cells = columns.iter().map(|q| {
+                let value = (q.in_state.get)(state);
+                format!(
+                    "<td>{}</td>",
+                    if q.is_count {
+                        value.to_string()
+                    } else {
+                        six(value)
+                    }
+                )
+            });
+            let name = escaped(&state.name);
+            format!("<tr><th>{name}</th>{}</tr>", cells.collect::<String>())
+        };
+        let rows: String = self.results.states.iter().map(row).collect();
+        format!("<table><thead><tr><th>state</th>{head}</tr></thead><tbody>{rows}</tbody></table>")
+    }
+
     /// Writes the result directory that the program writes: tables, fields, report.
     fn write(&self, py: Python<'_>, directory: PathBuf) -> PyResult<()> {
         let to: &Path = &directory;
@@ -283,6 +400,18 @@ impl RunResult {
                 ""
             }
         )
+    }
+}
+
+/// Six digits.
+fn six(value: f64) -> String {
+    match value.abs() {
+        0.0 => "0".to_string(),
+        size if (1e-3..1e6).contains(&size) => {
+            let before = size.log10().floor() as i32 + 1;
+            format!("{value:.*}", usize::try_from(6 - before).unwrap_or(0))
+        }
+        _ => format!("{value:.5e}"),
     }
 }
 
@@ -354,7 +483,9 @@ impl State {
 
     /// Fields on the whole mesh, not copied and not to be written to: `displacement` (n_nodes, 2),
     /// `stress` (n_elements, 4) as xx, yy, zz, xy (of a solid 3 and 6, yz and zx after them),
-    /// `von_mises`, `plastic_strain`, `yielded`, `error`; None where the target asks for none.
+    /// `von_mises`, `equivalent_plastic_strain`, `yielded`, `discretisation_error`, and of the nodes
+    /// `contact_pressure`, `gap`: the names of the `.vtu` files; None where the target asks for
+    /// none.
     #[getter]
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
         tables::fields(py, &self.results, self.index)

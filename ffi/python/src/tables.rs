@@ -80,8 +80,13 @@ pub fn fields<'py>(
     add("displacement", |f| &f.displacement, Some(dimension))?;
     add("stress", |f| &f.stress, Some(components))?;
     add("von_mises", |f| &f.von_mises, None)?;
-    add("plastic_strain", |f| &f.plastic_strain, None)?;
-    add("error", |f| &f.error, None)?;
+    // The names of the .vtu files; the shorter ones are earlier versions'.
+    for name in ["equivalent_plastic_strain", "plastic_strain"] {
+        add(name, |f| &f.plastic_strain, None)?;
+    }
+    for name in ["discretisation_error", "error"] {
+        add(name, |f| &f.error, None)?;
+    }
     add("contact_pressure", |f| &f.contact_pressure, None)?;
     add("gap", |f| &f.gap, None)?;
     let yielded = field(py, results, state, |f| &f.yielded[..], None)?;
