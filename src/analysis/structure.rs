@@ -166,9 +166,15 @@ impl<'m> Structure<'m> {
     fn reduce_loads(&mut self, cost: &mut Cost) -> Result<()> {
         let (sub, gaps) = (&self.sub, &mut self.gaps);
         gaps.forces = [&gaps.initial, &gaps.interference].map(|v| sub.slip_forces(v));
+        // A load that is nothing stays nothing, without a solve.
+        let acts = |load: &Vec<f64>| load.iter().any(|force| *force != 0.0);
         let loads = self.system.loads.iter();
-        self.loads.reduced = loads.map(|l| sub.reduce(l)).collect::<Result<_>>()?;
-        cost.counts.full_solves += self.loads.reduced.len();
+        let reduced = loads.map(|load| match acts(load) {
+            true => sub.reduce(load),
+            false => Ok(load.clone()),
+        });
+        self.loads.reduced = reduced.collect::<Result<_>>()?;
+        cost.counts.full_solves += self.system.loads.iter().filter(|load| acts(load)).count();
         self.reduce_far_boundary(cost)?;
         self.condense_loads(cost)?;
         let condensed = self.loads.condensed.iter();

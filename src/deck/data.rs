@@ -124,6 +124,16 @@ pub(super) struct MaterialData {
     pub(super) elastic: Option<[f64; 2]>,
     /// Plastic strain and yield stress.
     pub(super) plastic: Vec<[f64; 2]>,
+    /// Whether hardening moves the yield surface: linear.
+    pub(super) is_kinematic: bool,
+}
+
+impl MaterialData {
+    /// The slope of hardening from the first row to the last.
+    pub(super) fn slope(&self) -> Option<f64> {
+        let ([from, low], [to, high]) = (*self.plastic.first()?, *self.plastic.last()?);
+        (to > from).then(|| (high - low) / (to - from))
+    }
 }
 
 /// What a set of elements is made of.

@@ -144,3 +144,19 @@ fn sets_in_a_circle_are_the_sum_of_their_members() {
     let at = (Place::default(), "NSET");
     assert_eq!(deck.indices(sets::What::Nodes, &a, at).unwrap(), [0, 2]);
 }
+
+#[test]
+fn kinematic_hardening_is_the_slope_of_its_curve() {
+    let text = include_str!("../../tests/fuzz/seeds/every_keyword.inp");
+    let kinematic = text.replacen("*PLASTIC\n", "*PLASTIC, HARDENING=KINEMATIC\n", 1);
+    assert_ne!(kinematic, text);
+    let deck = Deck::parse(kinematic.as_bytes(), "a.inp").unwrap();
+    let scene = small_strain(&deck).finish("a.inp", &[]).unwrap();
+    let steel = &scene.materials["STEEL"];
+    assert_eq!(
+        (steel.yield_stress, &steel.hardening_table),
+        (Some(300.0), &None)
+    );
+    let modulus = steel.kinematic_modulus.unwrap();
+    assert!((modulus - 1000.0).abs() < 1e-9, "{modulus}");
+}

@@ -83,3 +83,50 @@ fn yield_stresses_by_depth_are_stored_where_there_are_any() {
         "{more}"
     );
 }
+
+/// Loads by temperature and on volumes that are nothing cost what a scene without them costs.
+#[test]
+fn loads_that_are_nothing_are_off_and_cost_nothing() {
+    let plain = run(&[]);
+    let with = |effect_name: &str, material: &str, load: &str, why: &str| {
+        let mut scene = load_of(load);
+        let steel = scene.materials.get_mut("steel").unwrap();
+        match material {
+            "density" => steel.density = Some(7.85e-9),
+            _ => steel.thermal_expansion = Some(1.2e-5),
+        }
+        let results = try_run(&scene, Backend::default()).unwrap();
+        let found = effect(&results, effect_name);
+        assert!(
+            !found.on && found.why.contains(why),
+            "{effect_name}: {}",
+            found.why
+        );
+        assert_eq!(cost(&results), cost(&plain), "{effect_name}");
+    };
+    with(
+        "temperature",
+        "thermal_expansion",
+        "temperature = 0.0",
+        "no temperature changes",
+    );
+    with(
+        "forces on volumes",
+        "density",
+        "acceleration = [0.0, 0.0]",
+        "are zero",
+    );
+}
+
+/// The cylinder with another load on its half plane.
+fn load_of(load: &str) -> brinell::scene::Scene {
+    let path = super::running::scene_file("cylinder_on_half_plane");
+    let text = std::fs::read_to_string(path).unwrap();
+    let more = format!("[[load]]\non = \"half_plane\"\n{load}\n\n[program]");
+    let text = text.replacen("[program]", &more, 1);
+    let changes: Vec<String> = CYLINDER.iter().map(|change| change.to_string()).collect();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("scene.toml");
+    std::fs::write(&file, text).unwrap();
+    brinell::scene::Scene::load_with(file, &changes).unwrap()
+}

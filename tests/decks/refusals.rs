@@ -286,8 +286,14 @@ fn what_brinell_does_not_have_is_told_by_line_and_reason() {
         ),
         (
             before,
-            "*PLASTIC, HARDENING=KINEMATIC\n300., 0.\n*SOLID SECTION, ELSET=BODY",
-            "line 15: *PLASTIC: hardening is isotropic",
+            "*PLASTIC, HARDENING=KINEMATIC\n300., 0.\n350., 0.01\n370., 0.02\n*SOLID SECTION, \
+             ELSET=BODY",
+            "line 15: *PLASTIC: kinematic hardening of a deck is linear",
+        ),
+        (
+            before,
+            "*PLASTIC, HARDENING=COMBINED\n300., 0.\n*SOLID SECTION, ELSET=BODY",
+            "line 15: *PLASTIC: hardening of decks is isotropic or linear kinematic",
         ),
         (
             before,

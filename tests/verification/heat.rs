@@ -252,3 +252,135 @@ fn temperatures_that_cannot_be_are_named() {
         "{error}"
     );
 }
+
+/// A strip of two metals bends by heat: with `m` the ratio of the thicknesses and `n` that of the
+/// moduli the curvature is `6 (a2 - a1) dT (1 + m)^2/(h (3 (1 + m)^2 + (1 + m n)(m^2 + 1/(m n))))`
+/// (S. Timoshenko, J. Opt. Soc. Am. 11 (1925) 233). Plane stress and no thickness to speak of.
+#[test]
+fn a_strip_of_two_metals_bends() {
+    let (length, [lower, upper]) = (40.0, [0.6f64, 0.4]);
+    let (moduli, expansions, change) = ([200_000.0, 100_000.0], [1e-5, 2e-5], 100.0);
+    let text = format!(
+        r#"
+kind = "plane_stress"
+[[mesh.parts]]
+body = "lower"
+element = "quad8"
+block = {{ x = [0.0, {length:?}], y = [0.0, {lower:?}], elements = [40, 2] }}
+[[mesh.parts]]
+body = "upper"
+element = "quad8"
+block = {{ x = [0.0, {length:?}], y = [{lower:?}, 1.0], elements = [40, 2] }}
+[materials.lower]
+youngs_modulus = {:?}
+poissons_ratio = 0.3
+thermal_expansion = {:?}
+[materials.upper]
+youngs_modulus = {:?}
+poissons_ratio = 0.3
+thermal_expansion = {:?}
+[bodies.lower]
+material = "lower"
+[bodies.upper]
+material = "upper"
+[[tie]]
+first = "lower.top"
+second = "upper.bottom"
+[[support]]
+on = "lower.left"
+fix = ["x"]
+[[support]]
+on = "upper.left"
+fix = ["x"]
+[[support]]
+on = "lower.bottom_left"
+fix = ["y"]
+[[load]]
+on = "lower"
+temperature = {change:?}
+[[load]]
+on = "upper"
+temperature = {change:?}
+[program]
+targets = [{{ load_factor = 1.0 }}]
+"#,
+        moduli[0], expansions[0], moduli[1], expansions[1]
+    );
+    let scene = Scene::parse(&text, "strip").unwrap();
+    let mesh = brinell::model::Model::new(&scene).unwrap().mesh;
+    let results = run(&scene);
+    let u = &results.states[0].fields.as_ref().unwrap().displacement;
+    // Deflections of the lowest fibre in the middle of the strip, free of what goes on at the end.
+    let at = |x: f64| {
+        let node = (0..mesh.n_nodes()).find(|&n| {
+            let place = mesh.point(n);
+            (place[0] - x).abs() < 1e-9 && place[1].abs() < 1e-9
+        });
+        u[2 * node.unwrap() + 1]
+    };
+    let curvature = -(at(10.0) - 2.0 * at(20.0) + at(30.0)) / 100.0;
+    let (m, n) = (lower / upper, moduli[0] / moduli[1]);
+    let stiffness = 3.0 * (1.0 + m).powi(2) + (1.0 + m * n) * (m * m + 1.0 / (m * n));
+    let bending = 6.0 * (expansions[1] - expansions[0]) * change * (1.0 + m).powi(2);
+    close(curvature, bending / stiffness, 1e-4);
+}
+
+/// A bar that is heated until it closes its gap to a wall, and beyond: no force before, then
+/// `E (alpha dT - gap/length)`.
+#[test]
+fn a_heated_bar_closes_its_gap() {
+    let (length, gap, change) = (10.0, 0.012, 200.0);
+    let text = format!(
+        r#"
+kind = "plane_stress"
+[[mesh.parts]]
+body = "bar"
+block = {{ x = [0.0, 1.0], y = [0.0, {length:?}], elements = [2, 4] }}
+[[mesh.parts]]
+body = "wall"
+block = {{ x = [0.0, 1.0], y = [{:?}, {:?}], elements = [2, 1] }}
+[materials.steel]
+youngs_modulus = {E:?}
+poissons_ratio = 0.0
+thermal_expansion = {EXPANSION:?}
+[materials.rigid]
+youngs_modulus = {:?}
+poissons_ratio = 0.0
+[bodies.bar]
+material = "steel"
+[bodies.wall]
+material = "rigid"
+[[contact]]
+first = "bar.top"
+second = "wall.bottom"
+[[support]]
+on = "bar.bottom"
+fix = ["y"]
+[[support]]
+on = "bar.left"
+fix = ["x"]
+[[support]]
+on = "wall.top"
+fix = ["x", "y"]
+[[load]]
+on = "bar"
+temperature = {change:?}
+[program]
+targets = [{{ load_factor = 0.4 }}, {{ load_factor = 1.0 }}]
+"#,
+        length + gap,
+        length + gap + 1.0,
+        1e12 * E
+    );
+    let results = run(&Scene::parse(&text, "bar").unwrap());
+    let closes = gap / (EXPANSION * change * length);
+    assert!(closes > 0.4, "{closes}");
+    assert_eq!(results.states[0].max_pressure, 0.0);
+    let mut rows = results.history.iter();
+    assert!(
+        rows.any(|row| (row.alpha - closes).abs() < 1e-9),
+        "{closes}"
+    );
+    let pressed = E * (EXPANSION * change - gap / length);
+    close(results.states[1].max_pressure, pressed, 1e-9);
+}

@@ -176,7 +176,9 @@ impl Deck {
                 youngs_modulus,
                 poissons_ratio,
                 yield_stress: data.plastic.first().map(|row| row[1]),
-                hardening_table: (data.plastic.len() > 1).then(|| data.plastic.clone()),
+                hardening_table: (data.plastic.len() > 1 && !data.is_kinematic)
+                    .then(|| data.plastic.clone()),
+                kinematic_modulus: data.slope().filter(|_| data.is_kinematic),
                 ..Material::default()
             };
             places.insert(format!("materials.{material}"), self.files.show(data.place));

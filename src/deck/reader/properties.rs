@@ -79,9 +79,10 @@ impl Reader<'_> {
         keyword.allow(&self.source.files, &["HARDENING", "RATE"])?;
         let laws = ["ISOTROPIC", "KINEMATIC", "COMBINED", "JOHNSON COOK", "USER"];
         let law = keyword.choice(&self.source.files, "HARDENING", &laws)?;
-        if law != "ISOTROPIC" || keyword.has("RATE") {
-            let why = "hardening is isotropic and independent of rate here: there is no kinematic \
-                       hardening yet";
+        let is_kinematic = law == "KINEMATIC";
+        if !(is_kinematic || law == "ISOTROPIC") || keyword.has("RATE") {
+            let why = "hardening of decks is isotropic or linear kinematic, and independent of rate; \
+                       back stresses that fade are `back_stresses` of a scene's material";
             self.refuse(keyword, keyword.place, why);
             return self.skip();
         }
@@ -113,7 +114,12 @@ impl Reader<'_> {
             let message = "a line with yield stress and plastic strain should follow; give it";
             return Err(keyword.error(&self.source.files, message));
         }
-        self.of_material(keyword)?.plastic = rows;
+        if is_kinematic && !is_straight(&rows) {
+            let why = "kinematic hardening of a deck is linear: give two lines, its ends";
+            self.refuse(keyword, keyword.place, why);
+        }
+        let material = self.of_material(keyword)?;
+        (material.plastic, material.is_kinematic) = (rows, is_kinematic);
         self.skip()
     }
 
@@ -444,4 +450,14 @@ impl Reader<'_> {
         }
         self.skip()
     }
+}
+
+/// Whether rows of plastic strain and yield stress lie on a line, to the digits of a deck.
+fn is_straight(rows: &[[f64; 2]]) -> bool {
+    let (Some([from, low]), Some([to, high])) = (rows.first(), rows.last()) else {
+        return true;
+    };
+    let on_line = |strain: f64| low + (high - low) * (strain - from) / (to - from);
+    let off = |[strain, stress]: &[f64; 2]| (stress - on_line(*strain)).abs();
+    rows.len() <= 2 || rows.iter().all(|row| off(row) <= 1e-6 * high.abs())
 }
