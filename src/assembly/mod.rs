@@ -83,8 +83,8 @@ pub fn assemble(model: &Model) -> Result<System> {
     })
 }
 
-/// All element stiffness matrices on what they act on ([`Model::slots_of`]), packed lower triangles,
-/// and those of springs.
+/// All element stiffness matrices on what they act on ([`Model::slots_of`]), packed lower
+/// triangles, and those of springs.
 struct ElementMatrices {
     offsets: Vec<usize>,
     values: Vec<f64>,

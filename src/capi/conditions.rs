@@ -14,7 +14,7 @@ use std::ffi::c_char;
 /// Adds tables of a scene (TOML text): materials, bodies, contact, tie, equation, support, load,
 /// program, analysis, units, title; whatever a scene file may say but for `kind`, `symmetry`
 /// and `mesh`. Materials, bodies, contacts, ties, equations, supports and loads come to those that
-/// are there, the others take their place. A model without a target has load factor 1 as its target.
+/// are there, the others take their place. A model without a target has load factor 1 as one.
 ///
 /// # Safety
 /// `model` is a living handle, `tables` ends with a zero.
@@ -33,11 +33,11 @@ pub unsafe extern "C" fn brinell_model_tables(
 }
 
 /// Lets two surfaces touch at n given pairs of nodes. `contact` has the keys of a `[[contact]]`
-/// table (TOML text): `first`, `second` and what else is given. Nodes of the surfaces that are in no
-/// pair do not touch.
+/// table (TOML text): `first`, `second` and what else is given. Nodes of the surfaces that are in
+/// no pair do not touch.
 ///
-/// `normals` are n x 2, of a solid n x 3, directions from the second body to the first; NULL for the
-/// second surface's outward normals. `gaps` are n gaps >= 0; NULL for the contact's `gap`, or the
+/// `normals` are n x 2, of a solid n x 3, directions from the second body to the first; NULL for
+/// the second surface's outward normals. `gaps` are n gaps >= 0; NULL for the contact's `gap`, or the
 /// geometric ones.
 ///
 /// # Safety

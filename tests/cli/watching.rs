@@ -80,7 +80,7 @@ fn results_are_shown_in_the_terminal() {
     for word in [
         "Shim between two blocks",
         "First yield",
-        "max pressure against load",
+        "max pressure [MPa] against load [MPa]",
     ] {
         assert!(text.contains(word), "{word}:\n{text}");
     }

@@ -10,8 +10,8 @@ use brinell::scene::{Direction, Equation, EquationTerm, Scene};
 
 const E: f64 = 200_000.0;
 
-/// Two bars along x in plane stress, 4 long and 2 wide, on rollers at their left ends. The equations
-/// hold the right ends plane and couple them by `lever`.
+/// Two bars along x in plane stress, 4 long and 2 wide, on rollers at their left ends. The
+/// equations hold the right ends plane and couple them by `lever`.
 fn bars(equations: &str, loads: &str) -> Scene {
     parse(equations, loads).unwrap()
 }

@@ -81,8 +81,8 @@ impl Reader<'_> {
         let law = keyword.choice(&self.source.files, "HARDENING", &laws)?;
         let is_kinematic = law == "KINEMATIC";
         if !(is_kinematic || law == "ISOTROPIC") || keyword.has("RATE") {
-            let why = "hardening of decks is isotropic or linear kinematic, and independent of rate; \
-                       back stresses that fade are `back_stresses` of a scene's material";
+            let why = "hardening of decks is isotropic or linear kinematic, and independent of \
+                       rate; back stresses that fade are `back_stresses` of a scene's material";
             self.refuse(keyword, keyword.place, why);
             return self.skip();
         }
