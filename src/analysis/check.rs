@@ -179,6 +179,12 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
                 .to_string(),
         );
     }
+    let cycles = model.scene.program.cycles;
+    if cycles > 1 {
+        notes.push(format!(
+            "the program has at most {cycles} cycles: memory is that of all, time that of one"
+        ));
+    }
     let of_contact = contact.flops / TYPICAL_FLOPS;
     let speed = match backend {
         Backend::Faer => TYPICAL_FLOPS_OF_FAER,
