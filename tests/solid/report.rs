@@ -69,7 +69,8 @@ fn a_solid_has_maps_of_pressure_sections_and_its_scene() {
         assert!(read(name).contains("x [mm]"), "{name}");
     }
 
-    let sections = named("_section_");
+    assert_eq!(named("_magnified_section_").len(), 8);
+    let sections = named("_von_mises_section_");
     assert_eq!(sections.len(), 8, "{sections:?}");
     for name in &sections {
         let state = &results.states[state(name)];
