@@ -103,59 +103,6 @@
 // Quadratic prism of fifteen nodes.
 #define BRINELL_SHAPE_PRISM15 9
 
-// Along x (r).
-#define BRINELL_X 1
-
-// Along y (z).
-#define BRINELL_Y 2
-
-// Along z, of a solid.
-#define BRINELL_Z 4
-
-// Total force (x, y), shared by the nodes like a uniform traction (surface) or equally (node set).
-#define BRINELL_LOAD_FORCE 0
-
-// Pressure on a surface, positive into the body: the first of `values`.
-#define BRINELL_LOAD_PRESSURE 1
-
-// Uniform traction (x, y) on a surface.
-#define BRINELL_LOAD_TRACTION 2
-
-// Traction of a plate with a hole at the origin under remote stress along x and y: values are both
-// stresses and the radius.
-#define BRINELL_LOAD_KIRSCH 3
-
-// Prescribed displacement (x, y) in the given directions.
-#define BRINELL_LOAD_DISPLACEMENT 4
-
-// Total force (the first of `values`) along the one given direction, on a surface that is held
-// plane.
-#define BRINELL_LOAD_PLANE_FORCE 5
-
-// A force of its own (x, y) on each of `nodes`; `name` is needed, `on` is not.
-#define BRINELL_LOAD_NODAL 6
-
-// The load factor times the load.
-#define BRINELL_PROPORTIONAL 0
-
-// A preload, applied gradually before the load program.
-#define BRINELL_CONSTANT 1
-
-// By a table over the load factor.
-#define BRINELL_TABLE 2
-
-// A load factor.
-#define BRINELL_TARGET_LOAD_FACTOR 0
-
-// First yield.
-#define BRINELL_TARGET_YIELD 1
-
-// A contact half width as a multiple of that at first yield.
-#define BRINELL_TARGET_HALF_WIDTH 2
-
-// A mean displacement of `on` along `direction`.
-#define BRINELL_TARGET_DISPLACEMENT 3
-
 // Undeformed x (r) of the pair, on the second surface.
 #define BRINELL_PAIR_X 0
 
@@ -273,122 +220,6 @@ typedef struct brinell_increment {
 
 // Called in the calling thread after each accepted increment; anything but 0 stops the run there.
 typedef int32_t (*brinell_callback)(const struct brinell_increment *increment, void *user);
-
-// A material. What is zero (NULL) is not given.
-typedef struct brinell_material {
-  // sizeof(brinell_material).
-  size_t size;
-  // E > 0.
-  double youngs_modulus;
-  // -1 < nu < 0.5.
-  double poissons_ratio;
-  // Tensile yield stress; 0 for an elastic material.
-  double yield_stress;
-  // Slope of the yield stress over the plastic strain; 0 for perfect plasticity.
-  double plastic_modulus;
-  // n_table rows of (plastic strain, yield stress) in place of the modulus, the first one (0,
-  // yield_stress).
-  const double *hardening_table;
-  // Rows of the table.
-  size_t n_table;
-} brinell_material;
-
-// How two surfaces touch. NULL stands for the defaults, which are all zeros: nodes that face each
-// other are paired, other surfaces are coupled by the integrals of their shape functions.
-typedef struct brinell_contact {
-  // sizeof(brinell_contact).
-  size_t size;
-  // Taken off every gap, gradually before the load program.
-  double interference;
-  // Gap of all pairs in place of the geometric one; NULL if not given.
-  const double *gap;
-  // Direction from the second body to the first of all pairs (2 values), for the pairing by
-  // geometry; NULL for the second surface's outward normals.
-  const double *normal;
-  // Number of pairs that are given; 0: by geometry.
-  size_t n_pairs;
-  // n_pairs nodes of the first surface.
-  const int64_t *first_nodes;
-  // n_pairs nodes of the second surface.
-  const int64_t *second_nodes;
-  // n_pairs x 2, of a solid x 3: direction from the second body to the first; NULL for the
-  // second surface's outward normals.
-  const double *normals;
-  // n_pairs gaps >= 0; NULL for the geometric ones.
-  const double *gaps;
-  // Which surface has the slaves, at whose nodes gaps and pressures are: 1 the first, 2 the
-  // second; 0: the finer one, the second where nodes face each other.
-  int32_t slave;
-} brinell_contact;
-
-// A load at factor 1.
-typedef struct brinell_load {
-  // sizeof(brinell_load).
-  size_t size;
-  // One of BRINELL_LOAD_...
-  int32_t kind;
-  // BRINELL_X, BRINELL_Y, BRINELL_Z or several (or-ed), where the kind needs it.
-  int32_t directions;
-  // Name for messages; NULL if not given.
-  const char *name;
-  // Surface or node set.
-  const char *on;
-  // What the kind says.
-  double values[3];
-  // n_nodes nodes of a nodal load.
-  const int64_t *nodes;
-  // n_nodes x 2 forces, of a solid x 3.
-  const double *forces;
-  // Nodes of a nodal load.
-  size_t n_nodes;
-  // BRINELL_PROPORTIONAL, BRINELL_CONSTANT or BRINELL_TABLE.
-  int32_t history;
-  // n_table rows of (load factor, multiple), piecewise linear.
-  const double *table;
-  // Rows of the table.
-  size_t n_table;
-} brinell_load;
-
-// A target of the load program: it leaves a state.
-typedef struct brinell_target {
-  // sizeof(brinell_target).
-  size_t size;
-  // One of BRINELL_TARGET_...
-  int32_t kind;
-  // BRINELL_X or BRINELL_Y of a displacement.
-  int32_t direction;
-  // Load factor, multiple or displacement.
-  double value;
-  // Node set or surface of a displacement.
-  const char *on;
-  // Name of the state; NULL to have one made.
-  const char *name;
-  // 1 to leave out the fields of this state.
-  int32_t no_fields;
-} brinell_target;
-
-// How the load program is computed. What is zero is as by default.
-typedef struct brinell_program {
-  // sizeof(brinell_program).
-  size_t size;
-  // What a load factor of 1 means: the loads as given (0), the yield load (1).
-  int32_t unit;
-  // Increments end at the next change of contact (0), or there are `steps` of them for each
-  // target (1).
-  int32_t stepping;
-  // Increments for each target.
-  size_t steps;
-  // Relative tolerance with which a change of contact is landed on.
-  double gamma;
-  // Yield load along the exact path (0) or by the paper's secant (1).
-  int32_t yield_load;
-  // Plastic iteration: Newton (0), Anderson (1), plain (2).
-  int32_t plastic_iteration;
-  // Out-of-balance force of the plastic iteration over the contact and applied forces.
-  double tolerance;
-  // Most plastic iterations of an increment.
-  size_t max_iterations;
-} brinell_program;
 
 // First yield. Not a number where it is not known.
 typedef struct brinell_yield {
@@ -548,12 +379,6 @@ int32_t brinell_model_new(int32_t kind, size_t symmetry, struct brinell_model **
 // Frees a model.
 void brinell_model_free(struct brinell_model *model);
 
-// Adds tables of a scene (TOML text): materials, bodies, contact, support, load,
-// program, analysis, units, title; whatever a scene file may say but for `kind`, `symmetry`
-// and `mesh`. Materials, bodies, contacts, supports and loads come to those that are there, the
-// others take their place.
-int32_t brinell_model_tables(struct brinell_model *model, const char *tables);
-
 // Adds nodes: n x 2 coordinates, of a solid n x 3, node by node. Nodes are numbered from 0 in the
 // order in which they were added.
 int32_t brinell_model_nodes(struct brinell_model *model, const double *coordinates, size_t n);
@@ -601,38 +426,35 @@ int32_t brinell_model_run(const struct brinell_model *model,
                           void *user,
                           struct brinell_results **out);
 
-// Names a material.
-int32_t brinell_model_material(struct brinell_model *model,
-                               const char *name,
-                               const struct brinell_material *material);
+// Adds tables of a scene (TOML text): materials, bodies, contact, tie, equation, support, load,
+// program, analysis, units, title; whatever a scene file may say but for `kind`, `symmetry`
+// and `mesh`. Materials, bodies, contacts, ties, equations, supports and loads come to those that
+// are there, the others take their place. A model without a target has load factor 1 as one.
+int32_t brinell_model_tables(struct brinell_model *model, const char *tables);
 
-// Says what a body is made of, and whether it may yield: if its material can (0), yes (1), no (2).
-int32_t brinell_model_body(struct brinell_model *model,
-                           const char *body,
-                           const char *material,
-                           int32_t yields);
+// Lets two surfaces touch at n given pairs of nodes. `contact` has the keys of a `[[contact]]`
+// table (TOML text): `first`, `second` and what else is given. Nodes of the surfaces that are in
+// no pair do not touch.
+//
+// `normals` are n x 2, of a solid n x 3, directions from the second body to the first; NULL for
+// the second surface's outward normals. `gaps` are n gaps >= 0; NULL for the contact's `gap`, or the
+// geometric ones.
+int32_t brinell_model_contact_pairs(struct brinell_model *model,
+                                    const char *contact,
+                                    size_t n,
+                                    const int64_t *first_nodes,
+                                    const int64_t *second_nodes,
+                                    const double *normals,
+                                    const double *gaps);
 
-// Lets two surfaces touch.
-int32_t brinell_model_contact(struct brinell_model *model,
-                              const char *first,
-                              const char *second,
-                              const struct brinell_contact *contact);
-
-// Holds a node set or surface along BRINELL_X, BRINELL_Y, BRINELL_Z or several (or-ed), in axes
-// turned counter-clockwise by `angle` degrees, of a solid about the z axis.
-int32_t brinell_model_support(struct brinell_model *model, const char *on, int32_t fix, double angle);
-
-// Holds a node set or surface along any one direction: two components, of a solid three.
-int32_t brinell_model_support_along(struct brinell_model *model, const char *on, const double *direction);
-
-// Adds a load.
-int32_t brinell_model_load(struct brinell_model *model, const struct brinell_load *load);
-
-// Adds a target of the load program. A model without one has load factor 1 as its target.
-int32_t brinell_model_target(struct brinell_model *model, const struct brinell_target *target);
-
-// States how the load program is computed; the targets stay.
-int32_t brinell_model_program(struct brinell_model *model, const struct brinell_program *program);
+// Adds a load that has a force of its own on each of n nodes: n x 2 components, of a solid n x 3.
+// The forces act on the model itself, not on the whole of a symmetric one. `load` has the keys
+// `name` and, where the load is not proportional, `history` of a `[[load]]` table (TOML text).
+int32_t brinell_model_nodal_load(struct brinell_model *model,
+                                 const char *load,
+                                 size_t n,
+                                 const int64_t *nodes,
+                                 const double *forces);
 
 // Runs a scene's load program. `callback` (NULL for none) is called after each increment with
 // `user`.

@@ -37,7 +37,6 @@ fn generated() -> String {
         "scene",
         "model",
         "conditions",
-        "loading",
         "run",
         "results",
         "quantities",
