@@ -37,8 +37,8 @@ pub unsafe extern "C" fn brinell_model_tables(
 /// no pair do not touch.
 ///
 /// `normals` are n x 2, of a solid n x 3, directions from the second body to the first; NULL for
-/// the second surface's outward normals. `gaps` are n gaps >= 0; NULL for the contact's `gap`, or the
-/// geometric ones.
+/// the second surface's outward normals. `gaps` are n gaps >= 0; NULL for the contact's `gap`, or
+/// the geometric ones.
 ///
 /// # Safety
 /// `model` is a living handle, `contact` ends with a zero, the arrays have so many values or are
