@@ -437,8 +437,8 @@ int32_t brinell_model_tables(struct brinell_model *model, const char *tables);
 // no pair do not touch.
 //
 // `normals` are n x 2, of a solid n x 3, directions from the second body to the first; NULL for
-// the second surface's outward normals. `gaps` are n gaps >= 0; NULL for the contact's `gap`, or the
-// geometric ones.
+// the second surface's outward normals. `gaps` are n gaps >= 0; NULL for the contact's `gap`, or
+// the geometric ones.
 int32_t brinell_model_contact_pairs(struct brinell_model *model,
                                     const char *contact,
                                     size_t n,
