@@ -230,6 +230,7 @@ impl Model {
                 Some(true) => Plastic::Yes,
                 Some(false) => Plastic::No,
             },
+            ..Body::default()
         };
         self.change(py, |b| b.body(name, body).map(drop))
     }
