@@ -236,6 +236,8 @@ fn materials_are_listed_with_their_sources_and_taken_by_name() {
         "S355",
         "--load",
         "5",
+        "--resolution",
+        "4",
         "--out",
         scene.to_str().unwrap(),
     ]);
