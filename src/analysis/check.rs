@@ -345,6 +345,10 @@ pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
         )
     };
     let interference = model.pairs.iter().any(|p| p.interference != 0.0);
+    let changed: Vec<&str> = (model.loads.iter())
+        .filter(|load| !load.opens.is_empty())
+        .map(|load| load.name.as_str())
+        .collect();
     let floating = &model.floating.bodies;
     let preload = model.loads.iter().any(|l| l.factor(0.0, 1.0) != 0.0);
     let on_off = |on: bool, yes: String, no: &str| if on { yes } else { no.to_string() };
@@ -366,12 +370,12 @@ pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
         ),
         effect(
             "interference",
-            interference,
-            on_off(
-                interference,
-                "a contact states an interference, applied before the load".into(),
-                "no contact states one",
-            ),
+            interference || !changed.is_empty(),
+            match (interference, changed.is_empty()) {
+                (true, _) => "a contact states an interference, applied before the load".into(),
+                (false, true) => "no contact states one".into(),
+                (false, false) => format!("{} changes gaps", changed.join(", ")),
+            },
         ),
         effect(
             "preload",

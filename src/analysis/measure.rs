@@ -261,7 +261,12 @@ impl Solver<'_> {
     /// NaN: the reaction is known with the state only.
     pub fn total_load_size(&self) -> f64 {
         match self.leading_load() {
-            Some(i) if self.structure.model.loads[i].measures != Magnitude::Displacement => {
+            Some(i)
+                if !matches!(
+                    self.structure.model.loads[i].measures,
+                    Magnitude::Displacement | Magnitude::Gap
+                ) =>
+            {
                 self.at.factors[i].abs() * self.structure.model.loads[i].magnitude
             }
             _ if self.now.force.is_empty() => f64::NAN,

@@ -53,7 +53,7 @@ impl Reading<'_, '_> {
             along(sum, weight, of(node))
         });
         let opened = dot(difference(faced, of(pair.slave)), pair.normal);
-        pair.gap - at.interference * pair.interference + opened
+        self.solver.structure.gap_unmoved(pair, at) + opened
     }
 
     /// How far the loads that vary have brought the bodies together
@@ -64,7 +64,7 @@ impl Reading<'_, '_> {
         let driven = |l: &&LoadCase| l.driven(structure.unit) > 0.0;
         let mut driving: Vec<&LoadCase> = loads.iter().filter(driven).collect();
         if driving.is_empty() {
-            driving = loads.iter().collect();
+            driving = loads.iter().filter(|l| l.opens.is_empty()).collect();
         }
         let prescribed = driving
             .iter()

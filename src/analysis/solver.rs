@@ -175,6 +175,7 @@ impl<'m> Solver<'m> {
             .map(|((load, condensed), (from, to))| {
                 let size = match load.measures {
                     Magnitude::Displacement => condensed.load.iter().map(|f| f.abs()).sum(),
+                    Magnitude::Gap => condensed.forces.iter().map(|f| f.abs()).sum(),
                     _ => load.size(),
                 };
                 (to - from).abs() * size

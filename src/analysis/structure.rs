@@ -7,7 +7,7 @@ use super::zone_choice::zone_freedoms;
 use crate::assembly::System;
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::Backend;
-use crate::model::Model;
+use crate::model::{Model, Pair};
 use crate::results::Counts;
 use crate::substructure::{Substructure, Trailing};
 use rayon::prelude::*;
@@ -54,7 +54,7 @@ pub(super) struct Loads {
     pub(super) reduced: Vec<Vec<f64>>,
     /// Condensed.
     pub(super) condensed: Vec<EliminatedLoad>,
-    /// Forces `t` of the tied pairs.
+    /// Forces `t` of the tied pairs, those of changed gaps among them.
     pub(super) forces: Vec<Vec<f64>>,
     /// Weights of each rigid motion in the far boundary
     /// ([`crate::model::RigidMotion::in_far_boundary`]), reduced as loads are.
@@ -208,8 +208,20 @@ impl<'m> Structure<'m> {
         self.loads.far = far.map(|w| self.sub.condense(w)).collect::<Result<_>>()?;
         let reduced = self.loads.reduced.iter();
         let condensed: Result<Vec<_>> = reduced.map(|l| self.sub.condense(l)).collect();
-        let condensed = condensed?.into_iter();
-        self.loads.condensed = condensed.map(|load| self.eliminate(load, cost)).collect();
+        let condensed = condensed?.into_iter().zip(&self.model.loads);
+        let eliminated = condensed.map(|(load, case)| {
+            let mut out = self.eliminate(load, cost);
+            if !case.opens.is_empty() {
+                let gaps: Vec<f64> = self.model.pairs.iter().map(|pair| case.gap(pair)).collect();
+                let forces = self.sub.slip_forces(&gaps);
+                out.forces
+                    .iter_mut()
+                    .zip(forces)
+                    .for_each(|(t, force)| *t -= force);
+            }
+            out
+        });
+        self.loads.condensed = eliminated.collect();
         Ok(())
     }
 
@@ -256,10 +268,18 @@ impl<'m> Structure<'m> {
         combination(self.model.freedoms.n, &self.loads.reduced, &point.factors)
     }
 
-    /// Initial gaps less the applied interference.
+    /// The gap of a pair before anything moves: the initial one less the applied interference, with
+    /// what loads add.
+    pub fn gap_unmoved(&self, pair: &Pair, point: &LoadPoint) -> f64 {
+        let loads = self.model.loads.iter().zip(&point.factors);
+        let opened: f64 = loads.map(|(load, factor)| factor * load.gap(pair)).sum();
+        pair.gap - point.interference * pair.interference + opened
+    }
+
+    /// [`Structure::gap_unmoved`] of all pairs.
     pub fn delta(&self, point: &LoadPoint) -> Vec<f64> {
-        let gaps = self.gaps.initial.iter().zip(&self.gaps.interference);
-        gaps.map(|(g, i)| g - point.interference * i).collect()
+        let pairs = self.model.pairs.iter();
+        pairs.map(|pair| self.gap_unmoved(pair, point)).collect()
     }
 
     /// What the force of tied pair `k` is the sum of at a load point without initial loads: `t` of

@@ -117,7 +117,9 @@ impl Run<'_, '_> {
         self.solver.restore_elastic(&before);
         self.set_zone(zone_choice::predict(self.model(), &ratios))?;
         let model = self.model();
-        let proportional = |l: &crate::model::LoadCase| matches!(l.history, History::Proportional);
+        let proportional = |l: &crate::model::LoadCase| {
+            matches!(l.history, History::Proportional) && l.opens.is_empty()
+        };
         if model.loads.iter().all(proportional) && model.pairs.iter().all(|p| p.interference == 0.0)
         {
             let highest = extremes.iter().fold(0.0f64, |m, a| m.max(a.abs()));

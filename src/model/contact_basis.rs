@@ -204,8 +204,11 @@ impl ContactBasis {
                 };
                 dot(self.at_control(pair.slave, vector), pair.normal)
             };
-            (pair.gap, pair.interference) =
-                (along_normal(|p| p.gap), along_normal(|p| p.interference));
+            (pair.gap, pair.interference, pair.unit_gap) = (
+                along_normal(|p| p.gap),
+                along_normal(|p| p.interference),
+                along_normal(|p| p.unit_gap),
+            );
         }
         for (k, node) in nodes.iter().enumerate() {
             if let Some(ends) = self.ends(node.slave) {

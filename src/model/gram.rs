@@ -16,10 +16,15 @@ impl Gram {
         }
     }
 
-    /// Adds `row row'`.
+    /// Adds `row row'`; entries of a row at the same place add up first, which of a contact row
+    /// with many masters leaves two bodies' motions.
     pub(super) fn add(&mut self, row: &[(usize, f64)]) {
+        let mut summed: BTreeMap<usize, f64> = BTreeMap::new();
         for &(i, a) in row {
-            for &(j, b) in row {
+            *summed.entry(i).or_insert(0.0) += a;
+        }
+        for (&i, a) in &summed {
+            for (&j, b) in &summed {
                 *self.rows[i].entry(j).or_insert(0.0) += a * b;
             }
         }

@@ -2,7 +2,7 @@
 
 use super::given::Given;
 use super::names::Entry;
-use super::{Freedoms, Slot, volume_loads};
+use super::{Freedoms, Pair, Slot, volume_loads};
 use crate::analytical::KirschField;
 use crate::element::facet_points;
 use crate::error::{Error, Result};
@@ -21,6 +21,8 @@ pub enum Magnitude {
     Displacement,
     /// A change of temperature.
     Temperature,
+    /// A change of gaps.
+    Gap,
 }
 
 /// A load: nodal forces per unit of its factor, and how the factor depends on the load factor.
@@ -50,6 +52,8 @@ pub struct LoadCase {
     /// Of a load by temperature: the free strain `alpha dT` at factor 1 at each node of the mesh,
     /// which counts in the elements of its body.
     pub free_strain: Option<Vec<f64>>,
+    /// Of a load by a gap: the contacts whose gaps it changes, and by how much at factor 1.
+    pub opens: Vec<(usize, f64)>,
 }
 
 impl LoadCase {
@@ -60,6 +64,15 @@ impl LoadCase {
             History::Constant => 1.0,
             History::Table(rows) => interpolate(rows, alpha),
         }
+    }
+
+    /// What it adds to the gap of a pair at factor 1.
+    pub fn gap(&self, pair: &Pair) -> f64 {
+        let opened = self
+            .opens
+            .iter()
+            .filter(|(contact, _)| *contact == pair.contact);
+        opened.map(|(_, gap)| gap * pair.unit_gap).sum()
     }
 
     /// Sum of the sizes of the nodal forces at factor 1.
@@ -167,6 +180,7 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
         nodes,
         direction: [0.0; 3],
         free_strain: None,
+        opens: Vec::new(),
     };
     let surface = |key: &str| {
         mesh.surfaces.get(&load.on).ok_or_else(|| {
@@ -177,7 +191,11 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
             )))
         })
     };
-    if let Some(force) = load.force {
+    if let Some(gap) = load.gap {
+        case.opens = opened(load, scene, gap).map_err(|e| entry.refused(e))?;
+        case.measures = Magnitude::Gap;
+        case.magnitude = gap.abs();
+    } else if let Some(force) = load.force {
         let force = force.vector();
         case.set_size(force, Magnitude::Force);
         let share = force.map(|f| f / symmetry);
@@ -238,6 +256,28 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
         ))));
     }
     Ok(case)
+}
+
+/// The contacts of a surface whose gaps a load changes, and by how much.
+fn opened(load: &scene::Load, scene: &Scene, gap: f64) -> Result<Vec<(usize, f64)>> {
+    let contacts = scene.contact.iter().enumerate();
+    let found: Vec<(usize, f64)> = contacts
+        .filter(|(_, contact)| contact.first == load.on || contact.second == load.on)
+        .map(|(index, _)| (index, gap))
+        .collect();
+    if found.is_empty() {
+        let of = scene
+            .contact
+            .iter()
+            .flat_map(|c| [c.first.as_str(), c.second.as_str()]);
+        let of: Vec<&str> = of.collect();
+        return Err(Error::input(format!(
+            "a load by `gap` on `{}`, which no contact has; surfaces in contact are `{}`",
+            load.on,
+            of.join("`, `")
+        )));
+    }
+    Ok(found)
 }
 
 pub(super) fn name(index: usize, load: &scene::Load) -> String {

@@ -34,6 +34,9 @@ pub struct Pair {
     pub gap: f64,
     /// Interference.
     pub interference: f64,
+    /// What a gap of 1 all over the contact is of the pair: 1, or at a control point of a quadratic
+    /// face what the normals round it leave of it.
+    pub unit_gap: f64,
     /// Area that belongs to the pair: integral of the slave's shape function over what of its
     /// surface faces the other.
     pub area: f64,

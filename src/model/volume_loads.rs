@@ -58,6 +58,7 @@ pub(super) fn resolve(
         body: body as u32,
         direction: [0.0; 3],
         free_strain: None,
+        opens: Vec::new(),
     };
     if let Some(temperature) = &load.temperature {
         let expansion = needed(

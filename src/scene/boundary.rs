@@ -175,6 +175,11 @@ pub struct Load {
     /// `thermal_expansion`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub temperature: Option<Field>,
+    /// Change of the gap between a surface and those it may touch: positive takes them apart (a
+    /// layer ground off, a contact that is to be off), negative presses them together (an
+    /// interference that grows).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gap: Option<f64>,
     /// How it depends on the load factor.
     #[serde(default)]
     pub history: History,

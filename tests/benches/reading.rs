@@ -26,16 +26,32 @@ const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 /// Elements along each side of the mesh.
 const SIDE: usize = 1000;
 
+/// A name and what it measures.
+type Part = (&'static str, fn() -> Result<Value, Failure>);
+
+/// All parts, or those whose names are given.
 fn main() -> Result<(), Failure> {
-    let all = json!({
-        "reading": reading()?,
-        "starting": starting()?,
-        "output": output()?,
-        "rows": rows()?,
-    });
+    let parts: [Part; 4] = [
+        ("reading", reading),
+        ("starting", starting),
+        ("output", output),
+        ("rows", rows),
+    ];
+    let named: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|a| a != "--bench")
+        .collect();
     let folder = Path::new(ROOT).join("bench-results");
     std::fs::create_dir_all(&folder)?;
-    std::fs::write(folder.join("reading.json"), format!("{all:#}\n"))?;
+    for (name, measure) in parts {
+        if named.is_empty() || named.iter().any(|n| n == name) {
+            let figures = measure()?;
+            std::fs::write(
+                folder.join(format!("{name}.json")),
+                format!("{figures:#}\n"),
+            )?;
+        }
+    }
     Ok(())
 }
 

@@ -11,6 +11,7 @@ mod disc_in_plate;
 mod equations;
 mod figures;
 mod flat_punch;
+mod gap_load;
 mod heat;
 mod hertz_line;
 mod hertz_line_history;

@@ -86,6 +86,7 @@ pub(super) fn pairs(entries: &Entries, given: Option<&[NodePair]>) -> Result<Opt
                     normal: partner.normal,
                     gap: partner.gap.unwrap_or(geometric),
                     interference: contact.interference,
+                    unit_gap: 1.0,
                     area,
                     arc,
                 });

@@ -315,13 +315,12 @@ impl Sides<'_> {
             _ => return None,
         };
         let weighted = || dot(of_node.gap.map(|g| g / weight), normal);
-        let (gap, interference) = match met {
-            Some(met) if !of_node.is_transformed => (met.gap, contact.interference),
+        let (gap, unit_gap) = match met {
+            Some(met) if !of_node.is_transformed => (met.gap, 1.0),
             _ if of_node.is_transformed => {
-                let share = dot(of_node.normal.map(|n| n / weight), normal);
-                (weighted(), share * contact.interference)
+                (weighted(), dot(of_node.normal.map(|n| n / weight), normal))
             }
-            _ => (weighted(), contact.interference),
+            _ => (weighted(), 1.0),
         };
         Some(Pair {
             contact: self.entries.index,
@@ -329,7 +328,8 @@ impl Sides<'_> {
             masters,
             normal,
             gap: contact.gap.unwrap_or(gap),
-            interference,
+            interference: unit_gap * contact.interference,
+            unit_gap,
             area: weight,
             arc,
         })

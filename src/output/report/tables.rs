@@ -232,6 +232,8 @@ fn describe(model: &Model, load: &Load, labels: &Labels) -> String {
             Field::Uniform(change) => format!("temperature changed by {}", given(*change)),
             Field::Formula(text) => format!("temperature changed by {text}"),
         }
+    } else if let Some(gap) = load.gap {
+        format!("gap changed by {}", with_unit(&given(gap), labels.length()))
     } else {
         String::new()
     };

@@ -195,6 +195,7 @@ impl Checks {
                 ("acceleration", load.acceleration.is_some()),
                 ("rotation", load.rotation.is_some()),
                 ("temperature", load.temperature.is_some()),
+                ("gap", load.gap.is_some()),
             ],
         );
         if let Some(displacement) = load.displacement {

@@ -32,8 +32,6 @@ fn model([first, second]: [usize; 2]) -> Result<Model, Failure> {
             format!("mesh.cylinder_on_half_plane.resolution={resolution}"),
             "contact.0.slave=first".to_string(),
             format!("program.targets=[{{load_factor={LOAD}}}]"),
-            "bodies.cylinder.plastic=\"no\"".to_string(),
-            "bodies.half_plane.plastic=\"no\"".to_string(),
         ];
         Scene::load_with(SCENE, &overrides)
     };

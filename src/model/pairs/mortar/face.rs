@@ -114,14 +114,17 @@ impl Face {
     /// The place that lies on a point of a plane, seen along its normal.
     pub(super) fn locate(&self, plane: &Plane, point: Point) -> Option<Place> {
         let mut place = self.reference.center();
+        let mut nodes = [[0.0; 2]; MAX_FACET_NODES];
+        for (node, &x) in nodes.iter_mut().zip(&self.x) {
+            *node = plane.project(x);
+        }
         for _ in 0..STEPS {
             let at = (self.reference.functions)(place);
-            let here = plane.project(position(&at.values, &self.x));
-            let off = [point[0] - here[0], point[1] - here[1]];
-            let mut slopes = [[0.0; 2]; 2];
-            for (gradient, &x) in at.gradients.iter().zip(&self.x) {
-                let x = plane.project(x);
+            let (mut off, mut slopes) = (point, [[0.0; 2]; 2]);
+            let each = at.values.iter().zip(&at.gradients).zip(&nodes);
+            for ((value, gradient), x) in each.take(self.x.len()) {
                 for i in 0..2 {
+                    off[i] -= value * x[i];
                     for j in 0..2 {
                         slopes[i][j] += gradient[j] * x[i];
                     }
