@@ -246,6 +246,15 @@ pub(super) struct Condition {
     pub(super) place: Place,
 }
 
+/// A contact pair that a step switches on or off.
+#[derive(Debug, Clone)]
+pub(super) struct ContactChange {
+    pub(super) slave: String,
+    pub(super) master: String,
+    pub(super) is_on: bool,
+    pub(super) place: Place,
+}
+
 /// A step.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Step {
@@ -254,6 +263,7 @@ pub(super) struct Step {
     /// Increments that it is to take, where it says so.
     pub(super) increments: usize,
     pub(super) conditions: Vec<Condition>,
+    pub(super) contact_changes: Vec<ContactChange>,
     /// Where it is said that the conditions of each kind replace those of the steps before.
     pub(super) renewed: [Option<Place>; 3],
 }

@@ -54,6 +54,7 @@ const KEYWORDS: &[(&str, Use)] = &[
     ("HEADING", Use::Read),
     ("INCLUDE", Use::Read),
     ("MATERIAL", Use::Read),
+    ("MODEL CHANGE", Use::Read),
     ("NODE", Use::Read),
     ("NSET", Use::Read),
     ("PLASTIC", Use::Read),
@@ -112,10 +113,6 @@ const KEYWORDS: &[(&str, Use)] = &[
     (
         "CHANGE SURFACE BEHAVIOR",
         Use::Refused("contact is the same in all steps"),
-    ),
-    (
-        "MODEL CHANGE",
-        Use::Refused("contact and elements are the same in all steps"),
     ),
     ("MPC", CONSTRAINTS),
     ("COUPLING", CONSTRAINTS),

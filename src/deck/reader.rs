@@ -122,6 +122,7 @@ impl<'t> Reader<'t> {
             "STATIC" => self.statics(keyword),
             "BOUNDARY" => self.boundary(keyword),
             "CLOAD" => self.cload(keyword),
+            "MODEL CHANGE" => self.model_change(keyword),
             "DLOAD" => self.dload(keyword),
             "DSLOAD" => self.dsload(keyword),
             "END STEP" => self.end_step(keyword),

@@ -18,6 +18,13 @@ impl Series {
         self.0.last().map_or(0.0, |row| row[1])
     }
 
+    /// Stays what it is up to a time.
+    pub(super) fn stay(&mut self, time: f64) {
+        if self.0.last().is_none_or(|row| row[0] < time) {
+            self.push(time, self.last());
+        }
+    }
+
     /// Goes on linearly to a value at a later time.
     pub(super) fn push(&mut self, time: f64, value: f64) {
         if let [.., [t0, v0], [t1, v1]] = self.0[..] {

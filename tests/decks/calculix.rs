@@ -15,7 +15,7 @@ struct Case {
 const PRINTED: f64 = 1e-6;
 const FULL: &[&str] = &["mesh.formulation=full"];
 
-const CASES: [Case; 14] = [
+const CASES: [Case; 15] = [
     case("two_blocks", FULL, PRINTED),
     case("history", &[], PRINTED),
     case("plastic", &[], 2e-4),
@@ -28,6 +28,7 @@ const CASES: [Case; 14] = [
     case("lever", FULL, PRINTED),
     case("included", FULL, 1e-3),
     case("interference", FULL, PRINTED),
+    case("switched", FULL, PRINTED),
     case("tied", FULL, PRINTED),
     case("tilted_block", FULL, 2e-3),
 ];

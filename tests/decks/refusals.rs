@@ -222,6 +222,21 @@ fn damage_is_told_by_line_and_keyword() {
             "line 18: *CONTACT PAIR: there is no *SURFACE INTERACTION I",
         ),
         (
+            "*CLOAD",
+            "*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nA, B\n*CLOAD",
+            "line 23: *MODEL CHANGE: there is no *CONTACT PAIR with the slave A and the master B",
+        ),
+        (
+            "*CLOAD",
+            "*MODEL CHANGE, TYPE=CONTACT PAIR\nA, B\n*CLOAD",
+            "line 22: *MODEL CHANGE: give either ADD or REMOVE",
+        ),
+        (
+            "*BOUNDARY",
+            "*MODEL CHANGE, TYPE=CONTACT PAIR, ADD\nA, B\n*BOUNDARY",
+            "*MODEL CHANGE: it stands in no *STEP",
+        ),
+        (
             "*BOUNDARY",
             "*INCLUDE, INPUT=not/there.inp\n*BOUNDARY",
             "*INCLUDE",
@@ -253,6 +268,11 @@ fn what_brinell_does_not_have_is_told_by_line_and_reason() {
             "TYPE=CPE4",
             "TYPE=S4R",
             "line 8: *ELEMENT: TYPE=S4R: shells and membranes are not",
+        ),
+        (
+            "*CLOAD",
+            "*MODEL CHANGE, REMOVE\nBODY\n*CLOAD",
+            "*MODEL CHANGE: elements are the same in all steps",
         ),
         (
             "TYPE=CPE4",

@@ -2,6 +2,7 @@
 //! that is off for a while.
 
 use super::run::{run, scene};
+use brinell::model::Model;
 use brinell::results::{Results, State};
 use brinell::scene::Scene;
 
@@ -91,4 +92,16 @@ fn contact_that_is_off_for_a_while() {
     let most = fields.stress.iter().fold(0.0f64, |m, s| m.max(s.abs()));
     // Round-off of the pressure that was.
     assert!(most < 1e-9 * before.max_pressure, "{most}");
+}
+
+#[test]
+fn a_gap_on_a_surface_without_contact_is_refused() {
+    let load = ["load=[{ on = \"ring.start\", gap = 0.1 }]"];
+    let error = Model::new(&scene("shrink_fit", &load)).unwrap_err();
+    for fragment in [
+        "`ring.start`, which no contact has",
+        "`shaft.outer`, `ring.inner`",
+    ] {
+        assert!(error.message().contains(fragment), "{error}");
+    }
 }

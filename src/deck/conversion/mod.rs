@@ -2,6 +2,7 @@
 
 mod conditions;
 mod contact;
+mod contact_changes;
 mod draft;
 mod equations;
 mod geometry;
@@ -68,6 +69,7 @@ impl Deck {
         let mut draft = Draft::new(self, self.geometry()?, self.thickness(space, &mut account)?);
         draft.conditions()?;
         draft.contacts(&mut account)?;
+        draft.contact_changes(&mut account)?;
         draft.ties()?;
         let mut scene = self.empty_scene(space);
         self.add_bodies(&bodies, &mut scene, &mut draft.places)?;

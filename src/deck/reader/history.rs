@@ -2,7 +2,7 @@
 
 use super::mesh::{face, target};
 use super::{Reader, fields};
-use crate::deck::data::{Condition, Kind, Step, Target};
+use crate::deck::data::{Condition, ContactChange, Kind, Step, Target};
 use crate::deck::fields::Fields;
 use crate::deck::keyword::Keyword;
 use crate::deck::source::Line;
@@ -292,6 +292,45 @@ impl Reader<'_> {
             row.end()?;
             self.add_pressure(on, 0, value, &amplitude, line);
         }
+        Ok(())
+    }
+
+    pub(super) fn model_change(&mut self, keyword: &Keyword) -> Result<()> {
+        let files = &self.source.files;
+        keyword.allow(files, &["TYPE", "ADD", "REMOVE"])?;
+        if keyword.choice(files, "TYPE", &["ELEMENT", "CONTACT PAIR"])? == "ELEMENT" {
+            let why = "elements are the same in all steps; of *MODEL CHANGE there is \
+                       TYPE=CONTACT PAIR";
+            self.refuse(keyword, keyword.place, why);
+            return self.skip();
+        }
+        let is_on = keyword.has("ADD");
+        if is_on == keyword.has("REMOVE") {
+            return Err(keyword.error(files, "give either ADD or REMOVE"));
+        }
+        let Some(step) = self.current_step() else {
+            return Err(keyword.error(files, "it stands in no *STEP; put it in one"));
+        };
+        let mut changes = Vec::new();
+        while let Some(line) = self.source.next_data()? {
+            let mut row = fields(&self.source, keyword, line);
+            let slave = row.text("the slave surface")?;
+            let master = row.text("the master surface")?;
+            row.end()?;
+            changes.push(ContactChange {
+                slave,
+                master,
+                is_on,
+                place: line.place,
+            });
+        }
+        if changes.is_empty() {
+            let message = "a line with the slave and the master surface should follow; give it";
+            return Err(keyword.error(&self.source.files, message));
+        }
+        self.deck.program.steps[step]
+            .contact_changes
+            .extend(changes);
         Ok(())
     }
 
