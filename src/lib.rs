@@ -95,6 +95,8 @@ pub mod analytical;
 
 pub mod space;
 
+mod balls;
+
 pub(crate) mod shape;
 
 pub mod results;

@@ -26,7 +26,7 @@ use super::mirror::Mirror;
 use crate::model::Model;
 use crate::results::ContactPatch;
 use crate::space::{Vector, along, cross, difference, direction, dot, length, unit};
-use fit::{Fit, Known};
+use fit::{Cloud, Known};
 use moments::{Moments, Sums, mirror};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -313,7 +313,7 @@ impl<'a> Shape<'a> {
     /// `p = sqrt(s)` by `h^2/12 p''` (the mean of `x^2` by a hat function is `h^2/6`),
     /// `p'' = s''/(2 p) - s'^2/(4 p^3)`, so that `s = p^2 + h^2 (s'^2/(24 p^2) - s''/12)`; `h^2` is
     /// the pair's area.
-    fn believed(&self, layers: &BTreeMap<usize, usize>, skipped: usize) -> Vec<Known> {
+    fn believed(&self, layers: &BTreeMap<usize, usize>, skipped: usize) -> Cloud {
         let inner = layers.iter().filter(|(_, layer)| **layer > skipped);
         let known = |value: &dyn Fn(usize) -> f64| -> Vec<Known> {
             let images = |k: usize| {
@@ -325,17 +325,17 @@ impl<'a> Shape<'a> {
             inner.clone().flat_map(|(&k, _)| images(k)).collect()
         };
         let square = |k: usize| self.pressure[k].max(0.0).powi(2);
-        let means = known(&square);
-        known(&|k| {
+        let means = Cloud::new(known(&square));
+        Cloud::new(known(&|k| {
             let mean = square(k);
             if layers[&k] > skipped + CORRECTED {
                 return mean;
             }
             let area = self.area(k) * self.copies_of(k);
-            Fit::new(&means, self.place(k)).map_or(mean, |fit| {
+            means.fit(self.place(k), &[]).map_or(mean, |fit| {
                 mean + area * (fit.slope().powi(2) / (24.0 * mean) - fit.laplacian() / 12.0)
             })
-        })
+        }))
     }
 
     /// How many images of a pair's area, its own included, lie round it.
@@ -375,7 +375,7 @@ impl<'a> Shape<'a> {
             }
             let mean = |d: usize| places.iter().map(|x| x[d]).sum::<f64>() / places.len() as f64;
             let center = [mean(0), mean(1)];
-            match Fit::new(&believed, center) {
+            match believed.fit(center, &[]) {
                 Some(fit) => {
                     // A pair that is open has no pressure: where the polynomial gives it some, it
                     // is made to vanish there.
@@ -387,8 +387,7 @@ impl<'a> Shape<'a> {
                         value: 0.0,
                     };
                     let zeros: Vec<Known> = wrong.map(zero).collect();
-                    let bounded = (!zeros.is_empty())
-                        .then(|| Fit::new(&[believed.as_slice(), &zeros].concat(), center));
+                    let bounded = (!zeros.is_empty()).then(|| believed.fit(center, &zeros));
                     let fit = bounded.flatten().unwrap_or(fit);
                     sums.add_face(&places, |x| fit.value(x));
                 }
@@ -450,7 +449,7 @@ impl<'a> Shape<'a> {
                 (x[0] - pole[0]).hypot(x[1] - pole[1])
             };
             let nearest = closed().min_by(|&a, &b| off(a).total_cmp(&off(b)));
-            match Fit::new(&known, pole) {
+            match Cloud::new(known).fit(pole, &[]) {
                 Some(fit) => fit.value(pole),
                 None => nearest.map_or(0.0, |k| self.pressure[k]),
             }

@@ -6,7 +6,6 @@
 
 mod matching;
 pub(super) mod mortar;
-pub(super) mod search;
 pub(super) mod ties;
 
 use super::freedoms::{Freedoms, Slot};

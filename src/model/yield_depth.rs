@@ -5,7 +5,7 @@
 //! rows of the profile and constant beyond.
 
 use super::pairs::ContactSurface;
-use super::pairs::search::Balls;
+use crate::balls::Balls;
 use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::mesh::{Facet, Mesh, Surface};

@@ -1,5 +1,6 @@
 //! Polynomials through values that are known at places.
 
+use crate::balls::Balls;
 use nalgebra::{DMatrix, DVector};
 
 /// Believed pairs that a quadratic is fitted to at least, one and a half times its terms.
@@ -16,6 +17,34 @@ pub(super) struct Known {
     pub(super) value: f64,
 }
 
+/// Values that are known at many places.
+pub(super) struct Cloud {
+    known: Vec<Known>,
+    tree: Balls,
+}
+
+impl Cloud {
+    pub(super) fn new(known: Vec<Known>) -> Self {
+        let items = known.iter().map(|known| (in_space(known.at), 0.0));
+        Cloud {
+            tree: Balls::new(items.collect()),
+            known,
+        }
+    }
+
+    /// The polynomial round a place, through the values near it and some `more`.
+    pub(super) fn fit(&self, origin: [f64; 2], more: &[Known]) -> Option<Fit> {
+        let near = self.tree.nearest_few(in_space(origin), 2 * FITTED);
+        let near = near.into_iter().map(|(_, item)| self.known[item]);
+        let near: Vec<Known> = near.chain(more.iter().copied()).collect();
+        Fit::new(&near, origin)
+    }
+}
+
+fn in_space([x, y]: [f64; 2]) -> [f64; 3] {
+    [x, y, 0.0]
+}
+
 /// A polynomial round a place: quadratic, linear where the known values do not determine that.
 pub(super) struct Fit {
     origin: [f64; 2],
@@ -26,7 +55,7 @@ pub(super) struct Fit {
 impl Fit {
     /// By least squares through the nearest known values, weighted by nearness; `None` where they
     /// do not determine even a plane.
-    pub(super) fn new(known: &[Known], origin: [f64; 2]) -> Option<Self> {
+    fn new(known: &[Known], origin: [f64; 2]) -> Option<Self> {
         let off = |known: &Known| (known.at[0] - origin[0]).hypot(known.at[1] - origin[1]);
         let mut near: Vec<(f64, Known)> = known.iter().map(|known| (off(known), *known)).collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0));

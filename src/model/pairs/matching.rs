@@ -1,7 +1,7 @@
 //! Pairs of nodes that face each other.
 
-use super::search::Balls;
 use super::{Entries, Found, Pair};
+use crate::balls::Balls;
 use crate::element::facet_points;
 use crate::error::{Error, Result};
 use crate::mesh::surface::{PAIRING, facing, longest_facet, nodes, normals};

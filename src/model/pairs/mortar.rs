@@ -23,8 +23,8 @@ mod overlap;
 mod roundness;
 mod spheres;
 
-use super::search::Balls;
 use super::{ContactSurface, Entries, Found, NO_AREA, Pair};
+use crate::balls::Balls;
 use crate::error::{Error, Result};
 use crate::mesh::surface::{longest_facet, nodes, normals};
 use crate::mesh::{Curve, Mesh, Surface};

@@ -1,4 +1,4 @@
-//! Which facets or nodes a line comes near: a tree of balls.
+//! Which items a line comes near, or lie nearest a point: a tree of balls.
 //!
 //! Ball trees: S. M. Omohundro, *Five balltree construction algorithms*, ICSI TR-89-063 (1989), the
 //! one that cuts the longest axis at the median.
@@ -10,7 +10,7 @@ const LEAF: usize = 4;
 
 /// Balls round items, and balls round these.
 #[derive(Debug)]
-pub(in crate::model) struct Balls {
+pub(crate) struct Balls {
     /// Centre and radius of each item.
     items: Vec<(Vector, f64)>,
     /// Items, leaf by leaf.
@@ -23,14 +23,14 @@ pub(in crate::model) struct Balls {
 struct Node {
     center: Vector,
     radius: f64,
-    /// Items of a leaf, as places in the order; none of others.
+    /// Items below it, as places in the order.
     items: std::ops::Range<usize>,
     /// The node that comes after all below this one.
     next: usize,
 }
 
 impl Balls {
-    pub(in crate::model) fn new(items: Vec<(Vector, f64)>) -> Self {
+    pub(crate) fn new(items: Vec<(Vector, f64)>) -> Self {
         let mut out = Balls {
             order: (0..items.len()).collect(),
             nodes: Vec::new(),
@@ -54,15 +54,14 @@ impl Balls {
         let center: Vector = std::array::from_fn(|d| 0.5 * (low[d] + high[d]));
         let reach = of_items.map(|(c, radius)| length(difference(c, center)) + radius);
         let radius = reach.fold(0.0, f64::max);
-        let is_leaf = range.len() <= LEAF;
         let own = self.nodes.len();
         self.nodes.push(Node {
             center,
             radius,
-            items: if is_leaf { range.clone() } else { 0..0 },
+            items: range.clone(),
             next: 0,
         });
-        if !is_leaf {
+        if range.len() > LEAF {
             let width = |d: &usize| high[*d] - low[*d];
             let longest = (0..3).max_by(|a, b| width(a).total_cmp(&width(b)));
             let axis = longest.unwrap_or(0);
@@ -79,15 +78,72 @@ impl Balls {
         self.nodes[own].next = self.nodes.len();
     }
 
+    /// The items of a leaf; none of other nodes.
+    fn of_leaf(&self, node: &Node) -> &[usize] {
+        match node.items.len() <= LEAF {
+            true => &self.order[node.items.clone()],
+            false => &[],
+        }
+    }
+
+    /// The items whose centres lie nearest a point, with their distances, ascending: `count` of
+    /// them at least, where there are so many, and all that are as near as the last.
+    pub(crate) fn nearest_few(&self, point: Vector, count: usize) -> Vec<(f64, usize)> {
+        let off = |center: Vector| length(difference(point, center));
+        let Some(reach) = self.reach(point, count) else {
+            return Vec::new();
+        };
+        // Round-off must not tell apart what is as near.
+        let reach = reach * (1.0 + 1e-9);
+        let mut found = Vec::new();
+        let mut at = 0;
+        while let Some(node) = self.nodes.get(at) {
+            if off(node.center) - node.radius > reach {
+                at = node.next;
+                continue;
+            }
+            let items = self.of_leaf(node).iter().copied();
+            found.extend(items.map(|item| (off(self.items[item].0), item)));
+            at += 1;
+        }
+        found.retain(|(off, _)| *off <= reach);
+        found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        if let Some(&(last, _)) = found.get(count.max(1) - 1) {
+            found.retain(|(off, _)| *off <= last * (1.0 + 1e-9));
+        }
+        found
+    }
+
+    /// A distance within which `count` items lie, or all: the farthest in a small ball near the
+    /// point that has so many.
+    fn reach(&self, point: Vector, count: usize) -> Option<f64> {
+        let off = |node: &Node| length(difference(point, node.center));
+        let mut at = 0;
+        let mut ball = self.nodes.first()?;
+        while ball.items.len() > LEAF {
+            let children = [at + 1, self.nodes[at + 1].next];
+            let nearer = children
+                .into_iter()
+                .min_by(|&a, &b| off(&self.nodes[a]).total_cmp(&off(&self.nodes[b])))?;
+            if self.nodes[nearer].items.len() < count {
+                break;
+            }
+            (at, ball) = (nearer, &self.nodes[nearer]);
+        }
+        let items = self.order[ball.items.clone()].iter();
+        let offs = items.map(|&item| length(difference(point, self.items[item].0)));
+        Some(offs.fold(0.0, f64::max))
+    }
+
     /// The least distance of a point from an item, which `distance` measures; none of no items.
-    pub(in crate::model) fn nearest(&self, point: Vector, distance: impl Fn(usize) -> f64) -> f64 {
+    pub(crate) fn nearest(&self, point: Vector, distance: impl Fn(usize) -> f64) -> f64 {
         let (mut least, mut at) = (f64::INFINITY, 0);
         while let Some(node) = self.nodes.get(at) {
             if length(difference(point, node.center)) - node.radius >= least {
                 at = node.next;
                 continue;
             }
-            for &item in &self.order[node.items.clone()] {
+            for &item in self.of_leaf(node) {
                 least = least.min(distance(item));
             }
             at += 1;
@@ -97,7 +153,7 @@ impl Balls {
 
     /// The items that come nearer than `reach` to the line through a point along a unit vector,
     /// ascending.
-    pub(super) fn near(&self, point: Vector, way: Vector, reach: f64) -> Vec<usize> {
+    pub(crate) fn near(&self, point: Vector, way: Vector, reach: f64) -> Vec<usize> {
         let mut found = Vec::new();
         self.visit(point, way, reach, |item| found.push(item));
         found.sort_unstable();
@@ -120,7 +176,7 @@ impl Balls {
                 at = node.next;
                 continue;
             }
-            for &item in &self.order[node.items.clone()] {
+            for &item in self.of_leaf(node) {
                 looked_at += 1;
                 let (center, radius) = self.items[item];
                 if comes_near(center, radius) {
@@ -167,6 +223,22 @@ mod tests {
                 .near([0.0; 3], [0.0, 0.0, 1.0], 1.0)
                 .is_empty()
         );
+    }
+
+    #[test]
+    fn the_nearest_are_those_of_a_sort() {
+        let items = bowl(19);
+        let balls = Balls::new(items.clone());
+        for (k, count) in [(0, 1), (5, 18), (180, 18), (360, 6), (77, 400)] {
+            let point = [items[k].0[0] + 0.01, items[k].0[1], 0.2];
+            let off = |k: usize| length(difference(point, items[k].0));
+            let mut all: Vec<(f64, usize)> = (0..items.len()).map(|k| (off(k), k)).collect();
+            all.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            let last = all[count.min(all.len()) - 1].0;
+            all.retain(|(off, _)| *off <= last * (1.0 + 1e-9));
+            assert_eq!(balls.nearest_few(point, count), all);
+        }
+        assert!(Balls::new(Vec::new()).nearest_few([0.0; 3], 4).is_empty());
     }
 
     /// 16 times as many facets: a few more balls on the way down, as many facets at its end.
