@@ -153,6 +153,8 @@ pub struct Effect {
     pub name: String,
     /// Whether it is simulated.
     pub on: bool,
+    /// Whether the scene asks for it: one that is off all the same turned out to be nothing.
+    pub asked: bool,
     /// Why.
     pub why: String,
     /// Seconds spent on it.

@@ -227,9 +227,18 @@ fn effect(name: &str, on: bool, why: String) -> Effect {
     Effect {
         name: name.into(),
         on,
+        asked: on,
         why,
         seconds: 0.0,
         memory_bytes: 0,
+    }
+}
+
+/// An effect that the scene asks for and that is off where it turns out to be nothing.
+fn effect_asked_for(name: &str, asked: bool, on: bool, why: String) -> Effect {
+    Effect {
+        asked,
+        ..effect(name, asked && on, why)
     }
 }
 
@@ -247,7 +256,7 @@ fn kinematic_hardening(model: &Model, yields: bool) -> Effect {
         (false, ..) => format!("{names} would, but stays elastic under these loads"),
         (true, ..) => "no material that may yield has a back stress".to_string(),
     };
-    effect("kinematic hardening", !asked.is_empty() && yields, why)
+    effect_asked_for("kinematic hardening", !asked.is_empty(), yields, why)
 }
 
 fn yield_by_depth(model: &Model, yields: bool) -> Effect {
@@ -264,7 +273,7 @@ fn yield_by_depth(model: &Model, yields: bool) -> Effect {
         (false, true) => format!("the yield stress of {names} depends on the depth"),
         (false, false) => format!("{names} stays elastic under these loads"),
     };
-    effect("yield stress by depth", !names.is_empty() && yields, why)
+    effect_asked_for("yield stress by depth", !names.is_empty(), yields, why)
 }
 
 fn volume_forces(model: &Model) -> Effect {
@@ -279,7 +288,7 @@ fn volume_forces(model: &Model) -> Effect {
         (_, 1) => "a load acts on the volume of a body".to_string(),
         (_, n) => format!("{n} loads act on the volumes of bodies"),
     };
-    effect("forces on volumes", acting > 0, why)
+    effect_asked_for("forces on volumes", asked > 0, acting > 0, why)
 }
 
 fn temperature(model: &Model) -> Effect {
@@ -294,7 +303,7 @@ fn temperature(model: &Model) -> Effect {
         (_, 1) => "a load changes the temperature of a body".to_string(),
         (_, n) => format!("{n} loads change the temperatures of bodies"),
     };
-    effect("temperature", acting > 0, why)
+    effect_asked_for("temperature", asked > 0, acting > 0, why)
 }
 
 /// The ledger: each effect on or off, and why. `yields` says whether the loads reach (or may reach)
@@ -335,8 +344,9 @@ pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
             format!("{} may yield and the loads reach yield", able.join(", ")),
         )
     } else {
-        effect(
+        effect_asked_for(
             "plasticity",
+            true,
             false,
             format!(
                 "{} could yield but stays elastic under these loads",

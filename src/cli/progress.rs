@@ -147,6 +147,8 @@ impl Progress {
                 next.enable_steady_tick(Duration::from_millis(100));
                 *bar = Some(next);
             }
+            // What takes no time worth telling is not foretold.
+            Shown::Lines { .. } if predicted < GRAIN => self.line(phase),
             Shown::Lines { .. } => self.line(&format!("{phase}, about {}", rough(predicted))),
             Shown::Json => self.json(
                 "phase",
@@ -314,9 +316,12 @@ fn new_bar(phase: &str, predicted: f64, clock: Clock) -> ProgressBar {
     bar.with_prefix(phase.to_string())
 }
 
+/// Seconds below which a predicted time is not worth stating.
+const GRAIN: f64 = 0.5;
+
 /// A predicted time, as far as it is worth stating.
 fn rough(seconds: f64) -> String {
-    duration(seconds.max(0.5))
+    duration(seconds.max(GRAIN))
 }
 
 fn describe(row: &HistoryRow) -> String {

@@ -72,7 +72,8 @@ pub(super) fn check(scene: &Scene, check: &Check) -> String {
     report.labelled(
         "Predicted",
         &format!(
-            "about {} for each factorisation, {} for the run; BLAS: {}",
+            "about {} for each factorisation, {} for the run without the estimate of its errors; \
+             BLAS: {}",
             seconds(check.predicted_seconds),
             seconds(check.predicted_run_seconds),
             check.blas
@@ -242,7 +243,8 @@ impl Report {
             (Number, "time"),
             (Number, "memory"),
         ]);
-        for effect in effects {
+        let is_shown = |effect: &&Effect| effect.on || effect.asked;
+        for effect in effects.iter().filter(is_shown) {
             // An effect that is off, or that costs nothing of its own, has no figures.
             let cost = |nonzero: bool, text: String| match nonzero {
                 true => text,
@@ -263,6 +265,12 @@ impl Report {
             ]);
         }
         self.section("Effects", &table);
+        let off = effects.iter().filter(|effect| !is_shown(effect));
+        let off: Vec<&str> = off.map(|effect| effect.name.as_str()).collect();
+        if !off.is_empty() {
+            self.text.push('\n');
+            self.labelled("Off", &off.join(", "));
+        }
     }
 
     fn cycles(&mut self, cycles: &Cycles, most: usize) {

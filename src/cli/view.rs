@@ -56,7 +56,7 @@ fn terminal(arguments: &ViewArguments) -> Result<()> {
     let columns = arguments
         .width
         .map_or_else(|| page_width().min(WIDEST), usize::from);
-    text.push_str(&headlines(&summary.results(&[]), &labels, space));
+    text.push_str(&headlines(&summary.results(&[]), &labels, space, columns));
     // Where a displacement is prescribed without contact the history has no load.
     let (against, load): (_, fn(&HistoryRow) -> f64) =
         match history.iter().any(|row| row.load.is_finite()) {
@@ -80,7 +80,7 @@ fn terminal(arguments: &ViewArguments) -> Result<()> {
     print(&text)
 }
 
-fn headlines(results: &Results, labels: &Labels, space: Space) -> String {
+fn headlines(results: &Results, labels: &Labels, space: Space, width: usize) -> String {
     let mut text = String::new();
     if let Some(incomplete) = &results.incomplete {
         text.push_str(&format!("INCOMPLETE: {}\n", incomplete.why));
@@ -101,7 +101,7 @@ fn headlines(results: &Results, labels: &Labels, space: Space) -> String {
         text.push_str(&format!("First yield at {}\n", figures.join(", ")));
     }
     if !results.states.is_empty() {
-        text.push_str(&states_table(&results.states, labels, space, contact).render(page_width()));
+        text.push_str(&states_table(&results.states, labels, space, contact).render(width));
     }
     text
 }

@@ -305,6 +305,7 @@ impl EffectEntry {
 
     fn effect(self, name: String) -> Effect {
         Effect {
+            asked: self.on,
             name,
             on: self.on,
             why: self.why,

@@ -51,7 +51,8 @@ fn progress_is_a_json_object_per_line() {
         last = now;
     }
     assert_eq!(last[1], 1.0, "the program was done to its end");
-    // Not on a terminal: a line for each phase, with its time and the time it will take.
+    // Not on a terminal: a line for each phase, with its time, and the time it will take where that
+    // is worth telling.
     for other in [&["--progress", "plain"] as &[&str], &[]] {
         let run = brinell(&[&["yield", &scene("thick_cylinder")], other].concat());
         assert!(run.status.success(), "{other:?}");
@@ -60,7 +61,6 @@ fn progress_is_a_json_object_per_line() {
         assert!(lines.len() >= 4, "{text}");
         for line in lines {
             assert!(line.starts_with('[') && line.contains(" s] "), "{text}");
-            assert!(line.contains(", about "), "{text}");
         }
     }
     let run = brinell(&["yield", &scene("thick_cylinder"), "--progress", "bar"]);

@@ -139,6 +139,7 @@ pub fn results(mesh: &Mesh) -> Results {
             ..Sizes::default()
         },
         effects: vec![Effect {
+            asked: true,
             name: "contact".into(),
             on: true,
             why: "2 pairs may touch".into(),

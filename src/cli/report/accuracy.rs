@@ -20,7 +20,7 @@ impl Report {
     }
 
     fn stated_errors(&mut self, stated: &StatedErrors) {
-        let mut columns = vec![(Text, "may be wrong by")];
+        let mut columns = vec![(Text, "may be wrong by [%]")];
         columns.extend(stated.columns.iter().map(|heading| (Number, *heading)));
         let mut table = Table::new(&columns);
         for (name, errors) in &stated.states {

@@ -32,6 +32,7 @@ fn full() -> Results {
             Effect {
                 name: "contact".into(),
                 on: true,
+                asked: true,
                 why: "the scene pairs cylinder.contact with half_plane.contact; ".repeat(4),
                 seconds: 0.1234,
                 memory_bytes: 1_500_000,
@@ -39,7 +40,16 @@ fn full() -> Results {
             Effect {
                 name: "interference".into(),
                 on: false,
+                asked: false,
                 why: "no contact has one".into(),
+                seconds: 0.0,
+                memory_bytes: 0,
+            },
+            Effect {
+                name: "temperature".into(),
+                on: false,
+                asked: true,
+                why: "no temperature changes".into(),
                 seconds: 0.0,
                 memory_bytes: 0,
             },
@@ -146,10 +156,12 @@ fn a_report_fits_the_page_and_holds_every_section() {
 #[test]
 fn an_effect_that_is_off_has_no_cost() {
     let text = report(&full(), None);
-    let line = text.lines().find(|l| l.contains("interference")).unwrap();
+    let line = text.lines().find(|l| l.contains("temperature")).unwrap();
     let cells: Vec<&str> = line.split_whitespace().collect();
     assert_eq!(cells[1], "off");
     assert_eq!(cells[cells.len() - 2..], ["-", "-"]);
+    // What nobody asks for takes no line of its own.
+    assert!(text.contains("\nOff        interference\n"), "{text}");
     assert!(!text.contains("Results in"));
 }
 
@@ -231,7 +243,7 @@ fn a_check_tells_effects_cost_and_notes() {
     };
     let text = check(&scene(), &prediction);
     for fragment in [
-        "Predicted  about 12.3 s for each factorisation, 56.8 s for the run; BLAS: OpenBLAS 0.3.21",
+        "Predicted  about 12.3 s for each factorisation, 56.8 s for the run without the",
         "\nEffects\n",
         "\nNotes\n  - use a finer mesh\n",
     ] {

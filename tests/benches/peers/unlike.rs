@@ -81,7 +81,10 @@ fn theirs(model: &Model, cells: [usize; 2], dir: &Path) -> Result<Pressures, Fai
     let frd = Frd::parse(&std::fs::read_to_string(dir.join(format!("{name}.frd")))?);
     let increment = frd.at(1.0).ok_or("no result at the end of the step")?;
     // Nodes of the master surface are listed too, with no pressure.
-    let slaves = model.mesh.set_nodes("cylinder.contact").ok_or("no slaves")?;
+    let slaves = model
+        .mesh
+        .set_nodes("cylinder.contact")
+        .ok_or("no slaves")?;
     let of = |node: &usize| {
         let pressure = increment.pressure.get(&(*node as u64 + 1))?;
         Some([model.mesh.point(*node)[0], *pressure])
