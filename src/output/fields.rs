@@ -1,5 +1,6 @@
 //! Fields on the mesh for ParaView, meshio and pyvista: one `.vtu` per state and `fields.pvd`,
-//! which makes a time series of them (time is the number of the state).
+//! which makes a time series of them. Its time is the load factor for as long as that grows; where
+//! loads are taken off it goes on by as much as they fall, as readers sort states by it.
 //!
 //! | array | on | type | components |
 //! |---|---|---|---|
@@ -39,7 +40,8 @@ pub(super) fn write(
     mesh: &Mesh,
     states: &[State],
 ) -> Result<()> {
-    let file = |(i, state): (usize, &State)| -> Result<Option<(usize, String)>> {
+    let times = times(states);
+    let file = |(i, state): (usize, &State)| -> Result<Option<(f64, String)>> {
         let Some(fields) = &state.fields else {
             return Ok(None);
         };
@@ -47,9 +49,9 @@ pub(super) fn write(
         let name = file_name(i, states.len(), &state.name);
         let grid = grid(header, mesh, fields);
         staging.file(&name, |out| vtu::write(out, &grid))?;
-        Ok(Some((i + 1, name)))
+        Ok(Some((times[i], name)))
     };
-    let files: Vec<Result<Option<(usize, String)>>> =
+    let files: Vec<Result<Option<(f64, String)>>> =
         states.par_iter().enumerate().map(file).collect();
     let mut series = Vec::new();
     for file in files {
@@ -59,6 +61,23 @@ pub(super) fn write(
         return Ok(());
     }
     staging.file(COLLECTION_FILE, |out| vtu::write_collection(out, &series))
+}
+
+/// Changes of the load factor up to each state, added up; later states at the same one follow as
+/// closely as numbers do.
+fn times(states: &[State]) -> Vec<f64> {
+    let (mut time, mut alpha) = (0.0f64, 0.0);
+    let each = states.iter().enumerate().map(|(i, state)| {
+        let next = time + (state.alpha - alpha).abs();
+        time = if i > 0 && next <= time {
+            time.next_up()
+        } else {
+            next
+        };
+        alpha = state.alpha;
+        time
+    });
+    each.collect()
 }
 
 /// Name of the file of state `index` of `n_states`: `state_01_NAME.vtu`. The number keeps names
@@ -142,6 +161,17 @@ pub(super) fn check(mesh: &Mesh, fields: &Fields) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn times_are_load_factors_that_never_fall() {
+        let states = [0.0, 1.0, 1.5, 0.5, 0.5].map(|alpha| State {
+            alpha,
+            ..State::default()
+        });
+        let times = times(&states);
+        assert_eq!(times[..4], [0.0, 1.0, 1.5, 2.5]);
+        assert!(times[4] > 2.5 && times[4] < 2.5 + 1e-12);
+    }
 
     #[test]
     fn file_names_are_safe_and_ordered() {

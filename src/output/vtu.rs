@@ -232,7 +232,7 @@ pub(super) fn write(out: &mut impl Write, grid: &Grid<'_>) -> io::Result<()> {
 ///
 /// # Errors
 /// Those of `out`.
-pub(super) fn write_collection(out: &mut impl Write, files: &[(usize, String)]) -> io::Result<()> {
+pub(super) fn write_collection(out: &mut impl Write, files: &[(f64, String)]) -> io::Result<()> {
     let mut xml = Writer::new_with_indent(out, b' ', 2);
     open_file(&mut xml, "Collection")?;
     open(&mut xml, "Collection", &[])?;
