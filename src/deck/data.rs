@@ -120,21 +120,19 @@ pub(super) struct Sets {
 #[derive(Debug, Clone, Default)]
 pub(super) struct MaterialData {
     pub(super) place: Place,
-    /// Young's modulus and Poisson's ratio.
-    pub(super) elastic: Option<[f64; 2]>,
-    /// Plastic strain and yield stress.
-    pub(super) plastic: Vec<[f64; 2]>,
+    /// Young's modulus and Poisson's ratio by temperature, ascending.
+    pub(super) elastic: Vec<(f64, [f64; 2])>,
+    /// Rows of plastic strain and yield stress by temperature, ascending.
+    pub(super) plastic: Vec<(f64, Hardening)>,
     /// Whether hardening moves the yield surface: linear.
     pub(super) is_kinematic: bool,
+    pub(super) density: Option<f64>,
+    /// Strain per change of temperature.
+    pub(super) expansion: Option<f64>,
 }
 
-impl MaterialData {
-    /// The slope of hardening from the first row to the last.
-    pub(super) fn slope(&self) -> Option<f64> {
-        let ([from, low], [to, high]) = (*self.plastic.first()?, *self.plastic.last()?);
-        (to > from).then(|| (high - low) / (to - from))
-    }
-}
+/// Plastic strain and yield stress, by row.
+pub(super) type Hardening = Vec<[f64; 2]>;
 
 /// What a set of elements is made of.
 #[derive(Debug, Clone)]
@@ -232,14 +230,33 @@ pub(super) enum Kind {
     Force,
     /// A pressure on a face of each element, or on a surface.
     Pressure,
+    /// The temperature of nodes.
+    Temperature,
+    /// A load on the volume of elements.
+    Volume,
 }
 
-/// A line of `*BOUNDARY`, `*CLOAD`, `*DLOAD` or `*DSLOAD`.
+impl Kind {
+    /// How many there are.
+    pub(super) const COUNT: usize = 5;
+}
+
+/// What acts on the volume of elements.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum VolumeLoad {
+    /// An acceleration along a unit vector.
+    Acceleration([f64; 3]),
+    /// A rotation, whose size is its speed squared, about an axis: a point and a unit vector.
+    Rotation([[f64; 3]; 2]),
+}
+
+/// A line of `*BOUNDARY`, `*CLOAD`, `*DLOAD`, `*DSLOAD` or `*TEMPERATURE`.
 #[derive(Debug, Clone)]
 pub(super) struct Condition {
     pub(super) kind: Kind,
     pub(super) on: Target,
-    /// First and last degree of freedom from 1; the number of the face twice, 0 of a surface.
+    /// First and last degree of freedom from 1; the number of the face twice, 0 of a surface; the
+    /// index of a volume load twice.
     pub(super) range: [usize; 2],
     pub(super) value: f64,
     pub(super) amplitude: Option<String>,
@@ -265,7 +282,7 @@ pub(super) struct Step {
     pub(super) conditions: Vec<Condition>,
     pub(super) contact_changes: Vec<ContactChange>,
     /// Where it is said that the conditions of each kind replace those of the steps before.
-    pub(super) renewed: [Option<Place>; 3],
+    pub(super) renewed: [Option<Place>; Kind::COUNT],
 }
 
 /// Conditions and steps.
@@ -274,6 +291,8 @@ pub(super) struct Program {
     /// Conditions before the first step.
     pub(super) initial: Vec<Condition>,
     pub(super) steps: Vec<Step>,
+    /// All that act on volumes.
+    pub(super) volume_loads: Vec<VolumeLoad>,
     pub(super) amplitudes: Named<Amplitude>,
 }
 

@@ -51,7 +51,8 @@ impl Kind {
         match self {
             Kind::Boundary => "BOUNDARY",
             Kind::Force => "CLOAD",
-            Kind::Pressure => "DLOAD",
+            Kind::Pressure | Kind::Volume => "DLOAD",
+            Kind::Temperature => "TEMPERATURE",
         }
     }
 }
@@ -80,7 +81,7 @@ impl Deck {
         for condition in initial.filter(|condition| condition.kind == kind) {
             for key in self.keys(condition)? {
                 let entry = Entry {
-                    series: Series::starting(0.0),
+                    series: Series::starting(condition.value),
                     place: condition.place,
                     runs_on: Vec::new(),
                 };
@@ -117,6 +118,10 @@ impl Deck {
             }
             match (is_renewed, kind) {
                 (Some(place), Kind::Boundary) => return Err(self.released(*key, number, place)),
+                (Some(_), Kind::Temperature) => {
+                    entry.runs_on.clear();
+                    entry.series.push(time.end, entry.series.at(0.0));
+                }
                 (Some(_), _) => {
                     entry.runs_on.clear();
                     entry.series.push(time.end, 0.0);
@@ -174,7 +179,7 @@ impl Deck {
                     values: Vec::new(),
                     place: condition.place,
                 });
-                if kind == Kind::Boundary {
+                if matches!(kind, Kind::Boundary | Kind::Temperature) {
                     given.values.clear();
                 }
                 given.values.push(value);
@@ -191,6 +196,10 @@ impl Deck {
     pub(super) fn keys(&self, condition: &Condition) -> Result<Vec<Key>> {
         let at = (condition.place, condition.kind.keyword());
         let [first, last] = condition.range;
+        if condition.kind == Kind::Volume {
+            let bodies = self.whole_bodies(&condition.on, at)?;
+            return Ok(bodies.into_iter().map(|body| (body, first as u8)).collect());
+        }
         if condition.kind != Kind::Pressure {
             let dimension = self.dimension();
             let nodes = self.indices(What::Nodes, &condition.on, at)?;
@@ -206,6 +215,35 @@ impl Deck {
                 elements.into_iter().map(facet).collect()
             }
         }
+    }
+
+    /// The bodies that a set of elements is made of.
+    ///
+    /// # Errors
+    /// A body of which only a part is in the set.
+    fn whole_bodies(&self, on: &Target, at: (Place, &str)) -> Result<Vec<u32>> {
+        let bodies = self.bodies()?;
+        let mut counts = vec![[0usize; 2]; bodies.names.len()];
+        for &body in &bodies.of_element {
+            counts[body as usize][1] += 1;
+        }
+        for element in self.indices(What::Elements, on, at)? {
+            counts[bodies.of_element[element as usize] as usize][0] += 1;
+        }
+        let mut whole = Vec::new();
+        for (body, [given, all]) in counts.into_iter().enumerate() {
+            if given == all {
+                whole.push(body as u32);
+            } else if given > 0 {
+                let message = format!(
+                    "it acts on {given} of the {all} elements of body {}: loads on volumes are \
+                     those of whole bodies; give the part a section of its own",
+                    bodies.names[body]
+                );
+                return Err(unsupported(self.error(at.0, at.1, message)));
+            }
+        }
+        Ok(whole)
     }
 
     /// Of the first element, and so of all.

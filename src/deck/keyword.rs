@@ -19,7 +19,7 @@ pub(super) enum Use {
 const OUTPUT: Use = Use::Ignored(
     "output: displacements, stresses and contact of every step are written for all nodes",
 );
-const NO_TEMPERATURE: Use = Use::Ignored("nothing depends on temperature, and none is prescribed");
+const NO_TEMPERATURE: Use = Use::Ignored("temperatures are prescribed: no heat flows");
 const CONTROL: Use =
     Use::Ignored("increments end at changes of contact; there is no iteration to control");
 const SHELLS: Use = Use::Refused("bodies are continua: there are no shells, beams or membranes");
@@ -43,6 +43,7 @@ const KEYWORDS: &[(&str, Use)] = &[
     ("CLEARANCE", Use::Read),
     ("CLOAD", Use::Read),
     ("CONTACT PAIR", Use::Read),
+    ("DENSITY", Use::Read),
     ("DLOAD", Use::Read),
     ("DSLOAD", Use::Read),
     ("ELASTIC", Use::Read),
@@ -50,6 +51,7 @@ const KEYWORDS: &[(&str, Use)] = &[
     ("ELSET", Use::Read),
     ("END STEP", Use::Read),
     ("EQUATION", Use::Read),
+    ("EXPANSION", Use::Read),
     ("FRICTION", Use::Read),
     ("HEADING", Use::Read),
     ("INCLUDE", Use::Read),
@@ -64,6 +66,7 @@ const KEYWORDS: &[(&str, Use)] = &[
     ("SURFACE", Use::Read),
     ("SURFACE BEHAVIOR", Use::Read),
     ("SURFACE INTERACTION", Use::Read),
+    ("TEMPERATURE", Use::Read),
     ("TIE", Use::Read),
     ("TRANSFORM", Use::Read),
     ("CONTACT FILE", OUTPUT),
@@ -90,14 +93,9 @@ const KEYWORDS: &[(&str, Use)] = &[
     ("CONTACT CONTROLS", CONTROL),
     ("CONTROLS", CONTROL),
     ("CONDUCTIVITY", NO_TEMPERATURE),
-    ("EXPANSION", NO_TEMPERATURE),
     ("INITIAL CONDITIONS", Use::Read),
     ("PHYSICAL CONSTANTS", NO_TEMPERATURE),
     ("SPECIFIC HEAT", NO_TEMPERATURE),
-    (
-        "DENSITY",
-        Use::Ignored("loads are applied slowly: mass has no effect"),
-    ),
     (
         "DAMPING",
         Use::Ignored("loads are applied slowly: damping has no effect"),
@@ -105,10 +103,6 @@ const KEYWORDS: &[(&str, Use)] = &[
     (
         "USER ELEMENT",
         Use::Refused("there are no elements of the user's"),
-    ),
-    (
-        "TEMPERATURE",
-        Use::Refused("there is no thermal strain yet"),
     ),
     (
         "CHANGE SURFACE BEHAVIOR",

@@ -32,6 +32,7 @@ mod reader;
 mod series;
 mod sets;
 mod source;
+mod temperature;
 #[cfg(test)]
 mod tests;
 

@@ -15,7 +15,7 @@ struct Case {
 const PRINTED: f64 = 1e-6;
 const FULL: &[&str] = &["mesh.formulation=full"];
 
-const CASES: [Case; 15] = [
+const CASES: [Case; 17] = [
     case("two_blocks", FULL, PRINTED),
     case("history", &[], PRINTED),
     case("plastic", &[], 2e-4),
@@ -24,12 +24,14 @@ const CASES: [Case; 15] = [
     case("tetrahedra", &[], PRINTED),
     case("wedges", &[], 1e-2),
     case("tube", &[], 2e-4),
+    case("heat", FULL, PRINTED),
     case("held_plane", &[], PRINTED),
     case("lever", FULL, PRINTED),
     case("included", FULL, 1e-3),
     case("interference", FULL, PRINTED),
     case("switched", FULL, PRINTED),
     case("tied", FULL, PRINTED),
+    case("weight", FULL, PRINTED),
     case("tilted_block", FULL, 2e-3),
 ];
 

@@ -222,6 +222,16 @@ fn damage_is_told_by_line_and_keyword() {
             "line 18: *CONTACT PAIR: there is no *SURFACE INTERACTION I",
         ),
         (
+            "*CLOAD\n3, 2, 5.",
+            "*DLOAD\nBODY, GRAV, 9810., 0., 0., 0.",
+            "line 23: *DLOAD: the direction of GRAV has no length",
+        ),
+        (
+            "210000., 0.3",
+            "210000., 0.3, 20.\n200000., 0.3, 20.",
+            "line 15: *ELASTIC: temperature 20 must be greater than 20 before it",
+        ),
+        (
             "*CLOAD",
             "*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nA, B\n*CLOAD",
             "line 23: *MODEL CHANGE: there is no *CONTACT PAIR with the slave A and the master B",
@@ -296,13 +306,18 @@ fn what_brinell_does_not_have_is_told_by_line_and_reason() {
         ),
         (
             "*CLOAD\n3, 2, 5.",
-            "*DLOAD\nBODY, GRAV, 9810., 0., -1., 0.",
-            "line 23: *DLOAD: GRAV: there are no body forces yet",
+            "*DLOAD\nBODY, BX, 9810.",
+            "line 23: *DLOAD: BX: of loads on volumes GRAV and CENTRIF are there",
         ),
         (
             "*CLOAD\n3, 2, 5.",
-            "*TEMPERATURE\nALL, 100.",
-            "*TEMPERATURE: there is no thermal strain yet",
+            "*DLOAD\nBODY, CENTRIF, 4., 0., 0., 0., 1., 0., 0.",
+            "line 23: *DLOAD: CENTRIF turns plane models about an axis along z",
+        ),
+        (
+            "*CLOAD\n3, 2, 5.",
+            "*TEMPERATURE\nBASE, 100.",
+            "line 23: *TEMPERATURE: node 3 has another temperature than others of body BODY",
         ),
         (
             before,
@@ -401,8 +416,8 @@ fn what_brinell_does_not_have_is_told_by_line_and_reason() {
 fn what_changes_nothing_is_ignored_with_its_reason() {
     let text = DECK.replace(
         "*SOLID SECTION",
-        "*DENSITY\n7.8e-9\n*EXPANSION\n1e-5\n*FRICTION\n0.\n*CONTROLS, PARAMETERS=FIELD\n1\n*SOLID \
-         SECTION",
+        "*SPECIFIC HEAT\n4e8\n*CONDUCTIVITY\n50.\n*FRICTION\n0.\n*CONTROLS, \
+         PARAMETERS=FIELD\n1\n*SOLID SECTION",
     );
     assert!(error(&text).is_none());
     let deck = Deck::parse(text.as_bytes(), "deck.inp").unwrap();
@@ -415,7 +430,7 @@ fn what_changes_nothing_is_ignored_with_its_reason() {
     assert_eq!(ignored.len(), 3, "{ignored:#?}");
     assert_eq!(
         ignored[0],
-        "deck.inp, line 15: *DENSITY: loads are applied slowly: mass has no effect"
+        "deck.inp, line 15: *SPECIFIC HEAT: temperatures are prescribed: no heat flows"
     );
     assert_eq!(
         deck.account().understood["NODE"],

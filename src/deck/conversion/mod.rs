@@ -6,6 +6,7 @@ mod contact_changes;
 mod draft;
 mod equations;
 mod geometry;
+mod volume_loads;
 
 pub(crate) use geometry::Geometry;
 
@@ -13,6 +14,7 @@ use super::Deck;
 use super::bodies::{Bodies, unsupported};
 use super::data::{Account, Note, Section};
 use super::series::are_alike;
+use super::temperature::OfBody;
 use crate::error::{Error, ErrorKind, Result};
 use crate::number::exact;
 use crate::scene::{Body, History, Material, Scene, Stepping, Target};
@@ -71,8 +73,11 @@ impl Deck {
         draft.contacts(&mut account)?;
         draft.contact_changes(&mut account)?;
         draft.ties()?;
+        draft.volume_loads(space, &bodies)?;
+        let temperatures = self.temperatures_of_bodies(&bodies)?;
         let mut scene = self.empty_scene(space);
-        self.add_bodies(&bodies, &mut scene, &mut draft.places)?;
+        self.add_bodies(&bodies, &temperatures, &mut scene, &mut draft.places)?;
+        draft.temperatures(&bodies, temperatures);
         self.add_loads(&mut draft, &mut scene);
         self.choose_stepping(&draft, &mut scene);
         scene.support = std::mem::take(&mut draft.supports);
@@ -156,17 +161,21 @@ impl Deck {
     fn add_bodies(
         &self,
         bodies: &Bodies,
+        temperatures: &[OfBody],
         scene: &mut Scene,
         places: &mut BTreeMap<String, String>,
     ) -> Result<()> {
         let materials = &self.properties.materials;
-        for (name, section) in bodies.names.iter().zip(&bodies.sections) {
+        // Of materials that depend on temperature: that of the first body.
+        let mut at: BTreeMap<String, f64> = BTreeMap::new();
+        let of_bodies = bodies.names.iter().zip(&bodies.sections).zip(temperatures);
+        for ((name, section), of_body) in of_bodies {
             let section = &self.properties.sections[section.unwrap_or(0)];
             let Some(data) = materials.get(&section.material) else {
                 let message = format!("there is no *MATERIAL {}", section.material);
                 return Err(self.error(section.place, "SOLID SECTION", message));
             };
-            let Some([youngs_modulus, poissons_ratio]) = data.elastic else {
+            let Some(law) = data.at(of_body.initial) else {
                 let message = format!("{} has no *ELASTIC; give it one", section.material);
                 return Err(self.error(data.place, "MATERIAL", message));
             };
@@ -174,13 +183,26 @@ impl Deck {
                 .written(&section.material)
                 .unwrap_or_default()
                 .to_string();
+            let known = *at.entry(material.clone()).or_insert(of_body.initial);
+            if data.varies() && (known != of_body.initial || !of_body.change.is_zero()) {
+                let message = format!(
+                    "{material} depends on temperature, and body {name} has several, or another \
+                     than other bodies of it: a material is that of one temperature; give each \
+                     body its own, or one line to each table"
+                );
+                let place = of_body.place.unwrap_or(data.place);
+                return Err(unsupported(self.error(place, "TEMPERATURE", message)));
+            }
+            let [youngs_modulus, poissons_ratio] = law.elastic;
             let of_material = Material {
                 youngs_modulus,
                 poissons_ratio,
-                yield_stress: data.plastic.first().map(|row| row[1]),
-                hardening_table: (data.plastic.len() > 1 && !data.is_kinematic)
-                    .then(|| data.plastic.clone()),
-                kinematic_modulus: data.slope().filter(|_| data.is_kinematic),
+                yield_stress: law.plastic.first().map(|row| row[1]),
+                kinematic_modulus: law.slope().filter(|_| data.is_kinematic),
+                hardening_table: (law.plastic.len() > 1 && !data.is_kinematic)
+                    .then_some(law.plastic),
+                density: data.density,
+                thermal_expansion: data.expansion,
                 ..Material::default()
             };
             places.insert(format!("materials.{material}"), self.files.show(data.place));

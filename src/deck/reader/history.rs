@@ -2,7 +2,7 @@
 
 use super::mesh::{face, target};
 use super::{Reader, fields};
-use crate::deck::data::{Condition, ContactChange, Kind, Step, Target};
+use crate::deck::data::{Condition, ContactChange, Kind, Step, Target, VolumeLoad};
 use crate::deck::fields::Fields;
 use crate::deck::keyword::Keyword;
 use crate::deck::source::Line;
@@ -181,8 +181,11 @@ impl Reader<'_> {
         let amplitude = keyword.get("AMPLITUDE").map(str::to_string);
         match self.current_step() {
             Some(step) if is_new => {
-                let renewed = &mut self.deck.program.steps[step].renewed[kind as usize];
-                renewed.get_or_insert(keyword.place);
+                let renewed = &mut self.deck.program.steps[step].renewed;
+                renewed[kind as usize].get_or_insert(keyword.place);
+                if kind == Kind::Pressure {
+                    renewed[Kind::Volume as usize].get_or_insert(keyword.place);
+                }
             }
             None if kind != Kind::Boundary => {
                 return Err(keyword.error(files, "it stands in no *STEP; put it in one"));
@@ -265,14 +268,66 @@ impl Reader<'_> {
         while let Some(line) = self.source.next_data()? {
             let mut row = fields(&self.source, keyword, line);
             let on = target(&mut row)?;
-            if let Some(why) = body_load(row) {
-                self.refuse(keyword, line.place, &why);
-                continue;
+            match volume_load(row)? {
+                OnVolume::Face => {}
+                OnVolume::Refused(why) => {
+                    self.refuse(keyword, line.place, &why);
+                    continue;
+                }
+                OnVolume::Load(load, value) => {
+                    let loads = &mut self.deck.program.volume_loads;
+                    let known = loads.iter().position(|known| *known == load);
+                    let index = known.unwrap_or(loads.len());
+                    if known.is_none() {
+                        loads.push(load);
+                    }
+                    if index > usize::from(u8::MAX) {
+                        let message = "there are more than 256 directions and axes of such loads";
+                        return Err(row.place.error(message));
+                    }
+                    self.add(Condition {
+                        kind: Kind::Volume,
+                        on,
+                        range: [index; 2],
+                        value,
+                        amplitude: amplitude.clone(),
+                        place: line.place,
+                    });
+                    continue;
+                }
             }
             let face = face(&mut row, b'P')?;
             let value = row.number("the pressure")?;
             row.end()?;
             self.add_pressure(on, face, value, &amplitude, line);
+        }
+        Ok(())
+    }
+
+    pub(super) fn temperature(&mut self, keyword: &Keyword) -> Result<()> {
+        let amplitude = self.conditions(keyword, Kind::Temperature)?;
+        self.temperatures(keyword, amplitude)
+    }
+
+    /// Lines of nodes and their temperatures.
+    pub(super) fn temperatures(
+        &mut self,
+        keyword: &Keyword,
+        amplitude: Option<String>,
+    ) -> Result<()> {
+        while let Some(line) = self.source.next_data()? {
+            let mut row = fields(&self.source, keyword, line);
+            let on = target(&mut row)?;
+            let value = row.number("the temperature")?;
+            row.end()?;
+            self.add(Condition {
+                kind: Kind::Temperature,
+                on,
+                range: [1; 2],
+                value,
+                amplitude: amplitude.clone(),
+                place: line.place,
+            });
         }
         Ok(())
     }
@@ -396,21 +451,66 @@ fn freedoms(row: &mut Fields) -> Result<(Vec<[usize; 2]>, f64)> {
     Ok((vec![[first, last]], value))
 }
 
-/// Why a load of `*DLOAD` is none that brinell has.
-fn body_load(mut row: Fields) -> Option<String> {
+/// What a line of `*DLOAD` is.
+enum OnVolume {
+    /// A load on faces.
+    Face,
+    /// One on the volume, with its size.
+    Load(VolumeLoad, f64),
+    /// One that brinell does not have, and why.
+    Refused(String),
+}
+
+/// Reads a load on the volume of elements; of one on faces nothing.
+fn volume_load(mut row: Fields) -> Result<OnVolume> {
     let word = row.word();
     if word
         .first()
         .is_some_and(|first| first.eq_ignore_ascii_case(&b'P'))
         && word.len() == 2
     {
-        return None;
+        return Ok(OnVolume::Face);
     }
     let word = super::super::fields::shown(word).to_uppercase();
-    Some(match word.as_str() {
-        "GRAV" | "CENTRIF" | "BX" | "BY" | "BZ" | "NEWTON" => {
-            format!("{word}: there are no body forces yet, loads act on nodes and faces")
+    let unit = |way: [f64; 3]| {
+        let length = way.iter().map(|x| x * x).sum::<f64>().sqrt();
+        (length > 0.0).then(|| way.map(|x| x / length))
+    };
+    match word.as_str() {
+        "GRAV" => {
+            let size = row.number("the acceleration")?;
+            let way = vector(&mut row, "a component of the direction")?;
+            row.end()?;
+            let Some(way) = unit(way) else {
+                return Err(row.place.error("the direction of GRAV has no length"));
+            };
+            Ok(OnVolume::Load(VolumeLoad::Acceleration(way), size))
         }
-        _ => format!("{word}: of loads on elements only pressures on faces, P1 to P6, are there"),
-    })
+        "CENTRIF" => {
+            let square = row.number("the square of the speed")?;
+            let point = vector(&mut row, "a coordinate of the axis")?;
+            let way = vector(&mut row, "a component of the axis")?;
+            row.end()?;
+            let Some(way) = unit(way).filter(|_| square >= 0.0) else {
+                let message = "the axis of CENTRIF has no length, or the square of the speed is \
+                               negative";
+                return Err(row.place.error(message));
+            };
+            Ok(OnVolume::Load(VolumeLoad::Rotation([point, way]), square))
+        }
+        "BX" | "BY" | "BZ" | "NEWTON" => Ok(OnVolume::Refused(format!(
+            "{word}: of loads on volumes GRAV and CENTRIF are there"
+        ))),
+        _ => Ok(OnVolume::Refused(format!(
+            "{word}: of loads on elements pressures on faces, P1 to P6, GRAV and CENTRIF are there"
+        ))),
+    }
+}
+
+fn vector(row: &mut Fields, what: &str) -> Result<[f64; 3]> {
+    let mut out = [0.0; 3];
+    for x in &mut out {
+        *x = row.number_or(what, 0.0)?;
+    }
+    Ok(out)
 }

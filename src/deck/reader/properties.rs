@@ -3,8 +3,10 @@
 use super::mesh::target;
 use super::{Reader, fields};
 use crate::deck::data::{
-    Clearance, ContactPair, Equation, Interaction, MaterialData, Section, TiedPair, Transform,
+    Clearance, ContactPair, Equation, Hardening, Interaction, MaterialData, Section, TiedPair,
+    Transform,
 };
+use crate::deck::fields::Where;
 use crate::deck::keyword::Keyword;
 use crate::error::Result;
 use crate::number::exact;
@@ -57,22 +59,54 @@ impl Reader<'_> {
             self.refuse(keyword, keyword.place, "elasticity is isotropic here");
             return self.skip();
         }
-        let line = self.one_line(keyword, "Young's modulus and Poisson's ratio")?;
+        let mut rows: Vec<(f64, [f64; 2])> = Vec::new();
+        while let Some(line) = self.source.next_data()? {
+            let mut row = fields(&self.source, keyword, line);
+            let law = [
+                row.number("Young's modulus")?,
+                row.number("Poisson's ratio")?,
+            ];
+            let temperature = row.number_or("the temperature", 0.0)?;
+            row.end()?;
+            ascending(&row.place, rows.last().map(|last| last.0), temperature)?;
+            rows.push((temperature, law));
+        }
+        if rows.is_empty() {
+            let message = "a line with Young's modulus and Poisson's ratio should follow; give it";
+            return Err(keyword.error(&self.source.files, message));
+        }
+        self.of_material(keyword)?.elastic = rows;
+        Ok(())
+    }
+
+    pub(super) fn density(&mut self, keyword: &Keyword) -> Result<()> {
+        keyword.allow(&self.source.files, &[])?;
+        let value = self.one_value(keyword, "the density")?;
+        self.of_material(keyword)?.density = Some(value);
+        Ok(())
+    }
+
+    pub(super) fn expansion(&mut self, keyword: &Keyword) -> Result<()> {
+        keyword.allow(&self.source.files, &["TYPE", "ZERO"])?;
+        keyword.choice(&self.source.files, "TYPE", &["ISO"])?;
+        let value = self.one_value(keyword, "the coefficient of expansion")?;
+        self.of_material(keyword)?.expansion = Some(value);
+        Ok(())
+    }
+
+    /// A value that is the same at all temperatures.
+    fn one_value(&mut self, keyword: &Keyword, what: &str) -> Result<f64> {
+        let line = self.one_line(keyword, what)?;
         let mut row = fields(&self.source, keyword, line);
-        let law = [
-            row.number("Young's modulus")?,
-            row.number("Poisson's ratio")?,
-        ];
-        if !row.is_at_end() {
-            row.number_or("the temperature", 0.0)?;
-        }
+        let value = row.number(what)?;
+        row.number_or("the temperature", 0.0)?;
         row.end()?;
-        self.of_material(keyword)?.elastic = Some(law);
         if let Some(line) = self.source.next_data()? {
-            let why = "it depends on temperature, and there is none yet: give one line";
-            self.refuse(keyword, line.place, why);
+            let why = format!("{what} does not depend on temperature here: give one line");
+            self.refuse(keyword, line.place, &why);
         }
-        self.skip()
+        self.skip()?;
+        Ok(value)
     }
 
     pub(super) fn plastic(&mut self, keyword: &Keyword) -> Result<()> {
@@ -86,19 +120,20 @@ impl Reader<'_> {
             self.refuse(keyword, keyword.place, why);
             return self.skip();
         }
-        let mut rows: Vec<[f64; 2]> = Vec::new();
-        let mut temperatures = Vec::new();
+        let mut tables: Vec<(f64, Hardening)> = Vec::new();
         while let Some(line) = self.source.next_data()? {
             let mut row = fields(&self.source, keyword, line);
             let stress = row.number("the yield stress")?;
             let strain = row.number_or("the plastic strain", 0.0)?;
             let temperature = row.number_or("the temperature", 0.0)?;
             row.end()?;
-            if temperatures.iter().any(|t| *t != temperature) {
-                let why = "it depends on temperature, and there is none yet: give one table";
-                self.refuse(keyword, line.place, why);
-                break;
+            if tables.last().is_none_or(|last| last.0 != temperature) {
+                ascending(&row.place, tables.last().map(|last| last.0), temperature)?;
+                tables.push((temperature, Hardening::new()));
             }
+            let Some((_, rows)) = tables.last_mut() else {
+                continue;
+            };
             let last = rows.last().map_or(-1.0, |row| row[0]);
             if (rows.is_empty() && strain != 0.0) || strain <= last {
                 return Err(row.place.error(format!(
@@ -107,19 +142,18 @@ impl Reader<'_> {
                     exact(strain)
                 )));
             }
-            temperatures.push(temperature);
             rows.push([strain, stress]);
         }
-        if rows.is_empty() {
+        if tables.is_empty() {
             let message = "a line with yield stress and plastic strain should follow; give it";
             return Err(keyword.error(&self.source.files, message));
         }
-        if is_kinematic && !is_straight(&rows) {
+        if is_kinematic && !tables.iter().all(|(_, rows)| is_straight(rows)) {
             let why = "kinematic hardening of a deck is linear: give two lines, its ends";
             self.refuse(keyword, keyword.place, why);
         }
         let material = self.of_material(keyword)?;
-        (material.plastic, material.is_kinematic) = (rows, is_kinematic);
+        (material.plastic, material.is_kinematic) = (tables, is_kinematic);
         self.skip()
     }
 
@@ -439,8 +473,8 @@ impl Reader<'_> {
     pub(super) fn initial_conditions(&mut self, keyword: &Keyword) -> Result<()> {
         match keyword.get("TYPE").map(str::to_uppercase).as_deref() {
             Some("TEMPERATURE") => {
-                let why = "nothing depends on temperature, and none is prescribed";
-                self.ignore(keyword, keyword.place, why);
+                keyword.allow(&self.source.files, &["TYPE"])?;
+                return self.temperatures(keyword, None);
             }
             _ => self.refuse(
                 keyword,
@@ -449,6 +483,18 @@ impl Reader<'_> {
             ),
         }
         self.skip()
+    }
+}
+
+/// Temperatures of a table are ascending.
+fn ascending(place: &Where, last: Option<f64>, temperature: f64) -> Result<()> {
+    match last.filter(|last| temperature <= *last) {
+        None => Ok(()),
+        Some(last) => Err(place.error(format!(
+            "temperature {} must be greater than {} before it",
+            exact(temperature),
+            exact(last)
+        ))),
     }
 }
 

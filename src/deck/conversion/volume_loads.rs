@@ -1,0 +1,87 @@
+//! Loads on the volumes of bodies: weight, rotation, changes of temperature.
+
+use super::super::bodies::{Bodies, unsupported};
+use super::super::data::{Kind, VolumeLoad};
+use super::super::source::Place;
+use super::super::temperature::OfBody;
+use super::Draft;
+use crate::error::Result;
+use crate::scene::{Field, Load, Rotation};
+use crate::space::Space;
+use std::f64::consts::PI;
+
+/// How far a unit vector may be off another: digits of a deck.
+const ALIGNED: f64 = 1e-6;
+
+impl Draft<'_> {
+    pub(super) fn volume_loads(&mut self, space: Space, bodies: &Bodies) -> Result<()> {
+        for ((body, index), entry) in self.deck.histories(Kind::Volume)? {
+            if entry.series.is_zero() {
+                continue;
+            }
+            let on = bodies.names[body as usize].clone();
+            let largest = entry.series.largest();
+            let load = match self.deck.program.volume_loads[index as usize] {
+                VolumeLoad::Acceleration(way) => Load {
+                    on,
+                    acceleration: Some(self.components(way.map(|x| x * largest))),
+                    ..Load::default()
+                },
+                VolumeLoad::Rotation(axis) => Load {
+                    on,
+                    rotation: Some(self.rotation(space, axis, largest, entry.place)?),
+                    ..Load::default()
+                },
+            };
+            self.add_load("volume", load, entry.series, entry.place);
+        }
+        Ok(())
+    }
+
+    /// Of a plane model about an axis across it, of an axisymmetric one about its own.
+    fn rotation(
+        &self,
+        space: Space,
+        [point, way]: [[f64; 3]; 2],
+        square: f64,
+        place: Place,
+    ) -> Result<Rotation> {
+        let is_along = |axis: usize| way[axis].abs() > 1.0 - ALIGNED;
+        let fits = match space {
+            Space::Solid => true,
+            Space::Axisymmetric => is_along(1) && point[0] == 0.0,
+            Space::PlaneStrain | Space::PlaneStress => is_along(2),
+        };
+        if !fits {
+            let message = "CENTRIF turns plane models about an axis along z, axisymmetric ones \
+                           about their own, y";
+            return Err(unsupported(self.deck.error(place, "DLOAD", message)));
+        }
+        let is_axisymmetric = space == Space::Axisymmetric;
+        Ok(Rotation {
+            rpm: 30.0 / PI * square.sqrt(),
+            center: (!is_axisymmetric).then(|| self.components(point)),
+            axis: space.is_solid().then_some(way),
+        })
+    }
+
+    /// Temperatures of bodies that expand.
+    pub(super) fn temperatures(&mut self, bodies: &Bodies, temperatures: Vec<OfBody>) {
+        let properties = &self.deck.properties;
+        let of_bodies = bodies.names.iter().zip(&bodies.sections).zip(temperatures);
+        for ((name, section), of_body) in of_bodies {
+            let section = &properties.sections[section.unwrap_or(0)];
+            let material = properties.materials.get(&section.material);
+            let expands = material.is_some_and(|m| m.expansion.is_some());
+            let Some(place) = of_body.place else { continue };
+            if expands && !of_body.change.is_zero() {
+                let load = Load {
+                    on: name.clone(),
+                    temperature: Some(Field::Uniform(of_body.change.largest())),
+                    ..Load::default()
+                };
+                self.add_load("temperature", load, of_body.change, place);
+            }
+        }
+    }
+}
