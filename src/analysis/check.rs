@@ -4,7 +4,7 @@ use super::zone_choice;
 use crate::assembly::assemble;
 use crate::error::Result;
 use crate::linalg::{self, Backend, Partition, Prediction};
-use crate::model::{Magnitude, Model, Pair};
+use crate::model::{LoadCase, Magnitude, Model, Pair};
 use crate::results::{Effect, Sizes};
 use crate::scene::{Program, Stepping};
 use crate::substructure::ContactCost;
@@ -286,7 +286,7 @@ fn temperature(model: &Model) -> Effect {
     let loads = model.loads.iter();
     let asked = loads.filter(|load| load.measures == Magnitude::Temperature);
     let (asked, acting) = asked.fold((0, 0), |(n, acting), load| {
-        (n + 1, acting + usize::from(load.free_strain.is_some()))
+        (n + 1, acting + usize::from(!load.free_strain.is_empty()))
     });
     let why = match (asked, acting) {
         (0, _) => "no load by temperature".to_string(),
@@ -295,6 +295,21 @@ fn temperature(model: &Model) -> Effect {
         (_, n) => format!("{n} loads change the temperatures of bodies"),
     };
     effect("temperature", acting > 0, why)
+}
+
+fn initial_state(model: &Model) -> Effect {
+    let loads = model.loads.iter();
+    let acting = loads.filter(|load| load.measures == Magnitude::Strain);
+    let names: Vec<&str> = acting.map(|load| load.name.as_str()).collect();
+    let bodies = model.mesh.bodies.iter();
+    let mut bodies = bodies.filter_map(|name| model.scene.bodies.get(name));
+    let asked = bodies.any(|b| b.initial_stress.is_some() || b.initial_plastic_strain.is_some());
+    let why = match (names.is_empty(), asked) {
+        (false, _) => format!("{}, before the loads", names.join(", ")),
+        (true, true) => "what the bodies bring along is zero".to_string(),
+        (true, false) => "no body brings stresses or plastic strains along".to_string(),
+    };
+    effect("initial state", !names.is_empty(), why)
 }
 
 /// The ledger: each effect on or off, and why. `yields` says whether the loads reach (or may reach)
@@ -346,7 +361,8 @@ pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
     };
     let interference = model.pairs.iter().any(|p| p.interference != 0.0);
     let floating = &model.floating.bodies;
-    let preload = model.loads.iter().any(|l| l.factor(0.0, 1.0) != 0.0);
+    let loaded = |l: &LoadCase| l.measures != Magnitude::Strain && l.factor(0.0, 1.0) != 0.0;
+    let preload = model.loads.iter().any(loaded);
     let on_off = |on: bool, yes: String, no: &str| if on { yes } else { no.to_string() };
     vec![
         contact,
@@ -355,6 +371,7 @@ pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
         yield_by_depth(model, yields),
         volume_forces(model),
         temperature(model),
+        initial_state(model),
         effect(
             "ties",
             tied > 0,

@@ -217,8 +217,9 @@ fn ratios_of<const D: usize, const S: usize, const P: usize, const N: usize>(
             let sampling = kernel.sampling(model.mesh.shapes[e], &nodes);
             let body = model.mesh.element_body[e] as usize;
             let mut strains = sampling.strains(&u);
-            for (load, nodal) in model.free_strains(e) {
-                take_off(&mut strains, factors[load], &sampling.at_points(&nodal));
+            for (load, components, nodal) in model.free_strains(e) {
+                let at_points = sampling.at_points(&nodal);
+                take_off(&mut strains, factors[load], (components, &at_points));
             }
             let places = (|| sampling.positions(&nodes), sampling.n_points());
             largest_ratio(model, e, &stress(&elastic[body], &strains), places)

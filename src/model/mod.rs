@@ -6,6 +6,7 @@
 mod body_forces;
 mod builder;
 mod contact_basis;
+mod depth;
 mod ends;
 mod equations;
 mod far_boundary;
@@ -16,6 +17,7 @@ mod given;
 mod gram;
 mod heat;
 mod held;
+mod initial_strain;
 mod loads;
 mod motions;
 mod names;
@@ -33,6 +35,7 @@ pub use contact_basis::ContactBasis;
 pub use frame::Frame;
 pub use freedoms::{Freedoms, Prescribed, Slot};
 pub use given::NodePair;
+pub use heat::FreeStrain;
 pub use held::{FloatingBodies, Pin, RigidMotion};
 pub use loads::{LoadCase, Magnitude};
 pub use pairs::{AxisPoint, ContactSurface, Pair};
@@ -171,7 +174,9 @@ impl Model {
             })?;
         }
         freedoms.basis.restate(&mut pairs, &contacts);
-        let loads = loads::resolve(scene, &mesh, given, &freedoms)?;
+        let mut loads = loads::resolve(scene, &mesh, given, &freedoms)?;
+        let of_bodies = (&materials[..], &contacts[..]);
+        loads.extend(initial_strain::resolve(scene, &mesh, of_bodies, &freedoms)?);
         check_targets(scene, &mesh)?;
         let (floating, rows) = held::resolve(
             kind,
