@@ -1,11 +1,11 @@
 //! Which effects a scene calls for, and what the run will cost: before anything is solved.
 
-use super::zone_choice;
+use super::{starting, zone_choice};
 use crate::assembly::assemble;
 use crate::error::Result;
 use crate::linalg::{self, Backend, Partition, Prediction};
 use crate::model::{LoadCase, Magnitude, Model, Pair};
-use crate::results::{Effect, Sizes};
+use crate::results::{Effect, EndState, Sizes};
 use crate::scene::{Program, Stepping};
 use crate::substructure::ContactCost;
 use serde::Serialize;
@@ -148,8 +148,9 @@ fn run_seconds(model: &Model, sizes: &Sizes, prediction: &Prediction, factorisat
 /// Predicts effects and cost of a model; solves nothing.
 ///
 /// # Errors
-/// Limits of the backend.
+/// Limits of the backend; those of the directory that the scene starts from.
 pub fn check(model: &Model, backend: Backend) -> Result<Check> {
+    let start = starting::read(model)?;
     let system = assemble(model)?;
     let choice = zone_choice::first_guess(model);
     let zone = zone_choice::zone_freedoms(model, &choice.elements);
@@ -212,7 +213,7 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
         ));
     }
     Ok(Check {
-        effects: effects(model, plastic),
+        effects: effects(model, plastic, start.as_ref()),
         sizes,
         prediction,
         contact,
@@ -312,9 +313,22 @@ fn initial_state(model: &Model) -> Effect {
     effect("initial state", !names.is_empty(), why)
 }
 
+fn earlier_run(model: &Model, start: Option<&EndState>) -> Effect {
+    let folder = model.scene.start_from.as_ref().map(|dir| dir.display());
+    let why = match (folder, start) {
+        (None, _) => "the run starts from a virgin state".to_string(),
+        (Some(folder), None) => format!("nothing had yielded in the run in {folder}"),
+        (Some(folder), Some(start)) => format!(
+            "the run in {folder} left plastic strains in {} elements",
+            start.elements.len()
+        ),
+    };
+    effect("earlier run", start.is_some(), why)
+}
+
 /// The ledger: each effect on or off, and why. `yields` says whether the loads reach (or may reach)
 /// yield.
-pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
+pub(super) fn effects(model: &Model, yields: bool, start: Option<&EndState>) -> Vec<Effect> {
     let bodies = &model.mesh.bodies;
     let able: Vec<&str> = bodies
         .iter()
@@ -372,6 +386,7 @@ pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
         volume_forces(model),
         temperature(model),
         initial_state(model),
+        earlier_run(model, start),
         effect(
             "ties",
             tied > 0,

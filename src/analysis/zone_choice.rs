@@ -37,7 +37,10 @@ pub struct Choice {
 }
 
 impl Choice {
-    fn from_marks(model: &Model, core: Vec<bool>, layers: usize) -> Self {
+    fn from_marks(model: &Model, mut core: Vec<bool>, layers: usize) -> Self {
+        for &element in model.start.iter().flat_map(|start| &start.elements) {
+            core[element] = true;
+        }
         let all = widen(model, core.clone(), layers);
         let elements: Vec<usize> = (0..all.len()).filter(|&e| all[e]).collect();
         let guard = elements.iter().map(|&e| !core[e]).collect();

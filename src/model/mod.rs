@@ -48,6 +48,7 @@ use crate::element::{Gradients, Kernel};
 use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::mesh::{self, Mesh};
+use crate::results::EndState;
 use crate::scene::{Plastic, Scene};
 use crate::space::{Space, Vector};
 use given::Given;
@@ -87,6 +88,9 @@ pub struct Model {
     pub symmetry: f64,
     /// Things the user should know.
     pub warnings: Vec<String>,
+    /// The state that a run starts from, once an [`crate::analysis::Analysis`] has read it; `None`
+    /// where that is a virgin one.
+    pub start: Option<EndState>,
     origin: Origin,
 }
 
@@ -207,6 +211,7 @@ impl Model {
             floating,
             symmetry: scene.symmetry as f64,
             warnings,
+            start: None,
             origin,
         })
     }
