@@ -193,6 +193,6 @@ fn what_does_not_fit_is_named() {
     ] {
         let error = refused(initial, FREE);
         assert_eq!(error.kind(), brinell::ErrorKind::Input);
-        assert!(error.to_string().contains(words), "{}", error.to_string());
+        assert!(error.to_string().contains(words), "{error}");
     }
 }

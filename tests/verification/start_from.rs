@@ -208,11 +208,8 @@ fn such_a_run_goes_on_from_checkpoints_and_knows_its_start() {
     let error = analysis(&scene).unwrap().resume(&kept, &mut Silent);
     let error = error.unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Input);
-    assert!(
-        error.to_string().contains("start_from"),
-        "{}",
-        error.to_string()
-    );
+    let text = error.to_string();
+    assert!(text.contains("start_from"), "{text}");
 }
 
 #[test]
@@ -223,7 +220,7 @@ fn what_cannot_be_started_from_is_named() {
     let start = with_targets(&sheet, &[1.0], Some(&dir));
     let refused = |scene: &Scene, words: &str| {
         let error = analysis(scene).map(drop).unwrap_err();
-        assert_eq!(error.kind(), ErrorKind::Input, "{}", error.to_string());
+        assert_eq!(error.kind(), ErrorKind::Input, "{error}");
         let text = error.to_string();
         assert!(
             text.contains(words) && text.contains("start_from"),
