@@ -2,6 +2,7 @@
 
 mod contact;
 mod cycles;
+mod end_state;
 mod ending;
 mod history;
 mod quality;
@@ -9,6 +10,7 @@ mod quantities;
 
 pub use contact::{ContactPatch, PairState, Status};
 pub use cycles::{CycleOutcome, CycleRow, Cycles};
+pub use end_state::EndState;
 pub use ending::{Ending, Incomplete};
 pub use history::{HistoryRow, PathPoint};
 pub use quality::{Quality, Tolerances};
@@ -91,6 +93,8 @@ pub struct Results {
     pub warnings: Vec<String>,
     /// How often the run was stopped or killed and went on from a checkpoint.
     pub resumed: usize,
+    /// What is left in the material at the end, where a body may yield.
+    pub end_state: Option<EndState>,
     /// Set where the run ended before its program did. [`Results::ending`] says how it ended.
     pub incomplete: Option<Incomplete>,
 }

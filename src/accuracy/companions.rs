@@ -45,6 +45,9 @@ pub struct Level {
 /// # Errors
 /// Why there is no such member of the family, in words.
 pub fn member(scene: &Scene, ratio: f64) -> Result<Level, String> {
+    if scene.start_from.is_some() {
+        return Err("start_from binds the scene to the mesh of the earlier run".into());
+    }
     let (mesh, ratio) = scene.mesh.member(ratio)?;
     let scene = Scene {
         mesh,

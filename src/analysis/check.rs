@@ -1,11 +1,11 @@
 //! Which effects a scene calls for, and what the run will cost: before anything is solved.
 
-use super::zone_choice;
+use super::{starting, zone_choice};
 use crate::assembly::assemble;
 use crate::error::Result;
 use crate::linalg::{self, Backend, Partition, Prediction};
-use crate::model::{Magnitude, Model, Pair};
-use crate::results::{Effect, Sizes};
+use crate::model::{LoadCase, Magnitude, Model, Pair};
+use crate::results::{Effect, EndState, Sizes};
 use crate::scene::{Program, Stepping};
 use crate::substructure::ContactCost;
 use serde::Serialize;
@@ -148,8 +148,9 @@ fn run_seconds(model: &Model, sizes: &Sizes, prediction: &Prediction, factorisat
 /// Predicts effects and cost of a model; solves nothing.
 ///
 /// # Errors
-/// Limits of the backend.
+/// Limits of the backend; those of the directory that the scene starts from.
 pub fn check(model: &Model, backend: Backend) -> Result<Check> {
+    let start = starting::read(model)?;
     let system = assemble(model)?;
     let choice = zone_choice::first_guess(model);
     let zone = zone_choice::zone_freedoms(model, &choice.elements);
@@ -212,7 +213,7 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
         ));
     }
     Ok(Check {
-        effects: effects(model, plastic),
+        effects: effects(model, plastic, start.as_ref()),
         sizes,
         prediction,
         contact,
@@ -295,7 +296,7 @@ fn temperature(model: &Model) -> Effect {
     let loads = model.loads.iter();
     let asked = loads.filter(|load| load.measures == Magnitude::Temperature);
     let (asked, acting) = asked.fold((0, 0), |(n, acting), load| {
-        (n + 1, acting + usize::from(load.free_strain.is_some()))
+        (n + 1, acting + usize::from(!load.free_strain.is_empty()))
     });
     let why = match (asked, acting) {
         (0, _) => "no load by temperature".to_string(),
@@ -306,9 +307,38 @@ fn temperature(model: &Model) -> Effect {
     effect_asked_for("temperature", asked > 0, acting > 0, why)
 }
 
+fn initial_state(model: &Model) -> Effect {
+    let loads = model.loads.iter();
+    let acting = loads.filter(|load| load.measures == Magnitude::Strain);
+    let names: Vec<&str> = acting.map(|load| load.name.as_str()).collect();
+    let bodies = model.mesh.bodies.iter();
+    let mut bodies = bodies.filter_map(|name| model.scene.bodies.get(name));
+    let asked = bodies.any(|b| b.initial_stress.is_some() || b.initial_plastic_strain.is_some());
+    let why = match (names.is_empty(), asked) {
+        (false, _) => format!("{}, before the loads", names.join(", ")),
+        (true, true) => "what the bodies bring along is zero".to_string(),
+        (true, false) => "no body brings stresses or plastic strains along".to_string(),
+    };
+    effect_asked_for("initial state", asked, !names.is_empty(), why)
+}
+
+fn earlier_run(model: &Model, start: Option<&EndState>) -> Effect {
+    let folder = model.scene.start_from.as_ref().map(|dir| dir.display());
+    let why = match (folder, start) {
+        (None, _) => "the run starts from a virgin state".to_string(),
+        (Some(folder), None) => format!("nothing had yielded in the run in {folder}"),
+        (Some(folder), Some(start)) => format!(
+            "the run in {folder} left plastic strains in {} elements",
+            start.elements.len()
+        ),
+    };
+    let asked = model.scene.start_from.is_some();
+    effect_asked_for("earlier run", asked, start.is_some(), why)
+}
+
 /// The ledger: each effect on or off, and why. `yields` says whether the loads reach (or may reach)
 /// yield.
-pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
+pub(super) fn effects(model: &Model, yields: bool, start: Option<&EndState>) -> Vec<Effect> {
     let bodies = &model.mesh.bodies;
     let able: Vec<&str> = bodies
         .iter()
@@ -360,7 +390,8 @@ pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
         .map(|load| load.name.as_str())
         .collect();
     let floating = &model.floating.bodies;
-    let preload = model.loads.iter().any(|l| l.factor(0.0, 1.0) != 0.0);
+    let loaded = |l: &LoadCase| l.measures != Magnitude::Strain && l.factor(0.0, 1.0) != 0.0;
+    let preload = model.loads.iter().any(loaded);
     let on_off = |on: bool, yes: String, no: &str| if on { yes } else { no.to_string() };
     vec![
         contact,
@@ -369,6 +400,8 @@ pub(super) fn effects(model: &Model, yields: bool) -> Vec<Effect> {
         yield_by_depth(model, yields),
         volume_forces(model),
         temperature(model),
+        initial_state(model),
+        earlier_run(model, start),
         effect(
             "ties",
             tied > 0,

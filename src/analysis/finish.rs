@@ -78,7 +78,9 @@ impl Run<'_, '_> {
             results.timings.push((name.to_string(), seconds));
         }
         results.cycles = self.cycles();
-        results.effects = check::effects(model, first_yield.alpha.is_some());
+        results.end_state = self.solver.end_state();
+        let yields = first_yield.alpha.is_some() || first_yield.is_behind;
+        results.effects = check::effects(model, yields, model.start.as_ref());
         for effect in &mut results.effects {
             match effect.name.as_str() {
                 "contact" => {

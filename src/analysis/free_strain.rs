@@ -1,17 +1,23 @@
-//! Free strains of loads by temperature ([`crate::model::Model::free_strains`]) at the points of
+//! Free strains, of temperature or brought along ([`crate::model::Model::free_strains`]) at the points of
 //! elements, taken off their strains.
 
 use crate::element::{Components, Lanes};
-use crate::model::Model;
+use crate::model::{FreeStrain, Model};
+use std::ops::Range;
 
-/// Takes a free strain times a factor off strains.
+/// Takes components of a free strain times a factor off strains.
 #[inline]
 pub(super) fn take_off<const S: usize, const P: usize>(
     strains: &mut Components<S, P>,
     factor: f64,
-    free: &Lanes<P>,
+    (components, free): (&Range<usize>, &Lanes<P>),
 ) {
-    for lanes in &mut strains[..3] {
+    // The plane has not all that space has.
+    for lanes in strains
+        .iter_mut()
+        .take(components.end)
+        .skip(components.start)
+    {
         for (strain, free) in lanes.iter_mut().zip(free) {
             *strain -= factor * free;
         }
@@ -19,9 +25,9 @@ pub(super) fn take_off<const S: usize, const P: usize>(
 }
 
 /// Free strains at factor 1 at the points of some elements, kept load by load: nothing where no
-/// load changes a temperature.
+/// load has any.
 pub(super) struct FreeStrains<const P: usize> {
-    of_loads: Vec<(usize, Vec<Lanes<P>>)>,
+    of_loads: Vec<(usize, Range<usize>, Vec<Lanes<P>>)>,
 }
 
 impl<const P: usize> FreeStrains<P> {
@@ -31,18 +37,25 @@ impl<const P: usize> FreeStrains<P> {
         elements: &[usize],
         at_points: impl Fn(usize, &[f64; N]) -> Lanes<P>,
     ) -> Self {
-        let loads = 0..model.loads.len();
-        let heated = loads.filter(|&l| model.loads[l].free_strain.is_some());
-        let of_load = |load: usize| {
-            let elements = elements.iter().enumerate().map(|(i, &element)| {
-                let mut of_element = model.free_strains(element);
-                let own = of_element.find(|(index, _)| *index == load);
-                own.map_or([0.0; P], |(_, nodal)| at_points(i, &nodal))
+        let own = |load: usize| {
+            model.loads[load]
+                .free_strain
+                .iter()
+                .map(move |free| (load, free))
+        };
+        let all = (0..model.loads.len()).flat_map(own);
+        let of_load = |(load, free): (usize, &FreeStrain)| {
+            let body = model.loads[load].body;
+            let lanes = elements.iter().enumerate().map(|(i, &element)| {
+                match model.mesh.element_body[element] == body {
+                    true => at_points(i, &model.free_strain(element, free)),
+                    false => [0.0; P],
+                }
             });
-            (load, elements.collect())
+            (load, free.components.clone(), lanes.collect())
         };
         FreeStrains {
-            of_loads: heated.map(of_load).collect(),
+            of_loads: all.map(of_load).collect(),
         }
     }
 
@@ -54,8 +67,8 @@ impl<const P: usize> FreeStrains<P> {
         factors: &[f64],
         strains: &mut Components<S, P>,
     ) {
-        for (load, of_elements) in &self.of_loads {
-            take_off(strains, factors[*load], &of_elements[i]);
+        for (load, components, of_elements) in &self.of_loads {
+            take_off(strains, factors[*load], (components, &of_elements[i]));
         }
     }
 
@@ -63,7 +76,7 @@ impl<const P: usize> FreeStrains<P> {
     pub(super) fn bytes(&self) -> usize {
         let of_loads = self.of_loads.iter();
         of_loads
-            .map(|(_, lanes)| size_of_val(lanes.as_slice()))
+            .map(|(_, _, lanes)| size_of_val(lanes.as_slice()))
             .sum()
     }
 }

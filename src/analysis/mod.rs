@@ -12,6 +12,7 @@
 //! | `program`, `position`, `first_yield`, `targets`, `cycles` | the program, step by step; where it is | 5.1, 5.2 |
 //! | `drive`, `elastic`, `plastic`, `stretch`, `stepping`, `landing` | along a straight piece of the load path | 4.7 to 4.23 |
 //! | `state`, `restart`, `packed` | a committed state; checkpoints, and going on from them | |
+//! | `starting` | the state that an earlier run left, and that this one leaves | |
 //! | `outgrown` | contact that reaches the end of its candidates | |
 //! | `path` | the path between increments | |
 //! | `measure`, `contact_edge`, `reading`, `dent`, `figures`, `quality` | pressure, half width, dent, quality of a state | 5 |
@@ -61,6 +62,7 @@ mod region;
 mod response;
 mod restart;
 mod solver;
+mod starting;
 mod state;
 mod step_length;
 mod stepping;
@@ -102,9 +104,11 @@ impl Analysis {
     /// Assembles the model.
     ///
     /// # Errors
-    /// Those of [`assemble`].
-    pub fn new(model: Model, backend: Backend) -> Result<Self> {
+    /// Those of [`assemble`]; `Input` where the directory that the scene starts from is missing,
+    /// damaged, or of another mesh or version.
+    pub fn new(mut model: Model, backend: Backend) -> Result<Self> {
         let start = Instant::now();
+        model.start = starting::read(&model)?;
         let system = assemble(&model)?;
         let timings = vec![("assembly".to_string(), start.elapsed().as_secs_f64())];
         Ok(Analysis {
@@ -195,7 +199,12 @@ impl Analysis {
     }
 
     fn store(&self, checkpoints: &Checkpoints) -> Result<Store> {
-        let identity = Identity::new(&self.model.scene, &self.model.mesh, self.backend)?;
+        let model = &self.model;
+        let identity = Identity::new(
+            (&model.scene, model.start.as_ref()),
+            &model.mesh,
+            self.backend,
+        )?;
         Store::open(checkpoints, identity)
     }
 

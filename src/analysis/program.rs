@@ -105,7 +105,7 @@ impl<'m, 'o> Run<'m, 'o> {
         }
         let mut run = Run::of(solver, ZoneFit::new(choice), results, observer);
         run.position.seconds.condensation = start.elapsed().as_secs_f64();
-        run.begin_preload();
+        run.begin()?;
         Ok(run)
     }
 
@@ -357,6 +357,15 @@ impl<'m, 'o> Run<'m, 'o> {
         }
     }
 
+    /// Puts the structure where the program begins: nothing acts, and what an earlier run left in
+    /// the material is there.
+    fn begin(&mut self) -> Result<()> {
+        self.solver.begin()?;
+        self.position.first_yield.is_behind |= self.model().start.is_some();
+        self.begin_preload();
+        Ok(())
+    }
+
     /// Applies constant loads and interference, before the load factor leaves zero.
     fn begin_preload(&mut self) {
         let end = self.solver.structure.point(0.0);
@@ -389,18 +398,20 @@ impl<'m, 'o> Run<'m, 'o> {
             let under_preload = self.find_yield(required)?;
             self.position.seconds.yield_load += start.elapsed().as_secs_f64();
             if under_preload {
-                self.solver.unload();
                 self.results.history.clear();
                 self.position.stage = Stage::Preload { again: true };
                 self.observer.phase("preload");
-                self.begin_preload();
-                return Ok(());
+                return self.begin();
             }
         }
         if self.yield_only {
             self.position.stage = Stage::YieldOnly;
             return match self.position.first_yield.point {
                 Some(_) => Ok(()),
+                None if self.model().start.is_some() => Err(Error::analysis(
+                    "no yield load: the material has yielded in the run that this one starts \
+                     from",
+                )),
                 None => Err(Error::analysis(
                     "no yield load: no body that may yield (material with a yield stress, plastic \
                      not false) yields",

@@ -110,11 +110,11 @@ impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
             u.copy_from_slice(&self.displacements[node as usize][..D]);
         }
         let mut strain = gradients.strains(&u);
-        for (load, nodal) in self.model.free_strains(e) {
+        for (load, components, nodal) in self.model.free_strains(e) {
             take_off(
                 &mut strain,
                 self.factors[load],
-                &gradients.at_points(&nodal),
+                (components, &gradients.at_points(&nodal)),
             );
         }
         let history = self

@@ -87,7 +87,7 @@ impl Stresses {
         out.nodal = forces;
         // What free strains would take to be held enters with the loads: the same forces here.
         for (load, factor) in model.loads.iter().zip(&field.factors) {
-            if load.free_strain.is_some() {
+            if !load.free_strain.is_empty() {
                 for &(freedom, force) in &load.forces {
                     out.internal[freedom] += factor * force;
                 }

@@ -37,7 +37,10 @@ pub struct Choice {
 }
 
 impl Choice {
-    fn from_marks(model: &Model, core: Vec<bool>, layers: usize) -> Self {
+    fn from_marks(model: &Model, mut core: Vec<bool>, layers: usize) -> Self {
+        for &element in model.start.iter().flat_map(|start| &start.elements) {
+            core[element] = true;
+        }
         let all = widen(model, core.clone(), layers);
         let elements: Vec<usize> = (0..all.len()).filter(|&e| all[e]).collect();
         let guard = elements.iter().map(|&e| !core[e]).collect();
@@ -217,8 +220,9 @@ fn ratios_of<const D: usize, const S: usize, const P: usize, const N: usize>(
             let sampling = kernel.sampling(model.mesh.shapes[e], &nodes);
             let body = model.mesh.element_body[e] as usize;
             let mut strains = sampling.strains(&u);
-            for (load, nodal) in model.free_strains(e) {
-                take_off(&mut strains, factors[load], &sampling.at_points(&nodal));
+            for (load, components, nodal) in model.free_strains(e) {
+                let at_points = sampling.at_points(&nodal);
+                take_off(&mut strains, factors[load], (components, &at_points));
             }
             let places = (|| sampling.positions(&nodes), sampling.n_points());
             largest_ratio(model, e, &stress(&elastic[body], &strains), places)

@@ -10,31 +10,41 @@ use std::path::Path;
 use xxhash_rust::xxh3::xxh3_128;
 
 /// Number of the layout: another one is refused.
-const FORMAT: u32 = 6;
+const FORMAT: u32 = 7;
 /// Length and hash.
 const GUARD: usize = 8 + 16;
 
+/// What the files of a run that may go on call themselves.
+const CHECKPOINT: &str = "checkpoint";
+
 /// What a file of this build begins with.
-fn first_line() -> String {
+fn first_line(what: &str) -> String {
     format!(
-        "brinell checkpoint, format {FORMAT}, version {}\n",
+        "brinell {what}, format {FORMAT}, version {}\n",
         env!("CARGO_PKG_VERSION")
     )
+}
+
+/// A whole file with `value` as its content, and length and hash of that. `what` names it.
+pub(super) fn encode(what: &str, value: &impl Serialize) -> Result<(Vec<u8>, u64, u128)> {
+    let content = postcard::to_stdvec(value)
+        .map_err(|cause| Error::internal(format!("a {what} cannot be encoded")).because(cause))?;
+    let (length, hash) = (content.len() as u64, xxh3_128(&content));
+    let mut bytes = first_line(what).into_bytes();
+    bytes.extend(length.to_le_bytes());
+    bytes.extend(hash.to_le_bytes());
+    bytes.extend(content);
+    Ok((bytes, length, hash))
 }
 
 /// Writes `value` to `path` by way of `path` with the ending `.partial`, on disk before it gets its
 /// name. Returns length and hash of its content.
 pub(super) fn write(path: &Path, value: &impl Serialize) -> Result<(u64, u128)> {
-    let content = postcard::to_stdvec(value)
-        .map_err(|cause| Error::internal("a checkpoint cannot be encoded").because(cause))?;
-    let (length, hash) = (content.len() as u64, xxh3_128(&content));
+    let (bytes, length, hash) = encode(CHECKPOINT, value)?;
     let partial = path.with_extension("partial");
     let store = || -> std::io::Result<()> {
         let mut out = BufWriter::new(File::create(&partial)?);
-        out.write_all(first_line().as_bytes())?;
-        out.write_all(&length.to_le_bytes())?;
-        out.write_all(&hash.to_le_bytes())?;
-        out.write_all(&content)?;
+        out.write_all(&bytes)?;
         out.into_inner()?.sync_data()?;
         std::fs::rename(&partial, path)
     };
@@ -51,9 +61,17 @@ pub(super) fn write(path: &Path, value: &impl Serialize) -> Result<(u64, u128)> 
 /// # Errors
 /// `Input` where the file is none of brinell's, of another version, cut short or damaged; `Io`.
 pub(super) fn read<T: DeserializeOwned>(path: &Path) -> Result<(T, u64, u128)> {
+    read_as(CHECKPOINT, path)
+}
+
+/// As [`read`], of a file that calls itself so.
+///
+/// # Errors
+/// As [`read`].
+pub(super) fn read_as<T: DeserializeOwned>(what: &str, path: &Path) -> Result<(T, u64, u128)> {
     let bytes = files::read("read", path, None)?;
     let refused = |why: String| Error::input(format!("{}: {why}", path.display()));
-    let line = first_line();
+    let line = first_line(what);
     let Some(rest) = bytes.strip_prefix(line.as_bytes()) else {
         let end = bytes
             .iter()
@@ -61,19 +79,19 @@ pub(super) fn read<T: DeserializeOwned>(path: &Path) -> Result<(T, u64, u128)> {
             .position(|&b| b == b'\n')
             .unwrap_or(0);
         let found = String::from_utf8_lossy(&bytes[..end]);
-        return Err(refused(if found.starts_with("brinell checkpoint") {
+        return Err(refused(if found.starts_with(&format!("brinell {what}")) {
             format!(
                 "written by another version (`{found}`, this is `{}`): run the scene again from \
                  its beginning, or with that version",
                 line.trim_end()
             )
         } else {
-            "no checkpoint of brinell".to_string()
+            format!("no {what} of brinell")
         }));
     };
-    let damaged = |what: &str| {
+    let damaged = |how: &str| {
         refused(format!(
-            "the checkpoint is damaged ({what}): delete it and run the scene again from its \
+            "the {what} is damaged ({how}): delete it and run the scene again from its \
              beginning"
         ))
     };

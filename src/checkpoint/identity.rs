@@ -3,10 +3,11 @@
 use crate::error::{Error, Result};
 use crate::linalg::Backend;
 use crate::mesh::Mesh;
+use crate::results::EndState;
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
-use xxhash_rust::xxh3::Xxh3;
+use xxhash_rust::xxh3::{Xxh3, xxh3_128};
 
 /// Scene, mesh and backend of a run. The version of brinell stands in front of each file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -16,6 +17,8 @@ pub struct Identity {
     /// Hash of the mesh: a scene may name a file, whose content may have changed.
     mesh: u128,
     backend: String,
+    /// Hash of the state that it starts from, 0 where that is a virgin one.
+    start: u128,
 }
 
 impl Identity {
@@ -23,13 +26,21 @@ impl Identity {
     ///
     /// # Errors
     /// Internal, where the scene is not plain data.
-    pub fn new(scene: &Scene, mesh: &Mesh, backend: Backend) -> Result<Self> {
+    pub fn new(
+        (scene, start): (&Scene, Option<&EndState>),
+        mesh: &Mesh,
+        backend: Backend,
+    ) -> Result<Self> {
         let scene = serde_json::to_string(scene)
             .map_err(|cause| Error::internal("the scene is not plain data").because(cause))?;
         Ok(Identity {
             scene,
             mesh: hash(mesh),
             backend: backend.name().to_string(),
+            start: match start {
+                Some(state) => hash_of_start(state)?,
+                None => 0,
+            },
         })
     }
 
@@ -46,6 +57,10 @@ impl Identity {
         }
         if self.mesh != now.mesh {
             return Some("the mesh differs, the scene being the same: its file has changed".into());
+        }
+        if self.start != now.start {
+            let why = "the state in the directory of `start_from` has changed";
+            return Some(why.into());
         }
         if self.backend != now.backend {
             return Some(format!(
@@ -89,8 +104,14 @@ fn first_difference(path: &str, then: &Value, now: &Value) -> Option<(String, St
     }
 }
 
+fn hash_of_start(state: &EndState) -> Result<u128> {
+    let bytes = postcard::to_stdvec(state)
+        .map_err(|cause| Error::internal("an end state cannot be encoded").because(cause))?;
+    Ok(xxh3_128(&bytes))
+}
+
 /// Everything of the mesh that a result may depend on.
-fn hash(mesh: &Mesh) -> u128 {
+pub(super) fn hash(mesh: &Mesh) -> u128 {
     let mut hash = Xxh3::new();
     let mut number = |n: u64| hash.update(&n.to_le_bytes());
     number(mesh.dimension as u64);
@@ -208,6 +229,7 @@ mod tests {
             scene: "{\"a\":1}".into(),
             mesh: 7,
             backend: "cholmod".into(),
+            start: 0,
         };
         assert_eq!(own().difference(&own()), None);
         let others = [

@@ -17,10 +17,12 @@
 //! what it belongs to ([`Identity`]), and is refused with the first difference by name where that
 //! is not what is to be run.
 
+mod end_state;
 mod file;
 mod identity;
 mod store;
 
+pub(crate) use end_state::{END_STATE_FILE, encode as encode_end_state, read as read_end_state};
 pub use identity::Identity;
 pub(crate) use store::{PartId, Store};
 

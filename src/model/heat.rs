@@ -1,10 +1,10 @@
-//! Loads by a change of temperature.
+//! Strains that no stress belongs to: by a change of temperature, or brought along.
 //!
-//! A point that may expand freely has the strain `alpha dT` along all axes. It enters as plastic
-//! strains do, as an initial load:
+//! A point that may expand freely has the strain `eps_0 = alpha dT` along all axes, one with
+//! residual stress whatever strain that took. It enters as plastic strains do, as an initial load:
 //!
 //! ```text
-//! sigma = D (eps - eps_p - alpha dT 1),   f = sum_g w_g B' D alpha dT 1
+//! sigma = D (eps - eps_p - eps_0),   f = sum_g w_g B' D eps_0
 //! ```
 //!
 //! The free strain is interpolated between the nodes; linear elements have the mean of theirs, as
@@ -17,6 +17,23 @@ use crate::mesh::Mesh;
 use crate::scene::Formulation;
 use crate::space::{Space, Vector, along};
 use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// Some components of a free strain, all of one value at each node.
+#[derive(Debug, Clone)]
+pub struct FreeStrain {
+    /// Which components.
+    pub components: Range<usize>,
+    /// Their value at each node of the mesh.
+    pub nodal: Vec<f64>,
+}
+
+impl FreeStrain {
+    /// Whether it is zero everywhere.
+    pub(super) fn is_none(&self) -> bool {
+        self.nodal.iter().all(|strain| *strain == 0.0)
+    }
+}
 
 /// The free strain at an element's nodes: of linear elements their mean.
 fn of_element<const N: usize>(mesh: &Mesh, element: usize, nodal: &[f64]) -> [f64; N] {
@@ -32,21 +49,21 @@ fn of_element<const N: usize>(mesh: &Mesh, element: usize, nodal: &[f64]) -> [f6
     out
 }
 
-/// Nodal forces of the free strains `nodal` of a body, nodes ascending.
+/// Nodal forces of the free strains of a body, nodes ascending.
 pub(super) fn forces(
     (space, formulation): (Space, Formulation),
     mesh: &Mesh,
     (body, law): (usize, Lame),
-    nodal: &[f64],
+    free: &[FreeStrain],
 ) -> Vec<(usize, Vector)> {
     match space {
         Space::Solid => {
             let kernel = Kernel::solid().integrated(formulation);
-            forces_of(&kernel, mesh, (body, law), nodal)
+            forces_of(&kernel, mesh, (body, law), free)
         }
         space => {
             let kernel = Kernel::plane(space).integrated(formulation);
-            forces_of(&kernel, mesh, (body, law), nodal)
+            forces_of(&kernel, mesh, (body, law), free)
         }
     }
 }
@@ -55,7 +72,7 @@ fn forces_of<const D: usize, const S: usize, const P: usize, const N: usize>(
     kernel: &Kernel<D, S, P, N>,
     mesh: &Mesh,
     (body, law): (usize, Lame),
-    nodal: &[f64],
+    free: &[FreeStrain],
 ) -> Vec<(usize, Vector)> {
     let mut out: BTreeMap<usize, Vector> = BTreeMap::new();
     for element in (0..mesh.n_elements()).filter(|&e| mesh.element_body[e] as usize == body) {
@@ -64,10 +81,20 @@ fn forces_of<const D: usize, const S: usize, const P: usize, const N: usize>(
             x.copy_from_slice(&mesh.point(node as usize)[..D]);
         }
         let gradients: Gradients<D, S, P, N> = kernel.gauss(mesh.shapes[element], &x);
-        let free = gradients.at_points(&of_element(mesh, element, nodal));
+        let mut strains = [[0.0; P]; S];
+        for free in free {
+            let at_points = gradients.at_points(&of_element(mesh, element, &free.nodal));
+            for lanes in strains
+                .iter_mut()
+                .take(free.components.end)
+                .skip(free.components.start)
+            {
+                *lanes = at_points;
+            }
+        }
         let mut stress = [[0.0; P]; S];
         for g in 0..gradients.n_points() {
-            let strain: [f64; S] = std::array::from_fn(|k| if k < 3 { free[g] } else { 0.0 });
+            let strain = strains.each_ref().map(|lanes| lanes[g]);
             for (lanes, s) in stress.iter_mut().zip(law.times(&strain)) {
                 lanes[g] = s;
             }
@@ -82,22 +109,29 @@ fn forces_of<const D: usize, const S: usize, const P: usize, const N: usize>(
 }
 
 impl Model {
+    /// A free strain at an element's nodes.
+    #[inline]
+    pub fn free_strain<const N: usize>(&self, element: usize, free: &FreeStrain) -> [f64; N] {
+        of_element(&self.mesh, element, &free.nodal)
+    }
+
     /// The free strains at an element's nodes that loads give it at factor 1, with the loads'
-    /// indices.
+    /// indices and the components.
     #[inline]
     pub fn free_strains<const N: usize>(
         &self,
         element: usize,
-    ) -> impl Iterator<Item = (usize, [f64; N])> + '_ {
+    ) -> impl Iterator<Item = (usize, &Range<usize>, [f64; N])> + '_ {
         let body = self.mesh.element_body[element];
         let loads = self
             .loads
             .iter()
             .enumerate()
             .filter(move |(_, l)| l.body == body);
-        loads.filter_map(move |(index, load)| {
-            let nodal = load.free_strain.as_ref()?;
-            Some((index, of_element(&self.mesh, element, nodal)))
+        loads.flat_map(move |(index, load)| {
+            load.free_strain
+                .iter()
+                .map(move |free| (index, &free.components, self.free_strain(element, free)))
         })
     }
 }

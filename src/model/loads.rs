@@ -1,6 +1,7 @@
 //! Load vectors on the free freedoms.
 
 use super::given::Given;
+use super::heat::FreeStrain;
 use super::names::Entry;
 use super::{Freedoms, Pair, Slot, volume_loads};
 use crate::analytical::KirschField;
@@ -23,6 +24,8 @@ pub enum Magnitude {
     Temperature,
     /// A change of gaps.
     Gap,
+    /// A strain that a body brings along.
+    Strain,
 }
 
 /// A load: nodal forces per unit of its factor, and how the factor depends on the load factor.
@@ -49,9 +52,9 @@ pub struct LoadCase {
     pub body: u32,
     /// Unit direction of the load, for the approach.
     pub direction: Vector,
-    /// Of a load by temperature: the free strain `alpha dT` at factor 1 at each node of the mesh,
-    /// which counts in the elements of its body.
-    pub free_strain: Option<Vec<f64>>,
+    /// Strains at factor 1 that no stress belongs to, which count in the elements of its body: of
+    /// temperature, or brought along.
+    pub free_strain: Vec<FreeStrain>,
     /// Of a load by a gap: the contacts whose gaps it changes, and by how much at factor 1.
     pub opens: Vec<(usize, f64)>,
 }
@@ -111,7 +114,8 @@ impl LoadCase {
     }
 }
 
-fn interpolate(rows: &[[f64; 2]], alpha: f64) -> f64 {
+/// A table's value: straight between its rows and constant beyond.
+pub(super) fn interpolate(rows: &[[f64; 2]], alpha: f64) -> f64 {
     let next = rows.partition_point(|r| r[0] <= alpha);
     match (next.checked_sub(1).map(|i| rows[i]), rows.get(next)) {
         (Some(a), Some(b)) => a[1] + (b[1] - a[1]) * (alpha - a[0]) / (b[0] - a[0]),
@@ -179,7 +183,7 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
         body: body_of(mesh, &nodes),
         nodes,
         direction: [0.0; 3],
-        free_strain: None,
+        free_strain: Vec::new(),
         opens: Vec::new(),
     };
     let surface = |key: &str| {
@@ -355,7 +359,7 @@ fn integrate(
     forces.into_iter().collect()
 }
 
-fn on_freedoms(nodal: &[(usize, Vector)], freedoms: &Freedoms) -> Vec<(usize, f64)> {
+pub(super) fn on_freedoms(nodal: &[(usize, Vector)], freedoms: &Freedoms) -> Vec<(usize, f64)> {
     let mut out = std::collections::BTreeMap::new();
     for &(node, force) in nodal {
         for (slot, axis) in freedoms.slots[node].iter().zip(freedoms.local(node)) {

@@ -6,6 +6,7 @@
 mod body_forces;
 mod builder;
 mod contact_basis;
+mod depth;
 mod ends;
 mod equations;
 mod far_boundary;
@@ -16,6 +17,7 @@ mod given;
 mod gram;
 mod heat;
 mod held;
+mod initial_strain;
 mod loads;
 mod motions;
 mod names;
@@ -33,6 +35,7 @@ pub use contact_basis::ContactBasis;
 pub use frame::Frame;
 pub use freedoms::{Freedoms, Prescribed, Slot};
 pub use given::NodePair;
+pub use heat::FreeStrain;
 pub use held::{FloatingBodies, Pin, RigidMotion};
 pub use loads::{LoadCase, Magnitude};
 pub use pairs::{AxisPoint, ContactSurface, Pair};
@@ -45,6 +48,7 @@ use crate::element::{Gradients, Kernel};
 use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::mesh::{self, Mesh};
+use crate::results::EndState;
 use crate::scene::{Plastic, Scene};
 use crate::space::{Space, Vector};
 use given::Given;
@@ -84,6 +88,9 @@ pub struct Model {
     pub symmetry: f64,
     /// Things the user should know.
     pub warnings: Vec<String>,
+    /// The state that a run starts from, once an [`crate::analysis::Analysis`] has read it; `None`
+    /// where that is a virgin one.
+    pub start: Option<EndState>,
     origin: Origin,
 }
 
@@ -171,7 +178,9 @@ impl Model {
             })?;
         }
         freedoms.basis.restate(&mut pairs, &contacts);
-        let loads = loads::resolve(scene, &mesh, given, &freedoms)?;
+        let mut loads = loads::resolve(scene, &mesh, given, &freedoms)?;
+        let of_bodies = (&materials[..], &contacts[..]);
+        loads.extend(initial_strain::resolve(scene, &mesh, of_bodies, &freedoms)?);
         check_targets(scene, &mesh)?;
         let (floating, rows) = held::resolve(
             kind,
@@ -202,6 +211,7 @@ impl Model {
             floating,
             symmetry: scene.symmetry as f64,
             warnings,
+            start: None,
             origin,
         })
     }

@@ -1,5 +1,6 @@
 //! Loads on the volume of a body: its weight, rotation, a change of temperature.
 
+use super::heat::FreeStrain;
 use super::loads::{LoadCase, Magnitude, name};
 use super::names::Entry;
 use super::{body_forces, heat};
@@ -57,7 +58,7 @@ pub(super) fn resolve(
         measures: Magnitude::Force,
         body: body as u32,
         direction: [0.0; 3],
-        free_strain: None,
+        free_strain: Vec::new(),
         opens: Vec::new(),
     };
     if let Some(temperature) = &load.temperature {
@@ -70,10 +71,17 @@ pub(super) fn resolve(
         let free: Vec<f64> = changes.iter().map(|change| expansion * change).collect();
         let law = Material::new(material, &data, scene.kind).lame();
         let kind = (scene.kind, scene.mesh.formulation);
-        case.nodal = heat::forces(kind, mesh, (body, law), &free);
+        let free = FreeStrain {
+            components: 0..3,
+            nodal: free,
+        };
+        case.nodal = heat::forces(kind, mesh, (body, law), std::slice::from_ref(&free));
         case.measures = Magnitude::Temperature;
         case.magnitude = changes.iter().fold(0.0, |m, change| m.max(change.abs()));
-        case.free_strain = free.iter().any(|strain| *strain != 0.0).then_some(free);
+        case.free_strain = Some(free)
+            .filter(|free| !free.is_none())
+            .into_iter()
+            .collect();
     } else if let Some(a) = acceleration {
         let mass = scene.symmetry as f64 * density * volume;
         case.set_size(a.map(|a| mass * a), Magnitude::Force);

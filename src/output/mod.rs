@@ -7,6 +7,7 @@
 //!     contact.csv           a row per state and contact pair                       (contact)
 //!     fields.pvd            the states with fields, as a time series               (fields)
 //!     state_01_NAME.vtu     mesh and fields of one state                           (fields, vtu)
+//!     end_state.bin         what is left in the material, for `start_from`          (checkpoint)
 //!     report.html           the run to look at                                     (report)
 //!     report_NAME.svg       its figures
 //!     scene_as_run.toml     the scene with all that was put over it                (record)
@@ -72,6 +73,7 @@ pub use summary::summary;
 #[cfg(feature = "report")]
 pub use work_precision::plot;
 
+use crate::checkpoint::{END_STATE_FILE, encode_end_state};
 use crate::error::Result;
 use crate::linalg::Backend;
 use crate::mesh::Mesh;
@@ -224,6 +226,10 @@ fn write_tables_and_fields(
         contact::write(out, header.dimension(), &results.states)
     })?;
     fields::write(staging, header, mesh, &results.states)?;
+    if let Some(state) = &results.end_state {
+        let bytes = encode_end_state(mesh, state)?;
+        staging.file(END_STATE_FILE, |out| out.write_all(&bytes))?;
+    }
     staging.file(SUMMARY_FILE, |out| {
         serde_json::to_writer_pretty(&mut *out, &summary(header, results))?;
         out.write_all(b"\n")
@@ -254,6 +260,7 @@ fn is_result_file(name: &OsStr) -> bool {
             record::MESH_FILE,
             record::MODEL_FILE,
             claim::STALE_FILE,
+            END_STATE_FILE,
         ]
         .contains(&name)
             || (name.starts_with(fields::FILE_PREFIX) && name.ends_with(fields::FILE_SUFFIX))

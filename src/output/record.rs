@@ -32,6 +32,9 @@ pub(super) fn write(staging: &Staging, model: &Model) -> Result<()> {
         });
     }
     let mut scene = model.scene.clone();
+    if let Some(folder) = scene.start_folder() {
+        scene.start_from = Some(std::path::absolute(&folder).unwrap_or(folder));
+    }
     if made.file.is_some() {
         staging.file(MESH_FILE, |out| gmsh::write(&model.mesh, out))?;
         scene.mesh = MeshSource {

@@ -105,6 +105,18 @@ pub struct Body {
     /// The surface of the body from which depths count; without it those that may touch others.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub depth_from: Option<String>,
+    /// Residual stress that the body brings along, before anything is loaded: rows of depth and
+    /// components in the order of stresses in the results (`xx, yy, zz`, then `xy`, or `xy, yz,
+    /// zx` of a solid, which may be left out), straight between the rows and constant beyond; one
+    /// row is a uniform stress. What of it is not in equilibrium relaxes. Depths count as those of
+    /// `yield_by_depth` do. No plastic flow is part of it: what it hardened is not known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub initial_stress: Option<Vec<Vec<f64>>>,
+    /// Plastic strain that the body brings along, of what made it before (rolled, peened, case
+    /// hardened), in rows as `initial_stress` has, with engineering shear. Its trace need not be
+    /// zero: growth of a case is given so too. It does not harden.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub initial_plastic_strain: Option<Vec<Vec<f64>>>,
 }
 
 impl Body {

@@ -83,6 +83,11 @@ pub struct Scene {
     pub symmetry: usize,
     /// Where the mesh comes from.
     pub mesh: MeshSource,
+    /// The result directory of an earlier run on the same mesh, relative to the scene file: the
+    /// plastic strains, hardening and back stresses that it left, and so its residual stresses, are
+    /// what this run starts from, without load and with contacts open where nothing presses.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub start_from: Option<PathBuf>,
     /// Materials by name; those of the list that `brinell materials` prints need no entry.
     #[serde(default)]
     pub materials: BTreeMap<String, Material>,
@@ -128,6 +133,13 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// Where `start_from` is.
+    pub(crate) fn start_folder(&self) -> Option<PathBuf> {
+        let folder = self.start_from.as_ref()?;
+        let beside = self.file.as_deref().and_then(std::path::Path::parent);
+        Some(beside.map_or(folder.clone(), |beside| beside.join(folder)))
+    }
+
     /// A scene of a kind with nothing in it: the whole of it is meshed, one target at load factor
     /// 1.
     pub(crate) fn of(kind: Space) -> Self {
@@ -137,6 +149,7 @@ impl Scene {
             units: None,
             symmetry: 1,
             mesh: MeshSource::default(),
+            start_from: None,
             materials: BTreeMap::new(),
             bodies: BTreeMap::new(),
             contact: Vec::new(),

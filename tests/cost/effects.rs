@@ -118,6 +118,21 @@ fn loads_that_are_nothing_are_off_and_cost_nothing() {
     );
 }
 
+/// What is brought along and is zero is no load; a run that no one starts from leaves no more work.
+#[test]
+fn an_initial_state_that_is_nothing_is_off_and_costs_nothing() {
+    let plain = run(&[]);
+    assert!(!effect(&plain, "initial state").on && !effect(&plain, "earlier run").on);
+    let zero = run(&["bodies.half_plane.initial_stress=[[0.0, 0.0, 0.0, 0.0]]"]);
+    let found = effect(&zero, "initial state");
+    assert!(!found.on && found.why.contains("is zero"), "{}", found.why);
+    assert_eq!(cost(&zero), cost(&plain));
+    let some =
+        run(&["bodies.half_plane.initial_stress=[[0.0, -5.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]]"]);
+    assert!(effect(&some, "initial state").on);
+    assert_eq!(some.counts.factorizations, plain.counts.factorizations);
+}
+
 /// The cylinder with another load on its half plane.
 fn load_of(load: &str) -> brinell::scene::Scene {
     let path = super::running::scene_file("cylinder_on_half_plane");

@@ -2,6 +2,7 @@
 
 use crate::analysis::packed;
 use crate::material::{BackStresses, PlasticState, resized};
+use crate::results::EndState;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -15,7 +16,50 @@ pub struct History {
     pub back: BackStrains<6>,
 }
 
+impl From<&EndState> for History {
+    fn from(state: &EndState) -> Self {
+        let points = state.strains.iter().zip(&state.equivalent);
+        History {
+            points: points
+                .map(|(strain, equivalent)| PlasticState {
+                    strain: *strain,
+                    equivalent: *equivalent,
+                })
+                .collect(),
+            back: BackStrains {
+                each: state.back_strains.len() / state.strains.len().max(1),
+                strains: state.back_strains.clone(),
+                lost_work: state.lost_work.clone(),
+            },
+        }
+    }
+}
+
 impl History {
+    /// What it leaves in the given elements, whose points these are.
+    pub fn end_state(&self, elements: &[usize]) -> EndState {
+        let mut out = EndState::default();
+        let stride = self.points.len() / elements.len().max(1);
+        let (each, back) = (self.back.each, &self.back);
+        for (i, &element) in elements.iter().enumerate() {
+            let points = i * stride..(i + 1) * stride;
+            let own = &self.points[points.clone()];
+            if own.iter().all(|state| state.equivalent == 0.0) {
+                continue;
+            }
+            out.elements.push(element);
+            out.strains.extend(own.iter().map(|state| state.strain));
+            out.equivalent
+                .extend(own.iter().map(|state| state.equivalent));
+            out.back_strains
+                .extend(&back.strains[each * points.start..each * points.end]);
+            if !back.is_none() {
+                out.lost_work.extend(&back.lost_work[points]);
+            }
+        }
+        out
+    }
+
     /// Whether it is of so many points.
     pub fn is_of(&self, n_points: usize) -> bool {
         self.points.len() == n_points && self.back.is_of(n_points)

@@ -163,9 +163,8 @@ impl<'a> Signs<'a> {
         for support in &self.model.scene.support {
             self.support(area, support)?;
         }
-        for (index, load) in self.model.loads.iter().enumerate() {
-            let on = &self.model.scene.load[index].on;
-            let pressure = self.model.scene.load[index].pressure;
+        for (load, entry) in self.model.loads.iter().zip(&self.model.scene.load) {
+            let (on, pressure) = (&entry.on, entry.pressure);
             let nodes = self.spread(on);
             let pulled = nodes
                 .iter()

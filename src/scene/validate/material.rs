@@ -1,9 +1,10 @@
 //! Materials and bodies.
 
-use super::Checks;
+use super::{Checks, LARGEST};
 use crate::number::exact;
 use crate::scene::read::closest;
 use crate::scene::{Body, Material, Plastic, Scene, beyond_yield, materials};
+use crate::space::Space;
 
 impl Checks {
     pub(super) fn materials(&mut self, scene: &Scene) {
@@ -17,6 +18,7 @@ impl Checks {
         );
         for (name, body) in &scene.bodies {
             self.yield_by_depth(&format!("bodies.{name}"), body, scene);
+            self.initial_state(&format!("bodies.{name}"), body, scene.kind);
             match scene.materials.get(&body.material) {
                 None => {
                     let known: Vec<&str> = scene.materials.keys().map(String::as_str).collect();
@@ -50,10 +52,12 @@ impl Checks {
 
     fn yield_by_depth(&mut self, key: &str, body: &Body, scene: &Scene) {
         let Some(rows) = &body.yield_by_depth else {
+            let asked = [&body.initial_stress, &body.initial_plastic_strain];
             self.require(
-                body.depth_from.is_none(),
+                body.depth_from.is_none() || asked.iter().any(|rows| rows.is_some()),
                 format!("{key}.depth_from"),
-                "without yield_by_depth there are no depths that could count from it",
+                "without yield_by_depth, initial_stress or initial_plastic_strain there are no \
+                 depths that could count from it",
             );
             return;
         };
@@ -75,23 +79,75 @@ impl Checks {
         );
         for (index, [depth, yield_stress]) in rows.iter().enumerate() {
             let key = format!("{key}.{index}");
+            let before = index.checked_sub(1).map(|before| rows[before][0]);
+            self.depth(&key, *depth, before);
+            self.stress(key, *yield_stress);
+        }
+    }
+
+    /// A depth and that of the row before.
+    fn depth(&mut self, key: &str, depth: f64, before: Option<f64>) {
+        self.require(
+            depth >= 0.0,
+            key,
+            format!("depth {} must be at least 0", exact(depth)),
+        );
+        if let Some(before) = before {
             self.require(
-                *depth >= 0.0,
-                key.as_str(),
-                format!("depth {} must be at least 0", exact(*depth)),
+                depth > before,
+                key,
+                format!(
+                    "depth {} must be greater than {} of the row before",
+                    exact(depth),
+                    exact(before)
+                ),
             );
-            if let Some([before, _]) = index.checked_sub(1).map(|before| rows[before]) {
+        }
+    }
+
+    /// Rows of depth and components of a tensor.
+    fn initial_state(&mut self, key: &str, body: &Body, kind: Space) {
+        let given = [
+            ("initial_stress", &body.initial_stress),
+            ("initial_plastic_strain", &body.initial_plastic_strain),
+        ];
+        for (name, rows) in given {
+            let Some(rows) = rows else {
+                continue;
+            };
+            let key = format!("{key}.{name}");
+            let (lengths, form) = match kind {
+                Space::Solid => ([4, 7], "[depth, xx, yy, zz] or with xy, yz, zx after them"),
+                _ => ([4, 5], "[depth, xx, yy, zz] or with xy after them"),
+            };
+            self.require(
+                !rows.is_empty(),
+                key.as_str(),
+                format!("is empty; give rows of {form}"),
+            );
+            let mut before = None;
+            for (index, row) in rows.iter().enumerate() {
+                let key = format!("{key}.{index}");
+                if !lengths.contains(&row.len()) {
+                    self.problem(
+                        key,
+                        format!("has {} numbers; give rows of {form}", row.len()),
+                    );
+                    continue;
+                }
+                self.depth(&key, row[0], before);
+                before = Some(row[0]);
                 self.require(
-                    *depth > before,
+                    row[1..].iter().all(|value| value.abs() <= LARGEST),
                     key.as_str(),
-                    format!(
-                        "depth {} must be greater than {} of the row before",
-                        exact(*depth),
-                        exact(before)
-                    ),
+                    format!("a component is beyond {LARGEST:e}: it would overflow"),
+                );
+                self.require(
+                    name != "initial_stress" || kind != Space::PlaneStress || row[3] == 0.0,
+                    key,
+                    format!("zz {} must be 0 in plane stress", exact(row[3])),
                 );
             }
-            self.stress(key, *yield_stress);
         }
     }
 

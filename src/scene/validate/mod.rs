@@ -160,6 +160,12 @@ impl Checks {
             checks.boundary(scene);
             checks.program(scene);
             checks.references(scene);
+            checks.require(
+                scene.start_from.is_none() || scene.accuracy.is_none(),
+                "start_from",
+                "a state belongs to one mesh, and `accuracy` asks for others: leave one of them \
+                 out",
+            );
         }
         checks.problems
     }

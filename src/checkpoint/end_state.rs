@@ -1,0 +1,55 @@
+//! The file that holds what a run left in the material, for another run on the same mesh to start
+//! from.
+
+use super::{file, identity};
+use crate::error::{Error, Result};
+use crate::mesh::Mesh;
+use crate::results::EndState;
+use std::path::Path;
+
+/// Its name in a result directory.
+pub(crate) const END_STATE_FILE: &str = "end_state.bin";
+/// What it calls itself.
+const WHAT: &str = "end state";
+
+/// The content of the file.
+///
+/// # Errors
+/// Internal, where it cannot be encoded.
+pub(crate) fn encode(mesh: &Mesh, state: &EndState) -> Result<Vec<u8>> {
+    let (bytes, ..) = file::encode(WHAT, &(identity::hash(mesh), state))?;
+    Ok(bytes)
+}
+
+/// Reads the end state in the result directory `dir` of a run on the given mesh.
+///
+/// # Errors
+/// `Input` where there is none, or it is damaged, of another version or another mesh; `Io`.
+pub(crate) fn read(dir: &Path, mesh: &Mesh) -> Result<EndState> {
+    let refused = |why: &str| Error::input(format!("{}: {why}", dir.display()));
+    if !dir.is_dir() {
+        return Err(refused(
+            "there is no such directory; give the result directory of an earlier run",
+        ));
+    }
+    let path = dir.join(END_STATE_FILE);
+    if !path.exists() {
+        return Err(refused(
+            "it holds no end_state.bin: give the result directory of a run in which a body may \
+             yield, made by this version",
+        ));
+    }
+    let ((of_mesh, state), ..): ((u128, EndState), u64, u128) = file::read_as(WHAT, &path)?;
+    if of_mesh != identity::hash(mesh) {
+        return Err(refused(
+            "its run was on another mesh: start from a run on the same one, node by node and \
+             surface by surface (same mesh entry, same file)",
+        ));
+    }
+    let shapes = mesh.shapes.iter();
+    let stride = shapes.map(|s| s.n_gauss_points()).max().unwrap_or(1);
+    if !state.is_of(mesh.n_elements(), stride) {
+        return Err(refused("its end state does not fit its mesh: run it again"));
+    }
+    Ok(state)
+}

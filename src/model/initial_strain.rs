@@ -1,0 +1,140 @@
+//! Stresses and strains that a body brings along, as strains that no stress belongs to.
+//!
+//! ```text
+//! sigma = D (eps - eps_0),   eps_0 = eps_p0 - C sigma_0,   C = D^-1 in space
+//! ```
+//!
+//! They are loads that act from the start, whatever the load factor.
+
+use super::Freedoms;
+use super::depth;
+use super::heat::{self, FreeStrain};
+use super::loads::{LoadCase, Magnitude, interpolate, on_freedoms};
+use super::pairs::ContactSurface;
+use crate::error::Result;
+use crate::material::Material;
+use crate::mesh::Mesh;
+use crate::scene::{History, Scene};
+
+/// Components of a tensor.
+const COMPONENTS: usize = 6;
+
+/// The loads of what bodies bring along. What is zero everywhere is no load.
+///
+/// # Errors
+/// Those of [`depth::surface_of`].
+pub(super) fn resolve(
+    scene: &Scene,
+    mesh: &Mesh,
+    (materials, contacts): (&[Material], &[ContactSurface]),
+    freedoms: &Freedoms,
+) -> Result<Vec<LoadCase>> {
+    let mut out = Vec::new();
+    for (index, name) in mesh.bodies.iter().enumerate() {
+        let Some(body) = scene.bodies.get(name) else {
+            continue;
+        };
+        let given = [
+            ("initial_stress", &body.initial_stress),
+            ("initial_plastic_strain", &body.initial_plastic_strain),
+        ];
+        for (key, rows) in given {
+            let Some(rows) = rows else {
+                continue;
+            };
+            let of_place = (scene, mesh, contacts);
+            let values = nodal(of_place, (index, name), (key, rows))?;
+            let free: Vec<FreeStrain> = match key {
+                "initial_stress" => parts(values.iter().map(|s| strain_of(&materials[index], s))),
+                _ => parts(values.iter().copied()),
+            };
+            if !free.is_empty() {
+                let law = materials[index].lame();
+                let kind = (scene.kind, scene.mesh.formulation);
+                let forces = heat::forces(kind, mesh, (index, law), &free);
+                let mut case = case(format!("{key} of {name}"), index, forces, free);
+                let sizes = values.iter().flatten().map(|v| v.abs());
+                case.magnitude = sizes.fold(0.0, f64::max);
+                case.nodal = freedoms.basis.share_of(case.nodal);
+                case.forces = on_freedoms(&case.nodal, freedoms);
+                out.push(case);
+            }
+        }
+    }
+    Ok(out)
+}
+
+/// The value of a profile at each node of the mesh, zero at nodes of other bodies.
+fn nodal(
+    (scene, mesh, contacts): (&Scene, &Mesh, &[ContactSurface]),
+    body: (usize, &str),
+    (key, rows): (&str, &[Vec<f64>]),
+) -> Result<Vec<[f64; COMPONENTS]>> {
+    let column = |k: usize| -> Vec<[f64; 2]> {
+        let value = |row: &Vec<f64>| row.get(k + 1).copied().unwrap_or(0.0);
+        rows.iter().map(|row| [row[0], value(row)]).collect()
+    };
+    let columns: [Vec<[f64; 2]>; COMPONENTS] = std::array::from_fn(column);
+    // A single row is the same at any depth.
+    let surface = match rows.len() {
+        1 => None,
+        _ => Some(depth::surface_of(scene, mesh, body, key, contacts)?),
+    };
+    let mut out = vec![[0.0; COMPONENTS]; mesh.n_nodes()];
+    let mut known = vec![false; mesh.n_nodes()];
+    for element in (0..mesh.n_elements()).filter(|&e| mesh.element_body[e] as usize == body.0) {
+        for &node in mesh.nodes(element) {
+            let node = node as usize;
+            if !std::mem::replace(&mut known[node], true) {
+                let depth = surface
+                    .as_ref()
+                    .map_or(0.0, |s| s.distance(mesh.point(node)));
+                out[node] = columns.each_ref().map(|rows| interpolate(rows, depth));
+            }
+        }
+    }
+    Ok(out)
+}
+
+/// The strain whose stress takes an initial one away: `-C sigma_0`.
+fn strain_of(material: &Material, stress: &[f64; COMPONENTS]) -> [f64; COMPONENTS] {
+    let (e, nu) = (material.youngs_modulus, material.poissons_ratio);
+    let trace: f64 = stress[..3].iter().sum();
+    std::array::from_fn(|k| match k < 3 {
+        true => (nu * trace - (1.0 + nu) * stress[k]) / e,
+        false => -stress[k] / material.shear_modulus(),
+    })
+}
+
+/// Component by component, without those that are zero everywhere.
+fn parts(strains: impl Iterator<Item = [f64; COMPONENTS]> + Clone) -> Vec<FreeStrain> {
+    let component = |k: usize| FreeStrain {
+        components: k..k + 1,
+        nodal: strains.clone().map(|strain| strain[k]).collect(),
+    };
+    let all = (0..COMPONENTS).map(component);
+    all.filter(|part| !part.is_none()).collect()
+}
+
+fn case(
+    name: String,
+    body: usize,
+    nodal: Vec<(usize, crate::space::Vector)>,
+    free_strain: Vec<FreeStrain>,
+) -> LoadCase {
+    let nodes: Vec<usize> = nodal.iter().map(|(node, _)| *node).collect();
+    LoadCase {
+        name,
+        shares: vec![1.0 / nodes.len() as f64; nodes.len()],
+        nodes,
+        nodal,
+        forces: Vec::new(),
+        history: History::Constant,
+        magnitude: 0.0,
+        measures: Magnitude::Strain,
+        body: body as u32,
+        direction: [0.0; 3],
+        free_strain,
+        opens: Vec::new(),
+    }
+}
