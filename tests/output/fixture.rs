@@ -245,6 +245,7 @@ pub fn results(mesh: &Mesh) -> Results {
         }),
         warnings: vec!["tri3 elements lock where they yield".into()],
         resumed: 2,
+        end_state: None,
         incomplete: Some(Incomplete {
             kind: brinell::ErrorKind::Stopped,
             why: "stopped on request".into(),
