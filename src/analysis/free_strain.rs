@@ -1,5 +1,5 @@
-//! Free strains, of temperature or brought along ([`crate::model::Model::free_strains`]) at the points of
-//! elements, taken off their strains.
+//! Free strains, of temperature or brought along ([`crate::model::Model::free_strains`]), at the
+//! points of elements, taken off their strains.
 
 use crate::element::{Components, Lanes};
 use crate::model::{FreeStrain, Model};
