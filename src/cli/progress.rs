@@ -147,7 +147,7 @@ impl Progress {
                 next.enable_steady_tick(Duration::from_millis(100));
                 *bar = Some(next);
             }
-            Shown::Lines { .. } => self.line(&format!("{phase}, about {}", rough(predicted))),
+            Shown::Lines { .. } => self.line(&format!("{phase}: this step {}", rough(predicted))),
             Shown::Json => self.json(
                 "phase",
                 json!({ "name": phase, "predicted_seconds": predicted }),
@@ -233,7 +233,7 @@ impl Observer for Progress {
 
     fn increment(&mut self, row: &HistoryRow, fraction: f64) -> Flow {
         let left = self.seconds_left(fraction);
-        let text = || format!("{}, about {} left", describe(row), rough(left));
+        let text = || format!("{}, {} left of the program", describe(row), rough(left));
         match &mut self.shown {
             Shown::Nothing => {}
             Shown::Bars { bar, .. } => {
@@ -303,7 +303,7 @@ fn new_bar(phase: &str, predicted: f64, clock: Clock) -> ProgressBar {
     };
     let left = move |state: &ProgressState, out: &mut dyn fmt::Write| {
         if !state.is_finished() {
-            let _ = write!(out, "about {} left", rough(clock.left()));
+            let _ = write!(out, "{} left", rough(clock.left()));
         }
     };
     let bar = ProgressBar::with_draw_target(Some(PARTS), ProgressDrawTarget::hidden());
@@ -314,9 +314,12 @@ fn new_bar(phase: &str, predicted: f64, clock: Clock) -> ProgressBar {
     bar.with_prefix(phase.to_string())
 }
 
-/// A predicted time, as far as it is worth stating.
+/// A predicted time, as far as it is worth stating: below a second no digit is.
 fn rough(seconds: f64) -> String {
-    duration(seconds.max(0.5))
+    match seconds < 1.0 {
+        true => "less than 1 s".to_string(),
+        false => format!("about {}", duration(seconds)),
+    }
 }
 
 fn describe(row: &HistoryRow) -> String {
@@ -421,7 +424,7 @@ mod tests {
         // Predicted by size, corrected by the assembly: 0.3 of 2060 s.
         assert!(line("factorisation", "about 10 min left"), "{text}");
         assert!(line("load program", "============            "), "{text}");
-        assert!(line("load program", "about 0.50 s left"), "{text}");
+        assert!(line("load program", "less than 1 s left"), "{text}");
     }
 
     #[test]

@@ -20,8 +20,13 @@ impl Report {
     }
 
     fn stated_errors(&mut self, stated: &StatedErrors) {
-        let mut columns = vec![(Text, "may be wrong by")];
-        columns.extend(stated.columns.iter().map(|heading| (Number, *heading)));
+        let mut columns = vec![(Text, "may be wrong by".to_string())];
+        columns.extend(
+            stated
+                .columns
+                .iter()
+                .map(|heading| (Number, format!("{heading}\n[%]"))),
+        );
         let mut table = Table::new(&columns);
         for (name, errors) in &stated.states {
             table.row([vec![name.clone()], errors.clone()].concat());

@@ -229,10 +229,12 @@ fn a_check_tells_effects_cost_and_notes() {
         blas: "OpenBLAS 0.3.21".into(),
         notes: vec!["use a finer mesh".into()],
     };
-    let text = check(&scene(), &prediction);
+    let text = check(&scene(), &prediction, false);
     for fragment in [
-        "Predicted  about 12.3 s for each factorisation, 56.8 s for the run; BLAS: OpenBLAS 0.3.21",
+        "Predicted  about 12.3 s for each factorisation, 56.8 s for the run without its error",
+        "estimate; BLAS: OpenBLAS 0.3.21\n",
         "\nEffects\n",
+        "  off: interference (why: `brinell check --effects`)\n",
         "\nNotes\n  - use a finer mesh\n",
     ] {
         assert!(text.contains(fragment), "no {fragment:?} in\n{text}");
@@ -240,5 +242,11 @@ fn a_check_tells_effects_cost_and_notes() {
     assert!(
         text.lines()
             .all(|line| line.chars().count() <= page_width())
+    );
+    assert!(!text.contains("no contact has one"), "{text}");
+    let all = check(&scene(), &prediction, true);
+    assert!(
+        all.contains("no contact has one") && !all.contains("off: "),
+        "{all}"
     );
 }
