@@ -144,12 +144,11 @@ fn a_report_fits_the_page_and_holds_every_section() {
 }
 
 #[test]
-fn an_effect_that_is_off_has_no_cost() {
+fn an_effect_that_is_off_is_named_without_a_row() {
     let text = report(&full(), None);
     let line = text.lines().find(|l| l.contains("interference")).unwrap();
-    let cells: Vec<&str> = line.split_whitespace().collect();
-    assert_eq!(cells[1], "off");
-    assert_eq!(cells[cells.len() - 2..], ["-", "-"]);
+    assert!(line.starts_with("  off: interference ("), "{line}");
+    assert!(!text.contains("no contact has one"), "{text}");
     assert!(!text.contains("Results in"));
 }
 
@@ -231,8 +230,8 @@ fn a_check_tells_effects_cost_and_notes() {
     };
     let text = check(&scene(), &prediction, false);
     for fragment in [
-        "Predicted  about 12.3 s for each factorisation, 56.8 s for the run without its error",
-        "estimate; BLAS: OpenBLAS 0.3.21\n",
+        "Predicted  about 12.3 s for each factorisation, 56.8 s for the run without its error \
+         estimate; BLAS:",
         "\nEffects\n",
         "  off: interference (why: `brinell check --effects`)\n",
         "\nNotes\n  - use a finer mesh\n",
