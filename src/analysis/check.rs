@@ -407,8 +407,12 @@ pub(super) fn effects(model: &Model, yields: bool, start: Option<&EndState>) -> 
             tied > 0,
             on_off(
                 tied > 0,
-                format!("{tied} displacements follow others in ties and equations"),
-                "the scene ties no surfaces",
+                format!(
+                    "{tied} displacements follow others: surfaces tied {}, equations {}",
+                    model.scene.tie.len(),
+                    model.scene.equation.len()
+                ),
+                "the scene ties no surfaces and has no equations",
             ),
         ),
         effect(

@@ -197,6 +197,9 @@ impl RunArguments {
 pub(super) struct CheckArguments {
     #[command(flatten)]
     pub common: CommonArguments,
+    /// List the effects that are off too, each with the reason
+    #[arg(long)]
+    pub effects: bool,
 }
 
 #[derive(Debug, Args)]

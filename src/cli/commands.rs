@@ -34,7 +34,7 @@ pub(super) fn execute(arguments: &Arguments, start: Instant) -> Result<()> {
             )
         }
         Command::Yield(run) => analyse(run, None, run.out.clone(), Extent::Yield, start),
-        Command::Check(check) => predict(&check.common),
+        Command::Check(check) => predict(&check.common, check.effects),
         Command::Convert(convert) => super::convert::run(convert),
         Command::Selftest(selftest) => super::selftest::execute(selftest),
         Command::Accuracy(arguments) => study::execute(arguments),
@@ -208,7 +208,7 @@ pub(super) fn header(model: &Model, common: &CommonArguments, wall_seconds: f64)
 }
 
 /// What a run would do and cost.
-fn predict(common: &CommonArguments) -> Result<()> {
+fn predict(common: &CommonArguments, all_effects: bool) -> Result<()> {
     if deck::is_deck(&common.scene) && !common.json {
         print(&super::deck::account(&Deck::read(&common.scene)?))?;
     }
@@ -218,7 +218,7 @@ fn predict(common: &CommonArguments) -> Result<()> {
     print(&if common.json {
         json(&check)?
     } else {
-        report::check(&scene, &check)
+        report::check(&scene, &check, all_effects)
     })
 }
 

@@ -5,6 +5,7 @@ mod fit;
 mod materials;
 mod pressed;
 mod punch;
+mod size;
 mod solid;
 
 use super::convert::{self, ConvertArguments};

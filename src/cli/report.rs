@@ -26,7 +26,7 @@ pub(super) fn results(
     let mut report = Report::new(scene, header.labels.clone());
     report.sizes(&results.sizes);
     report.factor(&results.factor);
-    report.effects(&results.effects);
+    report.effects(&results.effects, false);
     if let Some(first) = &results.first_yield {
         report.first_yield(first, &header.bodies, results.sizes.contact_pairs > 0);
     }
@@ -64,22 +64,21 @@ pub(super) fn results(
     report.text
 }
 
-/// What a run would do and cost.
-pub(super) fn check(scene: &Scene, check: &Check) -> String {
+/// What a run would do and cost; with `all_effects` those that are off have a row each.
+pub(super) fn check(scene: &Scene, check: &Check, all_effects: bool) -> String {
     let mut report = Report::new(scene, Labels::default());
     report.sizes(&check.sizes);
     report.factor(&check.prediction);
     report.labelled(
         "Predicted",
         &format!(
-            "about {} for each factorisation, {} for the run without the estimate of its errors; \
-             BLAS: {}",
+            "about {} for each factorisation, {} for the run without its error estimate; BLAS: {}",
             seconds(check.predicted_seconds),
             seconds(check.predicted_run_seconds),
             check.blas
         ),
     );
-    report.effects(&check.effects);
+    report.effects(&check.effects, all_effects);
     report.list("Notes", &check.notes);
     report.text
 }
@@ -187,10 +186,7 @@ impl Report {
         }
         self.paragraph(heading);
         for item in items {
-            for (index, line) in wrap(item, self.width - 4).iter().enumerate() {
-                let mark = if index == 0 { "  - " } else { "    " };
-                self.text.push_str(&format!("{mark}{line}\n"));
-            }
+            self.list_item("  - ", item);
         }
     }
 
@@ -232,10 +228,14 @@ impl Report {
         );
     }
 
-    fn effects(&mut self, effects: &[Effect]) {
+    /// A row for each effect that is on or asked for, or for `all`; the others are named in one
+    /// line.
+    fn effects(&mut self, effects: &[Effect], all: bool) {
         if effects.is_empty() {
             return;
         }
+        let has_row = |effect: &Effect| all || effect.on || effect.asked;
+        let rows = effects.iter().filter(|effect| has_row(effect));
         let mut table = Table::new(&[
             (Text, "effect"),
             (Text, ""),
@@ -243,8 +243,7 @@ impl Report {
             (Number, "time"),
             (Number, "memory"),
         ]);
-        let is_shown = |effect: &&Effect| effect.on || effect.asked;
-        for effect in effects.iter().filter(is_shown) {
+        for effect in rows {
             // An effect that is off, or that costs nothing of its own, has no figures.
             let cost = |nonzero: bool, text: String| match nonzero {
                 true => text,
@@ -265,11 +264,23 @@ impl Report {
             ]);
         }
         self.section("Effects", &table);
-        let off = effects.iter().filter(|effect| !is_shown(effect));
+        let off = effects.iter().filter(|effect| !has_row(effect));
         let off: Vec<&str> = off.map(|effect| effect.name.as_str()).collect();
         if !off.is_empty() {
-            self.text.push('\n');
-            self.labelled("Off", &off.join(", "));
+            let off = off.join(", ");
+            self.list_item(
+                "  off: ",
+                &format!("{off} (why: `brinell check --effects`)"),
+            );
+        }
+    }
+
+    /// Text behind a mark, its further lines as far in.
+    fn list_item(&mut self, mark: &str, text: &str) {
+        let indent = mark.len();
+        for (index, line) in wrap(text, self.width - indent).iter().enumerate() {
+            let mark = if index == 0 { mark } else { "" };
+            self.text.push_str(&format!("{mark:indent$}{line}\n"));
         }
     }
 

@@ -1,7 +1,7 @@
 //! `brinell view`: the report of a result directory made anew, or its main figures in the terminal.
 
 use super::report::states_table;
-use super::table::page_width;
+use super::table::{page_width, wrap};
 use super::{print, warn};
 use crate::error::Result;
 use crate::number::{number, significant, with_unit};
@@ -24,7 +24,7 @@ pub(super) struct ViewArguments {
     /// Print the main plots instead; writes nothing
     #[arg(long)]
     pub terminal: bool,
-    /// Columns of the plots; by default those of the terminal, 110 at most
+    /// Columns of tables and plots; by default those of the terminal, 110 at most
     #[arg(
         long,
         value_name = "N",
@@ -51,11 +51,11 @@ fn terminal(arguments: &ViewArguments) -> Result<()> {
     let dir = &arguments.dir;
     let summary = rows::summary(&dir.join("summary.json"))?;
     let history: Vec<HistoryRow> = rows::rows(&dir.join("history.csv"))?;
-    let mut text = format!("{}\n", summary.scene);
     let (space, labels) = (summary.space(), summary.labels());
     let columns = arguments
         .width
         .map_or_else(|| page_width().min(WIDEST), usize::from);
+    let mut text = wrapped(&summary.scene, columns);
     text.push_str(&headlines(&summary.results(&[]), &labels, space, columns));
     // Where a displacement is prescribed without contact the history has no load.
     let (against, load): (_, fn(&HistoryRow) -> f64) =
@@ -80,10 +80,18 @@ fn terminal(arguments: &ViewArguments) -> Result<()> {
     print(&text)
 }
 
-fn headlines(results: &Results, labels: &Labels, space: Space, width: usize) -> String {
+/// Lines of at most so many columns.
+fn wrapped(text: &str, columns: usize) -> String {
+    wrap(text, columns).join("\n") + "\n"
+}
+
+fn headlines(results: &Results, labels: &Labels, space: Space, columns: usize) -> String {
     let mut text = String::new();
     if let Some(incomplete) = &results.incomplete {
-        text.push_str(&format!("INCOMPLETE: {}\n", incomplete.why));
+        text.push_str(&wrapped(
+            &format!("INCOMPLETE: {}", incomplete.why),
+            columns,
+        ));
     }
     let contact = results.sizes.contact_pairs > 0;
     if let Some(first) = &results.first_yield {
@@ -98,10 +106,11 @@ fn headlines(results: &Results, labels: &Labels, space: Space, width: usize) -> 
             ))
         });
         let figures: Vec<String> = figures.collect();
-        text.push_str(&format!("First yield at {}\n", figures.join(", ")));
+        let figures = format!("First yield at {}", figures.join(", "));
+        text.push_str(&wrapped(&figures, columns));
     }
     if !results.states.is_empty() {
-        text.push_str(&states_table(&results.states, labels, space, contact).render(width));
+        text.push_str(&states_table(&results.states, labels, space, contact).render(columns));
     }
     text
 }

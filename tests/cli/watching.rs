@@ -84,6 +84,9 @@ fn results_are_shown_in_the_terminal() {
     ] {
         assert!(text.contains(word), "{word}:\n{text}");
     }
+    // Tables and text as well as plots; three bodies have more columns than fit.
+    let wide = text.lines().find(|line| line.chars().count() > 60);
+    assert_eq!(wide, None, "{text}");
     let dots = text.lines().filter(|l| l.contains('│')).collect::<Vec<_>>();
     assert!(
         dots.len() >= 24 && dots.iter().all(|l| l.chars().count() <= 60),

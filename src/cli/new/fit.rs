@@ -1,11 +1,15 @@
 //! The scene of a shaft in a bore: an interference fit, or a clearance and a load.
 
 use super::materials::{First, Made, Second, section};
+use super::size::Size;
 use super::{HEAD, UNITS, positive, rounded_up, toml};
 use crate::analytical::{PinInHole, Plane, ShrinkFit, ThickCylinder, contact_modulus};
 use crate::error::Result;
 use crate::number::significant;
 use clap::Args;
+
+/// Radius of a bore [mm].
+const RADIUS: f64 = 50.0;
 
 /// A shaft in a bore.
 #[derive(Debug, Args)]
@@ -13,24 +17,8 @@ use clap::Args;
   brinell new shaft-in-bore --radius 25 --outer-radius 60 --interference 0.04
   brinell new shaft-in-bore --diameter 20 --clearance 0.02 --load 500")]
 pub(in crate::cli) struct Fit {
-    /// Radius of the bore [mm]
-    #[arg(
-        long,
-        value_name = "A",
-        default_value_t = 50.0,
-        value_parser = positive,
-        allow_negative_numbers = true
-    )]
-    pub radius: f64,
-    /// Diameter of the bore in place of its radius [mm]
-    #[arg(
-        long,
-        value_name = "D",
-        value_parser = positive,
-        allow_negative_numbers = true,
-        conflicts_with = "radius"
-    )]
-    pub diameter: Option<f64>,
+    #[command(flatten)]
+    pub size: Size,
     /// Outer radius of the ring [mm]; by default twice the bore's, with clearance ten times
     #[arg(long, value_name = "B", value_parser = positive, allow_negative_numbers = true)]
     pub outer_radius: Option<f64>,
@@ -86,7 +74,7 @@ const INTERFERENCE: f64 = 0.05;
 
 /// The scene.
 pub(super) fn scene(fit: &Fit) -> Result<String> {
-    let radius = fit.diameter.map_or(fit.radius, |diameter| 0.5 * diameter);
+    let radius = fit.size.radius_or(RADIUS);
     let made = fit.second.both(&fit.first)?;
     match fit.clearance {
         Some(clearance) => loose(fit, radius, clearance, &made),

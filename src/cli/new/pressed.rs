@@ -1,6 +1,7 @@
 //! The scene of a ball or a roller on a flat.
 
 use super::materials::{First, Second, section};
+use super::size::Size;
 use super::{HEAD, UNITS, about_loads, largest, positive, toml, weaker};
 use crate::analytical::{HertzLine, HertzPoint, contact_modulus};
 use crate::error::Result;
@@ -8,6 +9,9 @@ use clap::Args;
 
 /// Loads so many times that of first yield may take minutes: more and more of the material yields.
 const FAR: f64 = 6.0;
+
+/// Radius of a ball or a roller [mm].
+pub(super) const RADIUS: f64 = 10.0;
 
 /// A ball on a flat.
 #[derive(Debug, Args)]
@@ -22,24 +26,8 @@ pub(in crate::cli) struct Ball {
 /// A round body on a flat.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Pressed {
-    /// Radius [mm]
-    #[arg(
-        long,
-        value_name = "R",
-        default_value_t = 10.0,
-        value_parser = positive,
-        allow_negative_numbers = true
-    )]
-    pub radius: f64,
-    /// Diameter in place of the radius [mm]
-    #[arg(
-        long,
-        value_name = "D",
-        value_parser = positive,
-        allow_negative_numbers = true,
-        conflicts_with = "radius"
-    )]
-    pub diameter: Option<f64>,
+    #[command(flatten)]
+    pub size: Size,
     /// Largest load [N; roller: N/mm]; by default three times the load at first yield
     #[arg(long, value_name = "P", value_parser = positive, allow_negative_numbers = true)]
     pub load: Option<f64>,
@@ -53,16 +41,9 @@ pub(in crate::cli) struct Pressed {
     pub second: Second,
 }
 
-impl Pressed {
-    /// The radius, however it is given.
-    pub fn radius(&self) -> f64 {
-        self.diameter.map_or(self.radius, |diameter| 0.5 * diameter)
-    }
-}
-
 /// The scene of a ball or a roller on a flat.
 pub(super) fn scene(pressed: &Pressed, ball: bool) -> Result<String> {
-    let radius = pressed.radius();
+    let radius = pressed.size.radius_or(RADIUS);
     let made = pressed.second.both(&pressed.first)?;
     let [[e1, nu1], [e2, nu2]] = [made[0].elastic(), made[1].elastic()];
     let modulus = contact_modulus(e1, nu1, e2, nu2);

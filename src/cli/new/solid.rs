@@ -1,12 +1,15 @@
 //! Scenes of two curved bodies in three dimensions.
 
 use super::materials::{First, Second, section};
-use super::pressed::Pressed;
+use super::pressed::{Pressed, RADIUS};
+use super::size::Size;
 use super::{HEAD, UNITS, about_loads, largest, not_zero, positive, toml, weaker};
 use crate::analytical::{HertzEllipse, contact_modulus};
 use crate::error::Result;
 use clap::Args;
 
+/// Radius of a ball in a groove [mm].
+const BALL: f64 = 5.0;
 /// Elements over the smaller half axis where nothing is said: a run takes seconds.
 const RESOLUTION: usize = 6;
 
@@ -32,24 +35,8 @@ pub(in crate::cli) struct Common {
                   groove.toml && brinell run groove.toml"
 )]
 pub(in crate::cli) struct Groove {
-    /// Radius of the ball [mm]
-    #[arg(
-        long,
-        value_name = "R",
-        default_value_t = 5.0,
-        value_parser = positive,
-        allow_negative_numbers = true
-    )]
-    pub radius: f64,
-    /// Diameter of the ball in place of its radius [mm]
-    #[arg(
-        long,
-        value_name = "D",
-        value_parser = positive,
-        allow_negative_numbers = true,
-        conflicts_with = "radius"
-    )]
-    pub diameter: Option<f64>,
+    #[command(flatten)]
+    pub size: Size,
     /// Radius of the groove across, larger than the ball's [mm]
     #[arg(
         long,
@@ -114,7 +101,7 @@ pub(super) fn ball_on_flat(pressed: &Pressed) -> Result<String> {
     let bodies = Bodies {
         title: "Ball on a flat",
         names: ["ball", "flat"],
-        upper: ([pressed.radius(); 2], "ball"),
+        upper: ([pressed.size.radius_or(RADIUS); 2], "ball"),
         lower: ([0.0; 2], "flat"),
     };
     let resolution = pressed.resolution.unwrap_or(RESOLUTION);
@@ -123,9 +110,7 @@ pub(super) fn ball_on_flat(pressed: &Pressed) -> Result<String> {
 }
 
 pub(super) fn ball_in_groove(groove: &Groove) -> Result<String> {
-    let radius = groove
-        .diameter
-        .map_or(groove.radius, |diameter| 0.5 * diameter);
+    let radius = groove.size.radius_or(BALL);
     let bodies = Bodies {
         title: "Ball in a groove",
         names: ["ball", "race"],

@@ -161,7 +161,7 @@ fn an_effect_that_is_off_has_no_cost() {
     assert_eq!(cells[1], "off");
     assert_eq!(cells[cells.len() - 2..], ["-", "-"]);
     // What nobody asks for takes no line of its own.
-    assert!(text.contains("\nOff        interference\n"), "{text}");
+    assert!(text.contains("\n  off: interference (why"), "{text}");
     assert!(!text.contains("Results in"));
 }
 
@@ -241,16 +241,23 @@ fn a_check_tells_effects_cost_and_notes() {
         blas: "OpenBLAS 0.3.21".into(),
         notes: vec!["use a finer mesh".into()],
     };
-    let text = check(&scene(), &prediction);
+    let text = check(&scene(), &prediction, false);
     for fragment in [
-        "Predicted  about 12.3 s for each factorisation, 56.8 s for the run without the",
+        "Predicted  about 12.3 s for each factorisation, 56.8 s for the run without its error",
         "\nEffects\n",
         "\nNotes\n  - use a finer mesh\n",
+        "  off: interference (why: `brinell check --effects`)\n",
     ] {
         assert!(text.contains(fragment), "no {fragment:?} in\n{text}");
     }
     assert!(
         text.lines()
             .all(|line| line.chars().count() <= page_width())
+    );
+    assert!(!text.contains("no contact has one"), "{text}");
+    let all = check(&scene(), &prediction, true);
+    assert!(
+        all.contains("no contact has one") && !all.contains("off: "),
+        "{all}"
     );
 }
