@@ -1,10 +1,11 @@
 //! What a checkpoint belongs to: nothing that the results depend on may have changed.
 
 use crate::error::{Error, Result};
+use crate::files;
 use crate::linalg::Backend;
 use crate::mesh::Mesh;
 use crate::results::EndState;
-use crate::scene::Scene;
+use crate::scene::{Field, Scene};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use xxhash_rust::xxh3::{Xxh3, xxh3_128};
@@ -16,6 +17,8 @@ pub struct Identity {
     scene: String,
     /// Hash of the mesh: a scene may name a file, whose content may have changed.
     mesh: u128,
+    /// Hash of the files with values at nodes that the scene names.
+    values: u128,
     backend: String,
     /// Hash of the state that it starts from, 0 where that is a virgin one.
     start: u128,
@@ -31,11 +34,12 @@ impl Identity {
         mesh: &Mesh,
         backend: Backend,
     ) -> Result<Self> {
-        let scene = serde_json::to_string(scene)
+        let text = serde_json::to_string(scene)
             .map_err(|cause| Error::internal("the scene is not plain data").because(cause))?;
         Ok(Identity {
-            scene,
+            scene: text,
             mesh: hash(mesh),
+            values: hash_of_values(scene)?,
             backend: backend.name().to_string(),
             start: match start {
                 Some(state) => hash_of_start(state)?,
@@ -57,6 +61,9 @@ impl Identity {
         }
         if self.mesh != now.mesh {
             return Some("the mesh differs, the scene being the same: its file has changed".into());
+        }
+        if self.values != now.values {
+            return Some("a file with temperatures has changed".into());
         }
         if self.start != now.start {
             let why = "the state in the directory of `start_from` has changed";
@@ -108,6 +115,23 @@ fn hash_of_start(state: &EndState) -> Result<u128> {
     let bytes = postcard::to_stdvec(state)
         .map_err(|cause| Error::internal("an end state cannot be encoded").because(cause))?;
     Ok(xxh3_128(&bytes))
+}
+
+/// The files with values at nodes, one after the other; 0 of none.
+fn hash_of_values(scene: &Scene) -> Result<u128> {
+    let mut hash = Xxh3::new();
+    let mut has_some = false;
+    for load in &scene.load {
+        if let Some(Field::Nodal(of)) = &load.temperature {
+            hash.update(&files::read(
+                "read the values of nodes",
+                &scene.beside(&of.file),
+                None,
+            )?);
+            has_some = true;
+        }
+    }
+    Ok(if has_some { hash.digest128() } else { 0 })
 }
 
 /// Everything of the mesh that a result may depend on.

@@ -7,8 +7,7 @@ use crate::number::{bytes, number, seconds, significant};
 use crate::output::columns::{cell, of_states};
 use crate::output::{Labels, RunHeader};
 use crate::results::{
-    CycleOutcome, Cycles, Effect, QUANTITIES, Quality, ReferenceRow, Results, Sizes, State,
-    YieldPoint,
+    Cycles, Effect, QUANTITIES, Quality, ReferenceRow, Results, Sizes, State, YieldPoint,
 };
 use crate::scene::{Kind, Scene, Unit};
 use crate::space::Space;
@@ -285,30 +284,10 @@ impl Report {
     }
 
     fn cycles(&mut self, cycles: &Cycles, most: usize) {
-        let last = cycles.last();
-        let body = cycles.body.as_deref().unwrap_or("no body");
-        let what = match cycles.outcome {
-            CycleOutcome::Elastic => "nothing yields".to_string(),
-            CycleOutcome::ElasticShakedown => "nothing yields any more".to_string(),
-            CycleOutcome::PlasticShakedown => format!(
-                "in each plastic strains go to and fro, by {} at most, and come back",
-                number(last.flow)
-            ),
-            CycleOutcome::Ratchetting => format!(
-                "in each the plastic strain of {body} grows by {} at most",
-                number(last.growth)
-            ),
-            CycleOutcome::NotSteady => format!(
-                "the last still changed: a plastic strain of {body} by {}, and {} flowed at most; \
-                 raise program.cycles",
-                number(last.growth),
-                number(last.flow)
-            ),
-        };
         self.paragraph(&format!(
-            "Cycles     {} of at most {most}: {}; {what}",
-            last.cycle,
-            cycles.outcome.words()
+            "Cycles     {} of at most {most}: {}",
+            cycles.last().cycle,
+            cycles.told()
         ));
     }
 

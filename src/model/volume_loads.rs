@@ -7,8 +7,11 @@ use super::{body_forces, heat};
 use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::mesh::Mesh;
+use crate::mesh::gmsh::node_data;
 use crate::scene::{self, Field, Scene};
 use crate::space::Vector;
+use std::collections::{BTreeSet, HashMap};
+use std::path::Path;
 
 pub(super) fn resolve(
     index: usize,
@@ -99,6 +102,9 @@ fn changes(
     mesh: &Mesh,
     nodes: &[usize],
 ) -> std::result::Result<Vec<f64>, String> {
+    if let Field::Nodal(of) = field {
+        return nodal(&scene.beside(&of.file), mesh, nodes);
+    }
     let of = field.function(scene.kind)?;
     let mut out = vec![0.0; mesh.n_nodes()];
     for &node in nodes {
@@ -113,4 +119,34 @@ fn changes(
         }
     }
     Ok(out)
+}
+
+/// Changes that a file gives by node: all nodes of the body, and none that the mesh does not have.
+fn nodal(path: &Path, mesh: &Mesh, nodes: &[usize]) -> std::result::Result<Vec<f64>, String> {
+    let given = node_data::read(path).map_err(|error| error.message().to_string())?;
+    let index: HashMap<u64, usize> = (0..mesh.n_nodes())
+        .map(|node| (mesh.node_label(node), node))
+        .collect();
+    let mut out = vec![None; mesh.n_nodes()];
+    let another = "is the file of another mesh?";
+    for (label, value) in given {
+        let Some(&node) = index.get(&label) else {
+            let path = path.display();
+            return Err(format!(
+                "{path} has a value of node {label}, which is not there: {another}"
+            ));
+        };
+        out[node] = Some(value);
+    }
+    if let Some(&missing) = nodes.iter().find(|&&node| out[node].is_none()) {
+        return Err(format!(
+            "{} has no value of node {} of the body: {another}",
+            path.display(),
+            mesh.node_label(missing)
+        ));
+    }
+    let of_body: BTreeSet<usize> = nodes.iter().copied().collect();
+    let each = out.into_iter().enumerate();
+    let values = each.map(|(node, value)| value.filter(|_| of_body.contains(&node)));
+    Ok(values.map(|value| value.unwrap_or(0.0)).collect())
 }

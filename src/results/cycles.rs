@@ -1,6 +1,7 @@
 //! What a program of cycles came to.
 
 use super::number;
+use crate::number::number as short;
 use serde::{Deserialize, Serialize};
 
 /// How a structure answers cycles of its loads.
@@ -60,6 +61,31 @@ pub struct Cycles {
 }
 
 impl Cycles {
+    /// What they came to, in a sentence.
+    pub fn told(&self) -> String {
+        let last = self.last();
+        let body = self.body.as_deref().unwrap_or("no body");
+        let what = match self.outcome {
+            CycleOutcome::Elastic => "nothing yields".to_string(),
+            CycleOutcome::ElasticShakedown => "nothing yields any more".to_string(),
+            CycleOutcome::PlasticShakedown => format!(
+                "in each plastic strains go to and fro, by {} at most, and come back",
+                short(last.flow)
+            ),
+            CycleOutcome::Ratchetting => format!(
+                "in each the plastic strain of {body} grows by {} at most",
+                short(last.growth)
+            ),
+            CycleOutcome::NotSteady => format!(
+                "the last still changed: a plastic strain of {body} by {}, and {} flowed at most; \
+                 raise program.cycles",
+                short(last.growth),
+                short(last.flow)
+            ),
+        };
+        format!("{}; {what}", self.outcome.words())
+    }
+
     /// The last of them.
     pub fn last(&self) -> CycleRow {
         self.rows.last().copied().unwrap_or_default()

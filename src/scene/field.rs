@@ -4,8 +4,9 @@ use crate::space::{Space, Vector};
 use exmex::{Express, FlatEx};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
+use std::path::PathBuf;
 
-/// A number, or a formula of the position.
+/// A number, a formula of the position, or values at nodes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Field {
@@ -14,6 +15,16 @@ pub enum Field {
     /// A formula of `x`, `y` (of a solid `z`) and of `r`, the distance from the origin, in a solid
     /// from the z axis; of an axisymmetric model of `r` and `z`, its two coordinates.
     Formula(String),
+    /// Values at the nodes of the mesh, from a file.
+    Nodal(NodalField),
+}
+
+/// Values at nodes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NodalField {
+    /// A Gmsh file with one section `$NodeData`, relative to the scene file.
+    pub file: PathBuf,
 }
 
 impl JsonSchema for Field {
@@ -25,8 +36,19 @@ impl JsonSchema for Field {
         json_schema!({
             "description": "A number, or a formula of the position such as `\"20 * log(r / 50)\"`: \
                             x, y, of a solid z, and r = sqrt(x^2 + y^2); of an axisymmetric model \
-                            r and z. exp, log (natural), sqrt, sin, cos, abs, ^ and the like.",
-            "anyOf": [{ "type": "number" }, { "type": "string" }],
+                            r and z. exp, log (natural), sqrt, sin, cos, abs, ^ and the like. Or \
+                            `{ file = \"heat.msh\" }`: values at nodes, the one section \
+                            $NodeData of a Gmsh file beside the scene.",
+            "anyOf": [
+                { "type": "number" },
+                { "type": "string" },
+                {
+                    "type": "object",
+                    "properties": { "file": { "type": "string" } },
+                    "required": ["file"],
+                    "additionalProperties": false,
+                },
+            ],
         })
     }
 }
@@ -35,10 +57,11 @@ impl Field {
     /// The field as a function.
     ///
     /// # Errors
-    /// What is wrong with the formula, in words.
+    /// What is wrong with the formula, in words; values at nodes are no function of the position.
     pub fn function(&self, space: Space) -> Result<impl Fn(Vector) -> f64, String> {
         let formula = match self {
             Field::Uniform(value) => Err(*value),
+            Field::Nodal(_) => return Err("has values at nodes only".to_string()),
             Field::Formula(text) => {
                 let formula = FlatEx::<f64>::parse(text)
                     .map_err(|why| format!("\"{text}\" is no formula: {why}"))?;

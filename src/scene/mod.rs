@@ -38,7 +38,7 @@ pub use boundary::{
 };
 pub use catalogue::{Listed, Published, materials};
 pub use equation::{Equation, EquationTerm};
-pub use field::Field;
+pub use field::{Field, NodalField};
 pub use geometry::{
     Block, BrickPart, CurvedBodies, CylinderOnHalfPlane, Disc, DiscInPlate, Extrusion, Formulation,
     MeshSource, Meshed, Part, Piece, Revolution, Ring, SurfaceCircle, SurfaceCylinder,
@@ -62,7 +62,7 @@ use crate::space::Space;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A whole scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -135,9 +135,13 @@ pub struct Scene {
 impl Scene {
     /// Where `start_from` is.
     pub(crate) fn start_folder(&self) -> Option<PathBuf> {
-        let folder = self.start_from.as_ref()?;
-        let beside = self.file.as_deref().and_then(std::path::Path::parent);
-        Some(beside.map_or(folder.clone(), |beside| beside.join(folder)))
+        Some(self.beside(self.start_from.as_ref()?))
+    }
+
+    /// A path that the scene gives, relative to its file.
+    pub(crate) fn beside(&self, path: &Path) -> PathBuf {
+        let folder = self.file.as_deref().and_then(Path::parent);
+        folder.map_or(path.to_path_buf(), |folder| folder.join(path))
     }
 
     /// A scene of a kind with nothing in it: the whole of it is meshed, one target at load factor

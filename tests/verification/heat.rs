@@ -4,6 +4,7 @@
 //! Source: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, 3rd ed. (1970), section 150.
 
 use crate::run::{close, run, scene, yield_load};
+use brinell::model::Model;
 use brinell::results::Results;
 use brinell::scene::{Field, Scene};
 
@@ -234,9 +235,7 @@ fn temperatures_that_cannot_be_are_named() {
     let refused = |change: &dyn Fn(&mut Scene)| {
         let mut changed = scene.clone();
         change(&mut changed);
-        brinell::model::Model::new(&changed)
-            .unwrap_err()
-            .to_string()
+        Model::new(&changed).unwrap_err().to_string()
     };
     let formula = |text: &str| Some(Field::Formula(text.into()));
     let error = refused(&|s| s.load[0].temperature = formula("log(x - 2)"));
@@ -307,7 +306,7 @@ targets = [{{ load_factor = 1.0 }}]
         moduli[0], expansions[0], moduli[1], expansions[1]
     );
     let scene = Scene::parse(&text, "strip").unwrap();
-    let mesh = brinell::model::Model::new(&scene).unwrap().mesh;
+    let mesh = Model::new(&scene).unwrap().mesh;
     let results = run(&scene);
     let u = &results.states[0].fields.as_ref().unwrap().displacement;
     // Deflections of the lowest fibre in the middle of the strip, free of what goes on at the end.
@@ -383,4 +382,47 @@ targets = [{{ load_factor = 0.4 }}, {{ load_factor = 1.0 }}]
     );
     let pressed = E * (EXPANSION * change - gap / length);
     close(results.states[1].max_pressure, pressed, 1e-9);
+}
+
+/// Temperatures from a file do what the formula does that the file was made with; a file of another
+/// mesh is told by its nodes.
+#[test]
+fn temperatures_of_nodes_from_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("heat.msh");
+    let of = |temperature: &str| {
+        let targets = "{ load_factor = 1.0 }";
+        block("plane_stress", "quad8", temperature, SIDES, targets)
+    };
+    let by_formula = of("\"150 + 40*x - 30*y\"");
+    let mesh = Model::new(&by_formula).unwrap().mesh;
+    let write = |nodes: &[usize]| {
+        let mut text = format!("$NodeData\n1\n\"T\"\n1\n0.0\n3\n0\n1\n{}\n", nodes.len());
+        for &node in nodes {
+            let [x, y, _] = mesh.point(node);
+            let value = 150.0 + 40.0 * x - 30.0 * y;
+            text += &format!("{} {value:?}\n", mesh.node_label(node));
+        }
+        std::fs::write(&path, text + "$EndNodeData\n").unwrap();
+    };
+    let mut all: Vec<usize> = (0..mesh.n_nodes()).rev().collect();
+    write(&all);
+    let by_file = of(&format!("{{ file = {path:?} }}"));
+    let [formula, file] = [&by_formula, &by_file].map(run);
+    let [formula, file] = [&formula, &file].map(|r| r.states[0].fields.as_ref().unwrap());
+    let largest = formula.stress.iter().fold(0.0f64, |m, s| m.max(s.abs()));
+    for (a, b) in formula.stress.iter().zip(&file.stress) {
+        // The same values, but for the last digit of the formula's.
+        assert!(
+            (a - b).abs() <= 1e-12 * largest.max(E * EXPANSION),
+            "{a} {b}"
+        );
+    }
+    all.pop();
+    write(&all);
+    let error = Model::new(&by_file).unwrap_err();
+    assert!(
+        error.message().contains("no value of node 1 of the body"),
+        "{error}"
+    );
 }

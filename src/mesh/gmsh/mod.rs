@@ -16,6 +16,7 @@ mod assemble;
 mod content;
 mod cursor;
 mod kind;
+pub(crate) mod node_data;
 #[cfg(test)]
 mod tests;
 mod version2;

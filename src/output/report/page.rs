@@ -59,6 +59,7 @@ pub(super) fn page(
         ),
         ("load", "Along the load", charts(&figures.charts)),
         ("states", "States", tables::states(model, results, labels)),
+        ("cycles", "Cycles", tables::cycles(results)),
         ("pictures", "Stress and plastic zone", pictures(figures)),
         ("reference", "Reference values", tables::reference(results)),
         (

@@ -2,7 +2,9 @@
 
 use super::Checks;
 use crate::number::exact;
-use crate::scene::{Contact, Direction, Equation, History, Load, Rotation, Scene, Support, Tie};
+use crate::scene::{
+    Contact, Direction, Equation, Field, History, Load, Rotation, Scene, Support, Tie,
+};
 use crate::space::{Components, Space};
 use std::collections::BTreeSet;
 
@@ -216,7 +218,8 @@ impl Checks {
             self.rotation(&format!("{key}.rotation"), &rotation, kind);
         }
         let temperature = load.temperature.as_ref();
-        if let Some(Err(wrong)) = temperature.map(|t| t.function(kind).map(drop)) {
+        let of_position = temperature.filter(|t| !matches!(t, Field::Nodal(_)));
+        if let Some(Err(wrong)) = of_position.map(|t| t.function(kind).map(drop)) {
             self.problem(format!("{key}.temperature"), wrong);
         }
         if let (Some(given), Space::Axisymmetric) = (load.acceleration, kind) {
