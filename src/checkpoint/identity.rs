@@ -253,6 +253,7 @@ mod tests {
             scene: "{\"a\":1}".into(),
             mesh: 7,
             backend: "cholmod".into(),
+            values: 0,
             start: 0,
         };
         assert_eq!(own().difference(&own()), None);
@@ -265,6 +266,7 @@ mod tests {
                 "`a` was 1 and is 2",
             ),
             (Identity { mesh: 8, ..own() }, "the mesh differs"),
+            (Identity { values: 8, ..own() }, "a file with temperatures"),
             (
                 Identity {
                     backend: "dense".into(),
