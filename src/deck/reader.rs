@@ -3,6 +3,7 @@
 mod history;
 mod mesh;
 mod properties;
+mod volume;
 
 use super::data::Account;
 use super::fields::Fields;

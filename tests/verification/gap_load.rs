@@ -52,11 +52,14 @@ support = [
     {{ on = "lower.bottom", fix = ["x", "y", "z"] }}, {{ on = "upper.top", fix = ["x", "y", "z"] }},
 ]
 load = {load}
-[mesh]
-parts = [
-    {{ body = "upper", element = "hex20", brick = {{ x = [0, 1], y = [0, 1], z = [1, 2], elements = [2, 3, 2] }} }},
-    {{ body = "lower", element = "hex20", brick = {{ x = [0, 1], y = [0, 1], z = [0, 1], elements = [2, 2, 2] }} }},
-]
+[[mesh.parts]]
+body = "upper"
+element = "hex20"
+brick = {{ x = [0, 1], y = [0, 1], z = [1, 2], elements = [2, 3, 2] }}
+[[mesh.parts]]
+body = "lower"
+element = "hex20"
+brick = {{ x = [0, 1], y = [0, 1], z = [0, 1], elements = [2, 2, 2] }}
 [materials.m]
 youngs_modulus = 1000.0
 poissons_ratio = 0.3

@@ -90,8 +90,8 @@ impl Draft<'_> {
             .into_iter()
             .find(|&name| !others().any(|other| has(other, name)));
         own.cloned().ok_or_else(|| {
-            let message = "both surfaces belong to other contact pairs too, which would be switched \
-                           with it; define a surface for this pair alone";
+            let message = "both surfaces belong to other contact pairs too, which would be \
+                           switched with it; define a surface for this pair alone";
             unsupported(self.deck.error(place, KEYWORD, message))
         })
     }

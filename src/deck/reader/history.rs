@@ -1,8 +1,9 @@
 //! Steps, amplitudes and the conditions of each step.
 
 use super::mesh::{face, target};
+use super::volume::{OnVolume, volume_load};
 use super::{Reader, fields};
-use crate::deck::data::{Condition, ContactChange, Kind, Step, Target, VolumeLoad};
+use crate::deck::data::{Condition, ContactChange, Kind, Step, Target};
 use crate::deck::fields::Fields;
 use crate::deck::keyword::Keyword;
 use crate::deck::source::Line;
@@ -173,7 +174,7 @@ impl Reader<'_> {
     }
 
     /// What all conditions have in common: their parameters.
-    fn conditions(&mut self, keyword: &Keyword, kind: Kind) -> Result<Option<String>> {
+    pub(super) fn conditions(&mut self, keyword: &Keyword, kind: Kind) -> Result<Option<String>> {
         let files = &self.source.files;
         keyword.allow(files, &["OP", "AMPLITUDE", "FIXED", "TYPE"])?;
         let is_new = keyword.choice(files, "OP", &["MOD", "NEW"])? == "NEW";
@@ -202,7 +203,7 @@ impl Reader<'_> {
         Ok(amplitude)
     }
 
-    fn add(&mut self, condition: Condition) {
+    pub(super) fn add(&mut self, condition: Condition) {
         match self.current_step() {
             Some(step) => self.deck.program.steps[step].conditions.push(condition),
             None => self.deck.program.initial.push(condition),
@@ -300,34 +301,6 @@ impl Reader<'_> {
             let value = row.number("the pressure")?;
             row.end()?;
             self.add_pressure(on, face, value, &amplitude, line);
-        }
-        Ok(())
-    }
-
-    pub(super) fn temperature(&mut self, keyword: &Keyword) -> Result<()> {
-        let amplitude = self.conditions(keyword, Kind::Temperature)?;
-        self.temperatures(keyword, amplitude)
-    }
-
-    /// Lines of nodes and their temperatures.
-    pub(super) fn temperatures(
-        &mut self,
-        keyword: &Keyword,
-        amplitude: Option<String>,
-    ) -> Result<()> {
-        while let Some(line) = self.source.next_data()? {
-            let mut row = fields(&self.source, keyword, line);
-            let on = target(&mut row)?;
-            let value = row.number("the temperature")?;
-            row.end()?;
-            self.add(Condition {
-                kind: Kind::Temperature,
-                on,
-                range: [1; 2],
-                value,
-                amplitude: amplitude.clone(),
-                place: line.place,
-            });
         }
         Ok(())
     }
@@ -449,68 +422,4 @@ fn freedoms(row: &mut Fields) -> Result<(Vec<[usize; 2]>, f64)> {
         )));
     }
     Ok((vec![[first, last]], value))
-}
-
-/// What a line of `*DLOAD` is.
-enum OnVolume {
-    /// A load on faces.
-    Face,
-    /// One on the volume, with its size.
-    Load(VolumeLoad, f64),
-    /// One that brinell does not have, and why.
-    Refused(String),
-}
-
-/// Reads a load on the volume of elements; of one on faces nothing.
-fn volume_load(mut row: Fields) -> Result<OnVolume> {
-    let word = row.word();
-    if word
-        .first()
-        .is_some_and(|first| first.eq_ignore_ascii_case(&b'P'))
-        && word.len() == 2
-    {
-        return Ok(OnVolume::Face);
-    }
-    let word = super::super::fields::shown(word).to_uppercase();
-    let unit = |way: [f64; 3]| {
-        let length = way.iter().map(|x| x * x).sum::<f64>().sqrt();
-        (length > 0.0).then(|| way.map(|x| x / length))
-    };
-    match word.as_str() {
-        "GRAV" => {
-            let size = row.number("the acceleration")?;
-            let way = vector(&mut row, "a component of the direction")?;
-            row.end()?;
-            let Some(way) = unit(way) else {
-                return Err(row.place.error("the direction of GRAV has no length"));
-            };
-            Ok(OnVolume::Load(VolumeLoad::Acceleration(way), size))
-        }
-        "CENTRIF" => {
-            let square = row.number("the square of the speed")?;
-            let point = vector(&mut row, "a coordinate of the axis")?;
-            let way = vector(&mut row, "a component of the axis")?;
-            row.end()?;
-            let Some(way) = unit(way).filter(|_| square >= 0.0) else {
-                let message = "the axis of CENTRIF has no length, or the square of the speed is \
-                               negative";
-                return Err(row.place.error(message));
-            };
-            Ok(OnVolume::Load(VolumeLoad::Rotation([point, way]), square))
-        }
-        "BX" | "BY" | "BZ" | "NEWTON" => Ok(OnVolume::Refused(format!(
-            "{word}: of loads on volumes GRAV and CENTRIF are there"
-        ))),
-        _ => Ok(OnVolume::Refused(format!(
-            "{word}: of loads on elements pressures on faces, P1 to P6, GRAV and CENTRIF are there"
-        ))),
-    }
-}
-
-fn vector(row: &mut Fields, what: &str) -> Result<[f64; 3]> {
-    let mut out = [0.0; 3];
-    for x in &mut out {
-        *x = row.number_or(what, 0.0)?;
-    }
-    Ok(out)
 }

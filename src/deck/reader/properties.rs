@@ -29,7 +29,7 @@ impl Reader<'_> {
     }
 
     /// The material that a law belongs to.
-    fn of_material(&mut self, keyword: &Keyword) -> Result<&mut MaterialData> {
+    pub(super) fn of_material(&mut self, keyword: &Keyword) -> Result<&mut MaterialData> {
         let name = self.material.as_deref();
         let materials = &mut self.deck.properties.materials;
         match name.and_then(|name| materials.get_mut(name)) {
@@ -77,36 +77,6 @@ impl Reader<'_> {
         }
         self.of_material(keyword)?.elastic = rows;
         Ok(())
-    }
-
-    pub(super) fn density(&mut self, keyword: &Keyword) -> Result<()> {
-        keyword.allow(&self.source.files, &[])?;
-        let value = self.one_value(keyword, "the density")?;
-        self.of_material(keyword)?.density = Some(value);
-        Ok(())
-    }
-
-    pub(super) fn expansion(&mut self, keyword: &Keyword) -> Result<()> {
-        keyword.allow(&self.source.files, &["TYPE", "ZERO"])?;
-        keyword.choice(&self.source.files, "TYPE", &["ISO"])?;
-        let value = self.one_value(keyword, "the coefficient of expansion")?;
-        self.of_material(keyword)?.expansion = Some(value);
-        Ok(())
-    }
-
-    /// A value that is the same at all temperatures.
-    fn one_value(&mut self, keyword: &Keyword, what: &str) -> Result<f64> {
-        let line = self.one_line(keyword, what)?;
-        let mut row = fields(&self.source, keyword, line);
-        let value = row.number(what)?;
-        row.number_or("the temperature", 0.0)?;
-        row.end()?;
-        if let Some(line) = self.source.next_data()? {
-            let why = format!("{what} does not depend on temperature here: give one line");
-            self.refuse(keyword, line.place, &why);
-        }
-        self.skip()?;
-        Ok(value)
     }
 
     pub(super) fn plastic(&mut self, keyword: &Keyword) -> Result<()> {

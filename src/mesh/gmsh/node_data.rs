@@ -86,8 +86,8 @@ fn count(cursor: &mut Cursor, what: &str) -> Result<usize> {
 mod tests {
     use super::*;
 
-    const DATA: &str = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$NodeData\n1\n\"heat\"\n1\n0.0\n3\n0\n1\n\
-                        2\n7 20.5\n9 -3e1\n$EndNodeData\n";
+    const DATA: &str = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$NodeData\n1\n\"heat\"\n1\n0.0\n\
+                        3\n0\n1\n2\n7 20.5\n9 -3e1\n$EndNodeData\n";
 
     #[test]
     fn values_are_read_by_node() {

@@ -25,6 +25,7 @@ mod contact_frame;
 mod contact_map;
 mod contours;
 mod curves;
+mod cycles;
 mod drawing;
 mod fields;
 mod magnified;

@@ -1,5 +1,6 @@
 //! The page: sections in the order in which a reader asks.
 
+use super::cycles;
 use super::tables;
 use super::theme;
 use super::trust;
@@ -59,7 +60,7 @@ pub(super) fn page(
         ),
         ("load", "Along the load", charts(&figures.charts)),
         ("states", "States", tables::states(model, results, labels)),
-        ("cycles", "Cycles", tables::cycles(results)),
+        ("cycles", "Cycles", cycles::table(results)),
         ("pictures", "Stress and plastic zone", pictures(figures)),
         ("reference", "Reference values", tables::reference(results)),
         (

@@ -8,7 +8,7 @@ use crate::number::{bytes, number, seconds, trimmed, with_unit};
 use crate::output::RunHeader;
 use crate::output::columns::of_states;
 use crate::output::labels::{Labels, in_line, labelled};
-use crate::results::{CycleRow, Results};
+use crate::results::Results;
 use crate::scene::{Direction, Field, History, Load};
 use crate::space::Components;
 use maud::{Markup, PreEscaped, html};
@@ -337,46 +337,6 @@ fn difference(ratio: f64) -> String {
     }
 }
 
-/// Cycles that are shown at the beginning, and at the end, of a long list.
-const CYCLES: usize = 8;
-
-/// What the cycles came to, and the strains of each.
-pub(super) fn cycles(results: &Results) -> Markup {
-    let Some(cycles) = &results.cycles else {
-        return PreEscaped(String::new());
-    };
-    let rows = &cycles.rows;
-    let (begin, end) = match rows.len() > 2 * CYCLES {
-        true => (&rows[..CYCLES], &rows[rows.len() - CYCLES..]),
-        false => (&rows[..], &rows[..0]),
-    };
-    let row = |row: &CycleRow| {
-        html! {
-            tr {
-                th.n scope="row" { (row.cycle) }
-                td.n { (number(row.flow)) } td.n { (number(row.growth)) }
-            }
-        }
-    };
-    html! {
-        p { (cycles.told()) "." }
-        div.wide tabindex="0" {
-            table {
-                thead { tr {
-                    th.n scope="col" { "cycle" }
-                    th.n scope="col" { "most plastic strain that flowed" }
-                    th.n scope="col" { "most that stayed" }
-                } }
-                tbody {
-                    @for each in begin { (row(each)) }
-                    @if !end.is_empty() { tr { td.n { "..." } td {} td {} } }
-                    @for each in end { (row(each)) }
-                }
-            }
-        }
-    }
-}
-
 /// The ledger of effects.
 pub(super) fn effects(results: &Results) -> Markup {
     if results.effects.is_empty() {
@@ -492,43 +452,4 @@ fn grouped(count: usize) -> String {
         out.push(digit);
     }
     out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::results::{CycleOutcome, Cycles};
-
-    #[test]
-    fn long_lists_of_cycles_show_both_ends() {
-        let rows = |n: usize| {
-            (1..=n).map(|cycle| CycleRow {
-                cycle,
-                flow: 0.5 / cycle as f64,
-                growth: 0.25,
-            })
-        };
-        let page = |n: usize| {
-            let results = Results {
-                cycles: Some(Cycles {
-                    outcome: CycleOutcome::Ratchetting,
-                    body: Some("race".into()),
-                    rows: rows(n).collect(),
-                }),
-                ..Results::default()
-            };
-            cycles(&results).into_string()
-        };
-        let short = page(16);
-        assert!(
-            short.contains("plastic strain of race grows by 0.25"),
-            "{short}"
-        );
-        assert!(!short.contains("..."));
-        assert_eq!(short.matches("<tr>").count(), 17);
-        let long = page(1000);
-        assert_eq!(long.matches("<tr>").count(), 18);
-        assert!(long.contains(">8<") && !long.contains(">9<") && long.contains(">993<"));
-        assert!(cycles(&Results::default()).into_string().is_empty());
-    }
 }
