@@ -1,6 +1,7 @@
 //! What a program of cycles came to.
 
 use super::number;
+#[cfg(feature = "report")]
 use crate::number::number as short;
 use serde::{Deserialize, Serialize};
 
@@ -62,6 +63,7 @@ pub struct Cycles {
 
 impl Cycles {
     /// What they came to, in a sentence.
+    #[cfg(feature = "report")]
     pub fn told(&self) -> String {
         let last = self.last();
         let body = self.body.as_deref().unwrap_or("no body");

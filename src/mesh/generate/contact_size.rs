@@ -6,7 +6,8 @@ use super::{ContactSize, WIDEST};
 use crate::analytical::{self, HertzLine, HertzPoint};
 use crate::error::{Error, Result};
 use crate::scene::{
-    CylinderOnHalfPlane, Direction, Displacement, History, Load, Plastic, Scene, Unit,
+    CylinderOnHalfPlane, Direction, Displacement, DisplacementTarget, History, Load, Plastic,
+    Scene, Unit,
 };
 use std::f64::consts::PI;
 
@@ -179,12 +180,7 @@ fn widest(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<[f6
     let factor = largest(&mut targets().filter_map(|t| t.load_factor));
     let size = p.far_size * half_width;
     let mut force = 0.0;
-    let mut depth = largest(
-        &mut targets()
-            .filter_map(|t| t.displacement.as_ref())
-            .filter(|d| d.direction == Direction::Y)
-            .map(|d| d.value),
-    );
+    let mut depth = largest(&mut targets().map(|t| asked_for(t.displacement.as_ref())));
     for load in &scene.load {
         let times = match &load.history {
             History::Proportional if program.unit == Unit::Yield => {
@@ -206,6 +202,15 @@ fn widest(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<[f6
         hertz.widest(force, first).max(ROOM * asked),
         (2.0 * PILE_UP * p.radius * depth).sqrt(),
     ])
+}
+
+/// Displacement along y that a target asks for. Not inlined, as [`prescribed`].
+#[inline(never)]
+fn asked_for(displacement: Option<&DisplacementTarget>) -> f64 {
+    displacement.map_or(0.0, |d| match d.direction {
+        Direction::Y => d.value,
+        _ => 0.0,
+    })
 }
 
 /// Size of a prescribed displacement along y. Not inlined: the tag of `y` would be read before that
