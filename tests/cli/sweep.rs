@@ -237,7 +237,7 @@ fn materials_are_listed_with_their_sources_and_taken_by_name() {
         "--load",
         "5",
         "--resolution",
-        "4",
+        "2",
         "--out",
         scene.to_str().unwrap(),
     ]);
