@@ -76,6 +76,8 @@ mod number;
 
 mod root;
 
+mod interpolation;
+
 mod classes;
 
 pub mod error;

@@ -313,7 +313,7 @@ fn initial_state(model: &Model) -> Effect {
     let names: Vec<&str> = acting.map(|load| load.name.as_str()).collect();
     let bodies = model.mesh.bodies.iter();
     let mut bodies = bodies.filter_map(|name| model.scene.bodies.get(name));
-    let asked = bodies.any(|b| b.initial_stress.is_some() || b.initial_plastic_strain.is_some());
+    let asked = bodies.any(|body| body.brought_along().next().is_some());
     let why = match (names.is_empty(), asked) {
         (false, _) => format!("{}, before the loads", names.join(", ")),
         (true, true) => "what the bodies bring along is zero".to_string(),

@@ -67,9 +67,7 @@ pub(super) struct Loads {
 /// Gaps of the pairs without load.
 pub(super) struct Gaps {
     pub(super) initial: Vec<f64>,
-    /// What the whole interference takes off them.
-    pub(super) interference: Vec<f64>,
-    /// `T` times each of the two.
+    /// `T` times these, and times what the whole interference takes off them.
     pub(super) forces: [Vec<f64>; 2],
 }
 
@@ -116,7 +114,6 @@ impl<'m> Structure<'m> {
             loads: Loads::default(),
             gaps: Gaps {
                 initial,
-                interference: model.pairs.iter().map(|p| p.interference).collect(),
                 forces: [Vec::new(), Vec::new()],
             },
             unit: 1.0,
@@ -165,7 +162,8 @@ impl<'m> Structure<'m> {
     /// What loads and gaps at factor 1 do to tied pairs, after the structure was factored.
     fn reduce_loads(&mut self, cost: &mut Cost) -> Result<()> {
         let (sub, gaps) = (&self.sub, &mut self.gaps);
-        gaps.forces = [&gaps.initial, &gaps.interference].map(|v| sub.slip_forces(v));
+        let interference: Vec<f64> = self.model.pairs.iter().map(|p| p.interference).collect();
+        gaps.forces = [&gaps.initial, &interference].map(|v| sub.slip_forces(v));
         // A load that is nothing stays nothing, without a solve.
         let acts = |load: &Vec<f64>| load.iter().any(|force| *force != 0.0);
         let loads = self.system.loads.iter();

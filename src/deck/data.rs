@@ -238,7 +238,7 @@ pub(super) enum Kind {
 
 impl Kind {
     /// How many there are.
-    pub(super) const COUNT: usize = 5;
+    pub(super) const COUNT: usize = Kind::Volume as usize + 1;
 }
 
 /// What acts on the volume of elements.

@@ -8,10 +8,11 @@ use super::Deck;
 use super::bodies::unsupported;
 use super::data::{Amplitude, Condition, Kind, Step, Target};
 use super::facets::Face;
-use super::series::{Series, interpolate};
+use super::series::Series;
 use super::sets::What;
 use super::source::Place;
 use crate::error::Result;
+use crate::interpolation::interpolate;
 use crate::number::exact;
 use std::collections::BTreeMap;
 

@@ -1,5 +1,7 @@
 //! Values over time, piecewise linear.
 
+use crate::interpolation::interpolate;
+
 /// Values closer than this share of the largest are the same: they come from sums and products.
 const SAME: f64 = 1e-12;
 
@@ -80,17 +82,6 @@ impl Series {
         let numbers = self.0.as_flattened().iter();
         // Zeros of either sign are alike.
         numbers.map(|x| (x + 0.0).to_bits()).collect()
-    }
-}
-
-/// The value of a piecewise linear function, flat outside.
-pub(super) fn interpolate(rows: &[[f64; 2]], time: f64) -> f64 {
-    let next = rows.partition_point(|row| row[0] <= time);
-    match (next.checked_sub(1).map(|i| rows[i]), rows.get(next)) {
-        (Some(a), Some(b)) => a[1] + (b[1] - a[1]) * (time - a[0]) / (b[0] - a[0]),
-        (Some(a), None) => a[1],
-        (None, Some(b)) => b[1],
-        (None, None) => 0.0,
     }
 }
 

@@ -3,9 +3,10 @@
 use super::Deck;
 use super::bodies::{Bodies, unsupported};
 use super::data::{Hardening, Kind, MaterialData};
-use super::series::{Series, interpolate};
+use super::series::Series;
 use super::source::Place;
 use crate::error::Result;
+use crate::interpolation::interpolate;
 use std::collections::BTreeMap;
 
 /// What a body begins with and how that changes.
@@ -99,12 +100,13 @@ impl MaterialData {
     /// The law at a temperature, between the tables' linear and beyond them that of the last; none
     /// without an elastic one.
     pub(super) fn at(&self, temperature: f64) -> Option<AtTemperature> {
-        let (first, _) = self.elastic.first()?;
-        let constant = |k: usize| -> Vec<[f64; 2]> {
+        if self.elastic.is_empty() {
+            return None;
+        }
+        let column = |k: usize| -> Vec<[f64; 2]> {
             self.elastic.iter().map(|(t, law)| [*t, law[k]]).collect()
         };
-        let temperature_of_law = temperature.max(*first);
-        let elastic = [0, 1].map(|k| interpolate(&constant(k), temperature_of_law));
+        let elastic = [0, 1].map(|k| interpolate(&column(k), temperature));
         Some(AtTemperature {
             elastic,
             plastic: self.hardening_at(temperature),

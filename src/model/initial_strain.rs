@@ -9,9 +9,10 @@
 use super::Freedoms;
 use super::depth;
 use super::heat::{self, FreeStrain};
-use super::loads::{LoadCase, Magnitude, interpolate, on_freedoms};
+use super::loads::{LoadCase, Magnitude, on_freedoms};
 use super::pairs::ContactSurface;
 use crate::error::Result;
+use crate::interpolation::interpolate;
 use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::scene::{History, Scene};
@@ -34,14 +35,7 @@ pub(super) fn resolve(
         let Some(body) = scene.bodies.get(name) else {
             continue;
         };
-        let given = [
-            ("initial_stress", &body.initial_stress),
-            ("initial_plastic_strain", &body.initial_plastic_strain),
-        ];
-        for (key, rows) in given {
-            let Some(rows) = rows else {
-                continue;
-            };
+        for (key, rows) in body.brought_along() {
             let of_place = (scene, mesh, contacts);
             let values = nodal(of_place, (index, name), (key, rows))?;
             let free: Vec<FreeStrain> = match key {

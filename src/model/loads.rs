@@ -7,6 +7,7 @@ use super::{Freedoms, Pair, Slot, volume_loads};
 use crate::analytical::KirschField;
 use crate::element::facet_points;
 use crate::error::{Error, Result};
+use crate::interpolation::interpolate;
 use crate::mesh::Mesh;
 use crate::scene::{self, History, Scene};
 use crate::space::{Space, Vector, dot, length, unit};
@@ -111,17 +112,6 @@ impl LoadCase {
     /// Forces as vectors in global axes, on control points.
     pub(super) fn nodal(&self) -> &[(usize, Vector)] {
         &self.nodal
-    }
-}
-
-/// A table's value: straight between its rows and constant beyond.
-pub(super) fn interpolate(rows: &[[f64; 2]], alpha: f64) -> f64 {
-    let next = rows.partition_point(|r| r[0] <= alpha);
-    match (next.checked_sub(1).map(|i| rows[i]), rows.get(next)) {
-        (Some(a), Some(b)) => a[1] + (b[1] - a[1]) * (alpha - a[0]) / (b[0] - a[0]),
-        (Some(a), None) => a[1],
-        (None, Some(b)) => b[1],
-        (None, None) => 0.0,
     }
 }
 

@@ -2,9 +2,9 @@
 //! profile and constant beyond.
 
 use super::depth::{self, Simplices};
-use super::loads::interpolate;
 use super::pairs::ContactSurface;
 use crate::error::Result;
+use crate::interpolation::interpolate;
 use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::scene::Scene;

@@ -120,6 +120,17 @@ pub struct Body {
 }
 
 impl Body {
+    /// What it brings along, by key.
+    pub(crate) fn brought_along(&self) -> impl Iterator<Item = (&'static str, &Vec<Vec<f64>>)> {
+        let given = [
+            ("initial_stress", &self.initial_stress),
+            ("initial_plastic_strain", &self.initial_plastic_strain),
+        ];
+        given
+            .into_iter()
+            .filter_map(|(key, rows)| Some((key, rows.as_ref()?)))
+    }
+
     /// The largest initial yield stress in it.
     pub(crate) fn largest_yield_stress(&self, material: &Material) -> Option<f64> {
         let rows = self.yield_by_depth.iter().flatten();

@@ -3,8 +3,8 @@
 //! `cargo bench --bench reading` prints the speed of reading an ASCII mesh of a million nodes in
 //! either version of the format and as a deck, the time of commands that compute nothing, the share
 //! of a factorisation that forming contact rows takes, and the share of a run that the stresses of
-//! its states and its files take. The figures go to
-//! `bench-results/reading.json`.
+//! its states and its files take; `-- rows` and the like one of them. The figures go to
+//! `bench-results/`, a file for each part.
 
 use brinell::analysis::Analysis;
 use brinell::deck::Deck;

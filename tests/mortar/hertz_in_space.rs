@@ -55,7 +55,10 @@ fn ratios(name: &str, [upper, lower]: [[f64; 2]; 2], n: usize, cases: &[([usize;
     }
     let [fine, coarse] = [n, n / 2].map(|n| at([n, 3 * n / 2], "auto"));
     println!("{name} orders: {coarse:.4?} {fine:.4?}");
-    assert!(fine[1] < coarse[1] / 2.0, "{name}: {coarse:.4?} {fine:.4?}");
+    assert!(
+        fine[0].abs() < 0.01 && fine[1] < coarse[1] / 2.0,
+        "{name}: {coarse:.4?} {fine:.4?}"
+    );
     let matching = at([n / 2, n / 2], "auto");
     for cells in [[n / 2, 3 * n / 2], [3 * n / 2, n / 2]] {
         let found = at(cells, "auto");

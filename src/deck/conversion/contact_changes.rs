@@ -4,7 +4,7 @@
 //! as the model, which a step that switches takes on or back over its time.
 
 use super::super::bodies::unsupported;
-use super::super::data::{Account, ContactChange};
+use super::super::data::{Account, ContactChange, ContactPair};
 use super::super::series::Series;
 use super::super::source::Place;
 use super::Draft;
@@ -29,7 +29,7 @@ impl Draft<'_> {
         for (number, step) in self.deck.program.steps.iter().enumerate() {
             let end = time + step.period;
             for change in &step.contact_changes {
-                let is_it = |pair: &super::super::data::ContactPair| {
+                let is_it = |pair: &ContactPair| {
                     alike(&pair.slave, &change.slave) && alike(&pair.master, &change.master)
                 };
                 let Some(index) = pairs.iter().position(is_it) else {

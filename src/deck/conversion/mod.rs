@@ -16,6 +16,7 @@ use super::data::{Account, Note, Section};
 use super::series::are_alike;
 use super::temperature::OfBody;
 use crate::error::{Error, ErrorKind, Result};
+use crate::interpolation::interpolate;
 use crate::number::exact;
 use crate::scene::{Body, History, Material, Scene, Stepping, Target};
 use crate::space::Space;
@@ -254,7 +255,7 @@ impl Deck {
         let common = first.filter(from_step_to_step);
         let common = common.filter(|first| varying.all(|shape| are_alike(shape, first)));
         let factor = |time: f64| match common {
-            Some(shape) => super::series::interpolate(shape, time),
+            Some(shape) => interpolate(shape, time),
             None => time,
         };
         for (number, &end) in ends.iter().enumerate() {

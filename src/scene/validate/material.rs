@@ -107,14 +107,7 @@ impl Checks {
 
     /// Rows of depth and components of a tensor.
     fn initial_state(&mut self, key: &str, body: &Body, kind: Space) {
-        let given = [
-            ("initial_stress", &body.initial_stress),
-            ("initial_plastic_strain", &body.initial_plastic_strain),
-        ];
-        for (name, rows) in given {
-            let Some(rows) = rows else {
-                continue;
-            };
+        for (name, rows) in body.brought_along() {
             let key = format!("{key}.{name}");
             let (lengths, form) = match kind {
                 Space::Solid => ([4, 7], "[depth, xx, yy, zz] or with xy, yz, zx after them"),
