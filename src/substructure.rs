@@ -30,6 +30,7 @@ use crate::linalg::{self, Backend, Condensed, NotDefinite, Partition, Recovered,
 use crate::memory;
 use crate::model::Model;
 use groups::Groups;
+use nalgebra::DMatrix;
 
 /// A load (or displacement) on zone and contact freedoms, these in the order of
 /// [`crate::model::ContactRows::freedoms`].
@@ -189,6 +190,12 @@ impl Substructure {
     /// The matrix T of the contact problem, all pairs closed.
     pub fn tableau(&self) -> Tableau {
         Tableau::new(self.contact_matrix.clone())
+    }
+
+    /// The pairs of each group that rigid motions of floating bodies move, and the displacements of
+    /// these pairs that they give (`pairs x motions`, orthonormal).
+    pub(crate) fn rigid_slips(&self) -> Vec<(&[usize], DMatrix<f64>)> {
+        self.tied.as_ref().map_or(Vec::new(), Groups::rigid_slips)
     }
 
     /// Forces `T s` of relative displacements `s` of the pairs.

@@ -5,9 +5,10 @@ use super::load_point::LoadPoint;
 use super::recovery::{Recovery, Samples};
 use super::solver::Solver;
 use super::yield_load::yield_share;
-use crate::contact::{self, Change, Path, PathEnd};
+use crate::contact::{Change, Path, PathEnd, loose};
 use crate::error::Result;
 use crate::root::{self, Accuracy};
+use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
@@ -32,13 +33,11 @@ impl ElasticPath {
         for (q, t) in q0.iter_mut().zip(&solver.now.initial.forces) {
             *q += t;
         }
-        if solver.now.force.iter().all(|r| *r == 0.0) {
-            close_gap_of_floating_bodies(solver, &q0, &rate)?;
-        }
+        let terms = solver.structure.closed_forces_size(&start);
+        move_loose_bodies(solver, &rate, terms)?;
         let gaps = solver.structure.delta(&start);
         let gap_scale = gaps.iter().fold(0.0f64, |m, d| m.max(d.abs()));
         let (gap, force) = (solver.now.gap.clone(), solver.now.force.clone());
-        let terms = solver.structure.closed_forces_size(&start);
         let path = Path::new(&mut solver.tableau, q0, rate, gap, force, gap_scale, terms)
             .map_err(|u| solver.structure.unbounded(u.pair, start.alpha))?;
         solver.cost.counts.contact_changes += path.changes;
@@ -63,15 +62,17 @@ impl ElasticPath {
         self.write(solver);
     }
 
-    /// Settles the statuses beyond an event.
+    /// Settles the statuses beyond an event. Where the last contact of a body was lost, a new piece
+    /// begins on the other side of its gaps.
     ///
     /// # Errors
     /// A load that drives a body away from every contact.
     pub fn turn(&mut self, solver: &mut Solver) -> Result<()> {
-        self.path
-            .turn(&mut solver.tableau)
-            .map_err(|u| solver.structure.unbounded(u.pair, solver.at.alpha))?;
-        solver.cost.counts.contact_changes += self.path.changes;
+        if self.path.turn(&mut solver.tableau).is_err() {
+            *self = ElasticPath::new(solver, &self.end.clone())?;
+        } else {
+            solver.cost.counts.contact_changes += self.path.changes;
+        }
         Ok(())
     }
 
@@ -233,26 +234,32 @@ impl ElasticDrive {
     }
 }
 
-/// A floating body with gaps all round moves rigidly under the first bit of load until it touches:
-/// the contact problem is solved directly there, and the gaps of that solution are where the path
-/// starts.
-fn close_gap_of_floating_bodies(solver: &mut Solver, q0: &[f64], rate: &[f64]) -> Result<()> {
-    let n = q0.len();
-    if solver.structure.model.floating.bodies.is_empty() || (0..n).any(|k| solver.now.gap[k] <= 0.0)
-    {
-        return Ok(());
+/// A body that no contact force holds moves rigidly under the first bit of load until it touches:
+/// the path starts from there. `terms` is the size of what contact forces are a sum of, and their
+/// round-off a share of.
+fn move_loose_bodies(solver: &mut Solver, rate: &[f64], terms: f64) -> Result<()> {
+    let nothing = solver.tableau.force_tolerance(&[terms], &solver.now.gap);
+    let mut moved = false;
+    for (pairs, slips) in solver.structure.sub.rigid_slips() {
+        if pairs.iter().any(|&k| solver.now.force[k] > nothing) {
+            continue;
+        }
+        let own =
+            |values: &[f64]| DVector::from_iterator(pairs.len(), pairs.iter().map(|&k| values[k]));
+        let from = own(&solver.now.gap);
+        let mut gap = from.clone();
+        loose::come_to_rest(&slips, &own(rate), &mut gap)
+            .map_err(|u| solver.structure.unbounded(pairs[u.pair], solver.at.alpha))?;
+        moved |= gap != from;
+        for (&k, gap) in pairs.iter().zip(gap.iter()) {
+            solver.now.gap[k] = *gap;
+            solver.now.force[k] = 0.0;
+        }
     }
-    let largest = |v: &[f64]| v.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-    // Small against the piece, large against the round-off of q0 (which carries the rigid motion).
-    let share = 1e-9f64
-        .max(1e-12 * largest(q0) / largest(rate).max(f64::MIN_POSITIVE))
-        .min(1.0);
-    let q: Vec<f64> = q0.iter().zip(rate).map(|(a, b)| a + share * b).collect();
-    let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
-    contact::solve(&mut solver.tableau, &q, &mut gap, &mut force)
-        .map_err(|u| solver.structure.unbounded(u.pair, solver.at.alpha))?;
-    solver.now.gap = gap;
-    solver.now.force.fill(0.0);
+    if moved {
+        let open: Vec<bool> = solver.now.gap.iter().map(|g| *g > 0.0).collect();
+        solver.tableau.reset(&open);
+    }
     Ok(())
 }
 

@@ -13,7 +13,7 @@ use crate::classes::Classes;
 use crate::error::Result;
 use crate::linalg::ContactStiffness;
 use crate::model::RigidMotion;
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -170,6 +170,16 @@ impl Groups {
                 motions[j] += value;
             }
         }
+    }
+
+    /// The pairs of each group that rigid motions move, and the displacements of the pairs that these
+    /// give (`pairs x motions`, orthonormal).
+    pub(super) fn rigid_slips(&self) -> Vec<(&[usize], DMatrix<f64>)> {
+        let groups = self.groups.iter();
+        let slips = groups.map(|group| (group.pairs.as_slice(), group.tied.rigid_slips()));
+        slips
+            .filter_map(|(pairs, slips)| Some((pairs, slips?)))
+            .collect()
     }
 
     /// Numbers that the tied structures hold.

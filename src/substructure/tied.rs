@@ -209,6 +209,12 @@ impl Tied {
         Ok((tied, matrix))
     }
 
+    /// Displacements of the rows that rigid motions give (`rows x motions`, orthonormal).
+    pub(super) fn rigid_slips(&self) -> Option<DMatrix<f64>> {
+        let columns: Vec<_> = self.rigid_slips.iter().map(|s| s.values.clone()).collect();
+        (!columns.is_empty()).then(|| DMatrix::from_columns(&columns))
+    }
+
     /// Numbers that the dense matrices hold.
     pub(crate) fn n_entries(&self) -> usize {
         self.factor.l_dirty().len()

@@ -9,7 +9,8 @@
 //! `cargo bench --bench history` takes the sizes of [`SIZES`]; `-- 10k` or `-- 100k` or `-- 1M` one
 //! of them. `-- solid` takes the ball of `data/peers/ball_contact.toml` in three dimensions, loaded
 //! to five times first yield and back, in [`SOLID`]. The table goes to the terminal, the figures to
-//! `bench-results/history.json`. `-- perfect` the same without hardening. `-- scaling` runs meshes
+//! `bench-results/history.json`. `-- perfect` the same without hardening. `-- unlike` runs a pin in
+//! a hole, where nodes face each other and where they do not ([`UNLIKE`]). `-- scaling` runs meshes
 //! from ten thousand to three million freedoms instead, on one thread and on two
 //! (`history/scaling.rs`). `--features faer` and `-- backends` put the sparse backends beside one
 //! another (`history/backends.rs`).
@@ -35,6 +36,7 @@ use std::time::Instant;
 
 const DATA: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/data/");
 const LINE: &str = "scenes/cylinder_on_half_plane.toml";
+const PIN: &str = "scenes/hard/to_and_fro.toml";
 const BALL: &str = "peers/ball_contact.toml";
 
 /// Name, and what is changed in the scene's mesh: elements over b* and growth of the element sizes
@@ -103,6 +105,15 @@ const SOLID: [(&str, &[&str]); 4] = [
     ),
 ];
 
+/// The pin of `data/scenes/hard/to_and_fro.toml`: elements of the pin (counted over a quarter) on
+/// those of the plate (over the half).
+const UNLIKE: [(&str, &[&str]); 3] = [
+    ("1:1", &["mesh.parts.0.disc.elements=144", PLATE]),
+    ("3:2", &["mesh.parts.0.disc.elements=216", PLATE]),
+    ("2:3", &["mesh.parts.0.disc.elements=96", PLATE]),
+];
+const PLATE: &str = "mesh.parts.1.ring.elements=[144,288]";
+
 /// Pairs of runs of which the medians count, where bare CHOLMOD takes less than `LONG` seconds.
 const REPEATED: usize = 7;
 const LONG: f64 = 5.0;
@@ -133,6 +144,7 @@ fn main() -> Result<(), Failure> {
             &["materials.steel.plastic_modulus=0.0"],
             "history_perfect",
         ),
+        ["unlike", ref names @ ..] => compare((PIN, &UNLIKE, names), &[], "history_unlike"),
         ["solid", ref names @ ..] => compare((BALL, &SOLID, names), &[], "history_solid"),
         ref names => compare((LINE, &SIZES, names), &[], "history"),
     }

@@ -168,7 +168,7 @@ fn every_kind_of_way_goes_on() {
         "program.cycles=4",
         "program.targets=[{ load_factor = 2.0 }, { load_factor = 0.3 }]",
     ];
-    let cases: [(&str, &[&str], usize); 20] = [
+    let cases: [(&str, &[&str], usize); 21] = [
         ("hard/cyclic", &cycles, 9),
         (
             "hard/ratchet",
@@ -230,6 +230,7 @@ fn every_kind_of_way_goes_on() {
         ),
         ("hard/lift_off", &[], 1),
         ("hard/grazing", &[], 1),
+        ("hard/to_and_fro", &[], 9),
         ("hard/cyclic", &[], 2),
         ("hard/limit_load", &[], 1),
         ("hard/zero_gap_conforming", &[], 4),

@@ -30,6 +30,41 @@ fn a_floating_body_falls_through_its_gap_and_is_held() {
     same_contact("reloaded", &results.states[0], &results.states[2], 1e-10);
 }
 
+/// The pin crosses its clearance at every change of the load's sign, before and after first yield,
+/// whether nodes face each other or not. Bottom and top are alike: what the first push does to the
+/// plate below, the first pull does to it above, but for the little that the dent below has changed.
+#[test]
+fn a_pin_with_clearance_is_pushed_and_pulled() {
+    let elements = |pin: usize, plate: [usize; 2]| {
+        let pin = format!("mesh.parts.0.disc.elements={pin}");
+        [pin, format!("mesh.parts.1.ring.elements={plate:?}")]
+    };
+    let meshes = [
+        elements(48, [24, 48]),
+        elements(48, [96, 48]),
+        elements(24, [24, 48]),
+    ];
+    for mesh in meshes {
+        let small = format!("load.0.force={:?}", [0.0, -300.0]);
+        for (load, plastic) in [(None, true), (Some(small), false)] {
+            let set: Vec<&str> = mesh.iter().chain(&load).map(String::as_str).collect();
+            let results = run_file("hard/to_and_fro", &set);
+            healthy(&results);
+            let [pushed, pulled, again] = [0, 1, 2].map(|i| &results.states[i]);
+            assert_eq!(pushed.max_equivalent_plastic_strain > 0.0, plastic);
+            let (force, allowed) = (pushed.contact_force, if plastic { 1e-3 } else { 1e-8 });
+            close("force above", pulled.contact_force, force, force, allowed);
+            let pressure = pushed.max_pressure;
+            close("above", pulled.max_pressure, pressure, pressure, allowed);
+            close("again", again.contact_force, force, force, allowed);
+            // Half of the pairs at most carry anything, those of one side each time.
+            let sides = pushed.pairs.iter().zip(&pulled.pairs);
+            assert!(sides.clone().all(|(a, b)| a.force == 0.0 || b.force == 0.0));
+            assert!(sides.clone().any(|(a, _)| a.force > 0.0));
+        }
+    }
+}
+
 /// Two floating bodies on top of each other: the middle one is held by two contacts, one of which
 /// opens in part. Each contact carries the whole load, and without gaps the state is proportional
 /// to it.
