@@ -238,10 +238,11 @@ impl ElasticDrive {
 /// the path starts from there. `terms` is the size of what contact forces are a sum of, and their
 /// round-off a share of.
 fn move_loose_bodies(solver: &mut Solver, rate: &[f64], terms: f64) -> Result<()> {
-    let nothing = solver.tableau.force_tolerance(&[terms], &solver.now.gap);
+    let of_one = solver.tableau.force_tolerance(&[terms], &solver.now.gap);
+    let nothing = solver.round_off_of_contact().max(of_one);
     let mut moved = false;
     for (pairs, slips) in solver.structure.sub.rigid_slips() {
-        if pairs.iter().any(|&k| solver.now.force[k] > nothing) {
+        if pairs.iter().map(|&k| solver.now.force[k]).sum::<f64>() > nothing {
             continue;
         }
         let own =

@@ -65,6 +65,40 @@ fn a_pin_with_clearance_is_pushed_and_pulled() {
     }
 }
 
+/// A pin free to move in all directions is pushed down, let go, and pushed sideways: from where it
+/// was left it rolls round the hole, and is held there as it was below.
+#[test]
+fn a_pin_let_go_is_pushed_sideways() {
+    let load = |direction: [f64; 2], history: &str| {
+        format!("{{ on = \"pin.center\", force = {direction:?}, history = {history} }}")
+    };
+    let down = load([0.0, -3000.0], "[[0, 0], [1, 1], [2, 0], [3, 0]]");
+    let aside = load([3000.0, 0.0], "[[0, 0], [2, 0], [3, 1]]");
+    let mut results = run_file(
+        "hard/to_and_fro",
+        &[
+            "symmetry=1",
+            "mesh.parts.0.disc.angle=[0.0, 360.0]",
+            "mesh.parts.1.ring.angle=[0.0, 360.0]",
+            "mesh.parts.1.ring.elements=[24, 96]",
+            "support=[{ on = \"plate.outer\", fix = [\"x\", \"y\"] }]",
+            &format!("load=[{down}, {aside}]"),
+            "program.targets=[{ load_factor = 1 }, { load_factor = 2 }, { load_factor = 3 }]",
+        ],
+    );
+    // Let go, what pairs carry is round-off of either sign.
+    let free = results.states.remove(1);
+    healthy(&results);
+    let [below, beside] = [0, 1].map(|i| &results.states[i]);
+    assert!(below.contact_force > 3000.0);
+    for pair in &free.pairs {
+        close("let go", pair.force, 0.0, below.contact_force, 1e-12);
+    }
+    let (force, pressure) = (below.contact_force, below.max_pressure);
+    close("beside", beside.contact_force, force, force, 1e-8);
+    close("pressure", beside.max_pressure, pressure, pressure, 1e-8);
+}
+
 /// Two floating bodies on top of each other: the middle one is held by two contacts, one of which
 /// opens in part. Each contact carries the whole load, and without gaps the state is proportional
 /// to it.
