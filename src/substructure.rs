@@ -192,10 +192,14 @@ impl Substructure {
         Tableau::new(self.contact_matrix.clone())
     }
 
-    /// The pairs of each group that rigid motions of floating bodies move, and the displacements of
-    /// these pairs that they give (`pairs x motions`, orthonormal).
-    pub(crate) fn rigid_slips(&self) -> Vec<(&[usize], DMatrix<f64>)> {
-        self.tied.as_ref().map_or(Vec::new(), Groups::rigid_slips)
+    /// The pairs of each group asked for that rigid motions of floating bodies move, and the
+    /// displacements of these pairs that they give (`pairs x motions`, orthonormal).
+    pub(crate) fn rigid_slips(
+        &self,
+        asked_for: impl Fn(&[usize]) -> bool,
+    ) -> Vec<(&[usize], DMatrix<f64>)> {
+        let groups = self.tied.as_ref();
+        groups.map_or(Vec::new(), |groups| groups.rigid_slips(asked_for))
     }
 
     /// Forces `T s` of relative displacements `s` of the pairs.

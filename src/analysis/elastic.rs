@@ -5,10 +5,9 @@ use super::load_point::LoadPoint;
 use super::recovery::{Recovery, Samples};
 use super::solver::Solver;
 use super::yield_load::yield_share;
-use crate::contact::{Change, Path, PathEnd, loose};
+use crate::contact::{Change, Path, PathEnd};
 use crate::error::Result;
 use crate::root::{self, Accuracy};
-use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
@@ -33,8 +32,8 @@ impl ElasticPath {
         for (q, t) in q0.iter_mut().zip(&solver.now.initial.forces) {
             *q += t;
         }
+        solver.move_loose_bodies(end)?;
         let terms = solver.structure.closed_forces_size(&start);
-        move_loose_bodies(solver, &rate, terms)?;
         let gaps = solver.structure.delta(&start);
         let gap_scale = gaps.iter().fold(0.0f64, |m, d| m.max(d.abs()));
         let (gap, force) = (solver.now.gap.clone(), solver.now.force.clone());
@@ -232,36 +231,6 @@ impl ElasticDrive {
             }
         }
     }
-}
-
-/// A body that no contact force holds moves rigidly under the first bit of load until it touches:
-/// the path starts from there. `terms` is the size of what contact forces are a sum of, and their
-/// round-off a share of.
-fn move_loose_bodies(solver: &mut Solver, rate: &[f64], terms: f64) -> Result<()> {
-    let of_one = solver.tableau.force_tolerance(&[terms], &solver.now.gap);
-    let nothing = solver.round_off_of_contact().max(of_one);
-    let mut moved = false;
-    for (pairs, slips) in solver.structure.sub.rigid_slips() {
-        if pairs.iter().map(|&k| solver.now.force[k]).sum::<f64>() > nothing {
-            continue;
-        }
-        let own =
-            |values: &[f64]| DVector::from_iterator(pairs.len(), pairs.iter().map(|&k| values[k]));
-        let from = own(&solver.now.gap);
-        let mut gap = from.clone();
-        loose::come_to_rest(&slips, &own(rate), &mut gap)
-            .map_err(|u| solver.structure.unbounded(pairs[u.pair], solver.at.alpha))?;
-        moved |= gap != from;
-        for (&k, gap) in pairs.iter().zip(gap.iter()) {
-            solver.now.gap[k] = *gap;
-            solver.now.force[k] = 0.0;
-        }
-    }
-    if moved {
-        let open: Vec<bool> = solver.now.gap.iter().map(|g| *g > 0.0).collect();
-        solver.tableau.reset(&open);
-    }
-    Ok(())
 }
 
 /// What ended an increment, in words.

@@ -42,6 +42,7 @@ mod indicator;
 mod landing;
 mod load_point;
 mod local_yield;
+mod loose;
 mod maximum;
 mod measure;
 mod mirror;

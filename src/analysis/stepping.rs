@@ -39,6 +39,7 @@ impl<'s, 'm> Stepper<'s, 'm> {
         smallest: f64,
         mut ahead: Option<(LoadPoint, Equilibrium)>,
     ) -> Result<(Increment, bool)> {
+        self.solver.move_loose_bodies(end)?;
         let mut most = left;
         let mut corrections = 0;
         let mut crossings = 0;

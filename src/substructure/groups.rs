@@ -172,13 +172,15 @@ impl Groups {
         }
     }
 
-    /// The pairs of each group that rigid motions move, and the displacements of the pairs that these
-    /// give (`pairs x motions`, orthonormal).
-    pub(super) fn rigid_slips(&self) -> Vec<(&[usize], DMatrix<f64>)> {
-        let groups = self.groups.iter();
-        let slips = groups.map(|group| (group.pairs.as_slice(), group.tied.rigid_slips()));
-        slips
-            .filter_map(|(pairs, slips)| Some((pairs, slips?)))
+    /// The pairs of each group asked for that rigid motions move, and the displacements of the pairs
+    /// that these give (`pairs x motions`, orthonormal).
+    pub(super) fn rigid_slips(
+        &self,
+        asked_for: impl Fn(&[usize]) -> bool,
+    ) -> Vec<(&[usize], DMatrix<f64>)> {
+        let groups = self.groups.iter().filter(|group| asked_for(&group.pairs));
+        groups
+            .filter_map(|group| Some((group.pairs.as_slice(), group.tied.rigid_slips()?)))
             .collect()
     }
 

@@ -40,14 +40,17 @@ fn a_pin_with_clearance_is_pushed_and_pulled() {
         [pin, format!("mesh.parts.1.ring.elements={plate:?}")]
     };
     let meshes = [
-        elements(48, [24, 48]),
-        elements(48, [96, 48]),
-        elements(24, [24, 48]),
+        (elements(48, [24, 48]), "events"),
+        (elements(48, [96, 48]), "events"),
+        (elements(24, [24, 48]), "events"),
+        (elements(24, [24, 48]), "steps"),
     ];
-    for mesh in meshes {
+    for (mesh, stepping) in meshes {
+        let stepping = format!("program.stepping={stepping}");
         let small = format!("load.0.force={:?}", [0.0, -300.0]);
         for (load, plastic) in [(None, true), (Some(small), false)] {
-            let set: Vec<&str> = mesh.iter().chain(&load).map(String::as_str).collect();
+            let set = mesh.iter().chain([&stepping]).chain(&load);
+            let set: Vec<&str> = set.map(String::as_str).collect();
             let results = run_file("hard/to_and_fro", &set);
             healthy(&results);
             let [pushed, pulled, again] = [0, 1, 2].map(|i| &results.states[i]);
