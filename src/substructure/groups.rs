@@ -172,8 +172,8 @@ impl Groups {
         }
     }
 
-    /// The pairs of each group asked for that rigid motions move, and the displacements of the pairs
-    /// that these give (`pairs x motions`, orthonormal).
+    /// The pairs of each group asked for that rigid motions move, and the displacements of these
+    /// pairs that they give (`pairs x motions`, orthonormal).
     pub(super) fn rigid_slips(
         &self,
         asked_for: impl Fn(&[usize]) -> bool,

@@ -32,7 +32,7 @@ fn a_floating_body_falls_through_its_gap_and_is_held() {
 
 /// The pin crosses its clearance at every change of the load's sign, before and after first yield,
 /// whether nodes face each other or not. Bottom and top are alike: what the first push does to the
-/// plate below, the first pull does to it above, but for the little that the dent below has changed.
+/// plate below, the first pull does above, but for the little that the dent below has changed.
 #[test]
 fn a_pin_with_clearance_is_pushed_and_pulled() {
     let elements = |pin: usize, plate: [usize; 2]| {
