@@ -22,17 +22,21 @@ impl Solver<'_> {
         if loose.is_empty() {
             return Ok(());
         }
-        let [from, to] = [&self.at, end].map(|point| self.structure.closed_forces(point));
+        let [here, there] = [&self.at, end].map(|point| self.structure.closed_forces(point));
         let mut moved = false;
         for (pairs, slips) in loose {
-            let rate = pairs.iter().map(|&k| to[k] - from[k]);
+            let rate = pairs.iter().map(|&k| there[k] - here[k]);
             let rate = DVector::from_iterator(pairs.len(), rate);
-            let gap = pairs.iter().map(|&k| self.now.gap[k]);
-            let mut gap = DVector::from_iterator(pairs.len(), gap);
+            let from = pairs.iter().map(|&k| self.now.gap[k]);
+            let from = DVector::from_iterator(pairs.len(), from);
+            let mut gap = from.clone();
             come_to_rest(&slips, &rate, &mut gap)
                 .map_err(|u| self.structure.unbounded(pairs[u.pair], self.at.alpha))?;
+            if gap == from {
+                continue;
+            }
+            moved = true;
             for (&k, &gap) in pairs.iter().zip(gap.iter()) {
-                moved |= gap != self.now.gap[k];
                 self.now.gap[k] = gap;
                 self.now.force[k] = 0.0;
             }

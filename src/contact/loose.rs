@@ -118,7 +118,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// A body in a notch of two walls, driven into it, along a wall, out of it, and not at all.
+    /// A body in a notch of two walls, driven into it, onto one wall, not at all, and out of it.
     #[test]
     fn a_body_moves_until_the_load_is_held() {
         let slips = DMatrix::from_row_slice(3, 2, &[0.6, 0.8, 0.8, -0.6, 0.0, 0.0]);
@@ -129,7 +129,7 @@ mod tests {
         };
         let into = rest([1.0, 2.0, 0.0]).expect("both walls hold it");
         assert_eq!(into.as_slice(), [0.0, 0.0, 1.0]);
-        // Along the second wall nothing drives it: the nearest place where that wall holds it too.
+        // Nothing drives it along the first wall: it goes to where the second holds it too.
         let onto_one = rest([1.0, 0.0, 0.0]).expect("the first wall holds it");
         assert_eq!(onto_one.as_slice(), [0.0, 0.0, 1.0]);
         assert_eq!(rest([0.0; 3]), Ok(into));
