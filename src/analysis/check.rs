@@ -307,6 +307,33 @@ fn temperature(model: &Model) -> Effect {
     effect_asked_for("temperature", asked > 0, acting > 0, why)
 }
 
+fn over_temperature(model: &Model) -> Effect {
+    let scene = &model.scene;
+    let asked = scene
+        .bodies
+        .iter()
+        .filter(|(_, body)| body.temperature.is_some());
+    let asked: Vec<(&String, &str)> = asked
+        .map(|(name, body)| (name, body.material.as_str()))
+        .collect();
+    let varies = |material: &str| {
+        let material = scene.materials.get(material);
+        material.is_some_and(|material| material.temperatures().is_some())
+    };
+    let acting = asked.iter().filter(|(_, material)| varies(material));
+    let names: Vec<&str> = acting.map(|(name, _)| name.as_str()).collect();
+    let why = match (asked.is_empty(), names.is_empty()) {
+        (true, _) => "no body has a temperature of its own".to_string(),
+        (_, true) => "no material of the bodies with a temperature depends on it".to_string(),
+        _ => format!(
+            "{} at the temperature of the whole run: another one is another factorisation",
+            names.join(", ")
+        ),
+    };
+    let name = "materials over temperature";
+    effect_asked_for(name, !asked.is_empty(), !names.is_empty(), why)
+}
+
 fn initial_state(model: &Model) -> Effect {
     let loads = model.loads.iter();
     let acting = loads.filter(|load| load.measures == Magnitude::Strain);
@@ -400,6 +427,7 @@ pub(super) fn effects(model: &Model, yields: bool, start: Option<&EndState>) -> 
         yield_by_depth(model, yields),
         volume_forces(model),
         temperature(model),
+        over_temperature(model),
         initial_state(model),
         earlier_run(model, start),
         effect(

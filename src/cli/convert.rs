@@ -4,6 +4,7 @@ use super::print;
 use crate::deck::{self, Deck, Options};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::{gmsh, inp};
+use crate::scene::Field;
 use clap::Args;
 use std::fs::File;
 use std::io::Write;
@@ -49,6 +50,23 @@ pub(super) fn run(arguments: &ConvertArguments) -> Result<()> {
     let mut of_scene = create(&arguments.out)?;
     gmsh::write(&mesh, &mut of_mesh).map_err(|cause| failed(&mesh_path, cause))?;
     scene.mesh.file = mesh_path.file_name().map(PathBuf::from);
+    // Temperatures of the deck's nodes go into the file of the mesh.
+    let fields = scene
+        .load
+        .iter_mut()
+        .filter_map(|load| load.temperature.as_mut());
+    let mut nodal = fields
+        .filter_map(|field| match field {
+            Field::Nodal(of) => Some(&mut of.file),
+            _ => None,
+        })
+        .peekable();
+    if nodal.peek().is_some() {
+        let values = read.node_temperatures()?;
+        gmsh::node_data::write("temperature", &values, &mut of_mesh)
+            .map_err(|cause| failed(&mesh_path, cause))?;
+    }
+    nodal.for_each(|file| *file = mesh_path.file_name().map(PathBuf::from).unwrap_or_default());
     let mut text = format!("# Made from {} by brinell convert.\n", file_name(path));
     for note in &conversion.account.taken {
         text.push_str(&format!("# {note}\n"));

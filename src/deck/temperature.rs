@@ -2,44 +2,59 @@
 
 use super::Deck;
 use super::bodies::{Bodies, unsupported};
-use super::data::{Hardening, Kind, MaterialData};
-use super::series::Series;
+use super::data::{Kind, MaterialData};
+use super::series::{Series, are_alike};
 use super::source::Place;
 use crate::error::Result;
-use crate::interpolation::interpolate;
-use std::collections::BTreeMap;
+use crate::scene::{Material, MaterialRow};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What a body begins with and how that changes.
 pub(super) struct OfBody {
-    pub(super) initial: f64,
+    /// Of its first node, and whether all have it.
+    pub(super) initial: (f64, bool),
+    /// Of the node whose temperature changes most.
     pub(super) change: Series,
+    /// Whether all nodes have that change; if not, theirs are in proportion to it.
+    pub(super) is_uniform: bool,
     /// The line that gave it last; none of a body without temperatures.
     pub(super) place: Option<Place>,
 }
 
-/// A material at one temperature.
-pub(super) struct AtTemperature {
-    /// Young's modulus and Poisson's ratio.
-    pub(super) elastic: [f64; 2],
-    /// Plastic strain and yield stress.
-    pub(super) plastic: Hardening,
+impl OfBody {
+    fn none() -> Self {
+        OfBody {
+            initial: (0.0, true),
+            change: Series::starting(0.0),
+            is_uniform: true,
+            place: None,
+        }
+    }
+}
+
+/// What a node begins with and goes through.
+struct OfNode {
+    initial: f64,
+    change: Series,
+    place: Option<Place>,
 }
 
 impl Deck {
-    /// The temperatures of each body, which all its nodes have.
+    /// The largest change of the temperature of each node of an element, with the node's number.
     ///
     /// # Errors
-    /// Nodes of a body with different temperatures.
-    pub(super) fn temperatures_of_bodies(&self, bodies: &Bodies) -> Result<Vec<OfBody>> {
-        let none = || OfBody {
-            initial: 0.0,
-            change: Series::starting(0.0),
-            place: None,
+    /// Sets and nodes that there are not.
+    pub(crate) fn node_temperatures(&self) -> Result<Vec<(u64, f64)>> {
+        let nodes = self.temperatures_of_nodes()?;
+        let used: BTreeSet<u32> = self.connectivity.iter().copied().collect();
+        let value = |node: u32| {
+            let node = node as usize;
+            (self.nodes.labels[node], nodes[node].change.largest())
         };
-        let histories = self.histories(Kind::Temperature)?;
-        if histories.is_empty() {
-            return Ok(bodies.names.iter().map(|_| none()).collect());
-        }
+        Ok(used.into_iter().map(value).collect())
+    }
+
+    fn temperatures_of_nodes(&self) -> Result<Vec<OfNode>> {
         let mut initial: BTreeMap<u32, f64> = BTreeMap::new();
         let given = self.program.initial.iter();
         for condition in given.filter(|condition| condition.kind == Kind::Temperature) {
@@ -47,100 +62,147 @@ impl Deck {
                 initial.insert(node, condition.value);
             }
         }
-        let at = |node: u32| {
+        let histories = self.histories(Kind::Temperature)?;
+        let of_node = |node: u32| {
             let initial = initial.get(&node).copied().unwrap_or(0.0);
-            let Some(entry) = histories.get(&(node, 0)) else {
-                return OfBody {
-                    initial,
-                    change: Series::starting(0.0),
-                    place: None,
-                };
-            };
-            let mut change = entry.series.clone();
-            change.add(&Series::starting(initial), -1.0);
-            OfBody {
+            let mut change = Series::starting(0.0);
+            let entry = histories.get(&(node, 0));
+            if let Some(entry) = entry {
+                change = entry.series.clone();
+                change.add(&Series::starting(initial), -1.0);
+            }
+            OfNode {
                 initial,
                 change,
-                place: Some(entry.place),
+                place: entry.map(|entry| entry.place),
             }
         };
-        let mut out: Vec<Option<OfBody>> = bodies.names.iter().map(|_| None).collect();
-        for (element, &body) in bodies.of_element.iter().enumerate() {
-            for &node in self.element_nodes(element) {
-                let here = at(node);
-                let Some(first) = &out[body as usize] else {
-                    out[body as usize] = Some(here);
-                    continue;
-                };
-                let is_same =
-                    first.initial == here.initial && first.change.bits() == here.change.bits();
-                if !is_same {
-                    let place = here.place.or(first.place).unwrap_or(self.end);
-                    let message = format!(
-                        "node {} has another temperature than others of body {}: a body has one",
-                        self.nodes.labels[node as usize], bodies.names[body as usize]
-                    );
-                    return Err(unsupported(self.error(place, "TEMPERATURE", message)));
-                }
-            }
+        Ok((0..self.n_nodes() as u32).map(of_node).collect())
+    }
+
+    /// The temperatures of each body.
+    ///
+    /// # Errors
+    /// Nodes of a body whose temperatures do not change in proportion to one another.
+    pub(super) fn temperatures_of_bodies(&self, bodies: &Bodies) -> Result<Vec<OfBody>> {
+        let conditions = self.program.initial.iter();
+        let mut conditions =
+            conditions.chain(self.program.steps.iter().flat_map(|s| &s.conditions));
+        if !conditions.any(|condition| condition.kind == Kind::Temperature) {
+            let none = bodies.names.iter().map(|_| OfBody::none());
+            return Ok(none.collect());
         }
-        Ok(out
-            .into_iter()
-            .map(|of_body| of_body.unwrap_or_else(none))
-            .collect())
+        let nodes = self.temperatures_of_nodes()?;
+        let mut of_body: Vec<BTreeSet<u32>> = vec![BTreeSet::new(); bodies.names.len()];
+        for (element, &body) in bodies.of_element.iter().enumerate() {
+            of_body[body as usize].extend(self.element_nodes(element));
+        }
+        let names = bodies.names.iter().zip(&of_body);
+        names
+            .map(|(name, of_body)| self.temperature_of_body(name, of_body, &nodes))
+            .collect()
+    }
+
+    fn temperature_of_body(
+        &self,
+        name: &str,
+        of_body: &BTreeSet<u32>,
+        nodes: &[OfNode],
+    ) -> Result<OfBody> {
+        let members = || of_body.iter().map(|&node| (node, &nodes[node as usize]));
+        let size = |of_node: &OfNode| of_node.change.largest().abs();
+        let most = members().reduce(|a, b| if size(b.1) > size(a.1) { b } else { a });
+        let Some((first, most)) = most else {
+            return Ok(OfBody::none());
+        };
+        let shape = most.change.shape();
+        let is_in_proportion = |of_node: &OfNode| {
+            of_node.change.is_zero() || are_alike(&of_node.change.shape(), &shape)
+        };
+        if let Some((node, other)) = members().find(|(_, of_node)| !is_in_proportion(of_node)) {
+            let label = |node: u32| self.nodes.labels[node as usize];
+            let message = format!(
+                "the temperatures of nodes {} and {} of body {name} do not change in proportion: \
+                 those of a body do",
+                label(first),
+                label(node)
+            );
+            let place = other.place.or(most.place).unwrap_or(self.end);
+            return Err(unsupported(self.error(place, "TEMPERATURE", message)));
+        }
+        let initial = members().next().map_or(0.0, |(_, of_node)| of_node.initial);
+        Ok(OfBody {
+            initial: (initial, members().all(|(_, n)| n.initial == initial)),
+            change: most.change.clone(),
+            is_uniform: members().all(|(_, n)| n.change.bits() == most.change.bits()),
+            place: members().find_map(|(_, of_node)| of_node.place),
+        })
     }
 }
 
 impl MaterialData {
-    /// Whether its law depends on the temperature.
-    pub(super) fn varies(&self) -> bool {
-        self.elastic.len() > 1 || self.plastic.len() > 1
-    }
-
-    /// The law at a temperature, between the tables' linear and beyond them that of the last; none
-    /// without an elastic one.
-    pub(super) fn at(&self, temperature: f64) -> Option<AtTemperature> {
-        if self.elastic.is_empty() {
-            return None;
-        }
-        let column = |k: usize| -> Vec<[f64; 2]> {
-            self.elastic.iter().map(|(t, law)| [*t, law[k]]).collect()
+    /// As a material of a scene, with rows over temperature where its tables have several; none
+    /// without an elastic law.
+    pub(super) fn material(&self) -> Option<Material> {
+        let (_, [youngs_modulus, poissons_ratio]) = *self.elastic.first()?;
+        let of_elastic = several(&self.elastic).iter().map(|(t, _)| *t);
+        let of_plastic = several(&self.plastic).iter().map(|(t, _)| *t);
+        let mut temperatures: Vec<f64> = of_elastic.chain(of_plastic).collect();
+        temperatures.sort_by(f64::total_cmp);
+        temperatures.dedup();
+        let row = |temperature: f64| {
+            let elastic = at(several(&self.elastic), temperature);
+            let law = at(several(&self.plastic), temperature).map(|law| self.hardening(law));
+            let law = law.unwrap_or_default();
+            MaterialRow {
+                temperature,
+                youngs_modulus: elastic.map(|law| law[0]),
+                poissons_ratio: elastic.map(|law| law[1]),
+                yield_stress: law.yield_stress,
+                kinematic_modulus: law.kinematic_modulus,
+                hardening_table: law.hardening_table,
+                ..MaterialRow::default()
+            }
         };
-        let elastic = [0, 1].map(|k| interpolate(&column(k), temperature));
-        Some(AtTemperature {
-            elastic,
-            plastic: self.hardening_at(temperature),
+        let law = self.plastic.first().map(|(_, law)| self.hardening(law));
+        Some(Material {
+            youngs_modulus,
+            poissons_ratio,
+            density: self.density,
+            thermal_expansion: self.expansion,
+            over_temperature: temperatures.into_iter().map(row).collect(),
+            ..law.unwrap_or_default()
         })
     }
 
-    fn hardening_at(&self, temperature: f64) -> Hardening {
-        let next = self.plastic.partition_point(|(t, _)| *t <= temperature);
-        let below = next.checked_sub(1).and_then(|k| self.plastic.get(k));
-        match (below, self.plastic.get(next)) {
-            (None, None) => Hardening::new(),
-            (Some((_, rows)), None) | (None, Some((_, rows))) => rows.clone(),
-            (Some((low, cold)), Some((high, warm))) => {
-                let share = (temperature - low) / (high - low);
-                let mut strains: Vec<f64> = cold.iter().chain(warm).map(|row| row[0]).collect();
-                strains.sort_by(f64::total_cmp);
-                strains.dedup();
-                let stress = |strain: f64| {
-                    let [cold, warm] = [cold, warm].map(|rows| interpolate(rows, strain));
-                    cold + share * (warm - cold)
-                };
-                strains
-                    .into_iter()
-                    .map(|strain| [strain, stress(strain)])
-                    .collect()
-            }
+    /// The plastic part of the law that a table is, in the form that all tables of it have.
+    fn hardening(&self, rows: &[[f64; 2]]) -> Material {
+        let harden = self.plastic.iter().any(|(_, rows)| rows.len() > 1);
+        let (curved, moves) = (harden && !self.is_kinematic, harden && self.is_kinematic);
+        Material {
+            yield_stress: rows.first().filter(|_| !curved).map(|row| row[1]),
+            kinematic_modulus: moves.then(|| slope(rows)),
+            hardening_table: curved.then(|| rows.to_vec()),
+            ..Material::default()
         }
     }
 }
 
-impl AtTemperature {
-    /// The slope of hardening from the first row to the last.
-    pub(super) fn slope(&self) -> Option<f64> {
-        let ([from, low], [to, high]) = (*self.plastic.first()?, *self.plastic.last()?);
-        (to > from).then(|| (high - low) / (to - from))
+/// The tables of a law that depends on temperature; none of one that does not.
+fn several<T>(tables: &[T]) -> &[T] {
+    if tables.len() > 1 { tables } else { &[] }
+}
+
+/// The table of a temperature.
+fn at<T>(tables: &[(f64, T)], temperature: f64) -> Option<&T> {
+    let found = tables.iter().find(|(t, _)| *t == temperature);
+    found.map(|(_, table)| table)
+}
+
+/// The slope of hardening from the first row to the last, 0 of a single one.
+fn slope(rows: &[[f64; 2]]) -> f64 {
+    match (rows.first(), rows.last()) {
+        (Some([from, low]), Some([to, high])) if to > from => (high - low) / (to - from),
+        _ => 0.0,
     }
 }

@@ -9,6 +9,7 @@ pub mod generate;
 pub mod gmsh;
 pub mod inp;
 mod jacobian;
+pub(crate) mod node_values;
 mod pieces;
 mod round;
 mod subdivision;

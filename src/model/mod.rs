@@ -154,6 +154,7 @@ impl Model {
         let kind = scene.kind;
         check_dimension(scene, &mesh)?;
         let mut warnings = scene.warnings.clone();
+        warnings.extend(scene.beyond_rows());
         let (materials, may_yield) = resolve_bodies(scene, &mesh)?;
         warn_of_locking(&mesh, &may_yield, &mut warnings);
         if kind.is_axisymmetric() {
@@ -332,14 +333,14 @@ fn resolve_bodies(scene: &Scene, mesh: &Mesh) -> Result<(Vec<Material>, Vec<bool
             ));
             scene.places.in_front("bodies", error)
         })?;
-        let data = scene.materials.get(&body.material).ok_or_else(|| {
+        let data = scene.material_of(name).ok_or_else(|| {
             let error = Error::input(format!(
                 "bodies.{name}: there is no material `{}`",
                 body.material
             ));
             scene.places.in_front(&format!("bodies.{name}"), error)
         })?;
-        let material = Material::new(&body.material, data, scene.kind);
+        let material = Material::new(&body.material, &data, scene.kind);
         may_yield.push(body.plastic != Plastic::No && material.hardening.is_some());
         materials.push(material);
     }

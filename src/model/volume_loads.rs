@@ -6,8 +6,7 @@ use super::names::Entry;
 use super::{body_forces, heat};
 use crate::error::{Error, Result};
 use crate::material::Material;
-use crate::mesh::Mesh;
-use crate::mesh::gmsh::node_data;
+use crate::mesh::{Mesh, node_values};
 use crate::scene::{self, Field, Scene};
 use crate::space::Vector;
 use std::collections::{BTreeSet, HashMap};
@@ -31,7 +30,7 @@ pub(super) fn resolve(
     };
     let material = scene.bodies.get(&load.on).map(|b| b.material.as_str());
     let material = material.unwrap_or_default();
-    let data = scene.materials.get(material).cloned().unwrap_or_default();
+    let data = scene.material_of(&load.on).unwrap_or_default();
     let needed = |what: &str, key: &str, value: Option<f64>| {
         let text = format!("needs the {what} of the body; give materials.{material}.{key}");
         value.ok_or_else(|| refused(text))
@@ -123,7 +122,7 @@ fn changes(
 
 /// Changes that a file gives by node: all nodes of the body, and none that the mesh does not have.
 fn nodal(path: &Path, mesh: &Mesh, nodes: &[usize]) -> std::result::Result<Vec<f64>, String> {
-    let given = node_data::read(path).map_err(|error| error.message().to_string())?;
+    let given = node_values::read(path).map_err(|error| error.message().to_string())?;
     let index: HashMap<u64, usize> = (0..mesh.n_nodes())
         .map(|node| (mesh.node_label(node), node))
         .collect();

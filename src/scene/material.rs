@@ -1,6 +1,6 @@
 //! What the bodies are made of.
 
-use super::tensile_test;
+use super::{MaterialRow, tensile_test};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserializer, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
@@ -45,6 +45,11 @@ pub struct Material {
     /// becomes positive. Flat after the last row, which is not beyond the largest load.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tensile_test: Option<Vec<[f64; 2]>>,
+    /// What depends on the temperature, rows with ascending temperatures: in place of what stands
+    /// here, linear between the rows that give a property and constant beyond them. Bodies of this
+    /// material then need a `temperature`.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub over_temperature: Vec<MaterialRow>,
 }
 
 impl Material {
@@ -97,6 +102,10 @@ pub struct Body {
     /// May this body yield?
     #[serde(default)]
     pub plastic: Plastic,
+    /// Its temperature throughout the run, at which the rows `over_temperature` of its material are
+    /// read. Loads by `temperature` add strains to it, and change no modulus.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<f64>,
     /// Yield stress by depth below the surface (case hardening), rows of depth and yield stress,
     /// depths ascending, straight between them and constant beyond: in place of the material's,
     /// whose hardening adds to it.

@@ -21,6 +21,7 @@ mod field;
 mod geometry;
 mod key_places;
 mod material;
+mod over_temperature;
 mod overrides;
 mod program;
 mod read;
@@ -46,6 +47,7 @@ pub use geometry::{
 };
 pub use key_places::KeyPlaces;
 pub use material::{Body, Material, Plastic};
+pub use over_temperature::MaterialRow;
 pub use program::{
     DisplacementTarget, PlasticIteration, Program, Settings, Stepping, Target, Unit, YieldMethod,
 };

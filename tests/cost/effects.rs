@@ -118,6 +118,30 @@ fn loads_that_are_nothing_are_off_and_cost_nothing() {
     );
 }
 
+/// A temperature that no material depends on, and one at which it is what it is anyway.
+#[test]
+fn a_temperature_that_changes_no_material_is_off_and_costs_nothing() {
+    let plain = run(&[]);
+    let name = "materials over temperature";
+    assert!(!effect(&plain, name).on && !effect(&plain, name).asked);
+    let bodies = [
+        "bodies.half_plane.temperature=80.0",
+        "bodies.cylinder.temperature=20.0",
+    ];
+    let none = run(&bodies);
+    let found = effect(&none, name);
+    assert!(
+        !found.on && found.why.contains("no material"),
+        "{}",
+        found.why
+    );
+    assert_eq!(cost(&none), cost(&plain));
+    let rows = "materials.steel.over_temperature=[{ temperature = 20.0, poissons_ratio = 0.3 }]";
+    let same = run(&[bodies[0], bodies[1], rows]);
+    assert!(effect(&same, name).on);
+    assert_eq!(cost(&same), cost(&plain));
+}
+
 /// What is brought along and is zero is no load; a run that no one starts from leaves no more work.
 #[test]
 fn an_initial_state_that_is_nothing_is_off_and_costs_nothing() {

@@ -15,7 +15,7 @@ struct Case {
 const PRINTED: f64 = 1e-6;
 const FULL: &[&str] = &["mesh.formulation=full"];
 
-const CASES: [Case; 17] = [
+const CASES: [Case; 18] = [
     case("two_blocks", FULL, PRINTED),
     case("history", &[], PRINTED),
     case("plastic", &[], 2e-4),
@@ -25,6 +25,7 @@ const CASES: [Case; 17] = [
     case("wedges", &[], 1e-2),
     case("tube", &[], 2e-4),
     case("heat", FULL, PRINTED),
+    case("gradient", &[], PRINTED),
     case("held_plane", &[], PRINTED),
     case("lever", FULL, PRINTED),
     case("included", FULL, 1e-3),

@@ -316,8 +316,14 @@ fn what_brinell_does_not_have_is_told_by_line_and_reason() {
         ),
         (
             "*CLOAD\n3, 2, 5.",
-            "*TEMPERATURE\nBASE, 100.",
-            "line 23: *TEMPERATURE: node 3 has another temperature than others of body BODY",
+            "*TEMPERATURE\nBASE, 100.\n*END STEP\n*STEP\n*STATIC\n*TEMPERATURE\n3, 50.",
+            "line 28: *TEMPERATURE: the temperatures of nodes 1 and 3 of body BODY do not change in",
+        ),
+        (
+            before,
+            "*ELASTIC\n2., 0.3, 0.\n1., 0.3, 9.\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\n3, \
+             5.\n*SOLID SECTION, ELSET=BODY",
+            "depends on temperature, and body BODY has several: moduli and yield stresses",
         ),
         (
             before,

@@ -18,6 +18,7 @@ mod hertz_line_history;
 mod hertz_point;
 mod initial_state;
 mod nafems_cb1;
+mod over_temperature;
 mod pin_in_hole;
 mod quality;
 mod run;

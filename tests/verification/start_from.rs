@@ -23,7 +23,7 @@ fn run(scene: &Scene) -> Results {
 }
 
 /// Runs a scene and leaves its result directory.
-fn run_into(scene: &Scene, dir: &Path) -> Results {
+pub fn run_into(scene: &Scene, dir: &Path) -> Results {
     let results = run(scene);
     let model = Model::new(scene).unwrap();
     let header = RunHeader::new(&model, Backend::default(), 0.0);
@@ -31,7 +31,7 @@ fn run_into(scene: &Scene, dir: &Path) -> Results {
     results
 }
 
-fn with_targets(scene: &Scene, factors: &[f64], start: Option<&Path>) -> Scene {
+pub fn with_targets(scene: &Scene, factors: &[f64], start: Option<&Path>) -> Scene {
     let mut scene = scene.clone();
     let usual = scene.program.targets[0].clone();
     scene.program.targets = (factors.iter())
@@ -258,6 +258,13 @@ fn what_cannot_be_started_from_is_named() {
     let older = [b"brinell end state, format 0, version 0", &bytes[end..]].concat();
     std::fs::write(&file, older).unwrap();
     refused(&start, "written by another version");
+    // It has yielded: there is no yield load to count by.
+    let mut other = start.clone();
+    other.program.unit = brinell::scene::Unit::Yield;
+    std::fs::write(&file, &bytes).unwrap();
+    let error = analysis(&other).unwrap().run(&mut Silent).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Input, "{error}");
+    assert!(error.to_string().contains("unit"), "{error}");
     let text = start.to_toml().unwrap();
     let error = Scene::parse(&format!("accuracy = \"1 %\"\n{text}"), "sheet").unwrap_err();
     let words = "start_from: a state belongs to one mesh";

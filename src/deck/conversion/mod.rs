@@ -18,11 +18,11 @@ use super::temperature::OfBody;
 use crate::error::{Error, ErrorKind, Result};
 use crate::interpolation::interpolate;
 use crate::number::exact;
-use crate::scene::{Body, History, Material, Scene, Stepping, Target};
+use crate::scene::{Body, History, Scene, Stepping, Target};
 use crate::space::Space;
 use draft::Draft;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// How a deck is to be taken.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -147,16 +147,21 @@ impl Deck {
 
     /// A scene with nothing in it but its mesh and its targets.
     fn empty_scene(&self, space: Space) -> Scene {
-        let file = self.files.first();
-        let name = Path::new(file).file_name().unwrap_or_default();
+        let name = self.file_name();
         let title = match self.title.is_empty() {
             true => name.to_string_lossy().into_owned(),
             false => self.title.clone(),
         };
         let mut scene = Scene::of(space);
         scene.title = title;
-        scene.mesh.file = Some(name.into());
+        scene.mesh.file = Some(name);
         scene
+    }
+
+    /// The name of its file, which scene and deck lie beside.
+    fn file_name(&self) -> PathBuf {
+        let file = Path::new(self.files.first());
+        file.file_name().unwrap_or_default().into()
     }
 
     fn add_bodies(
@@ -167,8 +172,6 @@ impl Deck {
         places: &mut BTreeMap<String, String>,
     ) -> Result<()> {
         let materials = &self.properties.materials;
-        // Of materials that depend on temperature: that of the first body.
-        let mut at: BTreeMap<String, f64> = BTreeMap::new();
         let of_bodies = bodies.names.iter().zip(&bodies.sections).zip(temperatures);
         for ((name, section), of_body) in of_bodies {
             let section = &self.properties.sections[section.unwrap_or(0)];
@@ -176,7 +179,7 @@ impl Deck {
                 let message = format!("there is no *MATERIAL {}", section.material);
                 return Err(self.error(section.place, "SOLID SECTION", message));
             };
-            let Some(law) = data.at(of_body.initial) else {
+            let Some(of_material) = data.material() else {
                 let message = format!("{} has no *ELASTIC; give it one", section.material);
                 return Err(self.error(data.place, "MATERIAL", message));
             };
@@ -184,33 +187,23 @@ impl Deck {
                 .written(&section.material)
                 .unwrap_or_default()
                 .to_string();
-            let known = *at.entry(material.clone()).or_insert(of_body.initial);
-            if data.varies() && (known != of_body.initial || !of_body.change.is_zero()) {
+            let varies = !of_material.over_temperature.is_empty();
+            let (temperature, is_uniform) = of_body.initial;
+            if varies && !(is_uniform && of_body.change.is_zero()) {
                 let message = format!(
-                    "{material} depends on temperature, and body {name} has several, or another \
-                     than other bodies of it: a material is that of one temperature; give each \
-                     body its own, or one line to each table"
+                    "{material} depends on temperature, and body {name} has several: moduli and \
+                     yield stresses are those of one temperature of a body; give one line to each \
+                     table, or one temperature to the body"
                 );
                 let place = of_body.place.unwrap_or(data.place);
                 return Err(unsupported(self.error(place, "TEMPERATURE", message)));
             }
-            let [youngs_modulus, poissons_ratio] = law.elastic;
-            let of_material = Material {
-                youngs_modulus,
-                poissons_ratio,
-                yield_stress: law.plastic.first().map(|row| row[1]),
-                kinematic_modulus: law.slope().filter(|_| data.is_kinematic),
-                hardening_table: (law.plastic.len() > 1 && !data.is_kinematic)
-                    .then_some(law.plastic),
-                density: data.density,
-                thermal_expansion: data.expansion,
-                ..Material::default()
-            };
             places.insert(format!("materials.{material}"), self.files.show(data.place));
             places.insert(format!("bodies.{name}"), self.files.show(section.place));
             scene.materials.insert(material.clone(), of_material);
             let body = Body {
                 material,
+                temperature: varies.then_some(temperature),
                 ..Body::default()
             };
             scene.bodies.insert(name.clone(), body);
@@ -221,11 +214,7 @@ impl Deck {
     /// Without contact there is no event to step to: steps then take equal increments, at least as
     /// many as the deck's first ones would be.
     fn choose_stepping(&self, draft: &Draft, scene: &mut Scene) {
-        let can_yield = scene
-            .materials
-            .values()
-            .any(|m| m.first_yield_stress().is_some());
-        if draft.contacts.is_empty() && can_yield {
+        if draft.contacts.is_empty() && scene.any_can_yield() {
             let increments = self.program.steps.iter().map(|step| step.increments);
             let program = &mut scene.program;
             program.stepping = Stepping::Steps;

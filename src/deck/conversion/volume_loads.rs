@@ -6,7 +6,7 @@ use super::super::source::Place;
 use super::super::temperature::OfBody;
 use super::Draft;
 use crate::error::Result;
-use crate::scene::{Field, Load, Rotation};
+use crate::scene::{Field, Load, NodalField, Rotation};
 use crate::space::Space;
 use std::f64::consts::PI;
 
@@ -75,9 +75,15 @@ impl Draft<'_> {
             let expands = material.is_some_and(|m| m.expansion.is_some());
             let Some(place) = of_body.place else { continue };
             if expands && !of_body.change.is_zero() {
+                let field = match of_body.is_uniform {
+                    true => Field::Uniform(of_body.change.largest()),
+                    false => Field::Nodal(NodalField {
+                        file: self.deck.file_name(),
+                    }),
+                };
                 let load = Load {
                     on: name.clone(),
-                    temperature: Some(Field::Uniform(of_body.change.largest())),
+                    temperature: Some(field),
                     ..Load::default()
                 };
                 self.add_load("temperature", load, of_body.change, place);

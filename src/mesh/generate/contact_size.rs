@@ -55,14 +55,11 @@ enum Hertz {
 impl Hertz {
     fn of(scene: &Scene, p: &CylinderOnHalfPlane) -> Result<Self> {
         let of = |body: &str| {
-            let body_of_scene = scene.bodies.get(body);
-            body_of_scene
-                .and_then(|b| scene.materials.get(&b.material))
-                .ok_or_else(|| {
-                    Error::input(format!(
-                        "the generator cylinder_on_half_plane needs a body `{body}` with a material"
-                    ))
-                })
+            scene.material_of(body).ok_or_else(|| {
+                Error::input(format!(
+                    "the generator cylinder_on_half_plane needs a body `{body}` with a material"
+                ))
+            })
         };
         let (a, b) = (of(&p.names[0])?, of(&p.names[1])?);
         let modulus = analytical::contact_modulus(
@@ -121,10 +118,10 @@ fn weaker(
     counts: impl Fn(Plastic) -> bool,
 ) -> Result<Option<(f64, f64)>> {
     let hertz = Hertz::of(scene, p)?;
-    let of = |body: &String| {
-        let body = scene.bodies.get(body).filter(|b| counts(b.plastic))?;
-        let material = scene.materials.get(&body.material)?;
-        let yield_stress = body.largest_yield_stress(material)?;
+    let of = |name: &String| {
+        let body = scene.bodies.get(name).filter(|b| counts(b.plastic))?;
+        let material = scene.material_of(name)?;
+        let yield_stress = body.largest_yield_stress(&material)?;
         Some(hertz.at_yield(material.poissons_ratio, yield_stress))
     };
     let bodies = p.names.iter().filter_map(of);

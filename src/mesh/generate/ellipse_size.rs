@@ -37,14 +37,11 @@ pub(crate) fn of(scene: &Scene, p: &CurvedBodies) -> Result<EllipseSize> {
 
 fn hertz(scene: &Scene, p: &CurvedBodies) -> Result<HertzEllipse> {
     let of = |body: &str| {
-        let entry = scene.bodies.get(body);
-        entry
-            .and_then(|b| scene.materials.get(&b.material))
-            .ok_or_else(|| {
-                Error::input(format!(
-                    "the generator curved_bodies needs a body `{body}` with a material"
-                ))
-            })
+        scene.material_of(body).ok_or_else(|| {
+            Error::input(format!(
+                "the generator curved_bodies needs a body `{body}` with a material"
+            ))
+        })
     };
     let (a, b) = (of(&p.names[0])?, of(&p.names[1])?);
     let modulus = contact_modulus(
@@ -60,10 +57,9 @@ fn hertz(scene: &Scene, p: &CurvedBodies) -> Result<HertzEllipse> {
 
 /// Load at first yield of the weaker body.
 fn yield_load(scene: &Scene, p: &CurvedBodies, hertz: &HertzEllipse) -> Option<f64> {
-    let bodies = p.names.iter().filter_map(|body| {
-        let body = scene.bodies.get(body)?;
-        let material = scene.materials.get(&body.material)?;
-        let yield_stress = body.largest_yield_stress(material)?;
+    let bodies = p.names.iter().filter_map(|name| {
+        let (body, material) = (scene.bodies.get(name)?, scene.material_of(name)?);
+        let yield_stress = body.largest_yield_stress(&material)?;
         Some(hertz.yield_load(material.poissons_ratio, yield_stress))
     });
     bodies.reduce(f64::min)

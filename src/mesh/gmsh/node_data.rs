@@ -3,6 +3,7 @@
 use super::cursor::Cursor;
 use crate::error::Result;
 use crate::files;
+use std::io::Write;
 use std::path::Path;
 
 /// Reads the values of the one section `$NodeData` of a file, by node.
@@ -42,6 +43,21 @@ fn parse(text: &[u8], name: &str) -> Result<Vec<(u64, f64)>> {
         }
     }
     found.ok_or_else(|| cursor.error("the file has no section $NodeData with values of nodes"))
+}
+
+/// Writes values by node as a section, one line for each.
+///
+/// # Errors
+/// Those of `out`.
+pub(crate) fn write(name: &str, values: &[(u64, f64)], out: &mut dyn Write) -> std::io::Result<()> {
+    let mut out = std::io::BufWriter::with_capacity(1 << 16, out);
+    let n = values.len();
+    writeln!(out, "$NodeData\n1\n\"{name}\"\n1\n0.0\n3\n0\n1\n{n}")?;
+    for (node, value) in values {
+        writeln!(out, "{node} {value:?}")?;
+    }
+    writeln!(out, "$EndNodeData")?;
+    out.flush()
 }
 
 /// Tags of three kinds, then a node and its value by line.

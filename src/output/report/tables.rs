@@ -88,7 +88,7 @@ fn bodies(model: &Model, labels: &Labels) -> Markup {
         .filter_map(|index| {
             let name = &model.mesh.bodies[index];
             let body = model.scene.bodies.get(name)?;
-            let material = model.scene.materials.get(&body.material)?;
+            let material = model.scene.material_of(name)?;
             let yields = material
                 .first_yield_stress()
                 .filter(|_| model.may_yield[index]);

@@ -9,7 +9,12 @@ use crate::space::Space;
 impl Checks {
     pub(super) fn materials(&mut self, scene: &Scene) {
         for (name, material) in &scene.materials {
-            self.material(&format!("materials.{name}"), material);
+            let key = format!("materials.{name}");
+            let n_before = self.problems.len();
+            self.material(&key, material);
+            if self.problems.len() == n_before {
+                self.over_temperature(&format!("{key}.over_temperature"), material);
+            }
         }
         self.require(
             !scene.bodies.is_empty(),
@@ -17,9 +22,9 @@ impl Checks {
             "is empty; name each body of the mesh with its material",
         );
         for (name, body) in &scene.bodies {
-            self.yield_by_depth(&format!("bodies.{name}"), body, scene);
+            self.yield_by_depth(name, body, scene);
             self.initial_state(&format!("bodies.{name}"), body, scene.kind);
-            match scene.materials.get(&body.material) {
+            match scene.material_of(name) {
                 None => {
                     let known: Vec<&str> = scene.materials.keys().map(String::as_str).collect();
                     let listed = materials().iter().map(|(name, _)| name.as_str());
@@ -37,20 +42,57 @@ impl Checks {
                         ),
                     );
                 }
-                Some(material) => self.require(
-                    body.plastic != Plastic::Yes || material.first_yield_stress().is_some(),
-                    format!("bodies.{name}.plastic"),
-                    format!(
-                        "true, but the material \"{0}\" has no yield stress; \
-                         give materials.{0}.yield_stress",
-                        body.material
-                    ),
-                ),
+                Some(material) => {
+                    self.require(
+                        body.plastic != Plastic::Yes || material.first_yield_stress().is_some(),
+                        format!("bodies.{name}.plastic"),
+                        format!(
+                            "true, but the material \"{0}\" has no yield stress; \
+                             give materials.{0}.yield_stress",
+                            body.material
+                        ),
+                    );
+                    self.require(
+                        body.temperature.is_some() || material.over_temperature.is_empty(),
+                        format!("bodies.{name}"),
+                        format!(
+                            "the material \"{}\" depends on the temperature; give \
+                             bodies.{name}.temperature",
+                            body.material
+                        ),
+                    );
+                }
             }
         }
     }
 
-    fn yield_by_depth(&mut self, key: &str, body: &Body, scene: &Scene) {
+    /// Rows of properties by temperature, and the material at each of them.
+    fn over_temperature(&mut self, key: &str, material: &Material) {
+        let rows = &material.over_temperature;
+        for (index, row) in rows.iter().enumerate() {
+            let key = format!("{key}.{index}");
+            if let Some(before) = index.checked_sub(1).map(|before| &rows[before]) {
+                self.require(
+                    row.temperature > before.temperature,
+                    format!("{key}.temperature"),
+                    format!(
+                        "{} must be greater than {} of the row before",
+                        exact(row.temperature),
+                        exact(before.temperature)
+                    ),
+                );
+            }
+            self.require(
+                !row.is_empty(),
+                key.as_str(),
+                "says nothing but a temperature; give what the material has there",
+            );
+            self.material(&key, &material.at(row.temperature));
+        }
+    }
+
+    fn yield_by_depth(&mut self, name: &str, body: &Body, scene: &Scene) {
+        let key = format!("bodies.{name}");
         let Some(rows) = &body.yield_by_depth else {
             let asked = [&body.initial_stress, &body.initial_plastic_strain];
             self.require(
@@ -62,7 +104,7 @@ impl Checks {
             return;
         };
         let key = format!("{key}.yield_by_depth");
-        let material = scene.materials.get(&body.material);
+        let material = scene.material_of(name);
         self.require(
             material.is_none_or(|material| material.first_yield_stress().is_some()),
             key.as_str(),

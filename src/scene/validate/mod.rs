@@ -47,12 +47,9 @@ impl Scene {
     /// Can this body yield: has its material a yield stress, and is it not said to be elastic?
     /// False for a body that the scene does not have.
     pub fn can_yield(&self, body: &str) -> bool {
-        self.bodies.get(body).is_some_and(|body| {
-            body.plastic != super::Plastic::No
-                && self
-                    .materials
-                    .get(&body.material)
-                    .is_some_and(|material| material.first_yield_stress().is_some())
+        let of = self.bodies.get(body).zip(self.material_of(body));
+        of.is_some_and(|(body, material)| {
+            body.plastic != super::Plastic::No && material.first_yield_stress().is_some()
         })
     }
 

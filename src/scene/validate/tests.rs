@@ -1,8 +1,8 @@
 //! One rule of validation per row: what is done to a good scene, and what the message must hold.
 
 use crate::scene::{
-    Direction, Displacement, DisplacementTarget, History, Kind, PlaneForce, Plastic, Reference,
-    Ring, Scene, Target, Unit,
+    Direction, Displacement, DisplacementTarget, History, Kind, MaterialRow, PlaneForce, Plastic,
+    Reference, Ring, Scene, Target, Unit,
 };
 use crate::shape::Shape;
 

@@ -10,6 +10,72 @@ fn tested(scene: &mut Scene, yield_stress: Option<f64>, test: &[[f64; 2]]) {
     steel.tensile_test = Some(test.to_vec());
 }
 
+/// Gives the steel rows over temperature, and its bodies one.
+fn heated(scene: &mut Scene, rows: &[MaterialRow]) {
+    let steel = scene.materials.get_mut("steel").unwrap();
+    steel.over_temperature = rows.to_vec();
+    for body in scene.bodies.values_mut() {
+        body.temperature = Some(50.0);
+    }
+}
+
+fn row(temperature: f64, youngs_modulus: f64) -> MaterialRow {
+    MaterialRow {
+        temperature,
+        youngs_modulus: Some(youngs_modulus),
+        ..MaterialRow::default()
+    }
+}
+
+#[test]
+fn rows_over_temperature() {
+    refused(
+        good,
+        &[
+            (
+                |s| heated(s, &[row(20.0, 2e5), row(20.0, 1e5)]),
+                "materials.steel.over_temperature.1.temperature: 20 must be greater than 20 of",
+            ),
+            (
+                |s| heated(s, &[row(20.0, 2e5), row(90.0, -1.0)]),
+                "materials.steel.over_temperature.1.youngs_modulus: -1 must be greater than zero",
+            ),
+            (
+                |s| {
+                    let nothing = MaterialRow {
+                        temperature: 90.0,
+                        ..MaterialRow::default()
+                    };
+                    heated(s, &[row(20.0, 2e5), nothing]);
+                },
+                "materials.steel.over_temperature.1: says nothing but a temperature",
+            ),
+            (
+                |s| {
+                    let both = MaterialRow {
+                        hardening_table: Some(vec![[0.0, 100.0]]),
+                        ..row(90.0, 2e5)
+                    };
+                    heated(s, &[row(20.0, 2e5), both]);
+                },
+                "materials.steel.over_temperature.0: has 2 hardening laws",
+            ),
+            (
+                |s| {
+                    heated(s, &[row(20.0, 2e5), row(90.0, 1e5)]);
+                    s.bodies.get_mut("cylinder").unwrap().temperature = None;
+                },
+                "bodies.cylinder: the material \"steel\" depends on the temperature; give \
+                 bodies.cylinder.temperature",
+            ),
+            (
+                |s| heated(s, &[row(f64::NAN, 2e5)]),
+                "materials.steel.over_temperature.0.temperature: NaN is not",
+            ),
+        ],
+    );
+}
+
 #[test]
 fn materials_and_bodies() {
     macro_rules! steel {

@@ -1,0 +1,222 @@
+//! Materials whose properties depend on the temperature, and what they are at that of a body.
+//!
+//! Each property is linear between the rows that give it, `p = p_1 + (p_2 - p_1)(T - T_1)/(T_2 -
+//! T_1)`, and constant beyond them. A body has one temperature: its elastic stiffness is that of the
+//! whole run, so that one factorisation is enough.
+
+use super::{Material, Scene};
+use crate::interpolation::interpolate;
+use crate::number::exact;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+
+/// Properties of a material at a temperature; those left out are what other rows make them, or what
+/// the material says without rows.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MaterialRow {
+    /// The temperature, on the scale of the bodies' `temperature`.
+    pub temperature: f64,
+    /// E > 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub youngs_modulus: Option<f64>,
+    /// -1 < nu < 0.5.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub poissons_ratio: Option<f64>,
+    /// Strain per change of temperature.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thermal_expansion: Option<f64>,
+    /// Tensile yield stress.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub yield_stress: Option<f64>,
+    /// d(yield stress)/d(equivalent plastic strain) of linear hardening.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plastic_modulus: Option<f64>,
+    /// Modulus of linear kinematic hardening.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kinematic_modulus: Option<f64>,
+    /// Table of (equivalent plastic strain, yield stress).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardening_table: Option<Vec<[f64; 2]>>,
+}
+
+impl MaterialRow {
+    /// Whether it says anything.
+    pub(crate) fn is_empty(&self) -> bool {
+        let temperature = self.temperature;
+        *self
+            == MaterialRow {
+                temperature,
+                ..MaterialRow::default()
+            }
+    }
+}
+
+impl Material {
+    /// What it is at a temperature: without rows.
+    pub fn at(&self, temperature: f64) -> Material {
+        let of = |value: fn(&MaterialRow) -> Option<f64>| {
+            let rows = self.over_temperature.iter();
+            let rows: Vec<[f64; 2]> = rows
+                .filter_map(|row| Some([row.temperature, value(row)?]))
+                .collect();
+            (!rows.is_empty()).then(|| interpolate(&rows, temperature))
+        };
+        Material {
+            youngs_modulus: of(|row| row.youngs_modulus).unwrap_or(self.youngs_modulus),
+            poissons_ratio: of(|row| row.poissons_ratio).unwrap_or(self.poissons_ratio),
+            thermal_expansion: of(|row| row.thermal_expansion).or(self.thermal_expansion),
+            yield_stress: of(|row| row.yield_stress).or(self.yield_stress),
+            plastic_modulus: of(|row| row.plastic_modulus).or(self.plastic_modulus),
+            kinematic_modulus: of(|row| row.kinematic_modulus).or(self.kinematic_modulus),
+            hardening_table: self
+                .table_at(temperature)
+                .or_else(|| self.hardening_table.clone()),
+            over_temperature: Vec::new(),
+            ..self.clone()
+        }
+    }
+
+    /// The hardening table between those of rows, at the strains of both.
+    fn table_at(&self, temperature: f64) -> Option<Vec<[f64; 2]>> {
+        let rows = self.over_temperature.iter();
+        let tables: Vec<(f64, &[[f64; 2]])> = rows
+            .filter_map(|row| Some((row.temperature, row.hardening_table.as_deref()?)))
+            .collect();
+        let next = tables.partition_point(|(t, _)| *t <= temperature);
+        let below = next.checked_sub(1).and_then(|k| tables.get(k));
+        let (cold, warm) = match (below, tables.get(next)) {
+            (None, None) => return None,
+            (Some((_, rows)), None) | (None, Some((_, rows))) => return Some(rows.to_vec()),
+            (Some(cold), Some(warm)) => (cold, warm),
+        };
+        let share = (temperature - cold.0) / (warm.0 - cold.0);
+        let mut strains: Vec<f64> = cold.1.iter().chain(warm.1).map(|row| row[0]).collect();
+        strains.sort_by(f64::total_cmp);
+        strains.dedup();
+        let stress = |strain: f64| {
+            let [cold, warm] = [cold.1, warm.1].map(|rows| interpolate(rows, strain));
+            cold + share * (warm - cold)
+        };
+        let at = strains.into_iter().map(|strain| [strain, stress(strain)]);
+        Some(at.collect())
+    }
+
+    /// The lowest and the highest temperature of its rows; none where it has no rows.
+    pub(crate) fn temperatures(&self) -> Option<[f64; 2]> {
+        let (first, last) = (
+            self.over_temperature.first()?,
+            self.over_temperature.last()?,
+        );
+        Some([first.temperature, last.temperature])
+    }
+}
+
+impl Scene {
+    /// What a body is made of, at its temperature; none where the scene does not have the body or
+    /// its material.
+    pub fn material_of(&self, body: &str) -> Option<Cow<'_, Material>> {
+        let body = self.bodies.get(body)?;
+        let material = self.materials.get(&body.material)?;
+        Some(match body.temperature {
+            Some(temperature) if !material.over_temperature.is_empty() => {
+                Cow::Owned(material.at(temperature))
+            }
+            _ => Cow::Borrowed(material),
+        })
+    }
+
+    /// Warnings of bodies whose temperature lies beyond the rows of their material.
+    pub(crate) fn beyond_rows(&self) -> impl Iterator<Item = String> + '_ {
+        self.bodies.iter().filter_map(|(name, body)| {
+            let temperature = body.temperature?;
+            let [lowest, highest] = self.materials.get(&body.material)?.temperatures()?;
+            let is_within = (lowest..=highest).contains(&temperature);
+            (!is_within).then(|| {
+                format!(
+                    "bodies.{name}.temperature: {} is beyond the rows of {}, {} to {}: its \
+                     properties are those of the nearest row",
+                    exact(temperature),
+                    body.material,
+                    exact(lowest),
+                    exact(highest)
+                )
+            })
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(temperature: f64) -> MaterialRow {
+        MaterialRow {
+            temperature,
+            ..MaterialRow::default()
+        }
+    }
+
+    /// Each property between the rows that give it; others as the material says.
+    #[test]
+    fn properties_are_interpolated_one_by_one() {
+        let material = Material {
+            youngs_modulus: 200.0,
+            poissons_ratio: 0.3,
+            yield_stress: Some(9.0),
+            density: Some(7.0),
+            over_temperature: vec![
+                MaterialRow {
+                    youngs_modulus: Some(210.0),
+                    yield_stress: Some(4.0),
+                    ..row(20.0)
+                },
+                MaterialRow {
+                    yield_stress: Some(3.0),
+                    ..row(120.0)
+                },
+                MaterialRow {
+                    youngs_modulus: Some(190.0),
+                    ..row(220.0)
+                },
+            ],
+            ..Material::default()
+        };
+        for (temperature, modulus, stress) in [
+            (-50.0, 210.0, 4.0),
+            (20.0, 210.0, 4.0),
+            (70.0, 205.0, 3.5),
+            (120.0, 200.0, 3.0),
+            (170.0, 195.0, 3.0),
+            (500.0, 190.0, 3.0),
+        ] {
+            let at = material.at(temperature);
+            assert!((at.youngs_modulus - modulus).abs() < 1e-12, "{temperature}");
+            assert_eq!(at.yield_stress, Some(stress), "{temperature}");
+            assert_eq!((at.poissons_ratio, at.density), (0.3, Some(7.0)));
+            assert!(at.over_temperature.is_empty());
+        }
+    }
+
+    #[test]
+    fn tables_are_interpolated_at_the_strains_of_both() {
+        let table = |temperature, rows: &[[f64; 2]]| MaterialRow {
+            hardening_table: Some(rows.to_vec()),
+            ..row(temperature)
+        };
+        let material = Material {
+            over_temperature: vec![
+                table(0.0, &[[0.0, 100.0], [0.1, 200.0]]),
+                table(100.0, &[[0.0, 60.0], [0.2, 80.0]]),
+            ],
+            ..Material::default()
+        };
+        assert_eq!(
+            material.at(50.0).hardening_table.unwrap(),
+            [[0.0, 80.0], [0.1, 135.0], [0.2, 140.0]]
+        );
+        assert_eq!(material.at(-1.0).hardening_table.unwrap()[1], [0.1, 200.0]);
+        assert_eq!(material.at(100.0).hardening_table.unwrap()[1], [0.2, 80.0]);
+    }
+}
