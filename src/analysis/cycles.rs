@@ -12,10 +12,6 @@ use crate::material::PlasticState;
 use crate::results::{CycleOutcome, CycleRow, Cycles};
 use serde::{Deserialize, Serialize};
 
-/// Share of the largest flow of the first cycle that counts as none: strains that nobody reads off
-/// a result, and that no mesh resolves.
-const STEADY: f64 = 1e-3;
-
 /// The cycles so far.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct CycleRecord {
@@ -47,8 +43,9 @@ impl CycleRecord {
         self.rows.len()
     }
 
-    /// A cycle ended with these histories of the zone's elements.
-    fn end(&mut self, elements: &[usize], points: Vec<PlasticState<6>>) {
+    /// A cycle ended with these histories of the zone's elements; `steady` is the share of the
+    /// largest flow of the first cycle that counts as none.
+    fn end(&mut self, elements: &[usize], points: Vec<PlasticState<6>>, steady: f64) {
         let stride = points.len() / elements.len().max(1);
         let of_now = |known: &[PlasticState<6>]| aligned(known, &self.elements, elements, stride);
         let minus = |a: &[PlasticState<6>], b: &[PlasticState<6>]| -> Vec<PlasticState<6>> {
@@ -71,12 +68,13 @@ impl CycleRecord {
         self.rows.push(row);
         self.place = elements.get(growth.0 / stride.max(1)).copied().unwrap_or(0);
         (self.elements, self.points, self.change) = (elements.to_vec(), points, change);
-        self.outcome = self.judge(row, before);
+        // Once steady, another cycle leaves the states: round-off does not take that back.
+        self.outcome = self.judge(row, before, steady).or(self.outcome);
     }
 
     /// What a cycle that is like the next amounts to, the differences of it and of the one before
     /// from theirs being known.
-    fn judge(&self, row: CycleRow, before: Option<f64>) -> Option<CycleOutcome> {
+    fn judge(&self, row: CycleRow, before: Option<f64>, steady: f64) -> Option<CycleOutcome> {
         let first = self.rows[0].flow;
         if row.flow == 0.0 {
             return Some(match first == 0.0 {
@@ -84,12 +82,12 @@ impl CycleRecord {
                 false => CycleOutcome::ElasticShakedown,
             });
         }
-        let small = STEADY * first;
+        let small = steady * first;
         let (now, before) = (self.difference?, before?);
         let ahead = match now < before {
             true => now * now / (before - now),
             // No more than an iteration leaves.
-            false if now <= STEADY * small => now,
+            false if now <= steady * small => now,
             false => f64::INFINITY,
         };
         match now.max(ahead) <= small {
@@ -143,14 +141,15 @@ fn largest(points: &[PlasticState<6>], of: impl Fn(&PlasticState<6>) -> f64) -> 
 impl Run<'_, '_> {
     /// After the last target of a cycle: whether another follows.
     pub(super) fn begin_cycle(&mut self) -> bool {
-        let most = self.model().scene.program.cycles;
+        let program = &self.solver.structure.model.scene.program;
+        let (most, steady) = (program.cycles, program.steady);
         let record = &mut self.position.cycles;
         if most == 1 || record.is_over {
             return false;
         }
         let was_last = record.is_last(most);
         let history = self.solver.zone.history();
-        record.end(&self.solver.structure.elements, history.points);
+        record.end(&self.solver.structure.elements, history.points, steady);
         record.is_over = was_last;
         if !was_last {
             self.position.target = 0;
@@ -193,7 +192,7 @@ mod tests {
             let points: Vec<PlasticState<6>> = [0, 1].map(point).to_vec();
             equivalent = [0, 1].map(|k| points[k].equivalent);
             before = now;
-            record.end(&[7], points);
+            record.end(&[7], points, 1e-3);
             if let Some(outcome) = record.outcome {
                 return (Some(outcome), cycle);
             }

@@ -118,7 +118,7 @@ impl Run<'_, '_> {
         self.set_zone(zone_choice::predict(self.model(), &ratios))?;
         let model = self.model();
         let proportional = |l: &crate::model::LoadCase| {
-            matches!(l.history, History::Proportional) && l.opens.is_empty()
+            !l.acts() || (matches!(l.history, History::Proportional) && l.opens.is_empty())
         };
         if model.loads.iter().all(proportional) && model.pairs.iter().all(|p| p.interference == 0.0)
         {

@@ -79,6 +79,15 @@ impl LoadCase {
         opened.map(|(_, gap)| gap * pair.unit_gap).sum()
     }
 
+    /// Whether it changes anything at factor 1.
+    pub(crate) fn acts(&self) -> bool {
+        match self.measures {
+            Magnitude::Displacement => self.magnitude != 0.0,
+            Magnitude::Gap => self.opens.iter().any(|(_, gap)| *gap != 0.0),
+            _ => !self.free_strain.is_empty() || self.nodal.iter().any(|(_, f)| *f != [0.0; 3]),
+        }
+    }
+
     /// Sum of the sizes of the nodal forces at factor 1.
     pub fn size(&self) -> f64 {
         self.nodal.iter().map(|(_, f)| length(*f)).sum()

@@ -29,6 +29,14 @@ pub struct Program {
     /// The states are those of the last cycle.
     #[serde(default = "super::defaults::cycles", skip_serializing_if = "is_one")]
     pub cycles: usize,
+    /// When a cycle counts as like the next: once all cycles to come would change plastic strains,
+    /// against going on as it did, by less than this share of what flowed in the first.
+    #[serde(default = "super::defaults::steady", skip_serializing_if = "is_steady")]
+    pub steady: f64,
+}
+
+fn is_steady(steady: &f64) -> bool {
+    *steady == super::defaults::steady()
 }
 
 fn is_one(cycles: &usize) -> bool {
@@ -45,6 +53,7 @@ impl Default for Program {
             gamma: super::defaults::gamma(),
             targets: Vec::new(),
             cycles: super::defaults::cycles(),
+            steady: super::defaults::steady(),
         }
     }
 }

@@ -110,6 +110,13 @@ fn loads_that_are_nothing_are_off_and_cost_nothing() {
         "temperature = 0.0",
         "no temperature changes",
     );
+    // Constant, and nothing: the program is as proportional as it was.
+    with(
+        "temperature",
+        "thermal_expansion",
+        "temperature = 0.0\nhistory = \"constant\"",
+        "no temperature changes",
+    );
     with(
         "forces on volumes",
         "density",

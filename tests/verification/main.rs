@@ -22,6 +22,7 @@ mod over_temperature;
 mod pin_in_hole;
 mod quality;
 mod run;
+mod shakedown;
 mod shrink_fit;
 mod ssnv104;
 mod start_from;

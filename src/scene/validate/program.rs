@@ -47,6 +47,11 @@ impl Checks {
         );
         self.count("program.cycles", program.cycles, 1);
         self.at_most("program.cycles", program.cycles, MOST_CYCLES);
+        self.require(
+            program.steady > 0.0 && program.steady < 1.0,
+            "program.steady",
+            format!("{} must lie between 0 and 1", exact(program.steady)),
+        );
         if program.cycles > 1 {
             self.cycle(&program.targets);
         }

@@ -109,6 +109,10 @@ fn cycles() {
         good,
         &[
             (
+                |s| s.program.steady = 0.0,
+                "program.steady: 0 must lie between 0 and 1",
+            ),
+            (
                 |s| s.program.cycles = 0,
                 "program.cycles: 0 must be at least 1",
             ),
