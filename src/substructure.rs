@@ -30,7 +30,7 @@ use crate::linalg::{self, Backend, Condensed, NotDefinite, Partition, Recovered,
 use crate::memory;
 use crate::model::Model;
 use groups::Groups;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 /// A load (or displacement) on zone and contact freedoms, these in the order of
 /// [`crate::model::ContactRows::freedoms`].
@@ -190,6 +190,18 @@ impl Substructure {
     /// The matrix T of the contact problem, all pairs closed.
     pub fn tableau(&self) -> Tableau {
         Tableau::new(self.contact_matrix.clone())
+    }
+
+    /// Takes from forces on the pairs what round-off lets them do on rigid motions that contact
+    /// alone can hold: of forces that are in balance with themselves, as those of plastic strains.
+    pub(crate) fn balance(&self, forces: &mut [f64]) {
+        for (pairs, slips) in self.rigid_slips(|_| true) {
+            let of_pairs = DVector::from_iterator(pairs.len(), pairs.iter().map(|&k| forces[k]));
+            let unbalanced = &slips * slips.tr_mul(&of_pairs);
+            for (&k, force) in pairs.iter().zip(unbalanced.iter()) {
+                forces[k] -= force;
+            }
+        }
     }
 
     /// The pairs of each group asked for that rigid motions of floating bodies move, and the

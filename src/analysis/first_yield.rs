@@ -25,12 +25,7 @@ impl Run<'_, '_> {
     pub(super) fn find_yield(&mut self, required: bool) -> Result<bool> {
         let unit_is_yield = self.model().scene.program.unit == Unit::Yield;
         if self.position.first_yield.is_behind {
-            return if unit_is_yield && self.model().start.is_some() {
-                Err(Error::analysis(
-                    "`unit = \"yield\"`: the material has yielded in the run that this one starts \
-                     from, so there is no yield load to count in; use `unit = \"load\"`",
-                ))
-            } else if unit_is_yield {
+            return if unit_is_yield {
                 Err(Error::analysis(
                     "`unit = \"yield\"`: the preload alone makes the material yield, so there is \
                      no yield load to count in; use `unit = \"load\"`",

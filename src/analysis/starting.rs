@@ -6,11 +6,12 @@ use crate::checkpoint::read_end_state;
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::results::EndState;
+use crate::scene::Unit;
 
 /// Reads the state that the scene of a model starts from; `None` where that is a virgin one.
 ///
 /// # Errors
-/// Those of [`read_end_state`]; `Input` where a body with plastic strains may not yield, or its
+/// Those of [`read_end_state`]; `Input` where first yield is asked for, a body with plastic strains may not yield, or its
 /// material has another number of back stresses that fade.
 pub(super) fn read(model: &Model) -> Result<Option<EndState>> {
     let scene = &model.scene;
@@ -26,6 +27,24 @@ pub(super) fn read(model: &Model) -> Result<Option<EndState>> {
 }
 
 fn checked(model: &Model, state: EndState) -> Result<EndState> {
+    let program = &model.scene.program;
+    let target = program.targets.iter().find(|target| target.first_yield);
+    let asked = match target {
+        Some(target) => Some(format!(
+            "take the target `{}` out of program.targets",
+            target.name.as_deref().unwrap_or("yield")
+        )),
+        None if program.unit == Unit::Yield => {
+            Some("count loads with program.unit = \"load\"".to_string())
+        }
+        None => None,
+    };
+    if let Some(remedy) = asked.filter(|_| !state.is_virgin()) {
+        return Err(Error::input(format!(
+            "the material has yielded in the run that this one starts from, so that there is no \
+             yield load: {remedy}"
+        )));
+    }
     let body_of = |&e: &usize| model.mesh.element_body[e] as usize;
     let mut bodies = state.elements.iter().map(body_of);
     if let Some(body) = bodies.find(|&body| !model.may_yield[body]) {
@@ -62,6 +81,7 @@ impl Solver<'_> {
         self.zone.restore_of(&start.elements, &history);
         let initial = self.zone.initial_load(structure.sub.zeros());
         self.now.initial = structure.eliminate(initial, &mut self.cost);
+        structure.sub.balance(&mut self.now.initial.forces);
         let nothing = self.at.clone();
         self.solve_contact_at(&nothing)
     }

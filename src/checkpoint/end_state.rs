@@ -43,7 +43,8 @@ pub(crate) fn read(dir: &Path, mesh: &Mesh) -> Result<EndState> {
     if of_mesh != identity::hash(mesh) {
         return Err(refused(
             "its run was on another mesh: start from a run on the same one, node by node and \
-             surface by surface (same mesh entry, same file)",
+             surface by surface (same mesh entry, same file; the generators make meshes for the \
+             largest load of the program unless a contact_width is given)",
         ));
     }
     let shapes = mesh.shapes.iter();

@@ -262,9 +262,14 @@ fn what_cannot_be_started_from_is_named() {
     let mut other = start.clone();
     other.program.unit = brinell::scene::Unit::Yield;
     std::fs::write(&file, &bytes).unwrap();
-    let error = analysis(&other).unwrap().run(&mut Silent).unwrap_err();
-    assert_eq!(error.kind(), ErrorKind::Input, "{error}");
-    assert!(error.to_string().contains("unit"), "{error}");
+    refused(
+        &other,
+        "there is no yield load: count loads with program.unit",
+    );
+    let mut other = start.clone();
+    other.program.targets[0].first_yield = true;
+    other.program.targets[0].load_factor = None;
+    refused(&other, "take the target `yield` out of program.targets");
     let text = start.to_toml().unwrap();
     let error = Scene::parse(&format!("accuracy = \"1 %\"\n{text}"), "sheet").unwrap_err();
     let words = "start_from: a state belongs to one mesh";
