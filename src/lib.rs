@@ -66,7 +66,7 @@
 //!
 //! # Stability
 //!
-//! Semantic versioning, as the README says in "Versions".
+//! Semantic versioning, as CONTRIBUTING.md says in "Versions".
 #![warn(missing_docs)]
 
 // Blank lines keep the order of the data: rustfmt sorts neighbouring lines.
