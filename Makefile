@@ -169,14 +169,14 @@ PYTHON_TESTS := $(abspath $(or $(CARGO_TARGET_DIR),target))/python
 python-tests: setup ## Install what the tests of Python need into an environment in the target directory
 	@[[ -z $${BRINELL_PYTHON:-} ]] || exit 0
 	python="$(PYTHON_TESTS)/bin/python"
-	needed='import maturin, meshio, numpy, pytest, scipy, vtk'
+	needed='import maturin, matplotlib, meshio, numpy, pytest, pyvista, scipy, vtk'
 	if [[ ! -x $$python ]] || ! "$$python" -c "$$needed" 2>/dev/null; then
 	    if ! $(PYTHON) -c 'import ensurepip, venv' 2>/dev/null; then
 	        $(MAKE) --no-print-directory setup PACKAGES="python3 python3-venv"
 	    fi
 	    $(PYTHON) -m venv "$(PYTHON_TESTS)"
 	    "$$python" -m pip install -q --disable-pip-version-check \
-	        'maturin>=1.9,<2' meshio numpy pytest scipy vtk
+	        'maturin>=1.9,<2' matplotlib meshio numpy pytest pyvista scipy vtk
 	fi
 
 python: setup ## Install the Python package (PYTHON=..., in an environment that is writable)

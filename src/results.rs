@@ -285,6 +285,12 @@ pub struct Fields {
     /// over the element, over the energy norm of the stress of the whole model. The square root of
     /// the sum of squares is [`State::energy_error`].
     pub error: Vec<f64>,
+    /// `n_nodes x 4` (of a solid `x 6`) stresses at the nodes, components as of `stress`: the mean
+    /// over a node's elements of the polynomials fitted to the stresses around each of them
+    /// (Zienkiewicz-Zhu), more accurate than the elements' own. Empty in files of versions that did
+    /// not have them.
+    #[serde(default)]
+    pub nodal_stress: Vec<f64>,
     /// `n_nodes` contact pressure; 0 of nodes that are in no pair.
     #[serde(default)]
     pub contact_pressure: Vec<f64>,

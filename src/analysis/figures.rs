@@ -1,6 +1,6 @@
 //! What is reported of the state at a target: figures, and fields on the whole mesh.
 
-use super::indicator::indicator;
+use super::indicator::{Indicator, indicator};
 use super::measure::pair_states;
 use super::reactions;
 use super::reading::Reading;
@@ -151,16 +151,16 @@ impl OfStresses for Reported {
             return (stresses, None, None);
         };
         let errors = indicator(field);
-        let fields = fields(field, nodal, errors.by_element);
-        (stresses, Some(errors.total), Some(fields))
+        let total = errors.total;
+        (stresses, Some(total), Some(fields(field, nodal, errors)))
     }
 }
 
-/// Fields on the whole mesh, for the displacements of its nodes and the error of its elements.
+/// Fields on the whole mesh, for the displacements of its nodes and what the fitted stresses say.
 fn fields<const D: usize, const S: usize, const P: usize, const N: usize>(
     field: &StressField<D, S, P, N>,
     nodal: Vec<Vector>,
-    error: Vec<f64>,
+    errors: Indicator,
 ) -> Fields {
     let n = field.model.mesh.n_elements();
     let mut out = Fields {
@@ -169,7 +169,8 @@ fn fields<const D: usize, const S: usize, const P: usize, const N: usize>(
         von_mises: vec![0.0; n],
         plastic_strain: vec![0.0; n],
         yielded: vec![0; n],
-        error,
+        error: errors.by_element,
+        nodal_stress: errors.nodal_stress,
         contact_pressure: Vec::new(),
         gap: Vec::new(),
         force: Vec::new(),

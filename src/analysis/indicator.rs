@@ -16,6 +16,8 @@
 //! O. C. Zienkiewicz, J. Z. Zhu, The superconvergent patch recovery and a posteriori error
 //! estimates, parts 1 and 2, Int. J. Numer. Meth. Engng 33 (1992) 1331-1382,
 //! doi:10.1002/nme.1620330702.
+//!
+//! The stress at a node is the mean of the polynomials of its elements there.
 
 mod rules;
 
@@ -39,7 +41,12 @@ pub(super) struct Indicator {
     pub by_element: Vec<f64>,
     /// `eta`: estimated energy norm of the error over that of the solution, 0 to 1.
     pub total: f64,
+    /// `n_nodes x S`: the recovered stress at the nodes.
+    pub nodal_stress: Vec<f64>,
 }
+
+/// Elements whose stresses at the nodes are held at a time.
+const AT_A_TIME: usize = 1 << 14;
 
 /// The indicator of a stress field.
 pub(super) fn indicator<const D: usize, const S: usize, const P: usize, const N: usize>(
@@ -48,14 +55,36 @@ pub(super) fn indicator<const D: usize, const S: usize, const P: usize, const N:
     let model = field.model;
     let neighbours = Neighbours::new(&model.mesh, 0..model.mesh.n_elements());
     let samples = Samples::new(field);
-    let energies: Vec<[f64; 2]> = (0..model.mesh.n_elements())
-        .into_par_iter()
-        .with_min_len(64)
-        .map_init(Vec::new, |patch, e| {
-            neighbours.at(model.mesh.nodes(e), patch);
-            energies(model, e, &field.at(e), patch, &samples)
-        })
-        .collect();
+    let n = model.mesh.n_elements();
+    let mut energies: Vec<[f64; 2]> = Vec::with_capacity(n);
+    let mut nodal_stress = vec![0.0; S * model.mesh.n_nodes()];
+    let mut n_elements_of = vec![0u32; model.mesh.n_nodes()];
+    for begin in (0..n).step_by(AT_A_TIME) {
+        let end = n.min(begin + AT_A_TIME);
+        let recovered: Vec<Recovered<S, N>> = (begin..end)
+            .into_par_iter()
+            .with_min_len(64)
+            .map_init(Vec::new, |patch, e| {
+                neighbours.at(model.mesh.nodes(e), patch);
+                recovered(model, e, &field.at(e), patch, &samples)
+            })
+            .collect();
+        // One after the other: the same bits for any number of threads.
+        for (e, of_element) in (begin..end).zip(&recovered) {
+            energies.push(of_element.energies);
+            for (&node, stress) in model.mesh.nodes(e).iter().zip(&of_element.at_nodes) {
+                let node = node as usize;
+                n_elements_of[node] += 1;
+                for (sum, s) in nodal_stress[S * node..][..S].iter_mut().zip(stress) {
+                    *sum += s;
+                }
+            }
+        }
+    }
+    for (stress, n) in nodal_stress.chunks_exact_mut(S).zip(n_elements_of) {
+        let n = f64::from(n.max(1));
+        stress.iter_mut().for_each(|s| *s /= n);
+    }
     let sum = |i: usize| energies.iter().fold(0.0, |sum, e| sum + e[i]);
     let (error, whole) = (sum(0), sum(0) + sum(1));
     let share = |part: f64| {
@@ -68,7 +97,16 @@ pub(super) fn indicator<const D: usize, const S: usize, const P: usize, const N:
     Indicator {
         by_element: energies.iter().map(|e| share(e[0])).collect(),
         total: share(error),
+        nodal_stress,
     }
+}
+
+/// What the polynomials of an element say.
+struct Recovered<const S: usize, const N: usize> {
+    /// Of `sigma* - sigma_h` and of `sigma_h`.
+    energies: [f64; 2],
+    /// `sigma*` at its nodes.
+    at_nodes: [[f64; S]; N],
 }
 
 /// Stress at a superconvergent point.
@@ -203,14 +241,14 @@ fn quadrature<const D: usize, const S: usize, const P: usize, const N: usize>(
     }
 }
 
-/// Energies of `sigma* - sigma_h` and of `sigma_h` over element `e`.
-fn energies<const D: usize, const S: usize, const P: usize, const N: usize>(
+/// The fit around element `e` and what follows from it.
+fn recovered<const D: usize, const S: usize, const P: usize, const N: usize>(
     model: &Model,
     e: usize,
     element: &ElementStress<D, S, P, N>,
     patch: &[u32],
     samples: &Samples<D, S>,
-) -> [f64; 2] {
+) -> Recovered<S, N> {
     let material = &model.materials[model.mesh.element_body[e] as usize];
     let frame = Frame::about(&model.mesh, e);
     // A patch that does not determine the polynomial (a single element, a row of them) takes a
@@ -220,18 +258,23 @@ fn energies<const D: usize, const S: usize, const P: usize, const N: usize>(
         .and_then(|_| fit::<2, D, S>(&frame, patch, samples))
         .or_else(|| fit::<1, D, S>(&frame, patch, samples))
         .or_else(|| fit::<0, D, S>(&frame, patch, samples));
-    let mut out = [0.0; 2];
+    let mean = element.gradients.mean(&element.stress);
+    let at = |x: &[f64; D], unknown: [f64; S]| match &fit {
+        Some(fit) => fit.each_ref().map(|c| PatchFit::<D, 2>::value(c, 1.0, x)),
+        None => unknown,
+    };
+    let mut energies = [0.0; 2];
     quadrature(model, e, element, |(position, weight, computed)| {
-        let x = frame.relative(position);
-        let recovered = match &fit {
-            Some(fit) => fit.each_ref().map(|c| PatchFit::<D, 2>::value(c, 1.0, &x)),
-            None => computed,
-        };
+        let recovered = at(&frame.relative(position), computed);
         let difference: [f64; S] = std::array::from_fn(|c| recovered[c] - computed[c]);
-        out[0] += weight * compliance_energy(material, &difference);
-        out[1] += weight * compliance_energy(material, &computed);
+        energies[0] += weight * compliance_energy(material, &difference);
+        energies[1] += weight * compliance_energy(material, &computed);
     });
-    out
+    let mut at_nodes = [[0.0; S]; N];
+    for (stress, &node) in at_nodes.iter_mut().zip(model.mesh.nodes(e)) {
+        *stress = at(&frame.relative(model.mesh.point(node as usize)), mean);
+    }
+    Recovered { energies, at_nodes }
 }
 
 /// `sigma : C sigma = ((1 + nu) sigma : sigma - nu tr(sigma)^2) / E`.

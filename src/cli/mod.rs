@@ -126,6 +126,24 @@ pub fn check_command_line(
         .map_err(|problem| problem.to_string())
 }
 
+/// The scene that `brinell new` makes of a problem and its flags, as text.
+///
+/// # Errors
+/// `Input` where they are not understood, and what they say wrong.
+pub fn new_scene(words: impl IntoIterator<Item = OsString>) -> Result<String> {
+    #[derive(Parser)]
+    #[command(name = "new", no_binary_name = true, disable_help_flag = true)]
+    struct Line {
+        #[command(subcommand)]
+        problem: new::Problem,
+    }
+    let line = Line::try_parse_from(words).map_err(|problem| {
+        let text = problem.to_string();
+        Error::input(text.trim_start_matches("error: ").trim_end())
+    })?;
+    new::scene(&line.problem)
+}
+
 /// An error with its causes, as lines for a reader.
 fn explain(error: &Error) -> String {
     let mut text = format!("error: {}", error.to_string().replace('\n', "\n       "));

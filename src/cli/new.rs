@@ -96,17 +96,7 @@ pub(super) fn run(arguments: &NewArguments) -> Result<()> {
             ));
         }
     };
-    let text = match problem {
-        Problem::BallOnFlat(ball) if ball.three_dimensional => solid::ball_on_flat(&ball.pressed)?,
-        Problem::BallOnFlat(ball) => pressed::scene(&ball.pressed, true)?,
-        Problem::BallInGroove(groove) => solid::ball_in_groove(groove)?,
-        Problem::CrossedCylinders(crossed) => solid::crossed_cylinders(crossed)?,
-        Problem::RollerOnFlat(pressed) => pressed::scene(pressed, false)?,
-        Problem::ShaftInBore(fit) => fit::scene(fit)?,
-        Problem::Punch(given) => punch::scene(given)?,
-    };
-    // What the flags say wrong is said before anything is written.
-    Scene::parse(&text, "the new scene")?;
+    let text = scene(problem)?;
     let Some(path) = &arguments.out else {
         return print(&text);
     };
@@ -126,6 +116,24 @@ pub(super) fn run(arguments: &NewArguments) -> Result<()> {
             path.display()
         )),
     }
+}
+
+/// The scene of a problem, as text.
+///
+/// # Errors
+/// What its numbers say wrong.
+pub(super) fn scene(problem: &Problem) -> Result<String> {
+    let text = match problem {
+        Problem::BallOnFlat(ball) if ball.three_dimensional => solid::ball_on_flat(&ball.pressed)?,
+        Problem::BallOnFlat(ball) => pressed::scene(&ball.pressed, true)?,
+        Problem::BallInGroove(groove) => solid::ball_in_groove(groove)?,
+        Problem::CrossedCylinders(crossed) => solid::crossed_cylinders(crossed)?,
+        Problem::RollerOnFlat(pressed) => pressed::scene(pressed, false)?,
+        Problem::ShaftInBore(fit) => fit::scene(fit)?,
+        Problem::Punch(given) => punch::scene(given)?,
+    };
+    Scene::parse(&text, "the new scene")?;
+    Ok(text)
 }
 
 /// A deck's scene and mesh, and how to go on.

@@ -7,6 +7,7 @@
 //! | `displacement` | points | Float64 | x, y, 0; of a solid x, y, z |
 //! | `contact_pressure` | points | Float64 | 1, 0 where there is no pair |
 //! | `gap` | points | Float64 | 1, NaN where there is no pair |
+//! | `nodal_stress` | points | Float64 | recovered, components as of `stress` |
 //! | `stress` | cells | Float64 | xx, yy, zz, xy; axisymmetric: rr, zz, tt, rz; of a solid the tensor row by row, 9 |
 //! | `von_mises` | cells | Float64 | 1 |
 //! | `equivalent_plastic_strain` | cells | Float64 | 1 |
@@ -104,21 +105,26 @@ fn grid<'a>(header: &RunHeader, mesh: &'a Mesh, fields: &'a Fields) -> Grid<'a> 
         .into_iter()
         .find(|space| space.name() == header.kind);
     let stress_names = space.unwrap_or(Space::PlaneStrain).components();
+    let tensors = |name: &'static str, values: &'a [f64]| match mesh.is_solid() {
+        true => DataArray::new(name, Values::Tensors(values)),
+        false => DataArray::named(name, stress_names, Values::Float64(values)),
+    };
+    let mut point_data = vec![
+        DataArray::new("displacement", Values::vectors(mesh, &fields.displacement)),
+        DataArray::new(
+            "contact_pressure",
+            Values::Float64(&fields.contact_pressure),
+        ),
+        DataArray::new("gap", Values::Float64(&fields.gap)),
+    ];
+    if !fields.nodal_stress.is_empty() {
+        point_data.push(tensors("nodal_stress", &fields.nodal_stress));
+    }
     Grid {
         mesh,
-        point_data: vec![
-            DataArray::new("displacement", Values::vectors(mesh, &fields.displacement)),
-            DataArray::new(
-                "contact_pressure",
-                Values::Float64(&fields.contact_pressure),
-            ),
-            DataArray::new("gap", Values::Float64(&fields.gap)),
-        ],
+        point_data,
         cell_data: vec![
-            match mesh.is_solid() {
-                true => DataArray::new("stress", Values::Tensors(&fields.stress)),
-                false => DataArray::named("stress", stress_names, Values::Float64(&fields.stress)),
-            },
+            tensors("stress", &fields.stress),
             DataArray::new("von_mises", Values::Float64(&fields.von_mises)),
             DataArray::new(
                 "equivalent_plastic_strain",
@@ -147,7 +153,9 @@ pub(super) fn check(mesh: &Mesh, fields: &Fields) -> Result<()> {
         ("yield flag", fields.yielded.len(), elements),
         ("discretisation error", fields.error.len(), elements),
     ];
-    for (what, found, expected) in lengths {
+    let nodal = fields.nodal_stress.len();
+    let nodal = (nodal > 0).then_some(("nodal stress", nodal, 2 * dimension * nodes));
+    for (what, found, expected) in lengths.into_iter().chain(nodal) {
         if found != expected {
             return Err(Error::internal(format!(
                 "the {what} array has {found} values where the mesh of {nodes} nodes and \

@@ -26,6 +26,14 @@ pub(super) fn read(path: &Path, mesh: &Mesh) -> Result<Fields> {
     let damaged = |what: String| Error::input(format!("{}: {what}", path.display()));
     let file = Blocks::new(&bytes).map_err(damaged)?;
     let numbers = |name: &str| file.numbers(name).map_err(damaged);
+    let tensors = |name: &str| -> Result<Vec<f64>> {
+        let values = numbers(name)?;
+        let of = |s: &[f64; 9]| [s[0], s[4], s[8], s[1], s[5], s[2]];
+        Ok(match mesh.is_solid() {
+            true => values.as_chunks::<9>().0.iter().flat_map(of).collect(),
+            false => values,
+        })
+    };
     let fields = Fields {
         displacement: numbers("displacement")?
             .as_chunks::<3>()
@@ -34,11 +42,10 @@ pub(super) fn read(path: &Path, mesh: &Mesh) -> Result<Fields> {
             .flat_map(|vector| &vector[..mesh.dimension])
             .copied()
             .collect(),
-        stress: match mesh.is_solid() {
-            true => (numbers("stress")?.as_chunks::<9>().0.iter())
-                .flat_map(|s| [s[0], s[4], s[8], s[1], s[5], s[2]])
-                .collect(),
-            false => numbers("stress")?,
+        stress: tensors("stress")?,
+        nodal_stress: match file.has("nodal_stress") {
+            true => tensors("nodal_stress")?,
+            false => Vec::new(),
         },
         von_mises: numbers("von_mises")?,
         plastic_strain: numbers("equivalent_plastic_strain")?,
@@ -99,6 +106,10 @@ impl<'a> Blocks<'a> {
             appended: &bytes[at + mark + 1..],
             offsets,
         })
+    }
+
+    fn has(&self, name: &str) -> bool {
+        self.offsets.contains_key(name)
     }
 
     /// The bytes of an array.

@@ -186,6 +186,7 @@ fn the_arrays_of_the_paraview_page_are_those_of_the_files() {
         "displacement",
         "contact_pressure",
         "gap",
+        "nodal_stress",
         "stress",
         "von_mises",
         "equivalent_plastic_strain",
@@ -211,4 +212,65 @@ fn the_arrays_of_the_paraview_page_are_those_of_the_files() {
             "{array}"
         );
     }
+}
+
+/// Whether the keys of a part of a scene are those of the schema, whatever else it leaves out.
+fn known(value: &toml::Value, schema: &Value, root: &Value) -> Result<(), String> {
+    if let Some(name) = schema["$ref"].as_str() {
+        return known(
+            value,
+            &root["$defs"][name.rsplit('/').next().unwrap()],
+            root,
+        );
+    }
+    for kind in ["anyOf", "oneOf", "allOf"] {
+        if let Some(alternatives) = schema[kind].as_array() {
+            let tried = alternatives.iter().map(|one| known(value, one, root));
+            return tried.reduce(|a, b| if a.is_ok() { a } else { b }).unwrap();
+        }
+    }
+    match value {
+        toml::Value::Table(table) => {
+            for (key, inner) in table {
+                let below = match (&schema["properties"][key], &schema["additionalProperties"]) {
+                    (Value::Null, Value::Null | Value::Bool(_)) => return Err(key.clone()),
+                    (Value::Null, others) => others,
+                    (own, _) => own,
+                };
+                known(inner, below, root).map_err(|why| format!("{key}.{why}"))?;
+            }
+            Ok(())
+        }
+        toml::Value::Array(items) => {
+            let each = items.iter().map(|item| known(item, &schema["items"], root));
+            each.collect()
+        }
+        _ => Ok(()),
+    }
+}
+
+/// What the pages show of scenes has keys that scenes have.
+#[test]
+fn the_scenes_of_the_pages_have_known_keys() {
+    let path = format!(
+        "{}/data/schema/scene.schema.json",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    let schema: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let folder = format!("{}/data/guide", env!("CARGO_MANIFEST_DIR"));
+    let mut checked = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        let text = page(&name);
+        for block in blocks(&text, "toml") {
+            let scene: toml::Value =
+                toml::from_str(block).unwrap_or_else(|why| panic!("{name}: {why}\n{block}"));
+            known(&scene, &schema, &schema)
+                .unwrap_or_else(|key| panic!("{name}: no scene has {key}:\n{block}"));
+            checked += 1;
+        }
+    }
+    assert!(checked > 15, "{checked}");
+    let wrong = toml::from_str("load = [{ presure = 1.0 }]").unwrap();
+    assert_eq!(known(&wrong, &schema, &schema), Err("load.presure".into()));
 }

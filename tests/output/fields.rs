@@ -48,6 +48,7 @@ fn grid_and_fields_read_back_bit_exactly() {
                 "PointData/contact_pressure",
                 "PointData/displacement",
                 "PointData/gap",
+                "PointData/nodal_stress",
                 "Points/points"
             ]
         );
@@ -61,6 +62,10 @@ fn grid_and_fields_read_back_bit_exactly() {
         );
         assert_eq!(doubles("PointData/gap"), bits(&fields.gap));
         assert_eq!(doubles("CellData/stress"), bits(&fields.stress));
+        assert_eq!(
+            doubles("PointData/nodal_stress"),
+            bits(&fields.nodal_stress)
+        );
         assert_eq!(doubles("CellData/von_mises"), bits(&fields.von_mises));
         let plastic = bits(&fields.plastic_strain);
         assert_eq!(doubles("CellData/equivalent_plastic_strain"), plastic);

@@ -49,6 +49,7 @@ pub fn fields(mesh: &Mesh, seed: f64) -> Fields {
     Fields {
         displacement: values(2 * mesh.n_nodes(), 0.0),
         stress: values(4 * elements, 0.3),
+        nodal_stress: values(4 * mesh.n_nodes(), 0.4),
         von_mises: values(elements, 0.5),
         plastic_strain: values(elements, 0.7),
         yielded: (0..elements).map(|i| (i % 2) as u8).collect(),

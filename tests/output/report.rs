@@ -109,8 +109,18 @@ fn every_kind_of_scene_has_a_self_contained_well_formed_report() {
         // As many figures in the page as files, all of them XML without images; each can be
         // enlarged.
         let files = figures(&dir);
-        let inline = drawings(&page);
+        let (films, inline): (Vec<&str>, Vec<&str>) = drawings(&page)
+            .into_iter()
+            .partition(|drawing| drawing.contains("class=\"film"));
         assert_eq!(files.len(), inline.len(), "{scene}");
+        // Films show pictures of the page again, each state in its turn.
+        let of_states = |what: &str| files.keys().filter(|name| name.ends_with(what)).count();
+        let states = of_states("_von_mises.svg");
+        assert_eq!(films.is_empty(), states < 2, "{scene}");
+        for film in films.iter().filter(|film| film.contains("_von_mises")) {
+            assert_eq!(film.matches("<use ").count(), states, "{scene}");
+            assert!(film.contains(&format!("film-{states}\"")), "{scene}");
+        }
         for name in files.keys() {
             let name = name.trim_start_matches("report_").trim_end_matches(".svg");
             let link = format!("href=\"#fig-{name}\"");

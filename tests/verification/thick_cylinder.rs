@@ -170,3 +170,48 @@ fn collapse_is_bracketed_and_named() {
     // quadratic ones by less than 1 %.
     assert!(held > 0.995 * 192.09 && held < 1.01 * 192.09, "{held}");
 }
+
+/// Largest error of the hoop stress at the nodes, over the pressure, by Lame.
+fn error_at_nodes(element: &str, n: usize) -> f64 {
+    let scene = scene(
+        "thick_cylinder",
+        &[
+            &format!("mesh.parts.0.element={element}"),
+            &format!("mesh.parts.0.ring.elements=[{n},{n}]"),
+            "program.targets=[{ load_factor = 50.0 }]",
+            "reference=[]",
+        ],
+    );
+    let mut analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::default()).unwrap();
+    let results = analysis.run(&mut Silent).unwrap();
+    let fields = results.states[0].fields.as_ref().unwrap();
+    let mesh = &analysis.model().mesh;
+    let mut worst = 0.0f64;
+    for (node, stress) in fields.nodal_stress.chunks(4).enumerate() {
+        let [x, y] = mesh.in_plane(node);
+        let square = x * x + y * y;
+        // Stress along the circle: t' sigma t with t = (-y, x)/r.
+        let [xx, yy, _, xy] = [stress[0], stress[1], stress[2], stress[3]];
+        let hoop = (xx * y * y - 2.0 * xy * x * y + yy * x * x) / square;
+        let exact = 50.0 * 100.0f64.powi(2) / (200.0f64.powi(2) - 100.0f64.powi(2))
+            * (1.0 + 200.0f64.powi(2) / square);
+        worst = worst.max((hoop - exact).abs() / 50.0);
+    }
+    worst
+}
+
+/// Stresses at the nodes, of the bore and of corners too, are of the order that the recovery has:
+/// h^2 with linear elements, h^3 with quadratic ones.
+#[test]
+fn stresses_at_nodes_converge_up_to_the_surface() {
+    for (element, order, finest) in [
+        ("quad4", 1.7, 0.02),
+        ("quad8", 2.5, 1e-3),
+        ("tri6", 2.5, 1e-3),
+    ] {
+        let errors = [8, 16, 32].map(|n| error_at_nodes(element, n));
+        let observed = (errors[1] / errors[2]).log2();
+        assert!(observed > order, "{element}: {errors:?} {observed}");
+        assert!(errors[2] < finest, "{element}: {errors:?}");
+    }
+}

@@ -21,7 +21,7 @@ from ._errors import (
     UnheldError,
     UnsupportedError,
 )
-from ._run import check, run, yield_load
+from ._run import check, new, run, yield_load
 
 __all__ = [
     "AnalysisError",
@@ -40,6 +40,7 @@ __all__ = [
     "UnsupportedError",
     "__version__",
     "check",
+    "new",
     "run",
     "yield_load",
 ]

@@ -17,7 +17,7 @@ _CELLS = {
     "hex8": "hexahedron",
     "hex20": "hexahedron20",
 }
-_OF_NODES = ["displacement", "contact_pressure", "gap"]
+_OF_NODES = ["displacement", "nodal_stress", "contact_pressure", "gap"]
 _OF_ELEMENTS = ["stress", "von_mises", "equivalent_plastic_strain", "yielded", "discretisation_error"]
 
 

@@ -22,6 +22,7 @@ use numpy::PyArray1;
 use pyo3::exceptions::{PyAttributeError, PyIndexError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -66,6 +67,13 @@ pub fn run(
         budget,
     };
     execute(py, source, way)
+}
+
+/// The text of a new scene; see `brinell.new`, which calls this.
+#[pyfunction]
+pub fn new(py: Python<'_>, words: Vec<String>) -> PyResult<String> {
+    let words = words.into_iter().map(OsString::from);
+    contained(|| brinell::cli::new_scene(words)).raise(py)
 }
 
 /// Reads a scene; its warnings are those of Python.
@@ -484,7 +492,7 @@ impl State {
     /// Fields on the whole mesh, not copied and not to be written to: `displacement` (n_nodes, 2),
     /// `stress` (n_elements, 4) as xx, yy, zz, xy (of a solid 3 and 6, yz and zx after them),
     /// `von_mises`, `equivalent_plastic_strain`, `yielded`, `discretisation_error`, and of the nodes
-    /// `contact_pressure`, `gap`: the names of the `.vtu` files; None where the target asks for
+    /// `nodal_stress`, `contact_pressure`, `gap`: the names of the `.vtu` files; None where the target asks for
     /// none.
     #[getter]
     fn fields<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {

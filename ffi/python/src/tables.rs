@@ -79,6 +79,7 @@ pub fn fields<'py>(
     };
     add("displacement", |f| &f.displacement, Some(dimension))?;
     add("stress", |f| &f.stress, Some(components))?;
+    add("nodal_stress", |f| &f.nodal_stress, Some(components))?;
     add("von_mises", |f| &f.von_mises, None)?;
     // The names of the .vtu files; the shorter ones are earlier versions'.
     for name in ["equivalent_plastic_strain", "plastic_strain"] {

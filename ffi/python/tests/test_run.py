@@ -533,3 +533,18 @@ def test_a_plastic_history_of_a_solid_from_arrays_is_the_scene_s():
     assert patch["force"] == pytest.approx(expected[3].contact_force, rel=1e-9)
     assert patch["semi_axes"][0] == pytest.approx(patch["semi_axes"][1], rel=1e-6)
     assert expected[4].patches == []
+
+
+def test_a_new_scene_runs_and_is_written_once(tmp_path):
+    text = brinell.new("ball-on-flat", radius=5, yield_stress=500, plastic_modulus=2000, load=20, resolution=4)
+    assert "# Made by `brinell new`" in text
+    result = brinell.run(text)
+    assert result["pressed"].load == pytest.approx(20, rel=1e-9)
+    out = tmp_path / "ball.toml"
+    assert brinell.new("ball-on-flat", load=20, three_dimensional=True, out=out) == out.read_text()
+    with pytest.raises(FileExistsError):
+        brinell.new("ball-on-flat", load=20, out=out)
+    with pytest.raises(brinell.InputError, match="ball-on-flat"):
+        brinell.new("ball-on-flt")
+    with pytest.raises(brinell.InputError, match="--radius"):
+        brinell.new("ball-on-flat", radius=-5)

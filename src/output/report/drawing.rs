@@ -75,14 +75,19 @@ impl Drawing {
     }
 
     /// The text for the page: colours by name, as wide as there is room. `label` says to those who
-    /// do not see it what it shows.
-    pub(super) fn inline(&self, label: &str) -> String {
+    /// do not see it what it shows, `id` is its name within the page.
+    pub(super) fn inline(&self, label: &str, id: &str) -> String {
         let label = label
             .replace('&', "&amp;")
             .replace('<', "&lt;")
             .replace('"', "&quot;");
-        let told = format!(" role=\"img\" aria-label=\"{label}\"");
+        let told = format!(" id=\"{id}\" role=\"img\" aria-label=\"{label}\"");
         format!("{}{}</svg>", self.tag(&told), theme::themed(&self.content))
+    }
+
+    /// Its box, in units.
+    pub(super) fn size(&self) -> [u32; 2] {
+        [self.width * FINE, self.height * FINE]
     }
 
     fn tag(&self, attributes: &str) -> String {
@@ -264,12 +269,12 @@ mod tests {
             "<path fill=\"{}\" d=\"M0 0l1 0 0 1z\"/>",
             theme::hex(INK)
         ));
-        for text in [drawing.file(), drawing.inline("a & \"b\" <c>")] {
+        for text in [drawing.file(), drawing.inline("a & \"b\" <c>", "svg-a")] {
             roxmltree::Document::parse(&text).unwrap();
             // Of the whole drawing alone.
             assert_eq!(text.matches("font-size").count(), 1, "{text}");
         }
-        assert!(drawing.inline("").contains("var(--ink)"));
+        assert!(drawing.inline("", "svg-a").contains("var(--ink)"));
         assert!(!drawing.file().contains("var("));
     }
 }

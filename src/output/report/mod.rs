@@ -28,6 +28,7 @@ mod curves;
 mod cycles;
 mod drawing;
 mod fields;
+mod film;
 mod magnified;
 mod outer;
 mod page;
@@ -82,7 +83,8 @@ impl Captioned {
             name: self.name.clone(),
             title: self.title.clone(),
             caption: self.caption.clone(),
-            svg: self.drawing.inline(label),
+            svg: self.drawing.inline(label, &film::id(&self.name)),
+            size: self.drawing.size(),
         }
     }
 }

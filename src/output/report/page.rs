@@ -1,6 +1,7 @@
 //! The page: sections in the order in which a reader asks.
 
 use super::cycles;
+use super::film;
 use super::tables;
 use super::theme;
 use super::trust;
@@ -24,6 +25,8 @@ pub(super) struct Figure {
     pub caption: String,
     /// The drawing, as it stands in the page.
     pub svg: String,
+    /// Its box, in units.
+    pub size: [u32; 2],
 }
 
 /// The figures of a report, by section.
@@ -348,6 +351,12 @@ fn pictures(all: &Figures) -> Markup {
         @for (name, list) in &all.states {
             h3 { "State \u{201c}" (name) "\u{201d}" }
             (figures(list, "figures three"))
+        }
+        @let films = film::of(&all.states);
+        @if !films.is_empty() {
+            h3 { "The states one after the other" }
+            p.quiet { "A pointer that rests on a picture halts it." }
+            (figures(&films, "figures three"))
         }
     }
 }

@@ -17,6 +17,8 @@ use crate::space::unit;
 
 /// Most states whose pictures the page shows.
 const MOST_STATES: usize = 4;
+/// How names of pictures of magnified shapes begin.
+pub(super) const MAGNIFIED: &str = "magnified";
 
 /// The pictures of a run.
 pub(super) struct Pictures {
@@ -68,7 +70,7 @@ pub(super) fn draw(
         let mut pictures = Vec::new();
         if let Some(map) = map.as_ref().filter(|_| touches(state)) {
             pictures.push(Captioned {
-                name: format!("state_{:02}_contact_pressure", index + 1),
+                name: named(index, "contact_pressure"),
                 title: String::new(),
                 caption: format!("Contact pressure, {}.", load(state, labels)),
                 drawing: map.draw(state)?,
@@ -88,7 +90,7 @@ pub(super) fn draw(
             let entry = states.iter_mut().find(|entry| entry.0 == *index);
             if let (Some((drawing, times)), Some(entry)) = (picture, entry) {
                 entry.1.push(Captioned {
-                    name: format!("state_{:02}_magnified{}", index + 1, view.name),
+                    name: named(*index, &format!("{MAGNIFIED}{}", view.name)),
                     title: String::new(),
                     caption: magnified::caption(
                         view,
@@ -107,6 +109,19 @@ pub(super) fn draw(
         about: about(model, map.is_some(), !views.is_empty()),
         states,
     })
+}
+
+/// What a picture of a state is called.
+fn named(state: usize, what: &str) -> String {
+    format!("state_{:02}_{what}", state + 1)
+}
+
+/// What a picture shows, of whichever state.
+pub(super) fn of_state(name: &str) -> &str {
+    let after = name.strip_prefix("state_");
+    after
+        .and_then(|rest| rest.split_once('_'))
+        .map_or(name, |(_, what)| what)
 }
 
 /// The plane of a plane model, or the cuts through the contact of a solid one.
@@ -225,7 +240,7 @@ fn captioned(picture: Shown, state: &State, views: &[View], labels: &Labels) -> 
         false => "",
     };
     Captioned {
-        name: format!("state_{:02}_{name}{}", picture.state + 1, view.name),
+        name: named(picture.state, &format!("{name}{}", view.name)),
         title: String::new(),
         caption: format!(
             "{words}{}, {}{strain}.{own}",
