@@ -33,11 +33,36 @@ use serde_json::json;
 use std::borrow::Cow;
 use std::ffi::OsString;
 use std::io::{self, Write};
-use std::process::ExitCode;
+use std::process::{Command, ExitCode};
+use std::sync::OnceLock;
 use std::time::Instant;
+
+/// What runs this program where it is no file of its own.
+static WITHIN: OnceLock<Vec<OsString>> = OnceLock::new();
 
 /// Runs the program with the arguments of the process and returns its exit code.
 pub fn main() -> ExitCode {
+    ExitCode::from(program(std::env::args_os().collect()))
+}
+
+/// Runs the program within another one, as an interpreter, whose command `itself` runs it too.
+/// The arguments begin with its name; returns the exit code.
+pub fn program_within(itself: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
+    let _ = WITHIN.set(itself);
+    program(arguments)
+}
+
+/// A command that runs this program.
+fn itself() -> io::Result<Command> {
+    if let Some([program, arguments @ ..]) = WITHIN.get().map(Vec::as_slice) {
+        let mut command = Command::new(program);
+        command.args(arguments);
+        return Ok(command);
+    }
+    Ok(Command::new(std::env::current_exe()?))
+}
+
+fn program(words: Vec<OsString>) -> u8 {
     std::panic::set_hook(Box::new(|panic| {
         let _ = writeln!(
             io::stderr(),
@@ -47,13 +72,13 @@ pub fn main() -> ExitCode {
     }));
     interrupt::ignore_file_size_signal();
     start_again_with_fewer_threads();
-    let arguments = match Arguments::try_parse() {
+    let arguments = match Arguments::try_parse_from(&words) {
         Ok(arguments) => arguments,
-        Err(problem) => return usage(&problem),
+        Err(problem) => return usage(&problem, &words),
     };
     let started = Instant::now();
     match commands::execute(&arguments, started) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => 0,
         Err(error) => {
             let exit_code = match error.kind() {
                 ErrorKind::Stopped => interrupt::exit_code(),
@@ -67,25 +92,25 @@ pub fn main() -> ExitCode {
             } else {
                 let _ = io::stderr().write_all(text.as_bytes());
             }
-            ExitCode::from(exit_code)
+            exit_code
         }
     }
 }
 
 /// What clap has to say: help and version, or a usage error (exit code 2), which repeats what was
 /// typed.
-fn usage(problem: &clap::Error) -> ExitCode {
+fn usage(problem: &clap::Error, words: &[OsString]) -> u8 {
     let is_plain =
-        |argument: OsString| matches!(text::shown(&argument.to_string_lossy()), Cow::Borrowed(_));
+        |word: &OsString| matches!(text::shown(&word.to_string_lossy()), Cow::Borrowed(_));
     // In the colours of the terminal, unless what was typed brings its own.
-    let written = if std::env::args_os().all(is_plain) {
+    let written = if words.iter().all(is_plain) {
         problem.print()
     } else {
         io::stderr().write_all(text::shown(&problem.to_string()).as_bytes())
     };
     // A reader that has seen enough is no error.
     let _ = written;
-    u8::try_from(problem.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from)
+    u8::try_from(problem.exit_code()).unwrap_or(1)
 }
 
 /// Starts the program again with one thread of the BLAS where limits of the process leave no room

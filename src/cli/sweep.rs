@@ -313,13 +313,12 @@ impl Work<'_> {
     }
 
     fn command(&self, point: &Point) -> Result<Command> {
-        let program = std::env::current_exe()
-            .map_err(|cause| Error::analysis("cannot find this program").because(cause))?;
         let SweepArguments { common, jobs, .. } = self.arguments;
         let processors = std::thread::available_parallelism().map_or(1, usize::from);
         let share = (processors / usize::from(*jobs)).max(1);
         let threads = common.threads.map_or(share, usize::from);
-        let mut command = Command::new(program);
+        let mut command = super::itself()
+            .map_err(|cause| Error::analysis("cannot find this program").because(cause))?;
         command
             .arg("run")
             .arg(&common.scene)

@@ -21,7 +21,7 @@ mod _brinell {
     #[pymodule_export]
     use super::model::Model;
     #[pymodule_export]
-    use super::run::{RunResult, State, check, new, run, yield_load};
+    use super::run::{RunResult, State, check, main, new, run, yield_load};
     #[pymodule_export]
     use super::structure::Structure;
     use pyo3::prelude::*;

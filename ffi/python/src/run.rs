@@ -76,6 +76,12 @@ pub fn new(py: Python<'_>, words: Vec<String>) -> PyResult<String> {
     contained(|| brinell::cli::new_scene(words)).raise(py)
 }
 
+/// The program; see `brinell.__main__`, which calls this. Its name comes first in `arguments`.
+#[pyfunction]
+pub fn main(py: Python<'_>, itself: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
+    py.detach(|| brinell::cli::program_within(itself, arguments))
+}
+
 /// Reads a scene; its warnings are those of Python.
 fn read(py: Python<'_>, scene: &str, is_path: bool, overrides: &[String]) -> PyResult<Scene> {
     let read = || match is_path {
