@@ -81,7 +81,7 @@ pub(super) fn run(arguments: &ConvertArguments) -> Result<()> {
 }
 
 /// A new file: one that is there is left as it is.
-fn create(path: &Path) -> Result<File> {
+pub(super) fn create(path: &Path) -> Result<File> {
     File::create_new(path).map_err(|cause| match cause.kind() {
         std::io::ErrorKind::AlreadyExists => Error::new(
             ErrorKind::Io,

@@ -33,6 +33,7 @@ use serde_json::json;
 use std::borrow::Cow;
 use std::ffi::OsString;
 use std::io::{self, Write};
+use std::path::PathBuf;
 use std::process::{Command, ExitCode};
 use std::sync::OnceLock;
 use std::time::Instant;
@@ -151,22 +152,25 @@ pub fn check_command_line(
         .map_err(|problem| problem.to_string())
 }
 
-/// The scene that `brinell new` makes of a problem and its flags, as text.
+/// The scene that `brinell new` makes of a problem and its flags, as text; written where `--out` is
+/// among them.
 ///
 /// # Errors
-/// `Input` where they are not understood, and what they say wrong.
+/// `Input` where they are not understood, and what they say wrong; `Io` of a file that is there.
 pub fn new_scene(words: impl IntoIterator<Item = OsString>) -> Result<String> {
     #[derive(Parser)]
     #[command(name = "new", no_binary_name = true, disable_help_flag = true)]
     struct Line {
         #[command(subcommand)]
         problem: new::Problem,
+        #[arg(long, global = true)]
+        out: Option<PathBuf>,
     }
     let line = Line::try_parse_from(words).map_err(|problem| {
         let text = problem.to_string();
         Error::input(text.trim_start_matches("error: ").trim_end())
     })?;
-    new::scene(&line.problem)
+    new::start(&line.problem, line.out.as_deref())
 }
 
 /// An error with its causes, as lines for a reader.

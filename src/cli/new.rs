@@ -5,12 +5,14 @@ mod fit;
 mod materials;
 mod pressed;
 mod punch;
+mod raceways;
 mod size;
 mod solid;
 
-use super::convert::{self, ConvertArguments};
+use super::convert::{self, ConvertArguments, create};
 use super::print;
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
+use crate::mesh::{Mesh, gmsh};
 use crate::number::significant;
 use crate::scene::Scene;
 use clap::{Args, Subcommand};
@@ -53,6 +55,13 @@ pub(super) enum Problem {
     RollerOnFlat(pressed::Pressed),
     /// A shaft in a bore: an interference fit, or with clearance and a load (plane stress)
     ShaftInBore(fit::Fit),
+    /// A roller is pressed between the raceways of two rings and let go (plane strain; the load is
+    /// per mm of length)
+    #[command(
+        after_help = "Example: brinell new roller-between-raceways --diameter 10 --inner-radius 20 \
+                      --out bearing.toml && brinell run bearing.toml"
+    )]
+    RollerBetweenRaceways(raceways::Bearing),
     /// A flat rigid punch goes into a block (plane strain)
     Punch(punch::Punch),
 }
@@ -96,44 +105,64 @@ pub(super) fn run(arguments: &NewArguments) -> Result<()> {
             ));
         }
     };
-    let text = scene(problem)?;
-    let Some(path) = &arguments.out else {
-        return print(&text);
-    };
-    let written =
-        std::fs::File::create_new(path).and_then(|mut file| file.write_all(text.as_bytes()));
-    match written {
-        Err(cause) if cause.kind() == std::io::ErrorKind::AlreadyExists => Err(Error::new(
-            ErrorKind::Io,
-            format!(
-                "{} exists and is left as it is: choose another name",
-                path.display()
-            ),
-        )),
-        Err(cause) => Err(Error::io("write", path, cause)),
-        Ok(()) => print(&format!(
+    let text = start(problem, arguments.out.as_deref())?;
+    match &arguments.out {
+        None => print(&text),
+        Some(path) => print(&format!(
             "{0} written; run it with: brinell run {0}\n",
             path.display()
         )),
     }
 }
 
-/// The scene of a problem, as text.
+/// A new scene, and its mesh where that is no generator's.
+struct Started {
+    text: String,
+    mesh: Option<Mesh>,
+}
+
+impl From<String> for Started {
+    fn from(text: String) -> Self {
+        Started { text, mesh: None }
+    }
+}
+
+/// The text of a problem's scene, written to a file where one is given; a mesh goes beside it.
 ///
 /// # Errors
-/// What its numbers say wrong.
-pub(super) fn scene(problem: &Problem) -> Result<String> {
-    let text = match problem {
-        Problem::BallOnFlat(ball) if ball.three_dimensional => solid::ball_on_flat(&ball.pressed)?,
-        Problem::BallOnFlat(ball) => pressed::scene(&ball.pressed, true)?,
-        Problem::BallInGroove(groove) => solid::ball_in_groove(groove)?,
-        Problem::CrossedCylinders(crossed) => solid::crossed_cylinders(crossed)?,
-        Problem::RollerOnFlat(pressed) => pressed::scene(pressed, false)?,
-        Problem::ShaftInBore(fit) => fit::scene(fit)?,
-        Problem::Punch(given) => punch::scene(given)?,
+/// What the numbers say wrong; a file that is there already or cannot be written.
+pub(super) fn start(problem: &Problem, out: Option<&Path>) -> Result<String> {
+    let mesh_path = out.map(|out| out.with_extension("msh"));
+    let started: Started = match problem {
+        Problem::RollerBetweenRaceways(bearing) => {
+            let name = mesh_path.as_deref().and_then(Path::file_name);
+            let name = name.and_then(|name| name.to_str()).ok_or_else(|| {
+                Error::input("a mesh belongs to this scene: give --out FILE, it goes beside it")
+            })?;
+            raceways::scene(bearing, name)?
+        }
+        Problem::BallOnFlat(ball) if ball.three_dimensional => {
+            solid::ball_on_flat(&ball.pressed)?.into()
+        }
+        Problem::BallOnFlat(ball) => pressed::scene(&ball.pressed, true)?.into(),
+        Problem::BallInGroove(groove) => solid::ball_in_groove(groove)?.into(),
+        Problem::CrossedCylinders(crossed) => solid::crossed_cylinders(crossed)?.into(),
+        Problem::RollerOnFlat(pressed) => pressed::scene(pressed, false)?.into(),
+        Problem::ShaftInBore(fit) => fit::scene(fit)?.into(),
+        Problem::Punch(given) => punch::scene(given)?.into(),
     };
-    Scene::parse(&text, "the new scene")?;
-    Ok(text)
+    Scene::parse(&started.text, "the new scene")?;
+    if let Some(out) = out {
+        let mut of_scene = create(out)?;
+        if let (Some(mesh), Some(path)) = (&started.mesh, &mesh_path) {
+            let mut of_mesh = create(path)?;
+            gmsh::write(mesh, &mut of_mesh).map_err(|cause| Error::io("write", path, cause))?;
+        }
+        of_scene
+            .write_all(started.text.as_bytes())
+            .map_err(|cause| Error::io("write", out, cause))?;
+    }
+    Ok(started.text)
 }
 
 /// A deck's scene and mesh, and how to go on.

@@ -226,6 +226,44 @@ fn new_scenes_run_and_give_what_their_comments_say() {
         std::fs::remove_file(folder.path().join(format!("{}.toml", problem[0]))).unwrap();
     }
 
+    // Hertz at both raceways of a roller: 1/R = 1/5 + 1/20 and 1/5 - 1/30.
+    let bearing = made_and_run(
+        folder.path(),
+        &[
+            "roller-between-raceways",
+            "--diameter",
+            "10",
+            "--load",
+            "80",
+        ],
+    );
+    let table = folder
+        .path()
+        .join("roller-between-raceways.out/contact.csv");
+    let mut rows = csv::Reader::from_path(table).unwrap();
+    let mut largest = [0.0f64; 2];
+    for row in rows.records().map(|row| row.unwrap()) {
+        if row[0] == *"1" {
+            let contact: usize = row[3].parse().unwrap();
+            largest[contact - 1] = largest[contact - 1].max(row[9].parse().unwrap());
+        }
+    }
+    for (pressure, radius) in largest.iter().zip([4.0, 6.0]) {
+        let hertz = brinell::analytical::HertzLine::new(radius, modulus).unwrap();
+        near(
+            &Value::from(*pressure),
+            hertz.max_pressure(80.0),
+            1.0 / 64.0,
+        );
+    }
+    near(&bearing["states"][0]["load"], 80.0, 1e-9);
+    let nowhere = brinell(&["new", "roller-between-raceways"]);
+    let words = String::from_utf8_lossy(&nowhere.stderr).into_owned();
+    assert!(
+        words.contains("a mesh belongs to this scene: give --out"),
+        "{words}"
+    );
+
     // Lame: p = E d (b^2 - a^2)/(2 a b^2) for one material.
     let fit = made_and_run(
         folder.path(),

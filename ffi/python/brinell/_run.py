@@ -46,19 +46,19 @@ def yield_load(scene, overrides=None, *, solver=None, **more):
 def new(problem, *, out=None, **numbers):
     """A commented scene for a common problem, as `brinell new` makes it: its text, which `run` takes; written to the file `out`
     where that is given and not there yet.
+    A mesh that belongs to it ("roller-between-raceways") goes beside that.
 
-    problem: "ball-on-flat", "roller-on-flat", "shaft-in-bore", "punch", "ball-in-groove", "crossed-cylinders".
+    problem: "ball-on-flat", "roller-on-flat", "shaft-in-bore", "punch", "ball-in-groove", "crossed-cylinders",
+        "roller-between-raceways".
     numbers: the options of `brinell new PROBLEM --help` as keywords, with underscores: radius=5, yield_stress=500,
         three_dimensional=True. Units are N, mm and MPa.
     """
     given = [(f"--{key.rstrip('_').replace('_', '-')}", value) for key, value in numbers.items()]
     # Joined, so that a negative number is no option.
     words = [flag if value is True else f"{flag}={value}" for flag, value in given if value is not None and value is not False]
-    text = _brinell.new([problem, *words])
     if out is not None:
-        with open(out, "x", encoding="utf-8") as file:
-            file.write(text)
-    return text
+        words.append(f"--out={os.fspath(out)}")
+    return _brinell.new([problem, *words])
 
 
 def _scene(scene, overrides, more):

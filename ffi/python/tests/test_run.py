@@ -542,7 +542,7 @@ def test_a_new_scene_runs_and_is_written_once(tmp_path):
     assert result["pressed"].load == pytest.approx(20, rel=1e-9)
     out = tmp_path / "ball.toml"
     assert brinell.new("ball-on-flat", load=20, three_dimensional=True, out=out) == out.read_text()
-    with pytest.raises(FileExistsError):
+    with pytest.raises(brinell.IoError, match="exists"):
         brinell.new("ball-on-flat", load=20, out=out)
     with pytest.raises(brinell.InputError, match="ball-on-flat"):
         brinell.new("ball-on-flt")

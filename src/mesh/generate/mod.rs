@@ -19,6 +19,7 @@ pub(super) mod limits;
 mod o_grid;
 mod parts;
 mod polar;
+pub(crate) mod raceways;
 #[cfg(test)]
 mod tests;
 
