@@ -13,6 +13,10 @@ use std::borrow::Cow;
 const VANISHING: f64 = 1e-7;
 /// Forces below this share of the largest of the run are round-off of an unloaded contact.
 const ROUND_OFF: f64 = 1e-13;
+/// Patches whose forces differ by no more than this share are of bodies in a row, which pass the
+/// same force on; the figures are those of the first contact of them, on any mesh. Pressures add up
+/// to more than their resultant, a hundredth more over 14 degrees to both sides (`t/sin t`).
+const EQUAL: f64 = 0.01;
 
 /// Contact pressures and extents at the current state.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -154,9 +158,7 @@ pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigur
                 k += 1;
             }
             let sum: f64 = force[begin..k].iter().sum();
-            // Bodies in a row pass the same force on: the first of equal patches is taken, not that
-            // of the larger round-off.
-            if sum > largest * (1.0 + VANISHING) {
+            if sum > largest * (1.0 + EQUAL) {
                 largest = sum;
                 let patch = Patch {
                     model,
@@ -204,7 +206,9 @@ pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigur
 
 /// The figures of solids: the half width is the smaller half axis of the strongest patch.
 fn with_patches(mut out: ContactFigures, read: Vec<ReadPatch>) -> ContactFigures {
-    if let Some(strongest) = read.first() {
+    let least = read.first().map_or(0.0, |read| read.patch.force) / (1.0 + EQUAL);
+    let strong = read.iter().filter(|read| read.patch.force >= least);
+    if let Some(strongest) = strong.min_by_key(|read| read.patch.contact) {
         out.half_width = strongest.patch.semi_axes[1];
         out.half_width_reading = EdgeReading {
             error: strongest.reading,
