@@ -35,7 +35,7 @@ fn every_keyword_becomes_what_it_means() {
     // One section of two bodies that share no node: sets that are the bodies give the names.
     assert_eq!(scene.bodies.keys().collect::<Vec<_>>(), ["HIGH", "LOW"]);
     let steel = &scene.materials["STEEL"];
-    assert_eq!(steel.yield_stress, Some(300.0));
+    assert_eq!(steel.first_yield_stress(), Some(300.0));
     assert_eq!(
         steel.hardening_table,
         Some(vec![[0.0, 300.0], [0.1, 400.0]])

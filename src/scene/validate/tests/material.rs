@@ -58,7 +58,7 @@ fn rows_over_temperature() {
                     };
                     heated(s, &[row(20.0, 2e5), both]);
                 },
-                "materials.steel.over_temperature.0: has 2 hardening laws",
+                "materials.steel.over_temperature.0: 2 of hardening laws given (plastic_modulus, hardening",
             ),
             (
                 |s| {
