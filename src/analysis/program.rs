@@ -370,7 +370,10 @@ impl<'m, 'o> Run<'m, 'o> {
     fn begin_preload(&mut self) {
         let end = self.solver.structure.point(0.0);
         let has_interference = self.model().pairs.iter().any(|p| p.interference != 0.0);
-        if self.solver.at.factors == end.factors && !has_interference {
+        let loads = self.model().loads.iter();
+        let mut factors = loads.zip(self.solver.at.factors.iter().zip(&end.factors));
+        let is_loaded = factors.any(|(load, (here, there))| load.acts() && here != there);
+        if !is_loaded && !has_interference {
             self.solver.at = end;
         } else {
             self.position.stops = vec![0.0];

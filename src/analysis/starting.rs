@@ -11,7 +11,8 @@ use crate::scene::Unit;
 /// Reads the state that the scene of a model starts from; `None` where that is a virgin one.
 ///
 /// # Errors
-/// Those of [`read_end_state`]; `Input` where first yield is asked for, a body with plastic strains may not yield, or its
+/// Those of [`read_end_state`]; `Input` where first yield is asked for, a body with plastic strains
+/// may not yield, or its
 /// material has another number of back stresses that fade.
 pub(super) fn read(model: &Model) -> Result<Option<EndState>> {
     let scene = &model.scene;

@@ -1,8 +1,8 @@
 //! Materials whose properties depend on the temperature, and what they are at that of a body.
 //!
 //! Each property is linear between the rows that give it, `p = p_1 + (p_2 - p_1)(T - T_1)/(T_2 -
-//! T_1)`, and constant beyond them. A body has one temperature: its elastic stiffness is that of the
-//! whole run, so that one factorisation is enough.
+//! T_1)`, and constant beyond them. A body has one temperature: its elastic stiffness is that of
+//! the whole run, so that one factorisation is enough.
 
 use super::{Material, Scene};
 use crate::interpolation::interpolate;

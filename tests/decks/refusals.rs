@@ -317,7 +317,7 @@ fn what_brinell_does_not_have_is_told_by_line_and_reason() {
         (
             "*CLOAD\n3, 2, 5.",
             "*TEMPERATURE\nBASE, 100.\n*END STEP\n*STEP\n*STATIC\n*TEMPERATURE\n3, 50.",
-            "line 28: *TEMPERATURE: the temperatures of nodes 1 and 3 of body BODY do not change in",
+            "line 28: *TEMPERATURE: the temperatures of nodes 1 and 3 of body BODY do not change",
         ),
         (
             before,

@@ -115,7 +115,7 @@ fix = [\"x\", \"y\"]
 [[load]]
 name = \"press\"
 on = \"outer.seat\"
-plane_force = {{ direction = \"y\", total = {total} }}   # N per mm of length; all of the seat moves alike
+plane_force = {{ direction = \"y\", total = {total} }}   # N per mm; the seat moves as one
 
 # Pressed to the full load, then let go: what stays are the dents.
 [program]

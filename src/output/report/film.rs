@@ -1,5 +1,5 @@
-//! Films: the pictures of the states shown one after the other, by style alone. A picture that is on
-//! the page is not repeated, but used again by its name.
+//! Films: the pictures of the states shown one after the other, by style alone. A picture of the
+//! page is not repeated, but used again by its name.
 
 use super::drawing::{FINE, LETTERS, escaped};
 use super::page::Figure;
@@ -38,7 +38,8 @@ fn film(name: &str, scenes: &[(&str, &Figure)]) -> Figure {
     let [width, height] = size;
     let letters = LETTERS * f64::from(FINE);
     let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"film film-{}\" viewBox=\"0 0 {width} {}\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"film film-{}\" \
+         viewBox=\"0 0 {width} {}\" \
          font-size=\"{letters}\" role=\"img\" aria-label=\"The states one after the other\">\n",
         scenes.len(),
         height + line

@@ -58,7 +58,7 @@ fn rows_over_temperature() {
                     };
                     heated(s, &[row(20.0, 2e5), both]);
                 },
-                "materials.steel.over_temperature.0: 2 of hardening laws given (plastic_modulus, hardening",
+                "over_temperature.0: 2 of hardening laws given (plastic_modulus, hardening_table)",
             ),
             (
                 |s| {
