@@ -4,8 +4,8 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .ONESHELL:
 .DEFAULT_GOAL := help
-.PHONY: help setup cargo build run check test test-all test-rest bench bench-peers install uninstall wheel deb \
-    packages package python python-tests clean
+.PHONY: help setup setup-mpi cargo build run check test test-all test-rest test-mpi bench bench-peers \
+    install uninstall wheel deb packages package python python-tests clean
 
 # What the CHOLMOD backend is built on: SuiteSparse, a fast BLAS, and libclang for bindgen.
 PACKAGES := libsuitesparse-dev libopenblas-dev libclang-dev
@@ -70,7 +70,7 @@ LONG := install:: python:: damaged_inputs_are_taken_or_refused
 test: check ## All that shows the results to be right (about ten minutes)
 	@cargo test --features capi,faer -- $(addprefix --skip ,$(LONG))
 
-test-all: test test-rest ## All tests, builds with other features, documentation
+test-all: test test-rest test-mpi ## All tests, builds with other features, documentation
 
 # What brinell does without CHOLMOD, in Rust alone, and with the dense backend only, fast subsets
 # show. A library alone must build without the program.
@@ -82,6 +82,16 @@ test-rest: setup python-tests ## What test-all has beyond test
 	cargo test --no-default-features --features cli --lib --bins --test cli
 	RUSTDOCFLAGS="-D warnings" cargo doc --features capi,faer --no-deps --quiet
 	$(MAKE) --no-print-directory package PACKAGE_FLAGS='--no-default-features --features faer,cli'
+
+# MUMPS, MPI, and what starts several ranks.
+setup-mpi: PACKAGES += libmumps-dev libopenmpi-dev openmpi-bin procps
+setup-mpi: setup ## Install what the feature `mumps` needs too (Debian, Ubuntu)
+
+# MPI starts a process while OpenBLAS may work in another thread: one test at a time.
+test-mpi: setup-mpi ## Test runs over several ranks
+	@cargo clippy --features mumps --all-targets -- -D warnings
+	cargo test --features mumps --lib linalg:: -- --test-threads=1
+	cargo test --features mumps --test mpi
 
 bench: setup ## Measure
 	@cargo bench --bench trailing --bench history --bench contact --bench acceleration --bench reading

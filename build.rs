@@ -11,10 +11,53 @@ fn main() {
     println!("cargo:rerun-if-changed=ffi/openmp.h");
     println!("cargo:rustc-check-cfg=cfg(openblas)");
     println!("cargo:rustc-check-cfg=cfg(openmp)");
+    #[cfg(feature = "mumps")]
+    if let Err(message) = mumps::build() {
+        eprintln!("error: {message}");
+        std::process::exit(1);
+    }
     #[cfg(feature = "cholmod")]
     if let Err(message) = native::configure() {
         eprintln!("error: {message}");
         std::process::exit(1);
+    }
+}
+
+/// The part in C, compiled as programs of MPI are.
+#[cfg(feature = "mumps")]
+mod mumps {
+    use std::process::Command;
+
+    const SHIM: &str = "src/linalg/mumps/shim.c";
+    const REMEDY: &str = "install MUMPS and OpenMPI (Debian, Ubuntu: `make setup-mpi`), or build \
+                          without the feature `mumps`";
+
+    pub fn build() -> Result<(), String> {
+        println!("cargo:rerun-if-changed={SHIM}");
+        let mut shim = cc::Build::new();
+        shim.file(SHIM).warnings(true);
+        for flag in flags("--showme:incdirs")? {
+            shim.include(flag);
+        }
+        shim.try_compile("brinell_mumps")
+            .map_err(|cause| format!("{SHIM} does not compile ({cause}): {REMEDY}"))?;
+        for directory in flags("--showme:libdirs")? {
+            println!("cargo:rustc-link-search=native={directory}");
+        }
+        println!("cargo:rustc-link-lib=dylib=dmumps");
+        println!("cargo:rustc-link-lib=dylib=mpi");
+        Ok(())
+    }
+
+    /// What OpenMPI's compiler adds.
+    fn flags(question: &str) -> Result<Vec<String>, String> {
+        let answer = Command::new("mpicc").arg(question).output();
+        let answer = answer
+            .ok()
+            .filter(|answer| answer.status.success())
+            .ok_or_else(|| format!("there is no `mpicc` of OpenMPI: {REMEDY}"))?;
+        let words = String::from_utf8_lossy(&answer.stdout).into_owned();
+        Ok(words.split_whitespace().map(str::to_string).collect())
     }
 }
 

@@ -164,7 +164,9 @@ fn unsafe_is_at_home_in_one_place() {
         let uses = text
             .split(|c: char| !(c.is_alphanumeric() || c == '_'))
             .any(|word| word == "unsafe");
-        let home = name.starts_with("src/linalg/cholmod/") || name.starts_with("src/capi")
+        let home = ["src/linalg/cholmod/", "src/linalg/mumps/", "src/capi"]
+            .iter()
+            .any(|folder| name.starts_with(folder))
             // Kernels for wide registers, and advice to the system on memory.
             || ["panel", "pages"].iter().any(|f| name == format!("src/linalg/sparse/{f}.rs"))
             // The allocator of the program.

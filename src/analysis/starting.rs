@@ -12,8 +12,7 @@ use crate::scene::Unit;
 ///
 /// # Errors
 /// Those of [`read_end_state`]; `Input` where first yield is asked for, a body with plastic strains
-/// may not yield, or its
-/// material has another number of back stresses that fade.
+/// may not yield, or its material has another number of back stresses that fade.
 pub(super) fn read(model: &Model) -> Result<Option<EndState>> {
     let scene = &model.scene;
     let Some(folder) = scene.start_folder() else {

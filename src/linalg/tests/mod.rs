@@ -11,6 +11,11 @@ use matrices::{Grid, Support};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
+/// Backends that know their pivots; MUMPS does not tell them.
+fn pivoting() -> impl Iterator<Item = Backend> {
+    backends().into_iter().filter(|b| *b != Backend::Mumps)
+}
+
 /// The backends of this build.
 fn backends() -> Vec<Backend> {
     Backend::built_in()
@@ -383,7 +388,7 @@ fn the_weakest_pivot_is_that_of_the_softest_support() {
     k.add_triplet(0, 1, -1.0);
     k.add_triplet(1, 1, 1.0 + s);
     let k: SymmetricCsc = k.to_csc();
-    for backend in backends() {
+    for backend in pivoting() {
         for (zone, contact, last) in [(vec![], vec![0], 0), (vec![1], vec![], 1)] {
             let partition = Partition {
                 n: 2,

@@ -19,6 +19,7 @@ pub(super) mod limits;
 mod o_grid;
 mod parts;
 mod polar;
+#[cfg(feature = "cli")]
 pub(crate) mod raceways;
 #[cfg(test)]
 mod tests;

@@ -3,6 +3,7 @@
 use super::cursor::Cursor;
 use crate::error::Result;
 use crate::files;
+#[cfg(feature = "cli")]
 use std::io::Write;
 use std::path::Path;
 
@@ -49,6 +50,7 @@ fn parse(text: &[u8], name: &str) -> Result<Vec<(u64, f64)>> {
 ///
 /// # Errors
 /// Those of `out`.
+#[cfg(feature = "cli")]
 pub(crate) fn write(name: &str, values: &[(u64, f64)], out: &mut dyn Write) -> std::io::Result<()> {
     let mut out = std::io::BufWriter::with_capacity(1 << 16, out);
     let n = values.len();

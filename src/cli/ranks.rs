@@ -1,0 +1,80 @@
+//! Programs that `mpirun` starts several times: the first computes, the others help MUMPS.
+
+use crate::error::{Error, Result};
+use crate::linalg::Backend;
+
+/// What the launchers of MPI say: how many were started, and which one this is.
+const LAUNCHERS: [[&str; 2]; 3] = [
+    ["OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"],
+    ["PMI_SIZE", "PMI_RANK"],
+    ["SLURM_NTASKS", "SLURM_PROCID"],
+];
+
+/// What this process is to do.
+pub(super) enum Part {
+    /// All of it, alone or with the help of others.
+    First(Ranks),
+    /// Nothing any more: it has helped until the end.
+    Helped,
+}
+
+/// The ranks of a run; the others are let go when it is dropped.
+pub(super) struct Ranks {
+    #[cfg(feature = "mumps")]
+    world: Option<crate::linalg::mumps::World>,
+}
+
+/// Takes part in a run with this solver.
+///
+/// # Errors
+/// Several processes that would each compute everything, and write the same files.
+pub(super) fn join(solver: Option<Backend>) -> Result<Part> {
+    if solver == Some(Backend::Mumps) {
+        #[cfg(feature = "mumps")]
+        return with_mumps();
+    }
+    let number = |name: &str| std::env::var(name).ok()?.parse::<usize>().ok();
+    let started = LAUNCHERS.map(|[size, rank]| Some([number(size)?, number(rank)?]));
+    // A job of SLURM that starts one program itself has a number of tasks too.
+    let several = started.into_iter().flatten().find(|[size, _]| *size > 1);
+    let [size, rank] = several.unwrap_or([1, 0]);
+    if size == 1 || std::env::var_os("OMPI_COMM_WORLD_SIZE").is_none() && started[1].is_none() {
+        return Ok(Part::First(Ranks::alone()));
+    }
+    if rank > 0 {
+        return Ok(Part::Helped);
+    }
+    Err(Error::input(format!(
+        "{size} processes were started, and each would compute the same and write the same files: \
+         share the work with --solver mumps (a build with the cargo feature `mumps`), or start one"
+    )))
+}
+
+#[cfg(feature = "mumps")]
+fn with_mumps() -> Result<Part> {
+    let world = crate::linalg::mumps::World::join()?;
+    if world.rank > 0 {
+        world.serve();
+        world.end();
+        return Ok(Part::Helped);
+    }
+    Ok(Part::First(Ranks { world: Some(world) }))
+}
+
+impl Ranks {
+    fn alone() -> Self {
+        Ranks {
+            #[cfg(feature = "mumps")]
+            world: None,
+        }
+    }
+}
+
+impl Drop for Ranks {
+    fn drop(&mut self) {
+        #[cfg(feature = "mumps")]
+        if let Some(world) = self.world {
+            world.end();
+        }
+    }
+}
