@@ -11,6 +11,11 @@ fn main() {
     println!("cargo:rerun-if-changed=ffi/openmp.h");
     println!("cargo:rustc-check-cfg=cfg(openblas)");
     println!("cargo:rustc-check-cfg=cfg(openmp)");
+    #[cfg(feature = "guide")]
+    if let Err(cause) = guide::write() {
+        eprintln!("error: the guide cannot be written as documentation: {cause}");
+        std::process::exit(1);
+    }
     #[cfg(feature = "mumps")]
     if let Err(message) = mumps::build() {
         eprintln!("error: {message}");
@@ -20,6 +25,79 @@ fn main() {
     if let Err(message) = native::configure() {
         eprintln!("error: {message}");
         std::process::exit(1);
+    }
+}
+
+/// The pages of `data/guide` as modules, their links as those of documentation.
+#[cfg(feature = "guide")]
+mod guide {
+    use std::fmt::Write;
+    use std::path::{Path, PathBuf};
+    use std::{env, fs, io};
+
+    const PAGES: &str = "data/guide";
+    /// The page that has the others in a list.
+    const CONTENTS: &str = "README";
+
+    pub fn write() -> io::Result<()> {
+        println!("cargo:rerun-if-changed={PAGES}");
+        let out = PathBuf::from(env::var_os("OUT_DIR").unwrap_or_default());
+        let mut names = Vec::new();
+        for entry in fs::read_dir(PAGES)? {
+            let path = entry?.path();
+            let stem = path.file_stem().and_then(|stem| stem.to_str());
+            names.extend(stem.map(str::to_string));
+        }
+        names.sort();
+        let mut modules = String::new();
+        for name in &names {
+            let text = fs::read_to_string(Path::new(PAGES).join(name).with_extension("md"))?;
+            let file = out.join(format!("guide_{}.md", module(name)));
+            fs::write(&file, linked(&text, &names))?;
+            if name != CONTENTS {
+                let file = file.display();
+                let name = module(name);
+                let _ = writeln!(
+                    modules,
+                    "#[doc = include_str!({:?})]\npub mod {name} {{}}",
+                    file.to_string()
+                );
+            }
+        }
+        fs::write(out.join("guide.rs"), modules)
+    }
+
+    fn module(name: &str) -> String {
+        name.to_lowercase().replace('-', "_")
+    }
+
+    /// Links to pages lead to modules; other files are named in the text.
+    fn linked(text: &str, names: &[String]) -> String {
+        let mut out = String::new();
+        let mut rest = text;
+        while let Some((before, after)) = rest.split_once("](") {
+            out.push_str(before);
+            let Some((target, later)) = after.split_once(')') else {
+                break;
+            };
+            let page = target
+                .strip_suffix(".md")
+                .filter(|page| names.iter().any(|n| n == page));
+            if page == Some(CONTENTS) {
+                out.push_str("](mod@crate::guide)");
+            } else if let Some(page) = page {
+                let _ = write!(out, "](mod@crate::guide::{})", module(page));
+            } else if target.starts_with("../") {
+                if let Some(open) = out.rfind('[') {
+                    out.remove(open);
+                }
+                let _ = write!(out, " (`{}`)", target.trim_start_matches("../"));
+            } else {
+                let _ = write!(out, "]({target})");
+            }
+            rest = later;
+        }
+        out + rest
     }
 }
 

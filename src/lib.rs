@@ -60,6 +60,8 @@
 //!   it).
 //! - `cli` (default): the program. A library needs none of it: `default-features = false,
 //!   features = ["cholmod"]` leaves out clap, indicatif, maud and plotters.
+//! - `mumps`: MUMPS over MPI for what lies outside the zone, CHOLMOD for the rest.
+//! - `guide`: the guide as the module `guide` of the documentation.
 //! - `report` (with `cli` and `capi`): `report.html` of a result folder, and the plots of a study.
 //! - Without features (`default-features = false`) there is the dense backend, which takes up to
 //!   6000 freedoms.
@@ -79,6 +81,12 @@ mod root;
 mod interpolation;
 
 mod classes;
+
+#[cfg(feature = "guide")]
+#[doc = include_str!(concat!(env!("OUT_DIR"), "/guide_readme.md"))]
+pub mod guide {
+    include!(concat!(env!("OUT_DIR"), "/guide.rs"));
+}
 
 pub mod error;
 
