@@ -169,9 +169,11 @@ deb: setup ## Build a Debian package of the program (target/debian)
 	cargo deb --no-build
 
 packages: PACKAGES += debootstrap
-packages: wheel deb ## Install the wheel and the Debian package in clean places and run them
-	@tests/running/packages "$$(ls -t target/wheels/*.whl | head -1)" \
-	    "$$(ls -t target/debian/*.deb | head -1)"
+packages: wheel deb ## Install wheel, Debian package and crate in clean places and run them
+	@cargo install --quiet --locked --path . --root target/installed \
+	    --no-default-features --features faer,cli
+	tests/running/packages "$$(ls -t target/wheels/*.whl | head -1)" \
+	    "$$(ls -t target/debian/*.deb | head -1)" target/release/brinell target/installed/bin/brinell
 
 package: ## Check what `cargo publish` would upload: it builds, and is smaller than 2 MB
 	@cargo package --allow-dirty $(PACKAGE_FLAGS)

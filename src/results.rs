@@ -287,8 +287,7 @@ pub struct Fields {
     pub error: Vec<f64>,
     /// `n_nodes x 4` (of a solid `x 6`) stresses at the nodes, components as of `stress`: the mean
     /// over a node's elements of the polynomials fitted to the stresses around each of them
-    /// (Zienkiewicz-Zhu), more accurate than the elements' own. Empty in files of versions that did
-    /// not have them.
+    /// (Zienkiewicz-Zhu). Empty in files of versions that did not have them.
     #[serde(default)]
     pub nodal_stress: Vec<f64>,
     /// `n_nodes` contact pressure; 0 of nodes that are in no pair.

@@ -1,13 +1,11 @@
 //! `brinell convert`: a deck as a scene with its mesh.
 
-use super::print;
+use super::{fresh, print};
 use crate::deck::{self, Deck, Options};
-use crate::error::{Error, ErrorKind, Result};
+use crate::error::{Error, Result};
 use crate::mesh::{gmsh, inp};
 use crate::scene::Field;
 use clap::Args;
-use std::fs::File;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// What `brinell convert` takes.
@@ -46,56 +44,32 @@ pub(super) fn run(arguments: &ConvertArguments) -> Result<()> {
     let mut scene = conversion.finish(&name, &arguments.overrides)?;
     let mesh = inp::mesh(&read)?;
     let mesh_path = arguments.out.with_extension("msh");
-    let mut of_mesh = create(&mesh_path)?;
-    let mut of_scene = create(&arguments.out)?;
-    gmsh::write(&mesh, &mut of_mesh).map_err(|cause| failed(&mesh_path, cause))?;
-    scene.mesh.file = mesh_path.file_name().map(PathBuf::from);
+    let name = mesh_path.file_name().map(PathBuf::from);
+    let mut of_mesh = Vec::new();
+    let failed = |cause| Error::io("write", &mesh_path, cause);
+    gmsh::write(&mesh, &mut of_mesh).map_err(failed)?;
+    scene.mesh.file.clone_from(&name);
     // Temperatures of the deck's nodes go into the file of the mesh.
-    let fields = scene
-        .load
-        .iter_mut()
-        .filter_map(|load| load.temperature.as_mut());
-    let mut nodal = fields
-        .filter_map(|field| match field {
-            Field::Nodal(of) => Some(&mut of.file),
-            _ => None,
-        })
-        .peekable();
-    if nodal.peek().is_some() {
-        let values = read.node_temperatures()?;
-        gmsh::node_data::write("temperature", &values, &mut of_mesh)
-            .map_err(|cause| failed(&mesh_path, cause))?;
+    let mut is_heated = false;
+    for load in &mut scene.load {
+        if let Some(Field::Nodal(of)) = &mut load.temperature {
+            of.file = name.clone().unwrap_or_default();
+            is_heated = true;
+        }
     }
-    nodal.for_each(|file| *file = mesh_path.file_name().map(PathBuf::from).unwrap_or_default());
+    if is_heated {
+        let values = read.node_temperatures()?;
+        gmsh::node_data::write("temperature", &values, &mut of_mesh).map_err(failed)?;
+    }
     let mut text = format!("# Made from {} by brinell convert.\n", file_name(path));
     for note in &conversion.account.taken {
         text.push_str(&format!("# {note}\n"));
     }
     text.push('\n');
     text.push_str(&scene.to_toml()?);
-    of_scene
-        .write_all(text.as_bytes())
-        .map_err(|cause| failed(&arguments.out, cause))?;
+    fresh::write(&[(&mesh_path, &of_mesh), (&arguments.out, text.as_bytes())])?;
     let (out, mesh) = (arguments.out.display(), mesh_path.display());
     print(&format!("{out}, its mesh {mesh}\n"))
-}
-
-/// A new file: one that is there is left as it is.
-pub(super) fn create(path: &Path) -> Result<File> {
-    File::create_new(path).map_err(|cause| match cause.kind() {
-        std::io::ErrorKind::AlreadyExists => Error::new(
-            ErrorKind::Io,
-            format!(
-                "{} exists and is left as it is: choose another name",
-                path.display()
-            ),
-        ),
-        _ => failed(path, cause),
-    })
-}
-
-fn failed(path: &Path, cause: std::io::Error) -> Error {
-    Error::io("write", path, cause)
 }
 
 fn file_name(path: &Path) -> String {

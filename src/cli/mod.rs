@@ -11,6 +11,7 @@ mod convert;
 mod deck;
 mod example;
 mod forecast;
+mod fresh;
 mod interrupt;
 mod materials;
 mod new;

@@ -9,15 +9,14 @@ mod raceways;
 mod size;
 mod solid;
 
-use super::convert::{self, ConvertArguments, create};
-use super::print;
+use super::convert::{self, ConvertArguments};
+use super::{fresh, print};
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, gmsh};
 use crate::number::significant;
 use crate::scene::Scene;
 use clap::{Args, Subcommand};
 use materials::Made;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// What `brinell new` takes.
@@ -153,14 +152,13 @@ pub(super) fn start(problem: &Problem, out: Option<&Path>) -> Result<String> {
     };
     Scene::parse(&started.text, "the new scene")?;
     if let Some(out) = out {
-        let mut of_scene = create(out)?;
+        let mut of_mesh = Vec::new();
+        let mut files = vec![(out, started.text.as_bytes())];
         if let (Some(mesh), Some(path)) = (&started.mesh, &mesh_path) {
-            let mut of_mesh = create(path)?;
             gmsh::write(mesh, &mut of_mesh).map_err(|cause| Error::io("write", path, cause))?;
+            files.push((path, &of_mesh));
         }
-        of_scene
-            .write_all(started.text.as_bytes())
-            .map_err(|cause| Error::io("write", out, cause))?;
+        fresh::write(&files)?;
     }
     Ok(started.text)
 }

@@ -3,11 +3,10 @@
 use crate::error::{Error, Result};
 use crate::linalg::Backend;
 
-/// What the launchers of MPI say: how many were started, and which one this is.
-const LAUNCHERS: [[&str; 2]; 3] = [
+/// What the launchers of OpenMPI and MPICH say: how many were started, and which one this is.
+const LAUNCHERS: [[&str; 2]; 2] = [
     ["OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"],
     ["PMI_SIZE", "PMI_RANK"],
-    ["SLURM_NTASKS", "SLURM_PROCID"],
 ];
 
 /// What this process is to do.
@@ -34,13 +33,11 @@ pub(super) fn join(solver: Option<Backend>) -> Result<Part> {
         return with_mumps();
     }
     let number = |name: &str| std::env::var(name).ok()?.parse::<usize>().ok();
-    let started = LAUNCHERS.map(|[size, rank]| Some([number(size)?, number(rank)?]));
-    // A job of SLURM that starts one program itself has a number of tasks too.
+    let started = LAUNCHERS.map(|names| Some([number(names[0])?, number(names[1])?]));
     let several = started.into_iter().flatten().find(|[size, _]| *size > 1);
-    let [size, rank] = several.unwrap_or([1, 0]);
-    if size == 1 || std::env::var_os("OMPI_COMM_WORLD_SIZE").is_none() && started[1].is_none() {
+    let Some([size, rank]) = several else {
         return Ok(Part::First(Ranks::alone()));
-    }
+    };
     if rank > 0 {
         return Ok(Part::Helped);
     }

@@ -16,7 +16,7 @@
 //! |---|---|---|
 //! | `cholmod` | one sparse Cholesky factor whose trailing block *is* the factor of `S` | everything |
 //! | `faer` | the same, in Rust alone | everything, without libraries of the system |
-//! | `mumps` | the interior by MUMPS on several machines, the rest by CHOLMOD | what no single machine holds |
+//! | `mumps` | the interior by MUMPS over MPI, the rest by CHOLMOD | factors on several machines |
 //! | [`dense`] | the formulas above, term by term | reference, small models |
 
 pub(crate) mod blocked;

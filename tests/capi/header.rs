@@ -100,3 +100,23 @@ fn the_header_is_the_one_that_the_source_says() {
         }
     }
 }
+
+/// The lines of the README are C that the header knows.
+#[test]
+fn the_lines_of_the_readme_compile() {
+    let readme = std::fs::read_to_string(root().join("README.md")).unwrap();
+    let lines = readme.split("```c\n").nth(1).unwrap();
+    let lines = lines.split("```").next().unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("readme.c");
+    let program = format!("#include <brinell.h>\nint main(void) {{\n{lines}return dent > 0; }}\n");
+    std::fs::write(&file, program).unwrap();
+    let compiled = std::process::Command::new("cc")
+        .args(["-fsyntax-only", "-Wall", "-Wextra", "-Werror", "-I"])
+        .arg(root().join("ffi/include"))
+        .arg(&file)
+        .output()
+        .unwrap();
+    let why = String::from_utf8_lossy(&compiled.stderr).into_owned();
+    assert!(compiled.status.success(), "{why}");
+}

@@ -107,6 +107,22 @@ fn the_roller_and_the_shaft_are_as_their_pages_say() {
     }
 }
 
+/// The commands of the first page run, on a coarser mesh.
+#[test]
+#[cfg(any(feature = "cholmod", feature = "faer"))]
+fn the_first_ball_rolls_as_its_page_says() {
+    let text = page("first-ball.md").replace("--load 20", "--load 20 --resolution 4");
+    let folder = tempfile::tempdir().unwrap();
+    let summaries = follow(&text, folder.path());
+    assert_eq!(summaries.len(), 3);
+    let [usual, heavier, harder] = [0, 1, 2].map(|k| &summaries[k].1);
+    let figure = |summary, path| figure(summary, path).unwrap();
+    let load = |summary| figure(summary, "states.pressed.load");
+    assert!((load(heavier) - 2.0 * load(usual)).abs() < 1e-9 * load(usual));
+    let yields = |summary| figure(summary, "yield.load");
+    assert!(yields(harder) > yields(usual));
+}
+
 /// The tensile test of the page, as a scene has it and from a file.
 #[test]
 fn the_tensile_test_is_taken_as_its_page_says() {

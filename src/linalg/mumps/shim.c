@@ -93,8 +93,8 @@ void brinell_mpi_end(int is_first) {
 
 /* Factors a symmetric positive definite matrix of triplets (from 1, one triangle) in the order
  * `place`, the last `n_schur` variables of which, listed in `schur_list` as they come, are not
- * eliminated: `schur` gets their matrix by rows, its lower triangle. Returns a handle, or -1 without memory; `info` gets
- * INFOG(1), INFOG(2) and INFOG(7). */
+ * eliminated: `schur` gets their matrix by rows, its lower triangle. Returns a handle, or -1 without
+ * memory; `info` gets INFOG(1), INFOG(2) and INFOG(7). */
 int brinell_mumps_factor(int n, int64_t n_entries, int *rows, int *columns, double *values,
                          int *place, int n_schur, int *schur_list, double *schur, int info[3]) {
     int index = 0;

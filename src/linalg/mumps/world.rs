@@ -2,6 +2,7 @@
 
 use super::meaning::meaning;
 use crate::error::{Error, ErrorKind, Result};
+use crate::linalg::check;
 use std::ffi::c_int;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
@@ -132,7 +133,7 @@ impl Factor {
             return Err(Error::analysis(out_of_memory(m)));
         }
         let factor = Factor { index, n: matrix.n };
-        check([info[0], info[1]])?;
+        require([info[0], info[1]])?;
         if info[2] != GIVEN {
             return Err(Error::internal(format!(
                 "MUMPS did not take the order that it was given (INFOG(7) = {})",
@@ -147,13 +148,13 @@ impl Factor {
     /// # Errors
     /// What MUMPS says, in words.
     pub(super) fn solve(&self, load: &mut [f64]) -> Result<()> {
-        assert_eq!(load.len(), self.n, "a load of the factor's length");
+        check::length("load", load.len(), self.n)?;
         let mut info = [0; 2];
         let turn = calls();
         // SAFETY: the factor is there until it is dropped, the load is as long as it is large.
         unsafe { brinell_mumps_solve(self.index, load.as_mut_ptr(), info.as_mut_ptr()) };
         drop(turn);
-        check(info)
+        require(info)
     }
 }
 
@@ -173,7 +174,7 @@ fn out_of_memory(kept: usize) -> String {
 }
 
 /// Negative numbers of INFOG(1) as errors.
-fn check([code, more]: [c_int; 2]) -> Result<()> {
+fn require([code, more]: [c_int; 2]) -> Result<()> {
     if code >= 0 {
         return Ok(());
     }
