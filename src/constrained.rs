@@ -81,7 +81,7 @@ pub struct ConstrainedStructure {
     condensed: Box<dyn Condensed>,
     /// C.
     condensed_stiffness: Arc<DMatrix<f64>>,
-    stiffness: SymmetricCsc,
+    stiffness: Arc<SymmetricCsc>,
     /// Its infinity norm.
     norm: f64,
     /// No zone; contact freedoms ascending.
@@ -173,7 +173,7 @@ impl ConstrainedStructure {
         let contact_matrix = Arc::new(matrix);
         let mut structure = ConstrainedStructure {
             norm: linalg::norm(&stiffness),
-            stiffness,
+            stiffness: Arc::new(stiffness),
             state: State {
                 load: vec![0.0; n],
                 condensed: DVector::zeros(partition.contact.len()),

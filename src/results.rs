@@ -7,6 +7,7 @@ mod ending;
 mod history;
 mod quality;
 mod quantities;
+mod ranks;
 
 pub use contact::{ContactPatch, PairState, Status};
 pub use cycles::{CycleOutcome, CycleRow, Cycles};
@@ -15,6 +16,7 @@ pub use ending::{Ending, Incomplete};
 pub use history::{HistoryRow, PathPoint};
 pub use quality::{Quality, Tolerances};
 pub use quantities::{Estimated, Field, QUANTITIES, Quantity, Scope, Unit, value};
+pub use ranks::Ranks;
 
 use crate::space::Vector;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -61,6 +63,8 @@ pub struct Results {
     pub states: Vec<State>,
     /// Of a program of cycles, what they came to; the states are those of the last.
     pub cycles: Option<Cycles>,
+    /// Of a run on several ranks, what they did.
+    pub ranks: Option<Ranks>,
     /// One row per accepted increment.
     pub history: Vec<HistoryRow>,
     /// Points of the path between the rows of the history, where its figures bend: for curves.
@@ -138,6 +142,9 @@ pub struct Prediction {
     /// Bytes needed at the peak.
     #[serde(serialize_with = "whole", deserialize_with = "number")]
     pub memory_bytes: f64,
+    /// Of each rank, where several share the work; then `memory_bytes` is the largest of them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub memory_by_rank: Vec<f64>,
 }
 
 /// A count kept as a float, written as an integer where that is exact.

@@ -128,7 +128,9 @@ impl Substructure {
         let shift = shift(model, system, &partition);
         let cost = ContactCost::of(model);
         cost.require()?;
-        let condensed = linalg::condense(backend, &system.stiffness, &partition, &shift)
+        let condensed = system
+            .stiffness
+            .condense(backend, &partition, &shift)
             .map_err(|e| name_freedom(e, model))?;
         let n = model.pairs.len();
         let (tied, contact_matrix) = if n > 0 {
@@ -443,9 +445,8 @@ impl ContactCost {
 /// The stiffness's own diagonal on the contact freedoms of bodies that supports do not hold, zero
 /// elsewhere.
 fn shift(model: &Model, system: &System, partition: &Partition) -> Vec<f64> {
-    let diagonal = |&freedom: &usize| system.stiffness.get(freedom, freedom).copied();
     let of = |(freedom, floats): (&usize, &bool)| match floats {
-        true => diagonal(freedom).unwrap_or(0.0),
+        true => system.stiffness.diagonal(*freedom),
         false => 0.0,
     };
     partition

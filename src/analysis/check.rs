@@ -3,7 +3,7 @@
 use super::{starting, zone_choice};
 use crate::assembly::assemble;
 use crate::error::Result;
-use crate::linalg::{self, Backend, Partition, Prediction};
+use crate::linalg::{Backend, Partition, Prediction};
 use crate::model::{LoadCase, Magnitude, Model, Pair};
 use crate::results::{Effect, EndState, Sizes};
 use crate::scene::{Program, Stepping};
@@ -151,7 +151,7 @@ fn run_seconds(model: &Model, sizes: &Sizes, prediction: &Prediction, factorisat
 /// Limits of the backend; those of the directory that the scene starts from.
 pub fn check(model: &Model, backend: Backend) -> Result<Check> {
     let start = starting::read(model)?;
-    let system = assemble(model)?;
+    let system = assemble(model, backend)?;
     let choice = zone_choice::first_guess(model);
     let zone = zone_choice::zone_freedoms(model, &choice.elements);
     let partition = Partition {
@@ -159,9 +159,14 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
         zone,
         contact: model.rows.freedoms.clone(),
     };
-    let mut prediction = linalg::predict(backend, &system.stiffness, &partition)?;
+    let mut prediction = system.stiffness.predict(backend, &partition)?;
     let contact = ContactCost::of(model);
     prediction.memory_bytes += contact.memory_bytes;
+    if let Some(first) = prediction.memory_by_rank.first_mut() {
+        *first += contact.memory_bytes;
+        let ranks = prediction.memory_by_rank.iter().copied();
+        prediction.memory_bytes = ranks.fold(0.0, f64::max);
+    }
     let sizes = Sizes {
         freedoms: model.freedoms.n,
         nodes: model.mesh.n_nodes(),

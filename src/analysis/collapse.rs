@@ -26,8 +26,7 @@ use super::equilibrium::Equilibrium;
 use super::load_point::LoadPoint;
 use super::quality::{LOOSEST, ROUND_OFF_OF_FORCES};
 use super::stepping::Stepper;
-use crate::error::{Error, ErrorKind};
-use crate::linalg::largest_terms;
+use crate::error::{Error, ErrorKind, Result};
 use crate::substructure::Trailing;
 
 /// Share of the elastic stiffness below which a structure has collapsed: to take up the smallest
@@ -51,7 +50,7 @@ pub struct Attempt {
 impl Stepper<'_, '_> {
     /// What no iteration can be sure to get below: the round-off of the forces of the zone's
     /// elements that follow from displacements `u`.
-    pub(super) fn round_off_of_balance(&self, u: &Trailing) -> f64 {
+    pub(super) fn round_off_of_balance(&self, u: &Trailing) -> Result<f64> {
         let partition = &self.solver.structure.sub.partition;
         let mut all = vec![0.0; partition.n];
         for (freedoms, values) in [(&partition.zone, &u.zone), (&partition.contact, &u.contact)] {
@@ -59,7 +58,8 @@ impl Stepper<'_, '_> {
                 all[freedom] = *value;
             }
         }
-        ROUND_OFF_OF_FORCES * largest_terms(&self.solver.structure.system.stiffness, &all)
+        let stiffness = &self.solver.structure.system.stiffness;
+        Ok(ROUND_OFF_OF_FORCES * stiffness.largest_terms(&all)?)
     }
 
     /// Whether forces out of balance by the share `floor` leave little open: displacements are off

@@ -78,6 +78,7 @@ impl Run<'_, '_> {
             results.timings.push((name.to_string(), seconds));
         }
         results.cycles = self.cycles();
+        results.ranks = self.solver.structure.system.stiffness.ranks();
         results.end_state = self.solver.end_state();
         let yields = first_yield.alpha.is_some() || first_yield.is_behind;
         results.effects = check::effects(model, yields, model.start.as_ref());

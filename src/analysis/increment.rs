@@ -12,6 +12,7 @@ use super::load_point::LoadPoint;
 use super::step_length::{LengthSearch, StepLimit, step_limit};
 use super::stepping::Stepper;
 use super::zone::Evaluation;
+use crate::error::Error;
 use crate::scene::PlasticIteration;
 use crate::substructure::Trailing;
 
@@ -58,6 +59,14 @@ pub enum NoIncrement {
     Crossed(Vec<usize>),
     /// The caller asked to stop.
     Stopped,
+    /// A rank that holds a part of the stiffness failed.
+    Failed(Error),
+}
+
+impl From<Error> for NoIncrement {
+    fn from(error: Error) -> Self {
+        NoIncrement::Failed(error)
+    }
 }
 
 /// Accuracy (energy norm) of the tangent that predicts an increment: what yields anew on the way
@@ -196,7 +205,7 @@ impl Stepper<'_, '_> {
             let mut balanced = residual <= settings.tolerance;
             let mut floor = 0.0;
             if stalled && !balanced && may_settle {
-                floor = self.round_off_of_balance(&state.u) / scale;
+                floor = self.round_off_of_balance(&state.u)? / scale;
                 if residual <= floor {
                     balanced = self.settles(&state, floor);
                     may_settle = balanced;
@@ -245,7 +254,7 @@ impl Stepper<'_, '_> {
                     state,
                     iterations,
                     residual,
-                    round_off: self.round_off_of_balance(&before.u) / scale,
+                    round_off: self.round_off_of_balance(&before.u)? / scale,
                 })));
             }
             if !balanced {

@@ -168,7 +168,7 @@ fn sample<const D: usize, const S: usize, const P: usize, const N: usize>(
     out: &mut [Sample<D, S>],
 ) {
     let (gradients, stress) = (&element.gradients, &element.stress);
-    let position = gradients.positions(&model.element_coordinates(e));
+    let position = gradients.positions(&model.mesh.element_coordinates(e));
     if let [mean] = out {
         *mean = Sample {
             position: gradients.mean(&position),
@@ -201,7 +201,7 @@ fn quadrature<const D: usize, const S: usize, const P: usize, const N: usize>(
     element: &ElementStress<D, S, P, N>,
     mut visit: impl FnMut(Point<D, S>),
 ) {
-    let coordinates = model.element_coordinates::<D, N>(e);
+    let coordinates = model.mesh.element_coordinates::<D, N>(e);
     let stress = &element.stress;
     if degree(model, e) == 1 {
         let position = element.gradients.positions(&coordinates);

@@ -110,7 +110,7 @@ impl Analysis {
     pub fn new(mut model: Model, backend: Backend) -> Result<Self> {
         let start = Instant::now();
         model.start = starting::read(&model)?;
-        let system = assemble(&model)?;
+        let system = assemble(&model, backend)?;
         let timings = vec![("assembly".to_string(), start.elapsed().as_secs_f64())];
         Ok(Analysis {
             model,

@@ -152,7 +152,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
     fn new(kernel: Kernel<D, S, P, N>, model: &Model, elements: &[usize], places: &Places) -> Self {
         let (mut positions, mut sampling) = (Vec::new(), Vec::with_capacity(elements.len()));
         for &e in elements {
-            let nodes = model.element_coordinates(e);
+            let nodes = model.mesh.element_coordinates(e);
             let own = kernel.sampling(model.mesh.shapes[e], &nodes);
             let at = own.positions(&nodes);
             positions.extend((0..own.n_points()).map(|g| at.each_ref().map(|lanes| lanes[g])));
@@ -295,7 +295,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
         for &i in elements {
             self.cache_patch(model, i);
             let element = self.elements.list[i as usize].element as usize;
-            let nodes = model.element_coordinates(element);
+            let nodes = model.mesh.element_coordinates(element);
             let cells = Cell::of(i, model.mesh.shapes[element], nodes).into_iter();
             tops.extend(cells.map(|cell| (cell, Maximum::unknown())));
         }

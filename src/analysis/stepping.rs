@@ -86,6 +86,7 @@ impl<'s, 'm> Stepper<'s, 'm> {
                     }
                 }
                 Err(NoIncrement::Stopped) => return Err(stopped()),
+                Err(NoIncrement::Failed(error)) => return Err(error),
                 Err(NoIncrement::Undecided) if stepping == Stepping::Steps => {
                     stepping = Stepping::Events;
                 }

@@ -142,7 +142,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ElementStre
 
     /// Largest von Mises stress over yield stress at a point of the element `e`.
     pub(super) fn yield_ratio(&self, model: &Model, e: usize) -> f64 {
-        let places = || self.gradients.positions(&model.element_coordinates(e));
+        let places = || self.gradients.positions(&model.mesh.element_coordinates(e));
         largest_ratio(model, e, &self.stress, (places, self.gradients.n_points()))
     }
 

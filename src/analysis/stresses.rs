@@ -98,7 +98,7 @@ impl Stresses {
             let gradients = field.model.gradients(&field.kernel, e);
             let body = model.mesh.element_body[e] as usize;
             let surface = nearest_pair(model, e);
-            let places = gradients.positions(&model.element_coordinates(e));
+            let places = gradients.positions(&model.mesh.element_coordinates(e));
             for (g, (past, weight)) in history.iter().zip(gradients.weights()).enumerate() {
                 if past.equivalent > 0.0 {
                     if let Some((foot, normal)) = surface {

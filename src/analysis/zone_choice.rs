@@ -196,7 +196,7 @@ fn widen(model: &Model, mut marked: Vec<bool>, layers: usize) -> Vec<bool> {
 /// yield (0 elsewhere), for displacements of the whole model.
 pub fn stress_ratios(model: &Model, u: &[f64], factors: &[f64]) -> Vec<f64> {
     let displacements = model.nodal(u, factors);
-    with_kernel!(model, kernel => ratios_of(&kernel, model, (&displacements, factors)))
+    with_kernel!(model.kind, model.scene.mesh.formulation, kernel => ratios_of(&kernel, model, (&displacements, factors)))
 }
 
 fn ratios_of<const D: usize, const S: usize, const P: usize, const N: usize>(
@@ -216,7 +216,7 @@ fn ratios_of<const D: usize, const S: usize, const P: usize, const N: usize>(
             for (u, &node) in u.iter_mut().zip(model.mesh.nodes(e)) {
                 u.copy_from_slice(&displacements[node as usize][..D]);
             }
-            let nodes = model.element_coordinates(e);
+            let nodes = model.mesh.element_coordinates(e);
             let sampling = kernel.sampling(model.mesh.shapes[e], &nodes);
             let body = model.mesh.element_body[e] as usize;
             let mut strains = sampling.strains(&u);

@@ -1,6 +1,6 @@
 //! Which elements touch which freedom, and the sparsity pattern that follows.
 
-use crate::model::{Model, Slot};
+use super::elements::Elements;
 use rayon::prelude::*;
 
 /// Columns of the pattern that a thread takes at a time.
@@ -8,72 +8,49 @@ const BLOCK: usize = 4096;
 /// Rows of a column that room is made for: those of bilinear elements.
 const ROWS_EXPECTED: usize = 10;
 
-/// Element freedoms, those of springs after them as elements of one freedom, and, for each freedom,
-/// the elements that hold it.
+/// For each freedom, the elements that hold it.
 #[derive(Debug, Clone)]
-pub struct Incidence {
-    offsets: Vec<usize>,
-    freedoms: Vec<i64>,
+pub(super) struct Incidence {
     starts: Vec<usize>,
     entries: Vec<(u32, u16)>,
 }
 
 impl Incidence {
-    /// Incidence of a model.
-    pub fn new(model: &Model) -> Self {
-        let mut offsets = Vec::with_capacity(model.mesh.n_elements() + 1);
-        offsets.push(0);
-        let n = model.freedoms.per_node * model.mesh.connectivity.len();
-        let mut freedoms = Vec::with_capacity(n);
-        let number = |slot: &Slot| match *slot {
-            Slot::Free(f) => i64::from(f),
-            _ => -1,
-        };
-        for e in 0..model.mesh.n_elements() {
-            freedoms.extend(model.slots_of(e).iter().map(number));
-            offsets.push(freedoms.len());
+    pub(super) fn new(elements: &Elements) -> Self {
+        let n = elements.n_freedoms();
+        let mut starts = vec![0usize; n + 1];
+        let of = |e: usize| elements.freedoms(e).iter().enumerate();
+        for e in 0..elements.len() {
+            for (_, &f) in of(e).filter(|(_, f)| **f >= 0) {
+                starts[f as usize + 1] += 1;
+            }
         }
-        for spring in &model.freedoms.springs {
-            freedoms.push(spring.freedom as i64);
-            offsets.push(freedoms.len());
-        }
-        let mut starts = vec![0usize; model.freedoms.n + 1];
-        for &f in freedoms.iter().filter(|f| **f >= 0) {
-            starts[f as usize + 1] += 1;
-        }
-        for i in 0..model.freedoms.n {
+        for i in 0..n {
             starts[i + 1] += starts[i];
         }
         let mut next = starts.clone();
-        let mut entries = vec![(0u32, 0u16); starts[model.freedoms.n]];
-        for e in 0..offsets.len() - 1 {
-            for (local, &f) in freedoms[offsets[e]..offsets[e + 1]].iter().enumerate() {
-                if f >= 0 {
-                    entries[next[f as usize]] = (e as u32, local as u16);
-                    next[f as usize] += 1;
-                }
+        let mut entries = vec![(0u32, 0u16); starts[n]];
+        for e in 0..elements.len() {
+            for (local, &f) in of(e).filter(|(_, f)| **f >= 0) {
+                entries[next[f as usize]] = (e as u32, local as u16);
+                next[f as usize] += 1;
             }
         }
-        Incidence {
-            offsets,
-            freedoms,
-            starts,
-            entries,
-        }
-    }
-
-    /// Freedoms of an element, -1 where held.
-    pub fn freedoms(&self, element: usize) -> &[i64] {
-        &self.freedoms[self.offsets[element]..self.offsets[element + 1]]
+        Incidence { starts, entries }
     }
 
     /// Elements (with the local number) that hold a freedom, ascending.
-    pub fn elements(&self, freedom: usize) -> &[(u32, u16)] {
+    pub(super) fn elements(&self, freedom: usize) -> &[(u32, u16)] {
         &self.entries[self.starts[freedom]..self.starts[freedom + 1]]
     }
 
-    /// Column pointers and sorted rows of the upper triangle.
-    pub fn pattern(&self) -> (Vec<i64>, Vec<i64>) {
+    /// Column pointers and sorted rows of the upper triangle; columns that are not `wanted` are
+    /// empty.
+    pub(super) fn pattern(
+        &self,
+        elements: &Elements,
+        wanted: impl Fn(usize) -> bool + Sync,
+    ) -> (Vec<i64>, Vec<i64>) {
         let n = self.starts.len() - 1;
         // Blocks of columns: their number, not the number of threads, decides what is computed
         // together.
@@ -86,8 +63,9 @@ impl Incidence {
                 let mut column = Vec::new();
                 for j in columns {
                     column.clear();
-                    for &(e, _) in self.elements(j) {
-                        let freedoms = self.freedoms(e as usize).iter().copied();
+                    let own = self.elements(j).iter().filter(|_| wanted(j));
+                    for &(e, _) in own {
+                        let freedoms = elements.freedoms(e as usize).iter().copied();
                         column.extend(freedoms.filter(|f| (0..=j as i64).contains(f)));
                     }
                     column.sort_unstable();

@@ -51,10 +51,11 @@ pub(super) fn join(solver: Option<Backend>) -> Result<Part> {
 fn with_mumps() -> Result<Part> {
     let world = crate::linalg::mumps::World::join()?;
     if world.rank > 0 {
-        world.serve();
+        world.serve(crate::assembly::shares::columns);
         world.end();
         return Ok(Part::Helped);
     }
+    world.meet().inspect_err(|_| world.end())?;
     Ok(Part::First(Ranks { world: Some(world) }))
 }
 
@@ -71,6 +72,7 @@ impl Drop for Ranks {
     fn drop(&mut self) {
         #[cfg(feature = "mumps")]
         if let Some(world) = self.world {
+            world.let_go();
             world.end();
         }
     }

@@ -7,7 +7,7 @@ use crate::number::{bytes, number, seconds, significant};
 use crate::output::columns::{cell, of_states};
 use crate::output::{Labels, RunHeader};
 use crate::results::{
-    Cycles, Effect, QUANTITIES, Quality, ReferenceRow, Results, Sizes, State, YieldPoint,
+    Cycles, Effect, QUANTITIES, Quality, Ranks, ReferenceRow, Results, Sizes, State, YieldPoint,
 };
 use crate::scene::{Kind, Scene, Unit};
 use crate::space::Space;
@@ -25,6 +25,7 @@ pub(super) fn results(
     let mut report = Report::new(scene, header.labels.clone());
     report.sizes(&results.sizes);
     report.factor(&results.factor);
+    report.ranks(&results.factor, results.ranks.as_ref());
     report.effects(&results.effects, false);
     if let Some(first) = &results.first_yield {
         report.first_yield(first, &header.bodies, results.sizes.contact_pairs > 0);
@@ -68,6 +69,7 @@ pub(super) fn check(scene: &Scene, check: &Check, all_effects: bool) -> String {
     let mut report = Report::new(scene, Labels::default());
     report.sizes(&check.sizes);
     report.factor(&check.prediction);
+    report.ranks(&check.prediction, None);
     report.labelled(
         "Predicted",
         &format!(
@@ -225,6 +227,30 @@ impl Report {
                 bytes(factor.memory_bytes)
             ),
         );
+    }
+
+    /// What several ranks need, and what they did.
+    fn ranks(&mut self, factor: &Prediction, ranks: Option<&Ranks>) {
+        if factor.memory_by_rank.len() < 2 {
+            return;
+        }
+        let list = |of: Vec<String>| of.join(", ");
+        let predicted = factor.memory_by_rank.iter().map(|&n| bytes(n)).collect();
+        let mut text = format!(
+            "{}, predicted memory {}",
+            factor.memory_by_rank.len(),
+            list(predicted)
+        );
+        if let Some(ranks) = ranks {
+            let peak = |peak: &Option<u64>| peak.map_or("?".to_string(), |n| bytes(n as f64));
+            text += &format!(
+                "; held at most {}; the first asked the others {} times, {} to and from them",
+                list(ranks.peak_memory_bytes.iter().map(peak).collect()),
+                ranks.requests,
+                bytes(ranks.bytes as f64)
+            );
+        }
+        self.labelled("Ranks", &text);
     }
 
     /// A row for each effect that is on or asked for, or for `all`; the others are named in one

@@ -2,8 +2,9 @@
 
 use super::{ConstrainedStructure, sizes};
 use crate::error::{Error, ErrorKind, Result};
-use crate::linalg::{self, Refinement};
+use crate::linalg::{self, Refinement, Symmetric};
 use nalgebra::{Cholesky, DMatrix, DVector};
+use std::sync::Arc;
 
 impl ConstrainedStructure {
     /// Displacements of all freedoms (`n`) in the state at hand. Returns
@@ -29,7 +30,7 @@ impl ConstrainedStructure {
         let reduced = self.condensed.reduce_load(&self.state.load)?;
         let found = linalg::recover_refined(
             self.condensed.as_ref(),
-            &self.stiffness,
+            &Symmetric::Whole(Arc::clone(&self.stiffness)),
             self.norm,
             &load,
             [&reduced, &[], contact.as_slice()],

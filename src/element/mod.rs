@@ -119,16 +119,16 @@ impl SolidKernel {
 /// Evaluates an expression with the kernel of a model: the one place where the dimension becomes
 /// constants.
 macro_rules! with_kernel {
-    ($model:expr, $kernel:ident => $body:expr) => {
-        match $model.kind {
+    ($space:expr, $formulation:expr, $kernel:ident => $body:expr) => {
+        match $space {
             $crate::space::Space::Solid => {
                 let $kernel = $crate::element::Kernel::solid();
-                let $kernel = $kernel.integrated($model.scene.mesh.formulation);
+                let $kernel = $kernel.integrated($formulation);
                 $body
             }
             space => {
                 let $kernel = $crate::element::Kernel::plane(space);
-                let $kernel = $kernel.integrated($model.scene.mesh.formulation);
+                let $kernel = $kernel.integrated($formulation);
                 $body
             }
         }

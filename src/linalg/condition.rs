@@ -11,7 +11,7 @@
 //! doi:10.1145/50063.214386, as in LAPACK's `dlacn2`; A. van der Sluis (1969),
 //! doi:10.1007/BF02165096.
 
-use super::{Condensed, Partition, SymmetricCsc, solve_whole};
+use super::{Condensed, Partition, Symmetric, solve_whole};
 use crate::error::Result;
 use nalgebra::Cholesky;
 
@@ -26,32 +26,25 @@ const MOST: usize = 5;
 /// Those of [`Condensed::recover_all`].
 pub fn condition(
     condensed: &dyn Condensed,
-    matrix: &SymmetricCsc,
+    matrix: &Symmetric,
     partition: &Partition,
     shift: &[f64],
 ) -> Result<f64> {
-    let n = matrix.rows();
-    let mut root = vec![0.0; n];
-    for (j, column) in matrix.outer_iterator().enumerate() {
-        root[j] = column.get(j).copied().unwrap_or(0.0);
-    }
+    let n = matrix.n();
+    let of_matrix: Vec<f64> = (0..n).map(|freedom| matrix.diagonal(freedom)).collect();
+    let mut root = of_matrix.clone();
     for (&freedom, d) in partition.contact.iter().zip(shift) {
         root[freedom] += d;
     }
-    let diagonal = root.clone();
-    root.iter_mut().for_each(|a| *a = a.sqrt());
-    let mut sums: Vec<f64> = vec![1.0; n];
-    for (j, column) in matrix.outer_iterator().enumerate() {
-        for (i, &a) in column.iter().filter(|(i, _)| *i != j) {
-            let scaled = a.abs() / (root[i] * root[j]);
-            sums[i] += scaled;
-            sums[j] += scaled;
-        }
-    }
-    let norm = sums.iter().fold(0.0f64, |m, s| m.max(*s));
-    if diagonal.iter().any(|a| *a <= 0.0) {
+    if root.iter().any(|a| *a <= 0.0) {
         return Ok(f64::INFINITY);
     }
+    root.iter_mut().for_each(|a| *a = a.sqrt());
+    // The sums of the rows of |S K S|, their diagonal entries replaced by those of S A S: ones.
+    let inverse: Vec<f64> = root.iter().map(|root| 1.0 / root).collect();
+    let terms = matrix.rows(&vec![0.0; n], &inverse)?.terms;
+    let beside = |i: usize| (terms[i] - of_matrix[i].abs() * inverse[i]) * inverse[i];
+    let norm = (0..n).fold(0.0f64, |largest, i| largest.max(1.0 + beside(i)));
     let mut stiffness = condensed.contact_stiffness().dense();
     for (k, d) in shift.iter().enumerate() {
         stiffness[(k, k)] += d;

@@ -209,6 +209,7 @@ fn prediction(partition: &Partition) -> Prediction {
         trailing_nonzeros: trailing * (trailing + 1.0) / 2.0,
         // K, its blocks (together as large again), and W and S with their products.
         memory_bytes: 8.0 * (2.0 * n * n + 2.0 * trailing * n),
+        memory_by_rank: Vec::new(),
     }
 }
 

@@ -34,6 +34,7 @@ mod refinement;
 mod residual;
 #[cfg(any(feature = "cholmod", feature = "faer"))]
 mod sparse;
+mod symmetric;
 #[cfg(test)]
 mod tests;
 mod whole;
@@ -41,8 +42,9 @@ mod whole;
 pub use condition::condition;
 pub use contact_stiffness::{ContactBlock, ContactStiffness};
 pub use refinement::{Refinement, componentwise_backward_error, refine, twofold_residual};
+pub(crate) use residual::largest;
 pub use residual::{Recovered, multiply, norm, recover_refined};
-pub(crate) use residual::{largest, largest_terms};
+pub use symmetric::Symmetric;
 pub use whole::solve_whole;
 
 pub use crate::results::Prediction;

@@ -1,6 +1,6 @@
 //! How well a solution solves, and the step of refinement that makes it better.
 
-use super::{Condensed, Partition, SymmetricCsc};
+use super::{Condensed, Partition, Symmetric, SymmetricCsc};
 use crate::error::Result;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -16,8 +16,8 @@ const GRAIN: usize = 1 << 14;
 /// A refinement step is tried where the backward error is above this: a rounding error for each
 /// entry of a row, as many as rows have in the mean. A smaller residual may be all round-off of its
 /// own, and a step that follows from it gains nothing.
-pub(super) fn refine_above(matrix: &SymmetricCsc) -> f64 {
-    let (n, upper) = (matrix.rows().max(1) as f64, matrix.nnz() as f64);
+pub(super) fn refine_above(matrix: &Symmetric) -> f64 {
+    let (n, upper) = (matrix.n().max(1) as f64, matrix.n_entries() as f64);
     (2.0 * upper / n - 1.0).max(1.0) * f64::EPSILON
 }
 
@@ -48,11 +48,6 @@ pub fn norm(matrix: &SymmetricCsc) -> f64 {
         }
     }
     largest(&rows)
-}
-
-/// The largest `|K| |u|` of a row.
-pub(crate) fn largest_terms(matrix: &SymmetricCsc, u: &[f64]) -> f64 {
-    largest(&Rows::new(matrix, &vec![0.0; u.len()], u).terms)
 }
 
 /// Largest absolute value; NaN where there is one.
@@ -234,8 +229,8 @@ pub struct Recovered {
 }
 
 impl Recovered {
-    fn new(matrix: &SymmetricCsc, norm: f64, f: &[f64], u: Vec<f64>) -> (Self, Vec<f64>) {
-        let rows = Rows::new(matrix, f, &u);
+    fn new(matrix: &Symmetric, norm: f64, f: &[f64], u: Vec<f64>) -> Result<(Self, Vec<f64>)> {
+        let rows = matrix.rows(f, &u)?;
         let residual = largest(&rows.residual);
         let backward_error = if residual == 0.0 {
             0.0
@@ -249,7 +244,7 @@ impl Recovered {
             terms: largest(&rows.terms),
             u,
         };
-        (found, rows.residual)
+        Ok((found, rows.residual))
     }
 }
 
@@ -263,7 +258,7 @@ impl Recovered {
 /// Those of [`Condensed::recover_all`].
 pub fn recover_refined(
     condensed: &dyn Condensed,
-    matrix: &SymmetricCsc,
+    matrix: &Symmetric,
     norm: f64,
     f: &[f64],
     [reduced, zone, contact]: [&[f64]; 3],
@@ -271,7 +266,7 @@ pub fn recover_refined(
     beside: [f64; 2],
 ) -> Result<Recovered> {
     let u = condensed.recover_all(reduced, zone, contact)?;
-    let (found, mut r) = Recovered::new(matrix, norm, f, u);
+    let (found, mut r) = Recovered::new(matrix, norm, f, u)?;
     let scale = norm * largest(&found.u).max(beside[0]) + largest(f).max(beside[1]);
     // What is not a number is not refined either.
     if found.backward_error.is_nan() || found.residual <= refine_above(matrix) * scale {
@@ -291,7 +286,7 @@ pub fn recover_refined(
     for (u, old) in refined.iter_mut().zip(&found.u) {
         *u += old;
     }
-    let (refined, _) = Recovered::new(matrix, norm, f, refined);
+    let (refined, _) = Recovered::new(matrix, norm, f, refined)?;
     Ok(if refined.backward_error < found.backward_error {
         refined
     } else {

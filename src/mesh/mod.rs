@@ -134,6 +134,20 @@ impl Mesh {
         self.facet_reference(facet).n_corners
     }
 
+    /// Coordinates of an element's nodes, at the front of an array.
+    #[inline]
+    pub fn element_coordinates<const D: usize, const N: usize>(
+        &self,
+        element: usize,
+    ) -> [[f64; D]; N] {
+        let mut out = [[0.0; D]; N];
+        let (coordinates, _) = self.coordinates.as_chunks::<D>();
+        for (x, &node) in out.iter_mut().zip(self.nodes(element)) {
+            *x = coordinates[node as usize];
+        }
+        out
+    }
+
     /// Node indices of an element.
     pub fn nodes(&self, element: usize) -> &[u32] {
         &self.connectivity[self.offsets[element]..self.offsets[element + 1]]

@@ -14,10 +14,11 @@ use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::scene::{Direction, Scene};
 use crate::space::{Vector, dot, in_words, unit};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// What stands in one of a node's directions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Slot {
     /// A free freedom with its number. Nodes held plane share one.
     Free(u32),

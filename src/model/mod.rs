@@ -217,20 +217,6 @@ impl Model {
         })
     }
 
-    /// Coordinates of an element's nodes, at the front of an array.
-    #[inline]
-    pub fn element_coordinates<const D: usize, const N: usize>(
-        &self,
-        element: usize,
-    ) -> [[f64; D]; N] {
-        let mut out = [[0.0; D]; N];
-        let (coordinates, _) = self.mesh.coordinates.as_chunks::<D>();
-        for (x, &node) in out.iter_mut().zip(self.mesh.nodes(element)) {
-            *x = coordinates[node as usize];
-        }
-        out
-    }
-
     /// The gradients at the Gauss points of an element.
     #[inline]
     pub fn gradients<const D: usize, const S: usize, const P: usize, const N: usize>(
@@ -238,7 +224,7 @@ impl Model {
         kernel: &Kernel<D, S, P, N>,
         element: usize,
     ) -> Gradients<D, S, P, N> {
-        let nodes = self.element_coordinates(element);
+        let nodes = self.mesh.element_coordinates(element);
         kernel.gauss(self.mesh.shapes[element], &nodes)
     }
 

@@ -12,6 +12,7 @@ use super::Model;
 use super::freedoms::{Freedoms, Slot};
 use crate::element::packed;
 use crate::space::{Vector, along};
+use serde::{Deserialize, Serialize};
 
 impl Freedoms {
     /// Visits the terms of a node's displacement: free freedoms and prescribed displacements with
@@ -56,7 +57,7 @@ impl Freedoms {
 }
 
 /// The displacements of an element's nodes as sums: `u_i = sum_k c_ik d_k`.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Sums {
     /// The `d`: free freedoms and prescribed displacements.
     pub slots: Vec<Slot>,

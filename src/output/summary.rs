@@ -7,7 +7,7 @@ use crate::error::ErrorKind;
 use crate::memory;
 use crate::results::{
     Accuracy, ContactPatch, Counts, Cycles, Effect, Field, Incomplete, Prediction, QUANTITIES,
-    Quality, Quantity, ReferenceRow, Results, Sizes, State, YieldPoint, number,
+    Quality, Quantity, Ranks, ReferenceRow, Results, Sizes, State, YieldPoint, number,
 };
 #[cfg(feature = "cli")]
 use crate::space::Space;
@@ -41,6 +41,9 @@ pub(crate) struct Summary {
     effects: Named<EffectEntry>,
     timings: Named<Option<f64>>,
     peak_memory_bytes: Option<u64>,
+    /// Of a run on several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ranks: Option<Ranks>,
     counts: Counts,
     factor: Prediction,
     #[serde(deserialize_with = "number")]
@@ -185,6 +188,7 @@ impl Summary {
             effects: results.effects.iter().map(EffectEntry::new).collect(),
             timings: timings(&results.timings, header.wall_seconds),
             peak_memory_bytes: memory::peak(),
+            ranks: results.ranks.clone(),
             counts: results.counts,
             factor: results.factor.clone(),
             condition: results.condition,

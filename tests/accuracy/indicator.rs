@@ -63,7 +63,7 @@ const CELLS: usize = 8;
 /// stress is the polynomial through the Gauss points.
 fn points(model: &Model, e: usize, displacement: &[f64]) -> Vec<([f64; 2], f64, [f64; 4])> {
     let elastic = model.materials[0].lame();
-    let (shape, x) = (model.mesh.shapes[e], model.element_coordinates(e));
+    let (shape, x) = (model.mesh.shapes[e], model.mesh.element_coordinates(e));
     let nodes = model.mesh.nodes(e);
     let mut local = [[0.0; 2]; MAX_NODES];
     for (pair, &n) in local.iter_mut().zip(nodes) {

@@ -19,7 +19,7 @@ fn assert_a_part_moves_as_in_the_whole(backend: Backend) {
         &["mesh.cylinder_on_half_plane.resolution=8"],
     );
     let model = Model::new(&scene).unwrap();
-    let system = brinell::assembly::assemble(&model).unwrap();
+    let system = brinell::assembly::assemble(&model, Backend::default()).unwrap();
     let pairs = model
         .pairs
         .iter()

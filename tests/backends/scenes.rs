@@ -35,7 +35,7 @@ fn condensed_contact_matrices_agree() {
         "hard/interference",
     ] {
         let model = Model::new(&load(name, &[])).unwrap();
-        let system = brinell::assembly::assemble(&model).unwrap();
+        let system = brinell::assembly::assemble(&model, Backend::default()).unwrap();
         let contact = Substructure::new(&model, &system, Default::default(), Backend::Dense)
             .unwrap()
             .partition

@@ -94,14 +94,14 @@ fn model(pairs: usize, rows: usize) -> Result<Model, Failure> {
 
 fn measure(pairs: usize, rows: usize) -> Result<Value, Failure> {
     let model = model(pairs, rows)?;
-    let system = brinell::assembly::assemble(&model)?;
-    let n = system.stiffness.cols();
+    let system = brinell::assembly::assemble(&model, Backend::Cholmod)?;
+    let n = system.stiffness.n();
     let sub = Substructure::new(&model, &system, Default::default(), Backend::Cholmod)?;
     let partition: Partition = sub.partition.clone();
     drop(sub);
     // The matrix that is factored: contact freedoms of the floating block are held by their own
     // stiffness.
-    let mut held = system.stiffness.clone();
+    let mut held = system.stiffness.whole().ok_or("elsewhere")?.clone();
     for &freedom in &partition.contact {
         if let Some(value) = held.get_mut(freedom, freedom) {
             *value *= 2.0;

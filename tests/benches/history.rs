@@ -221,7 +221,9 @@ fn run(backend: Backend, changes: &str, directory: &Path) -> Result<Value, Failu
 /// holds: `n`, the number of entries, column pointers, rows, values.
 fn write_matrix(changes: &str, directory: &Path) -> Result<(), Failure> {
     let analysis = Analysis::new(Model::new(&scene(changes)?)?, Backend::Cholmod)?;
-    let (model, matrix) = (analysis.model(), &analysis.system().stiffness);
+    let model = analysis.model();
+    let stiffness = &analysis.system().stiffness;
+    let matrix = stiffness.whole().ok_or("the matrix is elsewhere")?;
     let columns = matrix.proper_indptr();
     let mut values = matrix.data().to_vec();
     for (freedom, floats) in model.rows.freedoms.iter().zip(&model.floating.of_contact) {

@@ -48,7 +48,7 @@ fn assert_solves_allocate_nothing(backend: Backend) {
             )],
         );
         let model = Model::new(&scene).unwrap();
-        let system = brinell::assembly::assemble(&model).unwrap();
+        let system = brinell::assembly::assemble(&model, Backend::default()).unwrap();
         let contact: Vec<usize> = model
             .pairs
             .iter()

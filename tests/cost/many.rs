@@ -61,7 +61,7 @@ fn stacks_held(n: usize, height: usize, held: usize) -> String {
 
 fn structure(text: &str) -> (ContactCost, Substructure) {
     let model = Model::new(&parse(text)).unwrap();
-    let system = assemble(&model).unwrap();
+    let system = assemble(&model, Backend::default()).unwrap();
     let structure =
         Substructure::new(&model, &system, Default::default(), Backend::default()).unwrap();
     (ContactCost::of(&model), structure)

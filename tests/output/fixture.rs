@@ -121,6 +121,7 @@ pub fn results(mesh: &Mesh) -> Results {
         ..pressed.clone()
     };
     Results {
+        ranks: None,
         cycles: Some(Cycles {
             outcome: CycleOutcome::Ratchetting,
             body: Some("block".into()),
@@ -202,6 +203,7 @@ pub fn results(mesh: &Mesh) -> Results {
             flops: 5e20,
             trailing_nonzeros: 99.0,
             memory_bytes: 65536.0,
+            memory_by_rank: Vec::new(),
         },
         reference: vec![ReferenceRow {
             quantity: "yield.load".into(),

@@ -104,8 +104,8 @@ struct Solved {
 }
 
 fn solve(model: &Model) -> Solved {
-    let system = assemble(model).unwrap();
-    let k = &system.stiffness;
+    let system = assemble(model, Backend::default()).unwrap();
+    let k = system.stiffness.whole().unwrap();
     let partition = Partition {
         n: model.freedoms.n,
         ..Partition::default()
@@ -119,7 +119,7 @@ fn solve(model: &Model) -> Solved {
     let done = refine(&mut refined, residual, by_factor).unwrap();
     // It did converge: what is left is round-off of the matrix as it is stored.
     assert!(done.last <= 1e-12, "{done:?}");
-    let condition = condition(&*condensed, k, &partition, &[]).unwrap();
+    let condition = condition(&*condensed, &system.stiffness, &partition, &[]).unwrap();
     Solved {
         plain,
         refined,

@@ -6,10 +6,11 @@ use crate::analysis::drive::Arrival;
 use crate::analysis::solver::Solver;
 use crate::assembly::{System, assemble};
 use crate::contact::Tableau;
-use crate::linalg::Backend;
+use crate::linalg::{Backend, Symmetric};
 use crate::model::Model;
 use crate::results::Quality;
 use crate::scene::Scene;
+use std::sync::Arc;
 
 /// A block with a rounded face on another: some pairs closed, some open.
 const SCENE: &str = r#"
@@ -47,7 +48,7 @@ targets = [{ load_factor = 1.0 }]
 fn model() -> (Model, System) {
     let scene = Scene::parse(SCENE, "test").expect("scene");
     let model = Model::new(&scene).expect("model");
-    let system = assemble(&model).expect("system");
+    let system = assemble(&model, Backend::default()).expect("system");
     (model, system)
 }
 
@@ -107,10 +108,11 @@ fn a_corrupted_factor_is_caught() {
         .normal_freedom(model.pairs[pole].slave)
         .expect("free");
     let mut corrupted = system.clone();
-    *corrupted
-        .stiffness
-        .get_mut(freedom, freedom)
-        .expect("diagonal") *= 1.0 + 1e-4;
+    let Symmetric::Whole(matrix) = &mut corrupted.stiffness else {
+        panic!("all of it is here")
+    };
+    let matrix = Arc::make_mut(matrix);
+    *matrix.get_mut(freedom, freedom).expect("diagonal") *= 1.0 + 1e-4;
     let q = quality(&model, &system, &corrupted, nothing, nothing);
     caught(&model, q, &["backward_error", "equilibrium"]);
 }
@@ -228,7 +230,11 @@ fn move_by(u: &mut Displacements, freedom: usize, shift: f64) {
 }
 
 fn entry(system: &System, i: usize, j: usize) -> f64 {
-    let at = system.stiffness.get(i.min(j), i.max(j));
+    let at = system
+        .stiffness
+        .whole()
+        .expect("here")
+        .get(i.min(j), i.max(j));
     at.copied().unwrap_or(0.0)
 }
 
@@ -391,7 +397,7 @@ fn a_wrong_status_shows_with_its_tension_or_penetration() {
 fn the_bound_of_forces_follows_the_round_off_of_the_mesh() {
     let text = SCENE.replace("poissons_ratio = 0.3", "poissons_ratio = 0.49999999");
     let model = Model::new(&Scene::parse(&text, "test").expect("scene")).expect("model");
-    let system = assemble(&model).expect("system");
+    let system = assemble(&model, Backend::default()).expect("system");
     let mut solver = loaded(&model, &system);
     let sound = solver.reading().quality_here().expect("quality");
     let tolerances = tolerances(&model);

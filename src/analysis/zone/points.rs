@@ -68,7 +68,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             .collect();
         let free = FreeStrains::new(model, elements, |i, nodal| gradients[i].at_points(nodal));
         let yield_stresses = |i: usize| {
-            let places = gradients[i].positions(&model.element_coordinates(elements[i]));
+            let places = gradients[i].positions(&model.mesh.element_coordinates(elements[i]));
             local_yield::at_places(model, elements[i], &places, gradients[i].n_points())
         };
         let elements_of_mesh = elements;

@@ -99,6 +99,7 @@ fn full() -> Results {
             flops: 3.25e9,
             trailing_nonzeros: 4.5e4,
             memory_bytes: 24.3e6,
+            memory_by_rank: Vec::new(),
         },
         reference: vec![ReferenceRow {
             quantity: "yield.max_pressure".into(),

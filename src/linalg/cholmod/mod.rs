@@ -24,6 +24,8 @@ pub use blas::{blas_name, blas_threads, blas_threads_are_too_many, set_blas_thre
 pub use common::cholmod_version;
 pub use ordering::Method;
 
+#[cfg(feature = "mumps")]
+use super::sparse::Supervariables;
 use super::sparse::{self, Groups, LowerFactor, Pattern, SparseCondensed};
 use super::{Condensed, Partition, Prediction, SymmetricCsc, check};
 use crate::error::Result;
@@ -116,16 +118,23 @@ pub fn predict_with_method(
     Ok(sparse::prediction(&factor, name, matrix, &groups))
 }
 
-/// The order in which [`condense`] would eliminate: the freedom of each column of the factor.
+/// An order of elimination that ends with the supervariables that stay: the first freedom of each
+/// and the number of freedoms, whether it stays, and which couple. With its name.
 ///
 /// # Errors
 /// As [`super::predict`].
 #[cfg(feature = "mumps")]
-pub(super) fn order(matrix: &SymmetricCsc, partition: &Partition) -> Result<Vec<i64>> {
-    let (pattern, groups) = (Pattern::new(matrix), Groups::new(partition));
+pub(super) fn order(
+    first: Vec<usize>,
+    stays: &[bool],
+    coupled: &[[i32; 2]],
+) -> Result<(&'static str, Vec<i64>)> {
+    let member = stays.iter().map(|stays| if *stays { 2 } else { 0 });
+    let compressed = Supervariables::known(first, member.collect(), coupled);
+    let entries = compressed.pattern().rows().len() as f64 * compressed.size().powi(2);
     let mut common = Common::start()?;
-    let order = ordering::choose(&mut common, &pattern, &groups, Method::Automatic)?;
-    Ok(order.permutation)
+    let order = ordering::choose_for(&mut common, &compressed, entries, Method::Automatic)?;
+    Ok((order.name, order.permutation))
 }
 
 /// What CHOLMOD alone needs for a matrix.

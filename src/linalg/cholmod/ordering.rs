@@ -66,10 +66,19 @@ pub(super) fn choose(
     method: Method,
 ) -> Result<Ordering> {
     let compressed = Supervariables::find(matrix, groups);
+    choose_for(common, &compressed, matrix.rows().len() as f64, method)
+}
+
+/// As above, for supervariables and the number of entries of their matrix.
+pub(super) fn choose_for(
+    common: &mut Common,
+    compressed: &Supervariables,
+    entries: f64,
+    method: Method,
+) -> Result<Ordering> {
     let (pattern, groups) = (compressed.pattern(), compressed.groups());
     // As many operations has the whole matrix for one of the pattern.
     let scale = compressed.size().powi(3);
-    let entries = matrix.rows().len() as f64;
     let is_expensive = |order: &Ordering| scale * order.flops > TRY_DISSECTION_ABOVE * entries;
     let mut order = match method {
         Method::Dissection => dissection(common, &pattern, groups)?,

@@ -11,7 +11,8 @@
 //! The interior is touched once for each load vector and once for each state that is written; zone,
 //! contact and events need the first rank alone.
 //!
-//! The first rank is the program; the others do what MUMPS needs of them ([`World::serve`]).
+//! The first rank is the program; each of the others has some columns of the matrix ([`Shared`])
+//! and does what is asked of it ([`World::serve`]). None has all of the matrix.
 //! Results agree with those of the other backends to round-off, not to the bit, and so do those of
 //! different numbers of ranks.
 //!
@@ -20,27 +21,28 @@
 //! solver using distributed dynamic scheduling*, SIAM J. Matrix Anal. Appl. 23 (2001) 15,
 //! doi:10.1137/S0895479899358194; the users' guide of MUMPS 5.5, sections 3.18 (Schur complement).
 
+mod exterior;
 mod meaning;
+mod rank;
+mod shared;
+mod task;
 #[cfg(test)]
 pub(in crate::linalg) mod tests;
 mod world;
 
-pub use world::World;
+pub use rank::{Assemble, Columns};
+pub use shared::{Part, Shared};
+pub use world::{Traffic, World};
 
 use super::{
     Backend, Condensed, ContactStiffness, NotDefinite, Partition, Pivot, Prediction, SymmetricCsc,
-    ZonePart, check, cholmod, condense as condense_by, smallest_pivot_ratio,
+    ZonePart, check, condense as condense_by, predict as predict_by, smallest_pivot_ratio,
 };
 use crate::error::{Error, Result};
-use std::ffi::c_int;
-use world::{Factor, Triplets};
+use exterior::{Analysis, Exterior};
 
 /// Who condenses the trailing freedoms on the first rank.
 const INNER: Backend = Backend::Cholmod;
-
-/// How far a solution of size 1 may be off. Its error is about the condition times the unit
-/// round-off: a matrix of which no digit comes back is singular.
-const LOST: f64 = 0.1;
 
 /// Row, column and value.
 type Entry = (usize, usize, f64);
@@ -56,17 +58,7 @@ struct MumpsCondensed {
     weakest: Pivot,
 }
 
-/// The interior and what it touches.
-struct Exterior {
-    factor: Factor,
-    /// Interior freedoms, with their numbers among the variables of the factor.
-    interior: Vec<(usize, usize)>,
-    n_variables: usize,
-    /// Entries between interior and trailing freedoms: variable, trailing freedom, value.
-    coupling: Vec<Entry>,
-}
-
-/// Factors and condenses `matrix + diag(shift)`.
+/// Factors and condenses `matrix + diag(shift)`, all of which the first rank has.
 ///
 /// # Errors
 /// As [`super::condense`].
@@ -76,69 +68,49 @@ pub fn condense(
     shift: &[f64],
 ) -> Result<Box<dyn Condensed>> {
     check::arguments(matrix, partition, shift)?;
-    let cost = predict(matrix, partition)?;
+    condense_shared(&Shared::here(matrix)?, partition, shift)
+}
+
+/// Factors and condenses `matrix + diag(shift)`.
+///
+/// # Errors
+/// As [`super::condense`].
+pub fn condense_shared(
+    matrix: &Shared,
+    partition: &Partition,
+    shift: &[f64],
+) -> Result<Box<dyn Condensed>> {
+    let mut trailing = Trailing::new(matrix, partition)?;
+    let cost = trailing.cost()?;
     let n = partition.n;
-    let mut trailing: Vec<usize> = (partition.zone.iter())
-        .chain(&partition.contact)
-        .copied()
-        .collect();
-    trailing.sort_unstable();
-    let mut place = vec![None; n];
-    for (t, &freedom) in trailing.iter().enumerate() {
-        place[freedom] = Some(t);
-    }
-    let mut of_trailing: Vec<Entry> = Vec::new();
-    for (column, entries) in matrix.outer_iterator().enumerate() {
-        for (row, &value) in entries.iter() {
-            if let (Some(i), Some(j)) = (place[row], place[column]) {
-                of_trailing.push((i, j, value));
-            }
+    let (exterior, schur) = match trailing.analysis.take() {
+        Some(analysis) => {
+            let (exterior, schur) = Exterior::new(matrix, analysis)?;
+            (Some(exterior), Some(schur))
         }
-    }
-    if trailing.is_empty() {
-        // Nothing to condense onto.
-        return condense_by(INNER, matrix, partition, shift);
-    }
-    let exterior = match trailing.len() == n {
-        true => None,
-        false => {
-            let (exterior, schur) = Exterior::new(matrix, &place)?;
-            of_trailing.extend(schur);
-            Some(exterior)
-        }
+        None => (None, None),
     };
-    let local = |freedoms: &[usize]| -> Vec<usize> {
-        freedoms
-            .iter()
-            .filter_map(|&freedom| place[freedom])
-            .collect()
-    };
-    let inner_partition = Partition {
-        n: trailing.len(),
-        zone: local(&partition.zone),
-        contact: local(&partition.contact),
-    };
-    let condensed = upper_triangle(trailing.len(), of_trailing);
-    let inner = condense_by(INNER, &condensed, &inner_partition, shift);
-    let inner = inner.map_err(|error| of_freedom(error, &trailing))?;
+    let condensed = trailing.matrix(schur);
+    let inner = condense_by(INNER, &condensed, &trailing.partition, shift);
+    let inner = inner.map_err(|error| of_freedom(error, &trailing.freedoms))?;
     // What was lost on the way from K to S counts too.
     let pivot = inner.weakest_pivot();
-    let freedom = trailing[pivot.freedom];
+    let freedom = trailing.freedoms[pivot.freedom];
     let contacts = partition.contact.iter().zip(shift);
     let shifted = contacts.filter(|(contact, _)| **contact == freedom);
     let shift: f64 = shifted.map(|(_, shift)| shift).sum();
-    let at = |matrix: &SymmetricCsc, j: usize| matrix.get(j, j).copied().unwrap_or(0.0) + shift;
-    let left = at(&condensed, pivot.freedom) / at(matrix, freedom);
+    let left = condensed.get(pivot.freedom, pivot.freedom);
+    let left = left.copied().unwrap_or(0.0) + shift;
     let weakest = Pivot {
         freedom,
-        ratio: pivot.ratio * left.min(1.0),
+        ratio: pivot.ratio * (left / (matrix.diagonal()[freedom] + shift)).min(1.0),
     };
     if weakest.ratio <= smallest_pivot_ratio(n) || weakest.ratio.is_nan() {
         return Err(NotDefinite { freedom }.into());
     }
     Ok(Box::new(MumpsCondensed {
         n,
-        trailing,
+        trailing: trailing.freedoms,
         exterior,
         inner,
         cost,
@@ -146,12 +118,136 @@ pub fn condense(
     }))
 }
 
-/// Predicts the cost of [`condense`], which is that of one factor of all on one rank.
+/// Predicts the cost of [`condense`].
 ///
 /// # Errors
 /// As [`super::predict`].
 pub fn predict(matrix: &SymmetricCsc, partition: &Partition) -> Result<Prediction> {
-    cholmod::predict(matrix, partition)
+    predict_shared(&Shared::here(matrix)?, partition)
+}
+
+/// Predicts the cost of [`condense_shared`].
+///
+/// # Errors
+/// As [`super::predict`].
+pub fn predict_shared(matrix: &Shared, partition: &Partition) -> Result<Prediction> {
+    Trailing::new(matrix, partition)?.cost()
+}
+
+/// What is left of the matrix when the interior is eliminated.
+struct Trailing {
+    /// Zone and contact freedoms, ascending; the last freedom where there is none.
+    freedoms: Vec<usize>,
+    /// Of these, by their places among themselves.
+    partition: Partition,
+    /// Entries between them.
+    own: Vec<Entry>,
+    /// Where there is an interior.
+    analysis: Option<Analysis>,
+    /// Bytes of the columns that each rank has.
+    columns: Vec<f64>,
+}
+
+impl Trailing {
+    fn new(matrix: &Shared, partition: &Partition) -> Result<Self> {
+        let n = partition.n;
+        let mut freedoms: Vec<usize> = (partition.zone.iter())
+            .chain(&partition.contact)
+            .copied()
+            .collect();
+        freedoms.sort_unstable();
+        if freedoms.is_empty() {
+            // Something to condense onto.
+            freedoms.push(n - 1);
+        }
+        let mut place = vec![None; n];
+        for (t, &freedom) in freedoms.iter().enumerate() {
+            place[freedom] = Some(t);
+        }
+        let local = |of: &[usize]| of.iter().filter_map(|&freedom| place[freedom]).collect();
+        let inner = Partition {
+            n: freedoms.len(),
+            zone: local(&partition.zone),
+            contact: local(&partition.contact),
+        };
+        let (near, touched) =
+            matrix.near(&place.iter().map(Option::is_some).collect::<Vec<_>>())?;
+        let mut own = Vec::new();
+        let mut coupling = Vec::new();
+        for (row, column, value) in near {
+            match (place[row], place[column]) {
+                (Some(i), Some(j)) => own.push((i, j, value)),
+                (None, Some(t)) => coupling.push((row, t, value)),
+                (Some(t), None) => coupling.push((column, t, value)),
+                (None, None) => {}
+            }
+        }
+        let analysis = match freedoms.len() == n {
+            true => None,
+            false => Some(Analysis::new(matrix, &place, &touched, coupling)?),
+        };
+        Ok(Trailing {
+            freedoms,
+            partition: inner,
+            own,
+            analysis,
+            columns: matrix.bytes(),
+        })
+    }
+
+    /// Their matrix, with the Schur complement of the interior: ones where it is not known yet.
+    fn matrix(&self, schur: Option<Schur>) -> SymmetricCsc {
+        upper_triangle(self.freedoms.len(), |add| {
+            self.own.iter().copied().for_each(&mut *add);
+            if let Some(schur) = &schur {
+                schur.each(add);
+            }
+        })
+    }
+
+    /// Largest on the first rank, which has what is left too.
+    fn cost(&self) -> Result<Prediction> {
+        let schur = self.analysis.as_ref().map(Analysis::unknown);
+        let mut cost = predict_by(INNER, &self.matrix(schur), &self.partition)?;
+        let mut by_rank = self.columns.clone();
+        by_rank[0] += cost.memory_bytes + (size_of::<Entry>() * self.own.len()) as f64;
+        if let Some(analysis) = &self.analysis {
+            cost.ordering = analysis.order_name.into();
+            cost.flops += analysis.flops();
+            cost.factor_nonzeros += analysis.nonzeros();
+            for (bytes, more) in by_rank.iter_mut().zip(analysis.bytes()) {
+                *bytes += more;
+            }
+        }
+        cost.memory_bytes = by_rank.iter().copied().fold(0.0, f64::max);
+        cost.memory_by_rank = by_rank;
+        Ok(cost)
+    }
+}
+
+/// A dense symmetric matrix on some of the trailing freedoms.
+struct Schur {
+    /// Their numbers.
+    freedoms: Vec<usize>,
+    /// By rows, the lower triangle holds; empty where all are unknown.
+    values: Vec<f64>,
+}
+
+impl Schur {
+    /// Visits the entries of the upper triangle.
+    fn each(&self, add: &mut dyn FnMut(Entry)) {
+        let m = self.freedoms.len();
+        for a in 0..m {
+            for b in 0..=a {
+                // Bodies that have nothing to do with each other stay apart.
+                let value = self.values.get(a * m + b).copied().unwrap_or(1.0);
+                if value != 0.0 {
+                    let ends = [self.freedoms[a], self.freedoms[b]];
+                    add((ends[0].min(ends[1]), ends[0].max(ends[1]), value));
+                }
+            }
+        }
+    }
 }
 
 /// The freedom that is not held, as the whole matrix numbers it.
@@ -166,173 +262,40 @@ fn of_freedom(error: Error, trailing: &[usize]) -> Error {
     }
 }
 
-/// A matrix from entries of its upper triangle, those at the same place added up.
-fn upper_triangle(n: usize, mut entries: Vec<Entry>) -> SymmetricCsc {
-    entries.sort_unstable_by_key(|&(row, column, _)| (column, row));
-    let mut starts = vec![0i64; n + 1];
+/// A matrix from entries of its upper triangle, those at the same place added up; they are visited
+/// twice.
+fn upper_triangle(n: usize, each: impl Fn(&mut dyn FnMut(Entry))) -> SymmetricCsc {
+    let mut starts = vec![0usize; n + 1];
+    each(&mut |(_, column, _)| starts[column + 1] += 1);
+    for j in 0..n {
+        starts[j + 1] += starts[j];
+    }
+    let mut next = starts.clone();
+    let mut entries = vec![(0u32, 0.0); starts[n]];
+    each(&mut |(row, column, value)| {
+        entries[next[column]] = (row as u32, value);
+        next[column] += 1;
+    });
+    let mut pointers = vec![0i64];
     let mut rows: Vec<i64> = Vec::with_capacity(entries.len());
     let mut values: Vec<f64> = Vec::with_capacity(entries.len());
-    let mut last = None;
-    for (row, column, value) in entries {
-        if last == Some((row, column)) {
-            if let Some(sum) = values.last_mut() {
-                *sum += value;
-            }
-            continue;
-        }
-        last = Some((row, column));
-        rows.push(row as i64);
-        values.push(value);
-        starts[column + 1] = rows.len() as i64;
-    }
     for j in 0..n {
-        starts[j + 1] = starts[j + 1].max(starts[j]);
-    }
-    SymmetricCsc::new_csc((n, n), starts, rows, values)
-}
-
-impl Exterior {
-    /// Factors the interior: freedoms without a place among the trailing ones. With it the entries
-    /// of `S_G` in the upper triangle of the trailing freedoms.
-    fn new(matrix: &SymmetricCsc, place: &[Option<usize>]) -> Result<(Self, Vec<Entry>)> {
-        let n = place.len();
-        let touches = |row: usize, column: usize| place[row].is_none() || place[column].is_none();
-        let mut is_variable: Vec<bool> = place.iter().map(Option::is_none).collect();
-        let mut n_entries = 0;
-        for (column, entries) in matrix.outer_iterator().enumerate() {
-            for (row, _) in entries.iter().filter(|(row, _)| touches(*row, column)) {
-                is_variable[row] = true;
-                is_variable[column] = true;
-                n_entries += 1;
-            }
-        }
-        let freedoms: Vec<usize> = (0..n).filter(|&freedom| is_variable[freedom]).collect();
-        let n_variables = freedoms.len();
-        if n_variables > c_int::MAX as usize {
-            return Err(Error::input("more freedoms than MUMPS can number"));
-        }
-        let mut variable = vec![usize::MAX; n];
-        for (k, &freedom) in freedoms.iter().enumerate() {
-            variable[freedom] = k;
-        }
-        let mut coupling = Vec::new();
-        let mut triplets = Triplets {
-            n: n_variables,
-            rows: Vec::with_capacity(n_entries),
-            columns: Vec::with_capacity(n_entries),
-            values: Vec::with_capacity(n_entries),
-            place: Vec::new(),
-        };
-        let mut pattern = Vec::with_capacity(n_entries);
-        for (column, entries) in matrix.outer_iterator().enumerate() {
-            for (row, &value) in entries.iter().filter(|(row, _)| touches(*row, column)) {
-                let (i, j) = (variable[row], variable[column]);
-                // The lower triangle.
-                triplets.rows.push(j as c_int + 1);
-                triplets.columns.push(i as c_int + 1);
-                triplets.values.push(value);
-                pattern.push((i, j, value));
-                match (place[row], place[column]) {
-                    (None, Some(t)) => coupling.push((i, t, value)),
-                    (Some(t), None) => coupling.push((j, t, value)),
-                    _ => {}
+        let column = &mut entries[starts[j]..starts[j + 1]];
+        column.sort_by_key(|&(row, _)| row);
+        let mut last = None;
+        for &(row, value) in &*column {
+            match values.last_mut() {
+                Some(sum) if last == Some(row) => *sum += value,
+                _ => {
+                    rows.push(i64::from(row));
+                    values.push(value);
                 }
             }
+            last = Some(row);
         }
-        let mut kept: Vec<usize> = (0..n_variables)
-            .filter(|&k| place[freedoms[k]].is_some())
-            .collect();
-        triplets.place = order(n_variables, pattern, &kept)?;
-        // MUMPS wants them listed as they come in the order.
-        kept.sort_by_key(|&k| triplets.place[k]);
-        let mut numbers: Vec<c_int> = kept.iter().map(|&k| k as c_int + 1).collect();
-        let (factor, schur) = Factor::new(&mut triplets, &mut numbers)?;
-        let m = kept.len();
-        let mut of_trailing = Vec::with_capacity(m * (m + 1) / 2);
-        for a in 0..m {
-            for b in 0..=a {
-                let ends = [a, b].map(|k| place[freedoms[kept[k]]].unwrap_or(0));
-                let (row, column) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-                // Bodies that have nothing to do with each other stay apart.
-                let value = schur[a * m + b];
-                if value != 0.0 {
-                    of_trailing.push((row, column, value));
-                }
-            }
-        }
-        let interior = freedoms.iter().enumerate();
-        let interior = interior
-            .filter(|(_, freedom)| place[**freedom].is_none())
-            .map(|(k, &freedom)| (freedom, k));
-        let exterior = Exterior {
-            factor,
-            interior: interior.collect(),
-            n_variables,
-            coupling,
-        };
-        exterior.require_held(matrix, place)?;
-        Ok((exterior, of_trailing))
+        pointers.push(rows.len() as i64);
     }
-
-    /// MUMPS says nothing of a matrix that is singular to round-off: a known solution is asked for.
-    ///
-    /// # Errors
-    /// [`NotDefinite`] where it does not come back, by the freedom that is farthest off.
-    fn require_held(&self, matrix: &SymmetricCsc, place: &[Option<usize>]) -> Result<()> {
-        let known = |freedom: usize| 1.0 + (freedom % 7) as f64 / 8.0;
-        let mut load = vec![0.0; place.len()];
-        for (column, entries) in matrix.outer_iterator().enumerate() {
-            let inside = entries.iter().filter(|(row, _)| place[*row].is_none());
-            for (row, &value) in inside.filter(|_| place[column].is_none()) {
-                load[row] += value * known(column);
-                if row != column {
-                    load[column] += value * known(row);
-                }
-            }
-        }
-        let found = self.solve(&load, None)?;
-        let off = |&(freedom, k): &(usize, usize)| (found[k] - known(freedom)).abs();
-        let worst = (self.interior.iter()).max_by(|a, b| off(a).total_cmp(&off(b)));
-        match worst {
-            Some(worst) if off(worst).is_nan() || off(worst) > LOST => {
-                Err(NotDefinite { freedom: worst.0 }.into())
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// `K_II^-1` times what stands at the interior freedoms of `load`, less coupled displacements
-    /// where there are some; by variable.
-    fn solve(&self, load: &[f64], u_trailing: Option<&[f64]>) -> Result<Vec<f64>> {
-        let mut out = vec![0.0; self.n_variables];
-        for &(freedom, k) in &self.interior {
-            out[k] = load[freedom];
-        }
-        if let Some(u) = u_trailing {
-            for &(k, t, value) in &self.coupling {
-                out[k] -= value * u[t];
-            }
-        }
-        self.factor.solve(&mut out)?;
-        Ok(out)
-    }
-}
-
-/// The place of each variable, from 1, in an order that ends with those that are kept.
-fn order(n: usize, entries: Vec<Entry>, kept: &[usize]) -> Result<Vec<c_int>> {
-    // A diagonal entry for each: an order needs no values.
-    let diagonal = (0..n).map(|k| (k, k, 0.0));
-    let matrix = upper_triangle(n, entries.into_iter().chain(diagonal).collect());
-    let partition = Partition {
-        n,
-        zone: Vec::new(),
-        contact: kept.to_vec(),
-    };
-    let mut place = vec![0; n];
-    for (k, &variable) in cholmod::order(&matrix, &partition)?.iter().enumerate() {
-        place[variable as usize] = k as c_int + 1;
-    }
-    Ok(place)
+    SymmetricCsc::new_csc((n, n), pointers, rows, values)
 }
 
 impl MumpsCondensed {

@@ -1,30 +1,20 @@
-//! The ranks, and calls of MUMPS that all of them make together.
+//! The ranks, and what the first one asks of all.
 
-use super::meaning::meaning;
-use crate::error::{Error, ErrorKind, Result};
-use crate::linalg::check;
-use std::ffi::c_int;
+use super::rank::{self, Assemble, Host};
+use super::task::Task;
+use crate::error::{Error, Result};
+use serde::de::DeserializeOwned;
+use std::ffi::{c_char, c_int};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 // Of shim.c.
 unsafe extern "C" {
     fn brinell_mpi_begin(rank: *mut c_int, size: *mut c_int) -> c_int;
-    fn brinell_mpi_serve();
-    fn brinell_mpi_end(is_first: c_int);
-    fn brinell_mumps_factor(
-        n: c_int,
-        n_entries: i64,
-        rows: *mut c_int,
-        columns: *mut c_int,
-        values: *mut f64,
-        place: *mut c_int,
-        n_schur: c_int,
-        schur_list: *mut c_int,
-        schur: *mut f64,
-        info: *mut c_int,
-    ) -> c_int;
-    fn brinell_mumps_solve(index: c_int, load: *mut f64, info: *mut c_int);
-    fn brinell_mumps_free(index: c_int);
+    fn brinell_mpi_end();
+    fn brinell_mpi_send(to: c_int, bytes: *const c_char, length: i64);
+    fn brinell_mpi_await(from: c_int) -> i64;
+    fn brinell_mpi_receive(from: c_int, bytes: *mut c_char, length: i64);
 }
 
 /// This process among the ranks.
@@ -35,6 +25,20 @@ pub struct World {
     /// How many there are.
     pub size: usize,
 }
+
+/// What the first rank has asked of the others so far.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Traffic {
+    /// Times that all were asked.
+    pub requests: u64,
+    /// Bytes to them and from them, without what MUMPS itself sends.
+    pub bytes: u64,
+}
+
+static REQUESTS: AtomicU64 = AtomicU64::new(0);
+static BYTES: AtomicU64 = AtomicU64::new(0);
+/// Whether the others were let go.
+static ALONE: AtomicBool = AtomicBool::new(false);
 
 /// One call at a time: MPI was begun for threads that take turns.
 static CALLS: Mutex<()> = Mutex::new(());
@@ -51,6 +55,7 @@ impl World {
     pub fn join() -> Result<World> {
         static WORLD: OnceLock<Option<World>> = OnceLock::new();
         let world = WORLD.get_or_init(|| {
+            let _turn = calls();
             let (mut rank, mut size) = (0, 0);
             // SAFETY: writes two numbers; called once.
             let joined = unsafe { brinell_mpi_begin(&mut rank, &mut size) };
@@ -62,125 +67,132 @@ impl World {
         world.ok_or_else(|| Error::analysis("MPI does not start: see what it printed"))
     }
 
+    /// Of the first rank: that all others run the same version of the program.
+    ///
+    /// # Errors
+    /// `Input` naming the rank that does not; the others are let go.
+    pub fn meet(self) -> Result<()> {
+        let versions: Vec<String> = {
+            let _turn = calls();
+            let others = 1..self.size;
+            let version = |rank| String::from_utf8_lossy(&receive(rank)).into_owned();
+            others.map(version).collect()
+        };
+        same_version(rank::VERSION, &versions).inspect_err(|_| self.let_go())
+    }
+
     /// Of a rank beyond the first: takes part in what the first one computes, until that ends.
-    pub fn serve(self) {
-        // SAFETY: MPI was begun, and the first rank does not call this.
-        unsafe { brinell_mpi_serve() }
+    pub fn serve(self, assemble: Assemble) {
+        let _turn = calls();
+        send(0, rank::VERSION.as_bytes());
+        loop {
+            let bytes = receive(0);
+            // One that cannot be read is of another version, which will let go of this rank next.
+            let Ok(task) = postcard::from_bytes::<Task>(&bytes) else {
+                continue;
+            };
+            drop(bytes);
+            if matches!(task, Task::Quit) {
+                return;
+            }
+            send(0, &rank::perform(task, assemble, &mut Host::default()));
+        }
+    }
+
+    /// Of the first rank: lets the others go.
+    pub fn let_go(self) {
+        let _turn = calls();
+        ALONE.store(true, Ordering::Relaxed);
+        let quit = postcard::to_stdvec(&Task::Quit).unwrap_or_default();
+        for rank in 1..self.size {
+            send(rank, &quit);
+        }
     }
 
     /// Ends the ranks' common work. No factor may be used afterwards.
     pub fn end(self) {
         let _turn = calls();
         // SAFETY: MPI was begun.
-        unsafe { brinell_mpi_end(c_int::from(self.rank == 0)) }
+        unsafe { brinell_mpi_end() }
     }
-}
 
-/// A factor that lies on all ranks.
-#[derive(Debug)]
-pub(super) struct Factor {
-    index: c_int,
-    n: usize,
-}
-
-/// Entries of one triangle of a symmetric matrix, numbered from 1, in an order: the place of each
-/// variable, from 1.
-pub(super) struct Triplets {
-    pub(super) n: usize,
-    pub(super) rows: Vec<c_int>,
-    pub(super) columns: Vec<c_int>,
-    pub(super) values: Vec<f64>,
-    pub(super) place: Vec<c_int>,
-}
-
-/// That the order given is the one used (INFOG(7)).
-const GIVEN: c_int = 1;
-
-impl Factor {
-    /// Factors, eliminating all but the variables `kept` (from 1), the last ones of the order;
-    /// their Schur complement by rows, of which the lower triangle holds.
-    ///
-    /// # Errors
-    /// What MUMPS says, in words.
-    pub(super) fn new(matrix: &mut Triplets, kept: &mut [c_int]) -> Result<(Self, Vec<f64>)> {
-        World::join()?;
-        let m = kept.len();
-        let mut schur: Vec<f64> = Vec::new();
-        schur
-            .try_reserve_exact(m * m)
-            .map_err(|_| Error::analysis(out_of_memory(m)))?;
-        schur.resize(m * m, 0.0);
-        let mut info = [0; 3];
-        let turn = calls();
-        // SAFETY: all arrays have the lengths that are given beside them and outlive the call;
-        // numbers of variables lie in 1..=n.
-        let index = unsafe {
-            brinell_mumps_factor(
-                matrix.n as c_int,
-                matrix.values.len() as i64,
-                matrix.rows.as_mut_ptr(),
-                matrix.columns.as_mut_ptr(),
-                matrix.values.as_mut_ptr(),
-                matrix.place.as_mut_ptr(),
-                m as c_int,
-                kept.as_mut_ptr(),
-                schur.as_mut_ptr(),
-                info.as_mut_ptr(),
-            )
-        };
-        drop(turn);
-        if index < 0 {
-            return Err(Error::analysis(out_of_memory(m)));
+    /// What was asked of the other ranks so far.
+    pub fn traffic(self) -> Traffic {
+        Traffic {
+            requests: REQUESTS.load(Ordering::Relaxed),
+            bytes: BYTES.load(Ordering::Relaxed),
         }
-        let factor = Factor { index, n: matrix.n };
-        require([info[0], info[1]])?;
-        if info[2] != GIVEN {
-            return Err(Error::internal(format!(
-                "MUMPS did not take the order that it was given (INFOG(7) = {})",
-                info[2]
-            )));
-        }
-        Ok((factor, schur))
     }
 
-    /// Solves with the eliminated variables; values of the kept ones are 0 afterwards.
-    ///
-    /// # Errors
-    /// What MUMPS says, in words.
-    pub(super) fn solve(&self, load: &mut [f64]) -> Result<()> {
-        check::length("load", load.len(), self.n)?;
-        let mut info = [0; 2];
-        let turn = calls();
-        // SAFETY: the factor is there until it is dropped, the load is as long as it is large.
-        unsafe { brinell_mumps_solve(self.index, load.as_mut_ptr(), info.as_mut_ptr()) };
-        drop(turn);
-        require(info)
-    }
-}
-
-impl Drop for Factor {
-    fn drop(&mut self) {
+    /// Hands a task to each rank, this one last, and collects the answers by rank. `host` is what
+    /// the first rank alone adds.
+    pub(super) fn ask<T: DeserializeOwned>(
+        self,
+        mut task: impl FnMut(usize) -> Task,
+        assemble: Assemble,
+        host: &mut Host,
+    ) -> Result<Vec<T>> {
+        let garbled = |cause: postcard::Error| Error::internal("a message of ranks").because(cause);
         let _turn = calls();
-        // SAFETY: the factor is freed once.
-        unsafe { brinell_mumps_free(self.index) }
+        if ALONE.load(Ordering::Relaxed) {
+            return Err(Error::internal("the other ranks were let go"));
+        }
+        let mut bytes = 0;
+        for rank in 1..self.size {
+            let message = postcard::to_stdvec(&task(rank)).map_err(garbled)?;
+            bytes += message.len();
+            send(rank, &message);
+        }
+        let mut answers = vec![rank::perform(task(0), assemble, host)];
+        for rank in 1..self.size {
+            let answer = receive(rank);
+            bytes += answer.len();
+            answers.push(answer);
+        }
+        if self.size > 1 {
+            REQUESTS.fetch_add(1, Ordering::Relaxed);
+            BYTES.fetch_add(bytes as u64, Ordering::Relaxed);
+        }
+        let read = |answer: &Vec<u8>| postcard::from_bytes(answer).map_err(garbled);
+        answers.iter().map(read).collect()
     }
 }
 
-fn out_of_memory(kept: usize) -> String {
-    format!(
-        "out of memory for the {kept} freedoms between zone and exterior: use a coarser mesh, a \
-         smaller zone or a machine with more memory for the first rank"
-    )
+fn send(to: usize, bytes: &[u8]) {
+    // SAFETY: so many bytes are there.
+    unsafe { brinell_mpi_send(to as c_int, bytes.as_ptr().cast(), bytes.len() as i64) }
 }
 
-/// Negative numbers of INFOG(1) as errors.
-fn require([code, more]: [c_int; 2]) -> Result<()> {
-    if code >= 0 {
-        return Ok(());
+fn receive(from: usize) -> Vec<u8> {
+    // SAFETY: MPI was begun, and this thread has the turn.
+    let length = unsafe { brinell_mpi_await(from as c_int) };
+    let mut bytes = vec![0; length as usize];
+    // SAFETY: there is room for so many bytes.
+    unsafe { brinell_mpi_receive(from as c_int, bytes.as_mut_ptr().cast(), length) };
+    bytes
+}
+
+/// That ranks beyond the first have its version.
+fn same_version(own: &str, others: &[String]) -> Result<()> {
+    match others.iter().enumerate().find(|(_, other)| *other != own) {
+        Some((k, other)) => Err(Error::input(format!(
+            "rank {} runs brinell {other}, the first one {own}: start the same program on all \
+             machines",
+            k + 1
+        ))),
+        None => Ok(()),
     }
-    let kind = match code {
-        -6 | -10 | -40 => ErrorKind::Unheld,
-        _ => ErrorKind::Analysis,
-    };
-    Err(Error::new(kind, meaning(code, more)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::same_version;
+
+    #[test]
+    fn ranks_of_another_version_are_refused_by_number() {
+        let ranks = ["1.0", "1.0", "1.1"].map(String::from);
+        assert!(same_version("1.0", &ranks[..2]).is_ok());
+        let message = same_version("1.0", &ranks).unwrap_err().to_string();
+        assert!(message.contains("rank 3 runs brinell 1.1"), "{message}");
+    }
 }

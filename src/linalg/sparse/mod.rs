@@ -309,6 +309,7 @@ pub(crate) fn prediction(
             + 8.0 * trailing as f64
             + 8.0 * 3.0 * blocks
             + 8.0 * 8.0 * n as f64,
+        memory_by_rank: Vec::new(),
     }
 }
 

@@ -51,6 +51,51 @@ impl Supervariables {
         }
     }
 
+    /// Supervariables that are known: the first freedom of each and the number of freedoms, their
+    /// groups, and which couple, in any order.
+    #[cfg(feature = "mumps")]
+    pub(crate) fn known(first: Vec<usize>, member: Vec<u8>, coupled: &[[i32; 2]]) -> Self {
+        let n = member.len();
+        let upper = |&[a, b]: &[i32; 2]| (a.max(b) as usize, i64::from(a.min(b)));
+        let mut columns = vec![0i64; n + 1];
+        // Each with itself too.
+        let itself = (0..n).map(|j| (j, j as i64));
+        let all = || coupled.iter().map(upper).chain(itself.clone());
+        all().for_each(|(column, _)| columns[column + 1] += 1);
+        for j in 0..n {
+            columns[j + 1] += columns[j];
+        }
+        let mut next = columns.clone();
+        let mut rows = vec![0i64; columns[n] as usize];
+        for (column, row) in all() {
+            rows[next[column] as usize] = row;
+            next[column] += 1;
+        }
+        let mut sorted = Vec::with_capacity(rows.len());
+        let mut ends = vec![0i64];
+        for j in 0..n {
+            let column = &mut rows[columns[j] as usize..columns[j + 1] as usize];
+            column.sort_unstable();
+            sorted.extend_from_slice(column);
+            let start = ends[j] as usize;
+            let mut kept = start;
+            for k in start..sorted.len() {
+                if k == start || sorted[k] != sorted[kept - 1] {
+                    sorted[kept] = sorted[k];
+                    kept += 1;
+                }
+            }
+            sorted.truncate(kept);
+            ends.push(sorted.len() as i64);
+        }
+        Supervariables {
+            first,
+            columns: ends,
+            rows: sorted,
+            groups: Groups::from_members(member),
+        }
+    }
+
     /// Number of freedoms for each supervariable, on average.
     #[cfg(any(test, feature = "cholmod"))]
     pub(crate) fn size(&self) -> f64 {

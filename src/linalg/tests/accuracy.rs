@@ -124,7 +124,8 @@ fn the_condition_is_estimated_within_a_factor_of_three() {
         let exact = norm(&scaled) * norm(&inverse);
         for backend in backends() {
             let condensed = condense(backend, k, partition, shift).unwrap();
-            let estimate = condition(&*condensed, k, partition, shift).unwrap();
+            let here = k.clone().into();
+            let estimate = condition(&*condensed, &here, partition, shift).unwrap();
             assert!(
                 estimate <= exact * (1.0 + 1e-5) && estimate >= exact / 3.0,
                 "{backend:?} n = {n}: {estimate:e}, exact {exact:e}"
@@ -141,7 +142,7 @@ fn pivots_alone_do_not_show_a_bad_condition() {
     let partition = whole(200);
     let condensed = condense(Backend::Dense, &k, &partition, &[]).unwrap();
     let pivot = condensed.weakest_pivot().ratio;
-    let estimate = condition(&*condensed, &k, &partition, &[]).unwrap();
+    let estimate = condition(&*condensed, &k.into(), &partition, &[]).unwrap();
     assert!(pivot > smallest_pivot_ratio(200));
     assert!(
         1.0 / pivot <= estimate * (1.0 + 1e-6),

@@ -250,7 +250,7 @@ pub(super) fn solved(
     let parts = [&reduced[..], &zone, u_contact];
     recover_refined(
         condensed,
-        matrix,
+        &matrix.clone().into(),
         super::norm(matrix),
         load,
         parts,

@@ -15,7 +15,9 @@ const THREADS: [usize; 2] = [1, 2];
 /// contact, held by a shift.
 pub fn factor(backend: Backend, changes: &str) -> Result<Value, Failure> {
     let analysis = Analysis::new(Model::new(&scene(changes)?)?, backend)?;
-    let (model, matrix) = (analysis.model(), &analysis.system().stiffness);
+    let model = analysis.model();
+    let stiffness = &analysis.system().stiffness;
+    let matrix = stiffness.whole().ok_or("the matrix is elsewhere")?;
     let nodes = model
         .pairs
         .iter()

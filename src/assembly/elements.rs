@@ -1,0 +1,244 @@
+//! The elements whose stiffness is assembled: those of a model, or a part of them that stands by
+//! itself.
+
+use super::pattern::Incidence;
+use crate::element::{packed, with_kernel};
+use crate::linalg::SymmetricCsc;
+use crate::material::Lame;
+use crate::mesh::Mesh;
+use crate::model::{Model, Slot, Sums};
+use crate::scene::Formulation;
+use crate::space::Space;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+/// Elements, and those of one freedom that springs are after them.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Elements<'a> {
+    space: Space,
+    formulation: Formulation,
+    /// Of each body.
+    elastic: Vec<Lame>,
+    mesh: Cow<'a, Mesh>,
+    /// Of elements whose displacements are not simply the slots of their nodes.
+    sums: BTreeMap<usize, Sums>,
+    springs: Vec<f64>,
+    /// Number of freedoms.
+    n: usize,
+    offsets: Vec<usize>,
+    /// What the elements act on, -1 where held.
+    freedoms: Vec<i64>,
+}
+
+impl<'a> Elements<'a> {
+    /// All of a model.
+    pub(super) fn of(model: &'a Model) -> Self {
+        Self::new(
+            model,
+            Cow::Borrowed(&model.mesh),
+            0..model.mesh.n_elements(),
+        )
+    }
+
+    /// The elements of `model` whose numbers are given, with their own mesh; without springs.
+    fn new(
+        model: &Model,
+        mesh: Cow<'a, Mesh>,
+        of_model: impl ExactSizeIterator<Item = usize>,
+    ) -> Self {
+        let mut offsets = Vec::with_capacity(of_model.len() + 1);
+        offsets.push(0);
+        let mut freedoms = Vec::with_capacity(model.freedoms.per_node * mesh.connectivity.len());
+        let mut all_sums = BTreeMap::new();
+        let number = |slot: &Slot| match *slot {
+            Slot::Free(f) => i64::from(f),
+            _ => -1,
+        };
+        for (e, of_model) in of_model.enumerate() {
+            match model.sums_of(of_model) {
+                Some(sums) => {
+                    freedoms.extend(sums.slots.iter().map(number));
+                    all_sums.insert(e, sums);
+                }
+                None => {
+                    let nodes = model.mesh.nodes(of_model).iter();
+                    let slots = nodes.flat_map(|&node| model.freedoms.of_node(node as usize));
+                    freedoms.extend(slots.map(number));
+                }
+            }
+            offsets.push(freedoms.len());
+        }
+        Elements {
+            space: model.kind,
+            formulation: model.scene.mesh.formulation,
+            elastic: model.materials.iter().map(|m| m.lame()).collect(),
+            mesh,
+            sums: all_sums,
+            springs: Vec::new(),
+            n: model.freedoms.n,
+            offsets,
+            freedoms,
+        }
+    }
+
+    /// Adds springs: freedom and stiffness.
+    pub(super) fn with_springs(mut self, springs: impl Iterator<Item = (usize, f64)>) -> Self {
+        for (freedom, stiffness) in springs {
+            self.springs.push(stiffness);
+            self.freedoms.push(freedom as i64);
+            self.offsets.push(self.freedoms.len());
+        }
+        self
+    }
+
+    /// Some elements of a model, ascending, on their own nodes; freedoms as the model numbers them.
+    pub(super) fn some_of(model: &Model, elements: &[usize]) -> Elements<'static> {
+        let whole = &model.mesh;
+        let mut nodes: Vec<u32> = (elements.iter())
+            .flat_map(|&e| whole.nodes(e))
+            .copied()
+            .collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        let mut mesh = Mesh {
+            dimension: whole.dimension,
+            offsets: vec![0],
+            ..Mesh::default()
+        };
+        for &node in &nodes {
+            let at = whole.dimension * node as usize;
+            let place = &whole.coordinates[at..at + whole.dimension];
+            mesh.coordinates.extend_from_slice(place);
+        }
+        for &e in elements {
+            mesh.shapes.push(whole.shapes[e]);
+            mesh.element_body.push(whole.element_body[e]);
+            let own = |node: &u32| nodes.partition_point(|other| other < node) as u32;
+            mesh.connectivity.extend(whole.nodes(e).iter().map(own));
+            mesh.offsets.push(mesh.connectivity.len());
+        }
+        Elements::new(model, Cow::Owned(mesh), elements.iter().copied())
+    }
+
+    /// Numbers the freedoms anew, in the same order and without gaps: which ones they are.
+    pub(super) fn renumber(&mut self) -> Vec<u32> {
+        let free = self.freedoms.iter().filter(|f| **f >= 0);
+        let mut numbers: Vec<u32> = free.map(|&f| f as u32).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        for freedom in self.freedoms.iter_mut().filter(|f| **f >= 0) {
+            *freedom = numbers.partition_point(|n| i64::from(*n) < *freedom) as i64;
+        }
+        self.n = numbers.len();
+        numbers
+    }
+
+    /// Number of freedoms.
+    pub(super) fn n_freedoms(&self) -> usize {
+        self.n
+    }
+
+    /// Number of elements, springs among them.
+    pub(super) fn len(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
+    /// Freedoms of an element, -1 where held.
+    pub(super) fn freedoms(&self, element: usize) -> &[i64] {
+        &self.freedoms[self.offsets[element]..self.offsets[element + 1]]
+    }
+
+    /// The upper triangle of their stiffness; of freedoms that are not `wanted` no column.
+    ///
+    /// Every column is owned by one thread and gathers its elements' contributions in ascending
+    /// element order, so the result has the same bits for any number of threads.
+    pub(super) fn stiffness(&self, wanted: impl Fn(usize) -> bool + Sync) -> SymmetricCsc {
+        let incidence = Incidence::new(self);
+        let matrices = Matrices::new(self);
+        let (pointers, rows) = incidence.pattern(self, wanted);
+        let mut values = vec![0.0; rows.len()];
+        let mut columns: Vec<&mut [f64]> = Vec::with_capacity(self.n);
+        let mut rest = values.as_mut_slice();
+        for j in 0..self.n {
+            let (column, tail) = rest.split_at_mut((pointers[j + 1] - pointers[j]) as usize);
+            columns.push(column);
+            rest = tail;
+        }
+        let columns = columns.into_par_iter().enumerate().with_min_len(1024);
+        columns.for_each(|(j, column)| {
+            if column.is_empty() {
+                return;
+            }
+            let rows = &rows[pointers[j] as usize..pointers[j + 1] as usize];
+            for &(element, local) in incidence.elements(j) {
+                let matrix = matrices.of(element as usize);
+                for (i, &freedom) in self.freedoms(element as usize).iter().enumerate() {
+                    if (0..=j as i64).contains(&freedom)
+                        && let Ok(at) = rows.binary_search(&freedom)
+                    {
+                        column[at] += matrix[packed(i, local as usize)];
+                    }
+                }
+            }
+        });
+        SymmetricCsc::new_csc((self.n, self.n), pointers, rows, values)
+    }
+
+    /// Whether each freedom is held by the same elements as the one before.
+    #[cfg(feature = "mumps")]
+    pub(super) fn continued(&self) -> Vec<bool> {
+        let incidence = Incidence::new(self);
+        let of = |j: usize| incidence.elements(j).iter().map(|(element, _)| element);
+        let same = |j: usize| j > 0 && of(j).eq(of(j - 1));
+        (0..self.n).map(same).collect()
+    }
+}
+
+/// The stiffness matrices of elements on what they act on ([`Model::slots_of`]), packed lower
+/// triangles.
+pub(super) struct Matrices {
+    offsets: Vec<usize>,
+    values: Vec<f64>,
+}
+
+impl Matrices {
+    pub(super) fn new(elements: &Elements) -> Self {
+        let mesh = &*elements.mesh;
+        let n_elements = mesh.n_elements();
+        let mut offsets = Vec::with_capacity(elements.len() + 1);
+        offsets.push(0);
+        for e in 0..elements.len() {
+            let n = elements.freedoms(e).len();
+            offsets.push(offsets[e] + n * (n + 1) / 2);
+        }
+        let mut values = vec![0.0; offsets[elements.len()]];
+        values[offsets[n_elements]..].copy_from_slice(&elements.springs);
+        let mut blocks: Vec<&mut [f64]> = Vec::with_capacity(n_elements);
+        let mut rest = values.as_mut_slice();
+        for e in 0..n_elements {
+            let (block, tail) = rest.split_at_mut(offsets[e + 1] - offsets[e]);
+            blocks.push(block);
+            rest = tail;
+        }
+        let blocks = blocks.into_par_iter().enumerate().with_min_len(256);
+        with_kernel!(elements.space, elements.formulation, kernel => blocks.for_each(|(e, block)| {
+            let elastic = &elements.elastic[mesh.element_body[e] as usize];
+            let gradients = kernel.gauss(mesh.shapes[e], &mesh.element_coordinates(e));
+            let Some(sums) = elements.sums.get(&e) else {
+                return gradients.stiffness_into(elastic, block);
+            };
+            let n = mesh.dimension * mesh.shapes[e].n_nodes();
+            let mut own = vec![0.0; n * (n + 1) / 2];
+            gradients.stiffness_into(elastic, &mut own);
+            sums.stiffness(n, &own, block);
+        }));
+        Matrices { offsets, values }
+    }
+
+    /// That of an element.
+    pub(super) fn of(&self, element: usize) -> &[f64] {
+        &self.values[self.offsets[element]..self.offsets[element + 1]]
+    }
+}

@@ -1,0 +1,344 @@
+//! The interior and what it touches: factored by MUMPS on all ranks.
+
+use super::meaning::meaning;
+use super::rank::Host;
+use super::task::{Analysed, Factored, Task};
+use super::{Entry, Schur, Shared};
+use crate::error::{Error, ErrorKind, Result};
+use crate::linalg::{NotDefinite, check, cholmod};
+use std::ffi::c_int;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+/// How far a solution of size 1 may be off. Its error is about the condition times the unit
+/// round-off: a matrix of which no digit comes back is singular.
+const LOST: f64 = 0.1;
+
+/// That the order given is the one used (INFOG(7)).
+const GIVEN: i32 = 1;
+
+/// Bytes of an entry as MUMPS takes it: two numbers and a value.
+const TRIPLET: f64 = 16.0;
+
+/// Variables, order and size of a factor that is not computed yet.
+pub(super) struct Analysis {
+    /// Of the order, for reports.
+    pub(super) order_name: &'static str,
+    variables: Variables,
+    factor: Factor,
+    host: Host,
+    by_rank: Vec<Analysed>,
+    /// Entries of the matrix that each rank hands over, about.
+    n_entries: Vec<usize>,
+    /// Interior freedom, trailing freedom, value.
+    coupling: Vec<Entry>,
+}
+
+/// The freedoms of the interior and those that it touches, numbered among themselves.
+struct Variables {
+    freedoms: Vec<usize>,
+    /// The trailing number of each, where it stays.
+    place: Vec<Option<usize>>,
+}
+
+/// Handle of a factor on all ranks.
+struct Factor {
+    index: usize,
+    matrix: Shared,
+}
+
+/// A factored interior.
+pub(super) struct Exterior {
+    factor: Factor,
+    n_variables: usize,
+    /// Interior freedoms, with their numbers among the variables of the factor.
+    pub(super) interior: Vec<(usize, usize)>,
+    /// Entries between interior and trailing freedoms: variable, trailing freedom, value.
+    pub(super) coupling: Vec<Entry>,
+}
+
+static FREE: Mutex<Vec<usize>> = Mutex::new(Vec::new());
+static NEXT: AtomicUsize = AtomicUsize::new(0);
+
+impl Factor {
+    /// A number that no other factor has.
+    fn of(matrix: &Shared) -> Self {
+        let mut free = FREE.lock().unwrap_or_else(PoisonError::into_inner);
+        let index = free.pop();
+        Factor {
+            index: index.unwrap_or_else(|| NEXT.fetch_add(1, Ordering::Relaxed)),
+            matrix: matrix.clone(),
+        }
+    }
+}
+
+impl Drop for Factor {
+    fn drop(&mut self) {
+        let task = || Task::ForgetFactor(self.index);
+        // Ranks that are gone have forgotten it.
+        let forgotten: Result<Vec<()>> = self.matrix.ask_all(task, &mut Host::default());
+        if forgotten.is_ok() {
+            let mut free = FREE.lock().unwrap_or_else(PoisonError::into_inner);
+            free.push(self.index);
+        }
+    }
+}
+
+impl Variables {
+    fn new(place: &[Option<usize>], touched: &[bool]) -> Self {
+        let is_variable = |freedom: &usize| place[*freedom].is_none() || touched[*freedom];
+        let freedoms: Vec<usize> = (0..place.len()).filter(is_variable).collect();
+        Variables {
+            place: freedoms.iter().map(|&freedom| place[freedom]).collect(),
+            freedoms,
+        }
+    }
+
+    /// Of each freedom, from 1; 0 for none.
+    fn numbers(&self, n: usize) -> Vec<i32> {
+        let mut numbers = vec![0; n];
+        for (k, &freedom) in self.freedoms.iter().enumerate() {
+            numbers[freedom] = k as i32 + 1;
+        }
+        numbers
+    }
+
+    /// The place of each variable, from 1, in an order that ends with those that stay.
+    fn order(&self, matrix: &Shared) -> Result<(&'static str, Vec<c_int>)> {
+        // Freedoms with the same neighbours are one vertex.
+        let mut first = Vec::new();
+        let mut vertex = vec![-1; matrix.n()];
+        for (k, &freedom) in self.freedoms.iter().enumerate() {
+            let stays = self.place[k].is_some();
+            let goes_on = k > 0
+                && self.freedoms[k - 1] + 1 == freedom
+                && self.place[k - 1].is_some() == stays
+                && matrix.is_continued(freedom);
+            if !goes_on {
+                vertex[freedom] = first.len() as i32;
+                first.push(k);
+            }
+        }
+        let graph = matrix.graph(&vertex)?;
+        let stays: Vec<bool> = first.iter().map(|&k| self.place[k].is_some()).collect();
+        first.push(self.freedoms.len());
+        let (name, order) = cholmod::order(first, &stays, &graph)?;
+        let mut place = vec![0; self.freedoms.len()];
+        for (k, &variable) in order.iter().enumerate() {
+            place[variable as usize] = k as c_int + 1;
+        }
+        Ok((name, place))
+    }
+}
+
+impl Analysis {
+    /// Orders the interior, which is what has no `place` among the trailing freedoms, and those of
+    /// them that it has `touched`, last.
+    pub(super) fn new(
+        matrix: &Shared,
+        place: &[Option<usize>],
+        touched: &[bool],
+        coupling: Vec<Entry>,
+    ) -> Result<Self> {
+        let variables = Variables::new(place, touched);
+        let n_variables = variables.freedoms.len();
+        if c_int::try_from(n_variables).is_err() {
+            return Err(Error::input("more freedoms than MUMPS can number"));
+        }
+        let numbers = variables.numbers(place.len());
+        let (order_name, order) = variables.order(matrix)?;
+        let mut kept: Vec<usize> = (0..n_variables)
+            .filter(|&k| variables.place[k].is_some())
+            .collect();
+        // MUMPS wants them listed as they come in the order.
+        kept.sort_by_key(|&k| order[k]);
+        let mut host = Host {
+            n: n_variables,
+            place: order,
+            kept: kept.iter().map(|&k| k as c_int + 1).collect(),
+            ..Host::default()
+        };
+        let factor = Factor::of(matrix);
+        let by_rank: Vec<Analysed> = matrix.ask_with(
+            |index, own| Task::Analyse(factor.index, index, own(&|freedom| numbers[freedom])),
+            &mut host,
+        )?;
+        require(by_rank[0].state)?;
+        if by_rank[0].order != GIVEN {
+            return Err(Error::internal(format!(
+                "MUMPS did not take the order that it was given (INFOG(7) = {})",
+                by_rank[0].order
+            )));
+        }
+        Ok(Analysis {
+            order_name,
+            variables,
+            factor,
+            host,
+            by_rank,
+            n_entries: matrix.entries_by_rank().to_vec(),
+            coupling,
+        })
+    }
+
+    /// Operations of the factorisation.
+    pub(super) fn flops(&self) -> f64 {
+        self.by_rank[0].flops
+    }
+
+    /// Entries of the factor.
+    pub(super) fn nonzeros(&self) -> f64 {
+        self.by_rank[0].nonzeros
+    }
+
+    /// Bytes that each rank needs: its part of the factor and of the matrix as it is handed over,
+    /// the first one the Schur complement and what couples too.
+    pub(super) fn bytes(&self) -> Vec<f64> {
+        let ranks = self.by_rank.iter().zip(&self.n_entries);
+        let mut bytes: Vec<f64> = ranks
+            .map(|(rank, n)| rank.needed + TRIPLET * *n as f64)
+            .collect();
+        let m = self.host.kept.len() as f64;
+        bytes[0] += 8.0 * m * m + (size_of::<Entry>() * self.coupling.len()) as f64;
+        bytes
+    }
+
+    /// The Schur complement, which is not known yet.
+    pub(super) fn unknown(&self) -> Schur {
+        Schur {
+            freedoms: self.kept(),
+            values: Vec::new(),
+        }
+    }
+
+    /// The trailing numbers of the variables that stay, as they come in the order.
+    fn kept(&self) -> Vec<usize> {
+        let place = |k: &c_int| self.variables.place[*k as usize - 1].unwrap_or(0);
+        self.host.kept.iter().map(place).collect()
+    }
+
+    /// That each rank has the memory that it needs.
+    fn require_memory(&self) -> Result<()> {
+        let ranks = self.bytes().into_iter().zip(&self.by_rank).enumerate();
+        for (rank, (needed, analysed)) in ranks {
+            if let Some(available) = analysed.available
+                && needed > available
+            {
+                return Err(Error::analysis(format!(
+                    "out of memory: rank {rank} of {} needs about {:.0} MB for its part of the \
+                     factor and {:.0} MB are available there: use more ranks, a coarser mesh, or \
+                     more memory for that rank",
+                    self.by_rank.len(),
+                    (needed / 1e6).ceil(),
+                    (available / 1e6).floor()
+                )));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Exterior {
+    /// Factors the interior; with it its Schur complement on what it touches.
+    ///
+    /// # Errors
+    /// What MUMPS says, in words; a rank without the memory; an interior that is not held.
+    pub(super) fn new(matrix: &Shared, mut analysis: Analysis) -> Result<(Self, Schur)> {
+        analysis.require_memory()?;
+        let m = analysis.host.kept.len();
+        let schur = &mut analysis.host.schur;
+        schur.try_reserve_exact(m * m).map_err(|_| {
+            Error::analysis(format!(
+                "out of memory for the {m} freedoms between zone and exterior: use a coarser mesh, \
+                 a smaller zone or a machine with more memory for the first rank"
+            ))
+        })?;
+        schur.resize(m * m, 0.0);
+        let freedoms = analysis.kept();
+        let Analysis {
+            variables,
+            factor,
+            mut host,
+            coupling,
+            ..
+        } = analysis;
+        let factored: Vec<Factored> = matrix.ask_all(|| Task::Factor(factor.index), &mut host)?;
+        require(factored[0].state)?;
+        let schur = Schur {
+            freedoms,
+            values: std::mem::take(&mut host.schur),
+        };
+        let numbers = variables.numbers(matrix.n());
+        let variable = |freedom: usize| numbers[freedom] as usize - 1;
+        let ends = coupling.into_iter();
+        let places = variables.freedoms.iter().zip(&variables.place);
+        let interior = places.enumerate().filter(|(_, (_, place))| place.is_none());
+        let exterior = Exterior {
+            factor,
+            n_variables: variables.freedoms.len(),
+            interior: interior.map(|(k, (&freedom, _))| (freedom, k)).collect(),
+            coupling: ends.map(|(i, t, value)| (variable(i), t, value)).collect(),
+        };
+        exterior.require_held(matrix)?;
+        Ok((exterior, schur))
+    }
+
+    /// MUMPS says nothing of a matrix that is singular to round-off: a known solution is asked for.
+    ///
+    /// # Errors
+    /// [`NotDefinite`] where it does not come back, by the freedom that is farthest off.
+    fn require_held(&self, matrix: &Shared) -> Result<()> {
+        let known = |freedom: usize| 1.0 + (freedom % 7) as f64 / 8.0;
+        let mut u = vec![0.0; matrix.n()];
+        for &(freedom, _) in &self.interior {
+            u[freedom] = known(freedom);
+        }
+        let mut load = matrix.rows(&vec![0.0; matrix.n()], &u)?.residual;
+        load.iter_mut().for_each(|force| *force = -*force);
+        let found = self.solve(&load, None)?;
+        let off = |&(freedom, k): &(usize, usize)| (found[k] - known(freedom)).abs();
+        let worst = (self.interior.iter()).max_by(|a, b| off(a).total_cmp(&off(b)));
+        match worst {
+            Some(worst) if off(worst).is_nan() || off(worst) > LOST => {
+                Err(NotDefinite { freedom: worst.0 }.into())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// `K_II^-1` times what stands at the interior freedoms of `load`, less coupled displacements
+    /// where there are some; by variable.
+    pub(super) fn solve(&self, load: &[f64], u_trailing: Option<&[f64]>) -> Result<Vec<f64>> {
+        let mut of_variables = vec![0.0; self.n_variables];
+        for &(freedom, k) in &self.interior {
+            of_variables[k] = load[freedom];
+        }
+        if let Some(u) = u_trailing {
+            for &(k, t, value) in &self.coupling {
+                of_variables[k] -= value * u[t];
+            }
+        }
+        let mut host = Host {
+            load: of_variables,
+            ..Host::default()
+        };
+        let index = self.factor.index;
+        let states: Vec<[i32; 2]> =
+            (self.factor.matrix).ask_all(|| Task::Solve(index), &mut host)?;
+        require(states[0])?;
+        check::length("load", host.load.len(), self.n_variables)?;
+        Ok(host.load)
+    }
+}
+
+/// Negative numbers of INFOG(1) as errors.
+fn require([code, more]: [i32; 2]) -> Result<()> {
+    if code >= 0 {
+        return Ok(());
+    }
+    let kind = match code {
+        -6 | -10 | -40 => ErrorKind::Unheld,
+        _ => ErrorKind::Analysis,
+    };
+    Err(Error::new(kind, meaning(code, more)))
+}

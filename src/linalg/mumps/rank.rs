@@ -1,0 +1,286 @@
+//! What a rank keeps and does.
+
+use super::task::{Analysed, Factored, Made, Near, Product, Task};
+use crate::error::Result;
+use crate::linalg::SymmetricCsc;
+use crate::linalg::residual::Rows;
+use crate::memory;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::ffi::c_int;
+use std::ptr::null_mut;
+use std::sync::{Mutex, PoisonError};
+
+/// What ranks must have in common.
+pub(super) const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// Columns from what they are made of.
+pub type Assemble = fn(&[u8]) -> Result<Columns>;
+
+/// Some columns of the upper triangle of a symmetric matrix, its freedoms numbered anew.
+#[derive(Debug, Clone)]
+pub struct Columns {
+    /// Columns that another rank has are empty.
+    pub matrix: SymmetricCsc,
+    /// Whether each freedom has the neighbours of the one before, and each other.
+    pub continued: Vec<bool>,
+}
+
+impl Default for Columns {
+    fn default() -> Self {
+        Columns {
+            matrix: SymmetricCsc::new_csc((0, 0), vec![0], Vec::new(), Vec::new()),
+            continued: Vec::new(),
+        }
+    }
+}
+
+/// What the first rank alone hands to MUMPS.
+#[derive(Default)]
+pub(super) struct Host {
+    /// Number of variables.
+    pub(super) n: usize,
+    /// The place of each in the order, from 1.
+    pub(super) place: Vec<c_int>,
+    /// The variables that stay, from 1, as they come in the order.
+    pub(super) kept: Vec<c_int>,
+    /// Their matrix.
+    pub(super) schur: Vec<f64>,
+    /// A load, then the solution.
+    pub(super) load: Vec<f64>,
+}
+
+/// Entries as MUMPS takes them.
+#[derive(Default)]
+struct Entries {
+    rows: Vec<c_int>,
+    columns: Vec<c_int>,
+    values: Vec<f64>,
+}
+
+#[derive(Default)]
+struct Kept {
+    matrices: BTreeMap<usize, Columns>,
+    /// The trailing freedoms of each matrix.
+    trailing: BTreeMap<usize, Vec<bool>>,
+    /// Of factors that are not computed yet.
+    entries: BTreeMap<usize, Entries>,
+}
+
+static KEPT: Mutex<Kept> = Mutex::new(Kept {
+    matrices: BTreeMap::new(),
+    trailing: BTreeMap::new(),
+    entries: BTreeMap::new(),
+});
+
+// Of shim.c.
+unsafe extern "C" {
+    fn brinell_mumps_create(index: c_int) -> c_int;
+    fn brinell_mumps_analyse(
+        index: c_int,
+        n: c_int,
+        n_entries: i64,
+        rows: *mut c_int,
+        columns: *mut c_int,
+        place: *mut c_int,
+        n_schur: c_int,
+        schur_list: *mut c_int,
+        info: *mut c_int,
+        work: *mut f64,
+    );
+    fn brinell_mumps_factor(index: c_int, values: *mut f64, schur: *mut f64, info: *mut c_int);
+    fn brinell_mumps_solve(index: c_int, load: *mut f64, info: *mut c_int);
+    fn brinell_mumps_free(index: c_int);
+}
+
+/// Does what is asked; the answer as it is sent.
+pub(super) fn perform(task: Task, assemble: Assemble, host: &mut Host) -> Vec<u8> {
+    let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+    match task {
+        Task::Matrix(index, bytes) => {
+            let columns = match bytes.is_empty() {
+                true => Ok(Columns::default()),
+                false => assemble(&bytes),
+            };
+            drop(bytes);
+            answer(&match columns {
+                Ok(columns) => Ok(kept.take(index, columns)),
+                Err(error) => Err(error.to_string()),
+            })
+        }
+        Task::ForgetMatrix(index) => {
+            kept.matrices.remove(&index);
+            kept.trailing.remove(&index);
+            Vec::new()
+        }
+        Task::Product(index, u) => answer(&kept.matrices.get(&index).map(|c| c.product(&u))),
+        Task::Near(index, trailing) => {
+            let near = kept.matrices.get(&index).map(|c| c.near(&trailing));
+            kept.trailing.insert(index, trailing);
+            answer(&near)
+        }
+        Task::Graph(index, vertex) => {
+            let pairs = kept.interior(index, |i, j, _| {
+                let ends = [vertex[i], vertex[j]];
+                (ends[0] >= 0 && ends[1] >= 0).then_some(ends)
+            });
+            answer(&pairs)
+        }
+        Task::Analyse(factor, index, variable) => {
+            let mut entries = Entries::default();
+            let _: Vec<()> = kept.interior(index, |i, j, value| {
+                // The lower triangle.
+                entries.rows.push(variable[j]);
+                entries.columns.push(variable[i]);
+                entries.values.push(value);
+                None
+            });
+            let analysed = analyse(factor, &mut entries, host);
+            kept.entries.insert(factor, entries);
+            answer(&analysed)
+        }
+        Task::Factor(factor) => {
+            let mut entries = kept.entries.remove(&factor).unwrap_or_default();
+            answer(&compute(factor, &mut entries, host))
+        }
+        Task::Solve(factor) => {
+            let mut state = [0; 2];
+            // SAFETY: the factor is there until it is forgotten; the first rank's load is as long as
+            // it is large, that of others is not looked at.
+            unsafe {
+                brinell_mumps_solve(factor as c_int, host.load.as_mut_ptr(), state.as_mut_ptr());
+            }
+            answer(&state)
+        }
+        Task::ForgetFactor(factor) => {
+            kept.entries.remove(&factor);
+            // SAFETY: it was created, and is forgotten once.
+            unsafe { brinell_mumps_free(factor as c_int) }
+            Vec::new()
+        }
+        Task::Memory => answer(&memory::peak()),
+        Task::Quit => Vec::new(),
+    }
+}
+
+fn answer<T: Serialize>(value: &T) -> Vec<u8> {
+    // Vectors and numbers: nothing that cannot be written.
+    postcard::to_stdvec(value).unwrap_or_default()
+}
+
+fn analyse(factor: usize, entries: &mut Entries, host: &mut Host) -> Analysed {
+    let (mut info, mut work) = ([0; 4], [0.0; 2]);
+    let n_entries = entries.values.len();
+    // SAFETY: all arrays have the lengths that are given beside them and stay where they are until
+    // the factor is computed or forgotten; numbers of variables lie in 1..=n.
+    unsafe {
+        if brinell_mumps_create(factor as c_int) == 0 {
+            info[0] = -13;
+        } else {
+            brinell_mumps_analyse(
+                factor as c_int,
+                host.n as c_int,
+                n_entries as i64,
+                entries.rows.as_mut_ptr(),
+                entries.columns.as_mut_ptr(),
+                host.place.as_mut_ptr(),
+                host.kept.len() as c_int,
+                host.kept.as_mut_ptr(),
+                info.as_mut_ptr(),
+                work.as_mut_ptr(),
+            );
+        }
+    }
+    Analysed {
+        state: [info[0], info[1]],
+        order: info[2],
+        needed: 1e6 * f64::from(info[3]),
+        available: memory::available(),
+        flops: work[0],
+        nonzeros: work[1],
+    }
+}
+
+fn compute(factor: usize, entries: &mut Entries, host: &mut Host) -> Factored {
+    let mut info = [0; 3];
+    let schur = match host.schur.is_empty() {
+        true => null_mut(),
+        false => host.schur.as_mut_ptr(),
+    };
+    // SAFETY: the entries are those that were analysed; the first rank has room for the matrix of
+    // the variables that stay.
+    unsafe {
+        brinell_mumps_factor(
+            factor as c_int,
+            entries.values.as_mut_ptr(),
+            schur,
+            info.as_mut_ptr(),
+        );
+    }
+    Factored {
+        state: [info[0], info[1]],
+    }
+}
+
+impl Kept {
+    fn take(&mut self, index: usize, columns: Columns) -> Made {
+        let matrix = &columns.matrix;
+        let own = |j: usize| matrix.get(j, j).copied().unwrap_or(0.0);
+        let made = Made {
+            diagonal: (0..matrix.cols()).map(own).collect(),
+            continued: columns.continued.clone(),
+            n_entries: matrix.nnz(),
+        };
+        self.matrices.insert(index, columns);
+        made
+    }
+
+    /// What `of` makes of the entries (row, column, value) of a matrix that have an interior end.
+    fn interior<T>(
+        &self,
+        index: usize,
+        mut of: impl FnMut(usize, usize, f64) -> Option<T>,
+    ) -> Vec<T> {
+        let mut out = Vec::new();
+        let parts = (self.matrices.get(&index), self.trailing.get(&index));
+        let (Some(columns), Some(trailing)) = parts else {
+            return out;
+        };
+        for (j, column) in columns.matrix.outer_iterator().enumerate() {
+            for (i, &value) in column.iter() {
+                if !(trailing[i] && trailing[j]) {
+                    out.extend(of(i, j, value));
+                }
+            }
+        }
+        out
+    }
+}
+
+impl Columns {
+    fn product(&self, u: &[f64]) -> Product {
+        let rows = Rows::new(&self.matrix, &vec![0.0; u.len()], u);
+        Product {
+            values: rows.residual.into_iter().map(|r| -r).collect(),
+            terms: rows.terms,
+            sizes: rows.stiffness,
+        }
+    }
+
+    fn near(&self, trailing: &[bool]) -> Near {
+        let mut near = Near {
+            touched: vec![false; trailing.len()],
+            ..Near::default()
+        };
+        for (j, column) in self.matrix.outer_iterator().enumerate() {
+            for (i, &value) in column.iter().filter(|(i, _)| trailing[*i] || trailing[j]) {
+                near.touched[i] |= !trailing[j];
+                near.touched[j] |= !trailing[i];
+                near.rows.push(i as u32);
+                near.columns.push(j as u32);
+                near.values.push(value);
+            }
+        }
+        near
+    }
+}

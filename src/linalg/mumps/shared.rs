@@ -1,0 +1,270 @@
+//! A symmetric matrix of which each rank has some columns, as the first rank sees it.
+
+use super::rank::{Assemble, Columns, Host};
+use super::task::{Made, Near, Product, Task};
+use super::{Entry, Traffic, World};
+use crate::error::{Error, Result};
+use crate::linalg::SymmetricCsc;
+use crate::linalg::residual::Rows;
+use crate::results::Ranks;
+use serde::de::DeserializeOwned;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// A part of a matrix: its freedoms, ascending, as the whole numbers them, and what the rank makes
+/// its columns of ([`Assemble`]).
+#[derive(Default)]
+pub struct Part {
+    /// One for each freedom of the part.
+    pub numbers: Vec<u32>,
+    /// For the rank.
+    pub message: Vec<u8>,
+}
+
+/// A symmetric matrix on all ranks; they forget it with the last copy of this.
+#[derive(Debug, Clone)]
+pub struct Shared(Arc<Inner>);
+
+#[derive(Debug)]
+struct Inner {
+    world: World,
+    index: usize,
+    assemble: Assemble,
+    /// What was asked before.
+    before: Traffic,
+    /// Of each part.
+    n_entries: Vec<usize>,
+    /// The freedoms of each part.
+    numbers: Vec<Vec<u32>>,
+    diagonal: Vec<f64>,
+    /// Whether each freedom has the neighbours of the one before.
+    continued: Vec<bool>,
+}
+
+static NEXT: AtomicUsize = AtomicUsize::new(0);
+
+impl Shared {
+    /// A matrix of `n` freedoms: `part` gives that of each rank.
+    ///
+    /// # Errors
+    /// Those of the ranks.
+    pub fn new(
+        n: usize,
+        mut part: impl FnMut(usize) -> Result<Part>,
+        assemble: Assemble,
+    ) -> Result<Self> {
+        let world = World::join()?;
+        let before = world.traffic();
+        let index = NEXT.fetch_add(1, Ordering::Relaxed);
+        let (mut numbers, mut failed) = (vec![Vec::new(); world.size], None);
+        let made: Vec<std::result::Result<Made, String>> = world.ask(
+            |rank| {
+                let message = part(rank).map(|part| {
+                    numbers[rank] = part.numbers;
+                    part.message
+                });
+                let message = message.unwrap_or_else(|error| {
+                    failed = Some(error);
+                    Vec::new()
+                });
+                Task::Matrix(index, message)
+            },
+            assemble,
+            &mut Host::default(),
+        )?;
+        if let Some(error) = failed {
+            return Err(error);
+        }
+        let made: std::result::Result<Vec<Made>, String> = made.into_iter().collect();
+        let made = made.map_err(Error::analysis)?;
+        let (mut diagonal, mut continued) = (vec![0.0; n], vec![false; n]);
+        for (numbers, made) in numbers.iter().zip(&made) {
+            for (local, &freedom) in numbers.iter().enumerate() {
+                let freedom = freedom as usize;
+                diagonal[freedom] += made.diagonal[local];
+                let follows = local > 0 && numbers[local - 1] as usize + 1 == freedom;
+                continued[freedom] |= follows && made.continued[local];
+            }
+        }
+        Ok(Shared(Arc::new(Inner {
+            world,
+            index,
+            assemble,
+            before,
+            n_entries: made.iter().map(|made| made.n_entries).collect(),
+            numbers,
+            diagonal,
+            continued,
+        })))
+    }
+
+    /// A matrix all of which the first rank has.
+    ///
+    /// # Errors
+    /// `Analysis` where MPI does not start.
+    pub fn here(matrix: &SymmetricCsc) -> Result<Self> {
+        let n = matrix.cols();
+        let parts = (matrix.proper_indptr(), matrix.indices(), matrix.data());
+        let message = postcard::to_stdvec(&parts)
+            .map_err(|cause| Error::internal("a matrix as bytes").because(cause))?;
+        let mut all = Part {
+            numbers: (0..n as u32).collect(),
+            message,
+        };
+        let part = |rank| match rank {
+            0 => Ok(std::mem::take(&mut all)),
+            _ => Ok(Part::default()),
+        };
+        Self::new(n, part, |bytes| {
+            let (pointers, rows, values): (Vec<i64>, Vec<i64>, Vec<f64>) =
+                postcard::from_bytes(bytes)
+                    .map_err(|cause| Error::internal("a matrix from bytes").because(cause))?;
+            let n = pointers.len() - 1;
+            Ok(Columns {
+                matrix: SymmetricCsc::new_csc((n, n), pointers, rows, values),
+                continued: vec![false; n],
+            })
+        })
+    }
+
+    /// Number of freedoms.
+    pub fn n(&self) -> usize {
+        self.0.diagonal.len()
+    }
+
+    /// Number of entries of the upper triangle.
+    pub fn n_entries(&self) -> usize {
+        self.0.n_entries.iter().sum()
+    }
+
+    /// Entries that each rank has.
+    pub(super) fn entries_by_rank(&self) -> &[usize] {
+        &self.0.n_entries
+    }
+
+    /// Bytes of the columns that each rank has.
+    pub(super) fn bytes(&self) -> Vec<f64> {
+        let bytes = |n: &usize| (size_of::<f64>() + size_of::<i64>()) as f64 * *n as f64;
+        self.0.n_entries.iter().map(bytes).collect()
+    }
+
+    /// What the ranks did so far; `None` where they cannot be asked.
+    pub(in crate::linalg) fn ranks(&self) -> Option<Ranks> {
+        let world = self.0.world;
+        let traffic = world.traffic();
+        let peak_memory_bytes = self.ask_all(|| Task::Memory, &mut Host::default());
+        Some(Ranks {
+            count: world.size,
+            requests: traffic.requests - self.0.before.requests,
+            bytes: traffic.bytes - self.0.before.bytes,
+            peak_memory_bytes: peak_memory_bytes.ok()?,
+        })
+    }
+
+    /// The diagonal.
+    pub fn diagonal(&self) -> &[f64] {
+        &self.0.diagonal
+    }
+
+    /// Whether a freedom has the neighbours of the one before, and each other.
+    pub(super) fn is_continued(&self, freedom: usize) -> bool {
+        self.0.continued[freedom]
+    }
+
+    /// What one pass over the matrix states about a solution `u` for the load `f`.
+    pub(in crate::linalg) fn rows(&self, f: &[f64], u: &[f64]) -> Result<Rows> {
+        let products: Vec<Option<Product>> =
+            self.ask(|index, own| Task::Product(index, own(&|freedom| u[freedom])))?;
+        let mut rows = Rows {
+            residual: f.to_vec(),
+            terms: vec![0.0; u.len()],
+            stiffness: vec![0.0; u.len()],
+        };
+        for (numbers, product) in self.0.numbers.iter().zip(products) {
+            let product = product.ok_or_else(forgotten)?;
+            for (local, &freedom) in numbers.iter().enumerate() {
+                let freedom = freedom as usize;
+                rows.residual[freedom] -= product.values[local];
+                rows.terms[freedom] += product.terms[local];
+                rows.stiffness[freedom] += product.sizes[local];
+            }
+        }
+        Ok(rows)
+    }
+
+    /// Entries with an end among the trailing freedoms, and which of these the interior touches.
+    pub(super) fn near(&self, trailing: &[bool]) -> Result<(Vec<Entry>, Vec<bool>)> {
+        let parts: Vec<Option<Near>> =
+            self.ask(|index, own| Task::Near(index, own(&|freedom| trailing[freedom])))?;
+        let (mut entries, mut touched) = (Vec::new(), vec![false; self.n()]);
+        for (numbers, part) in self.0.numbers.iter().zip(parts) {
+            let part = part.ok_or_else(forgotten)?;
+            let whole = |local: u32| numbers[local as usize] as usize;
+            for ((&i, &j), &value) in part.rows.iter().zip(&part.columns).zip(&part.values) {
+                entries.push((whole(i), whole(j), value));
+            }
+            for (&freedom, is_touched) in numbers.iter().zip(part.touched) {
+                touched[freedom as usize] |= is_touched;
+            }
+        }
+        Ok((entries, touched))
+    }
+
+    /// The graph of the interior and what it touches: pairs of vertices, given the vertex of each
+    /// freedom (-1 for none). The trailing freedoms are those of [`Shared::near`].
+    pub(super) fn graph(&self, vertex: &[i32]) -> Result<Vec<[i32; 2]>> {
+        let parts: Vec<Vec<[i32; 2]>> =
+            self.ask(|index, own| Task::Graph(index, own(&|freedom| vertex[freedom])))?;
+        Ok(parts.concat())
+    }
+
+    /// Asks all ranks for something of their parts: `task` gets the number of the matrix, and
+    /// what takes the values of a rank's own freedoms out of those of all.
+    fn ask<T: DeserializeOwned, V>(
+        &self,
+        task: impl Fn(usize, &dyn Fn(&dyn Fn(usize) -> V) -> Vec<V>) -> Task,
+    ) -> Result<Vec<T>> {
+        self.ask_with(task, &mut Host::default())
+    }
+
+    /// As above, with what the first rank adds.
+    pub(super) fn ask_with<T: DeserializeOwned, V>(
+        &self,
+        task: impl Fn(usize, &dyn Fn(&dyn Fn(usize) -> V) -> Vec<V>) -> Task,
+        host: &mut Host,
+    ) -> Result<Vec<T>> {
+        let inner = &self.0;
+        let of_rank = |rank: usize| {
+            let numbers = &inner.numbers[rank];
+            let own = |of: &dyn Fn(usize) -> V| -> Vec<V> {
+                numbers
+                    .iter()
+                    .map(|&freedom| of(freedom as usize))
+                    .collect()
+            };
+            task(inner.index, &own)
+        };
+        inner.world.ask(of_rank, inner.assemble, host)
+    }
+
+    /// Asks all ranks the same.
+    pub(super) fn ask_all<T: DeserializeOwned>(
+        &self,
+        task: impl Fn() -> Task,
+        host: &mut Host,
+    ) -> Result<Vec<T>> {
+        self.0.world.ask(|_| task(), self.0.assemble, host)
+    }
+}
+
+fn forgotten() -> Error {
+    Error::internal("a rank has forgotten its part of the matrix")
+}
+
+impl Drop for Inner {
+    fn drop(&mut self) {
+        let task = |_| Task::ForgetMatrix(self.index);
+        // Ranks that are gone have forgotten it.
+        let _: Result<Vec<()>> = self.world.ask(task, self.assemble, &mut Host::default());
+    }
+}

@@ -1,0 +1,87 @@
+//! What the first rank asks, and what each rank answers. Freedoms have the numbers of a rank's own
+//! part of the matrix.
+
+use serde::{Deserialize, Serialize};
+
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) enum Task {
+    /// Assembles and keeps columns of a matrix, by its number; without bytes it has none.
+    /// [`Result<Made, String>`].
+    Matrix(usize, Vec<u8>),
+    /// Forgets them. Nothing.
+    ForgetMatrix(usize),
+    /// Multiplies a vector. [`Product`].
+    Product(usize, Vec<f64>),
+    /// Entries in rows or columns of the trailing freedoms marked, which are remembered. [`Near`].
+    Near(usize, Vec<bool>),
+    /// Entries of the graph of the interior and what it touches: the vertex of each freedom, -1 for
+    /// none. Pairs of vertices.
+    Graph(usize, Vec<i32>),
+    /// Sets up a factor of the interior: its number, that of the matrix, the variable of each
+    /// freedom, from 1. [`Analysed`].
+    Analyse(usize, usize, Vec<i32>),
+    /// Computes it. [`Factored`].
+    Factor(usize),
+    /// Solves with it. INFOG(1) and INFOG(2).
+    Solve(usize),
+    /// Forgets it. Nothing.
+    ForgetFactor(usize),
+    /// How much memory a rank has taken. Bytes.
+    Memory,
+    /// Ends. Nothing.
+    Quit,
+}
+
+/// Columns that a rank has.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub(super) struct Made {
+    /// Diagonal entries, 0 where another rank has the column.
+    pub(super) diagonal: Vec<f64>,
+    /// Whether each freedom has the neighbours of the one before.
+    pub(super) continued: Vec<bool>,
+    pub(super) n_entries: usize,
+}
+
+/// Sums over the entries that a rank has.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Product {
+    /// `K u`.
+    pub(super) values: Vec<f64>,
+    /// `|K| |u|`.
+    pub(super) terms: Vec<f64>,
+    /// `|K|`.
+    pub(super) sizes: Vec<f64>,
+}
+
+/// Entries with a trailing end, and the trailing freedoms that the interior touches.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub(super) struct Near {
+    pub(super) touched: Vec<bool>,
+    pub(super) rows: Vec<u32>,
+    pub(super) columns: Vec<u32>,
+    pub(super) values: Vec<f64>,
+}
+
+/// What MUMPS says after the analysis.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub(super) struct Analysed {
+    /// INFOG(1) and INFOG(2).
+    pub(super) state: [i32; 2],
+    /// INFOG(7).
+    pub(super) order: i32,
+    /// Bytes that the factor will take on this rank, and what stands beside it.
+    pub(super) needed: f64,
+    /// Bytes that this rank may still take.
+    pub(super) available: Option<f64>,
+    /// Operations, of all ranks together.
+    pub(super) flops: f64,
+    /// Entries of the factor, of all ranks together.
+    pub(super) nonzeros: f64,
+}
+
+/// What MUMPS says after the factorisation.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Factored {
+    /// INFOG(1) and INFOG(2).
+    pub(super) state: [i32; 2],
+}

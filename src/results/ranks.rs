@@ -1,0 +1,19 @@
+//! What several ranks did together.
+
+use serde::{Deserialize, Serialize};
+
+/// The ranks of a run that `mpirun` started.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Ranks {
+    /// How many there are.
+    pub count: usize,
+    /// Times that the first one asked something of the others: to assemble, to factor, once for
+    /// each load and each state, nothing in between.
+    pub requests: u64,
+    /// Bytes that it sent and received for that, without those of MUMPS.
+    pub bytes: u64,
+    /// The most memory that each of them has held, in bytes; null where the system does not report
+    /// it.
+    pub peak_memory_bytes: Vec<Option<u64>>,
+}
