@@ -28,27 +28,54 @@ struct Share<'a> {
 /// # Errors
 /// Those of the ranks.
 pub fn assemble(model: &Model) -> Result<Shared> {
-    let ranks = World::join()?.size;
-    let owner_of_node = owners(&model.mesh, ranks);
-    let owner = |freedom: usize| owner_of_node[model.freedoms.owners[freedom].0 as usize];
-    let mut of_rank: Vec<Vec<usize>> = vec![Vec::new(); ranks];
-    for e in 0..model.mesh.n_elements() {
-        for slot in model.slots_of(e) {
-            if let Slot::Free(f) = slot {
-                let list = &mut of_rank[owner(f as usize) as usize];
-                if list.last() != Some(&e) {
-                    list.push(e);
+    let mut shares = Shares::new(model, World::join()?.size);
+    Shared::new(model.freedoms.n, |rank| shares.take(rank), columns)
+}
+
+/// The shares of all ranks, made one by one.
+struct Shares<'a> {
+    model: &'a Model,
+    owner_of_node: Vec<u32>,
+    /// Elements that each rank assembles.
+    elements: Vec<Vec<usize>>,
+}
+
+impl<'a> Shares<'a> {
+    fn new(model: &'a Model, ranks: usize) -> Self {
+        let mut shares = Shares {
+            owner_of_node: owners(&model.mesh, ranks),
+            elements: vec![Vec::new(); ranks],
+            model,
+        };
+        for e in 0..model.mesh.n_elements() {
+            for slot in model.slots_of(e) {
+                if let Slot::Free(f) = slot {
+                    let owner = shares.owner(f as usize);
+                    let list = &mut shares.elements[owner];
+                    if list.last() != Some(&e) {
+                        list.push(e);
+                    }
                 }
             }
         }
+        shares
     }
-    let part = |rank: usize| {
+
+    fn owner(&self, freedom: usize) -> usize {
+        let (node, _) = self.model.freedoms.owners[freedom];
+        self.owner_of_node[node as usize] as usize
+    }
+
+    /// The share of a rank, once.
+    fn take(&mut self, rank: usize) -> Result<Part> {
+        let model = self.model;
+        let list = std::mem::take(&mut self.elements[rank]);
         let springs = model.freedoms.springs.iter();
-        let own = springs.filter(|spring| owner(spring.freedom) as usize == rank);
-        let mut elements = Elements::some_of(model, &std::mem::take(&mut of_rank[rank]))
+        let own = springs.filter(|spring| self.owner(spring.freedom) == rank);
+        let mut elements = Elements::some_of(model, &list)
             .with_springs(own.map(|spring| (spring.freedom, spring.stiffness)));
         let numbers = elements.renumber();
-        let owned = numbers.iter().map(|&f| owner(f as usize) as usize == rank);
+        let owned = numbers.iter().map(|&f| self.owner(f as usize) == rank);
         let share = Share {
             owned: owned.collect(),
             elements,
@@ -56,8 +83,7 @@ pub fn assemble(model: &Model) -> Result<Shared> {
         let message = postcard::to_stdvec(&share)
             .map_err(|cause| Error::internal("a part of the elements as bytes").because(cause))?;
         Ok(Part { numbers, message })
-    };
-    Shared::new(model.freedoms.n, part, columns)
+    }
 }
 
 /// The columns that a rank assembles of its share.
@@ -119,6 +145,54 @@ fn owners(mesh: &Mesh, ranks: usize) -> Vec<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Scene;
+
+    /// Plane, axisymmetric, solid; turned axes, prescribed displacements, springs.
+    const SCENES: [(&str, &[&str]); 6] = [
+        ("disc_in_plate", &[]),
+        ("thick_cylinder", &[]),
+        ("flat_punch", &[]),
+        ("fit_by_heat", &["contact.0.stiffness=1e6"]),
+        ("blocks_tet10", &[]),
+        (
+            "ball_in_groove",
+            &["mesh.curved_bodies.resolution=3", "contact.0.stiffness=1e6"],
+        ),
+    ];
+
+    /// The columns of all ranks are those of the whole, bit for bit, each once.
+    #[test]
+    fn the_columns_of_all_ranks_are_those_of_one() {
+        for (name, changes) in SCENES {
+            let file = format!("{}/data/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+            let changes: Vec<String> = changes.iter().map(|text| text.to_string()).collect();
+            let scene = Scene::load_with(file, &changes).unwrap();
+            let model = Model::new(&scene).unwrap();
+            let whole = super::super::all(&model).stiffness(|_| true);
+            for ranks in [1, 2, 3, 7] {
+                let mut shares = Shares::new(&model, ranks);
+                let mut n_columns = 0;
+                for rank in 0..ranks {
+                    let part = shares.take(rank).unwrap();
+                    let columns = columns(&part.message).unwrap();
+                    for (j, column) in columns.matrix.outer_iterator().enumerate() {
+                        if column.nnz() == 0 {
+                            continue;
+                        }
+                        n_columns += 1;
+                        let global = part.numbers[j] as usize;
+                        let expected = whole.outer_view(global).unwrap();
+                        assert_eq!(column.data(), expected.data(), "{name}: {global} of {rank}");
+                        let rows = column.indices().iter();
+                        let rows: Vec<i64> =
+                            rows.map(|&i| i64::from(part.numbers[i as usize])).collect();
+                        assert_eq!(rows, expected.indices());
+                    }
+                }
+                assert_eq!(n_columns, model.freedoms.n, "{name} on {ranks}");
+            }
+        }
+    }
 
     #[test]
     fn every_rank_gets_its_share_of_the_nodes() {

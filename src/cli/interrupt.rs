@@ -86,10 +86,12 @@ fn tell(json: Option<Instant>) {
     }
 }
 
+/// Queues of batch systems warn with SIGUSR1, which `mpirun` hands on to all ranks.
 #[cfg(unix)]
 fn call_at_signals(hear: impl Fn(i32) + Send + Sync + 'static) -> std::io::Result<()> {
-    use signal_hook::consts::{SIGHUP, SIGTERM};
-    let mut signals = signal_hook::iterator::Signals::new([SIGINT, SIGTERM, SIGHUP])?;
+    use signal_hook::consts::{SIGHUP, SIGTERM, SIGUSR1};
+    let ends = [SIGINT, SIGTERM, SIGHUP, SIGUSR1];
+    let mut signals = signal_hook::iterator::Signals::new(ends)?;
     std::thread::Builder::new()
         .name("signals".to_string())
         .spawn(move || signals.forever().for_each(hear))
@@ -101,6 +103,13 @@ fn call_at_signals(
     hear: impl Fn(i32) + Send + Sync + 'static,
 ) -> std::result::Result<(), ctrlc::Error> {
     ctrlc::set_handler(move || hear(SIGINT))
+}
+
+/// A rank that helps ends with the first one, which may still have to write what it has.
+#[cfg(feature = "mumps")]
+pub(super) fn leave_to_first_rank() {
+    // Without it the first one ends alone.
+    let _ = call_at_signals(|_| {});
 }
 
 /// A file beyond the limit of its size (`ulimit -f`) is a failed write, not the end of the program.

@@ -51,6 +51,7 @@ pub(super) fn join(solver: Option<Backend>) -> Result<Part> {
 fn with_mumps() -> Result<Part> {
     let world = crate::linalg::mumps::World::join()?;
     if world.rank > 0 {
+        super::interrupt::leave_to_first_rank();
         world.serve(crate::assembly::shares::columns);
         world.end();
         return Ok(Part::Helped);

@@ -4,6 +4,7 @@
 mod limit;
 
 use serde_json::Value;
+use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
@@ -24,10 +25,15 @@ fn scene(name: &str) -> String {
 
 /// The program on so many ranks, more than there may be processors.
 fn on_ranks(ranks: usize, arguments: &[&str]) -> Command {
+    let mut command = mpirun(ranks);
+    command.arg(PROGRAM).args(arguments);
+    command
+}
+
+fn mpirun(ranks: usize) -> Command {
     let mut command = Command::new("mpirun");
     command
-        .args(["--oversubscribe", "-n", &ranks.to_string(), PROGRAM])
-        .args(arguments)
+        .args(["--oversubscribe", "-n", &ranks.to_string()])
         .env("OMPI_ALLOW_RUN_AS_ROOT", "1")
         .env("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1");
     command
@@ -177,6 +183,202 @@ fn errors_end_all_ranks_with_one_message() {
         2,
         "expected a whole number",
     );
+}
+
+/// The other ranks are asked to assemble, to factor and once for each load and state: how many
+/// increments there are in between makes no difference.
+#[test]
+fn nobody_is_asked_between_load_steps() {
+    if !has_mpirun() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    for name in ["cylinder_on_half_plane", "ball_on_half_space"] {
+        let [few, many] = [4, 40].map(|steps| {
+            let steps = format!("program.steps={steps}");
+            let summary = run(3, &scene(name), &["program.stepping=steps", &steps], &out);
+            let history = std::fs::read_to_string(out.join("history.csv")).unwrap();
+            (history.lines().count() - 1, summary)
+        });
+        let asked = |summary: &Value| summary["ranks"]["requests"].as_u64().unwrap();
+        println!(
+            "{name}: {} and {} increments, {} and {} requests of {} bytes in all",
+            few.0,
+            many.0,
+            asked(&few.1),
+            asked(&many.1),
+            many.1["ranks"]["bytes"]
+        );
+        assert!(many.0 >= few.0 + 36, "{name}");
+        // Another zone may be factored on the way.
+        let factored = |summary: &Value| summary["counts"]["factorizations"].clone();
+        assert_eq!(factored(&few.1), factored(&many.1), "{name}");
+        // A state whose residual is round-off may or may not be refined: two solves, one product.
+        let states = few.1["states"].as_array().unwrap().len() as u64;
+        assert!(
+            asked(&few.1).abs_diff(asked(&many.1)) <= 3 * states,
+            "{name}"
+        );
+    }
+}
+
+/// The scene of the ball in three dimensions, elastic.
+fn elastic_ball(folder: &Path) -> String {
+    let text = std::fs::read_to_string(scene("ball_on_flat_3d")).unwrap();
+    let (model, _) = text.split_once("[program]").unwrap();
+    let model = model.replace(
+        "resolution = 6",
+        "semi_axes = [0.11, 0.11]\nresolution = 12",
+    );
+    let model = model.replace(
+        "material = \"steel\"",
+        "material = \"steel\"\nplastic = false",
+    );
+    let path = folder.join("elastic.toml");
+    std::fs::write(
+        &path,
+        model + "[program]\ntargets = [{ load_factor = 0.02 }]\n",
+    )
+    .unwrap();
+    path.to_str().unwrap().to_string()
+}
+
+/// In kB: one process is refused, four run.
+const ADDRESS_SPACE: usize = 1_500_000;
+
+/// A solid model that is larger than the memory of one rank runs on four; what each needs was
+/// predicted, and is a quarter. One rank alone without memory ends all, by its number.
+#[test]
+#[cfg(target_os = "linux")]
+fn what_is_too_large_for_one_rank_runs_on_four() {
+    if !has_mpirun() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = elastic_ball(folder.path());
+    let out = folder.path().join("out");
+    let out = out.to_str().unwrap();
+    let arguments = format!("run {path} --out {out} -q --json --no-estimate --no-report");
+    let limited = |ranks: Option<usize>, limit: &str| {
+        let solver = if ranks.is_some() {
+            "--solver mumps"
+        } else {
+            ""
+        };
+        let line = format!("{limit}; exec {PROGRAM} {arguments} {solver}");
+        let mut command = match ranks {
+            Some(ranks) => {
+                let mut command = mpirun(ranks);
+                command.arg("bash");
+                command
+            }
+            None => Command::new("bash"),
+        };
+        limit::output(command.args(["-c", &line]))
+    };
+    let small = format!("ulimit -v {ADDRESS_SPACE}");
+    let alone = limited(None, &small);
+    ends(&alone, 5, "out of memory: the factorisation");
+    let four = limited(Some(4), &small);
+    let why = String::from_utf8_lossy(&four.stderr).into_owned();
+    assert!(four.status.success(), "{why}");
+    let summary: Value = serde_json::from_slice(&four.stdout).unwrap();
+    let list = |values: &Value| -> Vec<f64> {
+        let values = values.as_array().unwrap().iter();
+        values.map(|bytes| bytes.as_f64().unwrap()).collect()
+    };
+    let predicted = list(&summary["factor"]["memory_by_rank"]);
+    let held = list(&summary["ranks"]["peak_memory_bytes"]);
+    println!("predicted {predicted:?}, held {held:?}");
+    for (predicted, held) in predicted.iter().zip(&held) {
+        // Beside the factor stand the program itself and, on the first, mesh and states.
+        assert!(*held < 1.3 * predicted && *held > 0.5 * predicted);
+        assert!(*held < 0.5 * 1.45e9, "a quarter, and what stands beside it");
+    }
+    let of_third = format!("[ $OMPI_COMM_WORLD_RANK != 2 ] || ulimit -v {}", 700_000);
+    ends(
+        &limited(Some(4), &of_third),
+        5,
+        "out of memory: rank 2 of 4",
+    );
+}
+
+/// More ranks than elements: some have nothing.
+#[test]
+fn ranks_without_an_element_do_no_harm() {
+    if !has_mpirun() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let changes = [
+        "mesh.parts.0.block.elements=[1,1]",
+        "mesh.parts.1.block.elements=[1,1]",
+    ];
+    let [alone, many] = [0, 5].map(|n| run(n, &scene("contact_patch"), &changes, &out));
+    assert_eq!(many["elements"], 2);
+    assert!(difference(&many, &alone) <= 1e-10);
+}
+
+/// `mpirun` hands SIGUSR1 on: the run ends where it is, with its results. Killed outright, it goes
+/// on from its checkpoint, on another number of ranks too.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_run_that_is_stopped_keeps_what_it_has() {
+    if !has_mpirun() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out");
+    let path = scene("ball_on_flat_3d");
+    let options = ["--solver", "mumps", "--no-estimate", "--no-report"];
+    let start = |more: &[&str]| {
+        let mut command = on_ranks(3, &["run", &path, "--out", out.to_str().unwrap()]);
+        command.args(options).args(more);
+        command.stdout(Stdio::null()).stderr(Stdio::piped());
+        command.spawn().unwrap()
+    };
+    let until_increment = |running: &mut std::process::Child| {
+        let mut events = BufReader::new(running.stderr.take().unwrap()).lines();
+        let found = events.find(|line| line.as_ref().unwrap().contains("\"increment\""));
+        assert!(found.is_some());
+        // Nobody may be kept waiting for its messages to be read.
+        std::thread::spawn(move || events.count());
+    };
+    let json = ["--progress", "json"];
+    let mut running = start(&json);
+    until_increment(&mut running);
+    let parent = running.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args(["-USR1", &parent])
+            .status()
+            .unwrap()
+            .success()
+    );
+    assert_eq!(limit::wait(&mut running).code(), Some(128 + 10));
+    let summary = std::fs::read_to_string(out.join("summary.json")).unwrap();
+    let summary: Value = serde_json::from_str(&summary).unwrap();
+    assert_eq!(summary["incomplete"], "stopped on request");
+
+    let expected = run(0, &path, &[], &folder.path().join("other"));
+    let mut running = start(&[&json[..], &["--checkpoint=1"]].concat());
+    until_increment(&mut running);
+    running.kill().unwrap();
+    let _ = limit::wait(&mut running);
+    // Ranks end with the one that started them.
+    std::thread::sleep(Duration::from_secs(3));
+    let mut resumed = on_ranks(2, &["run", &path, "--out", out.to_str().unwrap()]);
+    resumed
+        .args(options)
+        .args(["-q", "--json", "--checkpoint=1", "--resume"]);
+    let output = limit::output(&mut resumed);
+    let why = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{why}");
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(found["resumed"].as_u64().unwrap() > 0);
+    assert!(difference(&found, &expected) <= 1e-8);
 }
 
 /// A rank that is killed ends the others within seconds.

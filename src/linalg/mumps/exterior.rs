@@ -199,8 +199,17 @@ impl Analysis {
             .map(|(rank, n)| rank.needed + TRIPLET * *n as f64)
             .collect();
         let m = self.host.kept.len() as f64;
-        bytes[0] += 8.0 * m * m + (size_of::<Entry>() * self.coupling.len()) as f64;
+        bytes[0] += 8.0 * m * m + self.bytes_of_coupling();
         bytes
+    }
+
+    /// Bytes that the first rank keeps when the Schur complement is used up.
+    pub(super) fn bytes_later(&self) -> f64 {
+        self.by_rank[0].needed + self.bytes_of_coupling()
+    }
+
+    fn bytes_of_coupling(&self) -> f64 {
+        (size_of::<Entry>() * self.coupling.len()) as f64
     }
 
     /// The Schur complement, which is not known yet.

@@ -205,12 +205,14 @@ impl Trailing {
         })
     }
 
-    /// Largest on the first rank, which has what is left too.
+    /// The memory is that of each rank while the interior is factored; the first one may need more
+    /// afterwards, for what is left.
     fn cost(&self) -> Result<Prediction> {
         let schur = self.analysis.as_ref().map(Analysis::unknown);
         let mut cost = predict_by(INNER, &self.matrix(schur), &self.partition)?;
         let mut by_rank = self.columns.clone();
-        by_rank[0] += cost.memory_bytes + (size_of::<Entry>() * self.own.len()) as f64;
+        by_rank[0] += (size_of::<Entry>() * self.own.len()) as f64;
+        let mut later = by_rank[0] + cost.memory_bytes;
         if let Some(analysis) = &self.analysis {
             cost.ordering = analysis.order_name.into();
             cost.flops += analysis.flops();
@@ -218,7 +220,9 @@ impl Trailing {
             for (bytes, more) in by_rank.iter_mut().zip(analysis.bytes()) {
                 *bytes += more;
             }
+            later += analysis.bytes_later();
         }
+        by_rank[0] = by_rank[0].max(later);
         cost.memory_bytes = by_rank.iter().copied().fold(0.0, f64::max);
         cost.memory_by_rank = by_rank;
         Ok(cost)
@@ -263,7 +267,7 @@ fn of_freedom(error: Error, trailing: &[usize]) -> Error {
 }
 
 /// A matrix from entries of its upper triangle, those at the same place added up; they are visited
-/// twice.
+/// twice, and stand nowhere else.
 fn upper_triangle(n: usize, each: impl Fn(&mut dyn FnMut(Entry))) -> SymmetricCsc {
     let mut starts = vec![0usize; n + 1];
     each(&mut |(_, column, _)| starts[column + 1] += 1);
@@ -271,30 +275,38 @@ fn upper_triangle(n: usize, each: impl Fn(&mut dyn FnMut(Entry))) -> SymmetricCs
         starts[j + 1] += starts[j];
     }
     let mut next = starts.clone();
-    let mut entries = vec![(0u32, 0.0); starts[n]];
+    let (mut rows, mut values) = (vec![0i64; starts[n]], vec![0.0; starts[n]]);
     each(&mut |(row, column, value)| {
-        entries[next[column]] = (row as u32, value);
+        rows[next[column]] = row as i64;
+        values[next[column]] = value;
         next[column] += 1;
     });
     let mut pointers = vec![0i64];
-    let mut rows: Vec<i64> = Vec::with_capacity(entries.len());
-    let mut values: Vec<f64> = Vec::with_capacity(entries.len());
+    let mut n_kept = 0;
+    let mut sorted: Vec<(i64, f64)> = Vec::new();
     for j in 0..n {
-        let column = &mut entries[starts[j]..starts[j + 1]];
-        column.sort_by_key(|&(row, _)| row);
-        let mut last = None;
-        for &(row, value) in &*column {
-            match values.last_mut() {
-                Some(sum) if last == Some(row) => *sum += value,
-                _ => {
-                    rows.push(i64::from(row));
-                    values.push(value);
-                }
+        let column = starts[j]..starts[j + 1];
+        sorted.clear();
+        sorted.extend(
+            rows[column.clone()]
+                .iter()
+                .copied()
+                .zip(values[column].iter().copied()),
+        );
+        sorted.sort_by_key(|&(row, _)| row);
+        let first = n_kept;
+        for &(row, value) in &sorted {
+            if n_kept > first && rows[n_kept - 1] == row {
+                values[n_kept - 1] += value;
+            } else {
+                (rows[n_kept], values[n_kept]) = (row, value);
+                n_kept += 1;
             }
-            last = Some(row);
         }
-        pointers.push(rows.len() as i64);
+        pointers.push(n_kept as i64);
     }
+    rows.truncate(n_kept);
+    values.truncate(n_kept);
     SymmetricCsc::new_csc((n, n), pointers, rows, values)
 }
 
