@@ -3,6 +3,7 @@
 use crate::error::{Error, Result};
 #[cfg(target_os = "linux")]
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Memory that this process may still take, in bytes: the least of what the machine has free, what
 /// its control group and its own limits (`ulimit -v`, `ulimit -d`) leave. `None` where the system
@@ -12,6 +13,20 @@ pub fn available() -> Option<f64> {
         .into_iter()
         .flatten()
         .reduce(f64::min)
+}
+
+/// How many processes share what is factored: the ranks of MPI, once it has begun.
+static SHARED_BY: AtomicUsize = AtomicUsize::new(1);
+
+/// States how many processes share what is factored.
+#[cfg(feature = "mumps")]
+pub(crate) fn share_by(processes: usize) {
+    SHARED_BY.store(processes, Ordering::Relaxed);
+}
+
+/// How many processes share what is factored.
+pub(crate) fn shared_by() -> usize {
+    SHARED_BY.load(Ordering::Relaxed)
 }
 
 /// The most memory that this process has held so far, in bytes (Linux: `VmHWM`). `None` where the

@@ -91,7 +91,6 @@ pub(crate) fn rough_percentage(share: f64) -> String {
 }
 
 /// Bytes in the unit that fits.
-#[cfg(feature = "report")]
 pub(crate) fn bytes(count: f64) -> String {
     let mut value = count;
     for unit in ["B", "kB", "MB", "GB"] {
@@ -103,7 +102,6 @@ pub(crate) fn bytes(count: f64) -> String {
     format!("{} TB", significant_integer(value))
 }
 
-#[cfg(feature = "report")]
 fn significant_integer(value: f64) -> String {
     if value >= 9.95 || value == value.trunc() {
         format!("{value:.0}")

@@ -205,8 +205,8 @@ impl<'m, 'o> Run<'m, 'o> {
         if !same {
             results.warnings.push(
                 "resumed with a factorisation that differs in its last digits (another BLAS or \
-                 number of its threads): results agree with those of an uninterrupted run to \
-                 round-off, not bit for bit"
+                 number of its threads or of ranks): results agree with those of an uninterrupted \
+                 run to round-off, not bit for bit"
                     .to_string(),
             );
         }

@@ -123,6 +123,7 @@ impl<'a> Elements<'a> {
     }
 
     /// Numbers the freedoms anew, in the same order and without gaps: which ones they are.
+    #[cfg(feature = "mumps")]
     pub(super) fn renumber(&mut self) -> Vec<u32> {
         let free = self.freedoms.iter().filter(|f| **f >= 0);
         let mut numbers: Vec<u32> = free.map(|&f| f as u32).collect();

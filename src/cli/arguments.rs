@@ -137,16 +137,15 @@ pub(super) enum Command {
 }
 
 impl Command {
-    /// The solver of a command that computes in this process.
-    pub(super) fn solver(&self) -> Option<Backend> {
-        let common = match self {
-            Command::Run(program) => &program.run.common,
-            Command::Yield(run) => &run.common,
-            Command::Check(check) => &check.common,
-            Command::Accuracy(study) => &study.common,
-            _ => return None,
-        };
-        Some(common.solver.into())
+    /// The arguments of a command that computes in this process.
+    pub(super) fn common(&self) -> Option<&CommonArguments> {
+        match self {
+            Command::Run(program) => Some(&program.run.common),
+            Command::Yield(run) => Some(&run.common),
+            Command::Check(check) => Some(&check.common),
+            Command::Accuracy(study) => Some(&study.common),
+            _ => None,
+        }
     }
 
     /// Whether standard error is for JSON lines alone.

@@ -235,7 +235,7 @@ pub(super) fn prepare(common: &CommonArguments, last: Option<String>) -> Result<
 
 /// This thread becomes one of the `threads` (all processors if not said): it works on small pieces
 /// itself where it would otherwise wake another one and wait.
-fn start_threads(threads: Option<usize>) -> Result<()> {
+pub(super) fn start_threads(threads: Option<usize>) -> Result<()> {
     let start = |threads: usize| {
         rayon::ThreadPoolBuilder::new()
             .num_threads(threads)

@@ -80,7 +80,7 @@ fn program(words: Vec<OsString>) -> u8 {
         Err(problem) => return usage(&problem, &words),
     };
     let started = Instant::now();
-    let ended = ranks::join(arguments.command.solver()).and_then(|part| match part {
+    let ended = ranks::join(arguments.command.common()).and_then(|part| match part {
         ranks::Part::First(_ranks) => commands::execute(&arguments, started),
         ranks::Part::Helped => Ok(()),
     });

@@ -1,6 +1,8 @@
 //! Programs that `mpirun` starts several times: the first computes, the others help MUMPS.
 
+use super::arguments::CommonArguments;
 use crate::error::{Error, Result};
+#[cfg(feature = "mumps")]
 use crate::linalg::Backend;
 
 /// What the launchers of OpenMPI and MPICH say: how many were started, and which one this is.
@@ -23,14 +25,18 @@ pub(super) struct Ranks {
     world: Option<crate::linalg::mumps::World>,
 }
 
-/// Takes part in a run with this solver.
+/// Takes part in a command that computes, with the solver of its arguments.
 ///
 /// # Errors
-/// Several processes that would each compute everything, and write the same files.
-pub(super) fn join(solver: Option<Backend>) -> Result<Part> {
-    if solver == Some(Backend::Mumps) {
-        #[cfg(feature = "mumps")]
-        return with_mumps();
+/// Several processes that would each compute everything, and write the same files; ranks of another
+/// version.
+#[cfg_attr(not(feature = "mumps"), allow(unused_variables))]
+pub(super) fn join(common: Option<&CommonArguments>) -> Result<Part> {
+    #[cfg(feature = "mumps")]
+    if let Some(common) = common
+        && Backend::Mumps == common.solver.into()
+    {
+        return with_mumps(common);
     }
     let number = |name: &str| std::env::var(name).ok()?.parse::<usize>().ok();
     let started = LAUNCHERS.map(|names| Some([number(names[0])?, number(names[1])?]));
@@ -48,10 +54,11 @@ pub(super) fn join(solver: Option<Backend>) -> Result<Part> {
 }
 
 #[cfg(feature = "mumps")]
-fn with_mumps() -> Result<Part> {
+fn with_mumps(common: &CommonArguments) -> Result<Part> {
     let world = crate::linalg::mumps::World::join()?;
     if world.rank > 0 {
         super::interrupt::leave_to_first_rank();
+        super::commands::start_threads(common.threads.map(usize::from))?;
         world.serve(crate::assembly::shares::columns);
         world.end();
         return Ok(Part::Helped);

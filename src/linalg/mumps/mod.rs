@@ -11,10 +11,18 @@
 //! The interior is touched once for each load vector and once for each state that is written; zone,
 //! contact and events need the first rank alone.
 //!
-//! The first rank is the program; each of the others has some columns of the matrix ([`Shared`])
-//! and does what is asked of it ([`World::serve`]). None has all of the matrix.
-//! Results agree with those of the other backends to round-off, not to the bit, and so do those of
-//! different numbers of ranks.
+//! The first rank is the program; each rank has some columns of the matrix ([`Shared`]) and does
+//! what is asked of it ([`World::serve`]). None has all of the matrix; its pattern MUMPS gathers on
+//! the first rank for the symbolic analysis. Results agree with those of the other backends to
+//! round-off, not to the bit, and so do those of different numbers of ranks, or of another run.
+//!
+//! | file | what |
+//! |---|---|
+//! | `world` | the ranks, what the first one asks of all |
+//! | `task`, `rank` | what is asked and answered; what a rank keeps and does |
+//! | `shared` | the matrix as the first rank sees it |
+//! | `exterior` | order, analysis and factor of the interior |
+//! | `shim.c` | MPI and MUMPS themselves |
 //!
 //! # Source
 //! P. R. Amestoy, I. S. Duff, J. Koster, J.-Y. L'Excellent, *A fully asynchronous multifrontal

@@ -145,8 +145,8 @@ pub(super) fn perform(task: Task, assemble: Assemble, host: &mut Host) -> Vec<u8
         }
         Task::Solve(factor) => {
             let mut state = [0; 2];
-            // SAFETY: the factor is there until it is forgotten; the first rank's load is as long as
-            // it is large, that of others is not looked at.
+            // SAFETY: the factor is there until it is forgotten; the first rank's load is as long
+            // as it is large, that of others is not looked at.
             unsafe {
                 brinell_mumps_solve(factor as c_int, host.load.as_mut_ptr(), state.as_mut_ptr());
             }

@@ -3,6 +3,7 @@
 use super::rank::{self, Assemble, Host};
 use super::task::Task;
 use crate::error::{Error, Result};
+use crate::memory;
 use serde::de::DeserializeOwned;
 use std::ffi::{c_char, c_int};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -59,6 +60,7 @@ impl World {
             let (mut rank, mut size) = (0, 0);
             // SAFETY: writes two numbers; called once.
             let joined = unsafe { brinell_mpi_begin(&mut rank, &mut size) };
+            memory::share_by((size as usize).max(1));
             (joined != 0).then_some(World {
                 rank: rank as usize,
                 size: size as usize,

@@ -1,7 +1,8 @@
 //! What a generator accepts: finite sizes of the right sign, and a mesh that fits in memory.
 
+use crate::memory;
 use crate::mesh::Shape;
-use crate::number::exact;
+use crate::number::{bytes, exact};
 use crate::{Error, Result};
 
 /// Most elements a generator makes.
@@ -108,18 +109,19 @@ pub(in crate::mesh) fn solids(key: &str, bodies: &[[f64; 3]], shape: Shape) -> R
         .sum();
     total(key, elements)?;
     let per_cell: f64 = if shape.is_quadratic() { 4.0 } else { 1.0 };
-    let bytes = |cells: &[f64; 3]| {
+    let least = |cells: &[f64; 3]| {
         let nodes = per_cell * cells.iter().product::<f64>();
         let shortest = per_cell.cbrt() * cells.iter().copied().fold(f64::INFINITY, f64::min);
-        nodes * BYTES_PER_NODE.max(BYTES_OF_FACTOR * shortest)
+        let of_factor = BYTES_OF_FACTOR * shortest / memory::shared_by() as f64;
+        nodes * BYTES_PER_NODE.max(of_factor)
     };
-    let needed: f64 = bodies.iter().map(bytes).sum();
-    match crate::memory::available() {
+    let needed: f64 = bodies.iter().map(least).sum();
+    match memory::available() {
         Some(there) if needed > there => Err(Error::input(format!(
-            "{key}: the mesh would have {elements:.3e} elements and take more than {:.0} GB of \
-             memory; {:.0} GB are free: ask for fewer or larger elements",
-            needed / 1e9,
-            there / 1e9
+            "{key}: the mesh would have {elements:.3e} elements and take more than {} of \
+             memory; {} are free: ask for fewer or larger elements",
+            bytes(needed),
+            bytes(there)
         ))),
         _ => Ok(()),
     }
