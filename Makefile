@@ -90,7 +90,7 @@ setup-mpi: setup ## Install what the feature `mumps` needs too (Debian, Ubuntu)
 # MPI starts a process while OpenBLAS may work in another thread: one test at a time.
 test-mpi: setup-mpi ## Test runs over several ranks
 	@cargo clippy --features mumps --all-targets -- -D warnings
-	cargo test --features mumps --lib linalg:: -- --test-threads=1
+	cargo test --features mumps --lib -- --test-threads=1 linalg:: assembly::
 	cargo test --features mumps --test mpi
 
 bench: setup ## Measure

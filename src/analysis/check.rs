@@ -35,12 +35,17 @@ pub struct Check {
     pub notes: Vec<String>,
 }
 
-/// Floating point operations per second of a supernodal factorisation that the rough time assumes.
-const TYPICAL_FLOPS: f64 = 7e9;
-/// The same of faer, which takes less to begin each of many small supernodes.
-const TYPICAL_FLOPS_OF_FAER: f64 = 1.1e10;
-/// Nonzeros of the factor that ordering and analysis handle per second.
-const TYPICAL_ANALYSIS: f64 = 2.7e7;
+/// Floating point operations per second of large supernodes on one thread, and the same of faer:
+/// those of solids of 105,000 and 311,000 freedoms (`cargo bench --features faer --bench history --
+/// backends`).
+const TYPICAL_FLOPS: f64 = 3.6e10;
+const TYPICAL_FLOPS_OF_FAER: f64 = 5.8e10;
+/// Nonzeros of the factor per second of all that does not grow with the operations: ordering,
+/// analysis, and what it takes to begin each of many small supernodes, of which plane meshes have
+/// most.
+const TYPICAL_NONZEROS: f64 = 2.7e7;
+/// Floating point operations per second of the dense matrices of contact.
+const FLOPS_OF_CONTACT: f64 = 7e9;
 
 /// What a run takes besides its factorisation, measured over the scenes of `data/scenes` and finer
 /// meshes of the paper's two: seconds to start; for each freedom of making the mesh, the assembly
@@ -191,14 +196,25 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
             "the program has at most {cycles} cycles: memory is that of all, time that of one"
         ));
     }
-    let of_contact = contact.flops / TYPICAL_FLOPS;
+    let of_contact = contact.flops / FLOPS_OF_CONTACT;
     let speed = match backend {
         Backend::Faer => TYPICAL_FLOPS_OF_FAER,
         _ => TYPICAL_FLOPS,
     };
     let factorisation =
-        prediction.flops / speed + prediction.factor_nonzeros / TYPICAL_ANALYSIS + of_contact;
+        prediction.flops / speed + prediction.factor_nonzeros / TYPICAL_NONZEROS + of_contact;
     let run = run_seconds(model, &sizes, &prediction, factorisation);
+    if backend == Backend::Cholmod
+        && Backend::Faer.is_built_in()
+        && model.mesh.is_solid()
+        && Backend::Cholmod.threads() == Some(1)
+    {
+        notes.push(
+            "on one thread the solver faer takes a tenth to a third less for solids of 100,000 \
+             freedoms and more: --solver faer (or more threads: OPENBLAS_NUM_THREADS)"
+                .to_string(),
+        );
+    }
     if of_contact > LONG {
         notes.push(format!(
             "{} pairs are joined by bodies: the dense matrices of their contact take about \

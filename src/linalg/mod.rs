@@ -242,6 +242,15 @@ impl Backend {
         }
     }
 
+    /// Threads of a factorisation; `None` where it cannot be asked.
+    pub(crate) fn threads(self) -> Option<usize> {
+        match self {
+            #[cfg(feature = "cholmod")]
+            Backend::Cholmod | Backend::Mumps => cholmod::blas_threads(),
+            _ => Some(1),
+        }
+    }
+
     /// What is said where it is asked for and this build does not have it.
     #[cfg_attr(
         all(feature = "cholmod", feature = "faer", feature = "mumps"),

@@ -71,13 +71,11 @@ fn main() -> Result<(), Failure> {
 }
 
 /// The ball, elastic under what makes it yield, or up to its yield load.
-fn scene(
-    folder: &Path,
-    resolution: usize,
-    growth: f64,
-    plastic: bool,
-) -> Result<PathBuf, Failure> {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/data/scenes/ball_on_flat_3d.toml");
+fn scene(folder: &Path, resolution: usize, growth: f64, plastic: bool) -> Result<PathBuf, Failure> {
+    let file = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/data/scenes/ball_on_flat_3d.toml"
+    );
     let text = std::fs::read_to_string(file)?;
     let (model, _) = text.split_once("[program]").ok_or("no program")?;
     let mesh = format!("semi_axes = [0.11, 0.11]\nresolution = {resolution}\ngrowth = {growth:?}");
@@ -85,7 +83,10 @@ fn scene(
     if plastic {
         text += "[program]\nunit = \"yield\"\ntargets = [{ yield = true }]\n";
     } else {
-        text = text.replace("material = \"steel\"", "material = \"steel\"\nplastic = false");
+        text = text.replace(
+            "material = \"steel\"",
+            "material = \"steel\"\nplastic = false",
+        );
         text += "[program]\ntargets = [{ load_factor = 0.02 }]\n";
     }
     let path = folder.join("ball.toml");
@@ -105,7 +106,11 @@ fn run(scene: &Path, engine: Engine, folder: &Path) -> Result<Value, Failure> {
             command
         }
     };
-    command.arg("run").arg(scene).arg("--out").arg(folder.join("out"));
+    command
+        .arg("run")
+        .arg(scene)
+        .arg("--out")
+        .arg(folder.join("out"));
     command.args(["-q", "--json", "--no-estimate", "--no-report"]);
     let solver = match engine {
         Engine::Cholmod => "cholmod",
@@ -158,32 +163,42 @@ fn report(model: &str, engine: Engine, summary: &Value) {
     }
 }
 
-/// What operations, memory and messages grow to, each by its own power of the freedoms.
+/// What operations, entries, memory and messages grow to: the first two by their own powers of the
+/// freedoms, memory as a multiple of the factor's and bytes for each freedom.
 fn on_paper(small: &Value, large: &Value) {
-    let freedoms = [small, large].map(|summary| number(&summary["freedoms"]));
-    let grown = |of: &dyn Fn(&Value) -> f64| {
-        let [a, b] = [small, large].map(of);
+    let both = [small, large];
+    let freedoms = both.map(|summary| number(&summary["freedoms"]));
+    let grown = |key: &str| {
+        let [a, b] = both.map(|summary| number(&summary["factor"][key]));
         let power = (b / a).ln() / (freedoms[1] / freedoms[0]).ln();
         (power, b * (PAPER / freedoms[1]).powf(power))
     };
-    let held = |summary: &Value| list(&summary["ranks"]["peak_memory_bytes"]);
-    // What stands on the first rank alone: mesh, loads, states.
-    let first = |summary: &Value| {
-        let (held, predicted) = (held(summary), list(&summary["factor"]["memory_by_rank"]));
-        held[0] - predicted[0]
-    };
-    println!("\nAt {PAPER:e} freedoms, by the powers between the last two sizes on four ranks:\n");
-    println!("| | power | at {PAPER:e} |\n|---|---|---|");
-    type Figure<'a> = (&'a str, &'a dyn Fn(&Value) -> f64, f64, &'a str);
-    let rows: [Figure; 5] = [
-        ("operations", &|s| number(&s["factor"]["flops"]), 1.0, ""),
-        ("entries of the factor", &|s| number(&s["factor"]["factor_nonzeros"]), 1.0, ""),
-        ("memory of all ranks", &|s| held(s).iter().sum(), 1e9, " GB"),
-        ("first rank beyond its part", &first, 1e9, " GB"),
-        ("bytes to and from the others", &|s| number(&s["ranks"]["bytes"]), 1e9, " GB"),
-    ];
-    for (what, of, unit, name) in rows {
-        let (power, value) = grown(of);
-        println!("| {what} | {power:.2} | {:.3e}{name} |", value / unit);
-    }
+    println!("\nAt {PAPER:e} freedoms, from the last two sizes on four ranks:\n");
+    println!("| | growth | at {PAPER:e} |\n|---|---|---|");
+    let (power, flops) = grown("flops");
+    println!("| operations | power {power:.2} | {flops:.2e} |");
+    let (power, entries) = grown("factor_nonzeros");
+    println!(
+        "| factor | power {power:.2} | {:.0} GB |",
+        8.0 * entries / 1e9
+    );
+    // held = share * factor + each * freedoms, over all ranks.
+    let held = both.map(|summary| {
+        list(&summary["ranks"]["peak_memory_bytes"])
+            .iter()
+            .sum::<f64>()
+    });
+    let factor = both.map(|summary| 8.0 * number(&summary["factor"]["factor_nonzeros"]));
+    let determinant = factor[0] * freedoms[1] - factor[1] * freedoms[0];
+    let share = (held[0] * freedoms[1] - held[1] * freedoms[0]) / determinant;
+    let each = (factor[0] * held[1] - factor[1] * held[0]) / determinant;
+    println!(
+        "| memory of all ranks | {share:.2} of the factor, {each:.0} bytes a freedom | {:.0} GB |",
+        (share * 8.0 * entries + each * PAPER) / 1e9
+    );
+    let bytes = number(&large["ranks"]["bytes"]) / freedoms[1];
+    println!(
+        "| to and from the first rank | {bytes:.0} bytes a freedom | {:.1} GB |",
+        bytes * PAPER / 1e9
+    );
 }
