@@ -9,10 +9,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// its control group and its own limits (`ulimit -v`, `ulimit -d`) leave. `None` where the system
 /// does not report it.
 pub fn available() -> Option<f64> {
-    [machine(), group(), limits()]
+    [of_machine(), limits()]
         .into_iter()
         .flatten()
         .reduce(f64::min)
+}
+
+/// What the machine and its control groups leave to all processes together.
+pub(crate) fn of_machine() -> Option<f64> {
+    [machine(), group()].into_iter().flatten().reduce(f64::min)
 }
 
 /// How many processes share what is factored: the ranks of MPI, once it has begun.

@@ -249,6 +249,10 @@ impl Stepper<'_, '_> {
                 return Err(NoIncrement::Stopped);
             }
             let stuck = newton && iterations >= best.1 + PATIENCE;
+            // The change comes ever nearer the start, within what states are known to: at once.
+            if stuck && follows && t <= settings.tolerance && limit.share <= 1.0 + gamma {
+                return Err(NoIncrement::WrongStatus(limit.pairs));
+            }
             if iterations >= most_iterations || stuck || !residual.is_finite() {
                 return Err(NoIncrement::NotConverged(Box::new(Attempt {
                     state,

@@ -8,11 +8,7 @@ use crate::error::{Error, Result};
 /// are distinct and below `n`; `shift` is empty or has a finite value for each contact freedom.
 pub(super) fn arguments(matrix: &SymmetricCsc, partition: &Partition, shift: &[f64]) -> Result<()> {
     let n = partition.n;
-    if n == 0 {
-        return Err(Error::internal(
-            "a matrix without freedoms cannot be factored: the model has nothing to solve for",
-        ));
-    }
+    any_freedoms(n)?;
     if matrix.rows() != n || matrix.cols() != n || !matrix.is_csc() {
         return Err(Error::internal(format!(
             "the matrix is {} x {}{}, the partition has {n} freedoms: hand over the upper triangle \
@@ -41,6 +37,23 @@ pub(super) fn arguments(matrix: &SymmetricCsc, partition: &Partition, shift: &[f
             )));
         }
     }
+    self::partition(partition, shift)
+}
+
+fn any_freedoms(n: usize) -> Result<()> {
+    if n > 0 {
+        return Ok(());
+    }
+    Err(Error::internal(
+        "a matrix without freedoms cannot be factored: the model has nothing to solve for",
+    ))
+}
+
+/// Checks that the freedoms of a partition are distinct and below `n`; `shift` is empty or has a
+/// finite value for each contact freedom.
+pub(super) fn partition(partition: &Partition, shift: &[f64]) -> Result<()> {
+    let n = partition.n;
+    any_freedoms(n)?;
     let mut seen = vec![false; n];
     for (group, list) in [("zone", &partition.zone), ("contact", &partition.contact)] {
         for &freedom in list {

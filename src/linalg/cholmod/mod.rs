@@ -118,6 +118,15 @@ pub fn predict_with_method(
     Ok(sparse::prediction(&factor, name, matrix, &groups))
 }
 
+/// Enters the BLAS on behalf of another library, which then has its work buffer.
+///
+/// # Errors
+/// `Analysis` where the limits of the process leave no room for it.
+#[cfg(feature = "mumps")]
+pub(super) fn enter_blas() -> Result<impl Sized> {
+    blas::enter()
+}
+
 /// An order of elimination that ends with the supervariables that stay: the first freedom of each
 /// and the number of freedoms, whether it stays, and which couple. With its name.
 ///

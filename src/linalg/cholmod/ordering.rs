@@ -10,7 +10,7 @@
 
 use super::common::Common;
 use super::matrix::SymmetricView;
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::linalg::sparse::{Groups, Pattern, Supervariables};
 use std::ptr::null_mut;
 use std::sync::{Mutex, PoisonError};
@@ -184,13 +184,13 @@ fn parts_of(common: &mut Common, block: &Pattern) -> Result<Vec<i64>> {
     let mut permutation = vec![0i64; n];
     let mut parent = vec![0i64; n];
     let mut part = vec![0i64; n];
-    {
+    let parts = {
         let _alone = METIS.lock().unwrap_or_else(PoisonError::into_inner);
         let method = &mut common.as_mut().method[0];
         // Only the parts are wanted here: CAMD runs once, on all freedoms.
         let camd = std::mem::replace(&mut method.nd_camd, 0);
         // SAFETY: all arrays have length n, the order of `block`.
-        unsafe {
+        let parts = unsafe {
             sys::cholmod_l_nested_dissection(
                 block.as_ptr(),
                 null_mut(),
@@ -199,11 +199,18 @@ fn parts_of(common: &mut Common, block: &Pattern) -> Result<Vec<i64>> {
                 parent.as_mut_ptr(),
                 part.as_mut_ptr(),
                 common.as_mut(),
-            );
-        }
+            )
+        };
         common.as_mut().method[0].nd_camd = camd;
-    }
+        parts
+    };
     common.check("nested dissection", n)?;
+    if parts < 0 {
+        // METIS has numbers of 32 bits where the distribution built it so.
+        return Err(Error::analysis(format!(
+            "a graph of {n} nodes is too large for METIS: use a coarser mesh"
+        )));
+    }
     Ok(part)
 }
 

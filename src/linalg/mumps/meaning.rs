@@ -15,7 +15,7 @@ pub(super) fn meaning(code: i32, more: i32) -> String {
             "the matrix is singular in structure",
             "a part of the model is not held",
         ),
-        -7 | -13 | -22 => (
+        -5 | -7 | -13 => (
             "a rank has no memory for its work",
             "use more ranks, more memory for each, or a coarser mesh",
         ),
@@ -24,7 +24,7 @@ pub(super) fn meaning(code: i32, more: i32) -> String {
             "use more ranks or another number of them",
         ),
         -10 | -40 => (
-            "a pivot is zero or negative",
+            "a pivot is zero",
             "a part of the model is hardly held: check supports and contacts",
         ),
         -19 => (

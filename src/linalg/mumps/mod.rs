@@ -47,6 +47,7 @@ use super::{
     ZonePart, check, condense as condense_by, predict as predict_by, smallest_pivot_ratio,
 };
 use crate::error::{Error, Result};
+use crate::memory;
 use exterior::{Analysis, Exterior};
 
 /// Who condenses the trailing freedoms on the first rank.
@@ -88,8 +89,12 @@ pub fn condense_shared(
     partition: &Partition,
     shift: &[f64],
 ) -> Result<Box<dyn Condensed>> {
+    check::partition(partition, shift)?;
     let mut trailing = Trailing::new(matrix, partition)?;
     let cost = trailing.cost()?;
+    if let Some(analysis) = &trailing.analysis {
+        analysis.require_memory(&cost.memory_by_rank)?;
+    }
     let n = partition.n;
     let (exterior, schur) = match trailing.analysis.take() {
         Some(analysis) => {
@@ -99,20 +104,35 @@ pub fn condense_shared(
         None => (None, None),
     };
     let condensed = trailing.matrix(schur);
+    trailing.own = Vec::new();
     let inner = condense_by(INNER, &condensed, &trailing.partition, shift);
     let inner = inner.map_err(|error| of_freedom(error, &trailing.freedoms))?;
+    let mut shifts = vec![0.0; n];
+    for (&contact, shift) in partition.contact.iter().zip(shift) {
+        shifts[contact] += shift;
+    }
     // What was lost on the way from K to S counts too.
-    let pivot = inner.weakest_pivot();
-    let freedom = trailing.freedoms[pivot.freedom];
-    let contacts = partition.contact.iter().zip(shift);
-    let shifted = contacts.filter(|(contact, _)| **contact == freedom);
-    let shift: f64 = shifted.map(|(_, shift)| shift).sum();
-    let left = condensed.get(pivot.freedom, pivot.freedom);
-    let left = left.copied().unwrap_or(0.0) + shift;
-    let weakest = Pivot {
-        freedom,
-        ratio: pivot.ratio * (left / (matrix.diagonal()[freedom] + shift)).min(1.0),
+    let left = |t: usize| {
+        let freedom = trailing.freedoms[t];
+        let of_schur = condensed.get(t, t).copied().unwrap_or(0.0) + shifts[freedom];
+        let ratio = of_schur / (matrix.diagonal()[freedom] + shifts[freedom]);
+        Pivot {
+            freedom,
+            ratio: ratio.min(1.0),
+        }
     };
+    let pivot = inner.weakest_pivot();
+    let last = left(pivot.freedom);
+    let start = Pivot {
+        ratio: pivot.ratio * last.ratio,
+        ..last
+    };
+    let all = (0..trailing.freedoms.len()).map(left);
+    let weakest = all.fold(start, |least, pivot| match pivot.ratio < least.ratio {
+        true => pivot,
+        false => least,
+    });
+    let freedom = weakest.freedom;
     if weakest.ratio <= smallest_pivot_ratio(n) || weakest.ratio.is_nan() {
         return Err(NotDefinite { freedom }.into());
     }
@@ -139,6 +159,7 @@ pub fn predict(matrix: &SymmetricCsc, partition: &Partition) -> Result<Predictio
 /// # Errors
 /// As [`super::predict`].
 pub fn predict_shared(matrix: &Shared, partition: &Partition) -> Result<Prediction> {
+    check::partition(partition, &[])?;
     Trailing::new(matrix, partition)?.cost()
 }
 
@@ -213,24 +234,27 @@ impl Trailing {
         })
     }
 
-    /// The memory is that of each rank while the interior is factored; the first one may need more
-    /// afterwards, for what is left.
+    /// The memory of each rank is the largest of three times: while the order is found, while the
+    /// interior is factored, and, on the first rank, while what is left is.
     fn cost(&self) -> Result<Prediction> {
         let schur = self.analysis.as_ref().map(Analysis::unknown);
+        let m = schur.as_ref().map_or(0, |schur| schur.freedoms.len()) as f64;
+        // The pattern, and copies of it in the analysis.
+        memory::require("matrix of what the ranks leave to the first", 24.0 * m * m)?;
         let mut cost = predict_by(INNER, &self.matrix(schur), &self.partition)?;
         let mut by_rank = self.columns.clone();
-        by_rank[0] += (size_of::<Entry>() * self.own.len()) as f64;
-        let mut later = by_rank[0] + cost.memory_bytes;
+        by_rank[0] += cost.memory_bytes;
         if let Some(analysis) = &self.analysis {
             cost.ordering = analysis.order_name.into();
             cost.flops += analysis.flops();
             cost.factor_nonzeros += analysis.nonzeros();
-            for (bytes, more) in by_rank.iter_mut().zip(analysis.bytes()) {
-                *bytes += more;
+            by_rank[0] += analysis.bytes_later();
+            let own = (size_of::<Entry>() * self.own.len()) as f64;
+            let needed = self.columns.iter().zip(analysis.bytes(own));
+            for (bytes, (columns, more)) in by_rank.iter_mut().zip(needed) {
+                *bytes = bytes.max(columns + more);
             }
-            later += analysis.bytes_later();
         }
-        by_rank[0] = by_rank[0].max(later);
         cost.memory_bytes = by_rank.iter().copied().fold(0.0, f64::max);
         cost.memory_by_rank = by_rank;
         Ok(cost)

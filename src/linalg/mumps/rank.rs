@@ -3,6 +3,7 @@
 use super::task::{Analysed, Factored, Made, Near, Product, Task};
 use crate::error::Result;
 use crate::linalg::SymmetricCsc;
+use crate::linalg::cholmod;
 use crate::linalg::residual::Rows;
 use crate::memory;
 use serde::Serialize;
@@ -22,7 +23,7 @@ pub type Assemble = fn(&[u8]) -> Result<Columns>;
 pub struct Columns {
     /// Columns that another rank has are empty.
     pub matrix: SymmetricCsc,
-    /// Whether each freedom has the neighbours of the one before, and each other.
+    /// Whether each freedom couples to the same freedoms as the one before it, and to that one.
     pub continued: Vec<bool>,
 }
 
@@ -75,7 +76,6 @@ static KEPT: Mutex<Kept> = Mutex::new(Kept {
 
 // Of shim.c.
 unsafe extern "C" {
-    fn brinell_mumps_create(index: c_int) -> c_int;
     fn brinell_mumps_analyse(
         index: c_int,
         n: c_int,
@@ -120,22 +120,31 @@ pub(super) fn perform(task: Task, assemble: Assemble, host: &mut Host) -> Vec<u8
             answer(&near)
         }
         Task::Graph(index, vertex) => {
-            let pairs = kept.interior(index, |i, j, _| {
+            let mut pairs: Vec<[i32; 2]> = Vec::new();
+            kept.each_interior(index, |i, j, _| {
                 let ends = [vertex[i], vertex[j]];
-                (ends[0] >= 0 && ends[1] >= 0).then_some(ends)
+                if ends[0] >= 0 && ends[1] >= 0 {
+                    pairs.push(ends);
+                }
             });
             answer(&pairs)
         }
         Task::Analyse(factor, index, variable) => {
-            let mut entries = Entries::default();
-            let _: Vec<()> = kept.interior(index, |i, j, value| {
+            let left = left();
+            let mut n = 0;
+            kept.each_interior(index, |_, _, _| n += 1);
+            let mut entries = Entries {
+                rows: Vec::with_capacity(n),
+                columns: Vec::with_capacity(n),
+                values: Vec::with_capacity(n),
+            };
+            kept.each_interior(index, |i, j, value| {
                 // The lower triangle.
                 entries.rows.push(variable[j]);
                 entries.columns.push(variable[i]);
                 entries.values.push(value);
-                None
             });
-            let analysed = analyse(factor, &mut entries, host);
+            let analysed = analyse(factor, &mut entries, host, left);
             kept.entries.insert(factor, entries);
             answer(&analysed)
         }
@@ -159,7 +168,6 @@ pub(super) fn perform(task: Task, assemble: Assemble, host: &mut Host) -> Vec<u8
             Vec::new()
         }
         Task::Memory => answer(&memory::peak()),
-        Task::Quit => Vec::new(),
     }
 }
 
@@ -168,34 +176,44 @@ fn answer<T: Serialize>(value: &T) -> Vec<u8> {
     postcard::to_stdvec(value).unwrap_or_default()
 }
 
-fn analyse(factor: usize, entries: &mut Entries, host: &mut Host) -> Analysed {
+/// Bytes that its limits leave to this rank, and its machine to all, beside the work buffer of the
+/// BLAS: MUMPS' calls would ask for that without end.
+fn left() -> [Option<f64>; 2] {
+    let _entered = cholmod::enter_blas().ok();
+    [memory::limits(), memory::of_machine()]
+}
+
+fn analyse(
+    factor: usize,
+    entries: &mut Entries,
+    host: &mut Host,
+    [left_by_limits, left_by_machine]: [Option<f64>; 2],
+) -> Analysed {
     let (mut info, mut work) = ([0; 4], [0.0; 2]);
     let n_entries = entries.values.len();
     // SAFETY: all arrays have the lengths that are given beside them and stay where they are until
     // the factor is computed or forgotten; numbers of variables lie in 1..=n.
     unsafe {
-        if brinell_mumps_create(factor as c_int) == 0 {
-            info[0] = -13;
-        } else {
-            brinell_mumps_analyse(
-                factor as c_int,
-                host.n as c_int,
-                n_entries as i64,
-                entries.rows.as_mut_ptr(),
-                entries.columns.as_mut_ptr(),
-                host.place.as_mut_ptr(),
-                host.kept.len() as c_int,
-                host.kept.as_mut_ptr(),
-                info.as_mut_ptr(),
-                work.as_mut_ptr(),
-            );
-        }
+        brinell_mumps_analyse(
+            factor as c_int,
+            host.n as c_int,
+            n_entries as i64,
+            entries.rows.as_mut_ptr(),
+            entries.columns.as_mut_ptr(),
+            host.place.as_mut_ptr(),
+            host.kept.len() as c_int,
+            host.kept.as_mut_ptr(),
+            info.as_mut_ptr(),
+            work.as_mut_ptr(),
+        );
     }
     Analysed {
         state: [info[0], info[1]],
         order: info[2],
         needed: 1e6 * f64::from(info[3]),
-        available: memory::available(),
+        left_by_limits,
+        left_by_machine,
+        host: host_name(),
         flops: work[0],
         nonzeros: work[1],
     }
@@ -219,7 +237,14 @@ fn compute(factor: usize, entries: &mut Entries, host: &mut Host) -> Factored {
     }
     Factored {
         state: [info[0], info[1]],
+        negative_pivots: info[2],
     }
+}
+
+/// The name of this machine; empty where the system has none.
+fn host_name() -> String {
+    let name = std::fs::read_to_string("/proc/sys/kernel/hostname");
+    name.unwrap_or_default().trim().to_string()
 }
 
 impl Kept {
@@ -230,30 +255,25 @@ impl Kept {
             diagonal: (0..matrix.cols()).map(own).collect(),
             continued: columns.continued.clone(),
             n_entries: matrix.nnz(),
+            is_damaged: matrix.data().iter().any(|value| !value.is_finite()),
         };
         self.matrices.insert(index, columns);
         made
     }
 
-    /// What `of` makes of the entries (row, column, value) of a matrix that have an interior end.
-    fn interior<T>(
-        &self,
-        index: usize,
-        mut of: impl FnMut(usize, usize, f64) -> Option<T>,
-    ) -> Vec<T> {
-        let mut out = Vec::new();
+    /// Visits the entries (row, column, value) of a matrix that have an interior end.
+    fn each_interior(&self, index: usize, mut visit: impl FnMut(usize, usize, f64)) {
         let parts = (self.matrices.get(&index), self.trailing.get(&index));
         let (Some(columns), Some(trailing)) = parts else {
-            return out;
+            return;
         };
         for (j, column) in columns.matrix.outer_iterator().enumerate() {
             for (i, &value) in column.iter() {
                 if !(trailing[i] && trailing[j]) {
-                    out.extend(of(i, j, value));
+                    visit(i, j, value);
                 }
             }
         }
-        out
     }
 }
 

@@ -37,7 +37,7 @@ struct Inner {
     /// The freedoms of each part.
     numbers: Vec<Vec<u32>>,
     diagonal: Vec<f64>,
-    /// Whether each freedom has the neighbours of the one before.
+    /// Whether each freedom couples to the same freedoms as the one before it, and to that one.
     continued: Vec<bool>,
 }
 
@@ -72,11 +72,17 @@ impl Shared {
             assemble,
             &mut Host::default(),
         )?;
-        if let Some(error) = failed {
-            return Err(error);
-        }
         let made: std::result::Result<Vec<Made>, String> = made.into_iter().collect();
-        let made = made.map_err(Error::analysis)?;
+        let made = match (failed, made) {
+            (None, Ok(made)) => made,
+            (failed, made) => {
+                let forget = |_| Task::ForgetMatrix(index);
+                let _: Vec<()> = world.ask(forget, assemble, &mut Host::default())?;
+                let told = made.err().unwrap_or_default();
+                return Err(failed.unwrap_or_else(|| Error::analysis(told)));
+            }
+        };
+        let is_damaged = made.iter().any(|made| made.is_damaged);
         let (mut diagonal, mut continued) = (vec![0.0; n], vec![false; n]);
         for (numbers, made) in numbers.iter().zip(&made) {
             for (local, &freedom) in numbers.iter().enumerate() {
@@ -86,7 +92,7 @@ impl Shared {
                 continued[freedom] |= follows && made.continued[local];
             }
         }
-        Ok(Shared(Arc::new(Inner {
+        let shared = Shared(Arc::new(Inner {
             world,
             index,
             assemble,
@@ -95,7 +101,13 @@ impl Shared {
             numbers,
             diagonal,
             continued,
-        })))
+        }));
+        match is_damaged {
+            true => Err(Error::internal(
+                "an entry of the matrix is not a finite number: check material and mesh",
+            )),
+            false => Ok(shared),
+        }
     }
 
     /// A matrix all of which the first rank has.
@@ -166,7 +178,7 @@ impl Shared {
         &self.0.diagonal
     }
 
-    /// Whether a freedom has the neighbours of the one before, and each other.
+    /// Whether a freedom couples to the same freedoms as the one before it, and to that one.
     pub(super) fn is_continued(&self, freedom: usize) -> bool {
         self.0.continued[freedom]
     }

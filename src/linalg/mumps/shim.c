@@ -10,6 +10,9 @@
 
 static const int TAG = 4711;
 static const int USE_COMM_WORLD = -987654;
+/* ICNTL(14): workspace beyond what is estimated, in per cent; and where that was too little. */
+static const int WORKSPACE = 40;
+static const int MORE_WORKSPACE = 200;
 /* Bytes of a message: counts of MPI are ints. */
 static const int64_t LONGEST = 1 << 30;
 static DMUMPS_STRUC_C **all;
@@ -22,6 +25,7 @@ int brinell_mpi_begin(int *rank, int *size) {
     if (MPI_Initialized(&begun) != MPI_SUCCESS) return 0;
     if (!begun) {
         if (MPI_Init_thread(NULL, NULL, MPI_THREAD_SERIALIZED, &provided) != MPI_SUCCESS) return 0;
+        if (provided < MPI_THREAD_SERIALIZED) return 0;
         is_ours = 1;
     }
     MPI_Comm_rank(MPI_COMM_WORLD, rank);
@@ -68,34 +72,36 @@ void brinell_mpi_receive(int from, char *bytes, int64_t length) {
     }
 }
 
-/* A solver without a matrix, by the number that it is to have. Returns 0 without memory. */
-int brinell_mumps_create(int index) {
+/* A solver without a matrix, by the number that it is to have. A rank without memory for it ends all:
+ * the others are in the same call. */
+static void create(int index) {
     DMUMPS_STRUC_C *id;
     if (index >= n_all) {
         DMUMPS_STRUC_C **more = realloc(all, (index + 1) * sizeof *all);
-        if (!more) return 0;
+        if (!more) MPI_Abort(MPI_COMM_WORLD, 5);
         all = more;
         for (; n_all <= index; ++n_all) all[n_all] = NULL;
     }
     id = all[index] = calloc(1, sizeof *id);
-    if (!id) return 0;
+    if (!id) MPI_Abort(MPI_COMM_WORLD, 5);
     id->par = 1;
     id->sym = 1;
     id->comm_fortran = USE_COMM_WORLD;
     id->job = -1;
     dmumps_c(id);
     for (int unit = 0; unit < 4; ++unit) id->icntl[unit] = 0;
-    return 1;
 }
 
-/* The order of elimination of a symmetric positive definite matrix of `n` variables. Each rank hands
+/* Analyses, with a new solver of this number, the order of elimination of a symmetric positive definite matrix of `n` variables. Each rank hands
  * over entries of one triangle, numbered from 1. First rank: the `place` of each variable, and in
  * `schur_list`, as they come, the last `n_schur` variables, which are not eliminated. `info` gets
  * INFOG(1), INFOG(2), INFOG(7) and INFO(15), `work` RINFOG(1) and INFOG(20). The arrays stay in use
  * until the matrix is factored. */
 void brinell_mumps_analyse(int index, int n, int64_t n_entries, int *rows, int *columns, int *place,
                            int n_schur, int *schur_list, int info[4], double work[2]) {
-    DMUMPS_STRUC_C *id = all[index];
+    DMUMPS_STRUC_C *id;
+    create(index);
+    id = all[index];
     id->n = n;
     id->nnz_loc = n_entries;
     id->irn_loc = rows;
@@ -104,7 +110,7 @@ void brinell_mumps_analyse(int index, int n, int64_t n_entries, int *rows, int *
     id->icntl[17] = 3;  /* ICNTL(18): each rank has its own entries */
     id->icntl[6] = 1;   /* ICNTL(7): the order is given */
     id->icntl[27] = 1;  /* ICNTL(28): sequential analysis */
-    id->icntl[13] = 40; /* ICNTL(14): workspace beyond what is estimated, in per cent */
+    id->icntl[13] = WORKSPACE;
     if (n_schur > 0) {
         id->icntl[18] = 1; /* ICNTL(19): the Schur complement on the first rank */
         id->size_schur = n_schur;
@@ -121,16 +127,23 @@ void brinell_mumps_analyse(int index, int n, int64_t n_entries, int *rows, int *
 }
 
 /* Factors; `schur` gets the matrix of the variables that stay by rows, its lower triangle. `info`
- * gets INFOG(1), INFOG(2) and INFO(22). */
+ * gets INFOG(1), INFOG(2) and INFOG(12), the number of negative pivots. */
 void brinell_mumps_factor(int index, double *values, double *schur, int info[3]) {
     DMUMPS_STRUC_C *id = all[index];
+    int code;
     id->a_loc = values;
     id->schur = schur;
     id->job = 2;
     dmumps_c(id);
+    code = id->infog[0];
+    if (code == -8 || code == -9 || code == -17 || code == -20) {
+        /* The workspace was too small: INFOG is the same on all ranks. */
+        id->icntl[13] = MORE_WORKSPACE;
+        dmumps_c(id);
+    }
     info[0] = id->infog[0];
     info[1] = id->infog[1];
-    info[2] = id->info[21];
+    info[2] = id->infog[11];
     id->irn_loc = id->jcn_loc = id->perm_in = id->listvar_schur = NULL;
     id->a_loc = id->schur = NULL;
 }
@@ -150,7 +163,8 @@ void brinell_mumps_solve(int index, double *load, int info[2]) {
 }
 
 void brinell_mumps_free(int index) {
-    DMUMPS_STRUC_C *id = all[index];
+    DMUMPS_STRUC_C *id = index < n_all ? all[index] : NULL;
+    if (!id) return;
     id->job = -2;
     dmumps_c(id);
     free(id);

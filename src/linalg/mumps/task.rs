@@ -28,8 +28,6 @@ pub(super) enum Task {
     ForgetFactor(usize),
     /// How much memory a rank has taken. Bytes.
     Memory,
-    /// Ends. Nothing.
-    Quit,
 }
 
 /// Columns that a rank has.
@@ -37,9 +35,11 @@ pub(super) enum Task {
 pub(super) struct Made {
     /// Diagonal entries, 0 where another rank has the column.
     pub(super) diagonal: Vec<f64>,
-    /// Whether each freedom has the neighbours of the one before.
+    /// Whether each freedom couples to the same freedoms as the one before it, and to that one.
     pub(super) continued: Vec<bool>,
     pub(super) n_entries: usize,
+    /// Whether an entry is not a number.
+    pub(super) is_damaged: bool,
 }
 
 /// Sums over the entries that a rank has.
@@ -71,8 +71,12 @@ pub(super) struct Analysed {
     pub(super) order: i32,
     /// Bytes that the factor will take on this rank, and what stands beside it.
     pub(super) needed: f64,
-    /// Bytes that this rank may still take.
-    pub(super) available: Option<f64>,
+    /// Bytes that the limits of this rank leave, before it had its entries.
+    pub(super) left_by_limits: Option<f64>,
+    /// Bytes that its machine leaves to all processes.
+    pub(super) left_by_machine: Option<f64>,
+    /// Its machine.
+    pub(super) host: String,
     /// Operations, of all ranks together.
     pub(super) flops: f64,
     /// Entries of the factor, of all ranks together.
@@ -84,4 +88,6 @@ pub(super) struct Analysed {
 pub(super) struct Factored {
     /// INFOG(1) and INFOG(2).
     pub(super) state: [i32; 2],
+    /// INFOG(12).
+    pub(super) negative_pivots: i32,
 }

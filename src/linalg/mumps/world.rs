@@ -89,14 +89,14 @@ impl World {
         send(0, rank::VERSION.as_bytes());
         loop {
             let bytes = receive(0);
-            // One that cannot be read is of another version, which will let go of this rank next.
+            // Nothing is the end, in all versions; what cannot be read is of another one.
+            if bytes.is_empty() {
+                return;
+            }
             let Ok(task) = postcard::from_bytes::<Task>(&bytes) else {
                 continue;
             };
             drop(bytes);
-            if matches!(task, Task::Quit) {
-                return;
-            }
             send(0, &rank::perform(task, assemble, &mut Host::default()));
         }
     }
@@ -105,9 +105,8 @@ impl World {
     pub fn let_go(self) {
         let _turn = calls();
         ALONE.store(true, Ordering::Relaxed);
-        let quit = postcard::to_stdvec(&Task::Quit).unwrap_or_default();
         for rank in 1..self.size {
-            send(rank, &quit);
+            send(rank, &[]);
         }
     }
 
@@ -136,6 +135,12 @@ impl World {
     ) -> Result<Vec<T>> {
         let garbled = |cause: postcard::Error| Error::internal("a message of ranks").because(cause);
         let _turn = calls();
+        if self.rank > 0 {
+            return Err(Error::input(format!(
+                "this process is rank {} of {}: it has to serve the first one (World::serve)",
+                self.rank, self.size
+            )));
+        }
         if ALONE.load(Ordering::Relaxed) {
             return Err(Error::internal("the other ranks were let go"));
         }
@@ -155,8 +160,8 @@ impl World {
             REQUESTS.fetch_add(1, Ordering::Relaxed);
             BYTES.fetch_add(bytes as u64, Ordering::Relaxed);
         }
-        let read = |answer: &Vec<u8>| postcard::from_bytes(answer).map_err(garbled);
-        answers.iter().map(read).collect()
+        let read = |answer: Vec<u8>| postcard::from_bytes(&answer).map_err(garbled);
+        answers.into_iter().map(read).collect()
     }
 }
 
