@@ -78,7 +78,7 @@ test-rest: setup python-tests ## What test-all has beyond test
 	@cargo test --features capi,faer -- $(LONG)
 	cargo clippy --no-default-features --all-targets -- -D warnings
 	cargo clippy --no-default-features --features faer,cli --all-targets -- -D warnings
-	cargo test --no-default-features --features faer,cli --test cli --test cost
+	cargo test --no-default-features --features faer,cli --test cli --test cost --test stability
 	cargo test --no-default-features --features cli --lib --bins --test cli
 	RUSTDOCFLAGS="-D warnings" cargo doc --features capi,faer,guide --no-deps --quiet
 	$(MAKE) --no-print-directory package PACKAGE_FLAGS='--no-default-features --features faer,cli'

@@ -142,8 +142,7 @@ pub struct Prediction {
     /// Bytes needed at the peak.
     #[serde(serialize_with = "whole", deserialize_with = "number")]
     pub memory_bytes: f64,
-    /// Of each rank, where several share the work; then `memory_bytes` is the largest of them.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    /// Of each rank of MPI, else empty; `memory_bytes` is the largest of them.
     pub memory_by_rank: Vec<f64>,
 }
 

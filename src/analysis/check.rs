@@ -1,12 +1,11 @@
 //! Which effects a scene calls for, and what the run will cost: before anything is solved.
 
-use super::{starting, zone_choice};
+use super::{seconds, starting, zone_choice};
 use crate::assembly::assemble;
 use crate::error::Result;
 use crate::linalg::{Backend, Partition, Prediction};
-use crate::model::{LoadCase, Magnitude, Model, Pair};
+use crate::model::{LoadCase, Magnitude, Model};
 use crate::results::{Effect, EndState, Sizes};
-use crate::scene::{Program, Stepping};
 use crate::substructure::ContactCost;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -35,120 +34,8 @@ pub struct Check {
     pub notes: Vec<String>,
 }
 
-/// Floating point operations per second of large supernodes on one thread, and the same of faer:
-/// those of solids of 105,000 and 311,000 freedoms (`cargo bench --features faer --bench history --
-/// backends`).
-const TYPICAL_FLOPS: f64 = 3.6e10;
-const TYPICAL_FLOPS_OF_FAER: f64 = 5.8e10;
-/// Nonzeros of the factor per second of all that does not grow with the operations: ordering,
-/// analysis, and what it takes to begin each of many small supernodes, of which plane meshes have
-/// most.
-const TYPICAL_NONZEROS: f64 = 2.7e7;
-/// Floating point operations per second of the dense matrices of contact.
-const FLOPS_OF_CONTACT: f64 = 7e9;
-
-/// What a run takes besides its factorisation, measured over the scenes of `data/scenes` and finer
-/// meshes of the paper's two: seconds to start; for each freedom of making the mesh, the assembly
-/// and the files; for each freedom of the zone of finding first yield; for each freedom and state.
-const START: f64 = 1.5e-3;
-const SETUP: f64 = 0.9e-6;
-const YIELD_LOAD: f64 = 2e-6;
-const STATE: f64 = 4.5e-7;
-/// Of the elastic path, per cube of the pairs: each change of contact goes over their matrix.
-const PATH: f64 = 1.5e-9;
-/// Of a trailing solve with its share of the plastic iteration: to begin with, and for each entry
-/// of the factor's trailing columns.
-const SOLVE: [f64; 2] = [2e-5, 5.5e-10];
-/// Share of the pairs that change their status in an increment of their own while the load goes one
-/// way: where gaps differ (the contact grows pair by pair), and where all are alike.
-const CHANGES: [f64; 2] = [0.7, 0.17];
-/// Trailing solves of an elastoplastic increment: where the material hardens; where it has next to
-/// no stiffness left, in a contact that grows; and where all of it may yield.
-const SOLVES: [f64; 3] = [6.0, 12.0, 30.0];
-/// Plastic modulus over Youngs modulus below which material counts as soft in that sense.
-const SOFT: f64 = 0.1;
 /// Seconds from which on a run is worth a warning before it begins.
 const LONG: f64 = 60.0;
-
-/// Rough number of trailing solves of a run.
-fn solves(model: &Model) -> f64 {
-    let program = &model.scene.program;
-    let n_targets = program.targets.len() as f64;
-    let pairs_of = |alike: bool| -> f64 {
-        let contacts = model.contacts.iter().map(|c| &model.pairs[c.range.clone()]);
-        let those = contacts.filter(|pairs| gaps_are_alike(pairs) == alike);
-        those.map(|pairs| pairs.len() as f64).sum()
-    };
-    let [growing, alike] = [pairs_of(false), pairs_of(true)];
-    let increments = match program.stepping {
-        Stepping::Events => n_targets + ways(program) * (CHANGES[0] * growing + CHANGES[1] * alike),
-        Stepping::Steps => program.steps as f64 * n_targets,
-    };
-    let mut yielding = model.materials.iter().zip(&model.may_yield);
-    let soft = yielding.any(|(material, may)| {
-        let slope = material
-            .hardening
-            .as_ref()
-            .map(|h| h.slope(0.0) + material.back_stresses.linear());
-        *may && slope.is_some_and(|slope| slope < SOFT * material.youngs_modulus)
-    });
-    let each = match soft {
-        false => SOLVES[0],
-        true if growing > alike => SOLVES[1],
-        true => SOLVES[2],
-    };
-    each * increments
-}
-
-/// Whether all pairs of a contact would close together.
-pub(super) fn gaps_are_alike(pairs: &[Pair]) -> bool {
-    let span = |of: fn(&Pair) -> f64| {
-        let ends = pairs
-            .iter()
-            .map(of)
-            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
-                [low.min(value), high.max(value)]
-            });
-        ends[1] - ends[0]
-    };
-    span(|pair| pair.gap) <= 1e-9 * span(|pair| pair.arc)
-}
-
-/// How often the load turns round on its way from zero to the last target, and once.
-fn ways(program: &Program) -> f64 {
-    let (mut at, mut upward, mut count) = (0.0, true, 1.0);
-    for target in &program.targets {
-        let displaced = target.displacement.as_ref().map(|d| d.value.abs());
-        let to = match (target.load_factor, target.half_width) {
-            (Some(factor), _) => factor,
-            // The load of a line contact depends on the square of its width.
-            (_, Some(width)) => width * width,
-            _ => displaced.unwrap_or(1.0),
-        };
-        if to != at && (to > at) != upward {
-            (upward, count) = (!upward, count + 1.0);
-        }
-        at = to;
-    }
-    count
-}
-
-/// Rough seconds of a run whose factorisation takes `factorisation`.
-fn run_seconds(model: &Model, sizes: &Sizes, prediction: &Prediction, factorisation: f64) -> f64 {
-    let n = sizes.freedoms as f64;
-    let states = model.scene.program.targets.len() as f64;
-    let elastic = START
-        + SETUP * n
-        + factorisation
-        + STATE * n * states
-        + PATH * (sizes.contact_pairs as f64).powi(3);
-    if sizes.zone_elements == 0 {
-        return elastic;
-    }
-    elastic
-        + YIELD_LOAD * sizes.zone_freedoms as f64
-        + solves(model) * (SOLVE[0] + SOLVE[1] * prediction.trailing_nonzeros)
-}
 
 /// Predicts effects and cost of a model; solves nothing.
 ///
@@ -196,14 +83,9 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
             "the program has at most {cycles} cycles: memory is that of all, time that of one"
         ));
     }
-    let of_contact = contact.flops / FLOPS_OF_CONTACT;
-    let speed = match backend {
-        Backend::Faer => TYPICAL_FLOPS_OF_FAER,
-        _ => TYPICAL_FLOPS,
-    };
-    let factorisation =
-        prediction.flops / speed + prediction.factor_nonzeros / TYPICAL_NONZEROS + of_contact;
-    let run = run_seconds(model, &sizes, &prediction, factorisation);
+    let of_contact = seconds::of_contact(&contact);
+    let factorisation = seconds::of_factorisation(&prediction, backend) + of_contact;
+    let run = seconds::of_run(model, &sizes, &prediction, factorisation);
     if backend == Backend::Cholmod
         && Backend::Faer.is_built_in()
         && model.mesh.is_solid()

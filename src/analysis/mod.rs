@@ -18,7 +18,7 @@
 //! | `measure`, `contact_edge`, `reading`, `dent`, `figures`, `quality` | pressure, half width, dent, quality of a state | 5 |
 //! | `stress_field`, `stresses`, `local_yield` | stresses of all elements, the forces they exert, what they may be | |
 //! | `indicator` | discretisation error of the stresses, element by element | |
-//! | `check` | effects and cost before a run | |
+//! | `check`, `seconds` | effects, cost and time before a run | |
 
 mod acceleration;
 mod check;
@@ -62,6 +62,7 @@ mod recovery;
 mod region;
 mod response;
 mod restart;
+mod seconds;
 mod solver;
 mod starting;
 mod state;

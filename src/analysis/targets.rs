@@ -1,9 +1,9 @@
 //! Targets: from the current load factor to the next state that the program asks for.
 
-use super::check::gaps_are_alike;
 use super::drive::{Arrival, Monitor};
 use super::position::{FirstYield, Search, share_of_way};
 use super::program::{DOUBLINGS, Run, ZONE_ATTEMPTS};
+use super::seconds::gaps_are_alike;
 use super::solver::Solver;
 use super::state::State;
 use super::zone_choice;

@@ -41,8 +41,6 @@ pub(crate) struct Summary {
     effects: Named<EffectEntry>,
     timings: Named<Option<f64>>,
     peak_memory_bytes: Option<u64>,
-    /// Of a run on several.
-    #[serde(skip_serializing_if = "Option::is_none")]
     ranks: Option<Ranks>,
     counts: Counts,
     factor: Prediction,

@@ -35,7 +35,7 @@ fn main() -> Result<(), Failure> {
     let folder = tempfile::tempdir()?;
     let mut all = Vec::new();
     println!(
-        "| model | freedoms | engine | ranks | operations | memory of each rank, MB | predicted, MB \
+        "| model | freedoms | engine | ranks | operations | memory of each rank, MB | predicted \
          | factor, s | run, s | requests | MB to and from others |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|---|");
@@ -154,7 +154,8 @@ fn report(model: &str, engine: Engine, summary: &Value) {
             megabytes(&[number(&factor["memory_bytes"])]),
         ),
         Engine::Ranks(n) => println!(
-            "| {model} | {freedoms} | MUMPS | {n} | {flops:.2e} | {} | {} | {figures} | {} | {:.0} |",
+            "| {model} | {freedoms} | MUMPS | {n} | {flops:.2e} | {} | {} | {figures} | {} \
+             | {:.0} |",
             megabytes(&list(&ranks["peak_memory_bytes"])),
             megabytes(&list(&factor["memory_by_rank"])),
             ranks["requests"],
@@ -164,7 +165,7 @@ fn report(model: &str, engine: Engine, summary: &Value) {
 }
 
 /// What operations, entries, memory and messages grow to: the first two by their own powers of the
-/// freedoms, memory as a multiple of the factor's and bytes for each freedom.
+/// freedoms, memory with the factor, messages with the freedoms.
 fn on_paper(small: &Value, large: &Value) {
     let both = [small, large];
     let freedoms = both.map(|summary| number(&summary["freedoms"]));
@@ -182,19 +183,14 @@ fn on_paper(small: &Value, large: &Value) {
         "| factor | power {power:.2} | {:.0} GB |",
         8.0 * entries / 1e9
     );
-    // held = share * factor + each * freedoms, over all ranks.
-    let held = both.map(|summary| {
-        list(&summary["ranks"]["peak_memory_bytes"])
-            .iter()
-            .sum::<f64>()
-    });
-    let factor = both.map(|summary| 8.0 * number(&summary["factor"]["factor_nonzeros"]));
-    let determinant = factor[0] * freedoms[1] - factor[1] * freedoms[0];
-    let share = (held[0] * freedoms[1] - held[1] * freedoms[0]) / determinant;
-    let each = (factor[0] * held[1] - factor[1] * held[0]) / determinant;
+    // Matrix, work and program grow more slowly than the factor: at most as many times.
+    let held = list(&large["ranks"]["peak_memory_bytes"])
+        .iter()
+        .sum::<f64>();
+    let times = held / (8.0 * number(&large["factor"]["factor_nonzeros"]));
     println!(
-        "| memory of all ranks | {share:.2} of the factor, {each:.0} bytes a freedom | {:.0} GB |",
-        (share * 8.0 * entries + each * PAPER) / 1e9
+        "| memory of all ranks | at most {times:.1} times the factor | {:.0} GB |",
+        times * 8.0 * entries / 1e9
     );
     let bytes = number(&large["ranks"]["bytes"]) / freedoms[1];
     println!(

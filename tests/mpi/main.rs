@@ -214,6 +214,10 @@ fn nobody_is_asked_between_load_steps() {
         // Another zone may be factored on the way.
         let factored = |summary: &Value| summary["counts"]["factorizations"].clone();
         assert_eq!(factored(&few.1), factored(&many.1), "{name}");
+        let schema: Value = serde_json::from_str(brinell::output::SUMMARY_SCHEMA).unwrap();
+        if let Err(error) = jsonschema::validate(&schema, &many.1) {
+            panic!("{error}");
+        }
         // A state whose residual is round-off may or may not be refined: two solves, one product.
         let states = few.1["states"].as_array().unwrap().len() as u64;
         assert!(
