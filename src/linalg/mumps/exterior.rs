@@ -44,7 +44,7 @@ pub(super) struct Analysis {
 struct Variables {
     freedoms: Vec<usize>,
     /// The trailing number of each, where it stays.
-    place: Vec<Option<usize>>,
+    trailing: Vec<Option<usize>>,
 }
 
 /// Handle of a factor on all ranks.
@@ -91,11 +91,11 @@ impl Drop for Factor {
 }
 
 impl Variables {
-    fn new(place: &[Option<usize>], touched: &[bool]) -> Self {
-        let is_variable = |freedom: &usize| place[*freedom].is_none() || touched[*freedom];
-        let freedoms: Vec<usize> = (0..place.len()).filter(is_variable).collect();
+    fn new(trailing: &[Option<usize>], touched: &[bool]) -> Self {
+        let is_variable = |freedom: &usize| trailing[*freedom].is_none() || touched[*freedom];
+        let freedoms: Vec<usize> = (0..trailing.len()).filter(is_variable).collect();
         Variables {
-            place: freedoms.iter().map(|&freedom| place[freedom]).collect(),
+            trailing: freedoms.iter().map(|&freedom| trailing[freedom]).collect(),
             freedoms,
         }
     }
@@ -115,10 +115,10 @@ impl Variables {
         let mut first = Vec::new();
         let mut vertex = vec![-1; matrix.n()];
         for (k, &freedom) in self.freedoms.iter().enumerate() {
-            let stays = self.place[k].is_some();
+            let stays = self.trailing[k].is_some();
             let goes_on = k > 0
                 && self.freedoms[k - 1] + 1 == freedom
-                && self.place[k - 1].is_some() == stays
+                && self.trailing[k - 1].is_some() == stays
                 && matrix.is_continued(freedom);
             if !goes_on {
                 vertex[freedom] = first.len() as i32;
@@ -126,7 +126,7 @@ impl Variables {
             }
         }
         let graph = matrix.graph(&vertex)?;
-        let stays: Vec<bool> = first.iter().map(|&k| self.place[k].is_some()).collect();
+        let stays: Vec<bool> = first.iter().map(|&k| self.trailing[k].is_some()).collect();
         first.push(self.freedoms.len());
         let (name, order) = cholmod::order(first, &stays, &graph)?;
         let mut place = vec![0; self.freedoms.len()];
@@ -138,27 +138,27 @@ impl Variables {
 }
 
 impl Analysis {
-    /// Orders the interior, which is what has no `place` among the trailing freedoms, and those of
+    /// Orders the interior, which is what has no number among the `trailing` freedoms, and those of
     /// them that it has `touched`, last.
     pub(super) fn new(
         matrix: &Shared,
-        place: &[Option<usize>],
+        trailing: &[Option<usize>],
         touched: &[bool],
         coupling: Vec<Entry>,
     ) -> Result<Self> {
-        let variables = Variables::new(place, touched);
+        let variables = Variables::new(trailing, touched);
         let n_variables = variables.freedoms.len();
         if c_int::try_from(n_variables).is_err() {
             return Err(Error::input("more freedoms than MUMPS can number"));
         }
-        let numbers = variables.numbers(place.len());
+        let numbers = variables.numbers(trailing.len());
         memory::require(
             "pattern of the whole matrix, of which one rank finds the order,",
             pattern_bytes(matrix.entries_by_rank()),
         )?;
         let (order_name, order) = variables.order(matrix)?;
         let mut kept: Vec<usize> = (0..n_variables)
-            .filter(|&k| variables.place[k].is_some())
+            .filter(|&k| variables.trailing[k].is_some())
             .collect();
         // MUMPS wants them listed as they come in the order.
         kept.sort_by_key(|&k| order[k]);
@@ -173,7 +173,7 @@ impl Analysis {
             |index, own| Task::Analyse(factor.index, index, own(&|freedom| numbers[freedom])),
             &mut host,
         )?;
-        require(by_rank[0].state)?;
+        require(by_rank[0].state, by_rank.iter().map(|rank| rank.own_state))?;
         if by_rank[0].order != GIVEN {
             return Err(Error::internal(format!(
                 "MUMPS did not take the order that it was given (INFOG(7) = {})",
@@ -234,43 +234,48 @@ impl Analysis {
 
     /// The trailing numbers of the variables that stay, as they come in the order.
     fn kept(&self) -> Vec<usize> {
-        let place = |k: &c_int| self.variables.place[*k as usize - 1].unwrap_or(0);
-        self.host.kept.iter().map(place).collect()
+        let trailing = |k: &c_int| self.variables.trailing[*k as usize - 1].unwrap_or(0);
+        self.host.kept.iter().map(trailing).collect()
     }
 
     /// That each rank, and all of a machine together, have the memory that they need.
     pub(super) fn require_memory(&self, needed: &[f64]) -> Result<()> {
-        let figures = |needed: f64, left: f64| {
-            format!(
-                "needs about {:.0} MB and {:.0} MB are available there: use more ranks, a coarser \
-                 mesh, or more memory (ulimit -v)",
-                (needed / 1e6).ceil(),
-                (left / 1e6).floor()
-            )
-        };
-        // By machine: its ranks, what they need, what there is.
-        let mut machines: BTreeMap<&str, (usize, f64, f64)> = BTreeMap::new();
-        for (rank, (&needed, of_rank)) in needed.iter().zip(&self.by_rank).enumerate() {
-            if let Some(left) = of_rank.left_by_limits
-                && needed > left
-            {
-                return Err(Error::analysis(format!(
-                    "out of memory: rank {rank} of {} {}",
-                    self.by_rank.len(),
-                    figures(needed, left)
-                )));
-            }
-            let left = of_rank.left_by_machine.unwrap_or(f64::INFINITY);
-            let machine = machines.entry(&of_rank.host).or_insert((0, 0.0, left));
-            *machine = (machine.0 + 1, machine.1 + needed, machine.2.min(left));
+        require_memory(needed, &self.by_rank)
+    }
+}
+
+/// As [`Analysis::require_memory`], for what the ranks said.
+fn require_memory(needed: &[f64], by_rank: &[Analysed]) -> Result<()> {
+    let figures = |needed: f64, left: f64| {
+        format!(
+            "needs about {:.0} MB and {:.0} MB are available there: use more ranks, a coarser \
+             mesh, or more memory (ulimit -v)",
+            (needed / 1e6).ceil(),
+            (left / 1e6).floor()
+        )
+    };
+    // By machine: its ranks, what they need, what there is.
+    let mut machines: BTreeMap<&str, (usize, f64, f64)> = BTreeMap::new();
+    for (rank, (&needed, of_rank)) in needed.iter().zip(by_rank).enumerate() {
+        if let Some(left) = of_rank.left_by_limits
+            && needed > left
+        {
+            return Err(Error::analysis(format!(
+                "out of memory: rank {rank} of {} {}",
+                by_rank.len(),
+                figures(needed, left)
+            )));
         }
-        match machines.iter().find(|(_, (_, needed, left))| needed > left) {
-            Some((host, (ranks, needed, left))) => Err(Error::analysis(format!(
-                "out of memory: what the {ranks} ranks on `{host}` have to hold {}",
-                figures(*needed, *left)
-            ))),
-            None => Ok(()),
-        }
+        let left = of_rank.left_by_machine.unwrap_or(f64::INFINITY);
+        let machine = machines.entry(&of_rank.host).or_insert((0, 0.0, left));
+        *machine = (machine.0 + 1, machine.1 + needed, machine.2.min(left));
+    }
+    match machines.iter().find(|(_, (_, needed, left))| needed > left) {
+        Some((host, (ranks, needed, left))) => Err(Error::analysis(format!(
+            "out of memory: what the {ranks} ranks on `{host}` have to hold {}",
+            figures(*needed, *left)
+        ))),
+        None => Ok(()),
     }
 }
 
@@ -304,7 +309,10 @@ impl Exterior {
             ..
         } = analysis;
         let factored: Vec<Factored> = matrix.ask_all(|| Task::Factor(factor.index), &mut host)?;
-        require(factored[0].state)?;
+        require(
+            factored[0].state,
+            factored.iter().map(|rank| rank.own_state),
+        )?;
         let schur = Schur {
             freedoms,
             values: std::mem::take(&mut host.schur),
@@ -312,8 +320,10 @@ impl Exterior {
         let numbers = variables.numbers(matrix.n());
         let variable = |freedom: usize| numbers[freedom] as usize - 1;
         let ends = coupling.into_iter();
-        let places = variables.freedoms.iter().zip(&variables.place);
-        let interior = places.enumerate().filter(|(_, (_, place))| place.is_none());
+        let places = variables.freedoms.iter().zip(&variables.trailing);
+        let interior = places
+            .enumerate()
+            .filter(|(_, (_, trailing))| trailing.is_none());
         let exterior = Exterior {
             factor,
             n_variables: variables.freedoms.len(),
@@ -374,14 +384,14 @@ impl Exterior {
         let index = self.factor.index;
         let states: Vec<[i32; 2]> =
             (self.factor.matrix).ask_all(|| Task::Solve(index), &mut host)?;
-        require(states[0])?;
+        require(states[0], std::iter::empty())?;
         check::length("load", host.load.len(), self.n_variables)?;
         Ok(host.load)
     }
 }
 
-/// Negative numbers of INFOG(1) as errors.
-fn require([code, more]: [i32; 2]) -> Result<()> {
+/// Negative numbers of INFOG(1) as errors, of the rank whose own state that is.
+fn require([code, more]: [i32; 2], mut own_states: impl Iterator<Item = i32>) -> Result<()> {
     if code >= 0 {
         return Ok(());
     }
@@ -389,5 +399,47 @@ fn require([code, more]: [i32; 2]) -> Result<()> {
         -6 | -10 | -40 => ErrorKind::Unheld,
         _ => ErrorKind::Analysis,
     };
-    Err(Error::new(kind, meaning(code, more)))
+    let rank = own_states.position(|own| own == code);
+    Err(Error::new(kind, meaning(code, more, rank)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rank(limits: Option<f64>, machine: f64, host: &str) -> Analysed {
+        Analysed {
+            state: [0, 0],
+            own_state: 0,
+            order: GIVEN,
+            needed: 0.0,
+            left_by_limits: limits,
+            left_by_machine: Some(machine),
+            host: host.to_string(),
+            flops: 0.0,
+            nonzeros: 0.0,
+        }
+    }
+
+    /// Each by its own limits, those of a machine together.
+    #[test]
+    fn memory_is_compared_rank_by_rank_and_machine_by_machine() {
+        let ranks = [
+            rank(None, 10e9, "a"),
+            rank(Some(7e9), 10e9, "a"),
+            rank(None, 6.5e9, "b"),
+        ];
+        assert!(require_memory(&[4e9, 5e9, 6e9], &ranks).is_ok());
+        let of = |needed: [f64; 3]| require_memory(&needed, &ranks).unwrap_err().to_string();
+        let text = of([6e9, 6e9, 6e9]);
+        assert!(text.contains("the 2 ranks on `a`"), "{text}");
+        assert!(text.contains("12000 MB and 10000 MB"), "{text}");
+        let text = of([1e9, 8e9, 1e9]);
+        assert!(
+            text.contains("rank 1 of 3 needs about 8000 MB and 7000 MB"),
+            "{text}"
+        );
+        let text = of([1e9, 1e9, 7e9]);
+        assert!(text.contains("on `b`"), "{text}");
+    }
 }

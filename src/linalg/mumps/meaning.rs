@@ -3,8 +3,8 @@
 //! # Source
 //! MUMPS 5.5 users' guide, section 8.
 
-/// In words, for INFOG(1) and INFOG(2).
-pub(super) fn meaning(code: i32, more: i32) -> String {
+/// In words, for INFOG(1) and INFOG(2), and the rank that says so.
+pub(super) fn meaning(code: i32, more: i32, rank: Option<usize>) -> String {
     // Sizes below 0 are in millions.
     let size = match more {
         more if more < 0 => format!("{} million", -i64::from(more)),
@@ -40,7 +40,8 @@ pub(super) fn meaning(code: i32, more: i32) -> String {
             "please report it with the scene that caused it",
         ),
     };
-    format!("MUMPS: {what} (INFOG(1) = {code}, INFOG(2) = {size}): {remedy}")
+    let on = rank.map_or(String::new(), |rank| format!("rank {rank}, "));
+    format!("MUMPS: {what} ({on}INFOG(1) = {code}, INFOG(2) = {size}): {remedy}")
 }
 
 #[cfg(test)]
@@ -49,13 +50,13 @@ mod tests {
 
     #[test]
     fn numbers_have_words_and_a_remedy() {
-        let text = meaning(-13, -250);
+        let text = meaning(-13, -250, Some(2));
         assert!(
-            text.contains("no memory") && text.contains("250 million"),
+            text.contains("no memory") && text.contains("rank 2") && text.contains("250 million"),
             "{text}"
         );
         assert!(text.contains("more ranks"), "{text}");
-        assert!(meaning(-10, 7).contains("hardly held"));
-        assert!(meaning(-3, 0).contains("please report"));
+        assert!(meaning(-10, 7, None).contains("hardly held"));
+        assert!(meaning(-3, 0, None).contains("please report"));
     }
 }

@@ -93,7 +93,10 @@ pub fn condense_shared(
     let mut trailing = Trailing::new(matrix, partition)?;
     let cost = trailing.cost()?;
     if let Some(analysis) = &trailing.analysis {
-        analysis.require_memory(&cost.memory_by_rank)?;
+        // The columns are there already.
+        let ranks = cost.memory_by_rank.iter().zip(&trailing.columns);
+        let more: Vec<f64> = ranks.map(|(all, columns)| all - columns).collect();
+        analysis.require_memory(&more)?;
     }
     let n = partition.n;
     let (exterior, schur) = match trailing.analysis.take() {

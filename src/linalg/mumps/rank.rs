@@ -189,7 +189,7 @@ fn analyse(
     host: &mut Host,
     [left_by_limits, left_by_machine]: [Option<f64>; 2],
 ) -> Analysed {
-    let (mut info, mut work) = ([0; 4], [0.0; 2]);
+    let (mut info, mut work) = ([0; 5], [0.0; 2]);
     let n_entries = entries.values.len();
     // SAFETY: all arrays have the lengths that are given beside them and stay where they are until
     // the factor is computed or forgotten; numbers of variables lie in 1..=n.
@@ -209,6 +209,7 @@ fn analyse(
     }
     Analysed {
         state: [info[0], info[1]],
+        own_state: info[4],
         order: info[2],
         needed: 1e6 * f64::from(info[3]),
         left_by_limits,
@@ -220,7 +221,7 @@ fn analyse(
 }
 
 fn compute(factor: usize, entries: &mut Entries, host: &mut Host) -> Factored {
-    let mut info = [0; 3];
+    let mut info = [0; 4];
     let schur = match host.schur.is_empty() {
         true => null_mut(),
         false => host.schur.as_mut_ptr(),
@@ -237,6 +238,7 @@ fn compute(factor: usize, entries: &mut Entries, host: &mut Host) -> Factored {
     }
     Factored {
         state: [info[0], info[1]],
+        own_state: info[3],
         negative_pivots: info[2],
     }
 }

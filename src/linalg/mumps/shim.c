@@ -95,10 +95,10 @@ static void create(int index) {
 /* Analyses, with a new solver of this number, the order of elimination of a symmetric positive definite matrix of `n` variables. Each rank hands
  * over entries of one triangle, numbered from 1. First rank: the `place` of each variable, and in
  * `schur_list`, as they come, the last `n_schur` variables, which are not eliminated. `info` gets
- * INFOG(1), INFOG(2), INFOG(7) and INFO(15), `work` RINFOG(1) and INFOG(20). The arrays stay in use
+ * INFOG(1), INFOG(2), INFOG(7), INFO(15) and INFO(1), `work` RINFOG(1) and INFOG(20). The arrays stay in use
  * until the matrix is factored. */
 void brinell_mumps_analyse(int index, int n, int64_t n_entries, int *rows, int *columns, int *place,
-                           int n_schur, int *schur_list, int info[4], double work[2]) {
+                           int n_schur, int *schur_list, int info[5], double work[2]) {
     DMUMPS_STRUC_C *id;
     create(index);
     id = all[index];
@@ -122,13 +122,14 @@ void brinell_mumps_analyse(int index, int n, int64_t n_entries, int *rows, int *
     info[1] = id->infog[1];
     info[2] = id->infog[6];
     info[3] = id->info[14];
+    info[4] = id->info[0];
     work[0] = id->rinfog[0];
     work[1] = id->infog[19] < 0 ? -1e6 * id->infog[19] : id->infog[19];
 }
 
 /* Factors; `schur` gets the matrix of the variables that stay by rows, its lower triangle. `info`
- * gets INFOG(1), INFOG(2) and INFOG(12), the number of negative pivots. */
-void brinell_mumps_factor(int index, double *values, double *schur, int info[3]) {
+ * gets INFOG(1), INFOG(2), INFOG(12), the number of negative pivots, and INFO(1). */
+void brinell_mumps_factor(int index, double *values, double *schur, int info[4]) {
     DMUMPS_STRUC_C *id = all[index];
     int code;
     id->a_loc = values;
@@ -144,6 +145,7 @@ void brinell_mumps_factor(int index, double *values, double *schur, int info[3])
     info[0] = id->infog[0];
     info[1] = id->infog[1];
     info[2] = id->infog[11];
+    info[3] = id->info[0];
     id->irn_loc = id->jcn_loc = id->perm_in = id->listvar_schur = NULL;
     id->a_loc = id->schur = NULL;
 }

@@ -67,6 +67,8 @@ pub(super) struct Near {
 pub(super) struct Analysed {
     /// INFOG(1) and INFOG(2).
     pub(super) state: [i32; 2],
+    /// INFO(1).
+    pub(super) own_state: i32,
     /// INFOG(7).
     pub(super) order: i32,
     /// Bytes that the factor will take on this rank, and what stands beside it.
@@ -88,6 +90,8 @@ pub(super) struct Analysed {
 pub(super) struct Factored {
     /// INFOG(1) and INFOG(2).
     pub(super) state: [i32; 2],
+    /// INFO(1).
+    pub(super) own_state: i32,
     /// INFOG(12).
     pub(super) negative_pivots: i32,
 }
