@@ -18,6 +18,8 @@
 
 #[path = "peers/deck.rs"]
 mod deck;
+#[path = "peers/dent.rs"]
+mod dent;
 #[path = "peers/frd.rs"]
 mod frd;
 #[path = "peers/hard.rs"]
@@ -209,7 +211,7 @@ fn brinell(size: usize, dir: &Path, measured: bool) -> Result<Outcome, Failure> 
         seconds,
         elastic: state("elastic", "max_pressure")?,
         twice: state("twice", "max_pressure")?,
-        dent: state("unloaded", "residual_depth")?,
+        dent: dent::of_results(&out, &model(size)?)?,
         iterations: summary["counts"]["plastic_iterations"]
             .as_u64()
             .unwrap_or(0) as usize,
@@ -252,14 +254,13 @@ fn calculix(size: usize, dir: &Path, quick: bool) -> Result<Outcome, Failure> {
         seconds,
         elastic: largest(0.4)?,
         twice: largest(1.0)?,
-        dent: dent(&frd, size)?,
+        dent: dent_of(&frd, size)?,
         iterations,
     })
 }
 
-/// The dent as brinell takes it: the largest change of the gap without load, the outermost pair's
-/// taken off.
-fn dent(frd: &Frd, size: usize) -> Result<f64, Failure> {
+/// The dent of CalculiX' results.
+fn dent_of(frd: &Frd, size: usize) -> Result<f64, Failure> {
     let unloaded = frd.at(2.0).ok_or("the unloading was not finished")?;
     let model = model(size)?;
     // The numbers of the output are not those of the deck: nodes are found by their place.
@@ -283,12 +284,7 @@ fn dent(frd: &Frd, size: usize) -> Result<f64, Failure> {
             ))
         })
         .collect::<Result<_, Failure>>()?;
-    let outermost = opened
-        .iter()
-        .max_by(|a, b| a.0.total_cmp(&b.0))
-        .ok_or("no pairs")?
-        .1;
-    Ok(opened.iter().map(|o| o.1 - outermost).fold(0.0, f64::max))
+    Ok(dent::beside_outermost(&opened))
 }
 
 /// A quantity from two meshes whose errors go with the square of the element size.

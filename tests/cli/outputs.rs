@@ -164,6 +164,25 @@ fn check_tells_effects_sizes_cost_and_blas_of_every_scene() {
     assert_eq!(check["sizes"]["elements"], 64);
 }
 
+/// Where both solvers are built in: on one thread faer takes less for solids.
+#[test]
+#[cfg(all(feature = "cholmod", feature = "faer"))]
+fn check_names_the_faster_solver() {
+    let notes = |name: &str, threads: &str, solver: &str| {
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
+            .args(["check", &scene(name), "--solver", solver, "--json"])
+            .env("OPENBLAS_NUM_THREADS", threads)
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{output:?}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let says = |text: String| text.contains("--solver faer");
+    assert!(says(notes("blocks_tet10", "1", "cholmod")));
+    assert!(!says(notes("blocks_tet10", "1", "faer")));
+    assert!(!says(notes("contact_patch", "1", "cholmod")));
+}
+
 #[test]
 fn the_disc_scene_shows_the_contact_arc() {
     let folder = Folder::with_changes(

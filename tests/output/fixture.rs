@@ -4,8 +4,8 @@ use brinell::mesh::{Mesh, Shape};
 use brinell::output::RunHeader;
 use brinell::results::{
     Accuracy, Companion, Counts, CycleOutcome, CycleRow, Cycles, Demand, Effect, EstimateMethod,
-    Fields, HistoryRow, Incomplete, PairState, PathPoint, Quality, QuantityError, ReferenceRow,
-    Results, Sizes, State, Status, YieldPoint,
+    Fields, HistoryRow, Incomplete, PairState, PathPoint, Quality, QuantityError, Ranks,
+    ReferenceRow, Results, Sizes, State, Status, YieldPoint,
 };
 
 pub fn header() -> RunHeader {
@@ -121,7 +121,12 @@ pub fn results(mesh: &Mesh) -> Results {
         ..pressed.clone()
     };
     Results {
-        ranks: None,
+        ranks: Some(Ranks {
+            count: 2,
+            requests: 15,
+            bytes: 4096,
+            peak_memory_bytes: vec![Some(1 << 20), None],
+        }),
         cycles: Some(Cycles {
             outcome: CycleOutcome::Ratchetting,
             body: Some("block".into()),
@@ -203,7 +208,7 @@ pub fn results(mesh: &Mesh) -> Results {
             flops: 5e20,
             trailing_nonzeros: 99.0,
             memory_bytes: 65536.0,
-            memory_by_rank: Vec::new(),
+            memory_by_rank: vec![65536.5, 4096.5],
         },
         reference: vec![ReferenceRow {
             quantity: "yield.load".into(),

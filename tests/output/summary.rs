@@ -80,13 +80,16 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
         },
         "timings": {"assembly": 0.375, "factorisation": 0.5, "total": 1.25},
         "peak_memory_bytes": null,
+        "ranks": {
+            "count": 2, "requests": 15, "bytes": 4096, "peak_memory_bytes": [1048576, null]
+        },
         "counts": {
             "factorizations": 1, "trailing_solves": 40, "full_solves": 3,
             "plastic_iterations": 12, "contact_changes": 2
         },
         "factor": {
             "ordering": "CAMD", "factor_nonzeros": 1234, "trailing_nonzeros": 99,
-            "flops": 5e20, "memory_bytes": 65536
+            "flops": 5e20, "memory_bytes": 65536, "memory_by_rank": [65536.5, 4096.5]
         },
         "condition": 1e4,
         "condition_estimate": 3e4,

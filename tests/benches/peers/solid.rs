@@ -6,6 +6,7 @@
 //! meshes.
 
 use super::deck::{self, Settings};
+use super::dent;
 use super::frd::Frd;
 use super::process::{Failure, children_seconds};
 use brinell::analytical::{HertzPoint, contact_modulus};
@@ -77,6 +78,13 @@ fn brinell(case: (usize, &str), dir: &Path, elastic_only: bool) -> Result<Outcom
     }
     let seconds = timed(&mut command)?;
     let summary: Value = serde_json::from_str(&std::fs::read_to_string(out.join("summary.json"))?)?;
+    let dent = match elastic_only {
+        true => f64::NAN,
+        false => dent::of_results(
+            &out,
+            &Model::new(&Scene::load_with(SCENE, &overrides(case))?)?,
+        )?,
+    };
     std::fs::remove_dir_all(&out)?;
     let state = |name: &str, key: &str| -> f64 {
         let states = summary["states"].as_array().into_iter().flatten();
@@ -89,7 +97,7 @@ fn brinell(case: (usize, &str), dir: &Path, elastic_only: bool) -> Result<Outcom
     Ok(Outcome {
         elastic: state("elastic", "max_pressure"),
         five: state("five", "max_pressure"),
-        dent: state("unloaded", "residual_depth"),
+        dent,
         seconds,
     })
 }
@@ -131,7 +139,6 @@ fn calculix(case: (usize, &str), dir: &Path, elastic_only: bool) -> Result<Outco
         let pressures = frd.at(time).map(|i| i.pressure.values().copied());
         pressures.map_or(f64::NAN, |p| p.fold(0.0, f64::max))
     };
-    // The change of the gap without load where it is most, the outermost pair's taken off.
     let dent = frd.at(3.0).map_or(f64::NAN, |unloaded| {
         let z = |node: usize| {
             unloaded
@@ -143,9 +150,7 @@ fn calculix(case: (usize, &str), dir: &Path, elastic_only: bool) -> Result<Outco
         let opened: Vec<(f64, f64)> = pairs
             .map(|p| (p.gap, z(p.masters[0].0) - z(p.slave)))
             .collect();
-        let outermost = opened.iter().max_by(|a, b| a.0.total_cmp(&b.0));
-        let outermost = outermost.map_or(f64::NAN, |o| o.1);
-        opened.iter().map(|o| o.1 - outermost).fold(0.0, f64::max)
+        dent::beside_outermost(&opened)
     });
     Ok(Outcome {
         elastic: largest(1.0),
