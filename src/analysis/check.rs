@@ -34,6 +34,10 @@ pub struct Check {
     pub notes: Vec<String>,
 }
 
+/// Freedoms of the smaller of the two solids of which faer was measured to be faster on one thread
+/// (`cargo bench --features faer --bench history -- backends 110k 300k`).
+const FASTER_BY_FAER: usize = 100_000;
+
 /// Seconds from which on a run is worth a warning before it begins.
 const LONG: f64 = 60.0;
 
@@ -89,11 +93,12 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
     if backend == Backend::Cholmod
         && Backend::Faer.is_built_in()
         && model.mesh.is_solid()
+        && sizes.freedoms >= FASTER_BY_FAER
         && Backend::Cholmod.threads() == Some(1)
     {
         notes.push(
-            "on one thread the solver faer takes a tenth to a third less for solids of 100,000 \
-             freedoms and more: --solver faer (or more threads: OPENBLAS_NUM_THREADS)"
+            "on one thread the solver faer takes about a tenth less for such solids: --solver faer \
+             (on two CHOLMOD does: OPENBLAS_NUM_THREADS)"
                 .to_string(),
         );
     }

@@ -164,23 +164,27 @@ fn check_tells_effects_sizes_cost_and_blas_of_every_scene() {
     assert_eq!(check["sizes"]["elements"], 64);
 }
 
-/// Where both solvers are built in: on one thread faer takes less for solids.
+/// Where both solvers are built in: on one thread faer takes less for large solids.
 #[test]
 #[cfg(all(feature = "cholmod", feature = "faer"))]
 fn check_names_the_faster_solver() {
-    let notes = |name: &str, threads: &str, solver: &str| {
+    let notes = |name: &str, resolution: &str, solver: &str| {
         let output = std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
             .args(["check", &scene(name), "--solver", solver, "--json"])
-            .env("OPENBLAS_NUM_THREADS", threads)
+            .args([
+                "--set",
+                &format!("mesh.curved_bodies.resolution={resolution}"),
+            ])
+            .env("OPENBLAS_NUM_THREADS", "1")
             .output()
             .unwrap();
         assert!(output.status.success(), "{output:?}");
         String::from_utf8(output.stdout).unwrap()
     };
     let says = |text: String| text.contains("--solver faer");
-    assert!(says(notes("blocks_tet10", "1", "cholmod")));
-    assert!(!says(notes("blocks_tet10", "1", "faer")));
-    assert!(!says(notes("contact_patch", "1", "cholmod")));
+    assert!(says(notes("ball_on_flat_3d", "9", "cholmod")));
+    assert!(!says(notes("ball_on_flat_3d", "9", "faer")));
+    assert!(!says(notes("ball_on_flat_3d", "3", "cholmod")));
 }
 
 #[test]

@@ -80,9 +80,9 @@ impl Factor {
 
 impl Drop for Factor {
     fn drop(&mut self) {
-        let task = || Task::ForgetFactor(self.index);
+        let task = |_| Task::ForgetFactor(self.index);
         // Ranks that are gone have forgotten it.
-        let forgotten: Result<Vec<()>> = self.matrix.ask_all(task, &mut Host::default());
+        let forgotten: Result<Vec<()>> = self.matrix.ask(task, &mut Host::default());
         if forgotten.is_ok() {
             let mut free = FREE.lock().unwrap_or_else(PoisonError::into_inner);
             free.push(self.index);
@@ -169,10 +169,11 @@ impl Analysis {
             ..Host::default()
         };
         let factor = Factor::of(matrix);
-        let by_rank: Vec<Analysed> = matrix.ask_with(
-            |index, own| Task::Analyse(factor.index, index, own(&|freedom| numbers[freedom])),
-            &mut host,
-        )?;
+        let task = |rank| {
+            let own = matrix.own(rank, |freedom| numbers[freedom]);
+            Task::Analyse(factor.index, matrix.index(), own)
+        };
+        let by_rank: Vec<Analysed> = matrix.ask(task, &mut host)?;
         require(by_rank[0].state, by_rank.iter().map(|rank| rank.own_state))?;
         if by_rank[0].order != GIVEN {
             return Err(Error::internal(format!(
@@ -267,12 +268,12 @@ fn require_memory(needed: &[f64], by_rank: &[Analysed]) -> Result<()> {
             )));
         }
         let left = of_rank.left_by_machine.unwrap_or(f64::INFINITY);
-        let machine = machines.entry(&of_rank.host).or_insert((0, 0.0, left));
+        let machine = machines.entry(&of_rank.machine).or_insert((0, 0.0, left));
         *machine = (machine.0 + 1, machine.1 + needed, machine.2.min(left));
     }
     match machines.iter().find(|(_, (_, needed, left))| needed > left) {
-        Some((host, (ranks, needed, left))) => Err(Error::analysis(format!(
-            "out of memory: what the {ranks} ranks on `{host}` have to hold {}",
+        Some((name, (ranks, needed, left))) => Err(Error::analysis(format!(
+            "out of memory: what the {ranks} ranks on `{name}` have to hold {}",
             figures(*needed, *left)
         ))),
         None => Ok(()),
@@ -308,7 +309,7 @@ impl Exterior {
             coupling,
             ..
         } = analysis;
-        let factored: Vec<Factored> = matrix.ask_all(|| Task::Factor(factor.index), &mut host)?;
+        let factored: Vec<Factored> = matrix.ask(|_| Task::Factor(factor.index), &mut host)?;
         require(
             factored[0].state,
             factored.iter().map(|rank| rank.own_state),
@@ -382,8 +383,7 @@ impl Exterior {
             ..Host::default()
         };
         let index = self.factor.index;
-        let states: Vec<[i32; 2]> =
-            (self.factor.matrix).ask_all(|| Task::Solve(index), &mut host)?;
+        let states: Vec<[i32; 2]> = (self.factor.matrix).ask(|_| Task::Solve(index), &mut host)?;
         require(states[0], std::iter::empty())?;
         check::length("load", host.load.len(), self.n_variables)?;
         Ok(host.load)
@@ -407,7 +407,7 @@ fn require([code, more]: [i32; 2], mut own_states: impl Iterator<Item = i32>) ->
 mod tests {
     use super::*;
 
-    fn rank(limits: Option<f64>, machine: f64, host: &str) -> Analysed {
+    fn rank(limits: Option<f64>, machine: f64, machine_name: &str) -> Analysed {
         Analysed {
             state: [0, 0],
             own_state: 0,
@@ -415,7 +415,7 @@ mod tests {
             needed: 0.0,
             left_by_limits: limits,
             left_by_machine: Some(machine),
-            host: host.to_string(),
+            machine: machine_name.to_string(),
             flops: 0.0,
             nonzeros: 0.0,
         }

@@ -114,27 +114,7 @@ pub fn condense_shared(
     for (&contact, shift) in partition.contact.iter().zip(shift) {
         shifts[contact] += shift;
     }
-    // What was lost on the way from K to S counts too.
-    let left = |t: usize| {
-        let freedom = trailing.freedoms[t];
-        let of_schur = condensed.get(t, t).copied().unwrap_or(0.0) + shifts[freedom];
-        let ratio = of_schur / (matrix.diagonal()[freedom] + shifts[freedom]);
-        Pivot {
-            freedom,
-            ratio: ratio.min(1.0),
-        }
-    };
-    let pivot = inner.weakest_pivot();
-    let last = left(pivot.freedom);
-    let start = Pivot {
-        ratio: pivot.ratio * last.ratio,
-        ..last
-    };
-    let all = (0..trailing.freedoms.len()).map(left);
-    let weakest = all.fold(start, |least, pivot| match pivot.ratio < least.ratio {
-        true => pivot,
-        false => least,
-    });
+    let weakest = trailing.weakest(inner.weakest_pivot(), &condensed, matrix, &shifts);
     let freedom = weakest.freedom;
     if weakest.ratio <= smallest_pivot_ratio(n) || weakest.ratio.is_nan() {
         return Err(NotDefinite { freedom }.into());
@@ -234,6 +214,36 @@ impl Trailing {
             if let Some(schur) = &schur {
                 schur.each(add);
             }
+        })
+    }
+
+    /// The freedom that lost most to cancellation: on the way from `K` to `S` (`condensed`), and
+    /// the inner pivot on the way from there too.
+    fn weakest(
+        &self,
+        inner: Pivot,
+        condensed: &SymmetricCsc,
+        matrix: &Shared,
+        shifts: &[f64],
+    ) -> Pivot {
+        let left = |t: usize| {
+            let freedom = self.freedoms[t];
+            let of_schur = condensed.get(t, t).copied().unwrap_or(0.0) + shifts[freedom];
+            let ratio = of_schur / (matrix.diagonal()[freedom] + shifts[freedom]);
+            Pivot {
+                freedom,
+                ratio: ratio.min(1.0),
+            }
+        };
+        let last = left(inner.freedom);
+        let start = Pivot {
+            ratio: inner.ratio * last.ratio,
+            ..last
+        };
+        let all = (0..self.freedoms.len()).map(left);
+        all.fold(start, |least, pivot| match pivot.ratio < least.ratio {
+            true => pivot,
+            false => least,
         })
     }
 

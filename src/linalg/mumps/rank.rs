@@ -214,7 +214,7 @@ fn analyse(
         needed: 1e6 * f64::from(info[3]),
         left_by_limits,
         left_by_machine,
-        host: host_name(),
+        machine: machine_name(),
         flops: work[0],
         nonzeros: work[1],
     }
@@ -244,7 +244,7 @@ fn compute(factor: usize, entries: &mut Entries, host: &mut Host) -> Factored {
 }
 
 /// The name of this machine; empty where the system has none.
-fn host_name() -> String {
+fn machine_name() -> String {
     let name = std::fs::read_to_string("/proc/sys/kernel/hostname");
     name.unwrap_or_default().trim().to_string()
 }

@@ -164,7 +164,7 @@ impl Shared {
     pub(in crate::linalg) fn ranks(&self) -> Option<Ranks> {
         let world = self.0.world;
         let traffic = world.traffic();
-        let peak_memory_bytes = self.ask_all(|| Task::Memory, &mut Host::default());
+        let peak_memory_bytes = self.ask(|_| Task::Memory, &mut Host::default());
         Some(Ranks {
             count: world.size,
             requests: traffic.requests - self.0.before.requests,
@@ -185,8 +185,8 @@ impl Shared {
 
     /// What one pass over the matrix states about a solution `u` for the load `f`.
     pub(in crate::linalg) fn rows(&self, f: &[f64], u: &[f64]) -> Result<Rows> {
-        let products: Vec<Option<Product>> =
-            self.ask(|index, own| Task::Product(index, own(&|freedom| u[freedom])))?;
+        let task = |rank| Task::Product(self.index(), self.own(rank, |freedom| u[freedom]));
+        let products: Vec<Option<Product>> = self.ask(task, &mut Host::default())?;
         let mut rows = Rows {
             residual: f.to_vec(),
             terms: vec![0.0; u.len()],
@@ -206,8 +206,8 @@ impl Shared {
 
     /// Entries with an end among the trailing freedoms, and which of these the interior touches.
     pub(super) fn near(&self, trailing: &[bool]) -> Result<(Vec<Entry>, Vec<bool>)> {
-        let parts: Vec<Option<Near>> =
-            self.ask(|index, own| Task::Near(index, own(&|freedom| trailing[freedom])))?;
+        let task = |rank| Task::Near(self.index(), self.own(rank, |freedom| trailing[freedom]));
+        let parts: Vec<Option<Near>> = self.ask(task, &mut Host::default())?;
         let (mut entries, mut touched) = (Vec::new(), vec![false; self.n()]);
         for (numbers, part) in self.0.numbers.iter().zip(parts) {
             let part = part.ok_or_else(forgotten)?;
@@ -225,47 +225,29 @@ impl Shared {
     /// The graph of the interior and what it touches: pairs of vertices, given the vertex of each
     /// freedom (-1 for none). The trailing freedoms are those of [`Shared::near`].
     pub(super) fn graph(&self, vertex: &[i32]) -> Result<Vec<[i32; 2]>> {
-        let parts: Vec<Vec<[i32; 2]>> =
-            self.ask(|index, own| Task::Graph(index, own(&|freedom| vertex[freedom])))?;
+        let task = |rank| Task::Graph(self.index(), self.own(rank, |freedom| vertex[freedom]));
+        let parts: Vec<Vec<[i32; 2]>> = self.ask(task, &mut Host::default())?;
         Ok(parts.concat())
     }
 
-    /// Asks all ranks for something of their parts: `task` gets the number of the matrix, and
-    /// what takes the values of a rank's own freedoms out of those of all.
-    fn ask<T: DeserializeOwned, V>(
-        &self,
-        task: impl Fn(usize, &dyn Fn(&dyn Fn(usize) -> V) -> Vec<V>) -> Task,
-    ) -> Result<Vec<T>> {
-        self.ask_with(task, &mut Host::default())
+    /// The values of a rank's own freedoms, in its numbers.
+    pub(super) fn own<V>(&self, rank: usize, of: impl Fn(usize) -> V) -> Vec<V> {
+        let numbers = self.0.numbers[rank].iter();
+        numbers.map(|&freedom| of(freedom as usize)).collect()
     }
 
-    /// As above, with what the first rank adds.
-    pub(super) fn ask_with<T: DeserializeOwned, V>(
-        &self,
-        task: impl Fn(usize, &dyn Fn(&dyn Fn(usize) -> V) -> Vec<V>) -> Task,
-        host: &mut Host,
-    ) -> Result<Vec<T>> {
-        let inner = &self.0;
-        let of_rank = |rank: usize| {
-            let numbers = &inner.numbers[rank];
-            let own = |of: &dyn Fn(usize) -> V| -> Vec<V> {
-                numbers
-                    .iter()
-                    .map(|&freedom| of(freedom as usize))
-                    .collect()
-            };
-            task(inner.index, &own)
-        };
-        inner.world.ask(of_rank, inner.assemble, host)
+    /// The number by which the ranks know it.
+    pub(super) fn index(&self) -> usize {
+        self.0.index
     }
 
-    /// Asks all ranks the same.
-    pub(super) fn ask_all<T: DeserializeOwned>(
+    /// Asks each rank, by its number; `host` is what the first one adds.
+    pub(super) fn ask<T: DeserializeOwned>(
         &self,
-        task: impl Fn() -> Task,
+        task: impl FnMut(usize) -> Task,
         host: &mut Host,
     ) -> Result<Vec<T>> {
-        self.0.world.ask(|_| task(), self.0.assemble, host)
+        self.0.world.ask(task, self.0.assemble, host)
     }
 }
 

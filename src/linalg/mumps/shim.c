@@ -1,7 +1,7 @@
-/* Messages of MPI, and MUMPS behind a few numbers: its structure changes from version to version and
- * is known here alone. What all ranks do together (create, analyse, factor, solve, free) all of them
- * call, in the same order; arrays that concern the first rank alone may be NULL on the others.
- */
+/* Messages of MPI, and MUMPS behind a few numbers: its structure changes from version to version
+ * and is known here alone. What all ranks do together (create, analyse, factor, solve, free) all
+ * of them call, in the same order; arrays that concern the first rank alone may be NULL on the
+ * others. */
 #include <dmumps_c.h>
 #include <mpi.h>
 #include <stdint.h>
@@ -72,8 +72,8 @@ void brinell_mpi_receive(int from, char *bytes, int64_t length) {
     }
 }
 
-/* A solver without a matrix, by the number that it is to have. A rank without memory for it ends all:
- * the others are in the same call. */
+/* A solver without a matrix, by the number that it is to have. A rank without memory for it ends
+ * all: the others are in the same call. */
 static void create(int index) {
     DMUMPS_STRUC_C *id;
     if (index >= n_all) {
@@ -92,11 +92,12 @@ static void create(int index) {
     for (int unit = 0; unit < 4; ++unit) id->icntl[unit] = 0;
 }
 
-/* Analyses, with a new solver of this number, the order of elimination of a symmetric positive definite matrix of `n` variables. Each rank hands
- * over entries of one triangle, numbered from 1. First rank: the `place` of each variable, and in
- * `schur_list`, as they come, the last `n_schur` variables, which are not eliminated. `info` gets
- * INFOG(1), INFOG(2), INFOG(7), INFO(15) and INFO(1), `work` RINFOG(1) and INFOG(20). The arrays stay in use
- * until the matrix is factored. */
+/* Analyses, with a new solver of this number, the order of elimination of a symmetric positive
+ * definite matrix of `n` variables. Each rank hands over entries of one triangle, numbered from
+ * 1. First rank: the `place` of each variable, and in `schur_list`, as they come, the last
+ * `n_schur` variables, which are not eliminated. `info` gets INFOG(1), INFOG(2), INFOG(7),
+ * INFO(15) and INFO(1), `work` RINFOG(1) and INFOG(20). The arrays stay in use until the matrix
+ * is factored. */
 void brinell_mumps_analyse(int index, int n, int64_t n_entries, int *rows, int *columns, int *place,
                            int n_schur, int *schur_list, int info[5], double work[2]) {
     DMUMPS_STRUC_C *id;
@@ -150,8 +151,8 @@ void brinell_mumps_factor(int index, double *values, double *schur, int info[4])
     id->a_loc = id->schur = NULL;
 }
 
-/* Solves with what was eliminated; entries of the others are 0 afterwards. `info` gets INFOG(1) and
- * INFOG(2). */
+/* Solves with what was eliminated; entries of the others are 0 afterwards. `info` gets INFOG(1)
+ * and INFOG(2). */
 void brinell_mumps_solve(int index, double *load, int info[2]) {
     DMUMPS_STRUC_C *id = all[index];
     id->rhs = load;

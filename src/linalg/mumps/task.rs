@@ -78,7 +78,7 @@ pub(super) struct Analysed {
     /// Bytes that its machine leaves to all processes.
     pub(super) left_by_machine: Option<f64>,
     /// Its machine.
-    pub(super) host: String,
+    pub(super) machine: String,
     /// Operations, of all ranks together.
     pub(super) flops: f64,
     /// Entries of the factor, of all ranks together.
