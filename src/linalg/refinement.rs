@@ -9,8 +9,8 @@
 //! The solution gained is that of the matrix as it is stored. Where the matrix is exact (a caller's
 //! own) that is the solution; where its entries are rounded sums of element stiffnesses their
 //! round-off costs as much as the solve's, and refinement gains nothing: the analysis of scenes
-//! does not use it (measured: `tests/stability/refinement.rs`; slivers factored by faer would gain a
-//! digit).
+//! does not use it (measured: `tests/stability/refinement.rs`; slivers factored by faer would gain
+//! a digit).
 //!
 //! # Source
 //! N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., theorem 12.1; T. Ogita,
