@@ -4,12 +4,13 @@
 //! one that cuts the longest axis at the median.
 
 use crate::space::{Vector, difference, dot, length};
+use serde::{Deserialize, Serialize};
 
 /// Items of a leaf.
 const LEAF: usize = 4;
 
 /// Balls round items, and balls round these.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct Balls {
     /// Centre and radius of each item.
     items: Vec<(Vector, f64)>,
@@ -19,7 +20,7 @@ pub(crate) struct Balls {
     nodes: Vec<Node>,
 }
 
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 struct Node {
     center: Vector,
     radius: f64,

@@ -1,17 +1,15 @@
 //! What is reported of the state at a target: figures, and fields on the whole mesh.
 
-use super::indicator::{Indicator, indicator};
+use super::element_stresses::Shown;
 use super::measure::pair_states;
 use super::reactions;
 use super::reading::Reading;
-use super::stress_field::{OfStresses, StressField};
 use super::stresses::Stresses;
 use crate::error::Result;
 use crate::model::{Magnitude, Model};
 use crate::results::{Fields, PairState, State};
 use crate::scene::History;
 use crate::space::Vector;
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::time::Instant;
 
@@ -34,12 +32,7 @@ impl Reading<'_, '_> {
         let displacements = self.displacements()?;
         let u = &displacements.total;
         let begun = Instant::now();
-        let nodal = with_fields.then(|| {
-            let factors = &self.solver.at.factors;
-            self.solver.structure.model.nodal(u, factors)
-        });
-        let reported = self.of_stresses(displacements.deformation(), Reported { nodal });
-        let (stresses, energy_error, mut fields) = reported;
+        let stresses = self.stresses(displacements.deformation(), with_fields)?;
         let stress_seconds = begun.elapsed().as_secs_f64();
         let figures = self.solver.contact_figures();
         let dent = self.dent();
@@ -54,6 +47,7 @@ impl Reading<'_, '_> {
             nodal,
             reactions,
             beyond_yield_outside,
+            shown,
             plastic_points,
             plastic_volume,
             plastic_work,
@@ -68,11 +62,14 @@ impl Reading<'_, '_> {
             self.solver.tableau.open(),
             |axis| self.distance_on_axis(axis, u),
         );
-        if let Some(fields) = &mut fields {
+        let (energy_error, fields) = shown.map_or((None, None), |shown| {
             let model = self.solver.structure.model;
-            on_nodes(model, &pairs, fields);
+            let moved = model.nodal(u, &self.solver.at.factors);
+            let (energy_error, mut fields) = fields(model, moved, shown);
+            on_nodes(model, &pairs, &mut fields);
             fields.force = reactions::on_nodes(model, nodal, &self.solver.contact_forces());
-        }
+            (Some(energy_error), Some(fields))
+        });
         let state = State {
             name: name.to_string(),
             alpha: self.solver.at.alpha,
@@ -133,63 +130,27 @@ impl Reading<'_, '_> {
     }
 }
 
-/// Asks a field for all that is reported of it: sums, and with the displacements of the nodes the
-/// estimated error and the fields on the whole mesh.
-struct Reported {
-    nodal: Option<Vec<Vector>>,
-}
-
-impl OfStresses for Reported {
-    type Answer = (Stresses, Option<f64>, Option<Fields>);
-
-    fn of<const D: usize, const S: usize, const P: usize, const N: usize>(
-        self,
-        field: &StressField<D, S, P, N>,
-    ) -> Self::Answer {
-        let stresses = Stresses::new(field);
-        let Some(nodal) = self.nodal else {
-            return (stresses, None, None);
-        };
-        let errors = indicator(field);
-        let total = errors.total;
-        (stresses, Some(total), Some(fields(field, nodal, errors)))
-    }
-}
-
-/// Fields on the whole mesh, for the displacements of its nodes and what the fitted stresses say.
-fn fields<const D: usize, const S: usize, const P: usize, const N: usize>(
-    field: &StressField<D, S, P, N>,
-    nodal: Vec<Vector>,
-    errors: Indicator,
-) -> Fields {
-    let n = field.model.mesh.n_elements();
-    let mut out = Fields {
-        displacement: nodal.iter().flat_map(|u| &u[..D]).copied().collect(),
-        stress: vec![0.0; S * n],
-        von_mises: vec![0.0; n],
-        plastic_strain: vec![0.0; n],
-        yielded: vec![0; n],
+/// The estimated error of the stresses, and fields on the whole mesh, for the displacements of its
+/// nodes and what all elements show.
+fn fields(model: &Model, nodal: Vec<Vector>, shown: Shown) -> (f64, Fields) {
+    let dimension = model.mesh.dimension;
+    let errors = shown.recovered.indicator(2 * dimension);
+    let yielded = shown.plastic_strain.iter().map(|p| u8::from(*p > 0.0));
+    let fields = Fields {
+        displacement: (nodal.iter().flat_map(|u| &u[..dimension]))
+            .copied()
+            .collect(),
+        stress: shown.stress,
+        von_mises: shown.von_mises,
+        yielded: yielded.collect(),
+        plastic_strain: shown.plastic_strain,
         error: errors.by_element,
         nodal_stress: errors.nodal_stress,
         contact_pressure: Vec::new(),
         gap: Vec::new(),
         force: Vec::new(),
     };
-    let elements = (
-        out.stress.par_chunks_exact_mut(S),
-        &mut out.von_mises,
-        &mut out.plastic_strain,
-        &mut out.yielded,
-    );
-    let elements = elements.into_par_iter().enumerate().with_min_len(256);
-    elements.for_each(|(e, (stress, von_mises, plastic_strain, yielded))| {
-        let element = field.at(e);
-        stress.copy_from_slice(&element.gradients.mean(&element.stress));
-        *von_mises = element.von_mises();
-        *plastic_strain = element.plastic_strain();
-        *yielded = u8::from(*plastic_strain > 0.0);
-    });
-    out
+    (errors.total, fields)
 }
 
 /// Pressure and gap of the pairs on the slaves and on nodes that face them; on other masters the

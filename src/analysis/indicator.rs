@@ -25,10 +25,11 @@ use super::neighbours::Neighbours;
 use super::patch_fit::{Frame, PatchFit, Terms};
 use super::stress_field::{ElementStress, StressField};
 use crate::material::Material;
-use crate::model::Model;
+use crate::model::Continuum;
 use crate::space::{cross, dot, unit};
 use rayon::prelude::*;
 use rules::COMPARED;
+use serde::{Deserialize, Serialize};
 
 /// Smallest pivot of the scaled normal equations that counts as determined: the square root of what
 /// round-off leaves.
@@ -45,64 +46,87 @@ pub(super) struct Indicator {
     pub nodal_stress: Vec<f64>,
 }
 
+/// What the polynomials around some elements say.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub(super) struct Recovered {
+    /// Of `sigma* - sigma_h` and of `sigma_h`, for each of these elements.
+    pub(super) energies: Vec<[f64; 2]>,
+    /// `n_nodes x S`: sums of `sigma*` at the nodes of the mesh.
+    pub(super) at_nodes: Vec<f64>,
+    /// Of how many elements each is the sum.
+    pub(super) n_elements_of: Vec<u32>,
+}
+
 /// Elements whose stresses at the nodes are held at a time.
 const AT_A_TIME: usize = 1 << 14;
 
-/// The indicator of a stress field.
-pub(super) fn indicator<const D: usize, const S: usize, const P: usize, const N: usize>(
-    field: &StressField<D, S, P, N>,
-) -> Indicator {
-    let model = field.model;
-    let neighbours = Neighbours::new(&model.mesh, 0..model.mesh.n_elements());
-    let samples = Samples::new(field);
-    let n = model.mesh.n_elements();
-    let mut energies: Vec<[f64; 2]> = Vec::with_capacity(n);
-    let mut nodal_stress = vec![0.0; S * model.mesh.n_nodes()];
-    let mut n_elements_of = vec![0u32; model.mesh.n_nodes()];
-    for begin in (0..n).step_by(AT_A_TIME) {
-        let end = n.min(begin + AT_A_TIME);
-        let recovered: Vec<Recovered<S, N>> = (begin..end)
-            .into_par_iter()
-            .with_min_len(64)
-            .map_init(Vec::new, |patch, e| {
-                neighbours.at(model.mesh.nodes(e), patch);
-                recovered(model, e, &field.at(e), patch, &samples)
-            })
-            .collect();
-        // One after the other: the same bits for any number of threads.
-        for (e, of_element) in (begin..end).zip(&recovered) {
-            energies.push(of_element.energies);
-            for (&node, stress) in model.mesh.nodes(e).iter().zip(&of_element.at_nodes) {
-                let node = node as usize;
-                n_elements_of[node] += 1;
-                for (sum, s) in nodal_stress[S * node..][..S].iter_mut().zip(stress) {
-                    *sum += s;
+impl Recovered {
+    /// Fits around some elements of a stress field; it holds all that share a node with them.
+    pub(super) fn new<const D: usize, const S: usize, const P: usize, const N: usize>(
+        field: &StressField<D, S, P, N>,
+        elements: &[usize],
+    ) -> Self {
+        let continuum = field.continuum;
+        let mesh = &continuum.mesh;
+        let neighbours = Neighbours::new(mesh, 0..mesh.n_elements());
+        let samples = Samples::new(field);
+        let mut out = Recovered {
+            energies: Vec::with_capacity(elements.len()),
+            at_nodes: vec![0.0; S * mesh.n_nodes()],
+            n_elements_of: vec![0; mesh.n_nodes()],
+        };
+        for some in elements.chunks(AT_A_TIME) {
+            let recovered: Vec<OfElement<S, N>> = some
+                .par_iter()
+                .with_min_len(64)
+                .map_init(Vec::new, |patch, &e| {
+                    neighbours.at(mesh.nodes(e), patch);
+                    recovered(continuum, e, &field.at(e), patch, &samples)
+                })
+                .collect();
+            // One after the other: the same bits for any number of threads.
+            for (&e, of_element) in some.iter().zip(&recovered) {
+                out.energies.push(of_element.energies);
+                for (&node, stress) in mesh.nodes(e).iter().zip(&of_element.at_nodes) {
+                    let node = node as usize;
+                    out.n_elements_of[node] += 1;
+                    for (sum, s) in out.at_nodes[S * node..][..S].iter_mut().zip(stress) {
+                        *sum += s;
+                    }
                 }
             }
         }
+        out
     }
-    for (stress, n) in nodal_stress.chunks_exact_mut(S).zip(n_elements_of) {
-        let n = f64::from(n.max(1));
-        stress.iter_mut().for_each(|s| *s /= n);
-    }
-    let sum = |i: usize| energies.iter().fold(0.0, |sum, e| sum + e[i]);
-    let (error, whole) = (sum(0), sum(0) + sum(1));
-    let share = |part: f64| {
-        if whole > 0.0 {
-            (part / whole).sqrt()
-        } else {
-            0.0
+
+    /// The indicator, where these are all elements, of `components` of stress.
+    pub(super) fn indicator(self, components: usize) -> Indicator {
+        let mut nodal_stress = self.at_nodes;
+        let nodes = nodal_stress.chunks_exact_mut(components);
+        for (stress, n) in nodes.zip(self.n_elements_of) {
+            let n = f64::from(n.max(1));
+            stress.iter_mut().for_each(|s| *s /= n);
         }
-    };
-    Indicator {
-        by_element: energies.iter().map(|e| share(e[0])).collect(),
-        total: share(error),
-        nodal_stress,
+        let energies = self.energies;
+        let sum = |i: usize| energies.iter().fold(0.0, |sum, e| sum + e[i]);
+        let (error, whole) = (sum(0), sum(0) + sum(1));
+        let share = |part: f64| {
+            if whole > 0.0 {
+                (part / whole).sqrt()
+            } else {
+                0.0
+            }
+        };
+        Indicator {
+            by_element: energies.iter().map(|e| share(e[0])).collect(),
+            total: share(error),
+            nodal_stress,
+        }
     }
 }
 
 /// What the polynomials of an element say.
-struct Recovered<const S: usize, const N: usize> {
+struct OfElement<const S: usize, const N: usize> {
     /// Of `sigma* - sigma_h` and of `sigma_h`.
     energies: [f64; 2],
     /// `sigma*` at its nodes.
@@ -124,10 +148,10 @@ struct Samples<const D: usize, const S: usize> {
 
 impl<const D: usize, const S: usize> Samples<D, S> {
     fn new<const P: usize, const N: usize>(field: &StressField<D, S, P, N>) -> Self {
-        let (model, mesh) = (field.model, &field.model.mesh);
+        let (continuum, mesh) = (field.continuum, &field.continuum.mesh);
         let mut first = vec![0u32];
         for (e, shape) in mesh.shapes.iter().enumerate() {
-            let own = match degree(model, e) {
+            let own = match degree(continuum, e) {
                 1 => 1,
                 _ => shape.n_gauss_points(),
             };
@@ -149,7 +173,7 @@ impl<const D: usize, const S: usize> Samples<D, S> {
             .into_par_iter()
             .enumerate()
             .with_min_len(256)
-            .for_each(|(e, samples)| sample(model, e, &field.at(e), samples));
+            .for_each(|(e, samples)| sample(continuum, e, &field.at(e), samples));
         Samples { first, list }
     }
 
@@ -162,13 +186,13 @@ impl<const D: usize, const S: usize> Samples<D, S> {
 /// The centre of a linear element carries its mean, the Gauss points of a quadratic one are
 /// superconvergent themselves.
 fn sample<const D: usize, const S: usize, const P: usize, const N: usize>(
-    model: &Model,
+    continuum: &Continuum,
     e: usize,
     element: &ElementStress<D, S, P, N>,
     out: &mut [Sample<D, S>],
 ) {
     let (gradients, stress) = (&element.gradients, &element.stress);
-    let position = gradients.positions(&model.mesh.element_coordinates(e));
+    let position = gradients.positions(&continuum.mesh.element_coordinates(e));
     if let [mean] = out {
         *mean = Sample {
             position: gradients.mean(&position),
@@ -185,8 +209,8 @@ fn sample<const D: usize, const S: usize, const P: usize, const N: usize>(
 }
 
 /// Degree of the displacements of an element.
-fn degree(model: &Model, e: usize) -> usize {
-    model.mesh.shapes[e].reference().degree
+fn degree(continuum: &Continuum, e: usize) -> usize {
+    continuum.mesh.shapes[e].reference().degree
 }
 
 /// A point of the quadrature: where, its weight, and `sigma_h` there.
@@ -196,14 +220,14 @@ type Point<const D: usize, const S: usize> = ([f64; D], f64, [f64; S]);
 /// stress at the Gauss points, where it is superconvergent and its error all but vanishes: between
 /// them it is the polynomial through them.
 fn quadrature<const D: usize, const S: usize, const P: usize, const N: usize>(
-    model: &Model,
+    continuum: &Continuum,
     e: usize,
     element: &ElementStress<D, S, P, N>,
     mut visit: impl FnMut(Point<D, S>),
 ) {
-    let coordinates = model.mesh.element_coordinates::<D, N>(e);
+    let coordinates = continuum.mesh.element_coordinates::<D, N>(e);
     let stress = &element.stress;
-    if degree(model, e) == 1 {
+    if degree(continuum, e) == 1 {
         let position = element.gradients.positions(&coordinates);
         for (g, &weight) in element.gradients.weights().iter().enumerate() {
             let at = position.each_ref().map(|lanes| lanes[g]);
@@ -211,7 +235,7 @@ fn quadrature<const D: usize, const S: usize, const P: usize, const N: usize>(
         }
         return;
     }
-    let shape = model.mesh.shapes[e];
+    let shape = continuum.mesh.shapes[e];
     for point in &COMPARED[shape as usize] {
         let at = &point.functions;
         let mut x = [0.0; D];
@@ -236,24 +260,24 @@ fn quadrature<const D: usize, const S: usize, const P: usize, const N: usize>(
                 .map(|(share, s)| share * s)
                 .sum()
         });
-        let weight = point.weight * determinant * model.kind.measure(x[0]);
+        let weight = point.weight * determinant * continuum.kind.measure(x[0]);
         visit((x, weight, between));
     }
 }
 
 /// The fit around element `e` and what follows from it.
 fn recovered<const D: usize, const S: usize, const P: usize, const N: usize>(
-    model: &Model,
+    continuum: &Continuum,
     e: usize,
     element: &ElementStress<D, S, P, N>,
     patch: &[u32],
     samples: &Samples<D, S>,
-) -> Recovered<S, N> {
-    let material = &model.materials[model.mesh.element_body[e] as usize];
-    let frame = Frame::about(&model.mesh, e);
+) -> OfElement<S, N> {
+    let material = &continuum.materials[continuum.mesh.element_body[e] as usize];
+    let frame = Frame::about(&continuum.mesh, e);
     // A patch that does not determine the polynomial (a single element, a row of them) takes a
     // lower degree.
-    let fit = Some(degree(model, e))
+    let fit = Some(degree(continuum, e))
         .filter(|degree| *degree > 1)
         .and_then(|_| fit::<2, D, S>(&frame, patch, samples))
         .or_else(|| fit::<1, D, S>(&frame, patch, samples))
@@ -264,17 +288,17 @@ fn recovered<const D: usize, const S: usize, const P: usize, const N: usize>(
         None => unknown,
     };
     let mut energies = [0.0; 2];
-    quadrature(model, e, element, |(position, weight, computed)| {
+    quadrature(continuum, e, element, |(position, weight, computed)| {
         let recovered = at(&frame.relative(position), computed);
         let difference: [f64; S] = std::array::from_fn(|c| recovered[c] - computed[c]);
         energies[0] += weight * compliance_energy(material, &difference);
         energies[1] += weight * compliance_energy(material, &computed);
     });
     let mut at_nodes = [[0.0; S]; N];
-    for (stress, &node) in at_nodes.iter_mut().zip(model.mesh.nodes(e)) {
-        *stress = at(&frame.relative(model.mesh.point(node as usize)), mean);
+    for (stress, &node) in at_nodes.iter_mut().zip(continuum.mesh.nodes(e)) {
+        *stress = at(&frame.relative(continuum.mesh.point(node as usize)), mean);
     }
-    Recovered { energies, at_nodes }
+    OfElement { energies, at_nodes }
 }
 
 /// `sigma : C sigma = ((1 + nu) sigma : sigma - nu tr(sigma)^2) / E`.

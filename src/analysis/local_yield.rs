@@ -3,35 +3,35 @@
 use super::stress_field::largest_von_mises;
 use crate::element::Components;
 use crate::material::von_mises;
-use crate::model::Model;
+use crate::model::Continuum;
 
 /// The yield stress at `n` places of an element; none where it is the same all over the body.
 pub(super) fn at_places<const D: usize, const P: usize>(
-    model: &Model,
+    continuum: &Continuum,
     element: usize,
     places: &[[f64; P]; D],
     n: usize,
 ) -> Option<Vec<f64>> {
-    let body = model.mesh.element_body[element] as usize;
-    model.yield_by_depth[body].as_ref()?;
+    let body = continuum.mesh.element_body[element] as usize;
+    continuum.yield_by_depth[body].as_ref()?;
     let place = |g: usize| std::array::from_fn(|d| places.get(d).map_or(0.0, |lanes| lanes[g]));
-    let stresses = (0..n).map(|g| model.yield_stress(body, place(g)));
+    let stresses = (0..n).map(|g| continuum.yield_stress(body, place(g)));
     Some(stresses.collect())
 }
 
 /// The largest von Mises stress over yield stress at `n` places of an element.
 #[inline]
 pub(super) fn largest_ratio<const D: usize, const S: usize, const P: usize>(
-    model: &Model,
+    continuum: &Continuum,
     element: usize,
     stress: &Components<S, P>,
     (places, n): (impl FnOnce() -> [[f64; P]; D], usize),
 ) -> f64 {
-    let body = model.mesh.element_body[element] as usize;
-    if model.yield_by_depth[body].is_none() {
-        return largest_von_mises(stress, n) / model.materials[body].yield_stress();
+    let body = continuum.mesh.element_body[element] as usize;
+    if continuum.yield_by_depth[body].is_none() {
+        return largest_von_mises(stress, n) / continuum.materials[body].yield_stress();
     }
-    let limits = at_places(model, element, &places(), n).unwrap_or_default();
+    let limits = at_places(continuum, element, &places(), n).unwrap_or_default();
     let ratio = |(g, limit)| von_mises(&stress.each_ref().map(|lanes| lanes[g])) / limit;
     limits
         .into_iter()

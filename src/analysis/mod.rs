@@ -16,7 +16,8 @@
 //! | `outgrown` | contact that reaches the end of its candidates | |
 //! | `path` | the path between increments | |
 //! | `measure`, `contact_edge`, `reading`, `dent`, `figures`, `quality` | pressure, half width, dent, quality of a state | 5 |
-//! | `stress_field`, `stresses`, `local_yield` | stresses of all elements, the forces they exert, what they may be | |
+//! | `stress_field`, `element_stresses`, `stresses`, `local_yield` | stresses of all elements, the forces they exert, what they may be | |
+//! | `piece` | the elements of a state in pieces, for ranks | |
 //! | `indicator` | discretisation error of the stresses, element by element | |
 //! | `check`, `seconds` | effects, cost and time before a run | |
 
@@ -30,6 +31,7 @@ mod cycles;
 mod dent;
 mod drive;
 mod elastic;
+mod element_stresses;
 mod equilibrium;
 mod figures;
 mod finish;
@@ -52,6 +54,7 @@ mod packed;
 mod patch;
 mod patch_fit;
 mod path;
+mod piece;
 mod plastic;
 mod position;
 mod program;
@@ -83,6 +86,8 @@ mod zone_fit;
 mod tests;
 
 pub use check::{Check, check};
+#[cfg(feature = "mumps")]
+pub(crate) use piece::evaluate;
 pub(crate) use recovery::left_of_search;
 
 use crate::assembly::{System, assemble};

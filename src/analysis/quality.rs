@@ -12,7 +12,6 @@
 mod tests;
 
 use super::reading::Reading;
-use super::stresses::AllStresses;
 use crate::linalg::largest;
 use crate::model::Model;
 use crate::results::{Quality, Tolerances};
@@ -123,13 +122,13 @@ impl Reading<'_, '_> {
     /// Failure of the backend's solve.
     pub(super) fn quality_here(&mut self) -> crate::Result<Quality> {
         let u = self.displacements()?;
-        Ok(self.quality_of(&u))
+        self.quality_of(&u)
     }
 
     /// Quality of the current state with its displacements.
-    fn quality_of(&mut self, u: &Displacements) -> Quality {
-        let stresses = self.of_stresses(u.deformation(), AllStresses);
-        self.quality(u, stresses.internal, &stresses.reactions)
+    fn quality_of(&mut self, u: &Displacements) -> crate::Result<Quality> {
+        let stresses = self.stresses(u.deformation(), false)?;
+        Ok(self.quality(u, stresses.internal, &stresses.reactions))
     }
 
     /// Quality of the current state with its `internal` forces and the `reactions` on prescribed

@@ -1,9 +1,12 @@
 //! What is read off the current state besides contact pressures: approach, dent, quality.
 
+use super::element_stresses::ElementStresses;
+use super::piece::{self, Whole};
 use super::solver::Solver;
-use super::stress_field::{OfStresses, StressField};
-use super::zone::Zone;
-use crate::element::Kernel;
+use super::stress_field::{Strained, StressField};
+use super::stresses::Stresses;
+use super::zone::{Zone, of_zone};
+use crate::error::Result;
 use crate::model::{AxisPoint, LoadCase, Magnitude};
 use crate::space::{along, difference, dot};
 use std::collections::BTreeMap;
@@ -21,26 +24,48 @@ impl<'m> Solver<'m> {
 }
 
 impl Reading<'_, '_> {
-    /// Evaluates what is asked of the stresses that follow from displacements of the whole model.
-    pub(super) fn of_stresses<T>(&self, u: &[f64], ask: impl OfStresses<Answer = T>) -> T {
+    /// What the stresses of all elements amount to, for displacements of the whole model. Where
+    /// ranks share the matrix they share the elements too.
+    ///
+    /// # Errors
+    /// Those of the ranks.
+    pub(super) fn stresses(&self, u: &[f64], with_fields: bool) -> Result<Stresses> {
         let (solver, structure) = (&self.solver, &self.solver.structure);
-        let (model, elements) = (structure.model, &structure.elements);
+        let (model, in_zone) = (structure.model, &*structure.elements);
         let factors = &solver.at.factors;
-        let nodal = (model.nodal(u, factors), factors.clone());
-        let formulation = model.scene.mesh.formulation;
-        match &solver.zone {
-            Zone::Plane(zone) => {
-                let kernel = Kernel::plane(model.kind).integrated(formulation);
-                ask.of(&StressField::new(kernel, model, zone, elements, nodal))
-            }
-            Zone::Solid(zone) => ask.of(&StressField::new(
-                Kernel::solid().integrated(formulation),
+        let displacements = model.nodal(u, factors);
+        let matrix = &structure.system.stiffness;
+        let of_elements = if matrix.n_ranks() > 1 {
+            let whole = Whole {
                 model,
-                zone,
-                elements,
-                nodal,
-            )),
-        }
+                displacements: &displacements,
+                factors,
+                in_zone,
+                history: &solver.zone.history(),
+                with_fields,
+            };
+            let ask = |message: &mut dyn FnMut(usize) -> Vec<u8>| {
+                matrix.evaluate(message, piece::evaluate)
+            };
+            piece::element_stresses(&whole, matrix.n_ranks(), ask)?
+        } else {
+            let free = model.free_of_loads();
+            let all: Vec<usize> = (0..model.mesh.n_elements()).collect();
+            of_zone!(&solver.zone, zone => {
+                let state = Strained {
+                    displacements: &displacements,
+                    factors,
+                    free: &free,
+                    in_zone,
+                    history: zone.committed(),
+                };
+                let field = StressField::new(zone.kernel(), &model.continuum, state);
+                ElementStresses::new(&field, &all, with_fields)
+            })
+        };
+        let mut stresses = Stresses::new(model, of_elements, factors);
+        of_zone!(&solver.zone, zone => stresses.add_yielded(model, zone, in_zone));
+        Ok(stresses)
     }
 
     /// Distance of the bodies at a point on the axis, for displacements of the whole model.

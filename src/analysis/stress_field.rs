@@ -5,10 +5,9 @@
 
 use super::free_strain::take_off;
 use super::local_yield::largest_ratio;
-use super::zone::ZoneOf;
 use crate::element::{Components, Gradients, Kernel};
 use crate::material::{Lame, PlasticState};
-use crate::model::Model;
+use crate::model::{Continuum, FreeOfLoad, free_strains};
 use crate::space::Vector;
 
 /// Elements of the mesh that share an entry in the list of where the zone's begin.
@@ -16,30 +15,26 @@ const GROUP: usize = 64;
 
 /// Stresses as a function of the element.
 pub(super) struct StressField<'a, const D: usize, const S: usize, const P: usize, const N: usize> {
-    pub(super) kernel: Kernel<D, S, P, N>,
-    pub(super) model: &'a Model,
-    pub(super) zone: &'a ZoneOf<D, S, P, N>,
-    /// Elements of the zone, ascending.
-    in_zone: &'a [usize],
-    /// The first of them in each group of elements of the mesh.
+    kernel: Kernel<D, S, P, N>,
+    pub(super) continuum: &'a Continuum,
+    state: Strained<'a, S>,
+    /// The first element of the zone in each group of elements of the mesh.
     first_of_group: Vec<u32>,
-    /// Of the nodes, in global axes.
-    displacements: Vec<Vector>,
-    /// Factor of each load.
-    pub(super) factors: Vec<f64>,
     elastic: Vec<Lame>,
 }
 
-/// What is read off a stress field of either dimension.
-pub(super) trait OfStresses {
-    /// What comes out.
-    type Answer;
-
-    /// Reads it.
-    fn of<const D: usize, const S: usize, const P: usize, const N: usize>(
-        self,
-        field: &StressField<D, S, P, N>,
-    ) -> Self::Answer;
+/// What stresses follow from.
+pub(super) struct Strained<'a, const S: usize> {
+    /// Of the nodes, in global axes.
+    pub(super) displacements: &'a [Vector],
+    /// Factor of each load.
+    pub(super) factors: &'a [f64],
+    /// Free strains of the loads.
+    pub(super) free: &'a [FreeOfLoad<'a>],
+    /// Elements of the zone, ascending.
+    pub(super) in_zone: &'a [usize],
+    /// The committed history of their points, as many places for each element.
+    pub(super) history: &'a [PlasticState<S>],
 }
 
 /// An element and the stresses at its Gauss points.
@@ -54,18 +49,15 @@ pub(super) struct ElementStress<'a, const D: usize, const S: usize, const P: usi
 impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
     StressField<'a, D, S, P, N>
 {
-    /// The stresses for nodal displacements in global axes, with the loads' factors, and the
-    /// committed history of the zone, whose elements are `in_zone` (ascending).
+    /// The stresses of a state.
     pub(super) fn new(
         kernel: Kernel<D, S, P, N>,
-        model: &'a Model,
-        zone: &'a ZoneOf<D, S, P, N>,
-        in_zone: &'a [usize],
-        (displacements, factors): (Vec<Vector>, Vec<f64>),
+        continuum: &'a Continuum,
+        state: Strained<'a, S>,
     ) -> Self {
-        let n_groups = model.mesh.n_elements().div_ceil(GROUP);
+        let n_groups = continuum.mesh.n_elements().div_ceil(GROUP);
         let mut first_of_group = vec![0u32; n_groups + 1];
-        for &e in in_zone {
+        for &e in state.in_zone {
             first_of_group[e / GROUP + 1] += 1;
         }
         for group in 0..n_groups {
@@ -73,53 +65,50 @@ impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
         }
         StressField {
             kernel,
-            model,
-            zone,
-            in_zone,
+            continuum,
+            state,
             first_of_group,
-            displacements,
-            factors,
-            elastic: model.materials.iter().map(|m| m.lame()).collect(),
+            elastic: continuum.materials.iter().map(|m| m.lame()).collect(),
         }
     }
 
     /// Place of an element in the zone.
     pub(super) fn place_in_zone(&self, e: usize) -> Option<usize> {
         let [first, end] = [0, 1].map(|i| self.first_of_group[e / GROUP + i] as usize);
-        let place = self.in_zone[first..end].binary_search(&e).ok()?;
+        let place = self.state.in_zone[first..end].binary_search(&e).ok()?;
         Some(first + place)
     }
 
-    /// The elements of the zone that have yielded, ascending, with their places in it.
-    pub(super) fn yielded(&self) -> impl Iterator<Item = (usize, usize)> {
-        let zone = self.zone;
-        let elements = self.in_zone.iter().enumerate();
-        let has_yielded = |past: &PlasticState<S>| past.equivalent > 0.0;
-        elements
-            .map(|(i, &e)| (e, i))
-            .filter(move |&(_, i)| zone.states(i).iter().any(has_yielded))
+    /// The history of an element's points; none outside the zone.
+    fn history(&self, e: usize) -> &'a [PlasticState<S>] {
+        let Strained {
+            in_zone, history, ..
+        } = self.state;
+        self.place_in_zone(e).map_or(&[], |place| {
+            let stride = history.len() / in_zone.len();
+            let n_points = self.continuum.mesh.shapes[e].n_gauss_points();
+            &history[place * stride..][..n_points]
+        })
     }
 
     /// The stresses of an element.
     #[inline]
     pub(super) fn at(&self, e: usize) -> ElementStress<'a, D, S, P, N> {
-        let mesh = &self.model.mesh;
-        let gradients = self.model.gradients(&self.kernel, e);
+        let (mesh, state) = (&self.continuum.mesh, &self.state);
+        let gradients = self.continuum.gradients(&self.kernel, e);
         let mut u = [[0.0; D]; N];
         for (u, &node) in u.iter_mut().zip(mesh.nodes(e)) {
-            u.copy_from_slice(&self.displacements[node as usize][..D]);
+            u.copy_from_slice(&state.displacements[node as usize][..D]);
         }
         let mut strain = gradients.strains(&u);
-        for (load, components, nodal) in self.model.free_strains(e) {
+        for (load, components, nodal) in free_strains(mesh, state.free, e) {
             take_off(
                 &mut strain,
-                self.factors[load],
+                state.factors[load],
                 (components, &gradients.at_points(&nodal)),
             );
         }
-        let history = self
-            .place_in_zone(e)
-            .map_or(&[][..], |i| self.zone.states(i));
+        let history = self.history(e);
         for (g, past) in history.iter().enumerate() {
             for (strain, plastic) in strain.iter_mut().zip(&past.strain) {
                 strain[g] -= plastic;
@@ -141,9 +130,17 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ElementStre
     }
 
     /// Largest von Mises stress over yield stress at a point of the element `e`.
-    pub(super) fn yield_ratio(&self, model: &Model, e: usize) -> f64 {
-        let places = || self.gradients.positions(&model.mesh.element_coordinates(e));
-        largest_ratio(model, e, &self.stress, (places, self.gradients.n_points()))
+    pub(super) fn yield_ratio(&self, continuum: &Continuum, e: usize) -> f64 {
+        let places = || {
+            let nodes = continuum.mesh.element_coordinates(e);
+            self.gradients.positions(&nodes)
+        };
+        largest_ratio(
+            continuum,
+            e,
+            &self.stress,
+            (places, self.gradients.n_points()),
+        )
     }
 
     /// Largest equivalent plastic strain at a point.

@@ -1,19 +1,11 @@
 //! What the stresses of all elements amount to: the forces that they exert on the nodes, and what
 //! has yielded.
 
-use super::stress_field::{OfStresses, StressField};
+use super::element_stresses::{ElementStresses, Shown};
+use super::zone::ZoneOf;
+use crate::material::PlasticState;
 use crate::model::{Model, Pair, Slot};
 use crate::space::{Vector, difference, dot};
-use rayon::prelude::*;
-
-/// Elements that are evaluated before their forces are summed: few enough to stay in the
-/// processor's cache.
-const BLOCK: usize = 2048;
-/// Elements that a thread takes at a time.
-const GRAIN: usize = 128;
-/// Share by which a stress must be beyond yield to count: the accuracy of the equilibrium
-/// iteration.
-const BEYOND: f64 = 1e-8;
 
 /// Sums and largest values over all elements.
 pub(super) struct Stresses {
@@ -25,6 +17,8 @@ pub(super) struct Stresses {
     pub(super) reactions: Vec<f64>,
     /// Elements that may yield, are not in the zone and carry more than the yield stress.
     pub(super) beyond_yield_outside: Vec<usize>,
+    /// What fields show, where asked for.
+    pub(super) shown: Option<Shown>,
     /// Gauss points that have yielded, by body.
     pub(super) plastic_points: Vec<usize>,
     /// Volume of the Gauss points that have yielded.
@@ -37,39 +31,17 @@ pub(super) struct Stresses {
     pub(super) plastic_strain: f64,
 }
 
-/// Asks for the [`Stresses`] of a field.
-pub(super) struct AllStresses;
-
-impl OfStresses for AllStresses {
-    type Answer = Stresses;
-
-    fn of<const D: usize, const S: usize, const P: usize, const N: usize>(
-        self,
-        field: &StressField<D, S, P, N>,
-    ) -> Stresses {
-        Stresses::new(field)
-    }
-}
-
-/// An element as it comes out of a block.
-struct Evaluated<const D: usize, const N: usize> {
-    forces: [[f64; D]; N],
-    beyond_yield_outside: bool,
-}
-
 impl Stresses {
-    /// Evaluates all elements. Sums run in ascending element order: the bits do not depend on the
-    /// number of threads.
-    pub(super) fn new<const D: usize, const S: usize, const P: usize, const N: usize>(
-        field: &StressField<D, S, P, N>,
-    ) -> Self {
-        let (mut forces, beyond_yield_outside) = nodal_forces(field);
-        let model = field.model;
+    /// For the stresses of all elements and the factors of the loads; of what has yielded nothing
+    /// yet.
+    pub(super) fn new(model: &Model, of_elements: ElementStresses, factors: &[f64]) -> Self {
+        let mut forces = of_elements.forces;
         let mut out = Stresses {
             internal: vec![0.0; model.freedoms.n],
             nodal: Vec::new(),
             reactions: vec![0.0; model.freedoms.prescribed.len()],
-            beyond_yield_outside,
+            beyond_yield_outside: of_elements.beyond_yield_outside,
+            shown: of_elements.shown,
             plastic_points: vec![0; model.mesh.bodies.len()],
             plastic_volume: 0.0,
             plastic_work: 0.0,
@@ -86,34 +58,47 @@ impl Stresses {
         model.freedoms.basis.share(&mut forces);
         out.nodal = forces;
         // What free strains would take to be held enters with the loads: the same forces here.
-        for (load, factor) in model.loads.iter().zip(&field.factors) {
+        for (load, factor) in model.loads.iter().zip(factors) {
             if !load.free_strain.is_empty() {
                 for &(freedom, force) in &load.forces {
                     out.internal[freedom] += factor * force;
                 }
             }
         }
-        for (e, place) in field.yielded() {
-            let history = field.zone.states(place);
-            let gradients = field.model.gradients(&field.kernel, e);
+        out
+    }
+
+    /// Takes in what has yielded in a zone of the given elements.
+    pub(super) fn add_yielded<const D: usize, const S: usize, const P: usize, const N: usize>(
+        &mut self,
+        model: &Model,
+        zone: &ZoneOf<D, S, P, N>,
+        elements: &[usize],
+    ) {
+        let has_yielded = |past: &PlasticState<S>| past.equivalent > 0.0;
+        for (place, &e) in elements.iter().enumerate() {
+            let history = zone.states(place);
+            if !history.iter().any(has_yielded) {
+                continue;
+            }
+            let gradients = zone.gradients(place);
             let body = model.mesh.element_body[e] as usize;
             let surface = nearest_pair(model, e);
             let places = gradients.positions(&model.mesh.element_coordinates(e));
             for (g, (past, weight)) in history.iter().zip(gradients.weights()).enumerate() {
-                if past.equivalent > 0.0 {
+                if has_yielded(past) {
                     if let Some((foot, normal)) = surface {
                         let along = (0..D).map(|d| (places[d][g] - foot[d]) * normal[d]);
                         let depth = along.fold(0.0, |sum, part| sum + part).abs();
-                        out.plastic_depth = out.plastic_depth.max(depth);
+                        self.plastic_depth = self.plastic_depth.max(depth);
                     }
-                    out.plastic_points[body] += 1;
-                    out.plastic_volume += weight;
-                    out.plastic_work += weight * field.zone.plastic_work(place, g);
-                    out.plastic_strain = out.plastic_strain.max(past.equivalent);
+                    self.plastic_points[body] += 1;
+                    self.plastic_volume += weight;
+                    self.plastic_work += weight * zone.plastic_work(place, g);
+                    self.plastic_strain = self.plastic_strain.max(past.equivalent);
                 }
             }
         }
-        out
     }
 }
 
@@ -127,69 +112,4 @@ fn nearest_pair(model: &Model, element: usize) -> Option<(Vector, Vector)> {
     let nearest = model.pairs.iter().map(|pair| (off(pair), pair));
     let (_, pair) = nearest.min_by(|a, b| a.0.total_cmp(&b.0))?;
     Some((model.mesh.point(pair.slave), pair.normal))
-}
-
-/// Forces on the nodes in global axes, and the elements outside the zone that are beyond yield.
-/// While the forces of one block are summed the next is evaluated.
-fn nodal_forces<const D: usize, const S: usize, const P: usize, const N: usize>(
-    field: &StressField<D, S, P, N>,
-) -> (Vec<Vector>, Vec<usize>) {
-    let mesh = &field.model.mesh;
-    let n = mesh.n_elements();
-    let limits: Vec<f64> = (field.model.materials.iter().zip(&field.model.may_yield))
-        .map(|(material, may_yield)| match may_yield {
-            true => material.yield_stress() * (1.0 + BEYOND),
-            false => f64::INFINITY,
-        })
-        .collect();
-    let by_depth: Vec<bool> = (field
-        .model
-        .yield_by_depth
-        .iter()
-        .zip(&field.model.may_yield))
-    .map(|(profile, may_yield)| profile.is_some() && *may_yield)
-    .collect();
-    let evaluate = |start: usize, block: &mut Vec<Evaluated<D, N>>| {
-        (start..(start + BLOCK).min(n))
-            .into_par_iter()
-            .with_min_len(GRAIN)
-            .map(|e| {
-                let element = field.at(e);
-                let body = mesh.element_body[e] as usize;
-                let is_beyond = || match by_depth[body] {
-                    false => element.von_mises() > limits[body],
-                    true => element.yield_ratio(field.model, e) > 1.0 + BEYOND,
-                };
-                Evaluated {
-                    forces: element.gradients.forces(&element.stress),
-                    beyond_yield_outside: is_beyond() && field.place_in_zone(e).is_none(),
-                }
-            })
-            .collect_into_vec(block);
-    };
-    let mut forces = vec![[0.0; 3]; mesh.n_nodes()];
-    let mut beyond = Vec::new();
-    let (mut block, mut next) = (Vec::with_capacity(BLOCK), Vec::with_capacity(BLOCK));
-    evaluate(0, &mut block);
-    for start in (0..n).step_by(BLOCK) {
-        let mut add = || {
-            for (i, element) in block.iter().enumerate() {
-                for (force, &node) in element.forces.iter().zip(mesh.nodes(start + i)) {
-                    let sum = &mut forces[node as usize];
-                    (0..D).for_each(|d| sum[d] += force[d]);
-                }
-                if element.beyond_yield_outside {
-                    beyond.push(start + i);
-                }
-            }
-        };
-        match start + BLOCK {
-            following if following < n => {
-                rayon::join(add, || evaluate(following, &mut next));
-            }
-            _ => add(),
-        }
-        std::mem::swap(&mut block, &mut next);
-    }
-    (forces, beyond)
 }

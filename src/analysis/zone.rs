@@ -60,6 +60,8 @@ macro_rules! of_zone {
     };
 }
 
+pub(super) use of_zone;
+
 /// What [`ZoneOf`] does, whichever the dimension.
 impl Zone {
     /// Sets up the zone of the given elements (ascending); `guard` says which of them only watch.

@@ -12,7 +12,7 @@ use super::stress_field::stress;
 use super::structure::combination;
 use crate::element::{Kernel, with_kernel};
 use crate::error::Result;
-use crate::model::{Model, Slot};
+use crate::model::{Model, Slot, free_strains};
 use crate::scene::Kind;
 use crate::space::Vector;
 use rayon::prelude::*;
@@ -208,6 +208,7 @@ fn ratios_of<const D: usize, const S: usize, const P: usize, const N: usize>(
     (displacements, factors): (&[Vector], &[f64]),
 ) -> Vec<f64> {
     let elastic: Vec<_> = model.materials.iter().map(|m| m.lame()).collect();
+    let free = model.free_of_loads();
     (0..model.mesh.n_elements())
         .into_par_iter()
         .with_min_len(256)
@@ -223,7 +224,7 @@ fn ratios_of<const D: usize, const S: usize, const P: usize, const N: usize>(
             let sampling = kernel.sampling(model.mesh.shapes[e], &nodes);
             let body = model.mesh.element_body[e] as usize;
             let mut strains = sampling.strains(&u);
-            for (load, components, nodal) in model.free_strains(e) {
+            for (load, components, nodal) in free_strains(&model.mesh, &free, e) {
                 let at_points = sampling.at_points(&nodal);
                 take_off(&mut strains, factors[load], (components, &at_points));
             }
@@ -318,7 +319,7 @@ mod tests {
         for e in 0..n {
             let [x, ..] = model.mesh.point(model.mesh.nodes(e)[0] as usize);
             if x >= 1.0 {
-                model.mesh.element_body[e] = upper as u32;
+                model.continuum.mesh.element_body[e] = upper as u32;
             }
         }
         let old = Choice {

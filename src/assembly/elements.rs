@@ -5,10 +5,7 @@ use super::pattern::Incidence;
 use crate::element::{packed, with_kernel};
 use crate::linalg::SymmetricCsc;
 use crate::material::Lame;
-use crate::mesh::Mesh;
-use crate::model::{Model, Slot, Sums};
-use crate::scene::Formulation;
-use crate::space::Space;
+use crate::model::{Continuum, Model, Slot, Sums};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -17,11 +14,7 @@ use std::collections::BTreeMap;
 /// Elements, and those of one freedom that springs are after them.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Elements<'a> {
-    space: Space,
-    formulation: Formulation,
-    /// Of each body.
-    elastic: Vec<Lame>,
-    mesh: Cow<'a, Mesh>,
+    continuum: Cow<'a, Continuum>,
     /// Of elements whose displacements are not simply the slots of their nodes.
     sums: BTreeMap<usize, Sums>,
     springs: Vec<f64>,
@@ -37,20 +30,21 @@ impl<'a> Elements<'a> {
     pub(super) fn of(model: &'a Model) -> Self {
         Self::new(
             model,
-            Cow::Borrowed(&model.mesh),
+            Cow::Borrowed(&model.continuum),
             0..model.mesh.n_elements(),
         )
     }
 
-    /// The elements of `model` whose numbers are given, with their own mesh; without springs.
+    /// The elements of `model` whose numbers are given, by themselves; without springs.
     fn new(
         model: &Model,
-        mesh: Cow<'a, Mesh>,
+        continuum: Cow<'a, Continuum>,
         of_model: impl ExactSizeIterator<Item = usize>,
     ) -> Self {
         let mut offsets = Vec::with_capacity(of_model.len() + 1);
         offsets.push(0);
-        let mut freedoms = Vec::with_capacity(model.freedoms.per_node * mesh.connectivity.len());
+        let mut freedoms =
+            Vec::with_capacity(model.freedoms.per_node * continuum.mesh.connectivity.len());
         let mut all_sums = BTreeMap::new();
         let number = |slot: &Slot| match *slot {
             Slot::Free(f) => i64::from(f),
@@ -71,10 +65,7 @@ impl<'a> Elements<'a> {
             offsets.push(freedoms.len());
         }
         Elements {
-            space: model.kind,
-            formulation: model.scene.mesh.formulation,
-            elastic: model.materials.iter().map(|m| m.lame()).collect(),
-            mesh,
+            continuum,
             sums: all_sums,
             springs: Vec::new(),
             n: model.freedoms.n,
@@ -95,31 +86,8 @@ impl<'a> Elements<'a> {
 
     /// Some elements of a model, ascending, on their own nodes; freedoms as the model numbers them.
     pub(super) fn some_of(model: &Model, elements: &[usize]) -> Elements<'static> {
-        let whole = &model.mesh;
-        let mut nodes: Vec<u32> = (elements.iter())
-            .flat_map(|&e| whole.nodes(e))
-            .copied()
-            .collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        let mut mesh = Mesh {
-            dimension: whole.dimension,
-            offsets: vec![0],
-            ..Mesh::default()
-        };
-        for &node in &nodes {
-            let at = whole.dimension * node as usize;
-            let place = &whole.coordinates[at..at + whole.dimension];
-            mesh.coordinates.extend_from_slice(place);
-        }
-        for &e in elements {
-            mesh.shapes.push(whole.shapes[e]);
-            mesh.element_body.push(whole.element_body[e]);
-            let own = |node: &u32| nodes.partition_point(|other| other < node) as u32;
-            mesh.connectivity.extend(whole.nodes(e).iter().map(own));
-            mesh.offsets.push(mesh.connectivity.len());
-        }
-        Elements::new(model, Cow::Owned(mesh), elements.iter().copied())
+        let (part, _) = model.continuum.part(elements);
+        Elements::new(model, Cow::Owned(part), elements.iter().copied())
     }
 
     /// Numbers the freedoms anew, in the same order and without gaps: which ones they are.
@@ -206,7 +174,9 @@ pub(super) struct Matrices {
 
 impl Matrices {
     pub(super) fn new(elements: &Elements) -> Self {
-        let mesh = &*elements.mesh;
+        let continuum = &*elements.continuum;
+        let mesh = &continuum.mesh;
+        let elastic: Vec<Lame> = continuum.materials.iter().map(|m| m.lame()).collect();
         let n_elements = mesh.n_elements();
         let mut offsets = Vec::with_capacity(elements.len() + 1);
         offsets.push(0);
@@ -224,8 +194,8 @@ impl Matrices {
             rest = tail;
         }
         let blocks = blocks.into_par_iter().enumerate().with_min_len(256);
-        with_kernel!(elements.space, elements.formulation, kernel => blocks.for_each(|(e, block)| {
-            let elastic = &elements.elastic[mesh.element_body[e] as usize];
+        with_kernel!(continuum.kind, continuum.formulation, kernel => blocks.for_each(|(e, block)| {
+            let elastic = &elastic[mesh.element_body[e] as usize];
             let gradients = kernel.gauss(mesh.shapes[e], &mesh.element_coordinates(e));
             let Some(sums) = elements.sums.get(&e) else {
                 return gradients.stiffness_into(elastic, block);

@@ -59,7 +59,7 @@ fn with_mumps(common: &CommonArguments) -> Result<Part> {
     if world.rank > 0 {
         super::interrupt::leave_to_first_rank();
         super::commands::start_threads(common.threads.map(usize::from))?;
-        world.serve(crate::assembly::shares::columns);
+        world.serve(crate::assembly::shares::columns, crate::analysis::evaluate);
         world.end();
         return Ok(Part::Helped);
     }

@@ -104,6 +104,31 @@ impl Symmetric {
         }
     }
 
+    /// Number of ranks that share it, 1 where all of it is here.
+    pub(crate) fn n_ranks(&self) -> usize {
+        match self {
+            Symmetric::Whole(_) => 1,
+            #[cfg(feature = "mumps")]
+            Symmetric::Shared(shared) => shared.n_ranks(),
+        }
+    }
+
+    /// What `evaluate` answers to a message for each rank that shares it, there.
+    ///
+    /// # Errors
+    /// Those of the ranks.
+    pub(crate) fn evaluate(
+        &self,
+        mut message: impl FnMut(usize) -> Vec<u8>,
+        evaluate: fn(&[u8]) -> Result<Vec<u8>>,
+    ) -> Result<Vec<Vec<u8>>> {
+        match self {
+            Symmetric::Whole(_) => Ok(vec![evaluate(&message(0))?]),
+            #[cfg(feature = "mumps")]
+            Symmetric::Shared(shared) => shared.evaluate(message, evaluate),
+        }
+    }
+
     /// [`super::condense`] of this matrix.
     ///
     /// # Errors

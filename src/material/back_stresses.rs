@@ -24,9 +24,10 @@
 //! doi:10.1016/0749-6419(89)90015-6.
 
 use super::{PlasticState, double_dot, tensor_of};
+use serde::{Deserialize, Serialize};
 
 /// The back stresses of a material.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct BackStresses {
     /// Sum of the moduli of those that forget nothing.
     linear: f64,

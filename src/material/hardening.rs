@@ -1,9 +1,10 @@
 //! Isotropic hardening: yield stress against equivalent plastic strain.
 
 use crate::scene;
+use serde::{Deserialize, Serialize};
 
 /// A piecewise linear hardening curve, continued with a constant slope.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Hardening {
     /// (equivalent plastic strain, yield stress), the first at strain 0.
     points: Vec<[f64; 2]>,

@@ -22,7 +22,7 @@ use crate::space::Space;
 use serde::{Deserialize, Serialize};
 
 /// A material: linear elastic, and plastic where it has a hardening curve.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Material {
     /// Name in the scene.
     pub name: String,

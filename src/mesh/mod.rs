@@ -10,6 +10,7 @@ pub mod gmsh;
 pub mod inp;
 mod jacobian;
 pub(crate) mod node_values;
+mod part;
 mod pieces;
 mod round;
 mod subdivision;

@@ -7,9 +7,10 @@ use crate::error::{Error, Result};
 use crate::mesh::{Facet, Mesh, Surface};
 use crate::scene::{Scene, closest};
 use crate::space::{Vector, along, cross, difference, dot, length};
+use serde::{Deserialize, Serialize};
 
 /// A surface as triangles, or as lines, whose last two corners are one.
-#[derive(Debug)]
+#[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Simplices {
     corners: Vec<[Vector; 3]>,
     balls: Balls,

@@ -16,11 +16,13 @@ use crate::material::Lame;
 use crate::mesh::Mesh;
 use crate::scene::Formulation;
 use crate::space::{Space, Vector, along};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Some components of a free strain, all of one value at each node.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct FreeStrain {
     /// Which components.
     pub components: Range<usize>,
@@ -108,6 +110,48 @@ fn forces_of<const D: usize, const S: usize, const P: usize, const N: usize>(
     out.into_iter().collect()
 }
 
+/// A free strain of a load.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct FreeOfLoad<'a> {
+    load: usize,
+    /// The body whose elements have it.
+    body: u32,
+    strain: Cow<'a, FreeStrain>,
+}
+
+impl FreeOfLoad<'_> {
+    /// The same on some of the nodes, numbered as they come.
+    pub fn part(&self, nodes: &[u32]) -> FreeOfLoad<'static> {
+        let strain = FreeStrain {
+            components: self.strain.components.clone(),
+            nodal: nodes
+                .iter()
+                .map(|&n| self.strain.nodal[n as usize])
+                .collect(),
+        };
+        FreeOfLoad {
+            load: self.load,
+            body: self.body,
+            strain: Cow::Owned(strain),
+        }
+    }
+}
+
+/// Those at an element's nodes at factor 1, with the loads' indices and the components.
+#[inline]
+pub fn free_strains<'a, const N: usize>(
+    mesh: &'a Mesh,
+    free: &'a [FreeOfLoad],
+    element: usize,
+) -> impl Iterator<Item = (usize, &'a Range<usize>, [f64; N])> {
+    let body = mesh.element_body[element];
+    let own = free.iter().filter(move |free| free.body == body);
+    own.map(move |free| {
+        let nodal = of_element(mesh, element, &free.strain.nodal);
+        (free.load, &free.strain.components, nodal)
+    })
+}
+
 impl Model {
     /// A free strain at an element's nodes.
     #[inline]
@@ -115,23 +159,16 @@ impl Model {
         of_element(&self.mesh, element, &free.nodal)
     }
 
-    /// The free strains at an element's nodes that loads give it at factor 1, with the loads'
-    /// indices and the components.
-    #[inline]
-    pub fn free_strains<const N: usize>(
-        &self,
-        element: usize,
-    ) -> impl Iterator<Item = (usize, &Range<usize>, [f64; N])> + '_ {
-        let body = self.mesh.element_body[element];
-        let loads = self
-            .loads
-            .iter()
-            .enumerate()
-            .filter(move |(_, l)| l.body == body);
-        loads.flat_map(move |(index, load)| {
-            load.free_strain
-                .iter()
-                .map(move |free| (index, &free.components, self.free_strain(element, free)))
-        })
+    /// The free strains of all loads.
+    pub fn free_of_loads(&self) -> Vec<FreeOfLoad<'_>> {
+        let loads = self.loads.iter().enumerate();
+        let each = loads.flat_map(|(index, load)| {
+            load.free_strain.iter().map(move |strain| FreeOfLoad {
+                load: index,
+                body: load.body,
+                strain: Cow::Borrowed(strain),
+            })
+        });
+        each.collect()
     }
 }

@@ -6,6 +6,7 @@
 mod body_forces;
 mod builder;
 mod contact_basis;
+mod continuum;
 mod depth;
 mod ends;
 mod equations;
@@ -32,10 +33,11 @@ mod yield_depth;
 
 pub use builder::ModelBuilder;
 pub use contact_basis::ContactBasis;
+pub use continuum::Continuum;
 pub use frame::Frame;
 pub use freedoms::{Freedoms, Prescribed, Slot};
 pub use given::NodePair;
-pub use heat::FreeStrain;
+pub use heat::{FreeOfLoad, FreeStrain, free_strains};
 pub use held::{FloatingBodies, Pin, RigidMotion};
 pub use loads::{LoadCase, Magnitude};
 pub use pairs::{AxisPoint, ContactSurface, Pair};
@@ -44,33 +46,25 @@ pub use springs::Spring;
 pub use sums::Sums;
 pub use yield_depth::YieldByDepth;
 
-use crate::element::{Gradients, Kernel};
 use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::mesh::{self, Mesh};
 use crate::results::EndState;
 use crate::scene::{Plastic, Scene};
-use crate::space::{Space, Vector};
+use crate::space::Vector;
 use given::Given;
 use names::Entry;
 use rayon::prelude::*;
 pub(crate) use recipe::Recipe;
+use std::ops::Deref;
 
 /// A model ready to be assembled.
 #[derive(Debug, Clone)]
 pub struct Model {
     /// The scene it was made from.
     pub scene: Scene,
-    /// Plane strain, plane stress, axisymmetric or solid.
-    pub kind: Space,
-    /// The mesh.
-    pub mesh: Mesh,
-    /// Material of each body.
-    pub materials: Vec<Material>,
-    /// Whether each body may yield.
-    pub may_yield: Vec<bool>,
-    /// Yield stress by depth, of each body that has one.
-    pub yield_by_depth: Vec<Option<YieldByDepth>>,
+    /// Mesh and materials; the model is read as this too.
+    pub continuum: Continuum,
     /// Freedom numbering, local axes and supports.
     pub freedoms: Freedoms,
     /// Contact pairs, contact by contact, along each surface.
@@ -199,11 +193,14 @@ impl Model {
         }
         Ok(Model {
             scene: scene.clone(),
-            kind,
-            mesh,
-            materials,
-            may_yield,
-            yield_by_depth,
+            continuum: Continuum {
+                kind,
+                formulation: scene.mesh.formulation,
+                mesh,
+                materials,
+                may_yield,
+                yield_by_depth,
+            },
             freedoms,
             pairs,
             rows,
@@ -217,17 +214,6 @@ impl Model {
         })
     }
 
-    /// The gradients at the Gauss points of an element.
-    #[inline]
-    pub fn gradients<const D: usize, const S: usize, const P: usize, const N: usize>(
-        &self,
-        kernel: &Kernel<D, S, P, N>,
-        element: usize,
-    ) -> Gradients<D, S, P, N> {
-        let nodes = self.mesh.element_coordinates(element);
-        kernel.gauss(self.mesh.shapes[element], &nodes)
-    }
-
     /// Displacements of all nodes in global axes, from free freedoms and load factors.
     pub fn nodal(&self, u: &[f64], factors: &[f64]) -> Vec<Vector> {
         let nodes = (0..self.mesh.n_nodes()).into_par_iter();
@@ -236,19 +222,13 @@ impl Model {
             .map(|node| self.freedoms.displacement(node, u, factors))
             .collect()
     }
+}
 
-    /// Initial yield stress of a body at a place, infinite for an elastic material.
-    #[inline]
-    pub fn yield_stress(&self, body: usize, place: Vector) -> f64 {
-        match &self.yield_by_depth[body] {
-            Some(profile) => profile.at(place),
-            None => self.materials[body].yield_stress(),
-        }
-    }
+impl Deref for Model {
+    type Target = Continuum;
 
-    /// Material of an element.
-    pub fn material(&self, element: usize) -> &Material {
-        &self.materials[self.mesh.element_body[element] as usize]
+    fn deref(&self) -> &Continuum {
+        &self.continuum
     }
 }
 

@@ -9,10 +9,11 @@ use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::scene::Scene;
 use crate::space::Vector;
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// The yield stress of a body that depends on the depth.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct YieldByDepth {
     /// (depth, yield stress), depths ascending.
     rows: Vec<[f64; 2]>,

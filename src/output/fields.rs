@@ -1,5 +1,6 @@
 //! Fields on the mesh for ParaView, meshio and pyvista: one `.vtu` per state and `fields.pvd`,
-//! which makes a time series of them. Its time is the load factor for as long as that grows; where
+//! which makes a time series of them. Of a run on several ranks a state is a `.pvtu` with a `.vtu`
+//! for the part of space of each rank, so that what looks at it can share the work too. Its time is the load factor for as long as that grows; where
 //! loads are taken off it goes on by as much as they fall, as readers sort states by it.
 //!
 //! | array | on | type | components |
@@ -20,14 +21,17 @@ use super::vtu::{self, DataArray, Grid, Values};
 use super::{COLLECTION_FILE, RunHeader};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
-use crate::results::{Fields, State};
+use crate::results::{Fields, Results, State};
 use crate::space::Space;
 use rayon::prelude::*;
+use std::path::Path;
 
 /// How the name of a state's file begins.
-pub(super) const FILE_PREFIX: &str = "state_";
-/// How the name of a state's file ends.
-pub(super) const FILE_SUFFIX: &str = ".vtu";
+const FILE_PREFIX: &str = "state_";
+/// How the name of a file with a mesh ends.
+const FILE_SUFFIX: &str = ".vtu";
+/// How that of a state ends whose mesh is in pieces.
+const PIECES_SUFFIX: &str = ".pvtu";
 /// Most characters of a state's name that go into its file name.
 const NAME_LENGTH: usize = 60;
 
@@ -39,17 +43,22 @@ pub(super) fn write(
     staging: &Staging,
     header: &RunHeader,
     mesh: &Mesh,
-    states: &[State],
+    results: &Results,
 ) -> Result<()> {
-    let times = times(states);
+    let states = &results.states;
+    let (times, parts) = (times(states), Part::all(mesh, n_pieces(results)));
     let file = |(i, state): (usize, &State)| -> Result<Option<(f64, String)>> {
         let Some(fields) = &state.fields else {
             return Ok(None);
         };
         check(mesh, fields).map_err(|e| e.within(format!("state `{}`", state.name)))?;
-        let name = file_name(i, states.len(), &state.name);
-        let grid = grid(header, mesh, fields);
-        staging.file(&name, |out| vtu::write(out, &grid))?;
+        let name = file_name(i, results);
+        if parts.is_empty() {
+            let grid = grid(header, mesh, fields);
+            staging.file(&name, |out| vtu::write(out, &grid))?;
+        } else {
+            write_pieces(staging, header, (&parts, fields), &name)?;
+        }
         Ok(Some((times[i], name)))
     };
     let files: Vec<Result<Option<(f64, String)>>> =
@@ -62,6 +71,111 @@ pub(super) fn write(
         return Ok(());
     }
     staging.file(COLLECTION_FILE, |out| vtu::write_collection(out, &series))
+}
+
+/// Writes a state in pieces, and `name`, which holds them together.
+fn write_pieces(
+    staging: &Staging,
+    header: &RunHeader,
+    (parts, fields): (&[Part], &Fields),
+    name: &str,
+) -> Result<()> {
+    let stem = name.trim_end_matches(PIECES_SUFFIX);
+    let files: Vec<String> = (1..=parts.len())
+        .map(|number| format!("{stem}_part_{number}{FILE_SUFFIX}"))
+        .collect();
+    let piece = |(part, file): (&Part, &String)| -> Result<()> {
+        let fields = part.of(fields);
+        let grid = part.grid(header, &fields);
+        staging.file(file, |out| vtu::write(out, &grid))
+    };
+    let pieces = parts.par_iter().zip(&files).map(piece);
+    pieces.collect::<Result<()>>()?;
+    let fields = parts[0].of(fields);
+    let grid = parts[0].grid(header, &fields);
+    staging.file(name, |out| vtu::write_pieces(out, &grid, &files))
+}
+
+/// A part of the mesh that goes into a file of its own.
+struct Part {
+    mesh: Mesh,
+    /// Its nodes and elements as the whole numbers them.
+    nodes: Vec<u32>,
+    elements: Vec<u32>,
+}
+
+impl Part {
+    /// The parts of a mesh that is written in `n` pieces; none where that is one.
+    fn all(mesh: &Mesh, n: usize) -> Vec<Part> {
+        if n < 2 {
+            return Vec::new();
+        }
+        let parts = mesh.elements_among(n).into_iter();
+        let part = |elements: Vec<usize>| {
+            let (part, nodes) = mesh.part(&elements);
+            Part {
+                mesh: part,
+                nodes,
+                elements: elements.iter().map(|&e| e as u32).collect(),
+            }
+        };
+        let some = parts.filter(|elements| !elements.is_empty());
+        some.map(part).collect()
+    }
+
+    /// Its share of fields on the whole.
+    fn of(&self, whole: &Fields) -> Fields {
+        let (dimension, components) = (self.mesh.dimension, 2 * self.mesh.dimension);
+        Fields {
+            displacement: some(&whole.displacement, &self.nodes, dimension),
+            stress: some(&whole.stress, &self.elements, components),
+            von_mises: some(&whole.von_mises, &self.elements, 1),
+            plastic_strain: some(&whole.plastic_strain, &self.elements, 1),
+            yielded: some(&whole.yielded, &self.elements, 1),
+            error: some(&whole.error, &self.elements, 1),
+            nodal_stress: match whole.nodal_stress.is_empty() {
+                true => Vec::new(),
+                false => some(&whole.nodal_stress, &self.nodes, components),
+            },
+            contact_pressure: some(&whole.contact_pressure, &self.nodes, 1),
+            gap: some(&whole.gap, &self.nodes, 1),
+            force: Vec::new(),
+        }
+    }
+
+    /// Its grid, which says what its nodes and elements are in the whole.
+    fn grid<'a>(&'a self, header: &RunHeader, fields: &'a Fields) -> Grid<'a> {
+        let mut grid = grid(header, &self.mesh, fields);
+        let ids = |name, ids| DataArray::new(name, Values::Int64(ids));
+        grid.point_data.push(ids(vtu::NODE_IDS, &self.nodes));
+        grid.cell_data.push(ids(vtu::ELEMENT_IDS, &self.elements));
+        grid
+    }
+}
+
+/// Some of the items of an array, each of so many values.
+fn some<T: Copy>(all: &[T], items: &[u32], size: usize) -> Vec<T> {
+    let each = items
+        .iter()
+        .flat_map(|&i| &all[size * i as usize..][..size]);
+    each.copied().collect()
+}
+
+/// Whether a file of this name is one of a state, or of a piece of one.
+pub(super) fn is_file(name: &str) -> bool {
+    let suffixes = [FILE_SUFFIX, PIECES_SUFFIX];
+    name.starts_with(FILE_PREFIX) && suffixes.iter().any(|suffix| name.ends_with(suffix))
+}
+
+/// Whether a file only names the pieces of a state.
+pub(super) fn is_in_pieces(path: &Path) -> bool {
+    let name = path.file_name().map(|name| name.to_string_lossy());
+    name.is_some_and(|name| name.ends_with(PIECES_SUFFIX))
+}
+
+/// In how many pieces a state of these results is written: one for each rank.
+fn n_pieces(results: &Results) -> usize {
+    results.ranks.as_ref().map_or(1, |ranks| ranks.count)
 }
 
 /// Changes of the load factor up to each state, added up; later states at the same one follow as
@@ -81,10 +195,19 @@ fn times(states: &[State]) -> Vec<f64> {
     each.collect()
 }
 
-/// Name of the file of state `index` of `n_states`: `state_01_NAME.vtu`. The number keeps names
-/// apart and in order whatever becomes of the state's name, of which only ASCII letters, digits,
-/// `.`, `-` and `_` are safe everywhere.
-pub(super) fn file_name(index: usize, n_states: usize, state: &str) -> String {
+/// Name of the file of the state `index`: `state_01_NAME.vtu`, in pieces `.pvtu`. The number keeps
+/// names apart and in order whatever becomes of the state's name, of which only ASCII letters,
+/// digits, `.`, `-` and `_` are safe everywhere.
+pub(super) fn file_name(index: usize, results: &Results) -> String {
+    let mut name = stem(index, results.states.len(), &results.states[index].name);
+    name.push_str(match n_pieces(results) {
+        1 => FILE_SUFFIX,
+        _ => PIECES_SUFFIX,
+    });
+    name
+}
+
+fn stem(index: usize, n_states: usize, state: &str) -> String {
     let width = n_states.to_string().len().max(2);
     let mut name = format!("{FILE_PREFIX}{:0width$}", index + 1);
     if !state.is_empty() {
@@ -94,7 +217,6 @@ pub(super) fn file_name(index: usize, n_states: usize, state: &str) -> String {
         'a'..='z' | 'A'..='Z' | '0'..='9' | '.' | '-' | '_' => c,
         _ => '_',
     }));
-    name.push_str(FILE_SUFFIX);
     name
 }
 
@@ -183,10 +305,10 @@ mod tests {
 
     #[test]
     fn file_names_are_safe_and_ordered() {
-        assert_eq!(file_name(0, 3, "b = 1.5 b*"), "state_01_b___1.5_b_.vtu");
-        assert_eq!(file_name(1, 3, ""), "state_02.vtu");
-        assert_eq!(file_name(4, 120, "../up"), "state_005_.._up.vtu");
-        assert_eq!(file_name(0, 1, "größe/Ω"), "state_01_gr__e__.vtu");
-        assert_eq!(file_name(0, 1, &"x".repeat(500)).len(), 9 + 60 + 4);
+        assert_eq!(stem(0, 3, "b = 1.5 b*"), "state_01_b___1.5_b_");
+        assert_eq!(stem(1, 3, ""), "state_02");
+        assert_eq!(stem(4, 120, "../up"), "state_005_.._up");
+        assert_eq!(stem(0, 1, "größe/Ω"), "state_01_gr__e__");
+        assert_eq!(stem(0, 1, &"x".repeat(500)).len(), 9 + 60);
     }
 }

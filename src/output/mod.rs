@@ -7,6 +7,7 @@
 //!     contact.csv           a row per state and contact pair                       (contact)
 //!     fields.pvd            the states with fields, as a time series               (fields)
 //!     state_01_NAME.vtu     mesh and fields of one state                           (fields, vtu)
+//!     state_01_NAME.pvtu    of a run on several ranks, with a .vtu for each part
 //!     end_state.bin         what is left in the material, for `start_from`          (checkpoint)
 //!     report.html           the run to look at                                     (report)
 //!     report_NAME.svg       its figures
@@ -225,7 +226,7 @@ fn write_tables_and_fields(
     staging.file(CONTACT_FILE, |out| {
         contact::write(out, header.dimension(), &results.states)
     })?;
-    fields::write(staging, header, mesh, &results.states)?;
+    fields::write(staging, header, mesh, results)?;
     if let Some(state) = &results.end_state {
         let bytes = encode_end_state(mesh, state)?;
         staging.file(END_STATE_FILE, |out| out.write_all(&bytes))?;
@@ -263,7 +264,7 @@ fn is_result_file(name: &OsStr) -> bool {
             END_STATE_FILE,
         ]
         .contains(&name)
-            || (name.starts_with(fields::FILE_PREFIX) && name.ends_with(fields::FILE_SUFFIX))
+            || fields::is_file(name)
             || is_figure(name)
     })
 }

@@ -168,7 +168,7 @@ impl Summary {
     fn new(header: &RunHeader, results: &Results) -> Self {
         let states = results.states.iter().enumerate();
         let entry = |(index, state): (usize, &State)| {
-            let file = || fields::file_name(index, results.states.len(), &state.name);
+            let file = || fields::file_name(index, results);
             StateEntry {
                 fields: state.fields.as_ref().map(|_| file()),
                 ..StateEntry::new(header, state)

@@ -1,4 +1,5 @@
-//! VTK XML unstructured grids (`.vtu`) with appended raw binary data, and collections (`.pvd`).
+//! VTK XML unstructured grids (`.vtu`) with appended raw binary data, what says of which pieces one
+//! is made (`.pvtu`), and collections (`.pvd`).
 //!
 //! The head is XML; each array is a block of the appended section, at a byte offset counted from
 //! after its leading `_`:
@@ -21,6 +22,10 @@ use std::io::{self, Write};
 const CHUNK: usize = 2048;
 /// Bytes of a block's length.
 const LENGTH_BYTES: u64 = 8;
+/// The array of a piece that has the numbers of its points in the whole, from 0.
+pub(super) const NODE_IDS: &str = "GlobalNodeIds";
+/// The array of a piece that has the numbers of its cells in the whole, from 0.
+pub(super) const ELEMENT_IDS: &str = "GlobalElementIds";
 
 /// A mesh with data on it.
 pub(super) struct Grid<'a> {
@@ -209,9 +214,13 @@ pub(super) fn write(out: &mut impl Write, grid: &Grid<'_>) -> io::Result<()> {
     open(&mut xml, "Piece", &size)?;
     let mut offset = 0;
     for (section, arrays) in sections {
-        open(&mut xml, section, &[])?;
+        open(&mut xml, section, &ids_of(arrays))?;
         for array in arrays {
-            declare(&mut xml, array, offset)?;
+            let place = [
+                ("format", "appended".to_owned()),
+                ("offset", offset.to_string()),
+            ];
+            declare(&mut xml, "DataArray", array, &place)?;
             offset += LENGTH_BYTES + array.values.n_bytes();
         }
         close(&mut xml, section)?;
@@ -225,6 +234,43 @@ pub(super) fn write(out: &mut impl Write, grid: &Grid<'_>) -> io::Result<()> {
     }
     xml.get_mut().write_all(b"\n")?;
     close(&mut xml, "AppendedData")?;
+    close_file(&mut xml)
+}
+
+/// Writes what says that files in the same directory are the pieces of a grid; they have the arrays
+/// of `piece`.
+///
+/// # Errors
+/// Those of `out`.
+pub(super) fn write_pieces(
+    out: &mut impl Write,
+    piece: &Grid<'_>,
+    files: &[String],
+) -> io::Result<()> {
+    let points = [DataArray::new(
+        "points",
+        Values::vectors(piece.mesh, &piece.mesh.coordinates),
+    )];
+    let mut xml = Writer::new_with_indent(out, b' ', 2);
+    open_file(&mut xml, "PUnstructuredGrid")?;
+    let overlap = [("GhostLevel", "0".to_owned())];
+    open(&mut xml, "PUnstructuredGrid", &overlap)?;
+    for (section, arrays) in [
+        ("PPointData", piece.point_data.as_slice()),
+        ("PCellData", piece.cell_data.as_slice()),
+        ("PPoints", points.as_slice()),
+    ] {
+        open(&mut xml, section, &ids_of(arrays))?;
+        for array in arrays {
+            declare(&mut xml, "PDataArray", array, &[])?;
+        }
+        close(&mut xml, section)?;
+    }
+    for file in files {
+        let source = [("Source", file.clone())];
+        xml.write_event(Event::Empty(element("Piece", &source)))?;
+    }
+    close(&mut xml, "PUnstructuredGrid")?;
     close_file(&mut xml)
 }
 
@@ -276,16 +322,30 @@ fn close<W: Write>(xml: &mut Writer<W>, name: &str) -> io::Result<()> {
     xml.write_event(Event::End(BytesEnd::new(name)))
 }
 
-/// Declares an array whose block lies at `offset`.
-fn declare<W: Write>(xml: &mut Writer<W>, array: &DataArray<'_>, offset: u64) -> io::Result<()> {
+/// The attribute of a section that says which of its arrays has numbers in the whole.
+fn ids_of(arrays: &[DataArray<'_>]) -> Vec<(&'static str, String)> {
+    let is_ids = |array: &&DataArray| [NODE_IDS, ELEMENT_IDS].contains(&array.name);
+    let ids = arrays.iter().filter(is_ids);
+    ids.map(|array| ("GlobalIds", array.name.to_owned()))
+        .collect()
+}
+
+/// Declares an array; `place` says where its values are.
+fn declare<W: Write>(
+    xml: &mut Writer<W>,
+    kind: &str,
+    array: &DataArray<'_>,
+    place: &Attributes<'_>,
+) -> io::Result<()> {
     let attributes = [
         ("type", array.values.type_name().to_owned()),
         ("Name", array.name.to_owned()),
         ("NumberOfComponents", array.components.to_string()),
-        ("format", "appended".to_owned()),
-        ("offset", offset.to_string()),
     ];
-    let mut start = element("DataArray", &attributes);
+    let mut start = element(kind, &attributes);
+    for (key, value) in place {
+        start.push_attribute((*key, value.as_str()));
+    }
     for (i, name) in array.component_names.iter().enumerate() {
         start.push_attribute((format!("ComponentName{i}").as_str(), *name));
     }

@@ -1,67 +1,172 @@
-//! Fields read back from the `.vtu` files that [`super::vtu`] writes. Not a reader of VTK files in
+//! Fields read back from the `.vtu` and `.pvtu` files that [`super::vtu`] writes. Not a reader of VTK files in
 //! general.
 
-use super::fields;
+use super::{fields, vtu};
 use crate::error::{Error, Result};
 use crate::files;
 use crate::mesh::Mesh;
 use crate::results::Fields;
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Beginning of the binary part.
 const APPENDED: &[u8] = b"<AppendedData";
 /// Bytes of a block's length.
 const LENGTH_BYTES: usize = 8;
 
-/// Reads the fields of a state on a mesh.
+/// Reads the fields of a state on a mesh, in one piece or in several.
 ///
 /// # Errors
-/// `Io` where the file cannot be read, `Input` naming it where it is damaged or belongs to another
+/// `Io` where a file cannot be read, `Input` naming it where it is damaged or belongs to another
 /// mesh.
 pub(super) fn read(path: &Path, mesh: &Mesh) -> Result<Fields> {
     let bytes = files::read("read", path, None)?;
-    let damaged = |what: String| Error::input(format!("{}: {what}", path.display()));
-    let file = Blocks::new(&bytes).map_err(damaged)?;
-    let numbers = |name: &str| file.numbers(name).map_err(damaged);
-    let tensors = |name: &str| -> Result<Vec<f64>> {
-        let values = numbers(name)?;
+    let contents = match fields::is_in_pieces(path) {
+        true => pieces(path, &bytes)?,
+        false => vec![(path.to_path_buf(), bytes)],
+    };
+    let files = contents.iter().map(|(path, bytes)| {
+        let blocks = Blocks::new(bytes).map_err(|what| damaged(path, what))?;
+        Ok((path.as_path(), blocks))
+    });
+    let state = Files(files.collect::<Result<_>>()?);
+    let numbers = |name: &str, items| -> Result<Vec<f64>> {
+        let bytes = state.bytes(name, items)?;
+        let (values, _) = bytes.as_chunks::<8>();
+        Ok(values.iter().map(|v| f64::from_le_bytes(*v)).collect())
+    };
+    let tensors = |name: &str, items| -> Result<Vec<f64>> {
+        let values = numbers(name, items)?;
         let of = |s: &[f64; 9]| [s[0], s[4], s[8], s[1], s[5], s[2]];
         Ok(match mesh.is_solid() {
             true => values.as_chunks::<9>().0.iter().flat_map(of).collect(),
             false => values,
         })
     };
+    let nodes = (vtu::NODE_IDS, mesh.n_nodes());
+    let elements = (vtu::ELEMENT_IDS, mesh.n_elements());
     let fields = Fields {
-        displacement: numbers("displacement")?
+        displacement: numbers("displacement", nodes)?
             .as_chunks::<3>()
             .0
             .iter()
             .flat_map(|vector| &vector[..mesh.dimension])
             .copied()
             .collect(),
-        stress: tensors("stress")?,
-        nodal_stress: match file.has("nodal_stress") {
-            true => tensors("nodal_stress")?,
+        stress: tensors("stress", elements)?,
+        nodal_stress: match state.has("nodal_stress") {
+            true => tensors("nodal_stress", nodes)?,
             false => Vec::new(),
         },
-        von_mises: numbers("von_mises")?,
-        plastic_strain: numbers("equivalent_plastic_strain")?,
-        yielded: file.bytes("yielded").map_err(damaged)?.to_vec(),
-        error: numbers("discretisation_error")?,
-        contact_pressure: numbers("contact_pressure")?,
-        gap: numbers("gap")?,
+        von_mises: numbers("von_mises", elements)?,
+        plastic_strain: numbers("equivalent_plastic_strain", elements)?,
+        yielded: state.bytes("yielded", elements)?.into_owned(),
+        error: numbers("discretisation_error", elements)?,
+        contact_pressure: numbers("contact_pressure", nodes)?,
+        gap: numbers("gap", nodes)?,
         force: Vec::new(),
     };
-    fields::check(mesh, &fields).map_err(|error| {
-        damaged(format!(
-            "the file does not fit the mesh: {}",
-            error.message()
-        ))
-    })?;
+    fields::check(mesh, &fields).map_err(|error| does_not_fit(path, error.message()))?;
     Ok(fields)
+}
+
+fn damaged(path: &Path, what: String) -> Error {
+    Error::input(format!("{}: {what}", path.display()))
+}
+
+fn does_not_fit(path: &Path, why: &str) -> Error {
+    damaged(path, format!("the file does not fit the mesh: {why}"))
+}
+
+/// The pieces of a state that a file names, beside it, with their content.
+fn pieces(path: &Path, bytes: &[u8]) -> Result<Vec<(PathBuf, Vec<u8>)>> {
+    let damaged = |what: String| damaged(path, what);
+    let text =
+        std::str::from_utf8(bytes).map_err(|_| damaged("the file is not text".to_string()))?;
+    let mut names = Vec::new();
+    let each = |element: &BytesStart<'_>| {
+        if element.name().as_ref() == "Piece" {
+            let name = attribute(element, "Source").ok_or("a piece of the file has no name")?;
+            names.push(name);
+        }
+        Ok(())
+    };
+    empty_elements(text, each).map_err(damaged)?;
+    if names.is_empty() {
+        return Err(damaged("the file names no piece".to_string()));
+    }
+    let piece = |name: String| {
+        // A file of the same directory, whatever is written there.
+        let piece = path.with_file_name(Path::new(&name).file_name().unwrap_or_default());
+        let bytes = files::read("read", &piece, None)?;
+        Ok((piece, bytes))
+    };
+    names.into_iter().map(piece).collect()
+}
+
+/// The files of a state.
+struct Files<'a>(Vec<(&'a Path, Blocks<'a>)>);
+
+impl<'a> Files<'a> {
+    fn has(&self, name: &str) -> bool {
+        self.0.iter().all(|(_, blocks)| blocks.has(name))
+    }
+
+    /// The bytes of an array of `n` items; those of pieces go where their numbers, in the array
+    /// `ids`, say.
+    fn bytes(&self, name: &str, (ids, n): (&str, usize)) -> Result<Cow<'a, [u8]>> {
+        if let [(path, blocks)] = self.0.as_slice()
+            && !blocks.has(ids)
+        {
+            let bytes = blocks.bytes(name).map_err(|what| damaged(path, what))?;
+            return Ok(Cow::Borrowed(bytes));
+        }
+        let (mut whole, mut is_there) = (Vec::new(), vec![false; n]);
+        for (path, blocks) in &self.0 {
+            let array = |name| blocks.bytes(name).map_err(|what| damaged(path, what));
+            let (bytes, (ids, _)) = (array(name)?, array(ids)?.as_chunks::<8>());
+            let size = bytes.len() / ids.len().max(1);
+            whole.resize(size * n, 0);
+            for (id, item) in ids.iter().zip(bytes.chunks_exact(size.max(1))) {
+                let id = usize::try_from(u64::from_le_bytes(*id)).unwrap_or(usize::MAX);
+                let place = whole.chunks_exact_mut(size.max(1)).nth(id);
+                let (Some(place), true) = (place, size * ids.len() == bytes.len()) else {
+                    let why = format!("`{name}` has a value of number {id} of {n}");
+                    return Err(does_not_fit(path, &why));
+                };
+                place.copy_from_slice(item);
+                is_there[id] = true;
+            }
+        }
+        match is_there.iter().position(|is_there| !is_there) {
+            None => Ok(Cow::Owned(whole)),
+            Some(id) => {
+                let why = format!("no piece has a value of `{name}` of number {id} of {n}");
+                Err(does_not_fit(self.0[0].0, &why))
+            }
+        }
+    }
+}
+
+/// Visits the empty elements of an XML text.
+fn empty_elements(
+    text: &str,
+    mut visit: impl FnMut(&BytesStart<'_>) -> std::result::Result<(), String>,
+) -> std::result::Result<(), String> {
+    let mut reader = Reader::from_str(text);
+    loop {
+        let event = reader
+            .read_event()
+            .map_err(|cause| format!("the head of the file is not XML: {cause}"))?;
+        match event {
+            Event::Empty(element) => visit(&element)?,
+            Event::Eof => return Ok(()),
+            _ => {}
+        }
+    }
 }
 
 /// The blocks of a file by the name of their array: where they begin.
@@ -84,24 +189,17 @@ impl<'a> Blocks<'a> {
         let head = std::str::from_utf8(&bytes[..at])
             .map_err(|_| "the head of the file is not text".to_string())?;
         let mut offsets = BTreeMap::new();
-        let mut reader = Reader::from_str(head);
-        loop {
-            let event = reader
-                .read_event()
-                .map_err(|cause| format!("the head of the file is not XML: {cause}"))?;
-            match event {
-                Event::Empty(element) if element.name().as_ref() == "DataArray" => {
-                    let offset = attribute(&element, "offset")
-                        .and_then(|text| text.parse().ok())
-                        .ok_or("an array of the file has no offset")?;
-                    if let Some(name) = attribute(&element, "Name") {
-                        offsets.insert(name, offset);
-                    }
+        empty_elements(head, |element| {
+            if element.name().as_ref() == "DataArray" {
+                let offset = attribute(element, "offset")
+                    .and_then(|text| text.parse().ok())
+                    .ok_or("an array of the file has no offset")?;
+                if let Some(name) = attribute(element, "Name") {
+                    offsets.insert(name, offset);
                 }
-                Event::Eof => break,
-                _ => {}
             }
-        }
+            Ok(())
+        })?;
         Ok(Blocks {
             appended: &bytes[at + mark + 1..],
             offsets,
@@ -125,11 +223,6 @@ impl<'a> Blocks<'a> {
             .and_then(|length| values.get(..length))
             .ok_or_else(truncated)
     }
-
-    fn numbers(&self, name: &str) -> std::result::Result<Vec<f64>, String> {
-        let (values, _) = self.bytes(name)?.as_chunks::<8>();
-        Ok(values.iter().map(|v| f64::from_le_bytes(*v)).collect())
-    }
 }
 
 fn attribute(element: &BytesStart<'_>, name: &str) -> Option<String> {
@@ -141,7 +234,7 @@ fn attribute(element: &BytesStart<'_>, name: &str) -> Option<String> {
 mod tests {
     use super::*;
     use crate::mesh::Shape;
-    use crate::output::vtu::{self, DataArray, Grid, Values};
+    use crate::output::vtu::{DataArray, Grid, Values};
 
     fn mesh() -> Mesh {
         let mut mesh = Mesh {

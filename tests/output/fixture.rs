@@ -121,12 +121,7 @@ pub fn results(mesh: &Mesh) -> Results {
         ..pressed.clone()
     };
     Results {
-        ranks: Some(Ranks {
-            count: 2,
-            requests: 15,
-            bytes: 4096,
-            peak_memory_bytes: vec![Some(1 << 20), None],
-        }),
+        ranks: None,
         cycles: Some(Cycles {
             outcome: CycleOutcome::Ratchetting,
             body: Some("block".into()),
@@ -258,5 +253,18 @@ pub fn results(mesh: &Mesh) -> Results {
             kind: brinell::ErrorKind::Stopped,
             why: "stopped on request".into(),
         }),
+    }
+}
+
+/// The same of a run on so many ranks.
+pub fn results_of_ranks(mesh: &Mesh, count: usize) -> Results {
+    Results {
+        ranks: Some(Ranks {
+            count,
+            requests: 15,
+            bytes: 4096,
+            peak_memory_bytes: vec![Some(1 << 20), None],
+        }),
+        ..results(mesh)
     }
 }

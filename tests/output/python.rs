@@ -52,6 +52,52 @@ stress = data.GetArray("stress")
 assert [stress.GetComponentName(i) for i in range(4)] == ["xx", "yy", "zz", "xy"]
 "#;
 
+/// The pieces of a state, as ParaView's servers read them.
+const PIECES: &str = r#"
+import sys, vtk
+from vtk.util.numpy_support import vtk_to_numpy
+failures = []
+reader = vtk.vtkXMLPUnstructuredGridReader()
+reader.AddObserver("ErrorEvent", lambda *_: failures.append("error"))
+reader.AddObserver("WarningEvent", lambda *_: failures.append("warning"))
+reader.SetFileName(sys.argv[1])
+reader.Update()
+assert not failures, failures
+grid = reader.GetOutput()
+ids = vtk_to_numpy(grid.GetPointData().GetGlobalIds())
+moved = vtk_to_numpy(grid.GetPointData().GetArray("displacement"))
+print(sorted(set(ids.tolist())))
+for i in sorted(range(len(ids)), key=lambda i: ids[i]):
+    print(ids[i], *(float(x) for x in moved[i]))
+print(vtk_to_numpy(grid.GetCellData().GetGlobalIds()).tolist())
+"#;
+
+#[test]
+fn vtk_reads_the_pieces_of_a_state() {
+    let python = interpreter::with(&["numpy", "vtk"]);
+    let root = tempfile::tempdir().unwrap();
+    let dir = root.path().join("run.out");
+    let mesh = fixture::mesh();
+    let results = fixture::results_of_ranks(&mesh, 8);
+    write(&dir, &fixture::header(), &mesh, &results).unwrap();
+    let file = dir.join("state_03_released.pvtu");
+    let read = run(python.as_os_str(), PIECES, &file);
+    let mut lines = read.lines();
+    let nodes: Vec<usize> = (0..mesh.n_nodes()).collect();
+    assert_eq!(lines.next(), Some(format!("{nodes:?}").as_str()));
+    let moved = &results.states[2].fields.as_ref().unwrap().displacement;
+    let (points, cells): (Vec<&str>, Vec<&str>) = lines.partition(|line| !line.starts_with('['));
+    for point in points {
+        let values: Vec<f64> = point.split(' ').map(|x| x.parse().unwrap()).collect();
+        let node = values[0] as usize;
+        assert_eq!(values[1..], [moved[2 * node], moved[2 * node + 1], 0.0]);
+    }
+    let cells = cells[0].trim_matches(['[', ']']).split(", ");
+    let mut cells: Vec<usize> = cells.map(|id| id.parse().unwrap()).collect();
+    cells.sort_unstable();
+    assert_eq!(cells, (0..mesh.n_elements()).collect::<Vec<_>>());
+}
+
 #[test]
 fn meshio_reads_the_fields() {
     reads_the_fields("meshio", MESHIO);

@@ -30,7 +30,7 @@ fn minimal_header() -> RunHeader {
 #[test]
 fn a_full_summary_obeys_the_schema_and_has_every_value() {
     let mesh = fixture::mesh();
-    let mut value = summary(&fixture::header(), &fixture::results(&mesh));
+    let mut value = summary(&fixture::header(), &fixture::results_of_ranks(&mesh, 2));
     assert_valid(&value);
 
     let peak = value["peak_memory_bytes"].take();
@@ -55,7 +55,7 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
         "max_equivalent_plastic_strain": 0.02, "plastic_zone_size": 0.004, "plastic_work": 0.7,
         "plastic_depth": 0.0123, "energy_error": 0.05,
         "quality": quality,
-        "fields": "state_01_b___1.5_b_.vtu"
+        "fields": "state_01_b___1.5_b_.pvtu"
     });
     let mut between = pressed.clone();
     between["name"] = "between".into();
@@ -63,12 +63,31 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
     between["fields"] = Value::Null;
     let mut released = pressed.clone();
     released["name"] = "released".into();
-    released["fields"] = "state_03_released.vtu".into();
+    released["fields"] = "state_03_released.pvtu".into();
     let by_rank = [65536.5, 4096.5];
     let ranks = json!({
         "count": 2, "requests": 15, "bytes": 4096, "peak_memory_bytes": [1048576, null]
     });
-    let mut expected = json!({
+    let effects = json!({
+        "contact": {"on": true, "why": "2 pairs may touch", "seconds": 0.5, "memory_bytes": 4096}
+    });
+    let accuracy = json!({
+        "method": "coarser_meshes",
+        "companions": [{"ratio": 2.0, "freedoms": 9, "seconds": 0.25}],
+        "quantities": [{
+            "quantity": "yield.load", "value": 60.0, "error": 0.5, "relative_error": 0.005,
+            "discretisation": 0.4, "path": 0.09, "algebraic": 0.01, "order": null,
+            "extrapolated": 60.2
+        }],
+        "demand": {
+            "accuracy": 0.01, "demanded": "1 %", "reached": false, "reason": "time",
+            "unknown": ["states.s.load"],
+            "stated": 0.005, "worst": "yield.load", "choices": ["resolution 16"], "work": 3e9
+        },
+        "seconds": 0.5, "work": 1e9,
+        "notes": ["a mesh failed"]
+    });
+    let expected = json!({
         "brinell": env!("CARGO_PKG_VERSION"),
         "scene": "cylinder \"on\" <plane> & more",
         "scene_file": "scenes/cylinder.toml",
@@ -78,12 +97,10 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
         "solver": "dense",
         "nodes": 15, "elements": 4, "freedoms": 27, "contact_pairs": 2,
         "zone_freedoms": 9, "zone_elements": 2,
-        "effects": {
-            "contact": {"on": true, "why": "2 pairs may touch", "seconds": 0.5,
-                "memory_bytes": 4096}
-        },
+        "effects": effects,
         "timings": {"assembly": 0.375, "factorisation": 0.5, "total": 1.25},
         "peak_memory_bytes": null,
+        "ranks": ranks,
         "counts": {
             "factorizations": 1, "trailing_solves": 40, "full_solves": 3,
             "plastic_iterations": 12, "contact_changes": 2
@@ -109,27 +126,11 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
             "quantity": "yield.load", "reference": 61.0, "computed": 60.0, "ratio": 60.0 / 61.0,
             "published_ratio": null, "source": "Johnson, Contact Mechanics, p. 155"
         }],
-        "accuracy": {
-            "method": "coarser_meshes",
-            "companions": [{"ratio": 2.0, "freedoms": 9, "seconds": 0.25}],
-            "quantities": [{
-                "quantity": "yield.load", "value": 60.0, "error": 0.5, "relative_error": 0.005,
-                "discretisation": 0.4, "path": 0.09, "algebraic": 0.01, "order": null,
-                "extrapolated": 60.2
-            }],
-            "demand": {
-                "accuracy": 0.01, "demanded": "1 %", "reached": false, "reason": "time",
-                "unknown": ["states.s.load"],
-                "stated": 0.005, "worst": "yield.load", "choices": ["resolution 16"], "work": 3e9
-            },
-            "seconds": 0.5, "work": 1e9,
-            "notes": ["a mesh failed"]
-        },
+        "accuracy": accuracy,
         "warnings": ["tri3 elements lock where they yield"],
         "resumed": 2,
         "incomplete": "stopped on request"
     });
-    expected["ranks"] = ranks;
     assert_eq!(value, expected);
     // In this order, too.
     let [written, wanted] = [&value, &expected].map(|v| serde_json::to_string_pretty(v).unwrap());
@@ -225,7 +226,7 @@ fn the_schema_has_the_quantities_of_the_table() {
 #[test]
 fn the_schema_refuses_missing_and_unknown_keys() {
     let mesh = fixture::mesh();
-    let valid = summary(&fixture::header(), &fixture::results(&mesh));
+    let valid = summary(&fixture::header(), &fixture::results_of_ranks(&mesh, 2));
     let schema = schema();
     let mut objects = Vec::new();
     paths_of_objects(&valid, String::new(), &mut objects);
@@ -237,10 +238,13 @@ fn the_schema_refuses_missing_and_unknown_keys() {
         "/residual_depth_by_body",
     ];
     objects.retain(|path| !open.iter().any(|end| path.ends_with(end)));
-    // The root, an effect, counts, factor, quality, yield with its location, three states with
-    // quality (two with an arc), cycles with one, a reference, accuracy with a mesh, a quantity and
-    // a demand.
-    assert_eq!(objects.len(), 1 + 1 + 1 + 1 + 1 + 2 + 3 + 3 + 2 + 2 + 1 + 4);
+    // The root, an effect, ranks, counts, factor, quality, yield with its location, three states
+    // with quality (two with an arc), cycles with one, a reference, accuracy with a mesh, a quantity
+    // and a demand.
+    assert_eq!(
+        objects.len(),
+        1 + 1 + 1 + 1 + 1 + 1 + 2 + 3 + 3 + 2 + 2 + 1 + 4
+    );
     for path in objects {
         let object = valid.pointer(&path).unwrap().as_object().unwrap();
         for key in object.keys() {

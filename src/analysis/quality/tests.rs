@@ -254,7 +254,7 @@ fn noise_in_a_displacement_shows_in_the_balance_of_forces() {
         for share in [1e-6, 1e-3, 1.0] {
             let mut u = solver.reading().displacements().expect("displacements");
             move_by(&mut u, freedom, share * solver.scales.force / stiffest);
-            let q = solver.reading().quality_of(&u);
+            let q = solver.reading().quality_of(&u).unwrap();
             shows(q.equilibrium, share, sound);
         }
     }
@@ -274,7 +274,7 @@ fn noise_in_a_contact_force_shows_in_balance_and_backward_errors() {
             solver.now.force[pair] += noise;
             let u = solver.reading().displacements().expect("displacements");
             let load = solver.total_load();
-            let q = solver.reading().quality_of(&u);
+            let q = solver.reading().quality_of(&u).unwrap();
             solver.now.force[pair] -= noise;
             shows(
                 q.equilibrium,
@@ -321,7 +321,11 @@ fn tension_shows_as_adhesion() {
             });
             let expected = tension.fold(0.0, f64::max) / solver.scales.force;
             assert!(expected >= share * (1.0 - 1e-12));
-            shows(solver.reading().quality_of(&u).adhesion, expected, sound);
+            shows(
+                solver.reading().quality_of(&u).unwrap().adhesion,
+                expected,
+                sound,
+            );
         }
     }
 }
@@ -344,7 +348,7 @@ fn a_wrong_gap_shows_in_complementarity_and_as_penetration() {
         for (place, by) in [(pole, apart), (n + pole, -apart)] {
             let mut u = solver.reading().displacements().expect("displacements");
             u.total[contact[place]] += by;
-            let q = solver.reading().quality_of(&u);
+            let q = solver.reading().quality_of(&u).unwrap();
             let scale = solver.scales.displacement.max(widest);
             let product = apart.abs() / scale * share_of_force;
             shows(q.complementarity, product, sound.complementarity);
@@ -380,7 +384,7 @@ fn a_wrong_status_shows_with_its_tension_or_penetration() {
         for value in solver.now.gap.iter_mut().chain(&mut solver.now.force) {
             *value = value.max(0.0);
         }
-        let q = solver.reading().quality_of(&u);
+        let q = solver.reading().quality_of(&u).unwrap();
         if closed {
             shows(q.adhesion, tension / solver.scales.force, sound.adhesion);
         } else {
@@ -409,7 +413,7 @@ fn the_bound_of_forces_follows_the_round_off_of_the_mesh() {
             let random = ((i * 7919) % 1013) as f64 / 506.0 - 1.0;
             *value += size * f64::EPSILON * random * *value;
         }
-        let q = solver.reading().quality_of(&u);
+        let q = solver.reading().quality_of(&u).unwrap();
         let bound = q.round_off.expect("stated");
         assert_eq!(q.equilibrium <= bound, accepted, "{q:?}");
         assert_eq!(q.misses(&tolerances).is_empty(), accepted, "{q:?}");

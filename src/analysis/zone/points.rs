@@ -18,6 +18,7 @@ const GRAIN: usize = 128;
 /// The plastic zone with its history. Arrays over points give every element the same number of
 /// places (`stride`), so that they are cut by element without a list.
 pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize> {
+    kernel: Kernel<D, S, P, N>,
     pub(super) elements: GatheredElements,
     pub(super) gradients: Vec<Gradients<D, S, P, N>>,
     /// Elements in which flow means that the zone is too small.
@@ -92,6 +93,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         let fading = model.materials.iter().map(|m| m.back_stresses.n_stored());
         let back = BackStrains::new(fading.max().unwrap_or(0), n * stride);
         ZoneOf {
+            kernel: *kernel,
             turn: vec![[0.0; S]; if back.is_none() { 0 } else { n * stride }],
             back,
             harder,
@@ -392,6 +394,21 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             harder: self.harder.get(place).copied().unwrap_or(0.0),
         };
         material.plastic_work(&past) + self.back.lost_work(place)
+    }
+
+    /// The kernel of its elements.
+    pub fn kernel(&self) -> Kernel<D, S, P, N> {
+        self.kernel
+    }
+
+    /// The gradients of its element `i`.
+    pub fn gradients(&self, i: usize) -> &Gradients<D, S, P, N> {
+        &self.gradients[i]
+    }
+
+    /// The history of all points, as many places for each element.
+    pub fn committed(&self) -> &[PlasticState<S>] {
+        &self.committed
     }
 
     /// History of the zone's element `i`.

@@ -38,7 +38,7 @@ mod task;
 pub(in crate::linalg) mod tests;
 mod world;
 
-pub use rank::{Assemble, Columns};
+pub use rank::{Assemble, Columns, Evaluate};
 pub use shared::{Part, Shared};
 pub use world::{Traffic, World};
 

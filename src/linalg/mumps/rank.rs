@@ -36,9 +36,17 @@ impl Default for Columns {
     }
 }
 
-/// What the first rank alone hands to MUMPS.
+/// An answer to what the program asks.
+pub type Evaluate = fn(&[u8]) -> Result<Vec<u8>>;
+
+/// What a rank adds to what it is asked.
 #[derive(Default)]
 pub(super) struct Host {
+    /// How it makes columns of a matrix.
+    pub(super) assemble: Option<Assemble>,
+    /// How it answers the program.
+    pub(super) evaluate: Option<Evaluate>,
+    // What the first rank alone hands to MUMPS.
     /// Number of variables.
     pub(super) n: usize,
     /// The place of each in the order, from 1.
@@ -94,13 +102,13 @@ unsafe extern "C" {
 }
 
 /// Does what is asked; the answer as it is sent.
-pub(super) fn perform(task: Task, assemble: Assemble, host: &mut Host) -> Vec<u8> {
+pub(super) fn perform(task: Task, host: &mut Host) -> Vec<u8> {
     let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
     match task {
         Task::Matrix(index, bytes) => {
-            let columns = match bytes.is_empty() {
-                true => Ok(Columns::default()),
-                false => assemble(&bytes),
+            let columns = match host.assemble.filter(|_| !bytes.is_empty()) {
+                Some(assemble) => assemble(&bytes),
+                None => Ok(Columns::default()),
             };
             drop(bytes);
             answer(&match columns {
@@ -168,6 +176,14 @@ pub(super) fn perform(task: Task, assemble: Assemble, host: &mut Host) -> Vec<u8
             Vec::new()
         }
         Task::Memory => answer(&memory::peak()),
+        Task::Evaluate(bytes) => answer(&evaluated(host.evaluate, &bytes)),
+    }
+}
+
+fn evaluated(evaluate: Option<Evaluate>, bytes: &[u8]) -> std::result::Result<Vec<u8>, String> {
+    match evaluate {
+        Some(evaluate) => evaluate(bytes).map_err(|error| error.to_string()),
+        None => Err("nothing says how to answer".into()),
     }
 }
 

@@ -1,6 +1,6 @@
 //! A symmetric matrix of which each rank has some columns, as the first rank sees it.
 
-use super::rank::{Assemble, Columns, Host};
+use super::rank::{Assemble, Columns, Evaluate, Host};
 use super::task::{Made, Near, Product, Task};
 use super::{Entry, Traffic, World};
 use crate::error::{Error, Result};
@@ -29,7 +29,6 @@ pub struct Shared(Arc<Inner>);
 struct Inner {
     world: World,
     index: usize,
-    assemble: Assemble,
     /// What was asked before.
     before: Traffic,
     /// Of each part.
@@ -69,15 +68,17 @@ impl Shared {
                 });
                 Task::Matrix(index, message)
             },
-            assemble,
-            &mut Host::default(),
+            &mut Host {
+                assemble: Some(assemble),
+                ..Host::default()
+            },
         )?;
         let made: std::result::Result<Vec<Made>, String> = made.into_iter().collect();
         let made = match (failed, made) {
             (None, Ok(made)) => made,
             (failed, made) => {
                 let forget = |_| Task::ForgetMatrix(index);
-                let _: Vec<()> = world.ask(forget, assemble, &mut Host::default())?;
+                let _: Vec<()> = world.ask(forget, &mut Host::default())?;
                 let told = made.err().unwrap_or_default();
                 return Err(failed.unwrap_or_else(|| Error::analysis(told)));
             }
@@ -95,7 +96,6 @@ impl Shared {
         let shared = Shared(Arc::new(Inner {
             world,
             index,
-            assemble,
             before,
             n_entries: made.iter().map(|made| made.n_entries).collect(),
             numbers,
@@ -173,6 +173,32 @@ impl Shared {
         })
     }
 
+    /// Number of ranks.
+    pub fn n_ranks(&self) -> usize {
+        self.0.world.size
+    }
+
+    /// Asks each rank what `evaluate` answers to its message, on others that of [`World::serve`].
+    ///
+    /// # Errors
+    /// Those of the ranks.
+    pub(in crate::linalg) fn evaluate(
+        &self,
+        mut message: impl FnMut(usize) -> Vec<u8>,
+        evaluate: Evaluate,
+    ) -> Result<Vec<Vec<u8>>> {
+        let mut host = Host {
+            evaluate: Some(evaluate),
+            ..Host::default()
+        };
+        let task = |rank| Task::Evaluate(message(rank));
+        let answers: Vec<std::result::Result<Vec<u8>, String>> = self.ask(task, &mut host)?;
+        answers
+            .into_iter()
+            .map(|answer| answer.map_err(Error::analysis))
+            .collect()
+    }
+
     /// The diagonal.
     pub fn diagonal(&self) -> &[f64] {
         &self.0.diagonal
@@ -247,7 +273,7 @@ impl Shared {
         task: impl FnMut(usize) -> Task,
         host: &mut Host,
     ) -> Result<Vec<T>> {
-        self.0.world.ask(task, self.0.assemble, host)
+        self.0.world.ask(task, host)
     }
 }
 
@@ -259,6 +285,6 @@ impl Drop for Inner {
     fn drop(&mut self) {
         let task = |_| Task::ForgetMatrix(self.index);
         // Ranks that are gone have forgotten it.
-        let _: Result<Vec<()>> = self.world.ask(task, self.assemble, &mut Host::default());
+        let _: Result<Vec<()>> = self.world.ask(task, &mut Host::default());
     }
 }

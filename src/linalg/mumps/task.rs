@@ -28,6 +28,8 @@ pub(super) enum Task {
     ForgetFactor(usize),
     /// How much memory a rank has taken. Bytes.
     Memory,
+    /// What the program asks. [`Result<Vec<u8>, String>`].
+    Evaluate(Vec<u8>),
 }
 
 /// Columns that a rank has.

@@ -1,6 +1,6 @@
 //! The ranks, and what the first one asks of all.
 
-use super::rank::{self, Assemble, Host};
+use super::rank::{self, Assemble, Evaluate, Host};
 use super::task::Task;
 use crate::error::{Error, Result};
 use crate::memory;
@@ -84,7 +84,7 @@ impl World {
     }
 
     /// Of a rank beyond the first: takes part in what the first one computes, until that ends.
-    pub fn serve(self, assemble: Assemble) {
+    pub fn serve(self, assemble: Assemble, evaluate: Evaluate) {
         let _turn = calls();
         send(0, rank::VERSION.as_bytes());
         loop {
@@ -97,7 +97,12 @@ impl World {
                 continue;
             };
             drop(bytes);
-            send(0, &rank::perform(task, assemble, &mut Host::default()));
+            let mut host = Host {
+                assemble: Some(assemble),
+                evaluate: Some(evaluate),
+                ..Host::default()
+            };
+            send(0, &rank::perform(task, &mut host));
         }
     }
 
@@ -126,11 +131,10 @@ impl World {
     }
 
     /// Hands a task to each rank, this one last, and collects the answers by rank. `host` is what
-    /// the first rank alone adds.
+    /// the first rank adds.
     pub(super) fn ask<T: DeserializeOwned>(
         self,
         mut task: impl FnMut(usize) -> Task,
-        assemble: Assemble,
         host: &mut Host,
     ) -> Result<Vec<T>> {
         let garbled = |cause: postcard::Error| Error::internal("a message of ranks").because(cause);
@@ -150,7 +154,7 @@ impl World {
             bytes += message.len();
             send(rank, &message);
         }
-        let mut answers = vec![rank::perform(task(0), assemble, host)];
+        let mut answers = vec![rank::perform(task(0), host)];
         for rank in 1..self.size {
             let answer = receive(rank);
             bytes += answer.len();

@@ -1,0 +1,66 @@
+//! What stresses follow from once the displacements are known: mesh, materials, where they yield.
+
+use super::YieldByDepth;
+use crate::element::{Gradients, Kernel};
+use crate::material::Material;
+use crate::mesh::Mesh;
+use crate::scene::Formulation;
+use crate::space::{Space, Vector};
+use serde::{Deserialize, Serialize};
+
+/// Bodies as a continuum: all of a model's, or some of their elements by themselves.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Continuum {
+    /// Plane strain, plane stress, axisymmetric or solid.
+    pub kind: Space,
+    /// How elements are integrated.
+    pub formulation: Formulation,
+    /// The mesh.
+    pub mesh: Mesh,
+    /// Material of each body.
+    pub materials: Vec<Material>,
+    /// Whether each body may yield.
+    pub may_yield: Vec<bool>,
+    /// Yield stress by depth, of each body that has one.
+    pub yield_by_depth: Vec<Option<YieldByDepth>>,
+}
+
+impl Continuum {
+    /// Some elements, ascending, on their own nodes, and which nodes these are.
+    pub fn part(&self, elements: &[usize]) -> (Continuum, Vec<u32>) {
+        let (mesh, nodes) = self.mesh.part(elements);
+        let part = Continuum {
+            mesh,
+            materials: self.materials.clone(),
+            may_yield: self.may_yield.clone(),
+            yield_by_depth: self.yield_by_depth.clone(),
+            ..*self
+        };
+        (part, nodes)
+    }
+
+    /// The gradients at the Gauss points of an element.
+    #[inline]
+    pub fn gradients<const D: usize, const S: usize, const P: usize, const N: usize>(
+        &self,
+        kernel: &Kernel<D, S, P, N>,
+        element: usize,
+    ) -> Gradients<D, S, P, N> {
+        let nodes = self.mesh.element_coordinates(element);
+        kernel.gauss(self.mesh.shapes[element], &nodes)
+    }
+
+    /// Initial yield stress of a body at a place, infinite for an elastic material.
+    #[inline]
+    pub fn yield_stress(&self, body: usize, place: Vector) -> f64 {
+        match &self.yield_by_depth[body] {
+            Some(profile) => profile.at(place),
+            None => self.materials[body].yield_stress(),
+        }
+    }
+
+    /// Material of an element.
+    pub fn material(&self, element: usize) -> &Material {
+        &self.materials[self.mesh.element_body[element] as usize]
+    }
+}
