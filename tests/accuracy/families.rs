@@ -384,7 +384,7 @@ fn tube_from_file(shape: &str, folder: &Path) -> Family {
 pub fn from_file(mut scene: Scene, folder: &Path, circles: &[(&str, [f64; 2], f64)]) -> Scene {
     std::fs::create_dir_all(folder).unwrap();
     let file = folder.join("mesh.msh");
-    let mesh = Model::new(&scene).unwrap().mesh;
+    let mesh = Model::new(&scene).unwrap().continuum.mesh;
     gmsh::write(&mesh, &mut std::fs::File::create(&file).unwrap()).unwrap();
     let circle = |&(on, center, radius): &(&str, [f64; 2], f64)| SurfaceCircle {
         on: on.to_string(),

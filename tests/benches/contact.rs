@@ -86,7 +86,7 @@ fn model(pairs: usize, rows: usize) -> Result<Model, Failure> {
     )?;
     let mut model = Model::new(&scene)?;
     for pair in &mut model.pairs {
-        let at = model.mesh.point(pair.slave)[0] / n as f64;
+        let at = model.continuum.mesh.point(pair.slave)[0] / n as f64;
         pair.gap = LARGEST_GAP * at * at;
     }
     Ok(model)

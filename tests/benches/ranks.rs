@@ -36,9 +36,9 @@ fn main() -> Result<(), Failure> {
     let mut all = Vec::new();
     println!(
         "| model | freedoms | engine | ranks | operations | memory of each rank, MB | predicted \
-         | factor, s | run, s | requests | MB to and from others |"
+         | factor, s | stresses, s | run, s | requests | MB to and from others |"
     );
-    println!("|---|---|---|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
     let mut largest = Vec::new();
     for (k, (name, resolution, growth)) in SIZES.into_iter().enumerate() {
         if !names.is_empty() && !names.iter().any(|wanted| wanted == name) {
@@ -141,8 +141,9 @@ fn report(model: &str, engine: Engine, summary: &Value) {
     let (factor, ranks) = (&summary["factor"], &summary["ranks"]);
     let timings = &summary["timings"];
     let figures = format!(
-        "{:.2} | {:.1}",
+        "{:.2} | {:.2} | {:.1}",
         number(&timings["factorisation and condensation"]),
+        number(&timings["stresses"]),
         number(&timings["total"])
     );
     let freedoms = &summary["freedoms"];

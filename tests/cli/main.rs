@@ -12,6 +12,9 @@ mod pressure;
 mod readme;
 mod refusals;
 mod scene_help;
+#[cfg(feature = "faer")]
+#[path = "../running/scenes.rs"]
+mod scenes;
 mod shown;
 mod solids;
 mod solvers;

@@ -221,7 +221,7 @@ fn a_mirrored_model_has_the_same_results() {
         ("ball_on_flat_3d", &small, 1e-8),
     ] {
         let scene = load(name, overrides);
-        let mesh = Model::new(&scene).unwrap().mesh;
+        let mesh = Model::new(&scene).unwrap().continuum.mesh;
         let mut other = scene.clone();
         for contact in &mut other.contact {
             contact.normal = contact.normal.map(|n| {

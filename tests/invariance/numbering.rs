@@ -163,7 +163,7 @@ fn numbers_of_nodes_and_elements_do_not_matter() {
         ("hard/all_closed", 1e-8),
     ] {
         let scene = load(name, &[]);
-        let mesh = Model::new(&scene).unwrap().mesh;
+        let mesh = Model::new(&scene).unwrap().continuum.mesh;
         let other = renumbered(&mesh);
         assert_ne!(mesh.connectivity, other.connectivity);
         same(name, &run(&scene), &run_on(&scene, other), tolerance);
@@ -176,7 +176,7 @@ fn numbers_of_solid_elements_do_not_matter() {
     let flow = "program.targets=[{ load_factor = 2.0 }, { load_factor = 0.0 }]";
     let ball = [&SMALL_BALL[..], &[flow]].concat();
     let scene = load("ball_on_flat_3d", &ball);
-    let mesh = Model::new(&scene).unwrap().mesh;
+    let mesh = Model::new(&scene).unwrap().continuum.mesh;
     let other = renumbered(&mesh);
     assert_ne!(mesh.connectivity, other.connectivity);
     let (a, b) = (run(&scene), run_on(&scene, other));
@@ -191,7 +191,7 @@ fn quadratic_elements_may_begin_at_any_corner() {
         "mesh.cylinder_on_half_plane.resolution=2",
     ];
     let scene = load("hard/separation", &set);
-    let mesh = Model::new(&scene).unwrap().mesh;
+    let mesh = Model::new(&scene).unwrap().continuum.mesh;
     same(
         "quad8",
         &run(&scene),
@@ -205,7 +205,7 @@ fn quadratic_elements_may_begin_at_any_corner() {
 fn a_mesh_survives_gmsh_in_any_numbering() {
     for name in ["hard/three_in_a_row", "hard/floating_body", "three_bodies"] {
         let scene = load(name, &[]);
-        let mesh = Model::new(&scene).unwrap().mesh;
+        let mesh = Model::new(&scene).unwrap().continuum.mesh;
         let mut text = Vec::new();
         gmsh::write(&renumbered(&mesh), &mut text).unwrap();
         let read = gmsh::parse(&text, "renumbered.msh").unwrap();

@@ -25,7 +25,7 @@ pub fn at_ratio(
         let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
         load(name, &overrides)
     };
-    let [a, b] = [first, second].map(|n| Model::new(&scene(n)).unwrap().mesh);
+    let [a, b] = [first, second].map(|n| Model::new(&scene(n)).unwrap().continuum.mesh);
     let mesh = joined(&a, &b);
     let results = run_on(&scene(first), mesh);
     (scene(first), results)

@@ -2,7 +2,10 @@
 
 #[path = "../running/limit.rs"]
 mod limit;
+#[path = "../running/scenes.rs"]
+mod scenes;
 
+use brinell::output::read;
 use serde_json::Value;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -60,46 +63,7 @@ fn run(ranks: usize, scene: &str, changes: &[&str], out: &Path) -> Value {
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
-/// The largest difference of the figures of all states, each over the largest size that it has.
-fn difference(found: &Value, expected: &Value) -> f64 {
-    let [own, other] = [found, expected].map(|s| s["states"].as_array().unwrap());
-    assert_eq!(own.len(), other.len());
-    let figures = [
-        "load",
-        "max_pressure",
-        "half_width",
-        "residual_depth",
-        "approach",
-    ];
-    let of = |figure: &str| {
-        let value = |state: &Value| state[figure].as_f64().unwrap_or(0.0);
-        let largest = other.iter().map(|s| value(s).abs()).fold(0.0, f64::max);
-        let off = own
-            .iter()
-            .zip(other)
-            .map(|(a, b)| (value(a) - value(b)).abs());
-        off.fold(0.0, f64::max) / largest.max(f64::MIN_POSITIVE)
-    };
-    figures.into_iter().map(of).fold(0.0, f64::max)
-}
-
-/// The scenes of a folder of `data/scenes`.
-fn names(folder: &str) -> Vec<String> {
-    let path = format!("{}/data/scenes/{folder}", env!("CARGO_MANIFEST_DIR"));
-    let files = std::fs::read_dir(path)
-        .unwrap()
-        .map(|entry| entry.unwrap().path());
-    let scenes = files.filter(|path| path.extension().is_some_and(|end| end == "toml"));
-    let mut names: Vec<String> = scenes
-        .map(|path| format!("{folder}{}", path.file_stem().unwrap().to_str().unwrap()))
-        .collect();
-    names.sort();
-    names
-}
-
-/// Every scene on one, two and four ranks. Of bodies that hardly anything holds, or whose
-/// elements are slivers, displacements have the digits that their condition leaves; else the
-/// plastic iteration ends at 1e-10 of the forces, from whichever side.
+/// Every scene on one, two and four ranks.
 #[test]
 fn results_are_those_of_cholmod_for_any_number_of_ranks() {
     if !has_mpirun() {
@@ -108,21 +72,16 @@ fn results_are_those_of_cholmod_for_any_number_of_ranks() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     let (mut n, mut close) = (0, [0; 3]);
-    for name in names("").into_iter().chain(names("hard/")) {
+    for name in scenes::all() {
         let path = scene(&name);
-        let text = std::fs::read_to_string(&path).unwrap();
-        let coarser: &[&str] = match text.contains("[mesh.curved_bodies]") {
-            true => &["mesh.curved_bodies.resolution=4"],
-            false => &[],
-        };
-        let expected = run(0, &path, coarser, &out);
+        let smaller = scenes::smaller(&path);
+        let expected = run(0, &path, smaller, &out);
         assert_eq!(expected["solver"], "cholmod");
-        let is_ill = ["hard/nearly_floating", "hard/slivers"].contains(&name.as_str());
-        let bound = if is_ill { 1e-6 } else { 1e-8 };
+        let bound = scenes::agreement(&name);
         for (ranks, close) in [1, 2, 4].into_iter().zip(&mut close) {
-            let found = run(ranks, &path, coarser, &out);
+            let found = run(ranks, &path, smaller, &out);
             assert_eq!(found["solver"], "mumps");
-            let off = difference(&found, &expected);
+            let off = scenes::difference(&found, &expected);
             println!("{name} on {ranks}: {off:.1e}");
             assert!(off <= bound, "{name} on {ranks}: {off:e}");
             *close += usize::from(off <= 1e-10);
@@ -131,6 +90,61 @@ fn results_are_those_of_cholmod_for_any_number_of_ranks() {
     }
     println!("of {n} scenes on 1, 2 and 4 ranks within 1e-10: {close:?}");
     assert!(n > 40, "{n}");
+}
+
+/// Fields on the whole mesh, which each rank evaluates and writes a part of, are those of one
+/// process: elastic and plastic, in the plane and in space, with free strains.
+#[test]
+fn fields_in_pieces_are_those_of_one_process() {
+    if !has_mpirun() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let [one, several] = ["one", "several"].map(|name| folder.path().join(name));
+    for (name, changes) in [
+        ("cylinder_on_half_plane", &[][..]),
+        ("fit_by_heat", &[]),
+        ("ball_on_flat_3d", &["mesh.curved_bodies.resolution=4"]),
+    ] {
+        run(0, &scene(name), changes, &one);
+        let summary = run(3, &scene(name), changes, &several);
+        let [whole, pieces] = [&one, &several].map(|dir| read(dir).unwrap().results.states);
+        let mut n = 0;
+        for (i, (whole, pieces)) in whole.iter().zip(&pieces).enumerate() {
+            let Some(whole) = &whole.fields else { continue };
+            let file = summary["states"][i]["fields"].as_str().unwrap();
+            assert!(file.ends_with(".pvtu"), "{file}");
+            let pieces = pieces.fields.as_ref().unwrap();
+            for (what, whole, pieces) in [
+                ("displacement", &whole.displacement, &pieces.displacement),
+                ("stress", &whole.stress, &pieces.stress),
+                ("von Mises stress", &whole.von_mises, &pieces.von_mises),
+                (
+                    "plastic strain",
+                    &whole.plastic_strain,
+                    &pieces.plastic_strain,
+                ),
+                ("error", &whole.error, &pieces.error),
+                ("nodal stress", &whole.nodal_stress, &pieces.nodal_stress),
+                (
+                    "pressure",
+                    &whole.contact_pressure,
+                    &pieces.contact_pressure,
+                ),
+            ] {
+                let size = whole.iter().fold(0.0f64, |m, x| m.max(x.abs()));
+                let each = whole.iter().zip(pieces).map(|(a, b)| (a - b).abs());
+                let off = each.fold(0.0, f64::max);
+                println!("{name}, state {i}: {what} {:.1e}", off / size);
+                assert!(
+                    off <= scenes::agreement(name) * size,
+                    "{name}, state {i}: {what}"
+                );
+            }
+            n += 1;
+        }
+        assert!(n > 0, "{name}");
+    }
 }
 
 fn ends(output: &Output, code: i32, words: &str) {
@@ -309,7 +323,7 @@ fn ranks_without_an_element_do_no_harm() {
     ];
     let [alone, many] = [0, 5].map(|n| run(n, &scene("contact_patch"), &changes, &out));
     assert_eq!(many["elements"], 2);
-    assert!(difference(&many, &alone) <= 1e-10);
+    assert!(scenes::difference(&many, &alone) <= 1e-10);
 }
 
 /// `mpirun` hands SIGUSR1 on: the run ends where it is, with its results. Killed outright, it goes
@@ -369,7 +383,7 @@ fn a_run_that_is_stopped_keeps_what_it_has() {
     assert!(output.status.success(), "{why}");
     let found: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert!(found["resumed"].as_u64().unwrap() > 0);
-    assert!(difference(&found, &expected) <= 1e-8);
+    assert!(scenes::difference(&found, &expected) <= 1e-8);
 }
 
 /// A rank that is killed ends the others within seconds.

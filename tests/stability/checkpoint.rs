@@ -314,7 +314,7 @@ fn what_is_not_the_same_run_is_refused_by_name() {
         &["analysis.tolerance"],
     );
     let mut model = Model::new(&scene).unwrap();
-    model.mesh.coordinates[7] += 1e-13;
+    model.continuum.mesh.coordinates[7] += 1e-13;
     let moved = Analysis::new(model, Backend::default())
         .unwrap()
         .resume(&copy(&dir, &other), &mut Silent);

@@ -158,7 +158,7 @@ fn the_approach_is_a_mean_by_length() {
     );
     let scene = parse(&text);
     let state = &run(&scene).states[0];
-    let mesh = Model::new(&scene).unwrap().mesh;
+    let mesh = Model::new(&scene).unwrap().continuum.mesh;
     let fields = state.fields.as_ref().unwrap();
     let top = (0..mesh.n_nodes()).filter(|&n| mesh.point(n)[1] == 1.0);
     let mut top: Vec<[f64; 2]> = top

@@ -306,7 +306,7 @@ targets = [{{ load_factor = 1.0 }}]
         moduli[0], expansions[0], moduli[1], expansions[1]
     );
     let scene = Scene::parse(&text, "strip").unwrap();
-    let mesh = Model::new(&scene).unwrap().mesh;
+    let mesh = Model::new(&scene).unwrap().continuum.mesh;
     let results = run(&scene);
     let u = &results.states[0].fields.as_ref().unwrap().displacement;
     // Deflections of the lowest fibre in the middle of the strip, free of what goes on at the end.
@@ -395,7 +395,7 @@ fn temperatures_of_nodes_from_a_file() {
         block("plane_stress", "quad8", temperature, SIDES, targets)
     };
     let by_formula = of("\"150 + 40*x - 30*y\"");
-    let mesh = Model::new(&by_formula).unwrap().mesh;
+    let mesh = Model::new(&by_formula).unwrap().continuum.mesh;
     let write = |nodes: &[usize]| {
         let mut text = format!("$NodeData\n1\n\"T\"\n1\n0.0\n3\n0\n1\n{}\n", nodes.len());
         for &node in nodes {

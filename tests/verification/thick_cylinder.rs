@@ -36,7 +36,7 @@ fn triangles(n: usize, moved: f64) -> Model {
             "program.targets=[{ yield = true }]",
         ],
     );
-    let mut mesh = Model::new(&scene).unwrap().mesh;
+    let mut mesh = Model::new(&scene).unwrap().continuum.mesh;
     let mut shortest = vec![f64::INFINITY; mesh.n_nodes()];
     for element in 0..mesh.n_elements() {
         let nodes = mesh.nodes(element);

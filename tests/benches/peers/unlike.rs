@@ -36,8 +36,8 @@ fn model([first, second]: [usize; 2]) -> Result<Model, Failure> {
         Scene::load_with(SCENE, &overrides)
     };
     let meshes = [
-        Model::new(&scene(first)?)?.mesh,
-        Model::new(&scene(second)?)?.mesh,
+        Model::new(&scene(first)?)?.continuum.mesh,
+        Model::new(&scene(second)?)?.continuum.mesh,
     ];
     Ok(Model::from_mesh(
         &scene(first)?,
