@@ -86,8 +86,7 @@ mod zone_fit;
 mod tests;
 
 pub use check::{Check, check};
-#[cfg(feature = "mumps")]
-pub(crate) use piece::evaluate;
+pub use piece::evaluate;
 pub(crate) use recovery::left_of_search;
 
 use crate::assembly::{System, assemble};

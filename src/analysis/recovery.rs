@@ -87,7 +87,7 @@ pub enum Recovery {
 impl Recovery {
     /// Recovery over the given elements (ascending).
     pub fn new(model: &Model, elements: &[usize], places: &Places) -> Self {
-        let formulation = model.scene.mesh.formulation;
+        let formulation = model.formulation;
         match model.kind {
             Space::Solid => {
                 let kernel = Kernel::solid().integrated(formulation);

@@ -67,7 +67,7 @@ impl Zone {
     /// Sets up the zone of the given elements (ascending); `guard` says which of them only watch.
     /// The free freedoms of the elements must be zone or contact freedoms.
     pub fn new(model: &Model, elements: &[usize], guard: &[bool], places: &Places) -> Self {
-        with_kernel!(model.kind, model.scene.mesh.formulation, kernel => {
+        with_kernel!(model.kind, model.formulation, kernel => {
             ZoneOf::new(&kernel, model, elements, guard, places).into()
         })
     }

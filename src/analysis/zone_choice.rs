@@ -196,7 +196,7 @@ fn widen(model: &Model, mut marked: Vec<bool>, layers: usize) -> Vec<bool> {
 /// yield (0 elsewhere), for displacements of the whole model.
 pub fn stress_ratios(model: &Model, u: &[f64], factors: &[f64]) -> Vec<f64> {
     let displacements = model.nodal(u, factors);
-    let formulation = model.scene.mesh.formulation;
+    let formulation = model.formulation;
     with_kernel!(model.kind, formulation, kernel => {
         ratios_of(&kernel, model, (&displacements, factors))
     })

@@ -113,7 +113,8 @@ impl Symmetric {
         }
     }
 
-    /// What `evaluate` answers to a message for each rank that shares it, there.
+    /// What each rank that shares it answers to its message by `evaluate`: work on the mesh goes
+    /// where the matrix is.
     ///
     /// # Errors
     /// Those of the ranks.

@@ -7,6 +7,7 @@
 //! multiprocessors*, IEEE Trans. Computers C-36 (1987) 570, doi:10.1109/TC.1987.1676942.
 
 use super::Mesh;
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 impl Mesh {
@@ -20,21 +21,64 @@ impl Mesh {
         elements
     }
 
+    /// The elements of each part (ascending) and all that share a node with them, ascending.
+    pub fn with_neighbours(&self, parts: &[Vec<usize>]) -> Vec<Vec<usize>> {
+        const NONE: u32 = u32::MAX;
+        let mut part_of = vec![NONE; self.n_elements()];
+        for (part, elements) in (0..).zip(parts) {
+            elements.iter().for_each(|&e| part_of[e] = part);
+        }
+        // The part that holds each node; of those that several hold, all.
+        let mut first = vec![NONE; self.n_nodes()];
+        let mut several: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        let mut is_shared = vec![false; self.n_nodes()];
+        for (e, &part) in part_of.iter().enumerate() {
+            for &node in self.nodes(e) {
+                let holder = &mut first[node as usize];
+                if *holder == NONE {
+                    *holder = part;
+                } else if *holder != part {
+                    is_shared[node as usize] = true;
+                    let parts = several.entry(node).or_insert_with(|| vec![*holder]);
+                    if !parts.contains(&part) {
+                        parts.push(part);
+                    }
+                }
+            }
+        }
+        let mut out = vec![Vec::new(); parts.len()];
+        let mut near = Vec::new();
+        for (e, &part) in part_of.iter().enumerate() {
+            near.clear();
+            near.push(part);
+            let shared = self
+                .nodes(e)
+                .iter()
+                .filter(|node| is_shared[**node as usize]);
+            near.extend(shared.flat_map(|node| &several[node]));
+            near.sort_unstable();
+            near.dedup();
+            near.iter().for_each(|&part| out[part as usize].push(e));
+        }
+        out
+    }
+
     /// Some elements, ascending, on their own nodes, and which nodes these are, ascending. Bodies
     /// keep their numbers; sets, surfaces and labels are left behind.
     pub fn part(&self, elements: &[usize]) -> (Mesh, Vec<u32>) {
-        let mut nodes: Vec<u32> = (elements.iter())
-            .flat_map(|&e| self.nodes(e))
-            .copied()
-            .collect();
-        nodes.sort_unstable();
-        nodes.dedup();
+        let mut number = vec![0; self.n_nodes()];
+        for &node in elements.iter().flat_map(|&e| self.nodes(e)) {
+            number[node as usize] = 1;
+        }
+        let held = (0..self.n_nodes() as u32).filter(|&node| number[node as usize] == 1);
+        let nodes: Vec<u32> = held.collect();
         let mut part = Mesh {
             dimension: self.dimension,
             offsets: vec![0],
             ..Mesh::default()
         };
-        for &node in &nodes {
+        for (own, &node) in (0..).zip(&nodes) {
+            number[node as usize] = own;
             let at = self.dimension * node as usize;
             let place = &self.coordinates[at..at + self.dimension];
             part.coordinates.extend_from_slice(place);
@@ -42,8 +86,8 @@ impl Mesh {
         for &e in elements {
             part.shapes.push(self.shapes[e]);
             part.element_body.push(self.element_body[e]);
-            let own = |node: &u32| nodes.partition_point(|other| other < node) as u32;
-            part.connectivity.extend(self.nodes(e).iter().map(own));
+            let own = self.nodes(e).iter().map(|node| number[*node as usize]);
+            part.connectivity.extend(own);
             part.offsets.push(part.connectivity.len());
         }
         (part, nodes)
@@ -94,6 +138,7 @@ impl Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::Shape;
 
     #[test]
     fn every_part_has_its_share_of_the_nodes() {
@@ -116,5 +161,45 @@ mod tests {
         // The longer side is cut.
         let owners = mesh.shared_among(2);
         assert!(owners[..15 * 7].iter().all(|rank| *rank == 0));
+    }
+
+    #[test]
+    fn parts_know_the_elements_around_them() {
+        let mut mesh = Mesh {
+            dimension: 2,
+            ..Mesh::default()
+        };
+        let n = 9u32;
+        for i in 0..=n {
+            for j in 0..=n {
+                mesh.coordinates.extend([f64::from(i), f64::from(j)]);
+            }
+        }
+        for i in 0..n {
+            for j in 0..n {
+                let [a, b] = [i, i + 1].map(|i| i * (n + 1) + j);
+                mesh.push_element(Shape::Quad4, 0, &[a, b, b + 1, a + 1]);
+            }
+        }
+        for n in [1, 2, 5, 200] {
+            let parts = mesh.elements_among(n);
+            let mut all: Vec<usize> = parts.concat();
+            all.sort_unstable();
+            assert_eq!(all, (0..mesh.n_elements()).collect::<Vec<_>>());
+            for (own, found) in parts.iter().zip(mesh.with_neighbours(&parts)) {
+                let nodes: Vec<u32> = own.iter().flat_map(|&e| mesh.nodes(e)).copied().collect();
+                let touches = |e: &usize| mesh.nodes(*e).iter().any(|node| nodes.contains(node));
+                let expected: Vec<usize> = (0..mesh.n_elements()).filter(touches).collect();
+                assert_eq!(found, expected);
+                let (part, numbers) = mesh.part(&found);
+                for (i, &e) in found.iter().enumerate() {
+                    let whole = part.nodes(i).iter().map(|&node| numbers[node as usize]);
+                    assert_eq!(whole.collect::<Vec<_>>(), mesh.nodes(e));
+                }
+                for (i, &node) in numbers.iter().enumerate() {
+                    assert_eq!(part.point(i), mesh.point(node as usize));
+                }
+            }
+        }
     }
 }

@@ -1,7 +1,10 @@
 //! Fields on the mesh for ParaView, meshio and pyvista: one `.vtu` per state and `fields.pvd`,
-//! which makes a time series of them. Of a run on several ranks a state is a `.pvtu` with a `.vtu`
-//! for the part of space of each rank, so that what looks at it can share the work too. Its time is the load factor for as long as that grows; where
-//! loads are taken off it goes on by as much as they fall, as readers sort states by it.
+//! which makes a time series of them. The time of a state is the load factor for as long as that
+//! grows; where loads are taken off it goes on by as much as they fall, as readers sort states by
+//! it.
+//!
+//! Of a run on several ranks a state is a `.pvtu` with a `.vtu` for the part of space of each rank,
+//! so that what looks at it can share the work too.
 //!
 //! | array | on | type | components |
 //! |---|---|---|---|
@@ -80,7 +83,7 @@ fn write_pieces(
     (parts, fields): (&[Part], &Fields),
     name: &str,
 ) -> Result<()> {
-    let stem = name.trim_end_matches(PIECES_SUFFIX);
+    let stem = name.strip_suffix(PIECES_SUFFIX).unwrap_or(name);
     let files: Vec<String> = (1..=parts.len())
         .map(|number| format!("{stem}_part_{number}{FILE_SUFFIX}"))
         .collect();
@@ -110,7 +113,7 @@ impl Part {
         if n < 2 {
             return Vec::new();
         }
-        let parts = mesh.elements_among(n).into_iter();
+        let parts = mesh.elements_among(n.min(mesh.n_elements())).into_iter();
         let part = |elements: Vec<usize>| {
             let (part, nodes) = mesh.part(&elements);
             Part {
@@ -175,7 +178,7 @@ pub(super) fn is_in_pieces(path: &Path) -> bool {
 
 /// In how many pieces a state of these results is written: one for each rank.
 fn n_pieces(results: &Results) -> usize {
-    results.ranks.as_ref().map_or(1, |ranks| ranks.count)
+    results.ranks.as_ref().map_or(1, |ranks| ranks.count.max(1))
 }
 
 /// Changes of the load factor up to each state, added up; later states at the same one follow as

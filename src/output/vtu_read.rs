@@ -1,5 +1,5 @@
-//! Fields read back from the `.vtu` and `.pvtu` files that [`super::vtu`] writes. Not a reader of VTK files in
-//! general.
+//! Fields read back from the `.vtu` and `.pvtu` files that [`super::vtu`] writes. Not a reader of
+//! VTK files in general.
 
 use super::{fields, vtu};
 use crate::error::{Error, Result};
@@ -33,23 +33,23 @@ pub(super) fn read(path: &Path, mesh: &Mesh) -> Result<Fields> {
         Ok((path.as_path(), blocks))
     });
     let state = Files(files.collect::<Result<_>>()?);
-    let numbers = |name: &str, items| -> Result<Vec<f64>> {
-        let bytes = state.bytes(name, items)?;
+    let numbers = |name: &str, items: Items, n: usize| -> Result<Vec<f64>> {
+        let bytes = state.bytes(name, items, 8 * n)?;
         let (values, _) = bytes.as_chunks::<8>();
         Ok(values.iter().map(|v| f64::from_le_bytes(*v)).collect())
     };
     let tensors = |name: &str, items| -> Result<Vec<f64>> {
-        let values = numbers(name, items)?;
         let of = |s: &[f64; 9]| [s[0], s[4], s[8], s[1], s[5], s[2]];
-        Ok(match mesh.is_solid() {
-            true => values.as_chunks::<9>().0.iter().flat_map(of).collect(),
-            false => values,
-        })
+        if mesh.is_solid() {
+            let values = numbers(name, items, 9)?;
+            return Ok(values.as_chunks::<9>().0.iter().flat_map(of).collect());
+        }
+        numbers(name, items, 4)
     };
     let nodes = (vtu::NODE_IDS, mesh.n_nodes());
     let elements = (vtu::ELEMENT_IDS, mesh.n_elements());
     let fields = Fields {
-        displacement: numbers("displacement", nodes)?
+        displacement: numbers("displacement", nodes, 3)?
             .as_chunks::<3>()
             .0
             .iter()
@@ -61,12 +61,12 @@ pub(super) fn read(path: &Path, mesh: &Mesh) -> Result<Fields> {
             true => tensors("nodal_stress", nodes)?,
             false => Vec::new(),
         },
-        von_mises: numbers("von_mises", elements)?,
-        plastic_strain: numbers("equivalent_plastic_strain", elements)?,
-        yielded: state.bytes("yielded", elements)?.into_owned(),
-        error: numbers("discretisation_error", elements)?,
-        contact_pressure: numbers("contact_pressure", nodes)?,
-        gap: numbers("gap", nodes)?,
+        von_mises: numbers("von_mises", elements, 1)?,
+        plastic_strain: numbers("equivalent_plastic_strain", elements, 1)?,
+        yielded: state.bytes("yielded", elements, 1)?.into_owned(),
+        error: numbers("discretisation_error", elements, 1)?,
+        contact_pressure: numbers("contact_pressure", nodes, 1)?,
+        gap: numbers("gap", nodes, 1)?,
         force: Vec::new(),
     };
     fields::check(mesh, &fields).map_err(|error| does_not_fit(path, error.message()))?;
@@ -107,6 +107,10 @@ fn pieces(path: &Path, bytes: &[u8]) -> Result<Vec<(PathBuf, Vec<u8>)>> {
     names.into_iter().map(piece).collect()
 }
 
+/// The array with the numbers that a file's nodes or elements have in the whole, and how many the
+/// whole has.
+type Items<'a> = (&'a str, usize);
+
 /// The files of a state.
 struct Files<'a>(Vec<(&'a Path, Blocks<'a>)>);
 
@@ -115,29 +119,30 @@ impl<'a> Files<'a> {
         self.0.iter().all(|(_, blocks)| blocks.has(name))
     }
 
-    /// The bytes of an array of `n` items; those of pieces go where their numbers, in the array
-    /// `ids`, say.
-    fn bytes(&self, name: &str, (ids, n): (&str, usize)) -> Result<Cow<'a, [u8]>> {
+    /// The bytes of an array, `size` for each item. Those of pieces go where their numbers say.
+    fn bytes(&self, name: &str, (ids, n): Items, size: usize) -> Result<Cow<'a, [u8]>> {
         if let [(path, blocks)] = self.0.as_slice()
             && !blocks.has(ids)
         {
             let bytes = blocks.bytes(name).map_err(|what| damaged(path, what))?;
             return Ok(Cow::Borrowed(bytes));
         }
-        let (mut whole, mut is_there) = (Vec::new(), vec![false; n]);
+        let (mut whole, mut is_there) = (vec![0; size * n], vec![false; n]);
         for (path, blocks) in &self.0 {
             let array = |name| blocks.bytes(name).map_err(|what| damaged(path, what));
             let (bytes, (ids, _)) = (array(name)?, array(ids)?.as_chunks::<8>());
-            let size = bytes.len() / ids.len().max(1);
-            whole.resize(size * n, 0);
-            for (id, item) in ids.iter().zip(bytes.chunks_exact(size.max(1))) {
-                let id = usize::try_from(u64::from_le_bytes(*id)).unwrap_or(usize::MAX);
-                let place = whole.chunks_exact_mut(size.max(1)).nth(id);
-                let (Some(place), true) = (place, size * ids.len() == bytes.len()) else {
-                    let why = format!("`{name}` has a value of number {id} of {n}");
+            if size * ids.len() != bytes.len() {
+                let why = format!("`{name}` has not {} values", ids.len());
+                return Err(does_not_fit(path, &why));
+            }
+            for (id, item) in ids.iter().zip(bytes.chunks_exact(size)) {
+                let number = u64::from_le_bytes(*id);
+                let id = usize::try_from(number).ok().filter(|id| *id < n);
+                let Some(id) = id else {
+                    let why = format!("`{name}` has a value of number {number} of {n}");
                     return Err(does_not_fit(path, &why));
                 };
-                place.copy_from_slice(item);
+                whole[size * id..][..size].copy_from_slice(item);
                 is_there[id] = true;
             }
         }

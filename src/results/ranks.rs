@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 pub struct Ranks {
     /// How many there are.
     pub count: usize,
-    /// Times that the first one asked something of the others: to assemble, to factor, once for
-    /// each load and each state, nothing in between.
+    /// Times that the first one asked something of the others: to assemble, to factor, to solve for
+    /// each load and each state and to evaluate its stresses, nothing in between.
     pub requests: u64,
     /// Bytes that it sent and received for that, without those of MUMPS.
     pub bytes: u64,

@@ -89,7 +89,6 @@ fn results_are_those_of_cholmod_for_any_number_of_ranks() {
         n += 1;
     }
     println!("of {n} scenes on 1, 2 and 4 ranks within 1e-10: {close:?}");
-    assert!(n > 40, "{n}");
 }
 
 /// Fields on the whole mesh, which each rank evaluates and writes a part of, are those of one
@@ -101,6 +100,7 @@ fn fields_in_pieces_are_those_of_one_process() {
     }
     let folder = tempfile::tempdir().unwrap();
     let [one, several] = ["one", "several"].map(|name| folder.path().join(name));
+    let mut yielded = false;
     for (name, changes) in [
         ("cylinder_on_half_plane", &[][..]),
         ("fit_by_heat", &[]),
@@ -109,7 +109,7 @@ fn fields_in_pieces_are_those_of_one_process() {
         run(0, &scene(name), changes, &one);
         let summary = run(3, &scene(name), changes, &several);
         let [whole, pieces] = [&one, &several].map(|dir| read(dir).unwrap().results.states);
-        let mut n = 0;
+        let (mut n, bound) = (0, scenes::agreement(name));
         for (i, (whole, pieces)) in whole.iter().zip(&pieces).enumerate() {
             let Some(whole) = &whole.fields else { continue };
             let file = summary["states"][i]["fields"].as_str().unwrap();
@@ -131,20 +131,24 @@ fn fields_in_pieces_are_those_of_one_process() {
                     &whole.contact_pressure,
                     &pieces.contact_pressure,
                 ),
+                ("gap", &whole.gap, &pieces.gap),
             ] {
-                let size = whole.iter().fold(0.0f64, |m, x| m.max(x.abs()));
-                let each = whole.iter().zip(pieces).map(|(a, b)| (a - b).abs());
-                let off = each.fold(0.0, f64::max);
+                // Gaps are not numbers where there is no pair.
+                let numbers = || whole.iter().zip(pieces).filter(|(a, _)| !a.is_nan());
+                assert!(pieces.iter().filter(|b| !b.is_nan()).count() == numbers().count());
+                let size = numbers().fold(0.0f64, |m, (a, _)| m.max(a.abs()));
+                let off = numbers().fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
                 println!("{name}, state {i}: {what} {:.1e}", off / size);
-                assert!(
-                    off <= scenes::agreement(name) * size,
-                    "{name}, state {i}: {what}"
-                );
+                let is_close = |(a, b): (&f64, &f64)| (a - b).abs() <= bound * size;
+                assert!(numbers().all(is_close), "{name}, state {i}: {what}");
             }
+            assert_eq!(pieces.yielded, whole.yielded);
+            yielded |= whole.yielded.contains(&1);
             n += 1;
         }
         assert!(n > 0, "{name}");
     }
+    assert!(yielded);
 }
 
 fn ends(output: &Output, code: i32, words: &str) {

@@ -239,8 +239,8 @@ fn the_schema_refuses_missing_and_unknown_keys() {
     ];
     objects.retain(|path| !open.iter().any(|end| path.ends_with(end)));
     // The root, an effect, ranks, counts, factor, quality, yield with its location, three states
-    // with quality (two with an arc), cycles with one, a reference, accuracy with a mesh, a quantity
-    // and a demand.
+    // with quality (two with an arc), cycles with one, a reference, accuracy with a mesh, a
+    // quantity and a demand.
     assert_eq!(
         objects.len(),
         1 + 1 + 1 + 1 + 1 + 1 + 2 + 3 + 3 + 2 + 2 + 1 + 4

@@ -52,13 +52,15 @@ pub fn difference(found: &Value, expected: &Value) -> f64 {
         "approach",
     ];
     let of = |figure: &str| {
-        let value = |state: &Value| state[figure].as_f64().unwrap_or(0.0);
-        let largest = other.iter().map(|s| value(s).abs()).fold(0.0, f64::max);
-        let off = own
-            .iter()
-            .zip(other)
-            .map(|(a, b)| (value(a) - value(b)).abs());
-        off.fold(0.0, f64::max) / largest.max(f64::MIN_POSITIVE)
+        let value = |state: &Value| state[figure].as_f64();
+        let pairs = || own.iter().zip(other).map(|(a, b)| (value(a), value(b)));
+        for (a, b) in pairs() {
+            assert_eq!(a.is_some(), b.is_some(), "{figure}");
+        }
+        let both = || pairs().filter_map(|(a, b)| Some((a?, b?)));
+        let largest = both().fold(0.0f64, |m, (_, b)| m.max(b.abs()));
+        let off = both().fold(0.0f64, |m, (a, b)| m.max((a - b).abs()));
+        off / largest.max(f64::MIN_POSITIVE)
     };
     figures.into_iter().map(of).fold(0.0, f64::max)
 }

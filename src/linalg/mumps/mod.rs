@@ -1,4 +1,4 @@
-//! MUMPS backend: what lies outside the zone is factored on many machines, all else stays as it is.
+//! MUMPS backend: what lies outside the zone is factored on many machines.
 //!
 //! With the freedoms in the order `[ interior | trailing ]`, trailing being zone and contact, and
 //! `G` the trailing freedoms that the interior touches,
@@ -8,8 +8,9 @@
 //!     S   = K_tt + S_G               condensed by another backend on the first rank
 //! ```
 //!
-//! The interior is touched once for each load vector and once for each state that is written; zone,
-//! contact and events need the first rank alone.
+//! The interior is touched once for each load vector and once for each state that is written, whose
+//! stresses the ranks evaluate too ([`World::serve`]); zone, contact and events need the first rank
+//! alone.
 //!
 //! The first rank is the program; each rank has some columns of the matrix ([`Shared`]) and does
 //! what is asked of it ([`World::serve`]). None has all of the matrix; its pattern MUMPS gathers on
