@@ -1,13 +1,31 @@
-//! Free strains, of temperature or brought along ([`crate::model::Model::free_strains`]), at the
+//! Free strains, of temperature or brought along ([`FreeOfLoad`]), at the
 //! points of elements, taken off their strains.
 
 use crate::element::{Components, Lanes};
-use crate::model::{FreeStrain, Model};
+use crate::mesh::Mesh;
+use crate::model::{FreeOfLoad, Model};
 use std::ops::Range;
+
+/// Takes the free strains of an element, at some load factors, off its strains; `at_points`
+/// interpolates between its nodes.
+#[inline]
+pub(super) fn take_off_all<const S: usize, const P: usize, const N: usize>(
+    strains: &mut Components<S, P>,
+    (mesh, element): (&Mesh, usize),
+    (free, factors): (&[FreeOfLoad], &[f64]),
+    at_points: impl Fn(&[f64; N]) -> Lanes<P>,
+) {
+    for free in free {
+        if let Some(nodal) = free.at_nodes(mesh, element) {
+            let free_strain = (free.components(), &at_points(&nodal));
+            take_off(strains, factors[free.load], free_strain);
+        }
+    }
+}
 
 /// Takes components of a free strain times a factor off strains.
 #[inline]
-pub(super) fn take_off<const S: usize, const P: usize>(
+fn take_off<const S: usize, const P: usize>(
     strains: &mut Components<S, P>,
     factor: f64,
     (components, free): (&Range<usize>, &Lanes<P>),
@@ -37,25 +55,15 @@ impl<const P: usize> FreeStrains<P> {
         elements: &[usize],
         at_points: impl Fn(usize, &[f64; N]) -> Lanes<P>,
     ) -> Self {
-        let own = |load: usize| {
-            model.loads[load]
-                .free_strain
-                .iter()
-                .map(move |free| (load, free))
-        };
-        let all = (0..model.loads.len()).flat_map(own);
-        let of_load = |(load, free): (usize, &FreeStrain)| {
-            let body = model.loads[load].body;
+        let of_load = |free: &FreeOfLoad| {
             let lanes = elements.iter().enumerate().map(|(i, &element)| {
-                match model.mesh.element_body[element] == body {
-                    true => at_points(i, &model.free_strain(element, free)),
-                    false => [0.0; P],
-                }
+                let nodal = free.at_nodes(&model.mesh, element);
+                nodal.map_or([0.0; P], |nodal| at_points(i, &nodal))
             });
-            (load, free.components.clone(), lanes.collect())
+            (free.load, free.components().clone(), lanes.collect())
         };
         FreeStrains {
-            of_loads: all.map(of_load).collect(),
+            of_loads: model.free_of_loads().iter().map(of_load).collect(),
         }
     }
 

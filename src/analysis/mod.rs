@@ -16,8 +16,9 @@
 //! | `outgrown` | contact that reaches the end of its candidates | |
 //! | `path` | the path between increments | |
 //! | `measure`, `contact_edge`, `reading`, `dent`, `figures`, `quality` | pressure, half width, dent, quality of a state | 5 |
-//! | `stress_field`, `element_stresses`, `stresses`, `local_yield` | stresses of all elements, the forces they exert, what they may be | |
-//! | `piece` | the elements of a state in pieces, for ranks | |
+//! | `stress_field`, `element_stresses`, `stresses` | stresses of all elements, the forces they exert | |
+//! | `local_yield` | yield stresses from place to place | |
+//! | `piece` | the stresses of a state, computed by all ranks | |
 //! | `indicator` | discretisation error of the stresses, element by element | |
 //! | `check`, `seconds` | effects, cost and time before a run | |
 

@@ -1,9 +1,9 @@
-//! The elements of a state in pieces, one for each rank, which evaluates their stresses.
+//! The stresses of a state, computed by all ranks: each gets the elements of a part of space.
 //!
-//! A piece stands by itself: with the elements of a part of space come those that share a node with
-//! them where stresses are recovered, and a rank keeps nothing of it. What each comes to is what it
-//! is among all; forces and recovered stresses of a node that several pieces hold are added up
-//! piece by piece.
+//! What a rank gets is complete: its elements with their mesh, displacements, plastic history and
+//! free strains, and the elements around them where stresses are recovered. It keeps nothing of it.
+//! The stress of an element comes out as it would among all elements, to the bit. The forces and
+//! the recovered stresses of a node that several ranks hold are added up rank by rank.
 
 use super::element_stresses::ElementStresses;
 use super::packed;
@@ -103,8 +103,7 @@ impl Whole<'_> {
     }
 }
 
-/// What the stresses of a piece come to, both as bytes: what a rank answers when the first one asks
-/// for a state.
+/// Computes the stresses of a piece; both are bytes, as ranks send them.
 ///
 /// # Errors
 /// `Internal` where it cannot be read.

@@ -3,11 +3,11 @@
 //! Nothing is stored: an element is quickly evaluated again, while the stresses of all take a tenth
 //! of the factor's memory.
 
-use super::free_strain::take_off;
+use super::free_strain::take_off_all;
 use super::local_yield::largest_ratio;
 use crate::element::{Components, Gradients, Kernel};
 use crate::material::{Lame, PlasticState};
-use crate::model::{Continuum, FreeOfLoad, free_strains};
+use crate::model::{Continuum, FreeOfLoad};
 use crate::space::Vector;
 
 /// Elements of the mesh that share an entry in the list of where the zone's begin.
@@ -101,13 +101,10 @@ impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
             u.copy_from_slice(&state.displacements[node as usize][..D]);
         }
         let mut strain = gradients.strains(&u);
-        for (load, components, nodal) in free_strains(mesh, state.free, e) {
-            take_off(
-                &mut strain,
-                state.factors[load],
-                (components, &gradients.at_points(&nodal)),
-            );
-        }
+        let free = (state.free, state.factors);
+        take_off_all(&mut strain, (mesh, e), free, |nodal| {
+            gradients.at_points(nodal)
+        });
         let history = self.history(e);
         for (g, past) in history.iter().enumerate() {
             for (strain, plastic) in strain.iter_mut().zip(&past.strain) {

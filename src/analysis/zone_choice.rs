@@ -4,7 +4,7 @@
 //! elastic stress at the program's extreme loads then predicts how far yielding spreads; a guard
 //! layer round the prediction watches, and when it yields the zone grows.
 
-use super::free_strain::take_off;
+use super::free_strain::take_off_all;
 use super::local_yield::largest_ratio;
 use super::region::{Reach, Region};
 use super::solver::Solver;
@@ -12,7 +12,7 @@ use super::stress_field::stress;
 use super::structure::combination;
 use crate::element::{Kernel, with_kernel};
 use crate::error::Result;
-use crate::model::{Model, Slot, free_strains};
+use crate::model::{Model, Slot};
 use crate::scene::Kind;
 use crate::space::Vector;
 use rayon::prelude::*;
@@ -224,10 +224,9 @@ fn ratios_of<const D: usize, const S: usize, const P: usize, const N: usize>(
             let sampling = kernel.sampling(model.mesh.shapes[e], &nodes);
             let body = model.mesh.element_body[e] as usize;
             let mut strains = sampling.strains(&u);
-            for (load, components, nodal) in free_strains(&model.mesh, &free, e) {
-                let at_points = sampling.at_points(&nodal);
-                take_off(&mut strains, factors[load], (components, &at_points));
-            }
+            take_off_all(&mut strains, (&model.mesh, e), (&free, factors), |nodal| {
+                sampling.at_points(nodal)
+            });
             let places = (|| sampling.positions(&nodes), sampling.n_points());
             largest_ratio(model, e, &stress(&elastic[body], &strains), places)
         })

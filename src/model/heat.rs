@@ -113,21 +113,32 @@ fn forces_of<const D: usize, const S: usize, const P: usize, const N: usize>(
 /// A free strain of a load.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct FreeOfLoad<'a> {
-    load: usize,
+    /// Index of the load.
+    pub load: usize,
     /// The body whose elements have it.
     body: u32,
     strain: Cow<'a, FreeStrain>,
 }
 
 impl FreeOfLoad<'_> {
+    /// Which components of the strain it is.
+    pub fn components(&self) -> &Range<usize> {
+        &self.strain.components
+    }
+
+    /// Its value at an element's nodes at factor 1; `None` in another body.
+    #[inline]
+    pub fn at_nodes<const N: usize>(&self, mesh: &Mesh, element: usize) -> Option<[f64; N]> {
+        let is_own = mesh.element_body[element] == self.body;
+        is_own.then(|| of_element(mesh, element, &self.strain.nodal))
+    }
+
     /// The same on some of the nodes, numbered as they come.
     pub fn part(&self, nodes: &[u32]) -> FreeOfLoad<'static> {
+        let nodal = nodes.iter().map(|&node| self.strain.nodal[node as usize]);
         let strain = FreeStrain {
-            components: self.strain.components.clone(),
-            nodal: nodes
-                .iter()
-                .map(|&n| self.strain.nodal[n as usize])
-                .collect(),
+            components: self.components().clone(),
+            nodal: nodal.collect(),
         };
         FreeOfLoad {
             load: self.load,
@@ -137,28 +148,7 @@ impl FreeOfLoad<'_> {
     }
 }
 
-/// Those at an element's nodes at factor 1, with the loads' indices and the components.
-#[inline]
-pub fn free_strains<'a, const N: usize>(
-    mesh: &'a Mesh,
-    free: &'a [FreeOfLoad],
-    element: usize,
-) -> impl Iterator<Item = (usize, &'a Range<usize>, [f64; N])> {
-    let body = mesh.element_body[element];
-    let own = free.iter().filter(move |free| free.body == body);
-    own.map(move |free| {
-        let nodal = of_element(mesh, element, &free.strain.nodal);
-        (free.load, &free.strain.components, nodal)
-    })
-}
-
 impl Model {
-    /// A free strain at an element's nodes.
-    #[inline]
-    pub fn free_strain<const N: usize>(&self, element: usize, free: &FreeStrain) -> [f64; N] {
-        of_element(&self.mesh, element, &free.nodal)
-    }
-
     /// The free strains of all loads.
     pub fn free_of_loads(&self) -> Vec<FreeOfLoad<'_>> {
         let loads = self.loads.iter().enumerate();

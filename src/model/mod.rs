@@ -37,7 +37,7 @@ pub use continuum::Continuum;
 pub use frame::Frame;
 pub use freedoms::{Freedoms, Prescribed, Slot};
 pub use given::NodePair;
-pub use heat::{FreeOfLoad, FreeStrain, free_strains};
+pub use heat::{FreeOfLoad, FreeStrain};
 pub use held::{FloatingBodies, Pin, RigidMotion};
 pub use loads::{LoadCase, Magnitude};
 pub use pairs::{AxisPoint, ContactSurface, Pair};

@@ -60,7 +60,7 @@ pub(super) fn write(
             let grid = grid(header, mesh, fields);
             staging.file(&name, |out| vtu::write(out, &grid))?;
         } else {
-            write_pieces(staging, header, (&parts, fields), &name)?;
+            write_pieces(staging, header, (mesh, &parts, fields), &name)?;
         }
         Ok(Some((times[i], name)))
     };
@@ -80,7 +80,7 @@ pub(super) fn write(
 fn write_pieces(
     staging: &Staging,
     header: &RunHeader,
-    (parts, fields): (&[Part], &Fields),
+    (mesh, parts, fields): (&Mesh, &[Part], &Fields),
     name: &str,
 ) -> Result<()> {
     let stem = name.strip_suffix(PIECES_SUFFIX).unwrap_or(name);
@@ -89,14 +89,22 @@ fn write_pieces(
         .collect();
     let piece = |(part, file): (&Part, &String)| -> Result<()> {
         let fields = part.of(fields);
-        let grid = part.grid(header, &fields);
+        let grid = grid(header, &part.mesh, &fields);
+        let grid = with_ids(grid, &part.nodes, &part.elements);
         staging.file(file, |out| vtu::write(out, &grid))
     };
     let pieces = parts.par_iter().zip(&files).map(piece);
     pieces.collect::<Result<()>>()?;
-    let fields = parts[0].of(fields);
-    let grid = parts[0].grid(header, &fields);
-    staging.file(name, |out| vtu::write_pieces(out, &grid, &files))
+    let arrays = with_ids(grid(header, mesh, fields), &[], &[]);
+    staging.file(name, |out| vtu::write_pieces(out, &arrays, &files))
+}
+
+/// A grid that says what its nodes and elements are in the whole.
+fn with_ids<'a>(mut grid: Grid<'a>, nodes: &'a [u32], elements: &'a [u32]) -> Grid<'a> {
+    let ids = |name, ids| DataArray::new(name, Values::Int64(ids));
+    grid.point_data.push(ids(vtu::NODE_IDS, nodes));
+    grid.cell_data.push(ids(vtu::ELEMENT_IDS, elements));
+    grid
 }
 
 /// A part of the mesh that goes into a file of its own.
@@ -144,15 +152,6 @@ impl Part {
             gap: some(&whole.gap, &self.nodes, 1),
             force: Vec::new(),
         }
-    }
-
-    /// Its grid, which says what its nodes and elements are in the whole.
-    fn grid<'a>(&'a self, header: &RunHeader, fields: &'a Fields) -> Grid<'a> {
-        let mut grid = grid(header, &self.mesh, fields);
-        let ids = |name, ids| DataArray::new(name, Values::Int64(ids));
-        grid.point_data.push(ids(vtu::NODE_IDS, &self.nodes));
-        grid.cell_data.push(ids(vtu::ELEMENT_IDS, &self.elements));
-        grid
     }
 }
 

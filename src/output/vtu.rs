@@ -237,27 +237,26 @@ pub(super) fn write(out: &mut impl Write, grid: &Grid<'_>) -> io::Result<()> {
     close_file(&mut xml)
 }
 
-/// Writes what says that files in the same directory are the pieces of a grid; they have the arrays
-/// of `piece`.
+/// Writes what says that files in the same directory are the pieces of a grid with these arrays.
 ///
 /// # Errors
 /// Those of `out`.
 pub(super) fn write_pieces(
     out: &mut impl Write,
-    piece: &Grid<'_>,
+    grid: &Grid<'_>,
     files: &[String],
 ) -> io::Result<()> {
     let points = [DataArray::new(
         "points",
-        Values::vectors(piece.mesh, &piece.mesh.coordinates),
+        Values::vectors(grid.mesh, &grid.mesh.coordinates),
     )];
     let mut xml = Writer::new_with_indent(out, b' ', 2);
     open_file(&mut xml, "PUnstructuredGrid")?;
     let overlap = [("GhostLevel", "0".to_owned())];
     open(&mut xml, "PUnstructuredGrid", &overlap)?;
     for (section, arrays) in [
-        ("PPointData", piece.point_data.as_slice()),
-        ("PCellData", piece.cell_data.as_slice()),
+        ("PPointData", grid.point_data.as_slice()),
+        ("PCellData", grid.cell_data.as_slice()),
         ("PPoints", points.as_slice()),
     ] {
         open(&mut xml, section, &ids_of(arrays))?;
