@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .ONESHELL:
 .DEFAULT_GOAL := help
-.PHONY: help setup setup-mpi cargo build run check test test-all test-rest test-mpi bench bench-peers \
+.PHONY: help setup setup-mpi cargo build run lint check test test-all test-rest test-mpi bench bench-peers \
     install uninstall wheel deb packages package python python-tests clean
 
 # What the CHOLMOD backend is built on: SuiteSparse, a fast BLAS, and libclang for bindgen.
@@ -56,42 +56,51 @@ run: setup ## Run a scene (SCENE=..., ARGS=...)
 	@cargo run --release -- run $(SCENE) $(ARGS)
 
 # Tests are compiled with opt-level 2 and debug assertions (Cargo.toml): on two cores the optimised build of
-# the few heavy crates costs less than it saves. One build has all backends.
-check: setup ## Format, lints, unit and property tests (about two minutes once dependencies are built)
+# the few heavy crates costs less than it saves. TESTED names the features of the one build that is tested.
+TESTED ?= capi,faer
+
+lint: setup ## Format and lints
 	@cargo fmt --check
 	cargo fmt --check --manifest-path ffi/python/Cargo.toml
-	cargo clippy --features capi,faer --all-targets -- -D warnings
-	cargo test --features capi,faer --lib --test properties
+	cargo clippy --features $(TESTED) --all-targets -- -D warnings
 
+check: lint ## Lints, unit and property tests (about two minutes once dependencies are built)
+	@cargo test --features $(TESTED) --lib --test properties
+
+# All but tests/mpi, which is a target of its own.
+SUITES := --lib --test '[!m]*' --test mortar
 # Tests that take minutes or need packages from elsewhere: the installed C library under valgrind,
 # the Python package and readers of VTU files, damaged files by the thousand.
 LONG := install:: python:: damaged_inputs_are_taken_or_refused
 
-test: check ## All that shows the results to be right (about ten minutes)
-	@cargo test --features capi,faer -- $(addprefix --skip ,$(LONG))
+test: lint ## All that shows the results to be right (about ten minutes)
+	@cargo test --features $(TESTED) $(SUITES) -- $(addprefix --skip ,$(LONG))
+	cargo test --features $(TESTED) --doc
 
 test-all: test test-rest test-mpi ## All tests, builds with other features, documentation
+	@cargo test --features $(TESTED_MPI) --test mpi -- --ignored
 
 # What brinell does without CHOLMOD, in Rust alone, and with the dense backend only, fast subsets
-# show. A library alone must build without the program.
+# show: half the optimisation is half the time to compile. A library alone must build without the program.
+QUICK := --config profile.dev.package.brinell.opt-level=1 \
+    --config profile.dev.package.brinell.debug=false
 test-rest: setup python-tests ## What test-all has beyond test
-	@cargo test --features capi,faer -- $(LONG)
+	@cargo test --features $(TESTED) $(SUITES) -- $(LONG)
 	cargo clippy --no-default-features --all-targets -- -D warnings
 	cargo clippy --no-default-features --features faer,cli --all-targets -- -D warnings
-	cargo test --no-default-features --features faer,cli --test cli --test cost --test stability
-	cargo test --no-default-features --features cli --lib --bins --test cli
+	cargo test $(QUICK) --no-default-features --features faer,cli --test cli --test cost --test stability
+	cargo test $(QUICK) --no-default-features --features cli --test cli
 	RUSTDOCFLAGS="-D warnings" cargo doc --features capi,faer,guide --no-deps --quiet
-	$(MAKE) --no-print-directory package PACKAGE_FLAGS='--no-default-features --features faer,cli'
 
 # MUMPS, MPI, and what starts several ranks.
 setup-mpi: PACKAGES += libmumps-dev libopenmpi-dev openmpi-bin procps
 setup-mpi: setup ## Install what the feature `mumps` needs too (Debian, Ubuntu)
 
-# MPI starts a process while OpenBLAS may work in another thread: one test at a time.
+TESTED_MPI := $(if $(findstring mumps,$(TESTED)),$(TESTED),$(TESTED),mumps)
 test-mpi: setup-mpi ## Test runs over several ranks
-	@cargo clippy --features mumps --all-targets -- -D warnings
-	cargo test --features mumps --lib -- --test-threads=1 linalg:: assembly::
-	cargo test --features mumps --test mpi
+	@cargo clippy --features $(TESTED_MPI) --all-targets -- -D warnings
+	RUST_TEST_THREADS=1 cargo test --features $(TESTED_MPI) --lib linalg:: constrained:: assembly::
+	cargo test --features $(TESTED_MPI) --test mpi
 
 bench: setup ## Measure
 	@cargo bench --bench trailing --bench history --bench contact --bench acceleration --bench reading
@@ -102,14 +111,15 @@ bench-peers: setup ## Measure beside CalculiX (installs it where it is absent)
 	@cargo bench --bench peers
 
 # The libraries are built for `install` alone: they would slow down every other build. PROGRAM names
-# a program that is built already.
+# a program that is built already; PROFILE=dev makes libraries, wheel and crate from what tests have built.
 PREFIX ?= /usr/local
 DESTDIR ?=
 PYTHON ?= python3
 PROFILE ?= release
 FEATURES ?= --features capi
 VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -1)
-TARGET = $(or $(CARGO_TARGET_DIR),target)/$(if $(filter dev,$(PROFILE)),debug,$(PROFILE))
+BUILT = $(abspath $(or $(CARGO_TARGET_DIR),target))
+TARGET = $(BUILT)/$(if $(filter dev,$(PROFILE)),debug,$(PROFILE))
 PROGRAM ?=
 # Where things go: where they are used, and where they are put now.
 HOME_OF = $(abspath $(PREFIX))
@@ -152,9 +162,9 @@ uninstall: ## Remove what `make install` put there (PREFIX=..., DESTDIR=...)
 	fi
 
 wheel: setup python-tests ## Build a Python wheel (target/wheels)
-	@export PATH="$(PYTHON_TESTS)/bin:$$PATH"
-	"$(or $(BRINELL_PYTHON),$(PYTHON_TESTS)/bin/python)" -m maturin build --release --locked \
-	    -m ffi/python/Cargo.toml -o "$(or $(CARGO_TARGET_DIR),target)/wheels"
+	@export PATH="$(PYTHON_TESTS)/bin:$$PATH" CARGO_TARGET_DIR="$(BUILT)"
+	"$(or $(BRINELL_PYTHON),$(PYTHON_TESTS)/bin/python)" -m maturin build --profile $(PROFILE) \
+	    --locked -m ffi/python/Cargo.toml -o "$(BUILT)/wheels"
 
 deb: setup ## Build a Debian package of the program (target/debian)
 	@tools="$(abspath target)/tools"
@@ -168,22 +178,25 @@ deb: setup ## Build a Debian package of the program (target/debian)
 	target/release/brinell completions bash > target/deb/brinell.bash
 	cargo deb --no-build
 
-packages: PACKAGES += debootstrap
-packages: wheel deb ## Install wheel, Debian package and crate in clean places and run them
-	@cargo install --quiet --locked --path . --root target/installed \
-	    --no-default-features --features faer,cli
-	tests/running/packages "$$(ls -t target/wheels/*.whl | head -1)" \
-	    "$$(ls -t target/debian/*.deb | head -1)" target/release/brinell target/installed/bin/brinell
-
-package: ## Check what `cargo publish` would upload: it builds, and is smaller than 2 MB
-	@cargo package --allow-dirty $(PACKAGE_FLAGS)
-	archive="$(or $(CARGO_TARGET_DIR),target)/package/brinell-$(VERSION).crate"
-	size=$$(wc -c < "$$archive")
-	echo "$$archive: $$size bytes"
+package: setup ## Pack the crate as `cargo publish` would (below 2 MB), install the program from that
+	@cargo package --allow-dirty --no-verify
+	crate="$(BUILT)/package/brinell-$(VERSION)"
+	size=$$(wc -c < "$$crate.crate")
+	echo "$$crate.crate: $$size bytes"
 	[[ $$size -lt 2000000 ]]
+	rm -rf "$$crate"
+	tar -xzf "$$crate.crate" -C "$(BUILT)/package"
+	CARGO_TARGET_DIR="$(BUILT)" cargo install --quiet --locked --force --profile $(PROFILE) \
+	    --path "$$crate" --root "$(BUILT)/installed" --no-default-features --features faer,cli
+
+packages: PACKAGES += debootstrap
+packages: wheel deb package ## Install wheel, Debian package and crate in clean places and run them
+	@tests/running/packages "$$(ls -t "$(BUILT)"/wheels/*.whl | head -1)" \
+	    "$$(ls -t target/debian/*.deb | head -1)" target/release/brinell \
+	    "$(BUILT)/installed/bin/brinell"
 
 # An environment of its own: where Python belongs to the system, pip may not install beside it.
-PYTHON_TESTS := $(abspath $(or $(CARGO_TARGET_DIR),target))/python
+PYTHON_TESTS = $(BUILT)/python
 
 python-tests: setup ## Install what the tests of Python need into an environment in the target directory
 	@[[ -z $${BRINELL_PYTHON:-} ]] || exit 0

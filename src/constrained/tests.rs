@@ -1,6 +1,7 @@
 use super::*;
 use crate::ErrorKind;
 use crate::contact::Change;
+use crate::linalg::tests::backends;
 
 /// Upper triangle of a chain of unit springs between `n` freedoms, those of `held` tied to the
 /// ground by another.
@@ -15,10 +16,6 @@ fn chain(n: usize, held: &[usize]) -> SymmetricCsc {
         }
     }
     triplets.to_csc()
-}
-
-fn backends() -> Vec<Backend> {
-    Backend::built_in()
 }
 
 const CLOSE: f64 = 1e-12;

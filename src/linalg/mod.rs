@@ -36,7 +36,7 @@ mod residual;
 mod sparse;
 mod symmetric;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod whole;
 
 pub use condition::condition;

@@ -1,6 +1,6 @@
 //! Comparing two runs.
 
-use crate::running::{close, largest, try_run};
+use crate::running::{close, largest, sparse, try_run};
 use brinell::linalg::Backend;
 use brinell::results::{HistoryRow, Results, State};
 use brinell::scene::Scene;
@@ -9,13 +9,6 @@ use brinell::scene::Scene;
 /// models, far below any tolerance of the analysis except the plastic one, which both runs stop at
 /// in the same iteration.
 pub const AGREEMENT: f64 = 1e-10;
-
-/// The sparse backends of this build.
-pub fn sparse() -> Vec<Backend> {
-    let mut all = Backend::built_in();
-    all.retain(|backend| *backend != Backend::Dense);
-    all
-}
 
 /// Runs the scene with every backend: all agree with the dense one or all refuse for the same
 /// reason. Returns the results of the default backend.

@@ -59,6 +59,9 @@ pub fn rust_example(scene: &Path) -> Command {
     if cfg!(feature = "faer") {
         cargo.args(["--features", "faer"]);
     }
+    if cfg!(feature = "mumps") {
+        cargo.args(["--features", "mumps"]);
+    }
     cargo.arg("--").arg(scene);
     cargo
 }

@@ -57,6 +57,7 @@ fn follow(text: &str, folder: &Path) -> Vec<(String, Value)> {
 }
 
 /// A figure of a summary: states go by their name.
+#[cfg(any(feature = "cholmod", feature = "faer"))]
 fn figure(summary: &Value, path: &str) -> Option<f64> {
     let mut at = summary;
     for part in path.split('.') {
@@ -69,6 +70,7 @@ fn figure(summary: &Value, path: &str) -> Option<f64> {
 }
 
 /// Every row `| ... | unit | \`path\` | value |` is what the runs above it give, to its digits.
+#[cfg(any(feature = "cholmod", feature = "faer"))]
 fn check_rows(text: &str, summaries: &[(String, Value)]) -> usize {
     let rows = text.lines().filter_map(|line| {
         let cells: Vec<&str> = line.strip_prefix("| ")?.split('|').map(str::trim).collect();

@@ -11,6 +11,7 @@ fn page(name: &str) -> String {
 }
 
 /// The section of the README under a heading.
+#[cfg(any(feature = "cholmod", feature = "faer"))]
 fn section(heading: &str) -> String {
     let text = page("README.md");
     let from = text

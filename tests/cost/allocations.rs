@@ -1,7 +1,7 @@
 //! Nothing is allocated where the time goes: in a solve with the trailing factor, and for elements,
 //! points or pairs, one by one.
 
-use super::running::load;
+use super::running::{load, sparse};
 use allocation_counter::{AllocationInfo, measure};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
@@ -22,18 +22,9 @@ fn counted(closure: impl FnOnce() + Send) -> AllocationInfo {
     })
 }
 
-/// The sparse backends of this build; the dense one where there is no other.
-fn backends() -> Vec<Backend> {
-    let mut all = Backend::built_in();
-    if all.len() > 1 {
-        all.retain(|backend| *backend != Backend::Dense);
-    }
-    all
-}
-
 #[test]
 fn a_trailing_solve_allocates_nothing_for_the_zone() {
-    for backend in backends() {
+    for backend in sparse() {
         assert_solves_allocate_nothing(backend);
     }
 }
@@ -81,7 +72,7 @@ fn assert_solves_allocate_nothing(backend: Backend) {
 
 #[test]
 fn plastic_iterations_allocate_as_often_on_any_mesh() {
-    for backend in backends() {
+    for backend in sparse() {
         assert_iterations_allocate_as_often(backend);
     }
 }

@@ -1,11 +1,10 @@
-//! Speed that a test can hold: what a run does, counted, whatever machine it runs on.
+//! Speed that a test can hold: what a run does, counted, whatever machine it runs on. Most
+//! models are too large for the dense backend.
+#![cfg(any(feature = "cholmod", feature = "faer"))]
 
 mod allocations;
-#[cfg(any(feature = "cholmod", feature = "faer"))]
 mod counts;
-#[cfg(any(feature = "cholmod", feature = "faer"))]
 mod effects;
-#[cfg(any(feature = "cholmod", feature = "faer"))]
 mod many;
 #[path = "../running/mod.rs"]
 mod running;

@@ -47,6 +47,13 @@ pub fn parse(text: &str) -> Scene {
     Scene::parse(text, "test.toml").unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
+/// The sparse backends of this build that run in this process; MUMPS has tests of its own.
+pub fn sparse() -> Vec<Backend> {
+    let mut all = Backend::built_in();
+    all.retain(|backend| ![Backend::Dense, Backend::Mumps].contains(backend));
+    all
+}
+
 /// Runs a scene; an incomplete run is an error, as on the command line.
 pub fn try_run(scene: &Scene, backend: Backend) -> Result<Results> {
     complete(Analysis::new(Model::new(scene)?, backend)?.run(&mut Silent)?)

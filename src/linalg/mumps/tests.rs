@@ -2,15 +2,16 @@
 
 use super::*;
 use crate::linalg::sparse::tests::Way;
-use crate::linalg::tests::laplacian;
+use crate::linalg::tests::{laplacian, one_at_a_time};
 
 /// MUMPS on one rank.
 pub(in crate::linalg) fn ways() -> Vec<Way> {
-    vec![Way {
+    let way = Way {
         name: "mumps",
         is_chosen: true,
         condense,
-    }]
+    };
+    Vec::from_iter(one_at_a_time().then_some(way))
 }
 
 /// Two bodies that nothing joins: one held and in contact, one with `ground` at its freedoms.
@@ -33,6 +34,10 @@ fn beside_another(n: usize, ground: f64, seed: u64) -> (SymmetricCsc, Partition)
 /// MUMPS itself says nothing of either.
 #[test]
 fn an_interior_that_nothing_holds_is_refused_and_a_negative_one_too() {
+    if !one_at_a_time() {
+        println!("skipped: MPI beside other tests");
+        return;
+    }
     for seed in 1..=60 {
         let n = 5 + seed as usize % 30;
         for ground in [0.0, -0.5] {

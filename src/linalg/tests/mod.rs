@@ -16,9 +16,17 @@ fn pivoting() -> impl Iterator<Item = Backend> {
     backends().into_iter().filter(|b| *b != Backend::Mumps)
 }
 
-/// The backends of this build.
-fn backends() -> Vec<Backend> {
-    Backend::built_in()
+/// The backends of this build that tests of this run may use.
+pub(crate) fn backends() -> Vec<Backend> {
+    let all = Backend::built_in().into_iter();
+    all.filter(|backend| *backend != Backend::Mumps || one_at_a_time())
+        .collect()
+}
+
+/// Whether tests run one at a time, as MPI needs it (`make test-mpi`): it starts a process, and
+/// OpenBLAS may never come back from that while it works in another thread.
+pub(in crate::linalg) fn one_at_a_time() -> bool {
+    std::env::var("RUST_TEST_THREADS").is_ok_and(|threads| threads == "1")
 }
 
 /// Reproducible numbers in (-1, 1).
