@@ -4,8 +4,8 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .ONESHELL:
 .DEFAULT_GOAL := help
-.PHONY: help setup setup-mpi cargo build run lint check test test-all test-rest test-mpi bench bench-peers \
-    install uninstall wheel deb packages package python python-tests clean
+.PHONY: help setup setup-mpi cargo build run lint check test test-all test-rest test-mpi test-long bench \
+    bench-peers install uninstall wheel deb packages package python python-tests clean
 
 # What the CHOLMOD backend is built on: SuiteSparse, a fast BLAS, and libclang for bindgen.
 PACKAGES := libsuitesparse-dev libopenblas-dev libclang-dev
@@ -77,20 +77,22 @@ test: lint ## All that shows the results to be right (about ten minutes)
 	@cargo test --features $(TESTED) $(SUITES) -- $(addprefix --skip ,$(LONG))
 	cargo test --features $(TESTED) --doc
 
-test-all: test test-rest test-mpi ## All tests, builds with other features, documentation
-	@cargo test --features $(TESTED_MPI) --test mpi -- --ignored
+test-all: test test-rest test-mpi test-long ## All tests, builds with other features, documentation
 
-# What brinell does without CHOLMOD, in Rust alone, and with the dense backend only, fast subsets
-# show: half the optimisation is half the time to compile. A library alone must build without the program.
-QUICK := --config profile.dev.package.brinell.opt-level=1 \
-    --config profile.dev.package.brinell.debug=false
-test-rest: setup python-tests ## What test-all has beyond test
+# A library alone must build without the program.
+test-rest: setup python-tests ## C library, Python package, lints of other features, documentation
 	@cargo test --features $(TESTED) $(SUITES) -- $(LONG)
 	cargo clippy --no-default-features --all-targets -- -D warnings
 	cargo clippy --no-default-features --features faer,cli --all-targets -- -D warnings
-	cargo test $(QUICK) --no-default-features --features faer,cli --test cli --test cost --test stability
-	cargo test $(QUICK) --no-default-features --features cli --test cli
 	RUSTDOCFLAGS="-D warnings" cargo doc --features capi,faer,guide --no-deps --quiet
+
+# Half the optimisation is half the time to compile.
+QUICK := --config profile.dev.package.brinell.opt-level=1 \
+    --config profile.dev.package.brinell.debug=false
+test-long: setup-mpi ## Suites without CHOLMOD, every scene on every number of ranks
+	@cargo test $(QUICK) --no-default-features --features faer,cli --test cli --test cost --test stability
+	cargo test $(QUICK) --no-default-features --features cli --test cli
+	cargo test --features $(TESTED_MPI) --test mpi --test mortar -- --ignored
 
 # MUMPS, MPI, and what starts several ranks.
 setup-mpi: PACKAGES += libmumps-dev libopenmpi-dev openmpi-bin procps
@@ -99,7 +101,7 @@ setup-mpi: setup ## Install what the feature `mumps` needs too (Debian, Ubuntu)
 TESTED_MPI := $(if $(findstring mumps,$(TESTED)),$(TESTED),$(TESTED),mumps)
 test-mpi: setup-mpi ## Test runs over several ranks
 	@cargo clippy --features $(TESTED_MPI) --all-targets -- -D warnings
-	RUST_TEST_THREADS=1 cargo test --features $(TESTED_MPI) --lib linalg:: constrained:: assembly::
+	RUST_TEST_THREADS=1 cargo test --features $(TESTED_MPI) --lib -- linalg:: constrained:: assembly::
 	cargo test --features $(TESTED_MPI) --test mpi
 
 bench: setup ## Measure
@@ -186,7 +188,7 @@ package: setup ## Pack the crate as `cargo publish` would (below 2 MB), install 
 	[[ $$size -lt 2000000 ]]
 	rm -rf "$$crate"
 	tar -xzf "$$crate.crate" -C "$(BUILT)/package"
-	CARGO_TARGET_DIR="$(BUILT)" cargo install --quiet --locked --force --profile $(PROFILE) \
+	CARGO_TARGET_DIR="$(BUILT)" cargo install --quiet --locked --force --profile $(PROFILE) $(QUICK) \
 	    --path "$$crate" --root "$(BUILT)/installed" --no-default-features --features faer,cli
 
 packages: PACKAGES += debootstrap

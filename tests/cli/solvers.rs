@@ -15,7 +15,7 @@ fn faer_runs_every_scene() {
         let path = scene(name);
         let quietly = ["run", &path, "-q", "--json", "--no-estimate", "--no-report"];
         let out = ["--solver", solver, "--out", out.to_str().unwrap()];
-        let smaller = scenes::smaller(&path).iter().flat_map(|set| ["--set", set]);
+        let smaller = scenes::smaller(name).iter().flat_map(|set| ["--set", set]);
         let arguments: Vec<&str> = quietly.into_iter().chain(out).chain(smaller).collect();
         let output = brinell(&arguments);
         let summary: Value = serde_json::from_slice(&output.stdout).unwrap();

@@ -81,6 +81,7 @@ fn point_contact_of_solids() {
 }
 
 #[test]
+#[ignore = "minutes: make test-long"]
 fn elliptic_contact_of_solids() {
     ratios(
         "crossed_cylinders",

@@ -76,7 +76,7 @@ fn scenes_are_those_of_cholmod(chosen: impl Fn(usize, usize) -> bool) {
     let mut counts = [(0, 0); RANKS.len()];
     for (i, name) in scenes::all().into_iter().enumerate() {
         let path = scene(&name);
-        let smaller = scenes::smaller(&path);
+        let smaller = scenes::smaller(&name);
         let expected = run(0, &path, smaller, &out);
         assert_eq!(expected["solver"], "cholmod");
         let bound = scenes::agreement(&name);

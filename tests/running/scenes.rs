@@ -1,4 +1,5 @@
-//! All scenes of `data/scenes`, by one solver and by another.
+//! All scenes of `data/scenes`, and what two solvers make of them.
+#![allow(dead_code)] // every test binary uses a part of it
 
 use serde_json::Value;
 
@@ -22,7 +23,8 @@ pub fn all() -> Vec<String> {
 }
 
 /// What makes a scene small enough to be run many times: solids are coarser.
-pub fn smaller(path: &str) -> &'static [&'static str] {
+pub fn smaller(name: &str) -> &'static [&'static str] {
+    let path = format!("{}/data/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).unwrap();
     match text.contains("[mesh.curved_bodies]") {
         true => &["mesh.curved_bodies.resolution=4"],

@@ -22,6 +22,8 @@ mod over_temperature;
 mod pin_in_hole;
 mod quality;
 mod run;
+#[path = "../running/scenes.rs"]
+mod scenes;
 mod shakedown;
 mod shrink_fit;
 mod ssnv104;

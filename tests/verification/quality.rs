@@ -4,17 +4,13 @@
 //! (backward error).
 
 use crate::run::{run_as_far_as_it_goes, scene};
+use crate::scenes;
 
 #[test]
 fn every_state_of_every_scene_is_in_balance() {
     let mut count = 0;
-    for name in names("").into_iter().chain(names("hard/")) {
-        let own = scene(&name, &[]);
-        // Solids on a coarser mesh than their own.
-        let results = run_as_far_as_it_goes(&match own.mesh.curved_bodies {
-            Some(_) => scene(&name, &["mesh.curved_bodies.resolution=4"]),
-            None => own,
-        });
+    for name in scenes::all() {
+        let results = run_as_far_as_it_goes(&scene(&name, scenes::smaller(&name)));
         // N. J. Higham, theorem 10.4: of the order of the unknowns times the unit round-off.
         let backward_error = f64::EPSILON * results.sizes.freedoms as f64;
         for state in &results.states {
@@ -34,16 +30,4 @@ fn every_state_of_every_scene_is_in_balance() {
         }
     }
     assert!(count > 60, "{count}");
-}
-
-/// The scenes of a folder of `data/scenes`.
-fn names(folder: &str) -> Vec<String> {
-    let path = format!("{}/data/scenes/{folder}", env!("CARGO_MANIFEST_DIR"));
-    let entries = std::fs::read_dir(path).unwrap();
-    let files = entries.map(|entry| entry.unwrap().path());
-    let scenes = files.filter(|file| file.extension().is_some_and(|e| e == "toml"));
-    let stem = |file: std::path::PathBuf| file.file_stem().unwrap().to_str().unwrap().to_string();
-    scenes
-        .map(|file| format!("{folder}{}", stem(file)))
-        .collect()
 }
