@@ -166,7 +166,7 @@ uninstall: ## Remove what `make install` put there (PREFIX=..., DESTDIR=...)
 wheel: setup python-tests ## Build a Python wheel (target/wheels)
 	@export PATH="$(PYTHON_TESTS)/bin:$$PATH" CARGO_TARGET_DIR="$(BUILT)"
 	"$(or $(BRINELL_PYTHON),$(PYTHON_TESTS)/bin/python)" -m maturin build --profile $(PROFILE) \
-	    --locked -m ffi/python/Cargo.toml -o "$(BUILT)/wheels"
+	    --features faer --locked -m ffi/python/Cargo.toml -o "$(BUILT)/wheels"
 
 deb: setup ## Build a Debian package of the program (target/debian)
 	@tools="$(abspath target)/tools"
