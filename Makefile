@@ -86,7 +86,7 @@ test-rest: setup python-tests ## C library, Python package, lints of other featu
 	cargo clippy --no-default-features --features faer,cli --all-targets -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --features capi,faer,guide --no-deps --quiet
 
-# Half the optimisation is half the time to compile.
+# Less optimisation, less time to compile: for programs that few tests run.
 QUICK := --config profile.dev.package.brinell.opt-level=1 \
     --config profile.dev.package.brinell.debug=false
 test-long: setup-mpi ## Suites without CHOLMOD, every scene on every number of ranks
