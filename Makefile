@@ -193,7 +193,7 @@ package: setup ## Pack the crate as `cargo publish` would (below 2 MB), install 
 
 packages: PACKAGES += debootstrap
 packages: wheel deb package ## Install wheel, Debian package and crate in clean places and run them
-	@tests/running/packages "$$(ls -t "$(BUILT)"/wheels/*.whl | head -1)" \
+	@tests/support/packages "$$(ls -t "$(BUILT)"/wheels/*.whl | head -1)" \
 	    "$$(ls -t target/debian/*.deb | head -1)" target/release/brinell \
 	    "$(BUILT)/installed/bin/brinell"
 

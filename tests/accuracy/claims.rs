@@ -2,7 +2,7 @@
 //! two are apart. The page data/accuracy/claims.md has all families
 //! (`cargo run --release --example claims`); here those that take seconds.
 
-use crate::families::{Claim, Family, judging_exactly};
+use crate::accuracy::families::{Claim, Family, judging_exactly};
 
 /// Share of the errors of loads and pressures, and of the others, that lie below the stated ones.
 const COVERED: [f64; 2] = [0.95, 0.9];

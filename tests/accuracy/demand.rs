@@ -1,7 +1,7 @@
 //! `accuracy = "x %"`: reached and true, or not and why.
 
-use crate::families::{on_flat, tube};
-use crate::running;
+use crate::accuracy::families::{on_flat, tube};
+use crate::support;
 use brinell::accuracy::{Extent, Reached, reach};
 use brinell::linalg::Backend;
 use brinell::progress::{Observer, Silent};
@@ -53,7 +53,7 @@ fn the_true_error_is_within_the_demanded_one() {
             &[0.1, 0.01, 0.003][..],
         ),
         (on_flat("ball_on_half_space", 16, &[far]), &[0.1, 0.03]),
-        (running::load("disc_in_plate", &[]), &[0.1, 0.03]),
+        (support::load("disc_in_plate", &[]), &[0.1, 0.03]),
     ] {
         for accuracy in accuracies {
             let found = reached(&scene, &accuracy.to_string(), Extent::Yield);

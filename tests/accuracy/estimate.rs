@@ -1,7 +1,7 @@
 //! Each reported quantity has its three errors, and the error of the path is honest where a scene
 //! takes few increments.
 
-use crate::running;
+use crate::support;
 use brinell::accuracy::{Extent, estimate};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
@@ -24,7 +24,7 @@ pub fn estimated(scene: &Scene, extent: Extent) -> (Results, Accuracy) {
 
 #[test]
 fn every_quantity_has_a_value_and_three_errors() {
-    let scene = running::load(
+    let scene = support::load(
         "cylinder_on_half_plane",
         &[
             "mesh.cylinder_on_half_plane.resolution=6",
@@ -90,7 +90,7 @@ fn every_quantity_has_a_value_and_three_errors() {
 
 #[test]
 fn an_elastic_path_is_exact_and_says_so() {
-    let scene = running::load(
+    let scene = support::load(
         "ball_on_half_space",
         &["mesh.cylinder_on_half_plane.resolution=6"],
     );
@@ -103,7 +103,7 @@ fn an_elastic_path_is_exact_and_says_so() {
 #[test]
 fn few_increments_state_the_error_that_they_make() {
     let tube = |element: &str| -> Scene {
-        running::load(
+        support::load(
             "thick_cylinder",
             &[
                 &format!("mesh.parts.0.element={element}"),
@@ -120,7 +120,7 @@ fn few_increments_state_the_error_that_they_make() {
         let mut fine = scene.clone();
         fine.program.stepping = Stepping::Steps;
         fine.program.steps = 100;
-        let exact = running::run(&fine);
+        let exact = support::run(&fine);
         for name in ["pressed", "unloaded"] {
             let limit = exact
                 .states
@@ -157,7 +157,7 @@ fn a_half_width_as_target_says_what_it_adds() {
     let estimated = |target: &str| {
         let targets =
             format!("program.targets=[{{ name = \"wide\", {target} }}, {{ load_factor = 0.0 }}]");
-        let scene = running::load(
+        let scene = support::load(
             "cylinder_on_half_plane",
             &[
                 &targets,

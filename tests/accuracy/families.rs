@@ -5,7 +5,7 @@
 //! these judge them.
 #![allow(dead_code)] // tests and the page each use a part of it
 
-use crate::running;
+use crate::support;
 use brinell::accuracy::{Extent, estimate, quantities};
 use brinell::analysis::Analysis;
 use brinell::analytical::{
@@ -146,12 +146,12 @@ pub fn on_flat(name: &str, n: usize, more: &[&str]) -> Scene {
         "materials.steel.yield_stress=50.0",
     ];
     overrides.extend(more);
-    running::load(name, &overrides)
+    support::load(name, &overrides)
 }
 
 /// A ring of `n` by `n` elements under pressure from within.
 pub fn tube(element: &str, n: usize, targets: &str) -> Scene {
-    running::load(
+    support::load(
         "thick_cylinder",
         &[
             &format!("mesh.parts.0.element={element}"),
@@ -196,11 +196,11 @@ pub fn judging_by_finer_meshes() -> Vec<Family> {
     let bodies = |n: usize| {
         let parts = [[20, 10], [20, 4], [20, 8]].map(|[x, y]| [x * n / 4, y * n / 4]);
         let part = |i: usize| format!("mesh.parts.{i}.block.elements={:?}", parts[i]);
-        running::load("three_bodies", &[&part(0), &part(1), &part(2)])
+        support::load("three_bodies", &[&part(0), &part(1), &part(2)])
     };
     let punch = |n: usize| {
         let elements = format!("mesh.parts.0.block.elements=[{n},{n}]");
-        running::load("flat_punch", &[&elements])
+        support::load("flat_punch", &[&elements])
     };
     type OnMeshes = (&'static str, Vec<(String, Scene)>, Scene);
     let families: Vec<OnMeshes> = vec![
@@ -259,7 +259,7 @@ fn point_at_yield() -> Family {
 
 fn disc(n: usize, more: &str) -> Scene {
     let growth = 1.05f64.powf(90.0 / n as f64);
-    running::load(
+    support::load(
         "disc_in_plate",
         &[
             &format!("mesh.disc_in_plate.resolution={n}"),
@@ -291,7 +291,7 @@ fn pin(clearance: f64) -> Family {
     let modulus = contact_modulus(210e3, 0.3, 210e3, 0.3);
     let exact = PinInHole::new(10.0, clearance, modulus).unwrap();
     let scene = |n: usize| {
-        running::load(
+        support::load(
             "pin_in_hole",
             &[
                 &format!("mesh.parts.0.disc.elements={n}"),
@@ -322,7 +322,7 @@ fn shrink_fit() -> Family {
     let ring = ThickCylinder::new(50.0, 100.0, 210e3, 0.3, Plane::Stress).unwrap();
     let exact = ShrinkFit::new(0.05, ring, 0.0, 210e3, 0.3).unwrap();
     let scene = |n: usize| {
-        running::load(
+        support::load(
             "shrink_fit",
             &[
                 &format!("mesh.parts.0.disc.elements={n}"),
@@ -340,7 +340,7 @@ fn shrink_fit() -> Family {
 
 fn sphere(shape: &str) -> Family {
     let scene = |shape: &str, n: usize| {
-        running::load(
+        support::load(
             "thick_sphere",
             &[
                 &format!("mesh.parts.0.element={shape}"),
@@ -404,7 +404,7 @@ pub fn from_file(mut scene: Scene, folder: &Path, circles: &[(&str, [f64; 2], f6
 /// off.
 fn layer(n: usize) -> Scene {
     let (along, across) = (16 * n, 2 * n);
-    running::parse(&format!(
+    support::parse(&format!(
         r#"
 title = "receding layer"
 kind = "plane_strain"

@@ -1,10 +1,10 @@
 //! Meshes from files: subdivided, with new nodes on circles where the scene gives them, they
 //! converge as generated meshes do.
 
-use crate::demand::reached;
-use crate::estimate::estimated;
-use crate::families::from_file;
-use crate::running;
+use crate::accuracy::demand::reached;
+use crate::accuracy::estimate::estimated;
+use crate::accuracy::families::from_file;
+use crate::support;
 use brinell::accuracy::{Extent, Knob, Plan, Study, study};
 use brinell::analytical::{Plane, ThickCylinder};
 use brinell::linalg::Backend;
@@ -15,7 +15,7 @@ use brinell::scene::Scene;
 use std::path::Path;
 
 fn tube(element: &str, folder: &Path, circles: &[(&str, [f64; 2], f64)]) -> Scene {
-    let scene = running::load(
+    let scene = support::load(
         "thick_cylinder",
         &[
             &format!("mesh.parts.0.element={element}"),
@@ -153,7 +153,7 @@ fn a_demand_chooses_how_often_a_file_is_subdivided() {
 #[test]
 fn a_large_file_is_judged_by_one_subdivision() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = running::load(
+    let scene = support::load(
         "thick_cylinder",
         &[
             "mesh.parts.0.element=quad4",
@@ -178,7 +178,7 @@ fn a_large_file_is_judged_by_one_subdivision() {
 #[test]
 fn a_contact_from_a_file_keeps_its_pairs_and_gaps() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = running::load(
+    let scene = support::load(
         "cylinder_on_half_plane",
         &[
             "mesh.cylinder_on_half_plane.resolution=4",
@@ -204,7 +204,7 @@ fn a_contact_from_a_file_keeps_its_pairs_and_gaps() {
             pair.gap
         );
     }
-    let generated = running::load(
+    let generated = support::load(
         "cylinder_on_half_plane",
         &[
             "mesh.cylinder_on_half_plane.resolution=16",
@@ -213,7 +213,7 @@ fn a_contact_from_a_file_keeps_its_pairs_and_gaps() {
             "program.targets=[{ yield = true }]",
         ],
     );
-    let load = |scene: &Scene| running::run(scene).first_yield.unwrap().load;
+    let load = |scene: &Scene| support::run(scene).first_yield.unwrap().load;
     let (a, b) = (load(&file), load(&generated));
     // The meshes differ where they grow; both are within the error of 16 elements, 0.1 %.
     assert!((a / b - 1.0).abs() < 1e-3, "{a} {b}");

@@ -1,7 +1,7 @@
 //! The energy norm of the recovered stress error against that of the exact one, on an elastic thick
 //! cylinder.
 
-use crate::running;
+use crate::support;
 use brinell::analytical::{Plane, ThickCylinder};
 use brinell::mesh::Shape;
 use brinell::model::Model;
@@ -12,7 +12,7 @@ const MAX_NODES: usize = 8;
 const PRESSURE: f64 = 10.0;
 
 fn scene(shape: &str, n: usize) -> Scene {
-    let mut scene = running::load(
+    let mut scene = support::load(
         "thick_cylinder",
         &[
             &format!("mesh.parts.0.element={shape}"),
@@ -26,7 +26,7 @@ fn scene(shape: &str, n: usize) -> Scene {
 
 /// The same tube as a body of revolution, between two planes.
 fn revolved(shape: &str, n: usize) -> Scene {
-    running::parse(&format!(
+    support::parse(&format!(
         r#"
 title = "tube"
 kind = "axisymmetric"
@@ -167,12 +167,12 @@ fn exact_error(scene: &Scene, displacement: &[f64]) -> f64 {
 
 /// Estimate over exact error.
 fn effectivity(scene: &Scene) -> (f64, f64) {
-    let results = running::run(scene);
+    let results = support::run(scene);
     let state = &results.states[0];
     let fields = state.fields.as_ref().unwrap();
     let estimate = state.energy_error.unwrap();
     let sum: f64 = fields.error.iter().map(|e| e * e).sum();
-    running::close("sum of squares", sum.sqrt(), estimate, estimate, 1e-12);
+    support::close("sum of squares", sum.sqrt(), estimate, estimate, 1e-12);
     (
         estimate,
         estimate / exact_error(scene, &fields.displacement),

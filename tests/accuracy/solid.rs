@@ -1,7 +1,7 @@
 //! Errors that runs of solids state of themselves, against a finer mesh of the family.
 
-use crate::estimate::estimated;
-use crate::running;
+use crate::accuracy::estimate::estimated;
+use crate::support;
 use brinell::accuracy::{Extent, member, quantities, value_of};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
@@ -15,7 +15,7 @@ use brinell::progress::Silent;
 #[test]
 fn stated_errors_of_solids_cover_the_way_to_a_finer_mesh() {
     for name in ["ball_on_flat_3d", "crossed_cylinders"] {
-        let scene = running::load(name, &["mesh.curved_bodies.far_size=8"]);
+        let scene = support::load(name, &["mesh.curved_bodies.far_size=8"]);
         let (_, accuracy) = estimated(&scene, Extent::Yield);
         let ratios: Vec<f64> = accuracy.companions.iter().map(|c| c.ratio).collect();
         assert_eq!(ratios, [1.2, 1.5], "{name}");

@@ -1,7 +1,7 @@
 //! A study finds what is known: order of convergence, references, prices; it keeps to its budget
 //! and what it has.
 
-use crate::running;
+use crate::support;
 use brinell::accuracy::{Knob, Plan, Study, study};
 use brinell::analytical::{Plane, ThickCylinder};
 use brinell::linalg::Backend;
@@ -9,7 +9,7 @@ use brinell::progress::{Observer, Silent};
 use brinell::scene::Scene;
 
 fn cylinder(element: &str) -> Scene {
-    running::load(
+    support::load(
         "thick_cylinder",
         &[
             &format!("mesh.parts.0.element={element}"),
@@ -116,7 +116,7 @@ fn elements_converge_with_their_orders() {
         "reference=[{{ quantity = \"states.alpha 60.approach\", value = {exact:?}, source \
          = \"Lame\" }}]"
     );
-    let scene = running::load(
+    let scene = support::load(
         "thick_cylinder",
         &[
             "mesh.parts.0.element=quad4",

@@ -1,6 +1,6 @@
 //! Comparing two runs.
 
-use crate::running::{close, largest, sparse, try_run};
+use crate::support::{close, largest, sparse, try_run};
 use brinell::linalg::Backend;
 use brinell::results::{HistoryRow, Results, State};
 use brinell::scene::Scene;

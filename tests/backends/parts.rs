@@ -1,7 +1,7 @@
 //! A part of the zone recovered by itself: what the search directions of a tangent are made of.
 
-use crate::running::load;
-use crate::running::sparse;
+use crate::support::load;
+use crate::support::sparse;
 use brinell::linalg::Backend;
 use brinell::model::Model;
 use brinell::substructure::Substructure;

@@ -1,8 +1,8 @@
 //! Random stacks of blocks: gaps, loads, movements, materials, hardening.
 //! `BRINELL_RANDOM_SCENES=2000` runs as many.
 
-use crate::agreement::all;
-use crate::running::parse;
+use crate::backends::agreement::all;
+use crate::support::parse;
 use proptest::prelude::*;
 use std::cell::Cell;
 use std::fmt::Write;
@@ -242,19 +242,19 @@ fn a_body_that_lies_loose_stays_where_the_other_turns_back() {
 /// `hard/loose_body` is this scene.
 #[test]
 fn a_body_let_go_between_two_others_settles() {
-    assert!(all(&crate::running::load("hard/loose_body", &[])).is_some());
+    assert!(all(&crate::support::load("hard/loose_body", &[])).is_some());
 }
 
 /// An interference lifts a body that nothing but contact holds: it costs nothing, and its forces
 /// are zero, not the round-off of a rigid motion.
 #[test]
 fn an_interference_lifts_a_floating_body() {
-    let results = all(&crate::running::load("hard/lifted_by_interference", &[])).unwrap();
+    let results = all(&crate::support::load("hard/lifted_by_interference", &[])).unwrap();
     let [fitted, pressed] = &results.states[..] else {
         panic!("two states")
     };
     assert_eq!(fitted.contact_force, 0.0);
-    crate::running::close("force", pressed.contact_force, 2.0, 2.0, 1e-12);
+    crate::support::close("force", pressed.contact_force, 2.0, 2.0, 1e-12);
 }
 
 /// On a mesh as coarse as this the recovered stress is far from the sampled one, and its maximum

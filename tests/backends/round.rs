@@ -2,8 +2,8 @@
 //! round-off to say, what is recovered beside them is not the same everywhere. (Once first yield
 //! was looked for beside the largest alone, and was 3 % apart.)
 
-use crate::agreement::AGREEMENT;
-use crate::running::{close, parse, sparse, try_run};
+use crate::backends::agreement::AGREEMENT;
+use crate::support::{close, parse, sparse, try_run};
 use brinell::linalg::Backend;
 
 fn tube(element: &str, radius: f64, around: usize) -> String {

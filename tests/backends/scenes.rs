@@ -1,7 +1,7 @@
 //! A scene of each kind.
 
-use crate::agreement::{AGREEMENT, all};
-use crate::running::{close, largest, load, sparse};
+use crate::backends::agreement::{AGREEMENT, all};
+use crate::support::{close, largest, load, sparse};
 use brinell::ErrorKind;
 use brinell::linalg::Backend;
 use brinell::model::Model;
@@ -154,7 +154,7 @@ fn shim_between_blocks() {
 fn collapse() {
     let scene: Scene = load("hard/limit_load", &[]);
     for backend in [sparse(), vec![Backend::Dense]].concat() {
-        let error = crate::running::try_run(&scene, backend).unwrap_err();
+        let error = crate::support::try_run(&scene, backend).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Collapse, "{error}");
     }
 }

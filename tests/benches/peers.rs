@@ -24,7 +24,7 @@ mod dent;
 mod frd;
 #[path = "peers/hard.rs"]
 mod hard;
-#[path = "../running/meshes.rs"]
+#[path = "../support/meshes.rs"]
 mod meshes;
 #[path = "peers/plot.rs"]
 mod plot;

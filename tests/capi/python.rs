@@ -1,7 +1,6 @@
 //! The Python package, built into a folder of its own: its tests, and the example against the Rust
 //! one.
 
-use crate::interpreter;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -55,7 +54,7 @@ fn scripts(python: &Path) -> PathBuf {
 #[test]
 fn the_python_package_passes_its_tests_and_prints_the_same_digits() {
     let folder = tempfile::tempdir().unwrap();
-    let python = interpreter::with(&["numpy", "scipy", "pytest", "maturin"]);
+    let python = crate::support::interpreter::with(&["numpy", "scipy", "pytest", "maturin"]);
     fetch_crates();
     let bin = scripts(&python);
     let path = std::env::var_os("PATH").unwrap_or_default();

@@ -1,7 +1,8 @@
 //! The directory of the results while runs come and go: killed ones, failed ones, two at once.
 #![cfg(unix)]
 
-use super::{Folder, limit};
+use super::Folder;
+use crate::support::limit;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 

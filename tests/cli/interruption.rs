@@ -1,7 +1,8 @@
 //! Ctrl-C: what was computed is written and marked as incomplete.
 #![cfg(unix)]
 
-use super::{Folder, limit};
+use super::Folder;
+use crate::support::limit;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 

@@ -311,7 +311,7 @@ fn a_study_leaves_its_data_and_plots() {
         "{}/data/scenes/thick_cylinder.toml",
         env!("CARGO_MANIFEST_DIR")
     );
-    let output = super::limit::output(
+    let output = crate::support::limit::output(
         std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
             .args([
                 "accuracy",
@@ -369,13 +369,13 @@ fn a_study_leaves_its_data_and_plots() {
     let refused = root.path().join("notes");
     std::fs::create_dir(&refused).unwrap();
     std::fs::write(refused.join("mine.txt"), "mine").unwrap();
-    let output = super::limit::output(
+    let output = crate::support::limit::output(
         std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
             .args(["accuracy", &scene, "--quiet", "--knobs", "mesh"]),
     );
     assert_eq!(output.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&output.stderr).contains("unknown knob `mesh`"));
-    let output = super::limit::output(
+    let output = crate::support::limit::output(
         std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
             .args(["accuracy", &scene, "--quiet", "--out"])
             .arg(&refused),

@@ -1,7 +1,8 @@
 //! Under pressure: little memory, endless files, characters that a terminal obeys, sizes without a
 //! bound.
 
-use super::{Folder, brinell, fails, limit, scene, stdout};
+use super::{Folder, brinell, fails, scene, stdout};
+use crate::support::limit;
 use std::process::{Command, Output};
 use std::time::Duration;
 
@@ -368,10 +369,9 @@ fn a_process_that_never_ends_is_killed_and_fails() {
 fn a_test_that_takes_too_long_is_known_by_its_name() {
     limit::watch();
     std::thread::sleep(Duration::from_millis(30));
-    let name = limit::overdue(Duration::from_millis(10));
-    assert_eq!(
-        name.as_deref(),
-        Some("pressure::a_test_that_takes_too_long_is_known_by_its_name")
-    );
-    assert_eq!(limit::overdue(Duration::from_secs(3600)), None);
+    // Tests beside this one may be among them.
+    let names = limit::overdue(Duration::from_millis(10));
+    let own = "cli::pressure::a_test_that_takes_too_long_is_known_by_its_name";
+    assert!(names.iter().any(|name| name == own), "{names:?}");
+    assert!(limit::overdue(Duration::from_secs(3600)).is_empty());
 }

@@ -2,7 +2,7 @@
 
 use super::{brinell, scene};
 #[cfg(feature = "faer")]
-use {super::scenes, serde_json::Value};
+use {crate::support::scenes, serde_json::Value};
 
 /// The solver in Rust alone runs every scene to its end, and comes to what CHOLMOD comes to where
 /// the build has that.

@@ -1,7 +1,7 @@
 //! Nothing is allocated where the time goes: in a solve with the trailing factor, and for elements,
 //! points or pairs, one by one.
 
-use super::running::{load, sparse};
+use crate::support::{load, sparse};
 use allocation_counter::{AllocationInfo, measure};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;

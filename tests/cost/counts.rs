@@ -7,7 +7,7 @@
 //! `BRINELL_WRITE_COUNTS=1 cargo test --test cost` writes the files anew; the difference belongs
 //! into the commit's message.
 
-use super::running::{load, sparse, try_run};
+use crate::support::{load, sparse, try_run};
 use brinell::linalg::Backend;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;

@@ -1,6 +1,6 @@
 //! What an effect costs is paid by the scenes that ask for it.
 
-use super::running::{load, try_run};
+use crate::support::{load, try_run};
 use brinell::linalg::Backend;
 use brinell::results::{Counts, Effect, Results};
 
@@ -166,7 +166,7 @@ fn an_initial_state_that_is_nothing_is_off_and_costs_nothing() {
 
 /// The cylinder with another load on its half plane.
 fn load_of(load: &str) -> brinell::scene::Scene {
-    let path = super::running::scene_file("cylinder_on_half_plane");
+    let path = crate::support::scene_file("cylinder_on_half_plane");
     let text = std::fs::read_to_string(path).unwrap();
     let more = format!("[[load]]\non = \"half_plane\"\n{load}\n\n[program]");
     let text = text.replacen("[program]", &more, 1);

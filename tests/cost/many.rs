@@ -1,6 +1,6 @@
 //! Many bodies: what they cost grows with their number, not with its square or cube.
 
-use super::running::{parse, try_run};
+use crate::support::{parse, try_run};
 use brinell::assembly::assemble;
 use brinell::linalg::Backend;
 use brinell::model::Model;

@@ -6,9 +6,9 @@ mod calibration;
 #[path = "../accuracy/families.rs"]
 mod families;
 mod prices;
-#[path = "../running/mod.rs"]
-mod running;
 mod solids;
+#[path = "../support/mod.rs"]
+mod support;
 mod unseen;
 
 use families::{Claim, Family};

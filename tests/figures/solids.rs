@@ -2,7 +2,7 @@
 //! and run once.
 
 use super::families::{Family, Truth, named};
-use super::running;
+use super::support;
 use brinell::accuracy::Extent;
 use brinell::scene::Scene;
 
@@ -63,7 +63,7 @@ pub fn families() -> Vec<Family> {
 
 /// An octant of a sphere under pressure from within, beyond yield and off.
 fn sphere(shape: &str, n: usize) -> Scene {
-    running::parse(&format!(
+    support::parse(&format!(
         r#"
 title = "hollow sphere"
 kind = "solid"
@@ -101,7 +101,7 @@ targets = [{{ yield = true }}, {{ load_factor = 220.0 }}, {{ load_factor = 300.0
 
 /// A quarter of a tube in plane strain, drawn out by two elements.
 fn tube(shape: &str, n: usize) -> Scene {
-    running::parse(&format!(
+    support::parse(&format!(
         r#"
 title = "tube drawn out"
 kind = "solid"
@@ -143,7 +143,7 @@ targets = [{{ yield = true }}, {{ load_factor = 200.0 }}, {{ load_factor = 260.0
 /// A hard barrel of radii 8 and 20 on aluminium with a table of hardening, to four times first
 /// yield.
 fn barrel(n: usize) -> Scene {
-    running::parse(&format!(
+    support::parse(&format!(
         r#"
 title = "barrel on aluminium"
 kind = "solid"
@@ -178,7 +178,7 @@ targets = [{{ yield = true }}, {{ load_factor = 2.0 }}, {{ load_factor = 4.0 }},
 
 /// A ball of radius 5 in a straight groove of radius 7.
 fn groove(n: usize) -> Scene {
-    running::parse(&format!(
+    support::parse(&format!(
         r#"
 title = "ball in a close groove"
 kind = "solid"

@@ -2,7 +2,7 @@
 //! run once: what its stated errors are worth on scenes that nobody has looked at.
 
 use super::families::{Family, Truth, from_file, named, on_flat, stepped};
-use super::running;
+use super::support;
 use brinell::accuracy::Extent;
 use brinell::analytical::{HertzLine, HertzPoint, PinInHole, contact_modulus};
 use brinell::scene::Scene;
@@ -127,7 +127,7 @@ fn plane_stress_tube(shape: &'static str) -> Family {
                 "mesh.parts.0.ring={{ radius = [40.0, 120.0], elements = [{n}, {n}], bias = 3.0 }}"
             );
             let element = format!("mesh.parts.0.element=\"{shape}\"");
-            running::load(
+            support::load(
                 "thick_cylinder",
                 &["kind=\"plane_stress\"", &ring, &element],
             )
@@ -141,7 +141,7 @@ fn plane_stress_tube(shape: &'static str) -> Family {
 fn hole_in_plate(shape: &'static str) -> Family {
     let scene = |n: usize| {
         let rings = 2 * n;
-        running::parse(&format!(
+        support::parse(&format!(
             r#"
 title = "hole in a plate"
 kind = "plane_stress"
@@ -183,7 +183,7 @@ fn pin_from_file(shape: &'static str, folder: &Path) -> Family {
     let clearance = 4e-3;
     let modulus = contact_modulus(210e3, 0.3, 210e3, 0.3);
     let exact = PinInHole::new(10.0, clearance, modulus).unwrap();
-    let scene = running::load(
+    let scene = support::load(
         "pin_in_hole",
         &[
             &format!("mesh.parts.0.element=\"{shape}\""),
@@ -225,7 +225,7 @@ fn pin_from_file(shape: &'static str, folder: &Path) -> Family {
 /// A tube that yields under pressure from within, touches its sleeve and is held by it when the
 /// pressure is gone.
 fn sleeve(shape: &str, n: usize) -> Scene {
-    running::parse(&format!(
+    support::parse(&format!(
         r#"
 title = "tube into a sleeve"
 kind = "plane_strain"
@@ -279,7 +279,7 @@ targets = [{{ yield = true }}, {{ load_factor = 60.0 }}, {{ load_factor = 150.0 
 /// off.
 fn strip(n: usize) -> Scene {
     let (along, across, below) = (12 * n, 4 * n, 4 * n);
-    running::parse(&format!(
+    support::parse(&format!(
         r#"
 title = "strip of pressure"
 kind = "plane_stress"
@@ -327,7 +327,7 @@ targets = [{{ yield = true }}, {{ load_factor = 120.0 }}, {{ load_factor = 150.0
 /// go.
 fn socket(n: usize) -> Scene {
     let across = n;
-    running::parse(&format!(
+    support::parse(&format!(
         r#"
 title = "ball in a socket"
 kind = "axisymmetric"
@@ -385,7 +385,7 @@ fn bronze(n: usize) -> Scene {
 
 /// A hollow sphere of hardening steel under pressure from within, then from without.
 fn reversed_sphere(n: usize) -> Scene {
-    running::load(
+    support::load(
         "thick_sphere",
         &[
             "mesh.parts.0.element=\"quad4\"",

@@ -1,6 +1,6 @@
 //! A model from arrays gives bit for bit what the same model from a scene gives.
 
-use crate::running::{SMALL_BALL, close, load, same_contact};
+use crate::support::{SMALL_BALL, close, load, same_contact};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::mesh::Mesh;

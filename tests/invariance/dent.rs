@@ -1,7 +1,7 @@
 //! The dent is a shape of the bodies: it does not depend on how far the candidates reach, on the
 //! mesh, or on whether a force or a displacement led there.
 
-use super::running::{close, load, run, state};
+use crate::support::{close, load, run, state};
 use brinell::accuracy::{Extent, estimate};
 use brinell::linalg::Backend;
 use brinell::model::Model;
@@ -175,7 +175,7 @@ fn a_body_that_stays_elastic_has_no_share() {
 #[test]
 fn a_load_beside_does_not_move_the_reference() {
     let scene = |beside: &str| {
-        super::running::parse(&format!(
+        crate::support::parse(&format!(
             "kind = \"plane_stress\"
             mesh.parts = [
                 {{ body = \"lower\", block = {{ x = [0.0,

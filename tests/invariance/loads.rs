@@ -1,6 +1,6 @@
 //! The order in which a scene lists its loads.
 
-use super::running::{close, load, run};
+use crate::support::{close, load, run};
 
 /// A load that is a millionth of the other, on the other body and before or after it: the approach
 /// is that of the press, to a millionth, in either order.

@@ -1,7 +1,7 @@
 //! A mirrored model has mirrored results; half a model has those of the whole.
 
-use crate::numbering::Turned;
-use crate::running::{SMALL_BALL, close, largest, load, run, run_on};
+use crate::invariance::numbering::Turned;
+use crate::support::{SMALL_BALL, close, largest, load, run, run_on};
 use brinell::mesh::{Curve, Facet, Mesh, Shape};
 use brinell::model::Model;
 use brinell::results::{PairState, Results};

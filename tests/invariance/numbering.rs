@@ -1,6 +1,6 @@
 //! Numbers of nodes and elements, order of bodies and contacts, which surface is called first.
 
-use crate::running::{
+use crate::support::{
     SMALL_BALL, SMALL_PUNCH, close, largest, load, parse, run, run_on, same_contact, state,
 };
 use brinell::mesh::{Facet, Mesh, Shape, gmsh};
@@ -263,7 +263,7 @@ fn first_and_second_may_be_swapped() {
 /// One load of 100 or two of 50 on the same place; a support twice.
 #[test]
 fn loads_add_up() {
-    let text = std::fs::read_to_string(crate::running::scene_file("hard/three_in_a_row")).unwrap();
+    let text = std::fs::read_to_string(crate::support::scene_file("hard/three_in_a_row")).unwrap();
     let load = "[[load]]\nname = \"press\"\non = \"upper.pad\"\npressure = 100.0\n";
     assert!(text.contains(load));
     let half =

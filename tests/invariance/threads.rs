@@ -1,6 +1,6 @@
 //! One thread or two: the same bits.
 
-use crate::running::{SMALL_BALL, limit, scene_file, sparse};
+use crate::support::{SMALL_BALL, limit, scene_file, sparse};
 use serde_json::Value;
 use std::path::Path;
 use std::process::Command;

@@ -1,7 +1,7 @@
 //! Units and scales: with lengths times L and stresses times S every length is times L, pressure
 //! times S, force per thickness times L S, that of a solid times L^2 S.
 
-use crate::running::{SMALL_BALL, close, largest, load, run};
+use crate::support::{SMALL_BALL, close, largest, load, run};
 use brinell::results::{QUANTITIES, Results, Unit};
 
 const ELASTIC: &str = "program.targets=[{ yield = true }, { load_factor = 0.5 }, \

@@ -1,7 +1,7 @@
 //! Two blocks of one material on one another.
 
-use crate::grid::{Grid, Point};
-use crate::sheet::Sheet;
+use crate::mortar::sheet::Sheet;
+use crate::support::grid::{Grid, Point};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::mesh::Shape;

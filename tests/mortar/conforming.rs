@@ -1,10 +1,10 @@
 //! Curved surfaces that fit each other, with different facets: the gap is that of the true
 //! surfaces.
 
-use crate::blocks::{held, of_one_material, run};
-use crate::grid::{Grid, Point};
-use crate::running::{load, try_run};
-use crate::sheet::Sheet;
+use crate::mortar::blocks::{held, of_one_material, run};
+use crate::mortar::sheet::Sheet;
+use crate::support::grid::{Grid, Point};
+use crate::support::{load, try_run};
 use brinell::linalg::Backend;
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;

@@ -1,9 +1,9 @@
 //! What stands at the ends of surfaces, on supports, and between three bodies; what is refused.
 
-use crate::blocks::{
+use crate::mortar::blocks::{
     held, of_one_material, off_uniform, pressed, run, stacked, supported, symmetric, touching,
 };
-use crate::sheet::Sheet;
+use crate::mortar::sheet::Sheet;
 use brinell::mesh::Shape;
 use brinell::model::{Model, ModelBuilder};
 use brinell::scene::{Direction, History, Kind, SlaveSide, Target};

@@ -1,7 +1,7 @@
 //! Hertz' contact on meshes of different size, against meshes that match.
 
-use crate::running::meshes::joined;
-use crate::running::{load, run_on};
+use crate::support::meshes::joined;
+use crate::support::{load, run_on};
 use brinell::model::Model;
 use brinell::results::Results;
 use brinell::scene::Scene;

@@ -1,6 +1,6 @@
 //! Hertz' contact of solids on meshes of different size, against meshes that match.
 
-use crate::hertz::at_ratio;
+use crate::mortar::hertz::at_ratio;
 use brinell::analytical::{HertzEllipse, contact_modulus};
 use brinell::results::Results;
 

@@ -1,9 +1,9 @@
 //! A uniform pressure passes through every pairing of facets.
 
-use crate::blocks::{
+use crate::mortar::blocks::{
     Cells, of_one_material, off_uniform, pressed, run, stacked, supported, symmetric,
 };
-use crate::grid::Point;
+use crate::support::grid::Point;
 use brinell::mesh::Shape;
 use brinell::results::Results;
 use brinell::scene::{Kind, SlaveSide};

@@ -1,6 +1,6 @@
 //! Published cases by name.
 
-use crate::blocks::{of_one_material, pressed, run, stacked, supported, symmetric};
+use crate::mortar::blocks::{of_one_material, pressed, run, stacked, supported, symmetric};
 use brinell::mesh::Shape;
 use brinell::scene::{Displacement, Kind, Load, SlaveSide};
 
@@ -86,7 +86,7 @@ fn divided_cube() {
 fn ssnp170_taylor_patch() {
     for shape in [Shape::Quad4, Shape::Quad8] {
         for slave in [SlaveSide::First, SlaveSide::Second] {
-            crate::edges::taylor(shape, slave);
+            crate::mortar::edges::taylor(shape, slave);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Soft contact: a pressure in proportion to the overlap.
 
-use crate::blocks::{Cells, held, of_one_material, pressed, run, stacked, supported};
-use crate::running::{load, run as run_scene};
+use crate::mortar::blocks::{Cells, held, of_one_material, pressed, run, stacked, supported};
+use crate::support::{load, run as run_scene};
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
 use brinell::scene::{Contact, Direction, Kind, Material, SlaveSide, Target};

@@ -1,8 +1,10 @@
 //! Surfaces that are tied: one stress passes through, whatever stands at their ends.
 
-use crate::blocks::{Cells, held, of_one_material, pressed, run, stacked, supported, touching};
-use crate::grid::Point;
-use crate::sheet::Sheet;
+use crate::mortar::blocks::{
+    Cells, held, of_one_material, pressed, run, stacked, supported, touching,
+};
+use crate::mortar::sheet::Sheet;
+use crate::support::grid::Point;
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
 use brinell::results::Results;

@@ -1,8 +1,8 @@
 //! Tied bodies against closed forms and meshes that match; what cannot be tied.
 
-use crate::blocks::{held, of_one_material, pressed, run, touching};
-use crate::sheet::Sheet;
-use crate::tie::{aim, tied};
+use crate::mortar::blocks::{held, of_one_material, pressed, run, touching};
+use crate::mortar::sheet::Sheet;
+use crate::mortar::tie::{aim, tied};
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
 use brinell::scene::{Direction, Kind, SlaveSide, Tie};

@@ -1,8 +1,8 @@
 //! Runs over several ranks on one machine: the results of CHOLMOD, and ends that all ranks share.
 
-#[path = "../running/limit.rs"]
+#[path = "../support/limit.rs"]
 mod limit;
-#[path = "../running/scenes.rs"]
+#[path = "../support/scenes.rs"]
 mod scenes;
 
 use brinell::output::read;

@@ -1,6 +1,6 @@
 //! A model from arrays: its folder says by itself where it comes from.
 
-use crate::report::content;
+use crate::output::report::content;
 use brinell::ErrorKind;
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;

@@ -1,6 +1,6 @@
 //! The report in a browser, at the widths of a phone and a screen.
 
-use crate::report::{SCENES, drawings, run};
+use crate::output::report::{SCENES, drawings, run};
 use serde_json::Value;
 use std::path::PathBuf;
 use std::process::Command;

@@ -1,6 +1,6 @@
 //! The directory appears whole or not at all, and nobody else's files are touched.
 
-use crate::fixture;
+use crate::output::fixture;
 use brinell::output::{Claim, check_directory, mark_stale, stale, write};
 use brinell::results::Results;
 use brinell::{Error, ErrorKind};

@@ -1,6 +1,6 @@
 //! The field files, read back bit by bit by a reader of our own.
 
-use crate::{fixture, vtu};
+use super::{fixture, vtu};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::model::Model;

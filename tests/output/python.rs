@@ -1,7 +1,6 @@
 //! The field files, read by the libraries that users read them with.
 
-use crate::fixture;
-use crate::interpreter;
+use crate::output::fixture;
 use brinell::output::write;
 use std::ffi::OsStr;
 use std::path::Path;
@@ -69,7 +68,7 @@ print(vtk_to_numpy(grid.GetCellData().GetGlobalIds()).tolist())
 
 #[test]
 fn vtk_reads_the_pieces_of_a_state() {
-    let python = interpreter::with(&["numpy", "vtk"]);
+    let python = crate::support::interpreter::with(&["numpy", "vtk"]);
     let root = tempfile::tempdir().unwrap();
     let dir = root.path().join("run.out");
     let mesh = fixture::mesh();
@@ -104,7 +103,7 @@ fn vtk_reads_the_fields() {
 }
 
 fn reads_the_fields(library: &str, script: &str) {
-    let python = interpreter::with(&["numpy", library]);
+    let python = crate::support::interpreter::with(&["numpy", library]);
     let root = tempfile::tempdir().unwrap();
     let dir = root.path().join("run.out");
     let mesh = fixture::mesh();

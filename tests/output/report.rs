@@ -1,6 +1,6 @@
 //! `report.html` and its figures: complete, self-contained, well formed, the same from run to run.
 
-use crate::svg::{self, Picture};
+use crate::support::svg::{self, Picture};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -31,7 +31,7 @@ pub fn run(scene: &str, overrides: &[&str], out: &Path) {
     for value in overrides {
         command.args(["--set", value]);
     }
-    let run = crate::limit::output(&mut command);
+    let run = crate::support::limit::output(&mut command);
     let text = String::from_utf8_lossy(&run.stderr);
     assert!(run.status.success(), "{scene}: {text}");
 }
@@ -333,7 +333,7 @@ fn figures_are_the_same_for_any_number_of_threads() {
     let mut runs = Vec::new();
     for threads in ["1", "3"] {
         let dir = temporary.path().join(threads);
-        let run = crate::limit::output(
+        let run = crate::support::limit::output(
             Command::new(env!("CARGO_BIN_EXE_brinell"))
                 .args(["run", "-q", "--threads", threads, "--out"])
                 .arg(&dir)
@@ -353,7 +353,7 @@ fn a_report_can_be_left_out_and_goes_with_its_result() {
     assert!(dir.join("report.html").exists() && dir.join("report_scene.svg").exists());
     std::fs::write(dir.join("mine.svg"), "mine").unwrap();
     let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes/contact_patch.toml");
-    let again = crate::limit::output(
+    let again = crate::support::limit::output(
         Command::new(env!("CARGO_BIN_EXE_brinell"))
             .args(["run", "-q", "--no-report", "--out"])
             .args([&dir, &scene]),
@@ -369,7 +369,7 @@ fn a_report_can_be_left_out_and_goes_with_its_result() {
 fn a_report_is_made_anew_from_its_directory_to_the_byte() {
     let temporary = tempfile::tempdir().unwrap();
     let view = |dir: &Path| {
-        crate::limit::output(
+        crate::support::limit::output(
             Command::new(env!("CARGO_BIN_EXE_brinell"))
                 .arg("view")
                 .arg(dir),

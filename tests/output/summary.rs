@@ -1,6 +1,6 @@
 //! `summary.json` and its schema.
 
-use crate::fixture;
+use crate::output::fixture;
 use brinell::output::{RunHeader, SUMMARY_SCHEMA, summary, write};
 use brinell::results::{QUANTITIES, Quantity, Results, State};
 use serde_json::{Value, json};

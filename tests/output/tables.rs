@@ -1,6 +1,6 @@
 //! `history.csv`, `path.csv` and `contact.csv`.
 
-use crate::fixture;
+use crate::output::fixture;
 use brinell::output::{RunHeader, write};
 use brinell::results::{HistoryRow, QUANTITIES, Results};
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! The answer does not depend on how the path is cut into increments.
 
-use crate::running::{close, healthy, load, run, same_contact};
+use crate::support::{close, healthy, load, run, same_contact};
 use brinell::results::Results;
 
 /// The coarse cylinder, to twice its yield load and down to half of it.

@@ -1,6 +1,6 @@
 //! Rigid motions, and supports at any angle in space.
 
-use crate::grid::{Grid, Point};
+use crate::support::grid::{Grid, Point};
 use brinell::ErrorKind;
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;

@@ -1,6 +1,6 @@
 //! Hertz' contact of balls on quarter models.
 
-use crate::grid::{Grid, Point};
+use crate::support::grid::{Grid, Point};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::mesh::Shape;

@@ -1,6 +1,6 @@
 //! Uniform states are exact on distorted elements, within a body and across a contact.
 
-use crate::grid::{Grid, Point};
+use crate::support::grid::{Grid, Point};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::mesh::Shape;

@@ -1,6 +1,6 @@
 //! A square punch, elastic and at its limit load.
 
-use crate::grid::{Grid, Point};
+use crate::support::grid::{Grid, Point};
 use brinell::analysis::Analysis;
 use brinell::analytical::contact_modulus;
 use brinell::linalg::Backend;

@@ -1,6 +1,6 @@
 //! The report of a run in three dimensions.
 
-use crate::svg::{Picture, area, rings};
+use crate::support::svg::{Picture, area, rings};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::model::Model;

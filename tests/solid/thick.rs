@@ -1,6 +1,6 @@
 //! Thick shells under internal pressure: exact elastoplastic solutions.
 
-use crate::grid::{Grid, Point};
+use crate::support::grid::{Grid, Point};
 use brinell::ErrorKind;
 use brinell::analysis::Analysis;
 use brinell::analytical::{ElastoplasticCylinder, ThickSphere};

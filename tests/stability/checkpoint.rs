@@ -5,7 +5,7 @@
 //! behind a dense factor, the rest of a search. Then "restart changes the answer". Passing means
 //! the same bits.
 
-use crate::running::{SMALL_BALL, SMALL_PUNCH, load};
+use crate::support::{SMALL_BALL, SMALL_PUNCH, load};
 use brinell::analysis::Analysis;
 use brinell::checkpoint::Checkpoints;
 use brinell::linalg::Backend;

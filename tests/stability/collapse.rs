@@ -1,6 +1,6 @@
 //! Limit loads, and iterations that do not converge: the one is not taken for the other.
 
-use crate::running::{close, load, run, run_file};
+use crate::support::{close, load, run, run_file};
 use brinell::ErrorKind;
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;

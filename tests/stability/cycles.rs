@@ -1,6 +1,6 @@
 //! Many cycles.
 
-use crate::running::{close, healthy, load, run, same_contact};
+use crate::support::{close, healthy, load, run, same_contact};
 use brinell::results::State;
 use brinell::scene::{Scene, Target};
 

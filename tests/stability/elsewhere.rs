@@ -1,7 +1,7 @@
 //! What yields far from the contact, where nobody looks for it at first: on meshes so large that
 //! the zone is a part of them.
 
-use crate::running::{close, healthy, parse, run};
+use crate::support::{close, healthy, parse, run};
 use brinell::results::Results;
 
 const YIELD_STRESS: f64 = 300.0;

@@ -1,6 +1,6 @@
 //! Plastic flow: uniform, cyclic, at the limit load, nearly incompressible.
 
-use crate::running::{close, healthy, largest, load, run_file, same_contact, state};
+use crate::support::{close, healthy, largest, load, run_file, same_contact, state};
 use brinell::ErrorKind;
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;

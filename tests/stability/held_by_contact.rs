@@ -1,6 +1,6 @@
 //! Bodies that nothing but contact holds.
 
-use crate::running::{self, close, healthy, largest, run_file, same_contact, state};
+use crate::support::{self, close, healthy, largest, run_file, same_contact, state};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::model::Model;
@@ -188,7 +188,7 @@ fn a_ball_is_held_by_whichever_pair_comes_first() {
     for element in ["quad4", "quad8"] {
         for resolution in 4..=9 {
             let yields = ["first", "second"].map(|slave| {
-                let scene = running::load(
+                let scene = support::load(
                     "ball_on_half_space",
                     &[
                         &format!("{mesh}.element=\"{element}\""),

@@ -1,6 +1,6 @@
 //! Plastic flow that keeps its volume, in all element shapes.
 
-use crate::running::{load, run_file};
+use crate::support::{load, run_file};
 use brinell::ErrorKind;
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
@@ -78,7 +78,7 @@ fn just_below_the_limit_load_forces_balance() {
     let own = limit("quad4", 0.4999).0.unwrap() * 2.0 * 240.0 / 3f64.sqrt() * 2f64.ln();
     let target = format!("program.targets=[{{ load_factor = {:e} }}]", 0.999 * own);
     let results = run_file("hard/nearly_incompressible", &[&target]);
-    crate::running::healthy(&results);
+    crate::support::healthy(&results);
     let state = &results.states[0];
     assert!(state.quality.equilibrium <= 1e-9, "{:?}", state.quality);
     assert!(state.plastic_points > 0);
@@ -152,7 +152,7 @@ fn parted_bodies_carry_nothing_and_round_off_is_told() {
     for nu in ["0.499999", "0.4999999"] {
         let nu = format!("materials.steel.poissons_ratio={nu}");
         let results = run_file("hard/separation", &[&nu]);
-        let unloaded = crate::running::state(&results, "unloaded");
+        let unloaded = crate::support::state(&results, "unloaded");
         assert_eq!(unloaded.contact_force, 0.0);
         for pair in &unloaded.pairs {
             assert_eq!((pair.force, pair.status), (0.0, Status::Open), "{nu}");
@@ -176,7 +176,7 @@ fn the_last_of_the_load_may_be_round_off() {
     for nu in ["0.4999", "0.499999"] {
         let nu = format!("materials.steel.poissons_ratio={nu}");
         let results = run_file("cylinder_on_half_plane", &[&nu]);
-        let unloaded = crate::running::state(&results, "unloaded");
+        let unloaded = crate::support::state(&results, "unloaded");
         assert_eq!((unloaded.load, unloaded.contact_force), (0.0, 0.0));
         assert!(results.inaccurate.is_empty(), "{:?}", results.inaccurate);
     }

@@ -1,7 +1,7 @@
 //! Killed at any moment: `kill -9` leaves no time to tidy up.
 #![cfg(unix)]
 
-use crate::running::{SMALL_BALL, limit, scene_file};
+use crate::support::{SMALL_BALL, limit, scene_file};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};

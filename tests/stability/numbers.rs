@@ -1,6 +1,6 @@
 //! Numbers far apart: stiffness, shape, and gaps that are negative.
 
-use crate::running::{close, healthy, largest, parse, run, run_file, state};
+use crate::support::{close, healthy, largest, parse, run, run_file, state};
 use brinell::results::{Results, Status};
 
 /// A penalty scaled with the stiffer body swamps the softer one, and an absolute pivot tolerance
@@ -165,7 +165,7 @@ fn interference_is_lost_under_tension_and_comes_back() {
             .iter()
             .all(|p| p.status == Status::Open && p.gap > 0.0)
     );
-    crate::running::same_contact(
+    crate::support::same_contact(
         "fitted again",
         fitted,
         state(&results, "fitted again"),

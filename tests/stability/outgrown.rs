@@ -1,7 +1,7 @@
 //! Contact that outgrows its candidates: generated meshes reach far enough, and where surfaces end
 //! although the bodies go on, the run says so instead of giving results.
 
-use super::running::{close, load, parse, run, run_file, state, try_run};
+use crate::support::{close, load, parse, run, run_file, state, try_run};
 use brinell::ErrorKind;
 use brinell::analysis::Analysis;
 use brinell::analytical::{HertzLine, contact_modulus};

@@ -1,7 +1,7 @@
 //! The cases of `data/peers`, on which CalculiX fails without a word: each runs here as it stands,
 //! first time.
 
-use crate::running::{close, healthy, run};
+use crate::support::{close, healthy, run};
 use brinell::analytical::{DiscInPlate, HertzLine, HertzPoint, contact_modulus};
 use brinell::results::{Results, State};
 use brinell::scene::Scene;

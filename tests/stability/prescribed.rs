@@ -1,7 +1,7 @@
 //! Loads: what they sum up to, how they follow the load factor; prescribed displacements: the force
 //! that they take, of the whole, and axes that are turned against x and y.
 
-use crate::running::{close, parse, run, state};
+use crate::support::{close, parse, run, state};
 
 const E: f64 = 1000.0;
 const NU: f64 = 0.3;
@@ -107,7 +107,7 @@ targets = [{ name = "sheared", load_factor = 1.0 }]
 /// half as much as between. Along the bore's resultant, (1, 1)/sqrt 2 of a quarter.
 #[test]
 fn the_approach_is_the_mean_over_the_surface() {
-    let scene = crate::running::load(
+    let scene = crate::support::load(
         "thick_cylinder",
         &[
             "mesh.parts.0.element=quad4",

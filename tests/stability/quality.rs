@@ -1,6 +1,6 @@
 //! Loss of accuracy is noticed: figures of quality mean something in every state.
 
-use crate::running::{close, run_file, state};
+use crate::support::{close, run_file, state};
 
 /// Relative to what little is left after unloading, round-off looks like an error of 100 %, and
 /// users learn to overlook the figure. Relative to the largest load and displacement of the run, an
@@ -101,8 +101,8 @@ fn lost_accuracy_has_a_warning_and_an_exit_code() {
             .args(["--set", set[0], "--set", set[1]])
             .arg("--out")
             .arg(&folder)
-            .arg(crate::running::scene_file("hard/unload_reload"));
-        let output = crate::running::limit::output(&mut command);
+            .arg(crate::support::scene_file("hard/unload_reload"));
+        let output = crate::support::limit::output(&mut command);
         assert_eq!(output.status.code(), Some(code), "{output:?}");
         let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
         let inaccurate = summary["inaccurate"].as_array().unwrap();
@@ -173,7 +173,7 @@ fn the_condition_is_estimated_where_it_matters() {
 #[test]
 fn a_yield_load_has_its_quality_too() {
     let quality = |overrides: &[&str]| {
-        let scene = crate::running::load("hard/unload_reload", overrides);
+        let scene = crate::support::load("hard/unload_reload", overrides);
         let model = brinell::model::Model::new(&scene).unwrap();
         let mut analysis =
             brinell::analysis::Analysis::new(model, brinell::linalg::Backend::default()).unwrap();

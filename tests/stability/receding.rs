@@ -1,6 +1,6 @@
 //! Receding contact: surfaces that conform before the load lose contact with the first bit of it.
 
-use crate::running::{close, healthy, load, run, run_file, same_contact};
+use crate::support::{close, healthy, load, run, run_file, same_contact};
 use brinell::results::{Results, State, Status};
 
 /// The disc in the plate under S along x and `ratio` S along y, at loads from 1e-6 to 1e6.

@@ -1,7 +1,7 @@
 //! Whether refinement with a residual in twice the working precision would make a scene's
 //! displacements better.
 
-use crate::running::largest;
+use crate::support::largest;
 use brinell::assembly::assemble;
 use brinell::linalg::{
     Backend, Partition, condense, condition, refine, solve_whole, twofold_residual,

@@ -1,7 +1,7 @@
 //! Hard cases in three dimensions.
 
-use crate::grid::{Grid, Point};
-use crate::running::{close, healthy, largest, parse, run};
+use crate::support::grid::{Grid, Point};
+use crate::support::{close, healthy, largest, parse, run};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::mesh::Shape;

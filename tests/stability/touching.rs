@@ -1,6 +1,6 @@
 //! Contact that comes and goes: lift-off, ties, grazing, conforming surfaces, separation.
 
-use crate::running::{close, healthy, run_file, same_contact, state};
+use crate::support::{close, healthy, run_file, same_contact, state};
 use brinell::results::Status;
 
 /// Codes that keep a list of "active" nodes forget the ones that left, or start the second contact

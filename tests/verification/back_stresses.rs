@@ -5,7 +5,7 @@
 //! exactly in one dimension; code_aster, test SSNP14 (V6.03.014), modelling A: a plate under
 //! traction and shear with linear kinematic hardening, values of astest/ssnp14a.comm.
 
-use crate::run::{close, run};
+use crate::verification::run::{close, run};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::mesh::Shape;

@@ -4,7 +4,7 @@
 //! Source: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, 3rd ed. (1970), sections 9 and 32
 //! (rotating disks).
 
-use crate::run::{close, run, yield_load};
+use crate::verification::run::{close, run, yield_load};
 use brinell::scene::Scene;
 
 const DENSITY: f64 = 7.85e-9;
@@ -187,7 +187,7 @@ fn a_rotating_annulus_ends_at_its_limit_speed() {
     ));
     assert_eq!(held.incomplete, None);
     let beyond = annulus(8, &format!("[{{ load_factor = {} }}]", 1.01 * limit));
-    let ended = crate::run::run_until_it_ends(&beyond);
+    let ended = crate::verification::run::run_until_it_ends(&beyond);
     assert!(ended.incomplete.is_some());
 }
 

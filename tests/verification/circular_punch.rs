@@ -6,7 +6,7 @@
 //! with k = Y/sqrt(3) round it, and a material that carries more everywhere has the larger limit
 //! load (R. Hill, The Mathematical Theory of Plasticity, chapter III): 2.845 Y <= p <= 3.285 Y.
 
-use crate::run::{run, scene, state};
+use crate::verification::run::{run, scene, state};
 use brinell::analytical::CircularPunch;
 
 #[test]

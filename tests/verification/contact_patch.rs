@@ -4,7 +4,7 @@
 //! Source: equilibrium; R. L. Taylor and P. Papadopoulos, On a patch test for contact problems in
 //! two dimensions (1991).
 
-use crate::run::{close, run, scene};
+use crate::verification::run::{close, run, scene};
 
 #[test]
 fn uniform_pressure_passes() {

@@ -5,7 +5,7 @@
 //! wall under a constant stress `sigma_p` whose temperature changes linearly across it in each
 //! cycle, by elastic stresses of `+-sigma_t` at its faces; perfectly plastic, uniaxial.
 
-use crate::run::{close, run, scene};
+use crate::verification::run::{close, run, scene};
 use brinell::results::{CycleOutcome, Results};
 use brinell::scene::Scene;
 

@@ -4,7 +4,7 @@
 //! Source: the flow rule in one dimension; J. C. Simo and T. J. R. Hughes, Computational
 //! Inelasticity (1998), section 1.4.
 
-use crate::run::{close, run};
+use crate::verification::run::{close, run};
 use brinell::scene::Scene;
 
 /// Stress of a bar with isotropic hardening `Y + H eps` about the back stress `C eps_p` at each

@@ -3,7 +3,7 @@
 //! Source: N. Endahl, section 5.2; integral equation of the receding contact,
 //! `brinell::analytical::DiscInPlate`.
 
-use crate::run::{close, run, scene};
+use crate::verification::run::{close, run, scene};
 use brinell::analytical::{DiscInPlate, Plane};
 use brinell::results::Results;
 

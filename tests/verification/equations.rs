@@ -1,6 +1,6 @@
 //! Linear equations between displacements: a lever, an inclined roller, a surface held plane.
 
-use crate::run::close;
+use crate::verification::run::close;
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::model::Model;

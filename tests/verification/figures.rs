@@ -2,7 +2,7 @@
 //!
 //! Source: equilibrium and Hooke's law, plane stress without lateral restraint.
 
-use crate::run::{close, run};
+use crate::verification::run::{close, run};
 use brinell::model::Model;
 use brinell::scene::Scene;
 

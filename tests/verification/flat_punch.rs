@@ -2,7 +2,7 @@
 //!
 //! Source: L. Prandtl (1920); R. Hill, The Mathematical Theory of Plasticity (1950), chapter IX.
 
-use crate::run::{run, scene, state};
+use crate::verification::run::{run, scene, state};
 
 #[test]
 fn limit_load_converges_from_above() {

@@ -3,7 +3,7 @@
 //!
 //! Source: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, 3rd ed. (1970), section 150.
 
-use crate::run::{close, run, scene, yield_load};
+use crate::verification::run::{close, run, scene, yield_load};
 use brinell::model::Model;
 use brinell::results::Results;
 use brinell::scene::{Field, Scene};

@@ -2,7 +2,7 @@
 //!
 //! Source: N. Endahl, section 5.1; K. L. Johnson, Contact Mechanics (1985), sections 4.2 and 6.1.
 
-use crate::run::{close, run, scene, yield_load};
+use crate::verification::run::{close, run, scene, yield_load};
 use brinell::results::YieldPoint;
 
 /// Ratios to the exact values: load, pressure, half width, depth.

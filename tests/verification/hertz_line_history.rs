@@ -2,7 +2,7 @@
 //!
 //! Source: N. Endahl, section 5.1; load factors from the legend of figure 5.3.
 
-use crate::run::{close, run, scene, state};
+use crate::verification::run::{close, run, scene, state};
 
 #[test]
 fn loading_to_one_and_a_half_widths_and_back() {

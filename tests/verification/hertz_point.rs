@@ -3,7 +3,7 @@
 //! Source: K. L. Johnson, Contact Mechanics (1985), sections 3.4 and 6.1; Code_Aster SSNV104 lies
 //! in the same theory.
 
-use crate::run::{scene, yield_load};
+use crate::verification::run::{scene, yield_load};
 
 #[test]
 fn first_yield_converges_to_the_exact_values() {

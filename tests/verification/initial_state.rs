@@ -1,7 +1,7 @@
 //! Stresses and plastic strains that bodies bring along: bars and layers, whose answers are those
 //! of one dimension.
 
-use crate::run::{close, run, yield_load};
+use crate::verification::run::{close, run, yield_load};
 use brinell::model::Model;
 use brinell::results::Results;
 use brinell::scene::Scene;

@@ -3,7 +3,7 @@
 //! Source: NAFEMS R0094, Advanced Finite Element Contact Benchmarks, CB1
 //! (`data/reference/nafems_r0094`).
 
-use crate::run::{close, run, scene, state};
+use crate::verification::run::{close, run, scene, state};
 
 /// Nodes on a circle of half width b meet a parabola's: Hertz's gap x^2/2R is off by a share of
 /// (b/2R)^2 = 0.4 %; the rest is the mesh's.

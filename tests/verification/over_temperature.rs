@@ -1,8 +1,8 @@
 //! Materials at the temperature of a body: what they are there written out gives the same numbers,
 //! and a run that goes on at another temperature keeps what flowed.
 
-use crate::run::{close, run, scene};
-use crate::start_from::{run_into, with_targets};
+use crate::verification::run::{close, run, scene};
+use crate::verification::start_from::{run_into, with_targets};
 use brinell::scene::{Material, MaterialRow, Scene};
 
 fn row(temperature: f64, youngs_modulus: f64, yield_stress: f64) -> MaterialRow {

@@ -3,7 +3,7 @@
 //! Source: B. G. A. Persson, On the stress distribution of cylindrical elastic bodies in contact
 //! (1964) (`data/reference/persson`).
 
-use crate::run::{close, run, scene, state};
+use crate::verification::run::{close, run, scene, state};
 use brinell::analytical::PinInHole;
 
 #[test]

@@ -3,8 +3,8 @@
 //! Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 7.1
 //! (backward error).
 
-use crate::run::{run_as_far_as_it_goes, scene};
-use crate::scenes;
+use crate::support::scenes;
+use crate::verification::run::{run_as_far_as_it_goes, scene};
 
 #[test]
 fn every_state_of_every_scene_is_in_balance() {

@@ -2,7 +2,7 @@
 //!
 //! Source: S. Timoshenko, Strength of Materials, part II (1956), art. 42; Lame.
 
-use crate::run::{run, scene};
+use crate::verification::run::{run, scene};
 
 #[test]
 fn pressure_converges_to_lame() {

@@ -2,7 +2,7 @@
 //!
 //! Source: Code_Aster SSNV104 (`data/reference/code_aster_ssnv104`), after Hertz.
 
-use crate::run::{close, run, scene, state};
+use crate::verification::run::{close, run, scene, state};
 use brinell::analytical::{HertzPoint, contact_modulus};
 
 /// The force is Hertz's for a radius of contact of 10: P = 4/3 E* a^3/R. The sphere is a circle

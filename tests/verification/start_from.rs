@@ -1,6 +1,6 @@
 //! A run that starts from what an earlier one left does what one run of both programs does.
 
-use crate::run::{close, scene};
+use crate::verification::run::{close, scene};
 use brinell::analysis::Analysis;
 use brinell::checkpoint::Checkpoints;
 use brinell::linalg::Backend;

@@ -3,7 +3,9 @@
 //! Source: R. Hill, The Mathematical Theory of Plasticity (1950), chapter V (exact for nu = 1/2);
 //! Lame.
 
-use crate::run::{close, radial_displacement, run, run_until_it_ends, scene, yield_load};
+use crate::verification::run::{
+    close, radial_displacement, run, run_until_it_ends, scene, yield_load,
+};
 use brinell::ErrorKind;
 use brinell::analysis::Analysis;
 use brinell::analytical::ElastoplasticCylinder;

@@ -2,7 +2,7 @@
 //!
 //! Source: R. Hill, The Mathematical Theory of Plasticity (1950), chapter V.
 
-use crate::run::{close, radial_displacement, scene, yield_load};
+use crate::verification::run::{close, radial_displacement, scene, yield_load};
 use brinell::analytical::ThickSphere;
 
 #[test]

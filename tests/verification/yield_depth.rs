@@ -3,7 +3,7 @@
 //!
 //! Source of the elastic stresses: K. L. Johnson, Contact Mechanics (1985), section 4.2.
 
-use crate::run::{close, run, scene, yield_load};
+use crate::verification::run::{close, run, scene, yield_load};
 use brinell::ErrorKind;
 use brinell::analytical::{HertzLine, contact_modulus};
 use brinell::model::Model;

@@ -2,7 +2,7 @@
 //!
 //! Source: N. Endahl, section 3, equation 3.14.
 
-use crate::run::{close, scene, yield_load};
+use crate::verification::run::{close, scene, yield_load};
 
 #[test]
 fn secant_and_path_agree() {

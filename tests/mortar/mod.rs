@@ -1,10 +1,5 @@
 //! Surfaces whose nodes do not face each other.
 
-#[path = "../solid/grid.rs"]
-mod grid;
-#[path = "../running/mod.rs"]
-mod running;
-
 mod blocks;
 mod conforming;
 mod edges;

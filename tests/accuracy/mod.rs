@@ -1,8 +1,5 @@
 //! What a run says about its own errors, against closed forms and finer meshes.
 
-#[path = "../running/mod.rs"]
-mod running;
-
 mod claims;
 mod demand;
 mod estimate;

@@ -2,7 +2,6 @@
 
 mod extruded;
 mod generated;
-mod grid;
 mod held;
 mod hertz;
 mod patch;
@@ -11,7 +10,5 @@ mod punch;
 #[cfg(feature = "report")]
 mod report;
 #[cfg(feature = "report")]
-#[path = "../output/svg.rs"]
-mod svg;
 mod swept;
 mod thick;

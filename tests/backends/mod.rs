@@ -10,6 +10,4 @@ mod agreement;
 mod parts;
 mod random;
 mod round;
-#[path = "../running/mod.rs"]
-mod running;
 mod scenes;

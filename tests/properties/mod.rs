@@ -3,6 +3,4 @@
 
 mod complementarity;
 mod path;
-#[path = "../running/mod.rs"]
-mod running;
 mod steps;

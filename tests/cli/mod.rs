@@ -4,17 +4,12 @@ mod accuracy;
 mod directory;
 mod guide;
 mod interruption;
-#[path = "../running/limit.rs"]
-mod limit;
 mod mutations;
 mod outputs;
 mod pressure;
 mod readme;
 mod refusals;
 mod scene_help;
-#[cfg(feature = "faer")]
-#[path = "../running/scenes.rs"]
-mod scenes;
 mod shown;
 mod solids;
 mod solvers;
@@ -25,7 +20,7 @@ use std::path::PathBuf;
 use std::process::{Command, Output};
 
 fn brinell(arguments: &[&str]) -> Output {
-    limit::output(Command::new(env!("CARGO_BIN_EXE_brinell")).args(arguments))
+    crate::support::limit::output(Command::new(env!("CARGO_BIN_EXE_brinell")).args(arguments))
 }
 
 fn scene(name: &str) -> String {

@@ -7,8 +7,6 @@ mod collapse;
 mod cycles;
 mod elsewhere;
 mod flow;
-#[path = "../solid/grid.rs"]
-mod grid;
 mod held_by_contact;
 mod incompressible;
 mod killed;
@@ -19,8 +17,6 @@ mod prescribed;
 mod quality;
 mod receding;
 mod refinement;
-#[path = "../running/mod.rs"]
-mod running;
 mod selftest;
 mod solids;
 mod touching;

@@ -1,8 +1,12 @@
 //! Running scenes in tests, and comparing what came out.
-#![allow(dead_code)] // every test binary uses a part of it
+#![allow(dead_code)] // examples and tests/mpi use a part of it
 
+pub mod grid;
+pub mod interpreter;
 pub mod limit;
 pub mod meshes;
+pub mod scenes;
+pub mod svg;
 
 use brinell::Result;
 use brinell::analysis::Analysis;

@@ -22,8 +22,6 @@ mod over_temperature;
 mod pin_in_hole;
 mod quality;
 mod run;
-#[path = "../running/scenes.rs"]
-mod scenes;
 mod shakedown;
 mod shrink_fit;
 mod ssnv104;

@@ -6,5 +6,3 @@ mod allocations;
 mod counts;
 mod effects;
 mod many;
-#[path = "../running/mod.rs"]
-mod running;

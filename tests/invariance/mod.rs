@@ -5,7 +5,5 @@ mod dent;
 mod loads;
 mod mirrors;
 mod numbering;
-#[path = "../running/mod.rs"]
-mod running;
 mod threads;
 mod units;

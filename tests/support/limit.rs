@@ -1,5 +1,5 @@
 //! A limit of time for each test: what never ends fails, and does not hang the suite.
-#![allow(dead_code)] // every test binary uses a part of it
+#![allow(dead_code)] // tests/mpi uses a part of it
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -95,7 +95,7 @@ pub fn watch() {
         std::thread::spawn(|| {
             loop {
                 std::thread::sleep(Duration::from_secs(5));
-                if let Some(name) = overdue(TEST) {
+                if let Some(name) = overdue(TEST).first() {
                     eprintln!("test {name} took longer than {TEST:?}");
                     std::process::exit(101);
                 }
@@ -108,11 +108,11 @@ pub fn watch() {
     UNDER_WAY.with(|_| {});
 }
 
-/// The name of a test that has taken longer than `limit`.
-pub fn overdue(limit: Duration) -> Option<String> {
+/// The names of the tests that have taken longer than `limit`.
+pub fn overdue(limit: Duration) -> Vec<String> {
     let tests = TESTS.lock().unwrap();
-    let mut late = tests.values().filter(|(_, start)| start.elapsed() > limit);
-    late.next().map(|(name, _)| name.clone())
+    let late = tests.values().filter(|(_, start)| start.elapsed() > limit);
+    late.map(|(name, _)| name.clone()).collect()
 }
 
 /// The entry of a test, taken out when its thread ends.

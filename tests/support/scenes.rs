@@ -1,5 +1,5 @@
 //! All scenes of `data/scenes`, and what two solvers make of them.
-#![allow(dead_code)] // every test binary uses a part of it
+#![allow(dead_code)] // tests/mpi uses a part of it
 
 use serde_json::Value;
 

@@ -2,6 +2,4 @@
 
 mod header;
 mod install;
-#[path = "../running/interpreter.rs"]
-mod interpreter;
 mod python;

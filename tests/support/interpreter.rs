@@ -7,7 +7,7 @@ use std::process::Command;
 /// python-tests` sets up in the target directory, else `python3`. A test that needs it does not
 /// pass without it.
 pub fn with(modules: &[&str]) -> PathBuf {
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent();
+    let target = option_env!("CARGO_TARGET_TMPDIR").and_then(|folder| Path::new(folder).parent());
     let made = target.map(|target| target.join("python/bin/python"));
     let python = std::env::var_os("BRINELL_PYTHON")
         .map(PathBuf::from)
