@@ -293,14 +293,15 @@ mod tests {
     /// other.
     #[test]
     fn gathered_elements_see_the_displacements_of_the_model() {
-        for name in [
-            "cylinder_on_half_plane",
-            "disc_in_plate",
-            "ball_on_half_space",
-            "thick_sphere",
+        let coarse = "mesh.cylinder_on_half_plane.resolution=4";
+        for (name, change) in [
+            ("cylinder_on_half_plane", coarse),
+            ("disc_in_plate", "mesh.disc_in_plate.resolution=12"),
+            ("ball_on_half_space", coarse),
+            ("thick_sphere", "mesh.parts.0.ring.elements=[8,8]"),
         ] {
             let path = format!("{}/data/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-            let scene = Scene::load(std::path::Path::new(&path)).unwrap();
+            let scene = Scene::load_with(path, &[change.to_string()]).unwrap();
             let model = Model::new(&scene).unwrap();
             let n = model.freedoms.n;
             let elements: Vec<usize> = (0..model.mesh.n_elements()).step_by(7).collect();

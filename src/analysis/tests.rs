@@ -152,10 +152,10 @@ fn blocks_and_a_soft_one(targets: &str) -> String {
 kind = "plane_stress"
 [[mesh.parts]]
 body = "upper"
-block = {{ x = [0.0, 1.0], y = [0.0, 1.0], elements = [28, 28] }}
+block = {{ x = [0.0, 1.0], y = [0.0, 1.0], elements = [12, 12] }}
 [[mesh.parts]]
 body = "lower"
-block = {{ x = [0.0, 1.0], y = [-1.0, 0.0], elements = [28, 28] }}
+block = {{ x = [0.0, 1.0], y = [-1.0, 0.0], elements = [12, 12] }}
 [[mesh.parts]]
 body = "soft"
 block = {{ x = [20.0, 21.0], y = [0.0, 1.0], elements = [4, 4] }}

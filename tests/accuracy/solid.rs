@@ -1,20 +1,21 @@
 //! Errors that runs of solids state of themselves, against a finer mesh of the family.
 
 use crate::accuracy::estimate::estimated;
-use crate::support;
+use crate::support::{self, either};
 use brinell::accuracy::{Extent, member, quantities, value_of};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::model::Model;
 use brinell::progress::Silent;
 
-/// Of a ball with six elements over the contact radius, and of crossed cylinders (oblong faces):
+/// Of crossed cylinders (oblong faces) with six elements over the smaller half axis, and of a ball:
 /// companions are near ones, as coarser ones cannot be read, and what they state covers the change
 /// to elements two thirds as large. With errors in proportion to h^2 that is 5/9 of the error
 /// itself.
 #[test]
 fn stated_errors_of_solids_cover_the_way_to_a_finer_mesh() {
-    for name in ["ball_on_flat_3d", "crossed_cylinders"] {
+    let every = &["crossed_cylinders", "ball_on_flat_3d"][..];
+    for &name in either(&every[..1], every) {
         let scene = support::load(name, &["mesh.curved_bodies.far_size=8"]);
         let (_, accuracy) = estimated(&scene, Extent::Yield);
         let ratios: Vec<f64> = accuracy.companions.iter().map(|c| c.ratio).collect();

@@ -1,7 +1,7 @@
 //! A scene of each kind.
 
 use crate::backends::agreement::{AGREEMENT, all};
-use crate::support::{close, largest, load, sparse};
+use crate::support::{close, largest, load, sparse, try_run};
 use brinell::ErrorKind;
 use brinell::linalg::Backend;
 use brinell::model::Model;
@@ -16,8 +16,15 @@ const SHORT: &str = "program.targets=[{ yield = true }, { load_factor = 1.6 }, \
 /// agreement asked for.
 const SHARP: [&str; 2] = ["program.gamma=1e-12", "analysis.tolerance=1e-11"];
 
+/// A cylinder that the dense backend takes a second for.
+const SMALL: [&str; 2] = [
+    "mesh.cylinder_on_half_plane.resolution=3",
+    "mesh.cylinder_on_half_plane.far_size=20.0",
+];
+
 fn runs(name: &str, overrides: &[&str]) {
-    let overrides = [&SHARP, overrides].concat();
+    let small = if name == CYLINDER { &SMALL[..] } else { &[] };
+    let overrides = [&SHARP, small, overrides].concat();
     assert!(
         all(&load(name, &overrides)).is_some(),
         "{name} does not run"
@@ -34,7 +41,8 @@ fn condensed_contact_matrices_agree() {
         "hard/floating_body",
         "hard/interference",
     ] {
-        let model = Model::new(&load(name, &[])).unwrap();
+        let small = if name == CYLINDER { &SMALL[..] } else { &[] };
+        let model = Model::new(&load(name, small)).unwrap();
         let system = brinell::assembly::assemble(&model, Backend::default()).unwrap();
         let contact = Substructure::new(&model, &system, Default::default(), Backend::Dense)
             .unwrap()
@@ -161,17 +169,20 @@ fn collapse() {
 
 /// Plain and Anderson-accelerated iteration reach the states of Newton's, to the plastic tolerance:
 /// an out-of-balance force of 1e-10 moves stresses by as much and plastic strains by (E + H) / H =
-/// 4.5 of it; events are hit within gamma. The backends agree for each.
+/// 4.5 of it; events are hit within gamma. The backends agree in Newton's.
 #[test]
 fn iterations_agree() {
     let steel = "materials.steel.plastic_modulus=60000.0";
     let with = |iteration: &str| {
         let set = format!("analysis.plastic_iteration={iteration}");
-        load(CYLINDER, &[SHORT, steel, &set, SHARP[0], SHARP[1]])
+        load(
+            CYLINDER,
+            &[&SMALL[..], &[SHORT, steel, &set], &SHARP].concat(),
+        )
     };
     let newton = all(&with("newton")).unwrap();
     for iteration in ["plain", "anderson"] {
-        let other = all(&with(iteration)).unwrap();
+        let other = try_run(&with(iteration), Backend::default()).unwrap();
         for (a, b) in newton.states.iter().zip(&other.states) {
             let force = largest(a.pairs.iter().map(|p| p.force)).max(1.0);
             for (p, q) in a.pairs.iter().zip(&b.pairs) {

@@ -1,18 +1,12 @@
 //! Programs in C and C++ against the installed library print what the Rust program prints, also
 //! under valgrind.
 
+use crate::support::tools;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
-
-fn is_installed(program: &str) -> bool {
-    Command::new(program)
-        .arg("--version")
-        .output()
-        .is_ok_and(|o| o.status.success())
 }
 
 fn done(command: &mut Command) -> Output {
@@ -69,17 +63,16 @@ pub fn rust_example(scene: &Path) -> Command {
 #[test]
 fn programs_against_the_installed_library_print_the_same_digits() {
     for program in ["make", "cc", "c++", "pkg-config"] {
-        if !is_installed(program) {
-            println!("skipped: there is no {program} on this machine");
+        if !tools::has(program) {
             return;
         }
     }
     let folder = tempfile::tempdir().unwrap();
     let prefix = folder.path().join("installed");
-    // brinell is compiled anew, as a library of another kind, for programs that take seconds: half
-    // the optimisation is half the time.
-    let quick = "--config profile.dev.package.brinell.opt-level=1 --config \
-                 profile.dev.package.brinell.debug=false";
+    // brinell is compiled anew, as a library of another kind, for programs that take seconds: without
+    // optimisation that takes a sixth of the time.
+    let quick = "--config profile.dev.package.brinell.opt-level=0 --config \
+                 profile.dev.package.brinell.codegen-units=16";
     done(
         Command::new("make")
             .current_dir(root())
@@ -186,7 +179,7 @@ fn programs_against_the_installed_library_print_the_same_digits() {
         run(&build("cc", &["-std=c11"], "indentation.c", &inside))
     );
 
-    if is_installed("valgrind") {
+    if tools::has("valgrind") {
         let memory = [
             "-q",
             "--error-exitcode=9",
@@ -204,8 +197,6 @@ fn programs_against_the_installed_library_print_the_same_digits() {
                 .env("OPENBLAS_NUM_THREADS", "1")
                 .env("OMP_NUM_THREADS", "1"),
         );
-    } else {
-        println!("skipped: there is no valgrind on this machine");
     }
     everything_goes_again(&prefix);
 }
@@ -234,8 +225,7 @@ fn the_program_is_installed(prefix: &Path) {
 
 /// The C example by `find_package(brinell)`; `None` where there is no CMake.
 fn built_by_cmake(prefix: &Path, folder: &Path) -> Option<PathBuf> {
-    if !is_installed("cmake") {
-        println!("skipped: there is no cmake on this machine");
+    if !tools::has("cmake") {
         return None;
     }
     let (source, build) = (folder.join("cmake"), folder.join("cmake-build"));

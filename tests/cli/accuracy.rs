@@ -2,6 +2,7 @@
 //! demanded accuracy, what ends one.
 
 use super::{brinell, scene, stdout};
+use crate::support::either;
 use serde_json::Value;
 use std::path::Path;
 
@@ -130,8 +131,8 @@ fn to_accuracy(demanded: f64, name: &str, settings: &[&str], fine: &[&str]) {
 )]
 fn the_papers_cylinder_to_ten_percent() {
     let fine = [
-        "mesh.cylinder_on_half_plane.resolution=32",
-        "mesh.cylinder_on_half_plane.growth=1.07",
+        "mesh.cylinder_on_half_plane.resolution=24",
+        "mesh.cylinder_on_half_plane.growth=1.1",
     ];
     to_accuracy(10.0, "cylinder_on_half_plane", &[], &fine);
 }
@@ -162,8 +163,8 @@ fn the_papers_disc_to_ten_percent() {
     not(any(feature = "cholmod", feature = "faer")),
     ignore = "needs a sparse backend"
 )]
-fn the_tube_to_one_percent_and_less() {
-    for demanded in [1.0, 0.3] {
+fn the_tube_to_one_percent() {
+    for &demanded in either(&[1.0][..], &[1.0, 0.3]) {
         let fine = ["mesh.parts.0.ring.elements=[96,96]"];
         to_accuracy(demanded, "thick_cylinder", &[], &fine);
     }
@@ -176,9 +177,9 @@ fn the_tube_to_one_percent_and_less() {
     not(any(feature = "cholmod", feature = "faer")),
     ignore = "needs a sparse backend"
 )]
-fn the_punch_to_ten_and_three_percent() {
+fn the_punch_to_three_percent() {
     let file = scene("flat_punch");
-    for demanded in [10.0, 3.0] {
+    for &demanded in either(&[3.0][..], &[10.0, 3.0]) {
         let folder = tempfile::tempdir().unwrap();
         let asked = format!("states.flow.load={demanded}%");
         let arguments = ["run", &file, "--accuracy", &asked];

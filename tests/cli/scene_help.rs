@@ -138,7 +138,12 @@ fn made_and_run(folder: &Path, arguments: &[&str]) -> Value {
         text.lines().filter(|l| l.contains('#')).count() >= 6,
         "few comments:\n{text}"
     );
-    let run = brinell(&["run", "-q", "--no-report", "--json", scene]);
+    // The estimate, which runs other meshes, is wanted of one scene.
+    let mut run = vec!["run", "-q", "--no-report", "--json", scene];
+    if arguments[0] != "roller-between-raceways" {
+        run.push("--no-estimate");
+    }
+    let run = brinell(&run);
     assert!(
         run.status.success(),
         "{arguments:?}: {}",
@@ -201,7 +206,7 @@ fn new_scenes_run_and_give_what_their_comments_say() {
     );
     assert_eq!(roller["states"][1]["residual_depth"], 0.0);
 
-    // Hertz, elliptical contact, 4 elements over the smaller half axis.
+    // Hertz, elliptical contact, 3 elements over the smaller half axis.
     for (problem, radii) in [
         (&["ball-in-groove"][..], [[5.0, 5.0], [-5.2, 20.0]]),
         (
@@ -213,14 +218,14 @@ fn new_scenes_run_and_give_what_their_comments_say() {
             [[10.0, 10.0], [0.0, 0.0]],
         ),
     ] {
-        let solid = made_and_run(folder.path(), &[problem, &["--resolution", "4"]].concat());
+        let solid = made_and_run(folder.path(), &[problem, &["--resolution", "3"]].concat());
         let [upper, lower] = radii;
         let relative = HertzEllipse::relative_radii(upper, lower).unwrap();
         let hertz = HertzEllipse::new(relative, modulus).unwrap();
         near(
             &solid["yield"]["load"],
             hertz.yield_load(0.3, 500.0),
-            0.9 / 16.0,
+            0.9 / 9.0,
         );
         assert!(solid["states"][2]["residual_depth"].as_f64() > Some(0.0));
         std::fs::remove_file(folder.path().join(format!("{}.toml", problem[0]))).unwrap();

@@ -1,6 +1,7 @@
 //! Displacements of every node at the end of every step, compared with those of CalculiX.
 
 use super::{deck_path, folder, run};
+use crate::support::tools;
 use std::collections::BTreeMap;
 use std::process::{Command, Stdio};
 
@@ -120,13 +121,8 @@ fn displacements_are_those_of_calculix() {
 /// What is stored is what CalculiX prints, where it is installed.
 #[test]
 fn calculix_prints_what_is_stored() {
-    let is_there = Command::new("ccx")
-        .arg("-v")
-        .stdout(Stdio::null())
-        .status()
-        .is_ok();
-    if !is_there {
-        println!("skipped: ccx is not installed (Debian: calculix-ccx)");
+    // Debian: calculix-ccx.
+    if !tools::has("ccx") {
         return;
     }
     let work = tempfile::tempdir().unwrap();

@@ -4,7 +4,7 @@
 use crate::mortar::blocks::{held, of_one_material, run};
 use crate::mortar::sheet::Sheet;
 use crate::support::grid::{Grid, Point};
-use crate::support::{load, try_run};
+use crate::support::{either, load, try_run};
 use brinell::linalg::Backend;
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
@@ -223,7 +223,9 @@ fn cylinders_are_recognised() {
     // Plane strain: E / (1 - nu^2) for E, and both walls of one material.
     let exact = of_tube([30.0, 50.0, 100.0]) / 0.91;
     for (shape, slave) in SHAPES {
-        for cells in [[[12, 2], [8, 3]], [[8, 3], [12, 2]]] {
+        let both = &[[[12, 2], [8, 3]], [[8, 3], [12, 2]]][..];
+        let one = either(&both[..1], both);
+        for &cells in if shape == Shape::Hex8 { both } else { one } {
             let builder = shells(shape, cells, slave, [30.0, 50.0, 100.0], &place, &sides);
             let [mean, scatter] = of_shells(&builder, exact);
             println!("cylinder {shape:?} {cells:?} {slave:?}: {mean:.4} {scatter:.4}");

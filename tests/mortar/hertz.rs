@@ -1,7 +1,7 @@
 //! Hertz' contact on meshes of different size, against meshes that match.
 
 use crate::support::meshes::joined;
-use crate::support::{load, run_on};
+use crate::support::{either, load, run_on};
 use brinell::model::Model;
 use brinell::results::Results;
 use brinell::scene::Scene;
@@ -88,7 +88,10 @@ fn ratios(name: &str, element: &str, exact: fn(f64) -> [f64; 2]) {
     let matching = at([8, 8], "auto");
     println!("{name} {element} matching: {matching:.4?}");
     for cells in [[8, 12], [12, 8], [8, 24], [24, 8]] {
-        for slave in ["first", "second", "auto"] {
+        // Every side at ratios of two to three, at one to three that which is chosen.
+        let every = &["first", "second", "auto"][..];
+        let some = either(&["auto"][..], every);
+        for &slave in if cells.contains(&24) { some } else { every } {
             // Quadratic balls that float on the axis are said not to be held where they have the
             // slaves, on some meshes, matching ones too.
             if name == "ball_on_half_space"
@@ -129,22 +132,24 @@ fn point_contact() {
     ratios("ball_on_half_space", "quad8", point);
 }
 
-/// Four elements face six over the half width, and the same twice and four times as fine. Where the
+/// Four elements face six over the half width, and the same twice (thorough: four times) as
+/// fine. Where the
 /// contact ends within an element is not resolved, so that pressures near it are off in proportion
 /// to its size: the scatter falls with the first order of it at least.
 fn orders(name: &str, element: &str, exact: fn(f64) -> [f64; 2]) {
     let key = "cylinder_on_half_plane";
     let extra = [format!("mesh.{key}.element={element}")];
-    let scatter = [1, 2, 4].map(|k| {
+    let times = either(&[1, 2][..], &[1, 2, 4]);
+    let scatter = times.iter().map(|k| {
         let (_, results) = at_ratio(name, key, &extra, [4 * k, 6 * k], "auto");
         let found = deviations(&results, exact(results.states[0].load));
         println!("{name} {element} {}: {found:.5?}", 4 * k);
         found[1]
     });
-    assert!(
-        scatter[1] < scatter[0] / 2.0 && scatter[2] < scatter[0] / 4.0,
-        "{scatter:?}"
-    );
+    let scatter: Vec<f64> = scatter.collect();
+    for (found, times) in scatter.iter().zip(times).skip(1) {
+        assert!(*found < scatter[0] / *times as f64, "{scatter:?}");
+    }
 }
 
 #[test]

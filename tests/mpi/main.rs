@@ -1,9 +1,7 @@
 //! Runs over several ranks on one machine: the results of CHOLMOD, and ends that all ranks share.
 
-#[path = "../support/limit.rs"]
-mod limit;
-#[path = "../support/scenes.rs"]
-mod scenes;
+#[path = "../support/mod.rs"]
+mod support;
 
 use brinell::output::read;
 use serde_json::Value;
@@ -11,16 +9,9 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
+use support::{limit, scenes, tools};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_brinell");
-
-fn has_mpirun() -> bool {
-    let found = Command::new("mpirun").arg("--version").output().is_ok();
-    if !found {
-        println!("skipped: no mpirun on this machine");
-    }
-    found
-}
 
 fn scene(name: &str) -> String {
     format!("{}/data/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
@@ -68,7 +59,7 @@ const RANKS: [usize; 3] = [1, 2, 4];
 
 /// Every scene on the ranks that are chosen by its place in the list.
 fn scenes_are_those_of_cholmod(chosen: impl Fn(usize, usize) -> bool) {
-    if !has_mpirun() {
+    if !tools::has("mpirun") {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
@@ -111,7 +102,7 @@ fn every_scene_on_one_two_and_four_ranks_is_that_of_cholmod() {
 /// process: elastic and plastic, in the plane and in space, with free strains.
 #[test]
 fn fields_in_pieces_are_those_of_one_process() {
-    if !has_mpirun() {
+    if !tools::has("mpirun") {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
@@ -176,7 +167,7 @@ fn ends(output: &Output, code: i32, words: &str) {
 /// An error is told once, and ends all ranks with its code.
 #[test]
 fn errors_end_all_ranks_with_one_message() {
-    if !has_mpirun() {
+    if !tools::has("mpirun") {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
@@ -210,7 +201,7 @@ fn errors_end_all_ranks_with_one_message() {
 /// increments there are in between makes no difference.
 #[test]
 fn nobody_is_asked_between_load_steps() {
-    if !has_mpirun() {
+    if !tools::has("mpirun") {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
@@ -277,7 +268,7 @@ const ADDRESS_SPACE: usize = 1_500_000;
 #[test]
 #[cfg(target_os = "linux")]
 fn what_is_too_large_for_one_rank_runs_on_four() {
-    if !has_mpirun() {
+    if !tools::has("mpirun") {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
@@ -332,7 +323,7 @@ fn what_is_too_large_for_one_rank_runs_on_four() {
 /// More ranks than elements: some have nothing.
 #[test]
 fn ranks_without_an_element_do_no_harm() {
-    if !has_mpirun() {
+    if !tools::has("mpirun") {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
@@ -351,7 +342,7 @@ fn ranks_without_an_element_do_no_harm() {
 #[test]
 #[cfg(target_os = "linux")]
 fn a_run_that_is_stopped_keeps_what_it_has() {
-    if !has_mpirun() {
+    if !tools::has("mpirun") {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
@@ -410,7 +401,7 @@ fn a_run_that_is_stopped_keeps_what_it_has() {
 #[test]
 #[cfg(target_os = "linux")]
 fn a_killed_rank_ends_the_run() {
-    if !has_mpirun() {
+    if !tools::has("mpirun") {
         return;
     }
     let folder = tempfile::tempdir().unwrap();

@@ -1,23 +1,17 @@
 //! The report in a browser, at the widths of a phone and a screen.
 
 use crate::output::report::{SCENES, drawings, run};
+use crate::support::tools;
 use serde_json::Value;
-use std::path::PathBuf;
 use std::process::Command;
 
-/// Chromium under one of its names.
-fn browser() -> Option<PathBuf> {
-    let names = [
-        "chromium",
-        "chromium-browser",
-        "google-chrome",
-        "google-chrome-stable",
-    ];
-    let folders = std::env::var_os("PATH")?;
-    std::env::split_paths(&folders)
-        .flat_map(|folder| names.map(|name| folder.join(name)))
-        .find(|path| path.is_file())
-}
+/// Chromium, by its names.
+const BROWSERS: [&str; 4] = [
+    "chromium",
+    "chromium-browser",
+    "google-chrome",
+    "google-chrome-stable",
+];
 
 /// Puts the page into frames as wide as a phone and a screen and measures it there.
 fn measuring_page(page: &str) -> String {
@@ -66,8 +60,7 @@ fn brightness(color: &Value) -> u32 {
 
 #[test]
 fn a_browser_shows_it_without_errors_at_phone_and_screen_width_in_light_and_dark() {
-    let Some(browser) = browser() else {
-        println!("skipped: no chromium on this machine");
+    let Some(browser) = tools::first_of(&BROWSERS) else {
         return;
     };
     let temporary = tempfile::tempdir().unwrap();
@@ -80,7 +73,7 @@ fn a_browser_shows_it_without_errors_at_phone_and_screen_width_in_light_and_dark
         std::fs::write(&measuring, measuring_page(&page)).unwrap();
         for (scheme, dark) in [("1", false), ("0", true)] {
             let profile = temporary.path().join("profile");
-            let shown = Command::new(&browser)
+            let shown = Command::new(browser)
                 .args([
                     "--headless",
                     "--no-sandbox",
@@ -105,13 +98,8 @@ fn a_browser_shows_it_without_errors_at_phone_and_screen_width_in_light_and_dark
                 .rsplit("MEASURED")
                 .next()
                 .and_then(|t| t.split("END").next());
-            let Some(found) = found.filter(|_| dom.matches("MEASURED").count() > 1) else {
-                println!(
-                    "skipped: {} did not render the page: {errors}",
-                    browser.display()
-                );
-                return;
-            };
+            let found = found.filter(|_| dom.matches("MEASURED").count() > 1);
+            let found = found.unwrap_or_else(|| panic!("{browser} did not render: {errors}"));
             let found: Value = serde_json::from_str(&found.replace("&quot;", "\"")).unwrap();
             for frame in found.as_array().unwrap() {
                 assert!(

@@ -1,5 +1,6 @@
 //! Thick shells under internal pressure: exact elastoplastic solutions.
 
+use crate::support::either;
 use crate::support::grid::{Grid, Point};
 use brinell::ErrorKind;
 use brinell::analysis::Analysis;
@@ -92,7 +93,10 @@ fn mean_stresses_are_smooth(model: &Model, stress: &[f64], pressure: f64, what: 
 fn limit_loads_of_a_tube() {
     let limit = 2.0 * YIELD / 3f64.sqrt() * (OUTER / INNER).ln();
     for shape in [Shape::Hex8, Shape::Hex20, Shape::Tet10] {
-        for nu in [0.3, 0.4999] {
+        // What locks does so where the volume hardly changes.
+        let every = either(&[0.4999][..], &[0.3, 0.4999]);
+        let some = &[0.3, 0.4999][..];
+        for &nu in if shape == Shape::Hex8 { some } else { every } {
             let cells = [if shape == Shape::Hex8 { 6 } else { 3 }, 1, 8];
             // x runs round the tube, y along it, z from the bore; right-handed. The middles of
             // edges lie on the arcs.

@@ -5,7 +5,7 @@
 //! behind a dense factor, the rest of a search. Then "restart changes the answer". Passing means
 //! the same bits.
 
-use crate::support::{SMALL_BALL, SMALL_PUNCH, load};
+use crate::support::{SMALL_BALL, SMALL_PUNCH, either, load};
 use brinell::analysis::Analysis;
 use brinell::checkpoint::Checkpoints;
 use brinell::linalg::Backend;
@@ -61,8 +61,8 @@ fn text(results: &Results) -> String {
     ) + &format!("{:?}", results.cycles)
 }
 
-/// Runs the scene, then goes on from the checkpoint of every increment (`every`-th of them): all
-/// the same bits. Returns how many were tried.
+/// Runs the scene, then goes on from the checkpoint of every increment (`every`-th of them, from the
+/// last): all the same bits. Returns how many were tried.
 fn same_from_everywhere(scene: &Scene, every: usize) -> usize {
     let plain = text(&analysis(scene).run(&mut Silent).unwrap());
     let folder = tempfile::tempdir().unwrap();
@@ -84,7 +84,7 @@ fn same_from_everywhere(scene: &Scene, every: usize) -> usize {
     );
     assert_eq!(kept.resumed, 0);
     let mut tried = 0;
-    for copy in collector.copies.iter().step_by(every) {
+    for copy in collector.copies.iter().rev().step_by(every) {
         let resumed = analysis(scene)
             .resume(&Checkpoints::new(copy), &mut Silent)
             .unwrap_or_else(|e| panic!("{}: {e}", copy.display()));
@@ -127,7 +127,7 @@ fn the_paper_s_cylinder_goes_on_from_every_increment() {
              { load_factor = 0.4 }, { load_factor = 1.8 }, { load_factor = 0.0 }]",
         ],
     );
-    assert!(same_from_everywhere(&scene, 2) >= 10);
+    assert!(same_from_everywhere(&scene, either(5, 2)) >= either(4, 10));
 }
 
 /// Solids, interference (a preload that yields), fixed steps, the other iterations, separation and
@@ -241,11 +241,12 @@ fn every_kind_of_way_goes_on() {
         ),
     ];
     for (name, overrides, every) in cases {
+        let every = either(3, 1) * every;
         let n = same_from_everywhere(&load(name, overrides), every);
         assert!(n > 0, "{name} {overrides:?}");
         tried += n;
     }
-    assert!(tried >= 40, "{tried}");
+    assert!(tried >= either(25, 40), "{tried}");
 }
 
 fn copy(from: &Path, to: &Path) -> Checkpoints {
@@ -336,7 +337,8 @@ fn what_is_not_the_same_run_is_refused_by_name() {
         &["nothing"],
     );
 
-    // Any byte of any file.
+    // Any byte of any file. An analysis that was refused can be asked again.
+    let mut unharmed = analysis(&scene);
     let files: Vec<PathBuf> = std::fs::read_dir(&dir)
         .unwrap()
         .map(|e| e.unwrap().path())
@@ -352,7 +354,7 @@ fn what_is_not_the_same_run_is_refused_by_name() {
             damaged[at] ^= 0x10;
             std::fs::write(other.join(file.file_name().unwrap()), &damaged).unwrap();
             refused(
-                analysis(&scene).resume(&checkpoints, &mut Silent),
+                unharmed.resume(&checkpoints, &mut Silent),
                 ErrorKind::Input,
                 &[file.file_name().unwrap().to_str().unwrap()],
             );
@@ -365,7 +367,7 @@ fn what_is_not_the_same_run_is_refused_by_name() {
             )
             .unwrap();
             refused(
-                analysis(&scene).resume(&checkpoints, &mut Silent),
+                unharmed.resume(&checkpoints, &mut Silent),
                 ErrorKind::Input,
                 &["damaged"],
             );
@@ -379,7 +381,7 @@ fn what_is_not_the_same_run_is_refused_by_name() {
     older.extend(&bytes[end..]);
     std::fs::write(&root, older).unwrap();
     refused(
-        analysis(&scene).resume(&checkpoints, &mut Silent),
+        unharmed.resume(&checkpoints, &mut Silent),
         ErrorKind::Input,
         &["another version", "0.0.9"],
     );

@@ -1,6 +1,6 @@
 //! Plastic flow that keeps its volume, in all element shapes.
 
-use crate::support::{load, run_file};
+use crate::support::{either, load, run_file};
 use brinell::ErrorKind;
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
@@ -33,7 +33,10 @@ fn limit(shape: &str, nu: f64) -> (Option<f64>, Vec<String>) {
 #[test]
 fn limit_loads_of_all_shapes_that_claim_not_to_lock() {
     for shape in ["quad4", "quad8", "tri6"] {
-        for nu in [0.3, 0.49, 0.4999] {
+        // What locks does so where the volume hardly changes.
+        let some = if shape == "quad4" { 0 } else { either(2, 0) };
+        for nu in &[0.3, 0.49, 0.4999][some..] {
+            let nu = *nu;
             let (limit, warnings) = limit(shape, nu);
             let limit = limit.unwrap_or(f64::INFINITY);
             assert!((limit - 1.0).abs() < 0.01, "{shape}, nu {nu}: {limit}");
@@ -48,7 +51,8 @@ fn limit_loads_of_all_shapes_that_claim_not_to_lock() {
 fn limit_loads_of_a_sphere() {
     let exact = 2.0 * 240.0 * 2f64.ln();
     for shape in ["quad4", "quad8", "tri6"] {
-        for nu in [0.3, 0.4999] {
+        let some = if shape == "quad4" { 0 } else { either(1, 0) };
+        for nu in &[0.3, 0.4999][some..] {
             let set = [
                 format!("mesh.parts.0.element={shape}"),
                 format!("materials.steel.poissons_ratio={nu}"),

@@ -1,5 +1,4 @@
 //! A limit of time for each test: what never ends fails, and does not hang the suite.
-#![allow(dead_code)] // tests/mpi uses a part of it
 
 use std::collections::BTreeMap;
 use std::io::Read;

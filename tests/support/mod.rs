@@ -7,6 +7,7 @@ pub mod limit;
 pub mod meshes;
 pub mod scenes;
 pub mod svg;
+pub mod tools;
 
 use brinell::Result;
 use brinell::analysis::Analysis;
@@ -17,6 +18,15 @@ use brinell::progress::Silent;
 use brinell::results::{Results, State, Status};
 use brinell::scene::Scene;
 use std::path::PathBuf;
+
+/// What `make test` runs, or what `make test-long` does, which sets `BRINELL_THOROUGH`: finer
+/// meshes and more of them, held to the same bounds in terms of the element's size.
+pub fn either<T>(quick: T, thorough: T) -> T {
+    match std::env::var_os("BRINELL_THOROUGH") {
+        Some(_) => thorough,
+        None => quick,
+    }
+}
 
 /// A file under `data/scenes`.
 pub fn scene_file(name: &str) -> PathBuf {

@@ -1,5 +1,4 @@
 //! All scenes of `data/scenes`, and what two solvers make of them.
-#![allow(dead_code)] // tests/mpi uses a part of it
 
 use serde_json::Value;
 
@@ -22,13 +21,16 @@ pub fn all() -> Vec<String> {
     names
 }
 
-/// What makes a scene small enough to be run many times: solids are coarser.
+/// What makes a scene small enough to be run many times: large solids are coarser.
 pub fn smaller(name: &str) -> &'static [&'static str] {
     let path = format!("{}/data/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).unwrap();
-    match text.contains("[mesh.curved_bodies]") {
-        true => &["mesh.curved_bodies.resolution=4"],
-        false => &[],
+    if text.contains("[mesh.curved_bodies]") {
+        &["mesh.curved_bodies.resolution=3"]
+    } else if name == "square_punch" {
+        &super::SMALL_PUNCH
+    } else {
+        &[]
     }
 }
 
