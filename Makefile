@@ -4,8 +4,8 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .ONESHELL:
 .DEFAULT_GOAL := help
-.PHONY: help setup setup-mpi cargo build run lint check test test-all test-rest test-mpi test-long bench \
-    bench-peers install uninstall wheel deb packages package python python-tests clean
+.PHONY: help setup setup-mpi setup-tools cargo build run lint unit check test test-all test-border test-mpi \
+    test-long release-check bench bench-peers install uninstall wheel deb packages package python python-tests clean
 
 # What the CHOLMOD backend is built on: SuiteSparse, a fast BLAS, and libclang for bindgen.
 PACKAGES := libsuitesparse-dev libopenblas-dev libclang-dev
@@ -53,56 +53,66 @@ build: setup ## Build the program, target/release/brinell
 	@cargo build --release
 
 run: setup ## Run a scene (SCENE=..., ARGS=...)
-	@cargo run --release -- run $(SCENE) $(ARGS)
+	@cargo run --profile $(PROFILE) -- run $(SCENE) $(ARGS)
 
-# Tests are compiled with opt-level 2 and debug assertions (Cargo.toml): on two cores the optimised build of
-# the few heavy crates costs less than it saves. TESTED names the features of the one build that is tested.
+# TESTED names the features of the one build that is tested. Programs through the public interface are
+# optimised (profile.dev in Cargo.toml); unit tests are small enough to be compiled without.
 TESTED ?= capi,faer
+UNOPTIMISED := --config profile.dev.package.brinell.opt-level=0 \
+    --config profile.dev.package.brinell.codegen-units=16
 
 lint: setup ## Format and lints
 	@cargo fmt --check
 	cargo fmt --check --manifest-path ffi/python/Cargo.toml
 	cargo clippy --features $(TESTED) --all-targets -- -D warnings
 
-check: lint ## Lints, unit and property tests (about two minutes once dependencies are built)
-	@cargo test --features $(TESTED) --lib --test properties
+unit: setup ## Unit tests
+	@cargo test $(UNOPTIMISED) --features $(TESTED) --lib
 
-# All but tests/mpi, which is a target of its own.
-SUITES := --lib --test '[!m]*' --test mortar
-# Tests that take minutes or need packages from elsewhere: the installed C library under valgrind,
-# the Python package and readers of VTU files, damaged files by the thousand.
-LONG := install:: python:: damaged_inputs_are_taken_or_refused
+check: lint unit ## Lints, unit and property tests, without optimisation: while you work
+	@cargo test $(UNOPTIMISED) --features $(TESTED) --test all -- properties:: drift::
 
-test: lint ## All that shows the results to be right (about ten minutes)
-	@cargo test --features $(TESTED) $(SUITES) -- $(addprefix --skip ,$(LONG))
+# What needs packages of others: the installed C library under valgrind, the Python package, readers of
+# VTU files.
+BORDER := install:: python::
+
+test: lint unit ## All that shows the results to be right (twelve minutes from nothing)
+	@cargo test --features $(TESTED) --test all -- $(addprefix --skip ,$(BORDER))
 	cargo test --features $(TESTED) --doc
 
-test-all: test test-rest test-mpi test-long ## All tests, builds with other features, documentation
+test-all: test test-border test-mpi test-long release-check ## Every test there is
 
-# A library alone must build without the program.
-test-rest: setup python-tests ## C library, Python package, lints of other features, documentation
-	@cargo test --features $(TESTED) $(SUITES) -- $(LONG)
-	cargo clippy --no-default-features --all-targets -- -D warnings
-	cargo clippy --no-default-features --features faer,cli --all-targets -- -D warnings
-	RUSTDOCFLAGS="-D warnings" cargo doc --features capi,faer,guide --no-deps --quiet
+test-border: setup python-tests ## The C library as installed, the Python package
+	@cargo test --features $(TESTED) --test all -- $(BORDER)
 
-# Less optimisation, less time to compile: for programs that few tests run.
-QUICK := --config profile.dev.package.brinell.opt-level=1 \
-    --config profile.dev.package.brinell.debug=false
-test-long: setup-mpi ## Suites without CHOLMOD, every scene on every number of ranks
-	@cargo test $(QUICK) --no-default-features --features faer,cli --test cli --test cost --test stability
-	cargo test $(QUICK) --no-default-features --features cli --test cli
-	cargo test --features $(TESTED_MPI) --test mpi --test mortar -- --ignored
+# Meshes as fine as they once were for every commit, damaged files by the hundred thousand, each scene on
+# every number of ranks, suites without CHOLMOD.
+test-long: setup-mpi ## What takes an hour
+	@BRINELL_THOROUGH=1 cargo test --features $(TESTED) --test all --test fuzz -- $(addprefix --skip ,$(BORDER))
+	cargo test --features $(TESTED_MPI) --test mpi --test all -- --ignored
+	cargo test --no-default-features --features faer,cli --test all -- cli:: cost:: stability::
+	cargo test --no-default-features --features cli --test all -- cli::
 
 # MUMPS, MPI, and what starts several ranks.
 setup-mpi: PACKAGES += libmumps-dev libopenmpi-dev openmpi-bin procps
 setup-mpi: setup ## Install what the feature `mumps` needs too (Debian, Ubuntu)
 
+# Programs of others that tests use where they are there.
+setup-tools: PACKAGES := calculix-ccx pkg-config valgrind
+setup-tools: setup ## Install CalculiX, valgrind and pkg-config for the tests that use them
+
 TESTED_MPI := $(if $(findstring mumps,$(TESTED)),$(TESTED),$(TESTED),mumps)
 test-mpi: setup-mpi ## Test runs over several ranks
-	@cargo clippy --features $(TESTED_MPI) --all-targets -- -D warnings
-	RUST_TEST_THREADS=1 cargo test --features $(TESTED_MPI) --lib -- linalg:: constrained:: assembly::
+	@RUST_TEST_THREADS=1 cargo test $(UNOPTIMISED) --features $(TESTED_MPI) --lib -- linalg::mumps constrained:: \
+	    assembly::
 	cargo test --features $(TESTED_MPI) --test mpi
+
+# What an issue that touches it runs at its end: other features, documentation, packages.
+release-check: setup-mpi packages ## Other sets of features, documentation, packages
+	@cargo clippy --features $(TESTED_MPI) --all-targets -- -D warnings
+	cargo clippy --no-default-features --all-targets -- -D warnings
+	cargo clippy --no-default-features --features faer,cli --all-targets -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc --features capi,faer,guide --no-deps --quiet
 
 bench: setup ## Measure
 	@cargo bench --bench trailing --bench history --bench contact --bench acceleration --bench reading
@@ -113,7 +123,8 @@ bench-peers: setup ## Measure beside CalculiX (installs it where it is absent)
 	@cargo bench --bench peers
 
 # The libraries are built for `install` alone: they would slow down every other build. PROGRAM names
-# a program that is built already; PROFILE=dev makes libraries, wheel and crate from what tests have built.
+# a program that is built already; PROFILE=dev makes libraries, wheel and crate as tests do, and `make run`
+# what they run.
 PREFIX ?= /usr/local
 DESTDIR ?=
 PYTHON ?= python3
@@ -188,7 +199,7 @@ package: setup ## Pack the crate as `cargo publish` would (below 2 MB), install 
 	[[ $$size -lt 2000000 ]]
 	rm -rf "$$crate"
 	tar -xzf "$$crate.crate" -C "$(BUILT)/package"
-	CARGO_TARGET_DIR="$(BUILT)" cargo install --quiet --locked --force --profile $(PROFILE) $(QUICK) \
+	CARGO_TARGET_DIR="$(BUILT)" cargo install --quiet --locked --force --profile $(PROFILE) $(UNOPTIMISED) \
 	    --path "$$crate" --root "$(BUILT)/installed" --no-default-features --features faer,cli
 
 packages: PACKAGES += debootstrap

@@ -1,7 +1,7 @@
 /* The C interface of brinell: elastoplastic contact without friction.
  *
  * Generated from src/capi by cbindgen; do not edit. To write it anew:
- *     BRINELL_WRITE_HEADER=1 cargo test --test capi header
+ *     BRINELL_WRITE_HEADER=1 cargo test --test all header
  *
  * Every function returns BRINELL_OK or a status; brinell_last_error() then states why, in the
  * thread that called. Handles are opaque and freed by their own function. Set the size of a

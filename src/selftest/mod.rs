@@ -119,7 +119,7 @@ pub fn run(observer: &mut dyn Observer) -> Vec<Row> {
 pub fn page(rows: &[Row]) -> String {
     let mut text = format!(
         "# Hard cases, measured\n\nWritten by `brinell selftest --markdown`: brinell {}, BLAS: {}. \
-         The whole suite is `cargo test --test stability --test properties --test invariance`; its \
+         The whole suite is `cargo test --test all stability properties invariance`; its \
          scenes are in [data/scenes/hard](scenes/hard).\n\n| family | figure | cases | worst | \
          bound | where the bound comes from | |\n|---|---|---|---|---|---|---|\n",
         env!("CARGO_PKG_VERSION"),

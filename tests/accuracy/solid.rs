@@ -16,7 +16,7 @@ use brinell::progress::Silent;
 fn stated_errors_of_solids_cover_the_way_to_a_finer_mesh() {
     let every = &["crossed_cylinders", "ball_on_flat_3d"][..];
     for &name in either(&every[..1], every) {
-        let scene = support::load(name, &["mesh.curved_bodies.far_size=8"]);
+        let scene = support::load(name, &["mesh.curved_bodies.far_size=6"]);
         let (_, accuracy) = estimated(&scene, Extent::Yield);
         let ratios: Vec<f64> = accuracy.companions.iter().map(|c| c.ratio).collect();
         assert_eq!(ratios, [1.2, 1.5], "{name}");

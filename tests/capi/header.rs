@@ -10,7 +10,7 @@ const TOP: &str = "\
 /* The C interface of brinell: elastoplastic contact without friction.
  *
  * Generated from src/capi by cbindgen; do not edit. To write it anew:
- *     BRINELL_WRITE_HEADER=1 cargo test --test capi header
+ *     BRINELL_WRITE_HEADER=1 cargo test --test all header
  *
  * Every function returns BRINELL_OK or a status; brinell_last_error() then states why, in the
  * thread that called. Handles are opaque and freed by their own function. Set the size of a
@@ -78,7 +78,7 @@ fn the_header_is_the_one_that_the_source_says() {
     assert!(
         kept == generated,
         "{} is not what src/capi says; write it anew: BRINELL_WRITE_HEADER=1 cargo test --test \
-         capi header",
+         all header",
         Path::new("ffi/include/brinell.h").display()
     );
     // Every exported function of the source stands in it.

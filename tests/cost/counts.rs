@@ -4,8 +4,8 @@
 //! A run that takes more than a tenth more of anything than it did fails: something has become
 //! dearer. So does one that takes a third less, so that the file stays worth comparing with. Orders
 //! and the last bit of a status depend on the libraries, hence the tenth.
-//! `BRINELL_WRITE_COUNTS=1 cargo test --test cost` writes the files anew; the difference belongs
-//! into the commit's message.
+//! `BRINELL_WRITE_COUNTS=1 cargo test --test all cost` writes the files anew; the difference
+//! belongs into the commit's message.
 
 use crate::support::{load, sparse, try_run};
 use brinell::linalg::Backend;

@@ -1,6 +1,7 @@
 //! Hertz' contact of solids on meshes of different size, against meshes that match.
 
 use crate::mortar::hertz::at_ratio;
+use crate::support::either;
 use brinell::analytical::{HertzEllipse, contact_modulus};
 use brinell::results::Results;
 
@@ -42,7 +43,7 @@ fn ratios(name: &str, [upper, lower]: [[f64; 2]; 2], n: usize, cases: &[([usize;
         println!("{name} {cells:?} {slave}: {found:.4?}");
         // A paraboloid is none of the surfaces that are recognised: fine slaves see the kinks
         // between linear facets, and are left to who asks for them.
-        let sees_kinks = cells[usize::from(slave == "second")] == 12 && slave != "auto";
+        let sees_kinks = cells[usize::from(slave == "second")] > n && slave != "auto";
         let (peak, scatter) = if sees_kinks {
             (0.025, 2.0)
         } else {
@@ -60,7 +61,8 @@ fn ratios(name: &str, [upper, lower]: [[f64; 2]; 2], n: usize, cases: &[([usize;
         "{name}: {coarse:.4?} {fine:.4?}"
     );
     let matching = at([n / 2, n / 2], "auto");
-    for cells in [[n / 2, 3 * n / 2], [3 * n / 2, n / 2]] {
+    let both = &[[n / 2, 3 * n / 2], [3 * n / 2, n / 2]][..];
+    for &cells in either(&both[..1], both) {
         let found = at(cells, "auto");
         println!("{name} {cells:?}: {found:.4?}");
         assert!(
@@ -72,11 +74,12 @@ fn ratios(name: &str, [upper, lower]: [[f64; 2]; 2], n: usize, cases: &[([usize;
 
 #[test]
 fn point_contact_of_solids() {
+    let n = either(6, 8);
     ratios(
         "ball_on_flat_3d",
         [[10.0, 10.0], [0.0, 0.0]],
-        8,
-        &[([12, 8], "auto"), ([8, 12], "second")],
+        n,
+        &[([3 * n / 2, n], "auto"), ([n, 3 * n / 2], "second")],
     );
 }
 

@@ -37,14 +37,18 @@ fn near(value: f64, exact: f64, off: f64, what: &str) {
 #[test]
 fn first_yield_is_that_of_hertz() {
     let modulus = contact_modulus(210e3, 0.3, 210e3, 0.3);
-    for (name, upper, lower, strength) in [
-        ("ball_on_flat_3d", [10.0, 10.0], [0.0, 0.0], 500.0),
-        ("crossed_cylinders", [0.0, 4.0], [12.0, 0.0], 500.0),
-        ("ball_in_groove", [5.0, 5.0], [-5.2, 20.0], 1800.0),
+    // With so many elements over the smaller half axis.
+    let ball = either(&[3, 5][..], &[4, 6]);
+    let ellipse = either(&[4][..], &[4, 6]);
+    let groove = either(&[3][..], &[4, 6]);
+    for (name, upper, lower, strength, sizes) in [
+        ("ball_on_flat_3d", [10.0, 10.0], [0.0, 0.0], 500.0, ball),
+        ("crossed_cylinders", [0.0, 4.0], [12.0, 0.0], 500.0, ellipse),
+        ("ball_in_groove", [5.0, 5.0], [-5.2, 20.0], 1800.0, groove),
     ] {
         let radii = HertzEllipse::relative_radii(upper, lower).unwrap();
         let hertz = HertzEllipse::new(radii, modulus).unwrap();
-        for n in either([3, 5], [4, 6]) {
+        for &n in sizes {
             let resolution = format!("mesh.curved_bodies.resolution={n}");
             let mut scene = scene(name, &[&resolution]);
             scene.program.targets = vec![Target {
@@ -90,8 +94,8 @@ fn first_yield_is_that_of_hertz() {
     }
 }
 
-/// Elastic contact of a ball at the load of first yield, with 3 and 6 elements (thorough: 4 and 8) over
-/// the smaller half axis: pressures converge with the square of the element. (16 take some minutes:
+/// Elastic contact of a ball at the load of first yield, with 3 and 6 elements (thorough: 4 and 8)
+/// over the smaller half axis: pressures converge with the square of the element. (16 take minutes:
 /// README, "What was verified".)
 #[test]
 fn the_elastic_solution_converges_to_that_of_hertz() {

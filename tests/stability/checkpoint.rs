@@ -61,8 +61,8 @@ fn text(results: &Results) -> String {
     ) + &format!("{:?}", results.cycles)
 }
 
-/// Runs the scene, then goes on from the checkpoint of every increment (`every`-th of them, from the
-/// last): all the same bits. Returns how many were tried.
+/// Runs the scene, then goes on from the checkpoint of every increment (`every`-th of them, from
+/// the last): all the same bits. Returns how many were tried.
 fn same_from_everywhere(scene: &Scene, every: usize) -> usize {
     let plain = text(&analysis(scene).run(&mut Silent).unwrap());
     let folder = tempfile::tempdir().unwrap();
