@@ -210,7 +210,7 @@ fn a_quarter_and_a_half_are_those_of_the_whole() {
 #[test]
 fn the_history_of_a_ball_is_that_of_the_axisymmetric_model() {
     let fine = run(&scene("ball_on_half_space", &[]));
-    let resolution = either(3, 4);
+    let resolution = 4;
     let solid = run(&scene(
         "ball_on_flat_3d",
         &[&format!("mesh.curved_bodies.resolution={resolution}")],
