@@ -53,7 +53,7 @@ build: setup ## Build the program, target/release/brinell
 	@cargo build --release
 
 run: setup ## Run a scene (SCENE=..., ARGS=...)
-	@cargo run --profile $(PROFILE) -- run $(SCENE) $(ARGS)
+	@cargo run --profile $(PROFILE) $(if $(filter dev,$(PROFILE)),$(UNOPTIMISED)) -- run $(SCENE) $(ARGS)
 
 # TESTED names the features of the one build that is tested. Programs through the public interface are
 # optimised (profile.dev in Cargo.toml); unit tests are small enough to be compiled without.
@@ -77,7 +77,8 @@ check: lint unit ## Lints, unit and property tests, without optimisation: while 
 BORDER := install:: python::
 
 test: lint unit ## All that shows the results to be right (twelve minutes from nothing)
-	@cargo test --features $(TESTED) --test all -- $(addprefix --skip ,$(BORDER))
+	@export BRINELL_FUZZ="$${BRINELL_FUZZ:-10000}"
+	cargo test --features $(TESTED) --test all --test fuzz -- $(addprefix --skip ,$(BORDER))
 	cargo test --features $(TESTED) --doc
 
 test-all: test test-border test-mpi test-long release-check ## Every test there is

@@ -457,7 +457,8 @@ mod tests {
     /// point between the samples.
     #[test]
     fn a_looser_search_misses_no_more_than_it_says() {
-        let mut scene = Scene::load("data/scenes/thick_cylinder.toml").unwrap();
+        let coarse = "mesh.parts.0.ring.elements=[10,10]".to_string();
+        let mut scene = Scene::load_with("data/scenes/thick_cylinder.toml", &[coarse]).unwrap();
         let mut found = Vec::new();
         for gamma in [1e-2, 1e-4, 1e-8, 1e-300] {
             scene.program.gamma = gamma;

@@ -331,8 +331,12 @@ fn the_start_of_a_way_keeps_the_first_yield_that_was_known() {
         env!("CARGO_MANIFEST_DIR"),
         "/data/scenes/hard/unload_reload.toml"
     );
-    let model = Model::new(&Scene::load(path).unwrap()).unwrap();
-    let analysis = Analysis::new(model, Backend::Dense).unwrap();
+    let coarse = [
+        "mesh.cylinder_on_half_plane.resolution=2".to_string(),
+        "mesh.cylinder_on_half_plane.far_size=10".to_string(),
+    ];
+    let model = Model::new(&Scene::load_with(path, &coarse).unwrap()).unwrap();
+    let analysis = Analysis::new(model, Backend::default()).unwrap();
     let mut observer = Silent;
     let mut run = Run::new(&analysis, &mut observer).unwrap();
     run.execute().unwrap();

@@ -58,12 +58,12 @@ fn an_extent_does_not_grow_with_the_load_from_zero() {
 fn a_curve_goes_through_the_points_between_increments() {
     let root = env!("CARGO_MANIFEST_DIR");
     let scene = format!("{root}/data/scenes/disc_in_plate.toml");
-    let coarse = "mesh.disc_in_plate.resolution=20".to_string();
+    let coarse = "mesh.disc_in_plate.resolution=8".to_string();
     let scene = crate::scene::Scene::load_with(scene, &[coarse]).unwrap();
     let model = Model::new(&scene).unwrap();
     let labels = Labels::of(&model);
     let mut analysis =
-        crate::analysis::Analysis::new(model, crate::linalg::Backend::Dense).unwrap();
+        crate::analysis::Analysis::new(model, crate::linalg::Backend::default()).unwrap();
     let results = analysis.run(&mut crate::progress::Silent).unwrap();
     assert!(!results.path.is_empty());
     // Between the rows in every figure, in their order.
