@@ -20,8 +20,10 @@ const BEYOND: f64 = 1e-8;
 pub(super) struct ElementStresses {
     /// Forces on the nodes of the mesh, in global axes.
     pub(super) forces: Vec<Vector>,
-    /// Those that may yield, are not in the zone and carry more than the yield stress.
+    /// Elements that may yield, are not in the zone and carry more than the yield stress.
     pub(super) beyond_yield_outside: Vec<usize>,
+    /// Whether an element of the zone carries more than its initial yield stress.
+    pub(super) beyond_yield_inside: bool,
     /// Where fields are asked for.
     pub(super) shown: Option<Shown>,
 }
@@ -42,7 +44,7 @@ pub(super) struct Shown {
 /// An element as it comes out of a block.
 struct Evaluated<const D: usize, const N: usize> {
     forces: [[f64; D]; N],
-    beyond_yield_outside: bool,
+    beyond_yield: bool,
 }
 
 impl ElementStresses {
@@ -53,10 +55,13 @@ impl ElementStresses {
         elements: &[usize],
         with_fields: bool,
     ) -> Self {
-        let (forces, beyond_yield_outside) = nodal_forces(field, elements);
+        let (forces, mut beyond_yield) = nodal_forces(field, elements);
+        let n_beyond = beyond_yield.len();
+        beyond_yield.retain(|&e| field.place_in_zone(e).is_none());
         ElementStresses {
             forces,
-            beyond_yield_outside,
+            beyond_yield_inside: beyond_yield.len() < n_beyond,
+            beyond_yield_outside: beyond_yield,
             shown: with_fields.then(|| Shown::new(field, elements)),
         }
     }
@@ -66,6 +71,7 @@ impl ElementStresses {
         ElementStresses {
             forces: vec![[0.0; 3]; n_nodes],
             beyond_yield_outside: Vec::new(),
+            beyond_yield_inside: false,
             shown: shown.map(|components| Shown {
                 stress: vec![0.0; components * n_elements],
                 von_mises: vec![0.0; n_elements],
@@ -92,6 +98,7 @@ impl ElementStresses {
         }
         let beyond = part.beyond_yield_outside.into_iter().map(|e| all[e]);
         self.beyond_yield_outside.extend(beyond);
+        self.beyond_yield_inside |= part.beyond_yield_inside;
         let (Some(shown), Some(part)) = (&mut self.shown, part.shown) else {
             return;
         };
@@ -141,7 +148,7 @@ impl Shown {
     }
 }
 
-/// Forces on the nodes in global axes, and the elements outside the zone that are beyond yield.
+/// Forces on the nodes in global axes, and the elements that are beyond their initial yield stress.
 /// While the forces of one block are summed the next is evaluated.
 fn nodal_forces<const D: usize, const S: usize, const P: usize, const N: usize>(
     field: &StressField<D, S, P, N>,
@@ -169,7 +176,7 @@ fn nodal_forces<const D: usize, const S: usize, const P: usize, const N: usize>(
             };
             Evaluated {
                 forces: element.gradients.forces(&element.stress),
-                beyond_yield_outside: is_beyond() && field.place_in_zone(e).is_none(),
+                beyond_yield: is_beyond(),
             }
         });
         each.collect_into_vec(block);
@@ -188,7 +195,7 @@ fn nodal_forces<const D: usize, const S: usize, const P: usize, const N: usize>(
                     let sum = &mut forces[node as usize];
                     (0..D).for_each(|d| sum[d] += force[d]);
                 }
-                if element.beyond_yield_outside {
+                if element.beyond_yield {
                     beyond.push(e);
                 }
             }

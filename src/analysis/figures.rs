@@ -19,6 +19,8 @@ pub struct Figures {
     pub state: State,
     /// Elements outside the zone with stress beyond yield: the zone was too small for this state.
     pub beyond_yield_outside: Vec<usize>,
+    /// Whether a Gauss point of the zone carries more than its initial yield stress.
+    pub beyond_yield_inside: bool,
     /// Seconds spent on the stresses of all elements: forces, fields, error indicator.
     pub stress_seconds: f64,
 }
@@ -47,6 +49,7 @@ impl Reading<'_, '_> {
             nodal,
             reactions,
             beyond_yield_outside,
+            beyond_yield_inside,
             shown,
             plastic_points,
             plastic_volume,
@@ -99,6 +102,7 @@ impl Reading<'_, '_> {
         Ok(Figures {
             state,
             beyond_yield_outside,
+            beyond_yield_inside,
             stress_seconds,
         })
     }

@@ -39,7 +39,9 @@ impl Run<'_, '_> {
             let found = match self.model().scene.analysis.yield_load {
                 YieldMethod::Exact => self.exact_yield(required)?,
                 YieldMethod::Secant if required => {
-                    let recovery = self.zone.recovery(&self.solver);
+                    let recovery = self
+                        .zone
+                        .recovery(&self.solver, self.position.first_yield.watched);
                     let recovery = recovery.ok_or_else(|| Error::internal("no recovery"))?;
                     let (alpha, peak) = self.solver.secant_yield_load(recovery)?;
                     Search::Found(alpha, peak)
@@ -113,7 +115,9 @@ impl Run<'_, '_> {
         for _ in 0..DOUBLINGS {
             for stop in self.stops(end) {
                 let point = self.solver.structure.point(stop);
-                let recovery = self.zone.recovery(&self.solver);
+                let recovery = self
+                    .zone
+                    .recovery(&self.solver, self.position.first_yield.watched);
                 if let Arrival::Yield(peak) = self.solver.drive_elastic(&point, recovery)? {
                     return Ok(Search::Found(self.solver.at.alpha, peak));
                 }
@@ -140,7 +144,9 @@ impl Run<'_, '_> {
         let before = self.solver.state();
         let point = self.solver.structure.point(1.0);
         let solved = self.solver.solve_contact_at(&point);
-        let recovery = self.zone.recovery(&self.solver);
+        let recovery = self
+            .zone
+            .recovery(&self.solver, self.position.first_yield.watched);
         let estimate = match (solved, recovery) {
             (Ok(()), Some(recovery)) => self.solver.peak(recovery).map(|p| p.ratio),
             _ => None,

@@ -122,72 +122,209 @@ impl Reflection {
     }
 }
 
-/// Nodes on which forces, pressures or tractions act: a tangential one is no mirror's.
-pub fn loaded_nodes(model: &Model) -> Vec<bool> {
-    let mut out = vec![false; model.mesh.n_nodes()];
-    let held = |l: &crate::scene::Load| {
-        l.acts_on_volume() || l.displacement.is_some() || l.plane_force.is_some()
-    };
-    for load in model.scene.load.iter().filter(|l| !held(l)) {
-        for node in model.mesh.set_nodes(&load.on).into_iter().flatten() {
-            out[node] = true;
-        }
-    }
-    out
+/// What a plane of symmetry must be free of, node by node.
+pub struct Conditions {
+    /// Nodes on which forces, pressures or tractions act.
+    loaded: Vec<bool>,
+    /// Nodes in equations.
+    in_equation: Vec<bool>,
+    /// How many nodes have each free freedom: those of a surface held plane share one.
+    n_owners: Vec<u32>,
 }
 
-/// The planes of symmetry on which elements have a facet. `loaded` are [`loaded_nodes`].
-pub fn mirrors(model: &Model, loaded: &[bool], elements: &[usize]) -> Vec<Mirror> {
-    let mut out: Vec<Mirror> = Vec::new();
-    for &element in elements {
-        for local in 0..model.mesh.shapes[element].n_facets() {
-            let Some((mirror, length)) = mirror_on(model, loaded, Facet { element, local }) else {
-                continue;
-            };
-            let same = |other: &Mirror| {
-                length_of(cross(mirror.normal, other.normal)) < SAME
-                    && dot(mirror.normal, other.normal) > 0.0
-                    && (mirror.offset - other.offset).abs() <= SAME * length
-            };
-            if !out.iter().any(same) {
-                out.push(mirror);
+impl Conditions {
+    /// The conditions of a model.
+    pub fn of(model: &Model) -> Self {
+        let n_nodes = model.mesh.n_nodes();
+        let marked = |sets: &mut dyn Iterator<Item = &String>| {
+            let mut out = vec![false; n_nodes];
+            for node in sets.flat_map(|on| model.mesh.set_nodes(on)).flatten() {
+                out[node] = true;
+            }
+            out
+        };
+        let is_force = |l: &&crate::scene::Load| {
+            !(l.acts_on_volume() || l.displacement.is_some() || l.plane_force.is_some())
+        };
+        let scene = &model.scene;
+        let mut n_owners = vec![0; model.freedoms.n];
+        for slots in &model.freedoms.slots {
+            for slot in slots {
+                if let Slot::Free(freedom) = slot {
+                    n_owners[*freedom as usize] += 1;
+                }
             }
         }
+        let terms = scene.equation.iter().flat_map(|equation| &equation.terms);
+        Conditions {
+            loaded: marked(&mut scene.load.iter().filter(is_force).map(|load| &load.on)),
+            in_equation: marked(&mut terms.map(|term| &term.on)),
+            n_owners,
+        }
     }
-    out
-}
 
-/// The plane of a facet that is held across and free along it, and the facet's length.
-fn mirror_on(model: &Model, loaded: &[bool], facet: Facet) -> Option<(Mirror, f64)> {
-    let mesh = &model.mesh;
-    let reference = mesh.facet_reference(facet);
-    let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
-    let points: Vec<Vector> = nodes.iter().map(|&n| mesh.point(n)).collect();
-    let length = length_of(difference(points[1], points[0]));
-    let at_corner = (reference.functions)(reference.nodes[0]);
-    let normal = direction(reference.area(&at_corner, &points));
-    let mut free = false;
-    for &node in &nodes {
+    /// Whether a slot does not move at all.
+    fn is_held(model: &Model, slot: Slot) -> bool {
+        match slot {
+            Slot::Fixed => true,
+            Slot::Prescribed(p) => model.freedoms.prescribed[p as usize].value == 0.0,
+            Slot::Free(_) | Slot::Sum(_) => false,
+        }
+    }
+
+    /// What stands in the direction `along` of a node, if that is one of its axes.
+    fn slot(model: &Model, node: usize, along: Vector) -> Option<Slot> {
         let axes = model.freedoms.local(node);
         let slots = model.freedoms.of_node(node);
-        let across = |i: &usize| length_of(cross(axes[*i], normal)) < SAME;
-        let held = (0..slots.len()).find(across)?;
-        if slots[held] != Slot::Fixed {
-            return None;
+        let at = (0..slots.len()).find(|&i| length_of(cross(axes[i], along)) < SAME)?;
+        Some(slots[at])
+    }
+
+    /// Whether something keeps a slot from moving as it likes.
+    fn is_bound(&self, slot: Slot) -> bool {
+        match slot {
+            Slot::Free(freedom) => self.n_owners[freedom as usize] > 1,
+            Slot::Fixed | Slot::Prescribed(_) | Slot::Sum(_) => true,
         }
-        free |= slots.iter().any(|slot| matches!(slot, Slot::Free(_)));
     }
-    if !free || nodes.iter().all(|&n| loaded[n]) {
-        return None;
+
+    /// Whether something pushes a node, or keeps it from moving as it likes.
+    fn act_on(&self, model: &Model, node: usize) -> bool {
+        let mut slots = model.freedoms.of_node(node).iter();
+        self.loaded[node] || slots.any(|slot| self.is_bound(*slot))
     }
-    let mirror = Mirror {
-        normal,
-        offset: dot(normal, points[0]),
-    };
-    let curved = points
-        .iter()
-        .any(|&x| mirror.beyond(x).abs() > SAME * length);
-    (!curved).then_some((mirror, length))
+
+    /// Whether all nodes of a side are held along its normal.
+    fn hold(&self, model: &Model, side: &Side, normal: Vector) -> bool {
+        side.nodes.iter().all(|&node| {
+            let slot = Self::slot(model, node, normal);
+            slot.is_some_and(|slot| Self::is_held(model, slot))
+        })
+    }
+
+    /// Whether what binds a slot along an axis binds a whole side alike: it is tied, or held or
+    /// kept plane across.
+    fn go_on(&self, model: &Model, side: &Side, slot: Slot, axis: Vector) -> bool {
+        let is_tied = matches!(slot, Slot::Sum(_));
+        let is_held = Self::is_held(model, slot);
+        let alike = |other: Slot| {
+            other == slot
+                || (is_held && Self::is_held(model, other))
+                || (is_tied && matches!(other, Slot::Sum(_)))
+        };
+        (is_tied || side.is_across(axis))
+            && (side.nodes.iter()).all(|&n| Self::slot(model, n, axis).is_some_and(alike))
+    }
+}
+
+/// The planes of symmetry on which elements have a facet. The whole of what the elements have of a
+/// plane must be one: the stress goes on as its mirror image if every condition there does.
+pub fn mirrors(model: &Model, conditions: &Conditions, elements: &[usize]) -> Vec<Mirror> {
+    let sides = Sides::of(model, conditions, elements);
+    let mut out: Vec<(Mirror, bool)> = Vec::new();
+    for side in &sides.0 {
+        let Some(mirror) = side.mirror else {
+            continue;
+        };
+        let same = |other: &Mirror| {
+            length_of(cross(mirror.normal, other.normal)) < SAME
+                && dot(mirror.normal, other.normal) > 0.0
+                && (mirror.offset - other.offset).abs() <= SAME * side.length
+        };
+        let is_mirror = conditions.hold(model, side, mirror.normal)
+            && sides.are_symmetric(side, mirror.normal, model, conditions);
+        match out.iter_mut().find(|(other, _)| same(other)) {
+            Some((_, all)) => *all &= is_mirror,
+            None => out.push((mirror, is_mirror)),
+        }
+    }
+    let mirrors = out.into_iter().filter(|(_, is_mirror)| *is_mirror);
+    mirrors.map(|(mirror, _)| mirror).collect()
+}
+
+/// A facet of an element.
+struct Side {
+    nodes: Vec<usize>,
+    /// The plane that it lies in, if it is plane.
+    mirror: Option<Mirror>,
+    length: f64,
+}
+
+impl Side {
+    fn of(model: &Model, facet: Facet) -> Self {
+        let mesh = &model.mesh;
+        let reference = mesh.facet_reference(facet);
+        let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
+        let points: Vec<Vector> = nodes.iter().map(|&n| mesh.point(n)).collect();
+        let length = length_of(difference(points[1], points[0]));
+        let at_corner = (reference.functions)(reference.nodes[0]);
+        let normal = direction(reference.area(&at_corner, &points));
+        let mirror = Mirror {
+            normal,
+            offset: dot(normal, points[0]),
+        };
+        let mut off = points.iter().map(|&x| mirror.beyond(x).abs());
+        Side {
+            nodes,
+            mirror: off.all(|off| off <= SAME * length).then_some(mirror),
+            length,
+        }
+    }
+
+    /// Whether it lies in a plane with this normal.
+    fn is_across(&self, normal: Vector) -> bool {
+        let across = |mirror: &Mirror| length_of(cross(mirror.normal, normal)) < SAME;
+        self.mirror.as_ref().is_some_and(across)
+    }
+}
+
+/// The facets of some elements on which something acts.
+struct Sides(Vec<Side>);
+
+impl Sides {
+    fn of(model: &Model, conditions: &Conditions, elements: &[usize]) -> Self {
+        let of_element = |&element: &usize| {
+            let facets = (0..model.mesh.shapes[element].n_facets())
+                .map(move |local| Facet { element, local });
+            let acted_on = |facet: &Facet| {
+                let mut nodes = model.mesh.facet_nodes(*facet);
+                nodes.any(|node| conditions.act_on(model, node))
+            };
+            facets.filter(acted_on).map(|facet| Side::of(model, facet))
+        };
+        Sides(elements.iter().flat_map(of_element).collect())
+    }
+
+    /// Whether the conditions along a side are those of a plane of symmetry: its nodes move along
+    /// it as they like and nothing pushes them. At its rim another surface may be loaded, tied, or
+    /// held or kept plane across its own normal: that goes on beyond the plane.
+    fn are_symmetric(
+        &self,
+        side: &Side,
+        normal: Vector,
+        model: &Model,
+        conditions: &Conditions,
+    ) -> bool {
+        side.nodes.iter().all(|&node| {
+            let at_rim = |of: &dyn Fn(&Side) -> bool| {
+                let others = self.0.iter().filter(|other| other.nodes.contains(&node));
+                let mut others = others.filter(|other| !other.is_across(normal));
+                others.any(of)
+            };
+            let is_loaded = |other: &Side| other.nodes.iter().all(|&n| conditions.loaded[n]);
+            if conditions.in_equation[node] || (conditions.loaded[node] && !at_rim(&is_loaded)) {
+                return false;
+            }
+            let slots = model.freedoms.of_node(node).iter();
+            let mut axes = slots.zip(model.freedoms.local(node));
+            axes.all(|(&slot, axis)| {
+                let is_along = length_of(cross(axis, normal)) > SAME;
+                !is_along
+                    || !conditions.is_bound(slot)
+                    || at_rim(&|other| conditions.go_on(model, other, slot, axis))
+            })
+        })
+    }
 }
 
 #[cfg(test)]

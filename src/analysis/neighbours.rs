@@ -1,6 +1,6 @@
 //! Elements that share a node.
 
-use crate::mesh::Mesh;
+use crate::mesh::{Facet, Mesh};
 
 /// Some elements of a mesh, by their nodes.
 pub struct Neighbours {
@@ -30,6 +30,32 @@ impl Neighbours {
             }
         }
         Neighbours { first, places }
+    }
+
+    /// Opposite facets of an element of the list that both belong to no other element of it, each
+    /// pair as two lists of nodes: across these the body is one element thick.
+    pub fn free_sides(&self, mesh: &Mesh, list: &[usize], element: usize) -> Vec<[Vec<usize>; 2]> {
+        let facets = (0..mesh.shapes[element].n_facets()).map(|local| Facet { element, local });
+        let facets = facets.map(|facet| mesh.facet_nodes(facet).collect::<Vec<usize>>());
+        let is_free = |nodes: &Vec<usize>| {
+            let [first, end] = [0, 1].map(|i| self.first[nodes[0] + i] as usize);
+            let around = self.places[first..end]
+                .iter()
+                .map(|&place| list[place as usize]);
+            let mut others = around.filter(|&other| other != element);
+            others.all(|other| {
+                let has = |node: &usize| mesh.nodes(other).contains(&(*node as u32));
+                !nodes.iter().all(has)
+            })
+        };
+        let free: Vec<Vec<usize>> = facets.filter(is_free).collect();
+        let mut sides = Vec::new();
+        for (i, one) in free.iter().enumerate() {
+            let is_opposite = |other: &&Vec<usize>| one.iter().all(|node| !other.contains(node));
+            let opposite = free[i + 1..].iter().find(is_opposite);
+            sides.extend(opposite.map(|other| [one.clone(), other.clone()]));
+        }
+        sides
     }
 
     /// The places in the list of the elements that have one of some nodes, ascending.

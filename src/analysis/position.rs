@@ -2,6 +2,7 @@
 
 use super::cycles::CycleRecord;
 use super::drive::Drive;
+use super::recovery::Watched;
 use crate::results::YieldPoint;
 use serde::{Deserialize, Serialize};
 
@@ -88,6 +89,8 @@ pub(super) struct FirstYield {
     pub(super) elastic_range: [f64; 2],
     /// Where and under what load it was found.
     pub(super) point: Option<YieldPoint>,
+    /// Where the stress is watched on the way to it.
+    pub(super) watched: Watched,
 }
 
 impl FirstYield {

@@ -265,7 +265,8 @@ impl<'m, 'o> Run<'m, 'o> {
                 && first_yield.excludes(self.solver.at.alpha, end.alpha);
             let watches_yield = !first_yield.is_behind && !known;
             let recovery = if watches_yield {
-                self.zone.recovery(&self.solver)
+                self.zone
+                    .recovery(&self.solver, self.position.first_yield.watched)
             } else {
                 None
             };
@@ -295,7 +296,9 @@ impl<'m, 'o> Run<'m, 'o> {
             stop: &|| observer.stop_requested(),
         };
         let recovery = match drive.watches_yield() {
-            true => self.zone.recovery(&self.solver),
+            true => self
+                .zone
+                .recovery(&self.solver, self.position.first_yield.watched),
             false => None,
         };
         let monitor = self.monitor.as_deref();

@@ -17,6 +17,8 @@ pub(super) struct Stresses {
     pub(super) reactions: Vec<f64>,
     /// Elements that may yield, are not in the zone and carry more than the yield stress.
     pub(super) beyond_yield_outside: Vec<usize>,
+    /// Whether an element of the zone carries more than its initial yield stress.
+    pub(super) beyond_yield_inside: bool,
     /// What fields show, where asked for.
     pub(super) shown: Option<Shown>,
     /// Gauss points that have yielded, by body.
@@ -41,6 +43,7 @@ impl Stresses {
             nodal: Vec::new(),
             reactions: vec![0.0; model.freedoms.prescribed.len()],
             beyond_yield_outside: of_elements.beyond_yield_outside,
+            beyond_yield_inside: of_elements.beyond_yield_inside,
             shown: of_elements.shown,
             plastic_points: vec![0; model.mesh.bodies.len()],
             plastic_volume: 0.0,

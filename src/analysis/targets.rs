@@ -3,6 +3,7 @@
 use super::drive::{Arrival, Monitor};
 use super::position::{FirstYield, Search, share_of_way};
 use super::program::{DOUBLINGS, Run, ZONE_ATTEMPTS};
+use super::recovery::Watched;
 use super::seconds::gaps_are_alike;
 use super::solver::Solver;
 use super::state::State;
@@ -75,8 +76,9 @@ impl<'m> Run<'m, '_> {
     }
 
     /// Takes the state at a target that was reached. The guard layer only sees what grows out of
-    /// the zone: where the state shows stress beyond yield elsewhere the zone is widened to there,
-    /// and the way to the target is gone again.
+    /// the zone: if the state shows stress beyond yield elsewhere, the zone is widened to there,
+    /// and the way to the target is gone again. So it is if the state is elastic by the recovered
+    /// stress and a Gauss point is beyond yield: the Gauss points are watched from then on.
     pub(super) fn finish_target(&mut self) -> Result<Option<results::State>> {
         let begun = Instant::now();
         let (target, label) = self.target();
@@ -87,7 +89,12 @@ impl<'m> Run<'m, '_> {
         self.monitor = None;
         let missed = figures.beyond_yield_outside;
         let start = self.start.take();
-        if missed.is_empty() {
+        let first_yield = &self.position.first_yield;
+        let watched = match !first_yield.is_behind && figures.beyond_yield_inside {
+            true => Watched::GaussPoints,
+            false => first_yield.watched,
+        };
+        if missed.is_empty() && watched == first_yield.watched {
             self.position.target += 1;
             self.position.attempt = 0;
             let is_last = self
@@ -104,6 +111,7 @@ impl<'m> Run<'m, '_> {
         // its start.
         self.position.first_yield = FirstYield {
             elastic_range: [0.0; 2],
+            watched,
             ..start.first_yield
         };
         if self.position.attempt == ZONE_ATTEMPTS {
@@ -111,8 +119,10 @@ impl<'m> Run<'m, '_> {
                 "target `{label}`: the material keeps yielding outside the zone that was chosen"
             )));
         }
-        let wider = zone_choice::including(self.model(), &self.zone.choice, &missed);
-        self.set_zone(wider)?;
+        if !missed.is_empty() {
+            let wider = zone_choice::including(self.model(), &self.zone.choice, &missed);
+            self.set_zone(wider)?;
+        }
         Ok(None)
     }
 

@@ -4,7 +4,7 @@
 use super::drive::crosses;
 use super::packed::Ascending;
 use super::program::Run;
-use super::recovery::Recovery;
+use super::recovery::{Recovery, Watched};
 use super::solver::Solver;
 use super::zone_choice::{self, Choice, PREDICTED};
 use crate::error::Result;
@@ -38,16 +38,18 @@ impl ZoneFit {
         }
     }
 
-    /// Recovered stress over the zone, if there is one.
-    pub(super) fn recovery(&mut self, solver: &Solver) -> Option<&mut Recovery> {
+    /// The stress over the zone where it is watched, if there is a zone.
+    pub(super) fn recovery(&mut self, solver: &Solver, watched: Watched) -> Option<&mut Recovery> {
         if self.choice.elements.is_empty() {
             return None;
         }
         let (elements, places) = (&self.choice.elements, &solver.structure.places);
+        self.recovery
+            .take_if(|recovery| recovery.watched() != watched);
         let recovery = &mut self.recovery;
-        Some(
-            recovery.get_or_insert_with(|| Recovery::new(solver.structure.model, elements, places)),
-        )
+        Some(recovery.get_or_insert_with(|| {
+            Recovery::new(solver.structure.model, elements, places, watched)
+        }))
     }
 }
 

@@ -153,8 +153,26 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Kernel<D, S
 
     /// An element at its sampling points, for the coordinates of its nodes.
     pub(crate) fn sampling(&self, shape: Shape, nodes: &[[f64; D]; N]) -> Sampling<D, S, P, N> {
+        self.sampled(self.sampling, shape, nodes)
+    }
+
+    /// An element sampled at its Gauss points, for the coordinates of its nodes.
+    pub(crate) fn at_gauss_points(
+        &self,
+        shape: Shape,
+        nodes: &[[f64; D]; N],
+    ) -> Sampling<D, S, P, N> {
+        self.sampled(self.gauss, shape, nodes)
+    }
+
+    fn sampled(
+        &self,
+        points: &'static Tables<D, P, N>,
+        shape: Shape,
+        nodes: &[[f64; D]; N],
+    ) -> Sampling<D, S, P, N> {
         Sampling {
-            at: self.at(self.sampling, shape, nodes),
+            at: self.at(points, shape, nodes),
             mean: self
                 .has_mean(shape)
                 .then(|| self.gauss(shape, nodes).mean_dilatation()),

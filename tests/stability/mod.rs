@@ -20,3 +20,4 @@ mod refinement;
 mod selftest;
 mod solids;
 mod touching;
+mod whether_it_yields;

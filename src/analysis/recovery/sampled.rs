@@ -1,0 +1,74 @@
+//! Where an element's stress is sampled.
+
+use super::Watched;
+use crate::analysis::layers::Layers;
+use crate::analysis::neighbours::Neighbours;
+use crate::element::{Components, Kernel, Sampling};
+use crate::model::Model;
+
+/// An element with its samples: at its superconvergent points, on either side of them across a
+/// body that is one element thick, or at its Gauss points.
+pub(super) struct Sampled<const D: usize, const S: usize, const P: usize, const N: usize> {
+    pub(super) points: Sampling<D, S, P, N>,
+    layers: Option<Layers>,
+    /// Coordinates of the samples.
+    pub(super) positions: Vec<[f64; D]>,
+}
+
+impl<const D: usize, const S: usize, const P: usize, const N: usize> Sampled<D, S, P, N> {
+    /// The element `e` of a list with its neighbours.
+    pub(super) fn new(
+        kernel: &Kernel<D, S, P, N>,
+        model: &Model,
+        (elements, neighbours): (&[usize], &Neighbours),
+        e: usize,
+        watched: Watched,
+    ) -> Self {
+        let (shape, nodes) = (model.mesh.shapes[e], model.mesh.element_coordinates(e));
+        let places = |points: &Sampling<D, S, P, N>| {
+            let at = points.positions(&nodes);
+            let place = |g: usize| at.each_ref().map(|lanes| lanes[g]);
+            (0..points.n_points()).map(place).collect::<Vec<_>>()
+        };
+        let gauss = || kernel.at_gauss_points(shape, &nodes);
+        let layers = match watched {
+            Watched::GaussPoints => None,
+            Watched::Recovered => {
+                let points = || places(&gauss()).into_iter().map(super::in_space).collect();
+                Layers::of((&model.mesh, elements, neighbours), e, points)
+            }
+        };
+        let (points, positions) = match (watched, &layers) {
+            (Watched::Recovered, None) => {
+                let points = kernel.sampling(shape, &nodes);
+                let positions = places(&points);
+                (points, positions)
+            }
+            (Watched::GaussPoints, None) => {
+                let points = gauss();
+                let positions = places(&points);
+                (points, positions)
+            }
+            (_, Some(layers)) => {
+                let points = gauss();
+                let at = layers.means(&points.positions(&nodes));
+                let place = |g: usize| at.each_ref().map(|lanes| lanes[g]);
+                let positions = (0..layers.n_samples()).map(place).collect();
+                (points, positions)
+            }
+        };
+        Sampled {
+            points,
+            layers,
+            positions,
+        }
+    }
+
+    /// Values at the samples, for those at the points.
+    pub(super) fn of_points(&self, at_points: &Components<S, P>) -> Components<S, P> {
+        match &self.layers {
+            Some(layers) => layers.means(at_points),
+            None => *at_points,
+        }
+    }
+}

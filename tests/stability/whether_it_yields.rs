@@ -1,0 +1,323 @@
+//! Whether a body yields, on meshes that nobody chose for it.
+//!
+//! The load at first yield is that of a stress recovered between the points of several elements.
+//! Codes that ask nothing else call a body elastic whose elements are beyond yield: bodies one
+//! element thick, planes taken for planes of symmetry, coarse meshes. Passing means that no state
+//! is elastic while a Gauss point is beyond its yield stress, and that it does not matter how a
+//! support is written.
+
+use crate::support::{close, parse, try_run};
+use brinell::linalg::Backend;
+use brinell::results::Results;
+use std::fmt::Write;
+
+/// Yield stress of all models.
+const YIELD: f64 = 200.0;
+
+fn run(text: &str) -> Results {
+    try_run(&parse(text), Backend::default()).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+/// A block sheared between a base and a top that hold it in planes: the middle is in simple shear,
+/// whose von Mises stress is `sqrt(3) G` times the angle.
+#[test]
+fn planes_that_are_held_along_themselves_too_are_no_mirrors() {
+    let angle = 0.002;
+    let exact = YIELD / (3f64.sqrt() * 200e3 / 2.6 * angle);
+    let plane = r#"kind = "plane_strain"
+mesh.parts = [{ body = "b", block = { x = [0, 10], y = [0, 1], elements = [10, 2] } }]
+support = [{ on = "b.bottom", fix = ["x", "y"] }, { on = "b.top", fix = ["y"] }]
+"#;
+    let solid = |[m, n]: [usize; 2]| {
+        format!(
+            r#"kind = "solid"
+mesh.parts = [{{ body = "b", brick = {{ x = [0, 10], y = [0, 1], z = [0, 1],
+               elements = [10, {m}, {n}] }} }}]
+support = [{{ on = "b.bottom", fix = ["x", "z"] }}, {{ on = "b.top", fix = ["z"] }},
+           {{ on = "b.front", fix = ["y"] }}, {{ on = "b.back", fix = ["y"] }}]
+"#
+        )
+    };
+    let models = [
+        plane.to_string(),
+        solid([2, 1]),
+        solid([1, 2]),
+        solid([2, 2]),
+        solid([1, 3]),
+    ];
+    for model in models {
+        let text = format!(
+            r#"{model}
+materials.m.youngs_modulus = 200e3
+materials.m.poissons_ratio = 0.3
+materials.m.yield_stress = {YIELD}
+materials.m.plastic_modulus = 2000
+bodies.b.material = "m"
+load = [{{ on = "b.top", displacement = {{ x = {angle} }} }}]
+program.targets = [{{ load_factor = 1.0 }}]
+"#
+        );
+        let results = run(&text);
+        let first = results.first_yield.expect("it yields");
+        // In the middle; beside the free ends, where the base is held, it is a little more.
+        let share = first.alpha / exact;
+        assert!((0.9..1.001).contains(&share), "{share}\n{text}");
+        assert!(results.states[0].plastic_points > 0, "{text}");
+    }
+}
+
+/// A cantilever one element wide yields where that of two does, and bends as far beyond its plastic
+/// moment.
+#[test]
+fn a_beam_one_element_wide_is_that_of_two() {
+    let of_width = |n: usize, load: f64| {
+        run(&format!(
+            r#"kind = "solid"
+mesh.parts = [{{ body = "b", element = "hex8", brick = {{ x = [0, 10], y = [0, 1], z = [0, 1],
+               elements = [40, {n}, 6] }} }}]
+materials.m.youngs_modulus = 200e3
+materials.m.poissons_ratio = 0.3
+materials.m.yield_stress = {YIELD}
+materials.m.plastic_modulus = 2000
+bodies.b.material = "m"
+support = [{{ on = "b.left", fix = ["x", "y", "z"] }}]
+load = [{{ on = "b.right", traction = [0.0, 0.0, {load}] }}]
+program.targets = [{{ load_factor = 1.0 }}]
+"#
+        ))
+    };
+    let [one, two] = [1, 2].map(|n| of_width(n, 7.0));
+    let alphas = [&one, &two].map(|results| results.first_yield.unwrap().alpha);
+    // Two unlike meshes across a clamped end, where stresses grow with the mesh.
+    close("first yield", alphas[0], alphas[1], alphas[1], 0.05);
+    assert!((0.45..0.6).contains(&alphas[0]), "{alphas:?}");
+    let bent = [&one, &two].map(|results| results.states[0].max_equivalent_plastic_strain);
+    close("plastic strain", bent[0], bent[1], bent[1], 0.2);
+}
+
+/// Strips one element high under bending moments about their plastic moment `Y b h^2/4`: the Gauss
+/// points tell.
+#[test]
+fn a_strip_one_element_high_yields() {
+    for element in ["quad4", "quad8"] {
+        for height in [1, 2] {
+            let text = format!(
+                r#"kind = "plane_stress"
+mesh.parts = [{{ body = "b", element = "{element}", block = {{ x = [0, 10], y = [0, 1],
+               elements = [40, {height}] }} }}]
+materials.m.youngs_modulus = 200e3
+materials.m.poissons_ratio = 0.3
+materials.m.yield_stress = {YIELD}
+materials.m.plastic_modulus = 2000
+bodies.b.material = "m"
+support = [{{ on = "b.left", fix = ["x", "y"] }}]
+load = [{{ on = "b.right", traction = [0.0, 7.0] }}]
+program.targets = [{{ load_factor = 1.0 }}]
+"#
+            );
+            let results = run(&text);
+            // Moment 70 at the end that is held, 33 at first yield, 50 fully plastic.
+            assert!(results.states[0].plastic_points > 0, "{text}");
+            let alpha = results.first_yield.unwrap().alpha;
+            // Linear elements alone across a bent strip are too stiff, and so carry less stress.
+            assert!((0.35..1.0).contains(&alpha), "{element} {height}: {alpha}");
+        }
+    }
+}
+
+/// Random numbers by their seed (xorshift64*).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        (self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn below(&mut self, n: usize) -> usize {
+        (self.next() * n as f64) as usize
+    }
+
+    fn one_of<T: Copy>(&mut self, items: &[T]) -> T {
+        items[self.below(items.len())]
+    }
+
+    fn within(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.next()
+    }
+}
+
+/// What holds a model: sets with the axes along which they do not move.
+type Held = &'static [(&'static str, &'static [&'static str])];
+
+const PLANE: [Held; 4] = [
+    &[("b.left", &["x", "y"])],
+    &[("b.left", &["x"]), ("b.bottom", &["y"])],
+    &[("b.bottom", &["y"]), ("b.bottom_left", &["x"])],
+    &[("b.left", &["x", "y"]), ("b.right", &["y"])],
+];
+const AXISYMMETRIC: [Held; 3] = [
+    &[("b.bottom", &["y"])],
+    &[("b.bottom", &["x", "y"])],
+    &[("b.left", &["x"]), ("b.bottom", &["y"])],
+];
+const SOLID: [Held; 4] = [
+    &[("b.left", &["x", "y", "z"])],
+    &[
+        ("b.left", &["x"]),
+        ("b.bottom", &["z"]),
+        ("b.front", &["y"]),
+    ],
+    &[("b.left", &["x", "z"]), ("b.front", &["y"])],
+    &[
+        ("b.bottom", &["x", "z"]),
+        ("b.front", &["y"]),
+        ("b.back", &["y"]),
+    ],
+];
+
+/// A block of any kind under any load, but for its supports.
+fn block(random: &mut Random) -> (String, Held) {
+    let mut text = String::new();
+    let kind = random.one_of(&["plane_stress", "plane_strain", "axisymmetric", "solid"]);
+    let mut cells = || 1 + random.below(6);
+    let (m, n, k) = (cells(), cells(), 1 + cells() / 2);
+    // On the axis of revolution nothing moves outward, and so cannot be told to.
+    let x = random.one_of(&[0.0, 1.0]);
+    let x = if kind == "axisymmetric" { 1.0 } else { x };
+    let length = random.one_of(&[1.0, 2.0, 8.0]);
+    let _ = writeln!(text, "kind = \"{kind}\"");
+    let is_solid = kind == "solid";
+    if is_solid {
+        let element = random.one_of(&["hex8", "hex20"]);
+        let _ = writeln!(
+            text,
+            "mesh.parts = [{{ body = \"b\", element = \"{element}\", brick = {{ x = [{x}, {}], \
+             y = [0, 1], z = [0, 1], elements = [{m}, {n}, {k}] }} }}]",
+            x + length
+        );
+    } else {
+        let element = random.one_of(&["quad4", "quad8", "tri3", "tri6"]);
+        let _ = writeln!(
+            text,
+            "mesh.parts = [{{ body = \"b\", element = \"{element}\", block = {{ x = [{x}, {}], \
+             y = [0, 1], elements = [{m}, {n}] }} }}]",
+            x + length
+        );
+    }
+    let _ = writeln!(
+        text,
+        "materials.m = {{ youngs_modulus = 200e3, poissons_ratio = 0.3, yield_stress = {YIELD}, \
+         plastic_modulus = 20e3, thermal_expansion = 1e-5 }}\nbodies.b.material = \"m\""
+    );
+    let held = match kind {
+        "solid" => random.one_of(&SOLID),
+        "axisymmetric" => random.one_of(&AXISYMMETRIC),
+        _ => random.one_of(&PLANE),
+    };
+    let mut loads = Vec::new();
+    let force = |random: &mut Random, axes: usize| {
+        let parts = (0..axes).map(|_| format!("{:.6}", random.within(-150.0, 150.0)));
+        format!("[{}]", parts.collect::<Vec<_>>().join(", "))
+    };
+    let axes = if is_solid { 3 } else { 2 };
+    for on in ["b.right", "b.top"] {
+        if random.next() < 0.7 {
+            let traction = force(random, axes);
+            loads.push(format!("{{ on = \"{on}\", traction = {traction} }}"));
+        }
+    }
+    if random.next() < 0.3 || loads.is_empty() {
+        let change = random.within(-60.0, 60.0);
+        let field = match kind {
+            "axisymmetric" => "(1 + r - z)",
+            _ => "(1 + x - y)",
+        };
+        loads.push(format!(
+            "{{ on = \"b\", temperature = \"{change:.4} * {field}\" }}"
+        ));
+    }
+    if random.next() < 0.2 {
+        let stress = random.within(-80.0, 80.0);
+        let _ = writeln!(
+            text,
+            "bodies.b.initial_stress = [[0.0, {stress:.4}, 0.0, 0.0]]"
+        );
+    }
+    let _ = writeln!(
+        text,
+        "load = [{}]\nprogram.targets = [{{ load_factor = 0.5, fields = true }}, {{ load_factor = \
+         1.0, fields = true }}]",
+        loads.join(", ")
+    );
+    (text, held)
+}
+
+/// Supports, or displacements of zero.
+fn with_supports(text: &str, held: Held, as_displacements: bool) -> String {
+    if !as_displacements {
+        let entries = held
+            .iter()
+            .map(|(on, fix)| format!("{{ on = \"{on}\", fix = {fix:?} }}"));
+        let entries = entries.collect::<Vec<_>>().join(", ");
+        return format!("support = [{entries}]\n{text}");
+    }
+    let entries = held.iter().map(|(on, fix)| {
+        let axes = fix.iter().map(|axis| format!("{axis} = 0.0"));
+        let axes = axes.collect::<Vec<_>>().join(", ");
+        format!("{{ on = \"{on}\", displacement = {{ {axes} }} }}, ")
+    });
+    text.replace(
+        "load = [",
+        &format!("load = [{}", entries.collect::<String>()),
+    )
+}
+
+#[test]
+fn no_state_is_elastic_while_a_gauss_point_is_beyond_yield() {
+    let (mut yielded, mut elastic, mut refused) = (0, 0, 0);
+    for seed in 1..=300u64 {
+        let mut random = Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        let (text, held) = block(&mut random);
+        let both = [false, true].map(|as_displacements| {
+            let text = with_supports(&text, held, as_displacements);
+            (try_run(&parse(&text), Backend::default()), text)
+        });
+        let [(one, text), (other, _)] = both;
+        let (one, other) = match (one, other) {
+            (Ok(one), Ok(other)) => (one, other),
+            // Beyond the limit load, in both.
+            (Err(one), Err(other)) => {
+                assert_eq!(one.kind(), other.kind(), "{seed}: {one}\n{other}\n{text}");
+                refused += 1;
+                continue;
+            }
+            (one, other) => panic!("{seed}: {:?} {:?}\n{text}", one.err(), other.err()),
+        };
+        let alpha = |results: &Results| results.first_yield.as_ref().map(|first| first.alpha);
+        match (alpha(&one), alpha(&other)) {
+            (Some(a), Some(b)) => close(&format!("{seed}\n{text}"), a, b, b, 1e-10),
+            (a, b) => assert_eq!(a, b, "{seed}\n{text}"),
+        }
+        for state in one.states.iter().chain(&other.states) {
+            let fields = state.fields.as_ref().unwrap();
+            let largest = fields.von_mises.iter().fold(0.0f64, |m, v| m.max(*v));
+            if state.plastic_points > 0 {
+                yielded += 1;
+            } else {
+                elastic += 1;
+                assert!(
+                    largest <= YIELD * (1.0 + 1e-7),
+                    "{seed}, {}: {largest}\n{text}",
+                    state.name
+                );
+            }
+        }
+    }
+    assert!(
+        yielded > 200 && elastic > 200 && refused < 60,
+        "{yielded} {elastic} {refused}"
+    );
+}
