@@ -26,7 +26,7 @@ pub fn smaller(name: &str) -> &'static [&'static str] {
     let path = format!("{}/data/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(path).unwrap();
     if text.contains("[mesh.curved_bodies]") {
-        &["mesh.curved_bodies.resolution=2"]
+        &["mesh.curved_bodies.resolution=3"]
     } else if name == "square_punch" {
         &super::SMALL_PUNCH
     } else {
