@@ -77,7 +77,7 @@ check: lint unit ## Lints, unit and property tests, without optimisation: while 
 # VTU files.
 BORDER := install:: python::
 
-test: lint unit ## All that shows the results to be right (twelve minutes from nothing)
+test: lint unit ## All that shows the results to be right (half an hour from nothing on two slow cores)
 	@export BRINELL_FUZZ="$${BRINELL_FUZZ:-10000}"
 	cargo test --features $(TESTED) --test all --test fuzz -- $(addprefix --skip ,$(BORDER))
 	cargo test --features $(TESTED) --doc
