@@ -59,9 +59,13 @@ program.targets = [{{ load_factor = 1.0 }}]
         );
         let results = run(&text);
         let first = results.first_yield.expect("it yields");
-        // In the middle; beside the free ends, where the base is held, it is a little more.
-        let share = first.alpha / exact;
-        assert!((0.9..1.001).contains(&share), "{share}\n{text}");
+        // The middle is in simple shear but for what the free ends, ten heights away, leave there;
+        // beside them, where the base is held, the stress is higher, and grows with the mesh.
+        assert!(
+            first.alpha < exact * (1.0 + 1e-6),
+            "{}\n{text}",
+            first.alpha / exact
+        );
         assert!(results.states[0].plastic_points > 0, "{text}");
     }
 }

@@ -3,7 +3,7 @@
 use super::Watched;
 use crate::analysis::layers::Layers;
 use crate::analysis::neighbours::Neighbours;
-use crate::element::{Components, Kernel, Sampling};
+use crate::element::{Components, Kernel, Lanes, Sampling};
 use crate::model::Model;
 
 /// An element with its samples: at its superconvergent points, on either side of them across a
@@ -25,37 +25,28 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Sampled<D, 
         watched: Watched,
     ) -> Self {
         let (shape, nodes) = (model.mesh.shapes[e], model.mesh.element_coordinates(e));
-        let places = |points: &Sampling<D, S, P, N>| {
-            let at = points.positions(&nodes);
-            let place = |g: usize| at.each_ref().map(|lanes| lanes[g]);
-            (0..points.n_points()).map(place).collect::<Vec<_>>()
+        let places = |at: [Lanes<P>; D], n: usize| -> Vec<[f64; D]> {
+            (0..n)
+                .map(|g| at.each_ref().map(|lanes| lanes[g]))
+                .collect()
         };
         let gauss = || kernel.at_gauss_points(shape, &nodes);
         let layers = match watched {
             Watched::GaussPoints => None,
-            Watched::Recovered => {
-                let points = || places(&gauss()).into_iter().map(super::in_space).collect();
-                Layers::of((&model.mesh, elements, neighbours), e, points)
-            }
+            Watched::Recovered => Layers::of((&model.mesh, elements, neighbours), e, || {
+                let points = gauss();
+                let places = places(points.positions(&nodes), points.n_points());
+                places.into_iter().map(super::in_space).collect()
+            }),
         };
-        let (points, positions) = match (watched, &layers) {
-            (Watched::Recovered, None) => {
-                let points = kernel.sampling(shape, &nodes);
-                let positions = places(&points);
-                (points, positions)
-            }
-            (Watched::GaussPoints, None) => {
-                let points = gauss();
-                let positions = places(&points);
-                (points, positions)
-            }
-            (_, Some(layers)) => {
-                let points = gauss();
-                let at = layers.means(&points.positions(&nodes));
-                let place = |g: usize| at.each_ref().map(|lanes| lanes[g]);
-                let positions = (0..layers.n_samples()).map(place).collect();
-                (points, positions)
-            }
+        let points = match layers.is_some() || watched == Watched::GaussPoints {
+            true => gauss(),
+            false => kernel.sampling(shape, &nodes),
+        };
+        let at = points.positions(&nodes);
+        let positions = match &layers {
+            Some(layers) => places(layers.means(&at), layers.n_samples()),
+            None => places(at, points.n_points()),
         };
         Sampled {
             points,
