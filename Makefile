@@ -59,7 +59,11 @@ run: setup ## Run a scene (SCENE=..., ARGS=...)
 # optimised (profile.dev in Cargo.toml); unit tests are small enough to be compiled without.
 TESTED ?= capi,faer
 UNOPTIMISED := --config profile.dev.package.brinell.opt-level=0 \
-    --config profile.dev.package.brinell.codegen-units=16
+    --config profile.dev.package.brinell.codegen-units=16 \
+    --config profile.dev.package.brinell.overflow-checks=true
+# Tests run beside one another: a BLAS of several threads would fight over the same processors. Tests of threads
+# choose their own.
+ONE_BLAS_THREAD := OPENBLAS_NUM_THREADS=1
 
 lint: setup ## Format and lints
 	@cargo fmt --check
@@ -67,7 +71,7 @@ lint: setup ## Format and lints
 	cargo clippy --features $(TESTED) --all-targets -- -D warnings
 
 unit: setup ## Unit tests
-	@cargo test $(UNOPTIMISED) --features $(TESTED) --lib
+	@$(ONE_BLAS_THREAD) cargo test $(UNOPTIMISED) --features $(TESTED) --lib
 
 check: lint unit ## Lints, unit and property tests, without optimisation: while you work
 	@cargo test $(UNOPTIMISED) --features $(TESTED) --test all -- properties:: drift:: \
@@ -78,19 +82,20 @@ check: lint unit ## Lints, unit and property tests, without optimisation: while 
 BORDER := install:: python::
 
 test: lint unit ## All that shows the results to be right (half an hour from nothing on two slow cores)
-	@export BRINELL_FUZZ="$${BRINELL_FUZZ:-10000}"
+	@export BRINELL_FUZZ="$${BRINELL_FUZZ:-10000}" $(ONE_BLAS_THREAD)
 	cargo test --features $(TESTED) --test all --test fuzz -- $(addprefix --skip ,$(BORDER))
 	cargo test --features $(TESTED) --doc
 
 test-all: test test-border test-mpi test-long release-check ## Every test there is
 
 test-border: setup python-tests ## The C library as installed, the Python package
-	@cargo test --features $(TESTED) --test all -- $(BORDER)
+	@$(ONE_BLAS_THREAD) cargo test --features $(TESTED) --test all -- $(BORDER)
 
 # Meshes as fine as they once were for every commit, damaged files by the hundred thousand, each scene on
 # every number of ranks, suites without CHOLMOD.
 test-long: setup-mpi ## What takes an hour
-	@BRINELL_THOROUGH=1 cargo test --features $(TESTED) --test all --test fuzz -- $(addprefix --skip ,$(BORDER))
+	@export $(ONE_BLAS_THREAD)
+	BRINELL_THOROUGH=1 cargo test --features $(TESTED) --test all --test fuzz -- $(addprefix --skip ,$(BORDER))
 	cargo test --features $(TESTED_MPI) --test mpi --test all -- --ignored
 	cargo test --no-default-features --features faer,cli --test all -- cli:: cost:: stability::
 	cargo test --no-default-features --features cli --test all -- cli::
@@ -105,8 +110,8 @@ setup-tools: setup ## Install CalculiX, valgrind and pkg-config for the tests th
 
 TESTED_MPI := $(if $(findstring mumps,$(TESTED)),$(TESTED),$(TESTED),mumps)
 test-mpi: setup-mpi ## Test runs over several ranks
-	@RUST_TEST_THREADS=1 cargo test $(UNOPTIMISED) --features $(TESTED_MPI) --lib -- linalg::mumps constrained:: \
-	    assembly::
+	@export RUST_TEST_THREADS=1 $(ONE_BLAS_THREAD)
+	cargo test $(UNOPTIMISED) --features $(TESTED_MPI) --lib -- linalg::mumps constrained:: assembly::
 	cargo test --features $(TESTED_MPI) --test mpi
 
 strength: setup ## How many of 66 faults that are put into the code the tests notice (hours)
@@ -114,7 +119,9 @@ strength: setup ## How many of 66 faults that are put into the code the tests no
 
 # What an issue that touches it runs at its end: other features, documentation, packages.
 release-check: setup-mpi packages ## Other sets of features, documentation, packages
-	@cargo clippy --features $(TESTED_MPI) --all-targets -- -D warnings
+	@export $(ONE_BLAS_THREAD)
+	BRINELL_THOROUGH=1 cargo test --features $(TESTED) --test all -- $(BORDER)
+	cargo clippy --features $(TESTED_MPI) --all-targets -- -D warnings
 	cargo clippy --no-default-features --all-targets -- -D warnings
 	cargo clippy --no-default-features --features faer,cli --all-targets -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --features capi,faer,guide --no-deps --quiet
@@ -128,8 +135,8 @@ bench-peers: setup ## Measure beside CalculiX (installs it where it is absent)
 	@cargo bench --bench peers
 
 # The libraries are built for `install` alone: they would slow down every other build. PROGRAM names
-# a program that is built already; PROFILE=dev makes libraries, wheel and crate as tests do, and `make run`
-# what they run.
+# a program that is built already, LIBRARIES a folder of libraries that are; PROFILE=dev makes libraries,
+# wheel and crate as tests do, and `make run` what they run.
 PREFIX ?= /usr/local
 DESTDIR ?=
 PYTHON ?= python3
@@ -139,6 +146,7 @@ VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -1)
 BUILT = $(abspath $(or $(CARGO_TARGET_DIR),target))
 TARGET = $(BUILT)/$(if $(filter dev,$(PROFILE)),debug,$(PROFILE))
 PROGRAM ?=
+LIBRARIES ?=
 # Where things go: where they are used, and where they are put now.
 HOME_OF = $(abspath $(PREFIX))
 INTO = $(DESTDIR)$(HOME_OF)
@@ -149,8 +157,12 @@ INSTALLED = bin/brinell include/brinell.h lib/libbrinell.a lib/libbrinell.so \
     share/zsh/site-functions/_brinell share/fish/vendor_completions.d/brinell.fish
 
 install: setup ## Install program, library, header, manual, completions (PREFIX=..., DESTDIR=...)
-	@cargo rustc --lib --profile $(PROFILE) $(FEATURES) --crate-type cdylib,staticlib -- \
-	    -C link-arg=-Wl,-soname,libbrinell.so.0
+	@libraries="$(LIBRARIES)"
+	if [[ -z $$libraries ]]; then
+	    cargo rustc --lib --profile $(PROFILE) $(FEATURES) --crate-type cdylib,staticlib -- \
+	        -C link-arg=-Wl,-soname,libbrinell.so.0
+	    libraries="$(TARGET)"
+	fi
 	program="$(PROGRAM)"
 	if [[ -z $$program ]]; then
 	    cargo build --bin brinell --profile $(PROFILE) $(FEATURES)
@@ -159,8 +171,8 @@ install: setup ## Install program, library, header, manual, completions (PREFIX=
 	for file in $(INSTALLED); do install -d "$$(dirname "$(INTO)/$$file")"; done
 	install -m 755 "$$program" "$(INTO)/bin/brinell"
 	install -m 644 ffi/include/brinell.h "$(INTO)/include/"
-	install -m 644 "$(TARGET)/libbrinell.a" "$(INTO)/lib/"
-	install -m 755 "$(TARGET)/libbrinell.so" "$(INTO)/lib/libbrinell.so.$(VERSION)"
+	install -m 644 "$$libraries/libbrinell.a" "$(INTO)/lib/"
+	install -m 755 "$$libraries/libbrinell.so" "$(INTO)/lib/libbrinell.so.$(VERSION)"
 	ln -sf "libbrinell.so.$(VERSION)" "$(INTO)/lib/libbrinell.so.0"
 	ln -sf libbrinell.so.0 "$(INTO)/lib/libbrinell.so"
 	sed -e 's|@PREFIX@|$(HOME_OF)|' -e 's|@VERSION@|$(VERSION)|' ffi/brinell.pc.in \

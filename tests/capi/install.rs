@@ -1,7 +1,7 @@
 //! Programs in C and C++ against the installed library print what the Rust program prints, also
 //! under valgrind.
 
-use crate::support::tools;
+use crate::support::{either, tools};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -27,37 +27,74 @@ fn words(output: &Output) -> Vec<String> {
     text.split_whitespace().map(String::from).collect()
 }
 
-/// Features of the library as installed: those of this build and the interface.
-fn features() -> &'static str {
-    match (cfg!(feature = "cholmod"), cfg!(feature = "faer")) {
-        (true, false) => "--features capi",
-        (true, true) => "--features capi,faer",
-        (false, false) => "--no-default-features --features capi",
-        (false, true) => "--no-default-features --features capi,faer",
+/// Features of this build: what is asked for with them is there already.
+fn features() -> Vec<String> {
+    let built = [
+        ("capi", cfg!(feature = "capi")),
+        ("cholmod", cfg!(feature = "cholmod")),
+        ("faer", cfg!(feature = "faer")),
+        ("mumps", cfg!(feature = "mumps")),
+    ];
+    let named: Vec<_> = built
+        .iter()
+        .filter(|(_, has)| *has)
+        .map(|(name, _)| *name)
+        .collect();
+    let all = format!("cli,{}", named.join(","));
+    // Named as the defaults they are part of, the crates below have the same identity.
+    match cfg!(feature = "cholmod") {
+        true => vec!["--features".into(), all],
+        false => vec!["--no-default-features".into(), "--features".into(), all],
     }
 }
 
-/// The Rust example on a scene. Asked for with the very features of this build, it is there
-/// already.
-pub fn rust_example(scene: &Path) -> Command {
+/// Cargo for a target of this crate with the features of this build.
+fn cargo(command: &str, target: [&str; 2]) -> Command {
     let mut cargo = Command::new(env!("CARGO"));
+    cargo.current_dir(root()).args([command, "-q"]);
+    cargo.args(target).args(features());
     cargo
-        .current_dir(root())
-        .args(["run", "-q", "--example", "indentation"]);
-    if !cfg!(feature = "cholmod") {
-        cargo.args(["--no-default-features", "--features", "cli"]);
-    }
-    if cfg!(feature = "capi") {
-        cargo.args(["--features", "capi"]);
-    }
-    if cfg!(feature = "faer") {
-        cargo.args(["--features", "faer"]);
-    }
-    if cfg!(feature = "mumps") {
-        cargo.args(["--features", "mumps"]);
-    }
+}
+
+/// The Rust example on a scene.
+pub fn rust_example(scene: &Path) -> Command {
+    let mut cargo = cargo("run", ["--example", "indentation"]);
     cargo.arg("--").arg(scene);
     cargo
+}
+
+/// The libraries of this build in a folder.
+fn linked_into(folder: PathBuf) -> PathBuf {
+    let soname = "link-arg=-Wl,-soname,libbrinell.so.0";
+    done(cargo("rustc", ["--example", "brinell_c"]).args(["--", "-C", soname]));
+    std::fs::create_dir(&folder).unwrap();
+    let built = Path::new(env!("CARGO_BIN_EXE_brinell")).with_file_name("examples");
+    for kind in ["a", "so"] {
+        let linked = built.join(format!("libbrinell_c.{kind}"));
+        std::fs::copy(linked, folder.join(format!("libbrinell.{kind}"))).unwrap();
+    }
+    folder
+}
+
+/// Installs program, libraries and what belongs to them. The libraries are those of this build, linked
+/// from what the tests are linked from (`tests/capi/library.rs`); with `BRINELL_THOROUGH=1` what a user
+/// gets by `make install`, for which brinell is compiled anew.
+fn install(prefix: &Path, folder: &Path) {
+    let variable = match either(true, false) {
+        true => format!(
+            "LIBRARIES={}",
+            linked_into(folder.join("libraries")).display()
+        ),
+        false => format!("FEATURES={}", features().join(" ")),
+    };
+    done(
+        Command::new("make")
+            .current_dir(root())
+            .args(["install", "PROFILE=dev"])
+            .arg(format!("PREFIX={}", prefix.display()))
+            .arg(format!("PROGRAM={}", env!("CARGO_BIN_EXE_brinell")))
+            .arg(variable),
+    );
 }
 
 #[test]
@@ -69,18 +106,7 @@ fn programs_against_the_installed_library_print_the_same_digits() {
     }
     let folder = tempfile::tempdir().unwrap();
     let prefix = folder.path().join("installed");
-    // brinell is compiled anew, as a library of another kind, for programs that take seconds:
-    // half the optimisation is half the time.
-    let quick = "--config profile.dev.package.brinell.opt-level=1 --config \
-                 profile.dev.package.brinell.codegen-units=16";
-    done(
-        Command::new("make")
-            .current_dir(root())
-            .args(["install", "PROFILE=dev"])
-            .arg(format!("PREFIX={}", prefix.display()))
-            .arg(format!("PROGRAM={}", env!("CARGO_BIN_EXE_brinell")))
-            .arg(format!("FEATURES={} {quick}", features())),
-    );
+    install(&prefix, folder.path());
     the_program_is_installed(&prefix);
     let lib = prefix.join("lib");
     for file in [
@@ -174,6 +200,9 @@ fn programs_against_the_installed_library_print_the_same_digits() {
                             .contains(&l.as_str()))
             }),
     );
+    if cfg!(feature = "mumps") {
+        inside.extend(["-ldmumps", "-lmpi"].map(String::from));
+    }
     assert_eq!(
         printed,
         run(&build("cc", &["-std=c11"], "indentation.c", &inside))

@@ -11,7 +11,8 @@ fn run(name: &str, [solver, threads]: [&str; 2], out: &Path, overrides: &[&str])
         .arg("run")
         .arg(scene_file(name))
         .args(["-q", "--solver", solver, "--threads", threads, "--out"])
-        .arg(out);
+        .arg(out)
+        .env_remove("OPENBLAS_NUM_THREADS");
     for set in overrides {
         command.args(["--set", set]);
     }
