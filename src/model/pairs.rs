@@ -18,6 +18,10 @@ use crate::scene::{Contact, Scene};
 use crate::space::{Space, Vector};
 use std::collections::BTreeMap;
 
+/// Relative error of a coordinate of a mesh: it was rounded some times on its way through rotations
+/// and files of sixteen digits, and once more in the integrals over a facet.
+const ROUND_OFF: f64 = 256.0 * f64::EPSILON;
+
 /// A node and what it may touch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pair {
@@ -49,6 +53,17 @@ impl Pair {
         match self.masters[..] {
             [(node, 1.0)] => Some(node),
             _ => None,
+        }
+    }
+
+    /// A gap that is no more than what the coordinates of the nodes are rounded by is none: the pairs
+    /// of surfaces that fit would close one after the other.
+    fn take_off_round_off(&mut self, mesh: &Mesh) {
+        let places = self.nodes().flat_map(|node| mesh.point(node));
+        let size = places.fold(0.0f64, |most, x| most.max(x.abs()));
+        let weights: f64 = self.masters.iter().map(|(_, weight)| weight.abs()).sum();
+        if self.gap.abs() <= ROUND_OFF * (1.0 + weights) * size {
+            self.gap = 0.0;
         }
     }
 
@@ -156,10 +171,13 @@ pub(super) fn resolve(
         );
         let refused = |error: Error| entry.refused(error.within(&what));
         let given = given.pairs.get(&index).map(Vec::as_slice);
-        let found = match matching::pairs(&entries, given).map_err(refused)? {
+        let mut found = match matching::pairs(&entries, given).map_err(refused)? {
             Some(found) => found,
             None => mortar::pairs(&entries, notes).map_err(refused)?,
         };
+        for pair in &mut found.pairs {
+            pair.take_off_round_off(mesh);
+        }
         for pair in &found.pairs {
             if let Some(other) = slave_of.insert(pair.slave, index) {
                 return Err(entry.refused(Error::input(format!(

@@ -74,12 +74,14 @@ impl ContactRows {
             }
             of_masters.push(row);
         }
-        let overlaps = masters.len()..masters.len() + freedoms.springs.len();
+        let first = masters.len();
         for spring in &freedoms.springs {
+            let Some(pair) = spring.pair else { continue };
             place.insert(spring.freedom, masters.len());
             masters.push(spring.freedom);
-            of_masters[spring.pair].push((spring.freedom, -1.0));
+            of_masters[pair].push((spring.freedom, -1.0));
         }
+        let overlaps = first..masters.len();
         let n_masters = masters.len();
         let place_of = |freedom: usize| match is_slave.get(&freedom) {
             Some(k) => n_masters + k,

@@ -14,8 +14,8 @@ use super::pairs::{ContactSurface, Pair};
 /// The overlap of a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spring {
-    /// The pair.
-    pub pair: usize,
+    /// The pair; `None` of the one freedom of a model that has no other.
+    pub pair: Option<usize>,
     /// Its free freedom.
     pub freedom: usize,
     /// `k A`: force over overlap.
@@ -26,18 +26,29 @@ pub struct Spring {
 const OVERLAP: u8 = 3;
 
 impl Freedoms {
-    /// Adds the overlaps of soft contacts, after all else is numbered.
+    /// Adds the overlaps of soft contacts, after all else is numbered. A model in which every
+    /// displacement is given gets a freedom that moves nothing: its state follows from the loads, by
+    /// the same way as any other's.
     pub(super) fn add_springs(&mut self, pairs: &[Pair], contacts: &[ContactSurface]) {
         for (k, pair) in pairs.iter().enumerate() {
             if let Some(stiffness) = contacts[pair.contact].stiffness {
                 self.springs.push(Spring {
-                    pair: k,
+                    pair: Some(k),
                     freedom: self.n,
                     stiffness: stiffness * pair.area,
                 });
                 self.owners.push((pair.slave as u32, OVERLAP));
                 self.n += 1;
             }
+        }
+        if self.n == 0 && pairs.is_empty() {
+            self.springs.push(Spring {
+                pair: None,
+                freedom: 0,
+                stiffness: 1.0,
+            });
+            self.owners.push((0, OVERLAP));
+            self.n = 1;
         }
     }
 }

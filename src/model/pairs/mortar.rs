@@ -314,7 +314,13 @@ impl Sides<'_> {
             _ if weight > 0.0 => masters,
             _ => return None,
         };
-        let weighted = || dot(of_node.gap.map(|g| g / weight), normal);
+        // The dual functions are negative in places, and go on beyond what is covered: of surfaces
+        // that overlap nowhere the mean with them may be negative. No surface is then closer than
+        // where it is closest.
+        let weighted = || {
+            let mean = dot(of_node.gap.map(|g| g / weight), normal);
+            mean.max(of_node.least.min(0.0))
+        };
         let (gap, unit_gap) = match met {
             Some(met) if !of_node.is_transformed => (met.gap, 1.0),
             _ if of_node.is_transformed => {

@@ -20,7 +20,6 @@ const TWICE: f64 = 0.05;
 const ALPHA: f64 = crate::model::ContactBasis::ALPHA;
 
 /// Integrals of the functions of a slave node.
-#[derive(Default)]
 pub(super) struct Integrals {
     /// `int phi` over all of the node's facets.
     pub whole: f64,
@@ -32,6 +31,8 @@ pub(super) struct Integrals {
     pub gap: Vector,
     /// `int psi` times the unit normal.
     pub normal: Vector,
+    /// The least gap at a point of the node's facets.
+    pub least: f64,
     /// Master facets, by their number, that facets of the node face.
     pub faced: Vec<usize>,
     /// Covered area of the facets, and the radius of the largest.
@@ -39,6 +40,23 @@ pub(super) struct Integrals {
     pub largest: f64,
     /// Whether the node's displacement is that of a control point.
     pub is_transformed: bool,
+}
+
+impl Default for Integrals {
+    fn default() -> Self {
+        Integrals {
+            whole: 0.0,
+            covered: 0.0,
+            masters: BTreeMap::new(),
+            gap: [0.0; 3],
+            normal: [0.0; 3],
+            least: f64::INFINITY,
+            faced: Vec::new(),
+            of_facet: 0.0,
+            largest: 0.0,
+            is_transformed: false,
+        }
+    }
 }
 
 impl Integrals {
@@ -50,6 +68,7 @@ impl Integrals {
         }
         self.gap = along(self.gap, 1.0, other.gap);
         self.normal = along(self.normal, 1.0, other.normal);
+        self.least = self.least.min(other.least);
         self.faced.extend(&other.faced);
         self.of_facet = self.of_facet.max(other.of_facet);
         self.largest = self.largest.max(other.largest);
@@ -145,6 +164,8 @@ pub(super) fn integrate(sides: &Sides, face: &Face) -> Result<Vec<(usize, Integr
     let all = 0..samples.len();
     let gap = coefficients(3, all.clone(), &|s, d| s.gap[d]);
     let normal = coefficients(3, all, &|s, d| s.normal[d]);
+    let least = samples.iter().map(|s| dot(s.gap, s.normal));
+    let least = least.fold(f64::INFINITY, f64::min);
     let mut out: Vec<(usize, Integrals)> = (face.nodes.iter().enumerate())
         .map(|(l, &node)| {
             let covered = (samples.iter())
@@ -156,6 +177,7 @@ pub(super) fn integrate(sides: &Sides, face: &Face) -> Result<Vec<(usize, Integr
                 masters: BTreeMap::new(),
                 gap: std::array::from_fn(|d| covered * gap[(l, d)]),
                 normal: std::array::from_fn(|d| covered * normal[(l, d)]),
+                least,
                 faced: faced.iter().map(|(number, _)| *number).collect(),
                 of_facet: covered_area,
                 largest: face.radius,
