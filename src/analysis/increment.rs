@@ -28,6 +28,41 @@ pub enum EndsAt {
     EndOfPiece,
 }
 
+/// How equilibrium and the length of an increment that ends at a change of contact are found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Search {
+    /// At once: each iterate is scaled to the change (4.17, 4.22). An iterate far out of balance
+    /// shows the change too early, and scaled to it, it may do so again and again. Else one after
+    /// the other: equilibrium at a length, then the next length, between those that were too short
+    /// and too long.
+    pub together: bool,
+    /// Newton's iteration is given up when the residual has not fallen below the share `PROGRESS`
+    /// of the best for so many iterations.
+    pub patience: usize,
+}
+
+impl Search {
+    /// The first that is tried.
+    pub const FIRST: Search = Search {
+        together: true,
+        patience: 15,
+    };
+    /// Where that fails.
+    pub const APART: Search = Search {
+        together: false,
+        ..Search::FIRST
+    };
+
+    /// Before an increment is given up: the energy falls with every step, so that the iteration
+    /// ends at an equilibrium or, where there is none, goes on until no stiffness is left.
+    pub fn to_the_end(self) -> Self {
+        Search {
+            patience: usize::MAX,
+            ..self
+        }
+    }
+}
+
 /// An increment that was found.
 #[derive(Debug, Clone)]
 pub struct Increment {
@@ -53,6 +88,9 @@ pub enum NoIncrement {
     Undecided,
     /// These pairs violate their condition at once: their statuses are wrong.
     WrongStatus(Vec<usize>),
+    /// The start is not in balance: points there are beyond their yield stress, and as they yield a
+    /// pair changes, however little the load does.
+    Jumps,
     /// The iteration did not converge.
     NotConverged(Box<Attempt>),
     /// These pairs, at the border of their condition at the start, end beyond it.
@@ -83,17 +121,16 @@ const BACKTRACKS: usize = 12;
 const OVERSHOOT: f64 = 0.1;
 /// Iterations of the unaccelerated or Anderson iteration count for this many of Newton's limit.
 const CHEAP_ITERATIONS: usize = 100;
-/// Newton's iteration is given up when the residual has not fallen below this share of the best for
-/// `PATIENCE` iterations.
+/// Share of the best residual so far that counts as progress: see [`Search::patience`].
 const PROGRESS: f64 = 0.7;
-/// See [`PROGRESS`].
-const PATIENCE: usize = 15;
 /// A change of contact in this last share of a piece counts as its end: the target comes first.
 const AT_END: f64 = 1e-9;
 /// Share of the largest gap or force by which a pair may be beyond the border of its condition.
 const BORDER: f64 = 1e-8;
 /// A share of the increment below this means that a pair changes at once.
 const AT_ONCE: f64 = 1e-12;
+/// Share of the increment that is as good as none, where equilibrium at the start is asked for.
+const AT_START: f64 = 1e-9;
 /// Most that a change of state may be stretched before its loads are eliminated anew: load and
 /// eliminated load are rounded apart, by `eps` of the whole, and that grows with the change. It
 /// stays below 1e-12, a hundredth of the tightest tolerance.
@@ -106,7 +143,7 @@ impl Stepper<'_, '_> {
         &mut self,
         end: &LoadPoint,
         most: f64,
-        ends_at: EndsAt,
+        (ends_at, search): (EndsAt, Search),
         ahead: Option<(LoadPoint, Equilibrium)>,
     ) -> Result<Increment, NoIncrement> {
         let settings = self.rules.settings;
@@ -248,7 +285,7 @@ impl Stepper<'_, '_> {
             if (self.rules.stop)() {
                 return Err(NoIncrement::Stopped);
             }
-            let stuck = newton && iterations >= best.1 + PATIENCE;
+            let stuck = newton && iterations - best.1 >= search.patience;
             // The change comes ever nearer the start, within what states are known to: at once.
             if stuck && follows && t <= settings.tolerance && limit.share <= 1.0 + gamma {
                 return Err(NoIncrement::WrongStatus(limit.pairs));
@@ -288,7 +325,7 @@ impl Stepper<'_, '_> {
                 };
                 state.add(length, &direction);
             }
-            if follows {
+            if follows && (balanced || search.together) {
                 let limit = step_limit(&base, &values(self, &state), &exempt);
                 let reach = self.reach(&limit, t, most);
                 if reach <= AT_ONCE {
@@ -297,7 +334,13 @@ impl Stepper<'_, '_> {
                 if reach.is_finite() && reach != 1.0 {
                     // Far-off predictions are followed carefully: the response is not linear.
                     let goal = (reach.clamp(0.1, 4.0) * t).min(most);
-                    let next = t + length_search.relaxation(t, goal) * (goal - t);
+                    if !search.together && t <= AT_START * most && goal < t {
+                        return Err(NoIncrement::Jumps);
+                    }
+                    let next = match search.together {
+                        true => t + length_search.relaxation(t, goal) * (goal - t),
+                        false => length_search.between(t, goal, AT_START * most),
+                    };
                     let next = if next >= most * (1.0 - 4.0 * f64::EPSILON) {
                         most
                     } else {
@@ -310,6 +353,9 @@ impl Stepper<'_, '_> {
                     stretched *= f64::max(next / t, 1.0);
                     t = next;
                     known = None;
+                    if !search.together {
+                        best = (f64::INFINITY, iterations);
+                    }
                     anderson.restart();
                 }
             }

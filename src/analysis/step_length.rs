@@ -52,9 +52,20 @@ pub fn step_limit(before: &[f64], after: &[f64], border: &[usize]) -> StepLimit 
 /// # Source
 /// B. M. Irons, R. C. Tuck (1969), A version of the Aitken accelerator for computer iteration,
 /// doi:10.1002/nme.1620010306.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub struct LengthSearch {
     last: Option<[f64; 2]>,
+    /// Lengths that were too short and too long.
+    bounds: [f64; 2],
+}
+
+impl Default for LengthSearch {
+    fn default() -> Self {
+        LengthSearch {
+            last: None,
+            bounds: [0.0, f64::INFINITY],
+        }
+    }
 }
 
 /// Least share of the way that is gone: a goal that jumps shows no slope.
@@ -69,6 +80,18 @@ impl LengthSearch {
             _ => 0.0,
         };
         (1.0 / (1.0 - slope.min(0.0))).max(LEAST_RELAXATION)
+    }
+
+    /// The length after `t`, at which equilibrium showed `goal`: where the secant leads, inside of
+    /// what is known to be too short and too long. After the first that is too long comes `shortest`.
+    pub fn between(&mut self, t: f64, goal: f64, shortest: f64) -> f64 {
+        self.bounds[usize::from(goal < t)] = t;
+        let next = t + self.relaxation(t, goal) * (goal - t);
+        match self.bounds {
+            [0.0, long] if long.is_finite() => shortest,
+            [short, long] if short < next && next < long => next,
+            [short, long] => 0.5 * (short + long),
+        }
     }
 }
 
@@ -91,6 +114,25 @@ mod tests {
         let mut search = LengthSearch::default();
         assert_eq!(search.relaxation(0.5, 0.7), 1.0);
         assert_eq!(search.relaxation(0.7, 0.8), 1.0);
+    }
+
+    /// A goal that falls steeply beyond the change, as where a body loses its stiffness.
+    #[test]
+    fn a_length_is_found_between_bounds() {
+        let goal = |t: f64| {
+            if t < 0.3 {
+                0.9 - 2.0 * t
+            } else {
+                0.3 * (1.0 - t).powi(5)
+            }
+        };
+        let mut search = LengthSearch::default();
+        let mut t = 1.0 - 1e-3;
+        for _ in 0..60 {
+            t = search.between(t, goal(t), 1e-9);
+            assert!((0.0..1.0).contains(&t));
+        }
+        assert!((t - 0.3).abs() < 1e-12, "{t}");
     }
 
     #[test]

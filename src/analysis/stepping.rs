@@ -3,7 +3,7 @@
 
 use super::drive::{Rules, stopped};
 use super::equilibrium::Equilibrium;
-use super::increment::{EndsAt, Increment, NoIncrement};
+use super::increment::{EndsAt, Increment, NoIncrement, Search};
 use super::load_point::LoadPoint;
 use super::solver::Solver;
 use crate::error::{Error, Result};
@@ -30,8 +30,8 @@ impl<'s, 'm> Stepper<'s, 'm> {
     }
 
     /// An increment with statuses that are right at its begin (events) or at its end (steps).
-    /// Increments that do not converge are cut, down to the share `smallest`; returns whether any
-    /// was. A state that is known `ahead` predicts the first that is tried.
+    /// Increments that do not converge are searched with equilibrium and length apart, then cut, down
+    /// to the share `smallest`; returns whether any was. A state that is known `ahead` predicts the first that is tried.
     pub(super) fn find_increment(
         &mut self,
         end: &LoadPoint,
@@ -46,18 +46,22 @@ impl<'s, 'm> Stepper<'s, 'm> {
         let mut seen: Vec<Vec<bool>> = Vec::new();
         // A fixed increment at whose end no statuses are right is followed from change to change.
         let mut stepping = self.rules.program.stepping;
+        let mut search = Search::FIRST;
         loop {
             let outcome = match stepping {
                 Stepping::Events if corrections < MOST_CORRECTIONS => self.increment(
                     end,
                     most,
-                    EndsAt::NextChange {
-                        gamma: self.rules.program.gamma,
-                    },
+                    (
+                        EndsAt::NextChange {
+                            gamma: self.rules.program.gamma,
+                        },
+                        search,
+                    ),
                     ahead.take(),
                 ),
-                Stepping::Events => self.solve_step(end, 1e-3 * most, ahead.take())?,
-                Stepping::Steps => self.solve_step(end, most, ahead.take())?,
+                Stepping::Events => self.solve_step((end, 1e-3 * most), search, ahead.take())?,
+                Stepping::Steps => self.solve_step((end, most), search, ahead.take())?,
             };
             match outcome {
                 Ok(increment) => {
@@ -85,16 +89,29 @@ impl<'s, 'm> Stepper<'s, 'm> {
                         }
                     }
                 }
+                // Contact at the end of a short increment is solved whatever happens on the way.
+                Err(NoIncrement::Jumps) => corrections = MOST_CORRECTIONS,
                 Err(NoIncrement::Stopped) => return Err(stopped()),
                 Err(NoIncrement::Failed(error)) => return Err(error),
                 Err(NoIncrement::Undecided) if stepping == Stepping::Steps => {
                     stepping = Stepping::Events;
                 }
                 Err(NoIncrement::Undecided) => return Err(self.not_settled(end, most)),
+                Err(NoIncrement::NotConverged(_))
+                    if stepping == Stepping::Events && search.together =>
+                {
+                    search = Search::APART;
+                    self.solver.assume_elastic();
+                }
                 Err(NoIncrement::NotConverged(attempt)) => {
                     // Written so that a way of no length, of which nothing is a share, ends here
                     // too.
                     let worth_cutting = CUT * most >= smallest;
+                    if !worth_cutting && search != search.to_the_end() {
+                        search = search.to_the_end();
+                        self.solver.assume_elastic();
+                        continue;
+                    }
                     if !worth_cutting {
                         let goal = self.solver.at.towards(end, most);
                         return Err(self.not_found(&goal, &attempt));
@@ -124,8 +141,8 @@ impl<'s, 'm> Stepper<'s, 'm> {
     /// Kostreva 1978, doi:10.1137/0316011).
     fn solve_step(
         &mut self,
-        end: &LoadPoint,
-        most: f64,
+        (end, most): (&LoadPoint, f64),
+        search: Search,
         mut ahead: Option<(LoadPoint, Equilibrium)>,
     ) -> Result<std::result::Result<Increment, NoIncrement>> {
         // The end of the increment is the end of a piece of its own: a pair that closes has no gap
@@ -135,7 +152,7 @@ impl<'s, 'm> Stepper<'s, 'm> {
         let mut patience = 6;
         let mut seen: HashSet<Vec<bool>> = HashSet::new();
         for _ in 0..10 * (self.solver.now.gap.len() + 10) {
-            let found = self.increment(&goal, 1.0, EndsAt::EndOfPiece, ahead.take());
+            let found = self.increment(&goal, 1.0, (EndsAt::EndOfPiece, search), ahead.take());
             let increment = match found {
                 Ok(increment) => increment,
                 Err(error) => return Ok(Err(error)),

@@ -7,6 +7,7 @@ mod collapse;
 mod cycles;
 mod elsewhere;
 mod flow;
+mod foreign_meshes;
 mod held_by_contact;
 mod incompressible;
 mod killed;

@@ -6,6 +6,7 @@
 //! is elastic while a Gauss point is beyond its yield stress, and that it does not matter how a
 //! support is written.
 
+use crate::support::random::Random;
 use crate::support::{close, parse, try_run};
 use brinell::linalg::Backend;
 use brinell::results::Results;
@@ -129,30 +130,6 @@ program.targets = [{{ load_factor = 1.0 }}]
     }
 }
 
-/// Random numbers by their seed (xorshift64*).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        (self.0.wrapping_mul(0x2545_f491_4f6c_dd1d) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.next() * n as f64) as usize
-    }
-
-    fn one_of<T: Copy>(&mut self, items: &[T]) -> T {
-        items[self.below(items.len())]
-    }
-
-    fn within(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-}
-
 /// What holds a model: sets with the axes along which they do not move.
 type Held = &'static [(&'static str, &'static [&'static str])];
 
@@ -228,12 +205,12 @@ fn block(random: &mut Random) -> (String, Held) {
     };
     let axes = if is_solid { 3 } else { 2 };
     for on in ["b.right", "b.top"] {
-        if random.next() < 0.7 {
+        if random.share() < 0.7 {
             let traction = force(random, axes);
             loads.push(format!("{{ on = \"{on}\", traction = {traction} }}"));
         }
     }
-    if random.next() < 0.3 || loads.is_empty() {
+    if random.share() < 0.3 || loads.is_empty() {
         let change = random.within(-60.0, 60.0);
         let field = match kind {
             "axisymmetric" => "(1 + r - z)",
@@ -243,7 +220,7 @@ fn block(random: &mut Random) -> (String, Held) {
             "{{ on = \"b\", temperature = \"{change:.4} * {field}\" }}"
         ));
     }
-    if random.next() < 0.2 {
+    if random.share() < 0.2 {
         let stress = random.within(-80.0, 80.0);
         let _ = writeln!(
             text,
@@ -283,7 +260,7 @@ fn with_supports(text: &str, held: Held, as_displacements: bool) -> String {
 fn no_state_is_elastic_while_a_gauss_point_is_beyond_yield() {
     let (mut yielded, mut elastic, mut refused) = (0, 0, 0);
     for seed in 1..=300u64 {
-        let mut random = Random(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+        let mut random = Random::new(seed);
         let (text, held) = block(&mut random);
         let both = [false, true].map(|as_displacements| {
             let text = with_supports(&text, held, as_displacements);
