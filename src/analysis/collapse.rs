@@ -34,6 +34,10 @@ use crate::substructure::Trailing;
 /// load path.
 const LOST: f64 = SMALLEST_CUT;
 
+/// Answers of the structure to a direction whose stiffness decides: each is one trailing solve, and
+/// a mechanism stands out among motions of a tenth of the elastic stiffness by a tenth each time.
+const MOST_ANSWERS: usize = 8;
+
 /// An increment that was tried and did not converge.
 #[derive(Debug)]
 pub struct Attempt {
@@ -67,14 +71,14 @@ impl Stepper<'_, '_> {
     /// limit load displacements grow until their round-off hides what is out of balance: there
     /// nothing settles.
     pub(super) fn settles(&mut self, state: &Equilibrium, floor: f64) -> bool {
-        floor <= LOOSEST && floor <= LOOSEST * self.stiffness_left(state)
+        floor <= LOOSEST && floor <= LOOSEST * self.stiffness_left(state, 1)
     }
 
     /// The error of an increment to `goal`, the smallest that is tried, that was not found:
     /// [`ErrorKind::Collapse`] where the stiffness is lost, else [`ErrorKind::Analysis`] with what
     /// was tried.
     pub(super) fn not_found(&mut self, goal: &LoadPoint, attempt: &Attempt) -> Error {
-        let left = self.stiffness_left(&attempt.state);
+        let left = self.stiffness_left(&attempt.state, MOST_ANSWERS);
         let residual = attempt.residual;
         let (held, tried) = (self.solver.at.alpha, goal.alpha);
         // Round-off disturbs the quotient by about its own share.
@@ -107,8 +111,9 @@ impl Stepper<'_, '_> {
 
     /// Share of the elastic stiffness that the tangent at a state has in the direction in which the
     /// structure moves there from the last state that was held; not a number where the iteration
-    /// left all numbers.
-    fn stiffness_left(&mut self, state: &Equilibrium) -> f64 {
+    /// left all numbers. The direction is answered by the structure some times, each time with the
+    /// forces it loses: what of it has stiffness left weighs less each time (power iteration).
+    fn stiffness_left(&mut self, state: &Equilibrium, answers: usize) -> f64 {
         let mut load = self.solver.structure.sub.zeros();
         self.out_of_balance_at(state, &mut load);
         let mut moved = state.u.clone();
@@ -117,10 +122,16 @@ impl Stepper<'_, '_> {
         if load.largest() == 0.0 {
             return 1.0;
         }
-        // What of the motion has stiffness left weighs less in the answer to the forces it loses.
-        let softest = self.solver.direction(load.clone());
-        self.solver.zone.softening_times(&softest.u, &mut load);
-        1.0 - load.dot(&softest.u) / softest.initial.load.dot(&softest.u)
+        let mut left = 1.0;
+        for _ in 0..answers {
+            let softest = self.solver.direction(load.clone());
+            self.solver.zone.softening_times(&softest.u, &mut load);
+            left = 1.0 - load.dot(&softest.u) / softest.initial.load.dot(&softest.u);
+            if left.is_nan() || left <= LOST {
+                break;
+            }
+        }
+        left
     }
 }
 

@@ -9,6 +9,7 @@ use super::acceleration::Anderson;
 use super::collapse::Attempt;
 use super::equilibrium::Equilibrium;
 use super::load_point::LoadPoint;
+use super::search::{PROGRESS, Search};
 use super::step_length::{LengthSearch, StepLimit, step_limit};
 use super::stepping::Stepper;
 use super::zone::Evaluation;
@@ -26,41 +27,6 @@ pub enum EndsAt {
     },
     /// At the end of the piece, statuses frozen.
     EndOfPiece,
-}
-
-/// How equilibrium and the length of an increment that ends at a change of contact are found.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Search {
-    /// At once: each iterate is scaled to the change (4.17, 4.22). An iterate far out of balance
-    /// shows the change too early, and scaled to it, it may do so again and again. Else one after
-    /// the other: equilibrium at a length, then the next length, between those that were too short
-    /// and too long.
-    pub together: bool,
-    /// Newton's iteration is given up when the residual has not fallen below the share `PROGRESS`
-    /// of the best for so many iterations.
-    pub patience: usize,
-}
-
-impl Search {
-    /// The first that is tried.
-    pub const FIRST: Search = Search {
-        together: true,
-        patience: 15,
-    };
-    /// Where that fails.
-    pub const APART: Search = Search {
-        together: false,
-        ..Search::FIRST
-    };
-
-    /// Before an increment is given up: the energy falls with every step, so that the iteration
-    /// ends at an equilibrium or, where there is none, goes on until no stiffness is left.
-    pub fn to_the_end(self) -> Self {
-        Search {
-            patience: usize::MAX,
-            ..self
-        }
-    }
 }
 
 /// An increment that was found.
@@ -121,8 +87,6 @@ const BACKTRACKS: usize = 12;
 const OVERSHOOT: f64 = 0.1;
 /// Iterations of the unaccelerated or Anderson iteration count for this many of Newton's limit.
 const CHEAP_ITERATIONS: usize = 100;
-/// Share of the best residual so far that counts as progress: see [`Search::patience`].
-const PROGRESS: f64 = 0.7;
 /// A change of contact in this last share of a piece counts as its end: the target comes first.
 const AT_END: f64 = 1e-9;
 /// Share of the largest gap or force by which a pair may be beyond the border of its condition.

@@ -5,7 +5,7 @@
 //! | `structure`, `solver`, `equilibrium`, `response` | structure, its state under load, response to loads | 3.7, 4.1 to 4.6 |
 //! | `yield_load`, `recovery`, `maximum`, `mirror` | load at first yield, the highest stress between the points | 3.11 to 3.14 |
 //! | `patch_fit`, `patch`, `fitted`, `neighbours`, `layers` | the weighted polynomial around an element; recovered stresses and gradients | |
-//! | `increment`, `step_length` | one elastoplastic increment that ends at the next change of contact | 4.7 to 4.23 |
+//! | `increment`, `search`, `step_length` | one elastoplastic increment that ends at the next change of contact | 4.7 to 4.23 |
 //! | `zone`, `gather`, `region`, `zone_choice`, `zone_fit` | elements that may yield, initial loads, their choice and growth | 4.1 |
 //! | `tangent`, `acceleration` | acceleration of the plastic iteration | |
 //! | `collapse` | limit load, or an iteration that did not converge | |
@@ -67,6 +67,7 @@ mod recovery;
 mod region;
 mod response;
 mod restart;
+mod search;
 mod seconds;
 mod solver;
 mod starting;

@@ -83,7 +83,8 @@ impl LengthSearch {
     }
 
     /// The length after `t`, at which equilibrium showed `goal`: where the secant leads, inside of
-    /// what is known to be too short and too long. After the first that is too long comes `shortest`.
+    /// what is known to be too short and too long. After the first that is too long comes
+    /// `shortest`.
     pub fn between(&mut self, t: f64, goal: f64, shortest: f64) -> f64 {
         self.bounds[usize::from(goal < t)] = t;
         let next = t + self.relaxation(t, goal) * (goal - t);

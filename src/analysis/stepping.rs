@@ -3,8 +3,9 @@
 
 use super::drive::{Rules, stopped};
 use super::equilibrium::Equilibrium;
-use super::increment::{EndsAt, Increment, NoIncrement, Search};
+use super::increment::{EndsAt, Increment, NoIncrement};
 use super::load_point::LoadPoint;
+use super::search::Search;
 use super::solver::Solver;
 use crate::error::{Error, Result};
 use crate::scene::Stepping;
@@ -12,6 +13,9 @@ use std::collections::HashSet;
 
 /// Cut factor after an increment that did not converge.
 const CUT: f64 = 0.25;
+/// Share of an increment to which it is cut while equilibrium and length are searched together:
+/// where that is not enough no cut is, and they are searched apart.
+const CUT_TOGETHER: f64 = 0.02;
 /// Status corrections at one point of the path before they are taken to cycle.
 const MOST_CORRECTIONS: usize = 60;
 
@@ -30,8 +34,9 @@ impl<'s, 'm> Stepper<'s, 'm> {
     }
 
     /// An increment with statuses that are right at its begin (events) or at its end (steps).
-    /// Increments that do not converge are searched with equilibrium and length apart, then cut, down
-    /// to the share `smallest`; returns whether any was. A state that is known `ahead` predicts the first that is tried.
+    /// Increments that do not converge are cut, searched with equilibrium and length apart and cut
+    /// again, down to the share `smallest`; returns whether any was. A state that is known `ahead`
+    /// predicts the first that is tried.
     pub(super) fn find_increment(
         &mut self,
         end: &LoadPoint,
@@ -97,19 +102,20 @@ impl<'s, 'm> Stepper<'s, 'm> {
                     stepping = Stepping::Events;
                 }
                 Err(NoIncrement::Undecided) => return Err(self.not_settled(end, most)),
-                Err(NoIncrement::NotConverged(_))
-                    if stepping == Stepping::Events && search.together =>
-                {
-                    search = Search::APART;
-                    self.solver.assume_elastic();
-                }
                 Err(NoIncrement::NotConverged(attempt)) => {
+                    // The points yield as in the state that failed: its tangent, often singular,
+                    // must not predict the next.
+                    self.solver.assume_elastic();
                     // Written so that a way of no length, of which nothing is a share, ends here
                     // too.
                     let worth_cutting = CUT * most >= smallest;
+                    let cut_enough = !worth_cutting || most < CUT_TOGETHER * left;
+                    if stepping == Stepping::Events && search.together && cut_enough {
+                        (search, most) = (Search::APART, left);
+                        continue;
+                    }
                     if !worth_cutting && search != search.to_the_end() {
                         search = search.to_the_end();
-                        self.solver.assume_elastic();
                         continue;
                     }
                     if !worth_cutting {
@@ -117,9 +123,6 @@ impl<'s, 'm> Stepper<'s, 'm> {
                         return Err(self.not_found(&goal, &attempt));
                     }
                     most *= CUT;
-                    // The points yield as in the state that failed: its tangent, often singular,
-                    // must not predict the next.
-                    self.solver.assume_elastic();
                 }
             }
         }

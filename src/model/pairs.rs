@@ -56,8 +56,8 @@ impl Pair {
         }
     }
 
-    /// A gap that is no more than what the coordinates of the nodes are rounded by is none: the pairs
-    /// of surfaces that fit would close one after the other.
+    /// A gap that is no more than what the coordinates of the nodes are rounded by is none: the
+    /// pairs of surfaces that fit would close one after the other.
     fn take_off_round_off(&mut self, mesh: &Mesh) {
         let places = self.nodes().flat_map(|node| mesh.point(node));
         let size = places.fold(0.0f64, |most, x| most.max(x.abs()));

@@ -27,7 +27,7 @@ const OVERLAP: u8 = 3;
 
 impl Freedoms {
     /// Adds the overlaps of soft contacts, after all else is numbered. A model in which every
-    /// displacement is given gets a freedom that moves nothing: its state follows from the loads, by
+    /// displacement is given gets a freedom that moves nothing: its state follows from the loads in
     /// the same way as any other's.
     pub(super) fn add_springs(&mut self, pairs: &[Pair], contacts: &[ContactSurface]) {
         for (k, pair) in pairs.iter().enumerate() {

@@ -76,9 +76,9 @@ fn linked_into(folder: PathBuf) -> PathBuf {
     folder
 }
 
-/// Installs program, libraries and what belongs to them. The libraries are those of this build, linked
-/// from what the tests are linked from (`tests/capi/library.rs`); with `BRINELL_THOROUGH=1` what a user
-/// gets by `make install`, for which brinell is compiled anew.
+/// Installs program, libraries and what belongs to them. The libraries are those of this build,
+/// linked from what the tests are linked from (`tests/capi/library.rs`); with `BRINELL_THOROUGH=1`
+/// what a user gets by `make install`, for which brinell is compiled anew.
 fn install(prefix: &Path, folder: &Path) {
     let variable = match either(true, false) {
         true => format!(

@@ -89,7 +89,7 @@ fn an_iteration_that_is_cut_short_is_no_limit_load() {
         ("hard/all_closed", vec!["analysis.max_iterations=1"]),
         (
             "hard/nearly_incompressible",
-            vec!["analysis.max_iterations=2"],
+            vec!["analysis.max_iterations=1"],
         ),
         (
             "hard/nearly_incompressible",

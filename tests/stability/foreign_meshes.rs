@@ -1,5 +1,5 @@
-//! Contacts of two bodies on meshes as a mesher makes them: unlike, graded, jittered, of all shapes,
-//! in every kind of model, from elastic to far beyond yield.
+//! Contacts of two bodies on meshes as a mesher makes them: unlike, graded, jittered, of all
+//! shapes, in every kind of model, from elastic to far beyond yield.
 //!
 //! Codes that follow yielding and contact at once give up where the one upsets the other: a load
 //! under which all points balance, and a pair that closes meanwhile. Passing means that the default
